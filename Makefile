@@ -1,0 +1,50 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+
+VENV := .venv
+PY := $(VENV)/bin/python
+
+# A ROS that the user's shell has sourced must not mix with the wheels of the environment.
+unexport PYTHONPATH PYTHONHOME LD_LIBRARY_PATH _ROS_WHEELS_BOOTSTRAP_COMPLETE
+unexport AMENT_PREFIX_PATH CMAKE_PREFIX_PATH COLCON_PREFIX_PATH
+unexport ROS_DISTRO ROS_VERSION ROS_PYTHON_VERSION RMW_IMPLEMENTATION ROS_SECURITY_ENABLE
+# Nothing that is started here needs another machine.
+export ROS_AUTOMATIC_DISCOVERY_RANGE := LOCALHOST
+export PYTHON
+
+.DEFAULT_GOAL := help
+.PHONY: help environment warm demo test lint bench clean
+
+help:
+	@echo 'make demo   the experiment of the paper over ROS topics: plots and a table in demo/'
+	@echo 'make test   all tests (make test ARGS="test/muscle -x" for some)'
+	@echo 'make lint   style and types'
+	@echo 'make bench  the speed claims, measured on this machine (ARGS=plant for one)'
+	@echo 'make clean  remove what these commands made'
+	@echo 'The first of them sets up the environment $(VENV); PYTHON=python3.12 chooses its Python.'
+
+environment:
+	@tools/environment --package $(VENV) requirements/ros.txt requirements/lint.txt requirements/bench.txt
+
+# Compile the stepping kernels into their cache, so that nodes start at once.
+warm: environment
+	@$(PY) -m pam_ros.rig.warm
+
+demo: warm
+	$(VENV)/bin/pam_demo
+
+test: warm
+	$(PY) -m pytest $(ARGS)
+
+lint: environment
+	$(PY) -m ruff check .
+	$(PY) -m ruff format --check .
+	$(PY) -m mypy
+
+bench: warm
+	$(PY) -m benchmarks $(ARGS)
+
+clean:
+	rm -rf $(VENV) demo build install log *.egg-info
+	rm -rf .hypothesis .mypy_cache .pytest_cache .ruff_cache
+	find . -name __pycache__ -type d -prune -exec rm -rf {} +
