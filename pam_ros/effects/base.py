@@ -1,0 +1,125 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""What an effect is: parameters, hidden states, and equations at the places where it acts.
+
+An effect is one file that ends in one :class:`Effect`; ``effects/__init__.py`` lists it. The
+equations are plain scalar functions, compiled into the stepping kernel when numba is there.
+
+Places, in the order in which the kernel visits them, with the function each expects:
+
+``delay(q, j) -> s``
+    Time by which pressure commands act late.
+``pressure(p, t, h, x, i, xn, q, j) -> Pa``
+    Pressure path from command to chamber; p is what comes from upstream and is constant over
+    the interval of length h that ends at t; returns what goes downstream at its end.
+``contraction(kappa, q, j) -> fraction``
+    What the muscle feels as its contraction.
+``mass(m, q, j) -> kg``
+    The moved mass.
+``force(f, p, kappa, v, t, h, x, i, xn, q, j) -> N``
+    The muscle's pull, after the force law and the effects listed before this one.
+``damping(c, p, kappa, v, q, j) -> N s/m``
+    The muscle's damping coefficient.
+``outside(f, p, y, v, t, h, x, i, xn, q, j) -> N``
+    Force on the load from outside the muscle, positive upwards.
+
+Hidden states live in a row shared by all effects: this effect's are x[i], x[i + 1], ... as
+they were at the start of the step, and the function writes to xn[i], xn[i + 1], ... what they
+have become after h seconds with the present arguments. The kernel calls it at every stage of
+the step (with h from 0 to the step) and keeps xn of the last call. Written so, an update can
+be exact or implicit, and a stiff law stays stable. Parameters are q[j], q[j + 1], ... in SI;
+the muscle's own are at the indices of ``pam_ros.rig.layout``.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+from pam_ros.errors import ParameterError
+from pam_ros.parameters import Parameter
+
+PLACES = ('delay', 'pressure', 'contraction', 'mass', 'force', 'damping', 'outside')
+
+
+@dataclass(frozen=True)
+class EffectParameter:
+    """One parameter of an effect, in SI.
+
+    ``default`` is the value that it has when nobody gives it; ``strength`` marks a parameter whose
+    0 means that the effect is absent. ``scale`` is a typical size (fits are scaled by it), and
+    ``sign`` the physical sign that a fitted strength must have (0: either).
+    """
+
+    name: str
+    default: float
+    text: str
+    unit: str
+    low: float
+    high: float
+    scale: float
+    strength: bool = False
+    sign: int = 0
+
+    def described(self) -> Parameter:
+        """Return the description that the parameter tools of every room share."""
+        return Parameter(self.text, self.unit, self.low, self.high)
+
+
+@dataclass(frozen=True, eq=False)
+class Effect:
+    """A physical effect that the paper's model lacks.
+
+    ``start(q, j, p, kappa, y)`` gives the hidden states of a rig that has long been at rest there
+    (default: zeros). ``fit_starts`` are sets of parameter values from which a fit begins; each
+    makes the effect clearly present. ``signature`` says in words what the residual looks like,
+    ``experiment`` what to record to tell it from its nearest rivals.
+    """
+
+    name: str
+    text: str
+    source: str
+    parameters: tuple[EffectParameter, ...]
+    signature: str
+    experiment: str
+    fit_starts: tuple[dict[str, float], ...]
+    states: tuple[str, ...] = ()
+    start: Callable[[Any, int, float, float, float], tuple[float, ...]] | None = None
+    delay: Callable[..., float] | None = None
+    pressure: Callable[..., float] | None = None
+    contraction: Callable[..., float] | None = None
+    mass: Callable[..., float] | None = None
+    force: Callable[..., float] | None = None
+    damping: Callable[..., float] | None = None
+    outside: Callable[..., float] | None = None
+    rivals: tuple[str, ...] = field(default=())
+
+    def __post_init__(self) -> None:
+        """Refuse an effect that could never act or never be absent."""
+        if not any(getattr(self, place) for place in PLACES):
+            raise ParameterError(f'effect {self.name} acts nowhere: give it a function')
+        if not any(p.strength for p in self.parameters):
+            raise ParameterError(f'effect {self.name} has no strength parameter to be absent by')
+
+    def values(self, given: dict[str, float]) -> list[float]:
+        """Return the parameters in order, *given* over the defaults, checked.
+
+        Raises ParameterError for an unknown name or a value out of range.
+        """
+        names = [p.name for p in self.parameters]
+        for name in given:
+            if name not in names:
+                raise ParameterError(
+                    f'effects.{self.name}.{name} is not known: give one of ' + ', '.join(names)
+                )
+        return [
+            p.described().check(
+                f'effects.{self.name}.{p.name}', given.get(p.name, p.default), float
+            )
+            for p in self.parameters
+        ]
+
+    def is_present(self, given: dict[str, float]) -> bool:
+        """Say whether any strength in *given* differs from zero."""
+        return any(
+            given.get(p.name, p.default) != 0.0 for p in self.parameters if p.strength
+        )

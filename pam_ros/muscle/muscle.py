@@ -1,0 +1,161 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""A muscle: its constants, length, damping ratio and limits, checked when it is made."""
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.optimize import brentq
+
+from pam_ros.errors import ParameterError, RangeError
+from pam_ros.muscle import law
+from pam_ros.muscle.constants import CONTRACTION_UNITS, PRESSURE_UNITS, Constants, to_si
+from pam_ros.parameters import check_all, parameter
+
+Array = NDArray[np.float64]
+GRID = 41  # points a side of the grid on which a new model is checked
+
+
+@dataclass(frozen=True)
+class Muscle:
+    """A fluidic muscle after Sárosi (2015).
+
+    Fields are what a user gives, constants in the units of their source. Methods are SI: gauge
+    Pa, contraction as a fraction of l0, N, N/m; arrays broadcast. Raises ParameterError when
+    the constants make no muscle: stiffness or pressure gain not positive somewhere in the
+    working range (0..p_max, kappa_min..kappa_max).
+    """
+
+    a1: float = parameter(-4.35573, 'constant a1 of the force law', 'N/pressure_unit')
+    a2: float = parameter(281.22370, 'constant a2 of the force law', 'N')
+    a3: float = parameter(-0.32866, 'constant a3 of the force law', '1/contraction_unit')
+    a4: float = parameter(
+        -9.27035, 'constant a4 of the force law', 'N/(pressure_unit contraction_unit)'
+    )
+    a5: float = parameter(302.20107, 'constant a5 of the force law', 'N/pressure_unit')
+    a6: float = parameter(-263.69185, 'constant a6 of the force law', 'N')
+    pressure_unit: str = parameter(
+        'bar', 'unit of pressure in a1, a4 and a5', choices=tuple(PRESSURE_UNITS), live=False
+    )
+    contraction_unit: str = parameter(
+        'percent', 'unit of contraction in a3 and a4', choices=tuple(CONTRACTION_UNITS), live=False
+    )
+    zeta: float = parameter(
+        0.15, "Lehr's damping ratio; not in the paper, a choice", '', low=0.0, high=5.0
+    )
+    l0: float = parameter(0.4, 'length of the muscle at rest', 'm', low=0.001, high=10.0)
+    inside_diameter: float = parameter(
+        0.02, 'inside diameter at rest', 'm', low=0.001, high=0.2, live=False
+    )
+    p_max: float = parameter(
+        600e3, 'highest gauge pressure', 'Pa', low=0.0, high=5e6, above_low=True
+    )
+    kappa_min: float = parameter(
+        -0.04, 'contraction at the largest permissible pretension', 'fraction', low=-0.5, high=0.0
+    )
+    kappa_max: float = parameter(
+        0.25, 'largest permissible contraction', 'fraction', low=0.0, high=0.9, above_low=True
+    )
+    force_max: float = parameter(
+        1500.0, 'rated lifting force', 'N', low=0.0, high=1e5, above_low=True
+    )
+    source: str = parameter('', 'where the constants come from', live=False)
+
+    def __post_init__(self) -> None:
+        """Check every field, then the muscle they make."""
+        check_all(self)
+        if self.is_load_only:
+            if self.zeta != 0.0:
+                raise ParameterError(
+                    f'zeta = {self.zeta:g} has no spring to refer to: a1, a2 and a4 are 0, so '
+                    'the force does not depend on contraction; give zeta 0'
+                )
+            return
+        p, kappa = np.meshgrid(
+            np.linspace(0.0, self.p_max, GRID),
+            np.linspace(self.kappa_min, self.kappa_max, GRID),
+        )
+        self._refuse('stiffness k', self.stiffness(p, kappa), 'N/m', p, kappa)
+        self._refuse('pressure gain dF/dp', self.gain(kappa), 'N/Pa', p, kappa)
+
+    def _refuse(self, what: str, values: Array, unit: str, p: Array, kappa: Array) -> None:
+        worst = np.unravel_index(np.argmin(values), values.shape)
+        if not values[worst] > 0.0:
+            raise ParameterError(
+                f'the constants a1..a6 make no working muscle: {what} = {values[worst]:.4g} '
+                f'{unit} at {p[worst] / 1e3:g} kPa and contraction {kappa[worst]:g}; it must be '
+                'positive for 0..p_max and kappa_min..kappa_max (units of the constants right?)'
+            )
+
+    @property
+    def is_load_only(self) -> bool:
+        """Whether the force depends on pressure alone: a plain force source, no spring."""
+        return self.a1 == 0.0 and self.a2 == 0.0 and self.a4 == 0.0
+
+    @cached_property
+    def si(self) -> Constants:
+        """a1..a6 for p in Pa and contraction as a fraction."""
+        given = (self.a1, self.a2, self.a3, self.a4, self.a5, self.a6)
+        return to_si(given, self.pressure_unit, self.contraction_unit)
+
+    def force(self, p: ArrayLike, kappa: ArrayLike) -> Array:
+        """Return the static force in N: equation (1)."""
+        return _array(law.force_v(p, kappa, *self.si))
+
+    def stiffness(self, p: ArrayLike, kappa: ArrayLike) -> Array:
+        """Return k in N/m, positive: equation (2), sign mended."""
+        a1, a2, a3, a4, _, _ = self.si
+        return _array(law.stiffness_v(p, kappa, a1, a2, a3, a4, self.l0))
+
+    def damping(self, p: ArrayLike, kappa: ArrayLike, mass: ArrayLike) -> Array:
+        """Return c in N s/m for a load of *mass* kg: equation (4), sign mended."""
+        return _array(law.damping_v(self.stiffness(p, kappa), mass, self.zeta))
+
+    def gain(self, kappa: ArrayLike) -> Array:
+        """Return dF/dp in N/Pa."""
+        a1, _, a3, a4, a5, _ = self.si
+        return _array(law.gain_v(kappa, a1, a3, a4, a5))
+
+    def pressure_for_force(self, wanted: ArrayLike, kappa: ArrayLike) -> Array:
+        """Return the gauge pressure in Pa for a wanted force in N: (1) solved for p.
+
+        Raises RangeError where the gain dF/dp is not positive or the pressure would lie outside
+        0..p_max; the sentence names the first such point.
+        """
+        f, kappa = np.broadcast_arrays(_array(wanted), _array(kappa))
+        g = self.gain(kappa)
+        p = np.where(g > 0.0, law.pressure_for_force_v(f, kappa, *self.si), np.nan)
+        slack = 1e-9 * self.p_max
+        bad = ~((p >= -slack) & (p <= self.p_max + slack))
+        if np.any(bad):
+            i = np.unravel_index(np.argmax(bad), bad.shape)
+            low, high = self.force(np.array([0.0, self.p_max]), kappa[i])
+            raise RangeError(
+                f'a force of {f[i]:g} N at contraction {kappa[i]:g} is out of reach: '
+                f'0 to {self.p_max / 1e3:g} kPa give {low:.4g} to {high:.4g} N there'
+            )
+        return np.clip(p, 0.0, self.p_max)
+
+    def equilibrium(self, p: float, load: float) -> float:
+        """Return the contraction at which (1) holds *load* N at *p* Pa.
+
+        Searched where the law has its branch of positive stiffness, from kappa_min - 0.1 to
+        kappa_max + 0.25: a light load rests beyond the rated contraction. Raises RangeError
+        when there is none.
+        """
+        low, high = self.kappa_min - 0.1, min(self.kappa_max + 0.25, 0.95)
+        ends = self.force(p, np.array([low, high])) - load
+        if self.is_load_only or not ends[0] >= 0.0 >= ends[1]:
+            raise RangeError(
+                f'no equilibrium: at {p / 1e3:g} kPa the muscle pulls {ends[0] + load:.4g} N at '
+                f'contraction {low:g} and {ends[1] + load:.4g} N at {high:g}, the load is '
+                f'{load:.4g} N'
+            )
+        return float(brentq(lambda k: float(self.force(p, k)) - load, low, high, xtol=1e-14))
+
+
+def _array(values: Any) -> Array:
+    return np.asarray(values, dtype=float)

@@ -1,0 +1,153 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Bind the kernel's templates to a set of effects, and compile the result.
+
+The templates of :mod:`pam_ros.rig.kernel` call chains by name. Here each chain becomes a
+function that passes the value through the effects in their order, and each template is made
+anew with these chains as its globals. numba inlines the chains, and keeps the machine code of
+the loops on disk under a name that holds a hash of all sources that went in: numba itself
+notices changes of one file only.
+"""
+
+import hashlib
+import inspect
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+from types import FunctionType
+from typing import Any
+
+from pam_ros import compiled
+from pam_ros.effects.base import Effect
+from pam_ros.muscle import law
+from pam_ros.rig import kernel as templates
+from pam_ros.rig import layout as layout_module
+from pam_ros.rig.layout import Layout
+
+Function = Callable[..., Any]
+# Inner templates in the order in which they call each other, then the loops, which are cached.
+_INNER = ('pull', 'coefficient', 'acceleration', 'step')
+_LOOPS = ('advance', 'outputs', 'simulate', 'simulate_held')
+
+
+@dataclass(frozen=True)
+class Kernel:
+    """The compiled functions for one set of effects; see the templates for their arguments."""
+
+    advance: Function
+    outputs: Function
+    simulate: Function
+    simulate_held: Function
+
+
+def _with_parameters(inner: Function, f: Function, j: int) -> Function:
+    """Chain ``f(value, q, j)`` behind ``inner(value, q)``."""
+
+    def chain(value, q):  # type: ignore[no-untyped-def]
+        return f(inner(value, q), q, j)
+
+    return chain
+
+
+def _delays(inner: Function, f: Function, j: int) -> Function:
+    def chain(q):  # type: ignore[no-untyped-def]
+        return inner(q) + f(q, j)
+
+    return chain
+
+
+def _pressures(inner: Function, f: Function, i: int, j: int) -> Function:
+    def chain(p, t, h, x, xn, q):  # type: ignore[no-untyped-def]
+        return f(inner(p, t, h, x, xn, q), t, h, x, i, xn, q, j)
+
+    return chain
+
+
+def _forces(inner: Function, f: Function, i: int, j: int) -> Function:
+    """Chain for muscle forces and for outside forces: both have the same arguments."""
+
+    def chain(value, p, place, v, t, h, x, xn, q):  # type: ignore[no-untyped-def]
+        return f(inner(value, p, place, v, t, h, x, xn, q), p, place, v, t, h, x, i, xn, q, j)
+
+    return chain
+
+
+def _dampings(inner: Function, f: Function, j: int) -> Function:
+    def chain(c, p, kappa, v, q):  # type: ignore[no-untyped-def]
+        return f(inner(c, p, kappa, v, q), p, kappa, v, q, j)
+
+    return chain
+
+
+def _chains(layout: Layout, active: tuple[Effect, ...]) -> dict[str, Function]:
+    """Return the compiled chain of every place, by the name that the templates call."""
+    chains = {
+        f'{place}_chain': compiled.scalar(getattr(templates, f'{place}_chain'))
+        for place in ('delay', 'pressure', 'contraction', 'mass', 'force', 'damping', 'outside')
+    }
+    for effect in active:
+        i, j = layout.state_at[effect.name], layout.parameter_at[effect.name]
+        stateless = {
+            'delay': _delays,
+            'contraction': _with_parameters,
+            'mass': _with_parameters,
+            'damping': _dampings,
+        }
+        with_memory = {'pressure': _pressures, 'force': _forces, 'outside': _forces}
+        for place, make in stateless.items():
+            f = getattr(effect, place)
+            if f is not None:
+                inner = chains[f'{place}_chain']
+                chains[f'{place}_chain'] = compiled.scalar(make(inner, compiled.scalar(f), j))
+        for place, make_with_memory in with_memory.items():
+            f = getattr(effect, place)
+            if f is not None:
+                inner = chains[f'{place}_chain']
+                chains[f'{place}_chain'] = compiled.scalar(
+                    make_with_memory(inner, compiled.scalar(f), i, j)
+                )
+    return chains
+
+
+def _fingerprint(layout: Layout, active: tuple[Effect, ...]) -> str:
+    """Hash every source and offset that the machine code depends on."""
+    digest = hashlib.sha256()
+    files = {inspect.getsourcefile(m) for m in (law, templates, layout_module, compiled)}
+    files.add(__file__)
+    for effect in active:
+        for place in ('delay', 'pressure', 'contraction', 'mass', 'force', 'damping', 'outside'):
+            f = getattr(effect, place)
+            if f is not None:
+                files.add(inspect.getsourcefile(f))
+    for path in sorted(str(f) for f in files):
+        digest.update(Path(path).read_bytes())
+    names = tuple(e.name for e in active)
+    digest.update(repr((names, layout.state_at, layout.parameter_at, layout.memory_from)).encode())
+    return digest.hexdigest()[:16]
+
+
+@lru_cache(maxsize=16)
+def bind(layout: Layout, active: tuple[Effect, ...]) -> Kernel:
+    """Return the kernel in which the effects *active*, a subset of the layout's, can act.
+
+    Rows keep the layout's width whatever is active. Compilation happens at the first call of
+    each loop, or comes from disk.
+    """
+    remembers = any(e.states and e.pressure is None for e in active)
+    names: dict[str, Any] = dict(vars(templates))
+    names.update(_chains(layout, active))
+    names['MEMORY_FROM'] = layout.memory_from if remembers else layout.width
+    for name in _INNER:
+        names[name] = compiled.scalar(_rebound(getattr(templates, name), names, name))
+    tag = _fingerprint(layout, active)
+    for name in _LOOPS:
+        names[name] = compiled.cached(_rebound(getattr(templates, name), names, f'{name}_{tag}'))
+    return Kernel(**{name: names[name] for name in Kernel.__dataclass_fields__})
+
+
+def _rebound(template: Function, names: dict[str, Any], qualname: str) -> Function:
+    function = FunctionType(template.__code__, names, template.__name__)
+    function.__qualname__ = qualname
+    function.__doc__ = template.__doc__
+    return function

@@ -1,0 +1,154 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""A rig as declared: a muscle, the load that it moves, and the effects that are present."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pam_ros.effects import EFFECTS
+from pam_ros.effects.base import Effect
+from pam_ros.errors import ParameterError, RangeError
+from pam_ros.muscle.muscle import Muscle
+from pam_ros.parameters import check_all, parameter
+from pam_ros.rig import layout as at
+from pam_ros.rig.layout import Layout, layout_of
+
+EffectValues = Mapping[str, Mapping[str, float]]
+GRAVITY = 9.80665  # m/s^2, standard
+
+
+@dataclass(frozen=True)
+class Load:
+    """The mass that the muscle moves, and how it is mounted.
+
+    ``vertical`` is the paper's pendulum: the mass hangs on the muscle. ``horizontal`` slides
+    without gravity (the paper's future work; friction of its guide is an effect).
+    """
+
+    mass: float = parameter(20.0, 'mass of the load', 'kg', low=0.0, high=1e4, above_low=True)
+    mount: str = parameter(
+        'vertical',
+        'vertical: the load hangs on the muscle; horizontal: it slides without gravity',
+        choices=('vertical', 'horizontal'),
+    )
+
+    def __post_init__(self) -> None:
+        """Check every field."""
+        check_all(self)
+
+    @property
+    def gravity(self) -> float:
+        """Acceleration in m/s^2 with which gravity stretches the muscle."""
+        return GRAVITY if self.mount == 'vertical' else 0.0
+
+
+@dataclass(frozen=True)
+class RigModel:
+    """A muscle, its load and its effects: all that the equations of motion need.
+
+    ``effects`` maps an effect's name to its parameters in SI; what is not given has its default,
+    absent. ``library`` are the effects that the kernel knows. Raises ParameterError for unknown
+    effects or parameters, values out of range, and a load that the muscle cannot hold.
+    """
+
+    muscle: Muscle = field(default_factory=Muscle)
+    load: Load = field(default_factory=Load)
+    effects: EffectValues = field(default_factory=dict)
+    library: tuple[Effect, ...] = EFFECTS
+
+    def __post_init__(self) -> None:
+        """Check the effects, and that there is an equilibrium over the range of pressure."""
+        known = {effect.name: effect for effect in self.library}
+        for name, given in self.effects.items():
+            if name not in known:
+                raise ParameterError(
+                    f'effects.{name} is not known: give one of ' + ', '.join(known)
+                )
+            known[name].values(dict(given))
+        if self.muscle.is_load_only:
+            return
+        for p in (0.0, self.muscle.p_max):
+            try:
+                self.muscle.equilibrium(p, self.weight)
+            except RangeError as error:
+                raise ParameterError(
+                    f'mass = {self.load.mass:g} kg and this muscle make no rig: {error}'
+                ) from error
+
+    @property
+    def weight(self) -> float:
+        """Force in N with which gravity stretches the muscle, undeclared payload included."""
+        return self.moved_mass * self.load.gravity
+
+    @property
+    def moved_mass(self) -> float:
+        """Mass in kg after the effects that change it."""
+        q = self.row()
+        m = self.load.mass
+        for effect in self.library:
+            if effect.mass is not None:
+                m = float(effect.mass(m, q, self.layout.parameter_at[effect.name]))
+        return m
+
+    @property
+    def layout(self) -> Layout:
+        """Offsets of the effects in the kernel's rows."""
+        return layout_of(self.library)
+
+    @property
+    def active(self) -> tuple[Effect, ...]:
+        """The effects that the kernel must step: all of the library as soon as one is present.
+
+        Two machine codes, without effects and with all, instead of one for each subset.
+        """
+        for effect in self.library:
+            if effect.is_present(dict(self.effects.get(effect.name, {}))):
+                return self.library
+        return ()
+
+    def row(self) -> NDArray[np.float64]:
+        """Return the kernel's parameter row, SI, shape (layout.parameters,)."""
+        q = np.empty(self.layout.parameters)
+        q[at.A1 : at.A6 + 1] = self.muscle.si
+        q[at.ZETA], q[at.L0] = self.muscle.zeta, self.muscle.l0
+        q[at.MASS], q[at.GRAVITY] = self.load.mass, self.load.gravity
+        for effect in self.library:
+            j = self.layout.parameter_at[effect.name]
+            values = effect.values(dict(self.effects.get(effect.name, {})))
+            q[j : j + len(values)] = values
+        return q
+
+    def rest(self, p: float) -> float:
+        """Return the position y in m at which the declared model rests at *p* Pa.
+
+        The paper's static model with the moved mass; 0 for a load without a muscle.
+        """
+        if self.muscle.is_load_only:
+            return 0.0
+        return self.muscle.equilibrium(p, self.weight) * self.muscle.l0
+
+
+def start_row(
+    layout: Layout, q: NDArray[np.float64], p: float, y: float, v: float
+) -> NDArray[np.float64]:
+    """Return a state row at position *y* m, velocity *v* m/s after a long rest at *p* Pa there.
+
+    *q* is the parameter row; hidden states are those of their effect's ``start``.
+    """
+    x = np.zeros(layout.width)
+    x[at.Y], x[at.V], x[at.P] = y, v, p
+    kappa = y / q[at.L0]
+    chamber: Any = p
+    for effect in layout.effects:
+        i, j = layout.state_at[effect.name], layout.parameter_at[effect.name]
+        if effect.start is not None:
+            x[i : i + len(effect.states)] = effect.start(q, j, chamber, kappa, y)
+        if effect.pressure is not None:
+            # Downstream effects start from what this one passes on at rest.
+            chamber = effect.pressure(chamber, 0.0, 0.0, x, i, x.copy(), q, j)
+    x[at.P] = chamber
+    return x
