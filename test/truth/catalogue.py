@@ -1,0 +1,275 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The one table of what a truth plant may have beside its muscle, with magnitudes.
+
+A kind may come in several forms: other equations for the same physical effect. `small` and
+`large` bound what a blind trial draws, log-uniformly when both are positive.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from numpy.random import Generator
+
+
+@dataclass(frozen=True)
+class Range:
+    """One number of an effect: the value it takes when not said, and what trials draw from."""
+
+    default: float
+    small: float
+    large: float
+    signed: bool = False
+
+    def draw(self, rng: Generator) -> float:
+        """Return a value between small and large, of either sign where both make sense."""
+        if self.small > 0.0:
+            value = self.small * (self.large / self.small) ** rng.random()
+        else:
+            value = self.small + (self.large - self.small) * rng.random()
+        return -value if self.signed and rng.random() < 0.5 else value
+
+
+@dataclass(frozen=True)
+class Form:
+    """One formulation of a kind: the plant's fields that it sets."""
+
+    kind: str
+    form: str
+    ranges: dict[str, Range]
+    fixed: dict[str, float] = field(default_factory=dict)
+    held: bool = False  # seen at held length, too
+
+
+R = Range
+_FORMS = (
+    # ---- kinds that the package has, by other equations where there are others
+    Form('slack', 'hard', {}, {'slack': 1.0}, held=True),
+    Form('slack', 'toe', {'toe_n': R(25.0, 10.0, 60.0)}, {'slack': 1.0}, held=True),
+    Form(
+        'hysteresis',  # Maxwell slip in the contraction
+        'slip',
+        {'hyst_n': R(20.0, 2.0, 60.0), 'hyst_reach_m': R(4e-3, 2e-3, 12e-3)},
+    ),
+    Form(
+        'hysteresis',  # generalised Prandtl-Ishlinskii in the pressure
+        'pressure',
+        {'hyst_pa': R(10e3, 2e3, 20e3), 'hyst_reach_pa': R(60e3, 30e3, 120e3)},
+        held=True,
+    ),
+    Form(
+        'coulomb_friction',  # LuGre
+        'lugre',
+        {
+            'coulomb_n': R(15.0, 2.5, 25.0),
+            'static_n': R(1.5, 1.1, 2.0),  # as a multiple of coulomb_n when drawn
+            'stribeck_m_s': R(10e-3, 3e-3, 30e-3),
+            'bristle_n_m': R(1e6, 3e5, 2e6),
+        },
+    ),
+    Form('viscous_friction', 'linear', {'viscous_ns_m': R(60.0, 15.0, 200.0)}),
+    Form(
+        'creep',  # two shares of the force arrive late
+        'force',
+        {
+            'creep_1': R(0.02, 0.008, 0.03),
+            'creep_1_s': R(1.0, 0.5, 2.5),
+            'creep_2': R(0.02, 0.008, 0.03),
+            'creep_2_s': R(12.0, 6.0, 25.0),
+        },
+        held=True,
+    ),
+    Form(
+        'creep',  # two Maxwell branches beside the muscle
+        'strain',
+        {
+            'maxwell_1_n_m': R(600.0, 200.0, 1500.0),
+            'creep_1_s': R(1.0, 0.5, 2.5),
+            'maxwell_2_n_m': R(600.0, 200.0, 1500.0),
+            'creep_2_s': R(12.0, 6.0, 25.0),
+        },
+    ),
+    Form(
+        'softening',  # with the work done
+        'work',
+        {'soft_share': R(0.03, 0.012, 0.06), 'soft_work_j': R(200.0, 80.0, 400.0)},
+    ),
+    Form(
+        'softening',  # with the pressure cycles run through
+        'cycles',
+        {'soft_share': R(0.03, 0.012, 0.06), 'soft_path_pa': R(4e6, 2e6, 8e6)},
+        held=True,
+    ),
+    Form(
+        'pressure_lag',
+        'two_times',
+        {'fill_s': R(0.05, 0.02, 0.13), 'vent_s': R(0.07, 0.02, 0.13)},
+        held=True,
+    ),
+    Form(
+        'pressure_lag',  # ISO 6358 flow through a proportional valve
+        'iso_6358',
+        {
+            'conductance_fill': R(0.8, 0.3, 2.0),  # l/(s bar)
+            'conductance_vent': R(0.8, 0.3, 2.0),
+            'volume_l': R(0.15, 0.1, 0.25),
+            'valve_band_pa': R(60e3, 30e3, 120e3),
+        },
+        held=True,
+    ),
+    Form('dead_time', 'transport', {'dead_time_s': R(0.01, 5e-3, 40e-3)}, held=True),
+    Form(
+        'pressure_offset',
+        'affine',
+        {'regulator_pa': R(6e3, 2e3, 12e3, signed=True), 'regulator_gain': R(1.0, 0.97, 1.03)},
+        held=True,
+    ),
+    Form('payload', 'mass', {'payload_kg': R(5.0, 0.5, 6.0)}),
+    Form(
+        'pressure_dependent_damping',
+        'two_ways',
+        {
+            'damping_up_ns_m_bar': R(30.0, 8.0, 80.0),
+            'damping_down_ns_m_bar': R(50.0, 8.0, 80.0),
+        },
+    ),
+    Form(
+        'end_stop',  # Hunt and Crossley
+        'hunt_crossley',
+        {
+            'stop_m': R(0.85, 0.6, 0.92),
+            'stop_n_m15': R(2e7, 5e6, 5e7),
+            'stop_s_m': R(1.0, 0.3, 2.0),
+        },
+    ),
+    Form(
+        'leak',  # the regulator's valve closes between command changes
+        'closed_valve',
+        {'leak_per_s': R(0.02, 6e-3, 0.08), 'valve_open_s': R(0.2, 0.1, 0.3)},
+        held=True,
+    ),
+    Form(
+        'leak',  # against a refill of limited flow
+        'refill',
+        {
+            'leak_per_s': R(0.6, 0.3, 1.5),
+            'fill_s': R(0.08, 0.05, 0.15),
+            'refill_pa_s': R(6e5, 4e5, 9e5),
+        },
+        held=True,
+    ),
+    Form(
+        'periodic_disturbance',
+        'force',
+        {
+            'ripple_n': R(6.0, 2.0, 15.0),
+            'ripple_hz': R(3.0, 0.7, 12.0),
+            'ripple_rad': R(0.0, 0.0, 6.28),
+        },
+    ),
+    Form(
+        'periodic_disturbance',  # of the supply
+        'supply',
+        {
+            'ripple_pa': R(4e3, 1.5e3, 8e3),
+            'ripple_hz': R(3.0, 0.7, 12.0),
+            'ripple_rad': R(0.0, 0.0, 6.28),
+        },
+        held=True,
+    ),
+    Form('length_offset', 'rest', {'kappa_offset': R(0.01, 4e-3, 0.03, signed=True)}, held=True),
+    # ---- kinds that are in no library
+    Form('quadratic_drag', 'drag', {'drag_ns2_m2': R(1500.0, 700.0, 3000.0)}),
+    Form('cogging', 'guide', {'cog_n': R(10.0, 5.0, 20.0), 'cog_m': R(10e-3, 6e-3, 25e-3)}),
+    Form('cross_coupling', 'kappa2_p', {'cross_n_pa': R(6e-3, 3e-3, 9e-3)}, held=True),
+    Form(
+        'temperature_drift',
+        'tanh',
+        {
+            'drift_share': R(0.02, 0.01, 0.04, signed=True),
+            'drift_mid_s': R(0.5, 0.4, 0.7),  # as a share of the record when drawn
+            'drift_width_s': R(0.1, 0.05, 0.15),
+        },
+        held=True,
+    ),
+    Form('backlash', 'linkage', {'play_m': R(0.5e-3, 0.2e-3, 1.5e-3)}),
+    Form(
+        'second_mode',
+        'sprung_mass',
+        {
+            'second_kg': R(4.0, 2.0, 7.0),
+            'second_hz': R(5.0, 3.0, 9.0),
+            'second_zeta': R(0.02, 0.01, 0.05),
+        },
+    ),
+    Form('random_walk', 'force', {'walk_n_rs': R(3.0, 1.5, 6.0)}),
+    Form('saturation', 'pressure_gain', {'saturation': R(0.08, 0.04, 0.15)}, held=True),
+)
+FORMS = {(form.kind, form.form): form for form in _FORMS}
+
+OUT_OF_LIBRARY = (
+    'quadratic_drag',
+    'cogging',
+    'cross_coupling',
+    'temperature_drift',
+    'backlash',
+    'second_mode',
+    'random_walk',
+    'saturation',
+)
+KINDS = tuple(dict.fromkeys(f.kind for f in _FORMS if f.kind not in OUT_OF_LIBRARY))
+
+
+@dataclass(frozen=True)
+class Effect:
+    """An effect at a magnitude: its kind, its form and the plant's fields that it sets."""
+
+    kind: str
+    form: str
+    values: dict[str, float]
+
+    def describe(self) -> dict[str, object]:
+        """Return the effect as plain data."""
+        return {'kind': self.kind, 'form': self.form, **self.values}
+
+
+def forms_of(kind: str, *, held: bool = False) -> list[str]:
+    """Names of the forms of a kind, those seen at held length alone when asked."""
+    return [f.form for f in _FORMS if f.kind == kind and (f.held or not held)]
+
+
+def effect(kind: str, form: str | None = None, **values: float) -> Effect:
+    """Return an effect by name, with the table's defaults for what is not given.
+
+    static_n of friction is in newton here; left out, it is 1.5 times coulomb_n.
+    """
+    chosen = FORMS[(kind, form or forms_of(kind)[0])]
+    unknown = set(values) - set(chosen.ranges)
+    if unknown:
+        raise ValueError(f'{kind} ({chosen.form}) has no {sorted(unknown)}')
+    full = {name: values.get(name, r.default) for name, r in chosen.ranges.items()}
+    if 'static_n' in full and 'static_n' not in values:
+        full['static_n'] *= full['coulomb_n']
+    return Effect(kind, chosen.form, {**full, **chosen.fixed})
+
+
+def draw_effect(
+    kind: str, rng: Generator, *, stroke: tuple[float, float], duration: float, held: bool = False
+) -> Effect:
+    """Return an effect of a kind with form and magnitude drawn from the table.
+
+    stroke is the range of position in m that the record will run through: an end stop lies
+    within it.
+    """
+    forms = forms_of(kind, held=held)
+    chosen = FORMS[(kind, forms[rng.integers(len(forms))])]
+    values = {name: r.draw(rng) for name, r in chosen.ranges.items()}
+    if kind == 'coulomb_friction':
+        values['static_n'] *= values['coulomb_n']
+    if kind == 'end_stop':
+        values['stop_m'] = stroke[0] + values['stop_m'] * (stroke[1] - stroke[0])
+    if kind == 'temperature_drift':
+        values['drift_mid_s'] *= duration
+        values['drift_width_s'] *= duration
+    return Effect(kind, chosen.form, {**values, **chosen.fixed})

@@ -1,0 +1,174 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The truth plant: a muscle, a load and what they have beside the paper's model."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from .catalogue import Effect
+from .forces import law
+from .kernel import advance, run
+from .layout import ELEMENTS, new_parameters, new_state
+from .muscles import GRAVITY, constants_si
+from .sensor import Sensor
+
+OUTPUTS = ('y', 'v', 'force', 'pressure', 'linked')
+
+
+class TruthPlant:
+    """A muscle that lifts a mass, stepped from pressure commands.
+
+    Position y = kappa l0 in m, contraction (load up) positive; gauge Pa; N; s.
+
+    muscle    name in muscles.PUBLISHED, or the six constants in SI (Pa, fraction)
+    mass      declared load, kg (a payload effect adds to it)
+    zeta      damping ratio of the paper's equation 4 (a choice: the paper prints none)
+    l0        rest length, m
+    mount     'vertical' (gravity pulls the load) or 'horizontal' (no gravity)
+    effects   what is there beside the paper's model, see catalogue.effect
+    dt        largest substep, s
+    sensor    noise, offset, latency and quantisation of measured positions; ideal if None
+    seed      of the sensor's noise and of random forces
+    p0        command in Pa at which it rests at the start
+    """
+
+    def __init__(
+        self,
+        muscle: str | tuple[float, ...] = 'dmsp_20_400n',
+        mass: float = 20.0,
+        zeta: float = 0.15,
+        l0: float = 0.4,
+        mount: str = 'vertical',
+        effects: Sequence[Effect] = (),
+        dt: float = 5e-5,
+        sensor: Sensor | None = None,
+        seed: int = 0,
+        p0: float = 300e3,
+    ) -> None:
+        self.constants = constants_si(muscle) if isinstance(muscle, str) else tuple(muscle)
+        self.effects = tuple(effects)
+        self.sensor = sensor or Sensor()
+        self.parameters = P = new_parameters()
+        P.a1, P.a2, P.a3, P.a4, P.a5, P.a6 = self.constants
+        P.mass_kg, P.zeta, P.l0_m, P.dt = mass, zeta, l0, dt
+        P.gravity = {'vertical': GRAVITY, 'horizontal': 0.0}[mount]
+        for one in self.effects:
+            for name, value in one.values.items():
+                setattr(P, name, value)
+        # A damping ratio of 0.2 for the bristle alone: sticks without ringing.
+        P.bristle_ns_m = 0.4 * math.sqrt(P.bristle_n_m * mass)
+        self.reset(p0, seed)
+
+    def reset(self, p0: float, seed: int = 0) -> float:
+        """Put the plant at rest under a command of p0 (Pa) with virgin memory; return y in m."""
+        P = self.parameters
+        self.state = S = new_state()
+        self._rng = np.random.default_rng([seed, 1])
+        self.sensor.reset(seed)
+        S.u = p0
+        S.p = p0 * P.regulator_gain + P.regulator_pa
+        if P.fill_s > 0.0 and P.leak_per_s > 0.0:
+            S.p /= 1.0 + P.leak_per_s * P.fill_s
+        S.p_mem = S.p
+        shares = np.geomspace(0.05, 1.0, ELEMENTS)
+        for i in range(ELEMENTS):
+            S.slip_reach[i] = P.hyst_reach_m * shares[i]
+            S.pslip_reach[i] = P.hyst_reach_pa * shares[i]
+        S.y = self._rest_position(S.p)
+        S.y_mem = S.link = S.strain_1 = S.strain_2 = S.y
+        S.lag_1 = S.lag_2 = S.pull = self._static(S.p, S.y)
+        return float(S.y)
+
+    def _static(self, p: float, y: float) -> float:
+        """Pull in N of the muscle at rest, creep run out and memory virgin."""
+        P = self.parameters
+        p -= P.saturation * p * (p / 6e5) ** 2
+        kappa = y / P.l0_m + P.kappa_offset
+        return float(law(P, p, kappa)[0] + P.cross_n_pa * kappa * kappa * p)
+
+    def _rest_position(self, p: float) -> float:
+        """Position in m at which the static pull carries the load, by bisection."""
+        P = self.parameters
+        weight = (P.mass_kg + P.payload_kg) * P.gravity
+        low, high = -0.15 * P.l0_m, 0.45 * P.l0_m
+        for _ in range(60):
+            mid = 0.5 * (low + high)
+            stop = P.stop_n_m15 * max(0.0, mid - P.stop_m) ** 1.5 if P.stop_n_m15 > 0.0 else 0.0
+            if self._static(p, mid) > weight + stop:
+                low = mid
+            else:
+                high = mid
+        return 0.5 * (low + high)
+
+    def step(self, u: float, h: float) -> float:
+        """Hold a command (Pa) for h seconds; return the position measured at the end, m."""
+        force = 0.0
+        if self.parameters.walk_n_rs > 0.0:
+            force = self._walk(np.array([h]))[0]
+        advance(self.parameters, self.state, u, force, h)
+        return self.measure()
+
+    def measure(self) -> float:
+        """Return the position sensor's reading now, m. Each call draws new noise."""
+        return self.sensor.read(self.state.t, self.state.link)
+
+    def run(self, t: np.ndarray, u: np.ndarray, y_path: np.ndarray | None = None) -> Any:
+        """Play a programme; a record of true arrays y, v, force, pressure, linked.
+
+        t (n,) stamps in s, u (n,) Pa, held from stamp to stamp. Values at t[k] are those before
+        u[k] acts. y_path (n,), m, prescribes the position (held length) instead of the load.
+        """
+        t = np.ascontiguousarray(t, dtype=np.float64)
+        u = np.ascontiguousarray(u, dtype=np.float64)
+        out = np.zeros((t.size, len(OUTPUTS)))
+        P, S = self.parameters, self.state
+        path = np.zeros(0)
+        P.held = 0.0
+        if y_path is not None:
+            path = np.ascontiguousarray(y_path, dtype=np.float64)
+            P.held = 1.0
+            S.y = S.y_mem = S.link = S.strain_1 = S.strain_2 = path[0]
+            S.lag_1 = S.lag_2 = S.pull = self._static(S.p, path[0])
+        run(P, S, t, u, self._walk(np.diff(t, append=t[-1])), path, out)
+        return np.rec.fromarrays(out.T, names=list(OUTPUTS))
+
+    def _walk(self, h: np.ndarray) -> np.ndarray:
+        """Random-walk force in N on the load in each hold of h seconds."""
+        scale = self.parameters.walk_n_rs
+        if scale == 0.0:
+            return np.zeros(h.size)
+        start = getattr(self, '_walked', 0.0)
+        steps = scale * np.sqrt(h) * self._rng.standard_normal(h.size)
+        walk = start + np.cumsum(steps)
+        self._walked = float(walk[-1])
+        return walk
+
+    @property
+    def t(self) -> float:
+        """Time since the reset, s."""
+        return float(self.state.t)
+
+    @property
+    def y(self) -> float:
+        """True position, m."""
+        return float(self.state.y)
+
+    @property
+    def v(self) -> float:
+        """True velocity, m/s."""
+        return float(self.state.v)
+
+    @property
+    def force(self) -> float:
+        """Pull of the muscle on the load as a force cell between them reads it, N."""
+        return float(self.state.pull)
+
+    @property
+    def pressure(self) -> float:
+        """True chamber pressure, gauge Pa."""
+        return float(self.state.p)
