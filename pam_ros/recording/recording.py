@@ -1,0 +1,115 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""A measured experiment: arrays in SI on one clock, its gaps known."""
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pam_ros.errors import RecordingError
+
+Array = NDArray[np.float64]
+KINDS = ('free', 'held')
+OUTPUTS = ('position', 'velocity', 'force', 'pressure')
+
+
+@dataclass(frozen=True, eq=False)
+class Recording:
+    """What was commanded and measured, and when.
+
+    Contraction is positive (the load moves up), pressures are gauge. Arrays hold no NaN.
+
+    ``name``
+        File or bag, for reports.
+    ``t``
+        (n,) s since the recording's first sample, strictly ascending: stamps of the outputs. A
+        value stamped t is the state before a command of the same stamp has acted.
+    ``command_t``, ``command``
+        (m,) s on the same clock and (m,) Pa; each holds from its stamp to the next. The first
+        is at or before t[0]. None where no command was recorded.
+    ``position``, ``velocity``, ``force``, ``pressure``
+        (n,) m, m/s, N and Pa measured, or None.
+    ``kind``
+        ``free``: the load moves; ``held``: the length is prescribed, constant or moving.
+    ``gaps``
+        Stretches (from, to) in s without samples: a simulation is restarted behind each.
+    ``warnings``
+        Sentences on what is poor in the data.
+    ``digest``
+        SHA-256 of the file or files, for provenance.
+    """
+
+    name: str
+    t: Array
+    command_t: Array | None
+    command: Array | None
+    position: Array | None
+    velocity: Array | None
+    force: Array | None
+    pressure: Array | None
+    kind: str
+    gaps: tuple[tuple[float, float], ...] = ()
+    warnings: tuple[str, ...] = ()
+    digest: str = ''
+
+    @property
+    def period(self) -> float:
+        """Return the median sampling period in s."""
+        return float(np.median(np.diff(self.t)))
+
+    @property
+    def duration(self) -> float:
+        """Return the time in s from the first sample to the last, gaps included."""
+        return float(self.t[-1] - self.t[0])
+
+    def segments(self) -> list['Recording']:
+        """Return the parts between the gaps, in order, each without a gap.
+
+        Times stay on the recording's clock; a part's commands begin with the one that holds
+        at its first sample.
+        """
+        cuts = [int(np.searchsorted(self.t, start, side='right')) for start, _ in self.gaps]
+        edges = [0, *cuts, self.t.size]
+        return [self.part(i, j) for i, j in zip(edges[:-1], edges[1:], strict=True) if j > i]
+
+    def part(self, start: int, stop: int) -> 'Recording':
+        """Return samples start..stop-1 with the commands that act on them."""
+        t = self.t[start:stop]
+        changes: dict[str, Any] = {
+            name: None if value is None else value[start:stop]
+            for name in OUTPUTS
+            for value in (getattr(self, name),)
+        }
+        if self.command_t is not None and self.command is not None:
+            first = max(int(np.searchsorted(self.command_t, t[0], side='right')) - 1, 0)
+            last = int(np.searchsorted(self.command_t, t[-1], side='right'))
+            changes |= {
+                'command_t': self.command_t[first:last],
+                'command': self.command[first:last],
+            }
+        inside = tuple(gap for gap in self.gaps if t[0] <= gap[0] and gap[1] <= t[-1])
+        return replace(self, t=t, gaps=inside, **changes)
+
+    def drive(self, step: float) -> tuple[Array, Array]:
+        """Return (stamps in s, values in Pa) of the input, each held to the next stamp.
+
+        The command as it was recorded. Where there is none, the measured pressure, which is no
+        held signal: it is taken as linear between its samples, and each stretch of at most
+        *step* s gets its mean, so that holding it delays nothing.
+
+        Raises RecordingError where neither was recorded.
+        """
+        if self.command_t is not None and self.command is not None:
+            return self.command_t, self.command
+        if self.pressure is None:
+            raise RecordingError(
+                f'{self.name}: neither pressure_command nor pressure was recorded'
+            )
+        count = np.maximum(np.ceil(np.diff(self.t) / step - 1e-9), 1.0).astype(int)
+        left = np.repeat(self.t[:-1], count)
+        width = np.repeat(np.diff(self.t) / count, count)
+        inside = np.arange(left.size) - np.repeat(np.cumsum(count) - count, count)
+        stamps = left + inside * width
+        return stamps, np.interp(stamps + 0.5 * width, self.t, self.pressure)
