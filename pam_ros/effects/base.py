@@ -31,13 +31,15 @@ be exact or implicit, and a stiff law stays stable. Parameters are q[j], q[j + 1
 the muscle's own are at the indices of ``pam_ros.rig.layout``.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, MutableSequence
 from dataclasses import dataclass, field
 from typing import Any
 
 from pam_ros.errors import ParameterError
 from pam_ros.parameters import Parameter
 
+# A row of float64: numpy's array, or numba's; both are indexed like this.
+Row = MutableSequence[float]
 PLACES = ('delay', 'pressure', 'contraction', 'mass', 'force', 'damping', 'outside')
 
 
@@ -120,6 +122,4 @@ class Effect:
 
     def is_present(self, given: dict[str, float]) -> bool:
         """Say whether any strength in *given* differs from zero."""
-        return any(
-            given.get(p.name, p.default) != 0.0 for p in self.parameters if p.strength
-        )
+        return any(given.get(p.name, p.default) != 0.0 for p in self.parameters if p.strength)

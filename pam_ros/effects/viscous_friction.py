@@ -2,9 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Viscous friction of the guide: a force against the velocity of the load."""
 
-from typing import Any
-
-from pam_ros.effects.base import Effect, EffectParameter
+from pam_ros.effects.base import Effect, EffectParameter, Row
 
 
 def outside(
@@ -14,10 +12,10 @@ def outside(
     v: float,
     t: float,
     h: float,
-    x: Any,
+    x: Row,
     i: int,
-    xn: Any,
-    q: Any,
+    xn: Row,
+    q: Row,
     j: int,
 ) -> float:
     """Return f - c v, with c = q[j] in N s/m."""

@@ -7,10 +7,14 @@ a parameter row [a1..a6, zeta, l0, mass, gravity, parameters of the effects...],
 a muscle: several muscles are a matrix.
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import TYPE_CHECKING
 
-from pam_ros.effects.base import Effect
+if TYPE_CHECKING:  # effects read the indices below, so that this file must not need them
+    from pam_ros.effects.base import Effect
 
 # State row.
 Y, V, P = 0, 1, 2

@@ -141,7 +141,10 @@ def start_row(
     """
     x = np.zeros(layout.width)
     x[at.Y], x[at.V], x[at.P] = y, v, p
-    kappa = y / q[at.L0]
+    kappa: Any = y / q[at.L0]
+    for effect in layout.effects:
+        if effect.contraction is not None:
+            kappa = effect.contraction(kappa, q, layout.parameter_at[effect.name])
     chamber: Any = p
     for effect in layout.effects:
         i, j = layout.state_at[effect.name], layout.parameter_at[effect.name]

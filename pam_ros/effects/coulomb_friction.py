@@ -1,0 +1,114 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Coulomb and Stribeck friction of the guide, with a load that truly sticks."""
+
+from math import exp, sqrt
+
+from pam_ros.effects.base import Effect, EffectParameter, Row
+from pam_ros.rig.layout import MASS
+
+
+def outside(
+    f: float,
+    p: float,
+    y: float,
+    v: float,
+    t: float,
+    h: float,
+    x: Row,
+    i: int,
+    xn: Row,
+    q: Row,
+    j: int,
+) -> float:
+    """Return f less the friction, which opposes motion and holds a load at rest.
+
+    Level: g = C + (S - C) exp(-(v / w)^2) + B p, with C, S, w, B = q[j] to q[j + 3] and S not
+    below C. Below it the contact is a spring of length q[j + 4], x[i] its force and x[i + 1]
+    the position before, with a damper; both together never exceed g (Prandtl's element: no
+    drift under loads that change). For a step of length h = x[i + 2] that cannot resolve the
+    spring, it is lengthened so that its frequency on the load stays below 1/h.
+    """
+    if q[j] == 0.0 and q[j + 1] == 0.0 and q[j + 3] == 0.0:
+        return f
+    level = q[j] + q[j + 3] * max(p, 0.0)
+    if q[j + 1] > q[j]:
+        level += (q[j + 1] - q[j]) * exp(-(v / q[j + 2]) * (v / q[j + 2]))
+    k = level / (q[j + 4] + level * x[i + 2] * x[i + 2] / q[MASS])
+    spring = min(max(x[i] + k * (y - x[i + 1]), -level), level)
+    xn[i] = spring
+    xn[i + 1] = y
+    xn[i + 2] = h
+    return f - min(max(spring + sqrt(k * q[MASS]) * v, -level), level)
+
+
+def start(q: Row, j: int, p: float, kappa: float, y: float) -> tuple[float, ...]:
+    """Return a contact without load."""
+    return (0.0, y, 1e-3)
+
+
+EFFECT = Effect(
+    name='coulomb_friction',
+    text='dry friction of the guide with stiction and Stribeck effect',
+    source='Coulomb, Stribeck; Prandtl element for presliding; Dupont et al. 2002 on drift',
+    parameters=(
+        EffectParameter(
+            'level',
+            0.0,
+            'friction while it slides',
+            'N',
+            0.0,
+            1e4,
+            scale=5.0,
+            strength=True,
+            sign=1,
+        ),
+        EffectParameter(
+            'breakaway',
+            0.0,
+            'friction at rest; counts where it is above the level',
+            'N',
+            0.0,
+            1e4,
+            scale=5.0,
+            strength=True,
+            sign=1,
+        ),
+        EffectParameter(
+            'stribeck_speed',
+            0.01,
+            'speed at which the surplus at rest has fallen to 1/e',
+            'm/s',
+            1e-4,
+            10.0,
+            scale=0.01,
+        ),
+        EffectParameter(
+            'per_pressure',
+            0.0,
+            'growth of the friction with pressure',
+            'N/Pa',
+            0.0,
+            1e-2,
+            scale=1e-5,
+            strength=True,
+            sign=1,
+        ),
+        EffectParameter(
+            'presliding',
+            1e-5,
+            'way of the contact until it slides',
+            'm',
+            1e-6,
+            1e-2,
+            scale=1e-5,
+        ),
+    ),
+    signature='residual force that jumps with the sign of velocity; rests in the turns',
+    experiment='slow triangles and micro-reversals: the force turns over within micrometres',
+    fit_starts=({'level': 3.0}, {'level': 15.0}, {'level': 5.0, 'breakaway': 8.0}),
+    states=('contact force', 'position', 'step'),
+    start=start,
+    rivals=('hysteresis', 'viscous_friction'),
+    outside=outside,
+)

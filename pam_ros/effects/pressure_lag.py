@@ -1,0 +1,67 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Pressure lag: valve, tube and chamber fill and vent with time constants of their own."""
+
+from math import exp
+
+from pam_ros.effects.base import Effect, EffectParameter, Row
+
+
+def pressure(p: float, t: float, h: float, x: Row, i: int, xn: Row, q: Row, j: int) -> float:
+    """Return the chamber pressure of tau dp/dt = p_in - p, exact for p_in constant over h.
+
+    tau is q[j] while the chamber fills and q[j + 1] while it vents; x[i] is its pressure. It
+    never crosses p_in, so that tau is one or the other for all of h.
+    """
+    if q[j] == 0.0 and q[j + 1] == 0.0:
+        return p
+    tau = q[j] if p > x[i] else q[j + 1]
+    xn[i] = p + (x[i] - p) * exp(-h / tau) if tau > 0.0 else p
+    return xn[i]
+
+
+def start(q: Row, j: int, p: float, kappa: float, y: float) -> tuple[float, ...]:
+    """Return the pressure that came in long enough."""
+    return (p,)
+
+
+EFFECT = Effect(
+    name='pressure_lag',
+    text='first-order lag of the chamber behind the command, filling and venting apart',
+    source='Linearised chamber with an ISO 6358 orifice; 20 to 130 ms with servo valves',
+    parameters=(
+        EffectParameter(
+            'fill',
+            0.0,
+            'time constant of filling',
+            's',
+            0.0,
+            10.0,
+            scale=0.05,
+            strength=True,
+            sign=1,
+        ),
+        EffectParameter(
+            'vent',
+            0.0,
+            'time constant of venting',
+            's',
+            0.0,
+            10.0,
+            scale=0.05,
+            strength=True,
+            sign=1,
+        ),
+    ),
+    signature='phase that rolls off with frequency; rounded answers to steps',
+    experiment='steps up and down with the pressure measured, or a chirp',
+    fit_starts=(
+        {'fill': 0.02, 'vent': 0.02},
+        {'fill': 0.1, 'vent': 0.1},
+        {'fill': 0.5, 'vent': 0.5},
+    ),
+    states=('pressure',),
+    start=start,
+    rivals=('dead_time', 'leak'),
+    pressure=pressure,
+)
