@@ -7,6 +7,7 @@ The same source runs both ways: rooms write scalar Python with ``math`` and deco
 
 from collections.abc import Callable
 from importlib import import_module
+from types import FunctionType
 from typing import Any, TypeVar
 
 import numpy as np
@@ -18,6 +19,7 @@ except ImportError:  # rosdep has numba on Debian and Ubuntu only
     numba = None
 
 HAVE_NUMBA = numba is not None
+_ON_ARRAYS = {'exp': np.exp, 'sqrt': np.sqrt, 'max': np.maximum}
 F = TypeVar('F', bound=Callable[..., Any])
 
 
@@ -28,7 +30,7 @@ def scalar(function: F) -> F:
     """
     if numba is None:
         return function
-    compiled: F = numba.njit(nogil=True, error_model='numpy')(function)
+    compiled: F = numba.njit(nogil=True, error_model='numpy', forceinline=True)(function)
     return compiled
 
 
@@ -45,12 +47,16 @@ def cached(function: F) -> F:
 
 
 def broadcast(function: Callable[..., float]) -> Callable[..., Any]:
-    """Return a scalar function of floats as one that broadcasts over numpy arrays.
+    """Return a scalar function as one that broadcasts over numpy arrays (and numpy scalars).
 
-    The source stays one; with numba it becomes a ufunc, without it a ``numpy.vectorize``.
+    The source stays one: it is run with numpy's ``exp``, ``sqrt`` and ``max`` under the names of
+    the scalar ones, and so are the functions that it calls. Unlike a compiled ufunc this costs
+    nothing at import, and needs no numba.
     """
-    if numba is None:
-        return np.vectorize(function, otypes=[float])
     plain = getattr(function, 'py_func', function)
-    ufunc: Callable[..., Any] = numba.vectorize(plain)
-    return ufunc
+    names = {**plain.__globals__, **_ON_ARRAYS}
+    for name in plain.__code__.co_names:
+        called: Any = plain.__globals__.get(name)
+        if isinstance(getattr(called, 'py_func', called), FunctionType):
+            names[name] = broadcast(called)
+    return FunctionType(plain.__code__, names, plain.__name__)

@@ -7,6 +7,7 @@ documentation, and the YAML files.
 """
 
 import math
+import numbers
 from dataclasses import Field, dataclass, field, fields
 from typing import Any
 
@@ -32,46 +33,49 @@ class Parameter:
     live: bool = True
     above_low: bool = False
 
-    def allowed(self) -> str:
-        """Say in words what is allowed, for the sentence of an error."""
+    def allowed(self, kind: type = float) -> str:
+        """Say in words what is allowed of a *kind*, for the sentence of an error."""
         if self.choices:
             return 'one of ' + ', '.join(self.choices)
+        if kind is bool or kind is str:
+            return 'true or false' if kind is bool else 'a text'
+        whole = 'a whole number' if kind is int else ''
         unit = f' {self.unit}' if self.unit else ''
-        left = 'above' if self.above_low else 'at least'
-        if self.low is not None and self.high is not None:
-            if self.above_low:
-                return f'above {self.low:g} and at most {self.high:g}{unit}'
-            return f'{self.low:g} to {self.high:g}{unit}'
-        if self.low is not None:
-            return f'{left} {self.low:g}{unit}'
-        if self.high is not None:
-            return f'at most {self.high:g}{unit}'
-        return 'a finite number'
+        if self.low is None and self.high is None:
+            return whole or 'a finite number'
+        if self.high is None:
+            bounds = f'{"above" if self.above_low else "at least"} {self.low:g}{unit}'
+        elif self.low is None:
+            bounds = f'at most {self.high:g}{unit}'
+        elif self.above_low:
+            bounds = f'above {self.low:g} and at most {self.high:g}{unit}'
+        else:
+            bounds = f'{self.low:g} to {self.high:g}{unit}'
+        return f'{whole}, {bounds}' if whole else bounds
 
     def check(self, name: str, value: Any, kind: type) -> Any:
         """Return *value* as *kind*, or raise ParameterError naming it and what is allowed."""
-        problem = ParameterError(f'{name} = {value!r} is not allowed: give {self.allowed()}')
-        if kind is str:
-            if not isinstance(value, str) or (self.choices and value not in self.choices):
-                raise problem
-            return value
-        if kind is bool:
-            if not isinstance(value, bool):
-                raise ParameterError(f'{name} = {value!r} is not allowed: give true or false')
-            return value
-        if isinstance(value, bool) or not isinstance(value, (int, float)):
-            raise problem
-        if kind is int and float(value) != int(value):
-            raise ParameterError(f'{name} = {value!r} is not allowed: give a whole number')
-        number = float(value)
-        if not math.isfinite(number):
-            raise problem
-        low_bad = self.low is not None and (
-            number < self.low or (self.above_low and number == self.low)
-        )
-        if low_bad or (self.high is not None and number > self.high):
-            raise problem
+        if not self._fits(value, kind):
+            raise ParameterError(f'{name} = {value!r} is not allowed: give {self.allowed(kind)}')
         return kind(value)
+
+    def _fits(self, value: Any, kind: type) -> bool:
+        if kind is str:
+            return isinstance(value, str) and (not self.choices or value in self.choices)
+        if kind is bool:
+            return isinstance(value, bool)
+        # numpy's numbers are fine, true and false are not.
+        if isinstance(value, bool) or not isinstance(value, numbers.Real):
+            return False
+        try:
+            number = float(value)
+        except OverflowError:
+            return False
+        if not math.isfinite(number) or (kind is int and not number.is_integer()):
+            return False
+        if self.low is not None and (number < self.low or (self.above_low and number == self.low)):
+            return False
+        return self.high is None or number <= self.high
 
 
 def parameter(default: Any, text: str, unit: str = '', **kwargs: Any) -> Any:

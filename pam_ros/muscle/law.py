@@ -11,8 +11,8 @@ contraction the force falls, so that bracket, dF/dkappa, is negative for a worki
 (4) as printed is the root of a negative number. The physical stiffness is minus the bracket
 over l0; both functions below use it.
 
-The functions are plain scalar Python, compiled where numba is there. ``force_v`` and so on are
-the same source broadcast over numpy arrays.
+The functions are plain scalar Python, compiled where numba is there, for stepping. ``force_v`` and
+so on are the same source broadcast over numpy arrays, for analysis.
 """
 
 from math import exp, sqrt
@@ -63,9 +63,7 @@ def damping(k: float, mass: float, zeta: float) -> float:
     Where k is not positive the muscle has no spring and the equation no root: c is 0 there.
     A model with such a point in its working range is refused when it is made.
     """
-    if k <= 0.0:
-        return 0.0
-    return 2.0 * zeta * sqrt(mass * k)
+    return 2.0 * zeta * sqrt(mass * max(k, 0.0))
 
 
 @scalar

@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.optimize import brentq
 
 from pam_ros.errors import ParameterError, RangeError
 from pam_ros.muscle import law
@@ -16,7 +15,7 @@ from pam_ros.muscle.constants import CONTRACTION_UNITS, PRESSURE_UNITS, Constant
 from pam_ros.parameters import check_all, parameter
 
 Array = NDArray[np.float64]
-GRID = 41  # points a side of the grid on which a new model is checked
+FAR_OFF = 20.0  # times the rated force, up or down: no muscle of that rating
 
 
 @dataclass(frozen=True)
@@ -26,7 +25,10 @@ class Muscle:
     Fields are what a user gives, constants in the units of their source. Methods are SI: gauge
     Pa, contraction as a fraction of l0, N, N/m; arrays broadcast. Raises ParameterError when
     the constants make no muscle: stiffness or pressure gain not positive somewhere in the
-    working range (0..p_max, kappa_min..kappa_max).
+    working range (p_min..p_max, kappa_min..kappa_max), or a force far from the rated one.
+
+    With a1 = a2 = a4 = 0 there is no muscle but a force source a5 p + a6 that does not depend on
+    the position: a drive whose input then stands in for the pressure, in its own unit.
     """
 
     a1: float = parameter(-4.35573, 'constant a1 of the force law', 'N/pressure_unit')
@@ -49,6 +51,9 @@ class Muscle:
     l0: float = parameter(0.4, 'length of the muscle at rest', 'm', low=0.001, high=10.0)
     inside_diameter: float = parameter(
         0.02, 'inside diameter at rest', 'm', low=0.001, high=0.2, live=False
+    )
+    p_min: float = parameter(
+        0.0, 'lowest gauge pressure; below 0: a vacuum', 'Pa', low=-101325.0, high=0.0
     )
     p_max: float = parameter(
         600e3, 'highest gauge pressure', 'Pa', low=0.0, high=5e6, above_low=True
@@ -74,20 +79,36 @@ class Muscle:
                     'the force does not depend on contraction; give zeta 0'
                 )
             return
-        p, kappa = np.meshgrid(
-            np.linspace(0.0, self.p_max, GRID),
-            np.linspace(self.kappa_min, self.kappa_max, GRID),
-        )
-        self._refuse('stiffness k', self.stiffness(p, kappa), 'N/m', p, kappa)
-        self._refuse('pressure gain dF/dp', self.gain(kappa), 'N/Pa', p, kappa)
+        # The stiffness is affine in p and monotone in kappa: its least value is at a corner.
+        p, kappa = np.meshgrid((self.p_min, self.p_max), (self.kappa_min, self.kappa_max))
+        # Constants in the wrong units overflow exp(): that is one of the things looked for.
+        with np.errstate(over='ignore', invalid='ignore'):
+            self._refuse('stiffness k', self.stiffness(p, kappa), 'N/m', p, kappa)
+            kappa = self._extremes_of_gain()
+            self._refuse('pressure gain dF/dp', self.gain(kappa), 'N/Pa', 0.0 * kappa, kappa)
+        # Pressure in the wrong unit changes no sign, but the force by a factor of 100 or more.
+        strongest = float(self.force(self.p_max, 0.0))
+        if not self.force_max / FAR_OFF < strongest < self.force_max * FAR_OFF:
+            raise ParameterError(
+                f'the constants a1..a6 give {strongest:.4g} N at p_max = {self.p_max / 1e3:g} kPa '
+                f'and contraction 0, which is far from force_max = {self.force_max:g} N: mend '
+                'pressure_unit, the constants, or force_max'
+            )
+
+    def _extremes_of_gain(self) -> Array:
+        """Return the contractions where the gain can be least: the ends and where it is flat."""
+        a1, _, a3, a4, _, _ = self.si
+        low, high = self.kappa_min, self.kappa_max
+        flat = np.log(-a4 / (a1 * a3)) / a3 if a1 * a3 * a4 < 0.0 else low
+        return np.array([low, high, min(max(flat, low), high)])
 
     def _refuse(self, what: str, values: Array, unit: str, p: Array, kappa: Array) -> None:
         worst = np.unravel_index(np.argmin(values), values.shape)
-        if not values[worst] > 0.0:
+        if not (values[worst] > 0.0 and np.all(np.isfinite(values))):
             raise ParameterError(
                 f'the constants a1..a6 make no working muscle: {what} = {values[worst]:.4g} '
                 f'{unit} at {p[worst] / 1e3:g} kPa and contraction {kappa[worst]:g}; it must be '
-                'positive for 0..p_max and kappa_min..kappa_max (units of the constants right?)'
+                'positive for p_min..p_max and kappa_min..kappa_max (are the units right?)'
             )
 
     @property
@@ -103,41 +124,43 @@ class Muscle:
 
     def force(self, p: ArrayLike, kappa: ArrayLike) -> Array:
         """Return the static force in N: equation (1)."""
-        return _array(law.force_v(p, kappa, *self.si))
+        return _array(law.force_v(_array(p), _array(kappa), *self.si))
 
     def stiffness(self, p: ArrayLike, kappa: ArrayLike) -> Array:
         """Return k in N/m, positive: equation (2), sign mended."""
         a1, a2, a3, a4, _, _ = self.si
-        return _array(law.stiffness_v(p, kappa, a1, a2, a3, a4, self.l0))
+        return _array(law.stiffness_v(_array(p), _array(kappa), a1, a2, a3, a4, self.l0))
 
     def damping(self, p: ArrayLike, kappa: ArrayLike, mass: ArrayLike) -> Array:
         """Return c in N s/m for a load of *mass* kg: equation (4), sign mended."""
-        return _array(law.damping_v(self.stiffness(p, kappa), mass, self.zeta))
+        return _array(law.damping_v(self.stiffness(p, kappa), _array(mass), self.zeta))
 
     def gain(self, kappa: ArrayLike) -> Array:
         """Return dF/dp in N/Pa."""
         a1, _, a3, a4, a5, _ = self.si
-        return _array(law.gain_v(kappa, a1, a3, a4, a5))
+        return _array(law.gain_v(_array(kappa), a1, a3, a4, a5))
 
     def pressure_for_force(self, wanted: ArrayLike, kappa: ArrayLike) -> Array:
         """Return the gauge pressure in Pa for a wanted force in N: (1) solved for p.
 
         Raises RangeError where the gain dF/dp is not positive or the pressure would lie outside
-        0..p_max; the sentence names the first such point.
+        p_min..p_max; the sentence names the first such point.
         """
         f, kappa = np.broadcast_arrays(_array(wanted), _array(kappa))
-        g = self.gain(kappa)
-        p = np.where(g > 0.0, law.pressure_for_force_v(f, kappa, *self.si), np.nan)
-        slack = 1e-9 * self.p_max
-        bad = ~((p >= -slack) & (p <= self.p_max + slack))
+        with np.errstate(divide='ignore', invalid='ignore'):
+            p = law.pressure_for_force_v(f, kappa, *self.si)
+        p = np.where(self.gain(kappa) > 0.0, p, np.nan)
+        slack = 1e-9 * (self.p_max - self.p_min)  # the ends themselves, in spite of rounding
+        bad = ~((p >= self.p_min - slack) & (p <= self.p_max + slack))
         if np.any(bad):
             i = np.unravel_index(np.argmax(bad), bad.shape)
-            low, high = self.force(np.array([0.0, self.p_max]), kappa[i])
+            low, high = self.force(np.array([self.p_min, self.p_max]), kappa[i])
             raise RangeError(
                 f'a force of {f[i]:g} N at contraction {kappa[i]:g} is out of reach: '
-                f'0 to {self.p_max / 1e3:g} kPa give {low:.4g} to {high:.4g} N there'
+                f'{self.p_min / 1e3:g} to {self.p_max / 1e3:g} kPa give {low:.4g} to '
+                f'{high:.4g} N there'
             )
-        return np.clip(p, 0.0, self.p_max)
+        return _array(np.clip(p, self.p_min, self.p_max))
 
     def equilibrium(self, p: float, load: float) -> float:
         """Return the contraction at which (1) holds *load* N at *p* Pa.
@@ -147,14 +170,27 @@ class Muscle:
         when there is none.
         """
         low, high = self.kappa_min - 0.1, min(self.kappa_max + 0.25, 0.95)
-        ends = self.force(p, np.array([low, high])) - load
-        if self.is_load_only or not ends[0] >= 0.0 >= ends[1]:
+        ends = self.force(p, np.array([low, high]))
+        if self.is_load_only or not ends[0] >= load >= ends[1]:
             raise RangeError(
-                f'no equilibrium: at {p / 1e3:g} kPa the muscle pulls {ends[0] + load:.4g} N at '
-                f'contraction {low:g} and {ends[1] + load:.4g} N at {high:g}, the load is '
-                f'{load:.4g} N'
+                f'no equilibrium: at {p / 1e3:g} kPa the muscle pulls {ends[0]:.4g} N at '
+                f'contraction {low:g} and {ends[1]:.4g} N at {high:g}, the load is {load:.4g} N'
             )
-        return float(brentq(lambda k: float(self.force(p, k)) - load, low, high, xtol=1e-14))
+        # Newton's method in a bracket. The force falls and is convex, so that from the left end
+        # it never overshoots. Importing scipy for this would cost a node 0.3 s at its start.
+        a1, a2, a3, a4, _, _ = self.si
+        kappa = low
+        for _ in range(100):
+            excess = float(law.force_v(_array(p), _array(kappa), *self.si)) - load
+            low, high = (kappa, high) if excess >= 0.0 else (low, kappa)
+            slope = float(law.slope_v(p, kappa, a1, a2, a3, a4))
+            step = excess / slope if slope < 0.0 else np.inf
+            last, kappa = kappa, kappa - step
+            if not low <= kappa <= high:
+                kappa = 0.5 * (low + high)
+            if abs(kappa - last) < 1e-15:
+                break
+        return kappa
 
 
 def _array(values: Any) -> Array:
