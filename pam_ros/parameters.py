@@ -62,10 +62,9 @@ class Parameter:
     def _fits(self, value: Any, kind: type) -> bool:
         if kind is str:
             return isinstance(value, str) and (not self.choices or value in self.choices)
-        if kind is bool:
-            return isinstance(value, bool)
-        # numpy's numbers are fine, true and false are not.
-        if isinstance(value, bool) or not isinstance(value, numbers.Real):
+        if kind is bool or isinstance(value, bool):
+            return kind is bool and isinstance(value, bool)
+        if not isinstance(value, numbers.Real):  # numpy's are among them
             return False
         try:
             number = float(value)
@@ -73,9 +72,9 @@ class Parameter:
             return False
         if not math.isfinite(number) or (kind is int and not number.is_integer()):
             return False
-        if self.low is not None and (number < self.low or (self.above_low and number == self.low)):
-            return False
-        return self.high is None or number <= self.high
+        low, high = self.low, self.high
+        low_fits = low is None or number > low or (number == low and not self.above_low)
+        return low_fits and (high is None or number <= high)
 
 
 def parameter(default: Any, text: str, unit: str = '', **kwargs: Any) -> Any:
