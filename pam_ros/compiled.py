@@ -19,6 +19,9 @@ except ImportError:  # rosdep has numba on Debian and Ubuntu only
     numba = None
 
 HAVE_NUMBA = numba is not None
+# Nothing here allocates, so that arrays need no reference counts: counting them at every call
+# of every effect would take ten times as long as the physics.
+_OPTIONS: dict[str, Any] = {'nogil': True, 'error_model': 'numpy', '_nrt': False}
 _ON_ARRAYS = {'exp': np.exp, 'sqrt': np.sqrt, 'max': np.maximum}
 F = TypeVar('F', bound=Callable[..., Any])
 
@@ -30,7 +33,7 @@ def scalar(function: F) -> F:
     """
     if numba is None:
         return function
-    compiled: F = numba.njit(nogil=True, error_model='numpy', forceinline=True)(function)
+    compiled: F = numba.njit(**_OPTIONS, forceinline=True)(function)
     return compiled
 
 
@@ -42,7 +45,7 @@ def cached(function: F) -> F:
     """
     if numba is None:
         return function
-    compiled: F = numba.njit(nogil=True, error_model='numpy', cache=True)(function)
+    compiled: F = numba.njit(**_OPTIONS, cache=True)(function)
     return compiled
 
 
