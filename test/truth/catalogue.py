@@ -40,6 +40,8 @@ class Form:
     ranges: dict[str, Range]
     fixed: dict[str, float] = field(default_factory=dict)
     held: bool = False  # seen at held length, too
+    free: bool = True  # seen with a free load
+    brings: tuple[str, ...] = ()  # other kinds that these equations are as well
 
 
 R = Range
@@ -70,15 +72,27 @@ _FORMS = (
     ),
     Form('viscous_friction', 'linear', {'viscous_ns_m': R(60.0, 15.0, 200.0)}),
     Form(
-        'creep',  # two shares of the force arrive late
-        'force',
+        'creep',  # two shares of the pressure act late
+        'pressure',
         {
-            'creep_1': R(0.02, 0.008, 0.03),
+            'late_1': R(0.03, 0.01, 0.05),
             'creep_1_s': R(1.0, 0.5, 2.5),
-            'creep_2': R(0.02, 0.008, 0.03),
+            'late_2': R(0.03, 0.01, 0.05),
             'creep_2_s': R(12.0, 6.0, 25.0),
         },
         held=True,
+    ),
+    Form(
+        'creep',  # two shares of the force come late; a constant load hardly shows it
+        'force',
+        {
+            'creep_1': R(0.02, 0.01, 0.03),
+            'creep_1_s': R(1.0, 0.5, 2.5),
+            'creep_2': R(0.02, 0.01, 0.03),
+            'creep_2_s': R(12.0, 6.0, 25.0),
+        },
+        held=True,
+        free=False,
     ),
     Form(
         'creep',  # two Maxwell branches beside the muscle
@@ -125,7 +139,7 @@ _FORMS = (
         {'regulator_pa': R(6e3, 2e3, 12e3, signed=True), 'regulator_gain': R(1.0, 0.97, 1.03)},
         held=True,
     ),
-    Form('payload', 'mass', {'payload_kg': R(5.0, 0.5, 6.0)}),
+    Form('payload', 'mass', {'payload_kg': R(5.0, 1.5, 6.0)}),
     Form(
         'pressure_dependent_damping',
         'two_ways',
@@ -158,6 +172,7 @@ _FORMS = (
             'refill_pa_s': R(6e5, 4e5, 9e5),
         },
         held=True,
+        brings=('pressure_lag',),
     ),
     Form(
         'periodic_disturbance',
@@ -204,7 +219,12 @@ _FORMS = (
         },
     ),
     Form('random_walk', 'force', {'walk_n_rs': R(3.0, 1.5, 6.0)}),
-    Form('saturation', 'pressure_gain', {'saturation': R(0.08, 0.04, 0.15)}, held=True),
+    Form(
+        'saturation',
+        'pressure_gain',
+        {'saturation': R(0.2, 0.1, 0.4), 'knee_pa': R(0.5, 0.3, 0.7)},
+        held=True,
+    ),
 )
 FORMS = {(form.kind, form.form): form for form in _FORMS}
 
@@ -221,55 +241,6 @@ OUT_OF_LIBRARY = (
 KINDS = tuple(dict.fromkeys(f.kind for f in _FORMS if f.kind not in OUT_OF_LIBRARY))
 
 
-@dataclass(frozen=True)
-class Effect:
-    """An effect at a magnitude: its kind, its form and the plant's fields that it sets."""
-
-    kind: str
-    form: str
-    values: dict[str, float]
-
-    def describe(self) -> dict[str, object]:
-        """Return the effect as plain data."""
-        return {'kind': self.kind, 'form': self.form, **self.values}
-
-
 def forms_of(kind: str, *, held: bool = False) -> list[str]:
-    """Names of the forms of a kind, those seen at held length alone when asked."""
-    return [f.form for f in _FORMS if f.kind == kind and (f.held or not held)]
-
-
-def effect(kind: str, form: str | None = None, **values: float) -> Effect:
-    """Return an effect by name, with the table's defaults for what is not given.
-
-    static_n of friction is in newton here; left out, it is 1.5 times coulomb_n.
-    """
-    chosen = FORMS[(kind, form or forms_of(kind)[0])]
-    unknown = set(values) - set(chosen.ranges)
-    if unknown:
-        raise ValueError(f'{kind} ({chosen.form}) has no {sorted(unknown)}')
-    full = {name: values.get(name, r.default) for name, r in chosen.ranges.items()}
-    if 'static_n' in full and 'static_n' not in values:
-        full['static_n'] *= full['coulomb_n']
-    return Effect(kind, chosen.form, {**full, **chosen.fixed})
-
-
-def draw_effect(
-    kind: str, rng: Generator, *, stroke: tuple[float, float], duration: float, held: bool = False
-) -> Effect:
-    """Return an effect of a kind with form and magnitude drawn from the table.
-
-    stroke is the range of position in m that the record will run through: an end stop lies
-    within it.
-    """
-    forms = forms_of(kind, held=held)
-    chosen = FORMS[(kind, forms[rng.integers(len(forms))])]
-    values = {name: r.draw(rng) for name, r in chosen.ranges.items()}
-    if kind == 'coulomb_friction':
-        values['static_n'] *= values['coulomb_n']
-    if kind == 'end_stop':
-        values['stop_m'] = stroke[0] + values['stop_m'] * (stroke[1] - stroke[0])
-    if kind == 'temperature_drift':
-        values['drift_mid_s'] *= duration
-        values['drift_width_s'] *= duration
-    return Effect(kind, chosen.form, {**values, **chosen.fixed})
+    """Return the names of a kind's forms that a free load, or a held length, shows."""
+    return [f.form for f in _FORMS if f.kind == kind and (f.held if held else f.free)]

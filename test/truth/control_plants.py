@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from .catalogue import Effect, effect
+from .effects import Effect, effect
 from .plant import TruthPlant
 from .sensor import Sensor
 

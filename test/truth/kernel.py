@@ -29,7 +29,7 @@ def substep(P, S, force_out, d):
     if P.bristle_n_m > 0.0:
         bend_bristle(P, S, S.v, 0.5 * d)
 
-    p = working_pressure(P, S)
+    p = working_pressure(P, S, d)
     kappa = S.y / P.l0_m + P.kappa_offset
     static, slope = law(P, p, kappa)
     factor = gain(P, S, t_mid)

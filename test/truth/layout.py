@@ -19,7 +19,8 @@ PARAMETERS = (
     # pressure path
     *('dead_time_s', 'regulator_pa', 'regulator_gain', 'ripple_pa'),
     *('fill_s', 'vent_s', 'conductance_fill', 'conductance_vent', 'volume_l', 'valve_band_pa'),
-    *('leak_per_s', 'refill_pa_s', 'valve_open_s', 'hyst_pa', 'hyst_reach_pa', 'saturation'),
+    *('leak_per_s', 'refill_pa_s', 'valve_open_s', 'hyst_pa', 'hyst_reach_pa'),
+    *('late_1', 'late_2', 'saturation', 'knee_pa'),
     # muscle
     *('slack', 'toe_n', 'hyst_n', 'hyst_reach_m', 'creep_1', 'creep_2', 'creep_1_s', 'creep_2_s'),
     *('maxwell_1_n_m', 'maxwell_2_n_m', 'soft_share', 'soft_work_j', 'soft_path_pa'),
@@ -33,7 +34,18 @@ PARAMETERS = (
 )
 STATE = (
     *('t', 'y', 'v', 'p', 'pull', 'u', 'valve_time', 'head', 'tail', 'y_mem', 'p_mem', 'bristle'),
-    *('lag_1', 'lag_2', 'strain_1', 'strain_2', 'wear', 'link', 'second', 'second_v'),
+    *(
+        'lag_1',
+        'lag_2',
+        'plag_1',
+        'plag_2',
+        'strain_1',
+        'strain_2',
+        'wear',
+        'link',
+        'second',
+        'second_v',
+    ),
 )
 STATE_ARRAYS = {
     'slip': ELEMENTS,

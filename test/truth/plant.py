@@ -10,11 +10,12 @@ from typing import Any
 
 import numpy as np
 
-from .catalogue import Effect
-from .forces import law
+from .effects import Effect
+from .forces import law, tendon
 from .kernel import advance, run
 from .layout import ELEMENTS, new_parameters, new_state
 from .muscles import GRAVITY, constants_si
+from .pneumatics import KNEE_WIDTH
 from .sensor import Sensor
 
 OUTPUTS = ('y', 'v', 'force', 'pressure', 'linked')
@@ -30,7 +31,7 @@ class TruthPlant:
     zeta      damping ratio of the paper's equation 4 (a choice: the paper prints none)
     l0        rest length, m
     mount     'vertical' (gravity pulls the load) or 'horizontal' (no gravity)
-    effects   what is there beside the paper's model, see catalogue.effect
+    effects   what is there beside the paper's model, see effects.effect
     dt        largest substep, s
     sensor    noise, offset, latency and quantisation of measured positions; ideal if None
     seed      of the sensor's noise and of random forces
@@ -74,20 +75,23 @@ class TruthPlant:
         S.p = p0 * P.regulator_gain + P.regulator_pa
         if P.fill_s > 0.0 and P.leak_per_s > 0.0:
             S.p /= 1.0 + P.leak_per_s * P.fill_s
-        S.p_mem = S.p
+        S.p_mem = S.plag_1 = S.plag_2 = S.p
         shares = np.geomspace(0.05, 1.0, ELEMENTS)
         for i in range(ELEMENTS):
             S.slip_reach[i] = P.hyst_reach_m * shares[i]
             S.pslip_reach[i] = P.hyst_reach_pa * shares[i]
         S.y = self._rest_position(S.p)
         S.y_mem = S.link = S.strain_1 = S.strain_2 = S.y
-        S.lag_1 = S.lag_2 = S.pull = self._static(S.p, S.y)
+        S.lag_1 = S.lag_2 = self._static(S.p, S.y)
+        S.pull = tendon(P, S.lag_1)
         return float(S.y)
 
     def _static(self, p: float, y: float) -> float:
-        """Pull in N of the muscle at rest, creep run out and memory virgin."""
+        """Pull in N of the muscle at rest, creep run out, memory virgin, no slack."""
         P = self.parameters
-        p -= P.saturation * p * (p / 6e5) ** 2
+        if P.saturation != 0.0:
+            over = p - P.knee_pa
+            p -= P.saturation * 0.5 * (over + math.hypot(over, KNEE_WIDTH))
         kappa = y / P.l0_m + P.kappa_offset
         return float(law(P, p, kappa)[0] + P.cross_n_pa * kappa * kappa * p)
 
@@ -99,7 +103,7 @@ class TruthPlant:
         for _ in range(60):
             mid = 0.5 * (low + high)
             stop = P.stop_n_m15 * max(0.0, mid - P.stop_m) ** 1.5 if P.stop_n_m15 > 0.0 else 0.0
-            if self._static(p, mid) > weight + stop:
+            if tendon(P, self._static(p, mid)) > weight + stop:
                 low = mid
             else:
                 high = mid
@@ -133,7 +137,8 @@ class TruthPlant:
             path = np.ascontiguousarray(y_path, dtype=np.float64)
             P.held = 1.0
             S.y = S.y_mem = S.link = S.strain_1 = S.strain_2 = path[0]
-            S.lag_1 = S.lag_2 = S.pull = self._static(S.p, path[0])
+            S.lag_1 = S.lag_2 = self._static(S.p, path[0])
+            S.pull = tendon(P, S.lag_1)
         run(P, S, t, u, self._walk(np.diff(t, append=t[-1])), path, out)
         return np.rec.fromarrays(out.T, names=list(OUTPUTS))
 

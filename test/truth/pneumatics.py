@@ -16,6 +16,7 @@ ATMOSPHERE = 1.013e5
 SUPPLY = 8.0e5  # gauge pressure in front of the valve
 CRITICAL = 0.3  # pressure ratio below which the flow is choked (ISO 6358)
 POLYTROPIC = 1.2
+KNEE_WIDTH = 20e3  # Pa over which the gain falls where it saturates
 NORMAL = 1.0e5  # ISO 6358 reference pressure, absolute
 
 
@@ -90,8 +91,11 @@ def chamber(P, S, t_mid, d):
 
 
 @jit
-def working_pressure(P, S):
-    """Pressure that makes force: the chamber's less slip hysteresis and saturating gain."""
+def working_pressure(P, S, d):
+    """Return the pressure that makes force, at the middle of a step of d seconds.
+
+    The chamber's, less what slips (hysteresis), what comes late (creep) and what saturates.
+    """
     p = S.p
     if P.hyst_pa != 0.0:
         dp = p - S.p_mem
@@ -102,6 +106,17 @@ def working_pressure(P, S):
             S.pslip[i] = q
             held += q / reach
         p -= P.hyst_pa * held / ELEMENTS
+    if P.late_1 != 0.0:
+        a = 0.5 * d / P.creep_1_s
+        new = ((1.0 - a) * S.plag_1 + 2.0 * a * S.p) / (1.0 + a)
+        p -= P.late_1 * (S.p - 0.5 * (S.plag_1 + new))
+        S.plag_1 = new
+    if P.late_2 != 0.0:
+        a = 0.5 * d / P.creep_2_s
+        new = ((1.0 - a) * S.plag_2 + 2.0 * a * S.p) / (1.0 + a)
+        p -= P.late_2 * (S.p - 0.5 * (S.plag_2 + new))
+        S.plag_2 = new
     if P.saturation != 0.0:
-        p -= P.saturation * p * (S.p / 6.0e5) ** 2
+        over = S.p - P.knee_pa
+        p -= P.saturation * 0.5 * (over + math.sqrt(over * over + KNEE_WIDTH * KNEE_WIDTH))
     return p
