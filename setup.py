@@ -9,7 +9,7 @@ from setuptools import find_packages, setup
 PACKAGE = 'pam_ros'
 
 # Each program is the module of its name in pam_ros/nodes/, with a function main().
-PROGRAMS: list[str] = []
+PROGRAMS = ['pam_sim']
 
 
 def shared(folder: str, pattern: str = '**/*') -> list[tuple[str, list[str]]]:

@@ -1,0 +1,57 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Say once a second on ``/diagnostics`` how a node is doing."""
+
+from collections.abc import Callable, Mapping
+from typing import Any, NamedTuple
+
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+from rclpy.clock import Clock, ClockType
+from rclpy.node import Node
+
+PERIOD = 1.0  # s
+OK, WARN, ERROR = DiagnosticStatus.OK, DiagnosticStatus.WARN, DiagnosticStatus.ERROR
+
+
+class Health(NamedTuple):
+    """How one part of a node is: OK, WARN or ERROR, in a sentence and in numbers."""
+
+    level: bytes
+    message: str
+    values: Mapping[str, Any]
+
+
+class Diagnostics:
+    """Publishes the health of a node's parts, each named ``node: part``."""
+
+    def __init__(self, node: Node, parts: Mapping[str, Callable[[], Health]]) -> None:
+        """Ask each of *parts* for its health once a second, by the steady clock."""
+        self._node, self._parts = node, parts
+        self._name = node.get_fully_qualified_name().lstrip('/')
+        self._publisher = node.create_publisher(DiagnosticArray, '/diagnostics', 10)
+        self._timer = node.create_timer(
+            PERIOD, self.publish, clock=Clock(clock_type=ClockType.STEADY_TIME)
+        )
+
+    def publish(self) -> None:
+        """Publish the health of all parts now."""
+        message = DiagnosticArray()
+        message.header.stamp = self._node.get_clock().now().to_msg()
+        for part, health_of in self._parts.items():
+            health = health_of()
+            values = [KeyValue(key=k, value=text(v)) for k, v in health.values.items()]
+            message.status.append(
+                DiagnosticStatus(
+                    level=health.level,
+                    name=f'{self._name}: {part}',
+                    message=health.message,
+                    hardware_id=self._name,
+                    values=values,
+                )
+            )
+        self._publisher.publish(message)
+
+
+def text(value: Any) -> str:
+    """Return a value as a diagnostic shows it."""
+    return f'{value:.6g}' if isinstance(value, float) else str(value)

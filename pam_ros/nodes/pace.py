@@ -1,0 +1,54 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""How much simulated time is due, and the stamp of each simulated step."""
+
+SECOND = 1_000_000_000
+CATCH_UP = SECOND // 2  # longest lateness that is made up for, ns
+JUMP = SECOND // 10  # difference of ROS time and steady time that no slewing explains, ns
+
+
+class Pace:
+    """Lets simulated steps follow ROS time, one step a period of the physics rate.
+
+    Step k is stamped ``origin + k / rate``, so stamps are exactly as far apart as the states that
+    they belong to. The origin moves only when the simulation must not follow: while it is
+    paused, when the clock jumps (found by comparing it with the steady clock), and when more than
+    CATCH_UP has been missed. All times are ns.
+    """
+
+    def __init__(self, rate: float, ros: int, steady: int) -> None:
+        """Begin at step 0 now, with *rate* in Hz."""
+        self.rate = rate
+        self.jumps = 0
+        self.lost = 0.0  # simulated seconds that were never made up for
+        self.origin = ros
+        self._ros, self._steady = ros, steady
+
+    def stamp(self, step: int) -> int:
+        """Return the ROS time of a step."""
+        return self.origin + round(step * SECOND / self.rate)
+
+    def align(self, step: int, ros: int, steady: int) -> None:
+        """Let *step* be now, whatever has passed."""
+        self.origin = ros - round(step * SECOND / self.rate)
+        self._ros, self._steady = ros, steady
+
+    def due(self, step: int, ros: int, steady: int, is_simulated: bool) -> int:
+        """Return the step that is due now, when the simulation stands at *step*.
+
+        *is_simulated* says that ROS time comes from ``/clock``: then it may run at any speed, and
+        only going backwards or leaping ahead is a jump.
+        """
+        passed = ros - self._ros
+        leap = passed - (steady - self._steady)
+        self._ros, self._steady = ros, steady
+        if is_simulated:
+            leap = passed if passed < 0 or passed > 2 * CATCH_UP else 0
+        if abs(leap) > JUMP:
+            self.origin += leap
+            self.jumps += 1
+        behind = ros - self.stamp(step)
+        if behind > CATCH_UP:
+            self.lost += (behind - CATCH_UP) / SECOND
+            self.origin += behind - CATCH_UP
+        return max(step, int((ros - self.origin) * self.rate) // SECOND)
