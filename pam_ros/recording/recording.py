@@ -3,6 +3,7 @@
 """A measured experiment: arrays in SI on one clock, its gaps known."""
 
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -72,7 +73,7 @@ class Recording:
         """
         cuts = [int(np.searchsorted(self.t, start, side='right')) for start, _ in self.gaps]
         edges = [0, *cuts, self.t.size]
-        return [self.part(i, j) for i, j in zip(edges[:-1], edges[1:], strict=True) if j > i]
+        return [self.part(i, j) for i, j in pairwise(edges) if j > i]
 
     def part(self, start: int, stop: int) -> 'Recording':
         """Return samples start..stop-1 with the commands that act on them."""

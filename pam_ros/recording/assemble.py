@@ -1,0 +1,185 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""From signals on stamps of their own to one recording: one clock, one kind, gaps known."""
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pam_ros.errors import RecordingError
+from pam_ros.recording.recording import KINDS, OUTPUTS, Recording
+from pam_ros.recording.series import GAP_SECONDS, Series
+
+Array = NDArray[np.float64]
+
+AT_REST = 5e-4  # m (half a millimetre): a position that moves less was held
+OVERLAP = 0.9  # share of the samples that a signal must cover to be kept beside the needed ones
+STREAM = 0.1  # s: commands that come more often are a stream, whose end or pause says something
+
+
+def assemble(
+    name: str,
+    series: dict[str, Series],
+    notes: list[str],
+    kind: str | None = None,
+    l0: float | None = None,
+) -> Recording:
+    """Return the recording that *series* (quantity -> signal in SI) make.
+
+    Outputs get the stamps of the signal that is predicted: the position of a free load, the force
+    of a held length. Others are taken as linear between their samples. Samples before the first
+    command are left out, as are those where a signal is missing: they become gaps. *kind* is
+    found where it is None: held where a force was measured and the position stands still.
+
+    Raises RecordingError where a signal is missing that the kind needs.
+    """
+    notes = list(notes)
+    series = {q: _ascending(name, one, notes) for q, one in series.items() if one.t.size}
+    _make_position(name, series, l0, notes)
+    if 'pressure_command' not in series and 'pressure' not in series:
+        raise RecordingError(f'{name} has no pressure_command and no pressure: nothing drives it')
+    kind = _find_kind(name, series, kind)
+    main = series['position' if kind == 'free' else 'force']
+    needed = {main.source: main}
+    if kind == 'held':
+        needed['position'] = series['position']
+    command = series.get('pressure_command')
+    if command is None:
+        needed['pressure'] = series['pressure']
+    t = _common(name, main, needed, command, notes)
+    for quantity in OUTPUTS:
+        if quantity in series and series[quantity] not in needed.values():
+            _leave_out_short(quantity, series, t, notes)
+    for one in (series[q] for q in OUTPUTS if q in series):
+        for start, end in one.holes():
+            t = t[(t <= start) | (t >= end)]
+    if t.size < 2:
+        raise RecordingError(f'{name}: its signals share no stretch of time')
+    origin = float(t[0])
+    recording = Recording(
+        name=name,
+        t=t - origin,
+        command_t=None,
+        command=None,
+        position=_at(t, series.get('position')),
+        velocity=_at(t, series.get('velocity')),
+        force=_at(t, series.get('force')),
+        pressure=_at(t, series.get('pressure')),
+        kind=kind,
+    )
+    if command is not None:
+        first = max(int(np.searchsorted(command.t, origin, side='right')) - 1, 0)
+        recording = replace(
+            recording, command_t=command.t[first:] - origin, command=command.value[first:]
+        )
+        _note_stream(recording, notes)
+    gaps = tuple(_gaps(recording.t))
+    return replace(recording, gaps=gaps, warnings=tuple(notes))
+
+
+def _ascending(name: str, one: Series, notes: list[str]) -> Series:
+    one, note = one.ascending(name)
+    if note:
+        notes.append(note)
+    return one
+
+
+def _make_position(
+    name: str, series: dict[str, Series], l0: float | None, notes: list[str]
+) -> None:
+    contraction = series.pop('contraction', None)
+    if contraction is None:
+        return
+    if 'position' in series:
+        notes.append(f'{contraction.source} is not used: the position was measured as well')
+        return
+    if l0 is None:
+        raise RecordingError(
+            f'{name}: {contraction.source} is a contraction: the length l0 of the muscle is '
+            'needed to make a position of it'
+        )
+    series['position'] = replace(contraction, value=contraction.value * l0)
+
+
+def _find_kind(name: str, series: dict[str, Series], kind: str | None) -> str:
+    if kind is None:
+        still = 'position' in series and spread(series['position'].value) < AT_REST
+        kind = 'held' if still and 'force' in series else 'free'
+    if kind not in KINDS:
+        raise RecordingError(f'kind = {kind!r} is not known: give one of ' + ', '.join(KINDS))
+    if 'position' not in series:
+        what = 'position or contraction, which a free load is judged by'
+        if kind == 'held' or 'force' in series:
+            what = 'position or contraction, at which the force was measured'
+        raise RecordingError(f'{name} has no {what}')
+    if kind == 'held' and 'force' not in series:
+        raise RecordingError(f'{name} has no force, which a held length is judged by')
+    return kind
+
+
+def _common(
+    name: str,
+    main: Series,
+    needed: dict[str, Series],
+    command: Series | None,
+    notes: list[str],
+) -> Array:
+    """Return the stamps of *main* at which all *needed* signals and a command are there."""
+    start = max(one.t[0] for one in needed.values())
+    end = min(one.t[-1] for one in needed.values())
+    if command is not None and command.t[0] > start:
+        lost = min(float(command.t[0]), end) - start
+        if lost > GAP_SECONDS:
+            notes.append(f'the first {lost:.3g} s have no command yet and are left out')
+        start = float(command.t[0])
+    t: Array = main.t[(main.t >= start) & (main.t <= end)]
+    if t.size < 2:
+        raise RecordingError(f'{name}: its signals share no stretch of time')
+    return t
+
+
+def _leave_out_short(quantity: str, series: dict[str, Series], t: Array, notes: list[str]) -> None:
+    """Drop a signal that is not needed where it does not cover *t*."""
+    one = series[quantity]
+    covered = (t >= one.t[0] - one.gap_limit) & (t <= one.t[-1] + one.gap_limit)
+    for start, end in one.holes():
+        covered &= (t <= start) | (t >= end)
+    if covered.mean() < OVERLAP:
+        notes.append(
+            f'{one.source} is not used: it covers {100 * covered.mean():.0f} % of the samples'
+        )
+        del series[quantity]
+
+
+def spread(value: Array) -> float:
+    """Return the range of a signal without its outermost percent."""
+    low, high = np.percentile(value, (0.5, 99.5))
+    return float(high - low)
+
+
+def _at(t: Array, one: Series | None) -> Array | None:
+    return None if one is None else np.interp(t, one.t, one.value)
+
+
+def _gaps(t: Array) -> list[tuple[float, float]]:
+    return Series('', t, t).holes()
+
+
+def _note_stream(recording: Recording, notes: list[str]) -> None:
+    """Note where a stream of commands pauses: what the rig did then is not recorded."""
+    command_t = recording.command_t
+    if command_t is None or command_t.size < 10:
+        return
+    stamps = np.append(command_t, recording.t[-1])
+    stamps = stamps[stamps <= recording.t[-1]]
+    period = float(np.median(np.diff(command_t)))
+    pauses = np.diff(stamps)
+    long = pauses > max(50.0 * period, 0.5)
+    if period < STREAM and long.any():
+        i = int(np.argmax(pauses))
+        notes.append(
+            f'commands came every {1e3 * period:.3g} ms but pause {int(long.sum())} time(s), at '
+            f'{stamps[i]:.4g} s for {pauses[i]:.3g} s: taken as held (a rig that vents after a '
+            'while did not)'
+        )

@@ -1,0 +1,283 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""A rig's topics in a rosbag2: which they are, what their fields mean, which clock counts."""
+
+import re
+from collections import defaultdict
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pam_ros.errors import RecordingError
+from pam_ros.recording.bag_source import BagSource, Topic, bag_files, open_bag
+from pam_ros.recording.mapping import ColumnMapping, Meaning
+from pam_ros.recording.quantities import Target
+from pam_ros.recording.series import Series
+
+__all__ = ['bag_files', 'read_bag']
+
+ATMOSPHERE = 101325.0  # Pa: FluidPressure is absolute, a recording's pressures are gauge
+_LATENCY = (-2e-3, 0.5)  # s from a header's stamp to its receipt; outside, the clocks differ
+
+_FLOAT = ('std_msgs/msg/Float64', 'std_msgs/msg/Float32')
+_PA, _M = Target('pressure_command', 'Pa'), Target('position', 'm')
+# topic -> type -> field -> meaning: the package's own topics.
+_OURS: dict[str, dict[str, dict[str, Meaning]]] = {
+    'pressure_command': {kind: {'data': Meaning(_PA)} for kind in _FLOAT},
+    'joint_states': {
+        'sensor_msgs/msg/JointState': {
+            'position': Meaning(_M),
+            'velocity': Meaning(Target('velocity', 'm_s')),
+            'effort': Meaning(Target('force', 'N')),
+        }
+    },
+    'force': {kind: {'data': Meaning(Target('force', 'N'))} for kind in _FLOAT},
+    'pressure': {
+        'sensor_msgs/msg/FluidPressure': {
+            'fluid_pressure': Meaning(Target('pressure', 'Pa'), 1.0, -ATMOSPHERE)
+        }
+    },
+}
+
+
+class _Field(NamedTuple):
+    """A number in the messages of a topic."""
+
+    topic: str
+    path: str
+    meaning: Meaning
+    asked: bool  # by the user, so that it must be there
+
+
+@dataclass(eq=False)
+class _Samples:
+    """What was read of one topic: receive times and header stamps in ns, rows of numbers."""
+
+    received: list[int]
+    stamped: list[int]
+    rows: list[list[float]]
+
+
+def read_bag(
+    path: Path, mapping: ColumnMapping, namespace: str | None = None
+) -> tuple[dict[str, Series], list[str]]:
+    """Return (quantity -> series in SI, warnings) of the rosbag2 at *path*.
+
+    Read are ``pressure_command``, ``joint_states``, ``force`` and ``pressure``, in any namespace
+    when there is one rig in the bag, else in *namespace*; and what *mapping* says, whose sources
+    are topics with the field: ``/valve/state.pressure`` (``.data`` where none is given), with an
+    index or a joint's name for arrays: ``/joint_states.position[elbow]``.
+
+    A message is stamped by its header where it has one, else by its receipt. Where the two
+    clocks differ, all are stamped by their receipt. Pressures in FluidPressure are absolute and
+    become gauge by 101325 Pa.
+
+    Raises RecordingError for topics that are missing, ambiguous, or of a type not known.
+    """
+    source = open_bag(path)
+    fields = _fields(path, source, mapping, namespace)
+    samples = _read(path, source, fields)
+    notes = list(source.notes)
+    use_header = _headers_agree(samples, notes)
+    origin = min((one.received[0] for one in samples.values() if one.received), default=0)
+    series: dict[str, Series] = {}
+    for topic, one in samples.items():
+        stamps = one.stamped if use_header and min(one.stamped, default=0) > 0 else one.received
+        t = 1e-9 * (np.array(stamps, dtype=np.int64) - origin).astype(float)
+        rows = np.array(one.rows, dtype=float).reshape(len(stamps), -1)
+        for field, value in zip((f for f in fields if f.topic == topic), rows.T, strict=False):
+            _add(series, path, field, t, value, notes)
+    return series, notes
+
+
+def _fields(
+    path: Path, source: BagSource, mapping: ColumnMapping, namespace: str | None
+) -> list[_Field]:
+    """Return the fields to read, those of the user first: they take the place of ours."""
+    fields = []
+    for name in mapping:
+        topic, _, field = name.partition('.')
+        if topic not in source.topics:
+            raise RecordingError(
+                f'{path.name} has no topic {topic!r}, which a column mapping names: it has '
+                + _named(source)
+            )
+        meaning = mapping.meaning(name)
+        if meaning is not None and meaning.target.quantity == 'time':
+            raise RecordingError(f'{name}: the time in a bag is that of its messages')
+        if meaning is not None:
+            fields.append(_Field(topic, field or 'data', meaning, asked=True))
+    given = {field.meaning.target.quantity for field in fields}
+    given |= {'position'} if 'contraction' in given else set()
+    found = {
+        name: topic
+        for name in _OURS
+        for topic in (_find(path, source, name, mapping, namespace),)
+        if topic is not None
+    }
+    for name, topic in found.items():
+        known = _OURS[name].get(source.topics[topic].type)
+        if known is None:
+            if _quantities(name) <= given:
+                continue
+            raise RecordingError(
+                f'{path.name}: {topic} is a {source.topics[topic].type}, not a '
+                f'{" or ".join(_OURS[name])}: say which field it is with --column '
+                f"'{topic}.FIELD={_example(name)}', or --column '{topic}=ignore'"
+            )
+        for field, meaning in known.items():
+            quantity = meaning.target.quantity
+            if field == 'effort' and 'force' in found:
+                continue
+            if quantity not in given and f'{topic}.{field}' not in mapping:
+                fields.append(_Field(topic, field, meaning, asked=False))
+    if not any(f.meaning.target.quantity in ('position', 'contraction', 'force') for f in fields):
+        raise RecordingError(
+            f'{path.name} has neither joint_states nor force: it has {_named(source)}'
+        )
+    return fields
+
+
+def _find(
+    path: Path, source: BagSource, name: str, mapping: ColumnMapping, namespace: str | None
+) -> str | None:
+    """Return the full name of our topic *name* in the bag, or None where it is not there."""
+    found = [
+        topic
+        for topic in source.topics
+        if topic.rsplit('/', 1)[-1] == name and topic not in mapping
+    ]
+    if namespace is not None:
+        full = f'/{namespace.strip("/")}/{name}'.replace('//', '/')
+        return full if full in found else None
+    if len(found) > 1:
+        spaces = ', '.join(topic.rsplit('/', 1)[0] or '/' for topic in sorted(found))
+        raise RecordingError(
+            f'{path.name} has {name} of several rigs, in the namespaces {spaces}: choose one '
+            'with --namespace'
+        )
+    return found[0] if found else None
+
+
+def _read(path: Path, source: BagSource, fields: list[_Field]) -> dict[str, _Samples]:
+    getters: dict[str, list[Callable[[Any], float]]] = defaultdict(list)
+    for field in fields:
+        getters[field.topic].append(_getter(path, field))
+    samples = {topic: _Samples([], [], []) for topic in getters}
+    for message in source.messages(list(getters)):
+        topic: Topic = source.topics[message.topic]
+        content = source.decode(topic, message.data)
+        one = samples[message.topic]
+        header = getattr(content, 'header', None)
+        stamp = getattr(header, 'stamp', None)
+        one.received.append(message.stamp)
+        one.stamped.append(0 if stamp is None else stamp.sec * 10**9 + stamp.nanosec)
+        one.rows.append([get(content) for get in getters[message.topic]])
+    return samples
+
+
+def _getter(path: Path, field: _Field) -> Callable[[Any], float]:
+    """Return the function that takes the field's number from a message, NaN where unfilled."""
+    steps = [
+        (match['name'], match['index'])
+        for match in re.finditer(r'(?P<name>[A-Za-z_]\w*)(?:\[(?P<index>[^\]]+)\])?', field.path)
+    ]
+    where = f'{path.name}: {field.topic}.{field.path}'
+
+    def get(message: Any) -> float:
+        value = message
+        for name, index in steps:
+            if not hasattr(value, name):
+                raise RecordingError(f'{where} is not there: the message has no {name!r}')
+            value = getattr(value, name)
+            if index is not None:
+                value = _element(where, message, value, index)
+        if isinstance(value, (int, float)):
+            return float(value)
+        return _only(where, message, value, field.asked)
+
+    return get
+
+
+def _element(where: str, message: Any, value: Any, index: str) -> Any:
+    names = list(getattr(message, 'name', ()))
+    if index in names:
+        at = names.index(index)
+    elif index.isdecimal():
+        at = int(index)
+    else:
+        raise RecordingError(f'{where} is not there: the message names {", ".join(names)}')
+    if at >= len(value):
+        raise RecordingError(f'{where} is not there: the message has {len(value)} values')
+    return value[at]
+
+
+def _only(where: str, message: Any, value: Any, asked: bool) -> float:
+    try:
+        count = len(value)
+        if count == 1:
+            return float(value[0])
+    except (TypeError, ValueError) as error:
+        raise RecordingError(f'{where} is not a number') from error
+    if count == 0 and not asked:
+        return float('nan')
+    names = ', '.join(getattr(message, 'name', ())) or f'0 to {count - 1}'
+    raise RecordingError(
+        f'{where} has {count} values ({names}): say which with --column '
+        f"'{where.split(': ', 1)[1]}[NAME]=QUANTITY_UNIT'"
+    )
+
+
+def _headers_agree(samples: dict[str, _Samples], notes: list[str]) -> bool:
+    """Say whether the clock of the headers is that of the receipts; note it where it is not."""
+    for topic, one in samples.items():
+        stamped = np.array(one.stamped, dtype=np.int64)
+        if stamped.size == 0 or stamped.min() <= 0:
+            continue
+        late = 1e-9 * float(np.median(np.array(one.received, dtype=np.int64) - stamped))
+        if not _LATENCY[0] <= late <= _LATENCY[1]:
+            notes.append(
+                f'{topic} was stamped by a clock {late:.4g} s behind that of the recorder: all '
+                'messages are taken at their receipt'
+            )
+            return False
+    return True
+
+
+def _add(
+    series: dict[str, Series],
+    path: Path,
+    field: _Field,
+    t: NDArray[np.float64],
+    value: NDArray[np.float64],
+    notes: list[str],
+) -> None:
+    """Add one field's series, unless it was never filled."""
+    source = field.topic if field.path == 'data' else f'{field.topic}.{field.path}'
+    quantity = field.meaning.target.quantity
+    filled = value[~np.isnan(value)]
+    if filled.size == 0 or (quantity in ('velocity', 'force') and not filled.any()):
+        if field.asked:
+            raise RecordingError(f'{path.name}: {source} has no values')
+        return
+    if quantity in series:
+        notes.append(f'{source} is not used: {series[quantity].source} gives the {quantity}')
+        return
+    factor, offset = field.meaning.to_si
+    series[quantity] = Series.taken(path.name, source, t, value * factor + offset)
+
+
+def _quantities(name: str) -> set[str]:
+    return {m.target.quantity for known in _OURS[name].values() for m in known.values()}
+
+
+def _example(name: str) -> Target:
+    return next(iter(next(iter(_OURS[name].values())).values())).target
+
+
+def _named(source: BagSource) -> str:
+    return ', '.join(f'{name} ({topic.type})' for name, topic in sorted(source.topics.items()))

@@ -1,0 +1,258 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The messages of a rosbag2, whichever library is there to read them.
+
+``rosbag2_py`` comes with a ROS installation, the ``rosbags`` library from PyPI. An MCAP file
+that its recorder did not close (killed, out of power) is read up to where it ends with ``mcap``.
+This is the one place outside ``pam_ros.nodes`` that may import ROS, where ROS is there.
+"""
+
+import importlib
+import importlib.util
+import io
+import struct
+from collections.abc import Callable, Collection, Iterator
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import yaml
+
+from pam_ros.errors import RecordingError
+
+METADATA = 'metadata.yaml'
+_MAGIC = b'\x89MCAP0\r\n'
+
+
+class Topic(NamedTuple):
+    """A topic's type and, as the bag tells it, the text that defines the type (or '')."""
+
+    type: str
+    definition: str = ''
+
+
+class Message(NamedTuple):
+    """A message as it was stored: ``stamp`` is its receive time in ns."""
+
+    topic: str
+    stamp: int
+    data: bytes
+
+
+class BagSource(NamedTuple):
+    """A bag: its topics by name, a reader of some, a decoder, and what is wrong with it."""
+
+    topics: dict[str, Topic]
+    messages: Callable[[Collection[str]], Iterator[Message]]
+    decode: Callable[[Topic, bytes], Any]
+    notes: list[str]
+
+
+def bag_files(path: Path) -> list[Path]:
+    """Return the storage files of a bag (a directory or one file), in the order of recording.
+
+    Raises RecordingError where there is none.
+    """
+    if path.is_file():
+        return [path]
+    listed = _metadata(path).get('relative_file_paths')
+    if listed:
+        files = [path / Path(str(name)).name for name in listed]
+        missing = [file.name for file in files if not file.exists()]
+        if missing:
+            raise RecordingError(f'{path}: {METADATA} lists {missing[0]}, which is not there')
+        return files
+    found = [file for suffix in ('mcap', 'db3') for file in path.glob(f'*.{suffix}')]
+    if not found:
+        raise RecordingError(f'{path} is no rosbag2: it has neither a .mcap nor a .db3 file')
+    return sorted(found, key=lambda file: (len(file.name), file.name))
+
+
+def open_bag(path: Path) -> BagSource:
+    """Return the bag at *path* (a rosbag2 directory, or one .mcap or .db3 file of one).
+
+    Raises RecordingError where it cannot be read, or no library is there to do it.
+    """
+    has_ros = importlib.util.find_spec('rosbag2_py') is not None
+    has_rosbags = importlib.util.find_spec('rosbags') is not None
+    if not has_ros and not has_rosbags:
+        raise RecordingError(
+            f'{path} is a rosbag2, and nothing here reads it: install ROS with rosbag2_py, or the '
+            'Python package rosbags'
+        )
+    files = bag_files(path)
+    decode = _decode_with_ros if has_ros else _RosbagsDecoder()
+    if any(_is_unfinished(file) for file in files):
+        notes = ['the bag was not closed by its recorder: read up to where it ends']
+        topics, messages = _read_unfinished(files)
+        return BagSource(topics, messages, decode, notes)
+    topics, messages = _read_with_ros(path) if has_ros else _read_with_rosbags(path, files)
+    return BagSource(topics, messages, decode, [])
+
+
+def _metadata(path: Path) -> dict[str, Any]:
+    file = path / METADATA
+    if not file.exists():
+        return {}
+    try:
+        content = yaml.safe_load(file.read_text(encoding='utf-8'))
+        return dict(content['rosbag2_bagfile_information'])
+    except (OSError, UnicodeDecodeError, yaml.YAMLError, TypeError, KeyError, ValueError) as error:
+        raise RecordingError(f'{file} is no metadata of a rosbag2: {error}') from error
+
+
+def _is_unfinished(file: Path) -> bool:
+    if file.suffix != '.mcap':
+        return False
+    with file.open('rb') as stream:
+        size = stream.seek(0, 2)
+        stream.seek(max(size - len(_MAGIC), 0))
+        return stream.read() != _MAGIC or size <= len(_MAGIC)
+
+
+Read = tuple[dict[str, Topic], Callable[[Collection[str]], Iterator[Message]]]
+
+
+def _read_with_rosbags(path: Path, files: list[Path]) -> Read:
+    from rosbags.rosbag2 import Reader
+
+    # A directory without metadata (a recorder that was killed) is read file by file.
+    parts = [path] if path.is_file() or (path / METADATA).exists() else files
+    topics: dict[str, Topic] = {}
+    try:
+        for part in parts:
+            with Reader(part) as reader:
+                for connection in reader.connections:
+                    topics[connection.topic] = Topic(connection.msgtype, connection.msgdef.data)
+    except Exception as error:  # the library raises whatever its parsing meets
+        raise RecordingError(f'{path} cannot be read as a rosbag2: {error}') from error
+
+    def messages(wanted: Collection[str]) -> Iterator[Message]:
+        try:
+            for part in parts:
+                with Reader(part) as reader:
+                    chosen = [c for c in reader.connections if c.topic in wanted]
+                    for connection, stamp, data in reader.messages(chosen) if chosen else ():
+                        yield Message(connection.topic, stamp, bytes(data))
+        except Exception as error:
+            raise RecordingError(f'{path} cannot be read as a rosbag2: {error}') from error
+
+    return topics, messages
+
+
+def _read_with_ros(path: Path) -> Read:
+    rosbag2_py = importlib.import_module('rosbag2_py')
+
+    def reader() -> Any:
+        compressed = path.is_dir() and bool(_metadata(path).get('compression_mode'))
+        kind = 'SequentialCompressionReader' if compressed else 'SequentialReader'
+        opened = getattr(rosbag2_py, kind)()
+        storage = ''
+        if path.is_file():
+            storage = 'mcap' if path.suffix == '.mcap' else 'sqlite3'
+        try:
+            opened.open(
+                rosbag2_py.StorageOptions(uri=str(path), storage_id=storage),
+                rosbag2_py.ConverterOptions('', ''),
+            )
+        except RuntimeError as error:
+            raise RecordingError(f'{path} cannot be read as a rosbag2: {error}') from error
+        return opened
+
+    def messages(wanted: Collection[str]) -> Iterator[Message]:
+        opened = reader()
+        opened.set_filter(rosbag2_py.StorageFilter(topics=list(wanted)))
+        while wanted and opened.has_next():
+            topic, data, stamp = opened.read_next()
+            yield Message(topic, stamp, data)
+
+    topics = {topic.name: Topic(topic.type) for topic in reader().get_all_topics_and_types()}
+    return topics, messages
+
+
+class _Whole(io.BufferedReader):
+    """A file that ends where less is left than was asked for."""
+
+    def read(self, size: int | None = -1, /) -> bytes:
+        """Return exactly *size* bytes, or raise EOFError."""
+        data = super().read(size)
+        if size is not None and len(data) < size:
+            raise EOFError
+        return data
+
+
+def _read_unfinished(files: list[Path]) -> Read:
+    from mcap.exceptions import McapError
+    from mcap.records import Channel, Schema
+    from mcap.records import Message as Record
+    from mcap.stream_reader import StreamReader
+
+    def records(wanted: Collection[str] | None) -> Iterator[tuple[str, Topic, Message | None]]:
+        for file in files:
+            schemas: dict[int, Any] = {}
+            channels: dict[int, Any] = {}
+            with _Whole(file.open('rb', buffering=0)) as stream:
+                try:
+                    for record in StreamReader(stream, validate_crcs=True).records:
+                        if isinstance(record, Schema):
+                            schemas[record.id] = record
+                        elif isinstance(record, Channel):
+                            channels[record.id] = record
+                            schema = schemas[record.schema_id]
+                            topic = Topic(schema.name, schema.data.decode())
+                            yield record.topic, topic, None
+                        elif isinstance(record, Record) and wanted is not None:
+                            name = channels[record.channel_id].topic
+                            if name in wanted:
+                                yield name, topic, Message(name, record.log_time, record.data)
+                except (McapError, EOFError, LookupError, ValueError, struct.error):
+                    continue  # here ends what was written whole
+
+    def messages(wanted: Collection[str]) -> Iterator[Message]:
+        return (message for _, _, message in records(wanted) if message is not None)
+
+    return {name: topic for name, topic, _ in records(None)}, messages
+
+
+class _RosbagsDecoder:
+    """Decode messages with ``rosbags``, by the definitions in the bag where it has them."""
+
+    def __init__(self) -> None:
+        from rosbags.typesys import Stores, get_typestore
+
+        self._known = get_typestore(Stores.ROS2_JAZZY)
+        self._stores: dict[Topic, Any] = {}
+
+    def __call__(self, topic: Topic, data: bytes) -> Any:
+        """Return the message of *topic* that *data* holds."""
+        if topic not in self._stores:
+            self._stores[topic] = self._store(topic)
+        return self._stores[topic].deserialize_cdr(data, topic.type)
+
+    def _store(self, topic: Topic) -> Any:
+        from rosbags.typesys import Stores, get_types_from_idl, get_types_from_msg, get_typestore
+
+        if not topic.definition:
+            if topic.type not in self._known.fielddefs:
+                raise RecordingError(
+                    f'the bag does not define {topic.type}, and it is none of the standard types'
+                )
+            return self._known
+        store = get_typestore(Stores.EMPTY)
+        parts = topic.definition.split('=' * 80 + '\n')
+        if parts[0] == '' and parts[-1].startswith('IDL: '):
+            for part in parts[1:]:
+                store.register(get_types_from_idl(part.split('\n', 1)[1]))
+        else:
+            store.register(get_types_from_msg(topic.definition, topic.type))
+        return store
+
+
+def _decode_with_ros(topic: Topic, data: bytes) -> Any:
+    package, _, name = topic.type.split('/')
+    try:
+        message_type = getattr(importlib.import_module(f'{package}.msg'), name)
+    except (ImportError, AttributeError) as error:
+        raise RecordingError(
+            f'message type {topic.type} is not installed here: source the workspace that has it'
+        ) from error
+    return importlib.import_module('rclpy.serialization').deserialize_message(data, message_type)

@@ -1,0 +1,225 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""CSV files whose column names carry the unit: read into series, and written."""
+
+import csv
+import io
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pam_ros.errors import RecordingError
+from pam_ros.recording.mapping import ColumnMapping, Meaning
+from pam_ros.recording.recording import OUTPUTS, Recording
+from pam_ros.recording.series import Series, refuse_backwards
+
+Array = NDArray[np.float64]
+
+_COMMENTS = ('#', '%', '//')
+_EMPTY = frozenset(('', 'nan', 'na', 'n/a', 'null', 'none'))
+_DENSE = 0.5  # share of filled cells from which a command column is meant to have no holes
+
+
+@dataclass(frozen=True, eq=False)
+class _Table:
+    """The used columns of a file as text, (n,) each, and the line each row stood in."""
+
+    header: list[str]
+    rows: list[list[str]]
+    lines: list[int]
+    decimal_comma: bool
+    notes: list[str]
+
+
+def read_csv(path: Path, mapping: ColumnMapping) -> tuple[dict[str, Series], list[str]]:
+    """Return (quantity -> series in SI, warnings) of a CSV file.
+
+    The first line that is no comment names the columns. Cells are separated by commas,
+    semicolons or tabs. An empty cell (or NaN) is a sample that was not taken: columns may have
+    rates of their own. A stretch of them that is longer than ten of the column's own sampling
+    periods (and 50 ms) is refused, as a sensor that failed; so is a column that starts or ends
+    more than 1 s away from the others. A command may be given only where it changes.
+
+    Raises RecordingError with the line and the column of what cannot be read.
+    """
+    table = _read_table(path)
+    mapping.need(table.header, path.name)
+    columns, notes = _choose(path, table.header, mapping)
+    if 'time' not in columns:
+        raise RecordingError(
+            f"{path.name} has no time axis: name a column 't_s' (or t_ms, time_s, timestamp_ns), "
+            f"or map one with --column 'NAME=t_s'; it has {_named(table.header)}"
+        )
+    values = {
+        quantity: _numbers(path, table, index, meaning)
+        for quantity, (index, meaning) in columns.items()
+    }
+    t = values.pop('time')
+    known = np.isfinite(t)
+    if not known.all():
+        line = table.lines[int(np.argmin(known))]
+        raise RecordingError(f'{path.name}, line {line}: a row without a time')
+    refuse_backwards(t, f'{path.name}: {table.header[columns["time"][0]]}')
+    series: dict[str, Series] = {}
+    for quantity, value in values.items():
+        source = table.header[columns[quantity][0]]
+        present = np.isfinite(value)
+        if not present.any():
+            notes.append(f'column {source} is empty')
+            continue
+        if quantity == 'pressure_command' and present.mean() < _DENSE:
+            series[quantity] = Series(source, t[present], value[present])
+        else:
+            series[quantity] = Series.taken(path.name, source, t, value)
+    return series, table.notes + notes
+
+
+def write_csv(recording: Recording, path: Path) -> None:
+    """Write *recording* as a CSV that reads back to the same numbers.
+
+    Columns in SI with their unit in the name. Commands at stamps of their own stand in rows of
+    their own, whose other cells are empty. Raises RecordingError when the file cannot be written.
+    """
+    names = {'position': 'm', 'velocity': 'm_s', 'force': 'N', 'pressure': 'Pa'}
+    columns = [name for name in OUTPUTS if getattr(recording, name) is not None]
+    header = ['t_s', *(f'{name}_{names[name]}' for name in columns)]
+    stamps = recording.t
+    if recording.command_t is not None and recording.command is not None:
+        header.insert(1, 'pressure_command_Pa')
+        stamps = np.union1d(recording.t, recording.command_t)
+    out: dict[str, Sequence[str]] = {'t_s': [repr(float(x)) for x in stamps]}
+    if recording.command_t is not None and recording.command is not None:
+        out['pressure_command_Pa'] = _spread(stamps, recording.command_t, recording.command)
+    for name in columns:
+        out[f'{name}_{names[name]}'] = _spread(stamps, recording.t, getattr(recording, name))
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator='\n')
+    writer.writerow(header)
+    writer.writerows(zip(*(out[name] for name in header), strict=True))
+    partial = path.with_name(path.name + '.part')
+    try:
+        partial.write_text(text.getvalue(), encoding='utf-8')
+        partial.replace(path)
+    except OSError as error:
+        partial.unlink(missing_ok=True)
+        raise RecordingError(f'{path} cannot be written: {error.strerror}') from error
+
+
+def _spread(stamps: Array, t: Array, value: Array) -> list[str]:
+    cells = [''] * stamps.size
+    for i, x in zip(np.searchsorted(stamps, t), value, strict=True):
+        cells[int(i)] = repr(float(x))
+    return cells
+
+
+def _read_table(path: Path) -> _Table:
+    try:
+        data = path.read_bytes()
+    except OSError as error:
+        raise RecordingError(f'{path} cannot be read: {error.strerror}') from error
+    if b'\0' in data[:4096] and not data.startswith((b'\xff\xfe', b'\xfe\xff')):
+        raise RecordingError(f'{path.name} is not a text file: give a CSV file or a rosbag2')
+    content = [
+        (number, line)
+        for number, line in enumerate(_decode(data).splitlines(), 1)
+        if line.strip() and not line.lstrip().startswith(_COMMENTS)
+    ]
+    if not content:
+        raise RecordingError(f'{path.name} is empty')
+    separator = max(';\t,', key=lambda mark: (content[0][1].count(mark), mark != ','))
+    reader = csv.reader((line for _, line in content), delimiter=separator, skipinitialspace=True)
+    rows = [[cell.strip() for cell in row] for row in reader]
+    header, rows = rows[0], rows[1:]
+    lines = [number for number, _ in content[1:]]
+    if len(header) > 1 and header[-1] == '':
+        header = header[:-1]  # a separator at the end of each line
+        rows = [row[:-1] if len(row) > len(header) and row[-1] == '' else row for row in rows]
+    if all(_is_number(cell) for cell in header):
+        raise RecordingError(
+            f'{path.name} has no line with column names: its first row is {_named(header)}; name '
+            'the columns with their units, such as t_s,pressure_command_kPa,position_mm'
+        )
+    double = sorted({name for name in header if header.count(name) > 1})
+    if double:
+        raise RecordingError(f'{path.name} has several columns called {double[0]!r}')
+    notes = []
+    if rows and len(rows[-1]) < len(header):
+        notes.append(f'the last line ({lines[-1]}) is cut off and left out')
+        rows, lines = rows[:-1], lines[:-1]
+    for row, line in zip(rows, lines, strict=True):
+        if len(row) != len(header):
+            raise RecordingError(
+                f'{path.name}, line {line}: {len(row)} cells for {len(header)} columns'
+            )
+    return _Table(header, rows, lines, separator != ',', notes)
+
+
+def _decode(data: bytes) -> str:
+    if data.startswith((b'\xff\xfe', b'\xfe\xff')):
+        return data.decode('utf-16')
+    try:
+        return data.decode('utf-8-sig')
+    except UnicodeDecodeError:
+        return data.decode('latin-1')
+
+
+def _choose(
+    path: Path, header: list[str], mapping: ColumnMapping
+) -> tuple[dict[str, tuple[int, Meaning]], list[str]]:
+    """Return quantity -> (column, meaning), and the note on columns that are not used."""
+    columns: dict[str, tuple[int, Meaning]] = {}
+    unused = []
+    for index, name in enumerate(header):
+        try:
+            meaning = mapping.meaning(name)
+        except RecordingError as error:
+            raise RecordingError(f'{path.name}: column {error}') from error
+        if meaning is None:
+            if name not in mapping:
+                unused.append(name)
+            continue
+        quantity = meaning.target.quantity
+        if quantity in columns:
+            other = header[columns[quantity][0]]
+            raise RecordingError(
+                f'{path.name}: columns {other!r} and {name!r} both give the {quantity}: leave one '
+                f"out with --column '{name}=ignore'"
+            )
+        columns[quantity] = (index, meaning)
+    notes = [f'columns not used: {", ".join(unused)}'] if unused else []
+    return columns, notes
+
+
+def _numbers(path: Path, table: _Table, index: int, meaning: Meaning) -> Array:
+    """Return a column in SI, NaN where a cell is empty."""
+    cells = [row[index] for row in table.rows]
+    if table.decimal_comma:
+        cells = [cell.replace(',', '.', 1) for cell in cells]
+    cells = ['nan' if cell.lower() in _EMPTY else cell for cell in cells]
+    try:
+        value = np.array(cells, dtype=float)
+    except ValueError:
+        i = next(i for i, cell in enumerate(cells) if not _is_number(cell))
+        raise RecordingError(
+            f'{path.name}, line {table.lines[i]}: {table.header[index]} = '
+            f'{table.rows[i][index]!r} is not a number'
+        ) from None
+    factor, offset = meaning.to_si
+    scaled: Array = value * factor + offset
+    return scaled
+
+
+def _is_number(cell: str) -> bool:
+    try:
+        float(cell.replace(',', '.', 1))
+    except ValueError:
+        return False
+    return True
+
+
+def _named(names: list[str]) -> str:
+    shown = names[:12]
+    return ', '.join(shown) + (f' and {len(names) - 12} more' if len(names) > 12 else '')

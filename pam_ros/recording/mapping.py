@@ -1,0 +1,133 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""What columns and topics with other names mean: ``SOURCE=TARGET[*SCALE][+OFFSET]``.
+
+SOURCE is a column of a CSV file, or a topic with the field of its message (``/cell/wrench.
+wrench.force.z``). TARGET is a quantity with its unit, as our own columns are called
+(``force_N``), or ``ignore``. SCALE and OFFSET make the target's unit of the source's number:
+``adc=force_N*0.392-4.1786``. The same strings stand in a YAML file, as a mapping under
+``columns``: ``adc: force_N*0.392-4.1786``.
+"""
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import yaml
+
+from pam_ros.errors import RecordingError
+from pam_ros.recording.quantities import QUANTITIES, Target, target_of
+
+IGNORE = 'ignore'
+_NUMBER = r'[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?'
+_RULE = re.compile(
+    rf'(?P<target>[A-Za-z_/]+)\s*(?:\*\s*(?P<scale>{_NUMBER}))?\s*'
+    rf'(?P<offset>[+-]\s*(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)?'
+)
+
+
+@dataclass(frozen=True)
+class Meaning:
+    """What a source's number x means: (x * scale + offset) in the target's unit."""
+
+    target: Target
+    scale: float = 1.0
+    offset: float = 0.0
+
+    @property
+    def to_si(self) -> tuple[float, float]:
+        """Return (factor, offset) from the source's number to SI."""
+        return self.scale * self.target.factor, self.offset * self.target.factor
+
+
+@dataclass(frozen=True)
+class ColumnMapping:
+    """Source -> meaning; None for a source that is to be ignored."""
+
+    meanings: Mapping[str, Meaning | None] = field(default_factory=dict)
+
+    def __contains__(self, source: str) -> bool:
+        """Say whether the user has said what *source* is."""
+        return source in self.meanings
+
+    def __iter__(self) -> Iterator[str]:
+        """Iterate over the sources."""
+        return iter(self.meanings)
+
+    def meaning(self, source: str) -> Meaning | None:
+        """Return what *source* means, by the user's word first, else by its name.
+
+        None where it means nothing to us. Raises RecordingError for an unknown unit.
+        """
+        if source in self.meanings:
+            return self.meanings[source]
+        target = target_of(source)
+        return None if target is None else Meaning(target)
+
+    def need(self, sources: Sequence[str], where: str) -> None:
+        """Raise RecordingError when a mapped source is not among *sources*."""
+        for source in self.meanings:
+            if source not in sources:
+                raise RecordingError(
+                    f'{where} has no {source!r}, which a column mapping names: it has '
+                    + ', '.join(repr(name) for name in sources)
+                )
+
+
+def read_mapping(rules: Sequence[str] = (), file: Path | None = None) -> ColumnMapping:
+    """Return the mapping of a YAML file, with the *rules* of the command line over it.
+
+    Raises RecordingError for a file that cannot be read and for a rule that cannot be understood.
+    """
+    meanings: dict[str, Meaning | None] = {}
+    if file is not None:
+        for source, text in _read_yaml(file).items():
+            meanings[source] = _meaning(source, text)
+    for rule in rules:
+        source, equals, text = rule.rpartition('=')
+        if not equals or not source.strip():
+            raise RecordingError(
+                f'column mapping {rule!r} is not understood: give SOURCE=TARGET[*SCALE][+OFFSET], '
+                "such as 'motor_voltage_V=pressure_command_Pa' or 'adc=force_N*0.392-4.18'"
+            )
+        meanings[source.strip()] = _meaning(source.strip(), text)
+    return ColumnMapping(meanings)
+
+
+def _meaning(source: str, text: str) -> Meaning | None:
+    text = text.strip()
+    if text == IGNORE:
+        return None
+    match = _RULE.fullmatch(text)
+    target = target_of(match['target']) if match else None
+    if match is None or target is None:
+        known = ', '.join(
+            str(Target(name, next(iter(quantity.units)))) for name, quantity in QUANTITIES.items()
+        )
+        raise RecordingError(
+            f'{source}={text} is not understood: the target is one of {known} (other units as '
+            f"well) or {IGNORE}, then *SCALE and +OFFSET where needed, such as 'force_N*0.4-4.2'"
+        )
+    offset = (match['offset'] or '0').replace(' ', '')
+    return Meaning(target, float(match['scale'] or 1.0), float(offset))
+
+
+def _read_yaml(file: Path) -> dict[str, str]:
+    try:
+        content = yaml.safe_load(file.read_text(encoding='utf-8'))
+    except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
+        raise RecordingError(f'column mapping {file} cannot be read: {error}') from error
+    columns = content.get('columns') if isinstance(content, dict) else None
+    if not isinstance(columns, dict):
+        raise RecordingError(
+            f"column mapping {file} has no mapping 'columns': give lines such as "
+            "'motor_voltage_V: pressure_command_Pa' beneath 'columns:'"
+        )
+    for source, text in columns.items():
+        if not isinstance(source, str) or not isinstance(text, str):
+            raise RecordingError(
+                f'column mapping {file}: {source!r}: {text!r} is not understood: give a name '
+                "and a target, such as 'motor_voltage_V: pressure_command_Pa'"
+            )
+    return columns

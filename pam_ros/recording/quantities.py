@@ -1,0 +1,118 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The quantities of a recording, the units they come in, and what can be right."""
+
+import re
+from dataclasses import dataclass
+
+from pam_ros.errors import RecordingError
+
+_TIME = {'s': 1.0, 'sec': 1.0, 'seconds': 1.0, 'ms': 1e-3, 'us': 1e-6, 'ns': 1e-9}
+_PRESSURE = {
+    'Pa': 1.0,
+    'hPa': 1e2,
+    'mbar': 1e2,
+    'kPa': 1e3,
+    'bar': 1e5,
+    'MPa': 1e6,
+    'psi': 6894.757293168,
+}
+_LENGTH = {'m': 1.0, 'cm': 1e-2, 'mm': 1e-3, 'um': 1e-6}
+_FORCE = {'N': 1.0, 'kN': 1e3}
+_SPEED = {'m_s': 1.0, 'mm_s': 1e-3}
+_CONTRACTION = {'fraction': 1.0, 'percent': 1e-2}
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """One signal: its units with their factors to SI, and the largest value that can be right.
+
+    ``si`` names the SI unit for messages. ``limit`` is in SI; beyond it the unit must be wrong.
+    """
+
+    name: str
+    units: dict[str, float]
+    si: str
+    limit: float
+
+
+QUANTITIES = {
+    quantity.name: quantity
+    for quantity in (
+        Quantity('time', _TIME, 's', float('inf')),
+        Quantity('pressure_command', _PRESSURE, 'Pa', 1e7),
+        Quantity('pressure', _PRESSURE, 'Pa', 1e7),
+        Quantity('position', _LENGTH, 'm', 10.0),
+        Quantity('contraction', _CONTRACTION, 'fraction', 1.0),
+        Quantity('velocity', _SPEED, 'm/s', 100.0),
+        Quantity('force', _FORCE, 'N', 1e6),
+    )
+}
+# Spellings of the time axis without a unit; ROS and most loggers mean seconds.
+_BARE_TIME = ('t', 'time')
+_TIME_NAMES = ('t', 'time', 'timestamp', 'stamp', 'elapsed', 'elapsed_time')
+
+
+@dataclass(frozen=True)
+class Target:
+    """A quantity in a unit: what a column or a field of a message means."""
+
+    quantity: str
+    unit: str
+
+    @property
+    def factor(self) -> float:
+        """Return the SI value of one unit."""
+        return QUANTITIES[self.quantity].units[self.unit]
+
+    def __str__(self) -> str:
+        """Return the column name that says the same."""
+        return f'{"t" if self.quantity == "time" else self.quantity}_{self.unit}'
+
+
+def target_of(name: str) -> Target | None:
+    """Return what a column called *name* means, or None when it is none of ours.
+
+    ``position_mm``, ``position [mm]`` and ``Position (mm)`` are the same. Raises
+    RecordingError for a quantity of ours without a unit or with one that is not known.
+    """
+    words = re.sub(r'[\s\[\](){},/]+', '_', name.strip().replace('%', 'percent'))
+    words = words.strip('_')
+    if words.lower() in _BARE_TIME:
+        return Target('time', 's')
+    for quantity in sorted(QUANTITIES, key=len, reverse=True):
+        for spelling in _TIME_NAMES if quantity == 'time' else (quantity,):
+            if words.lower() == spelling:
+                raise RecordingError(_unit_sentence(name, quantity, 'has no unit'))
+            if not words.lower().startswith(spelling + '_'):
+                continue
+            rest = words[len(spelling) + 1 :]
+            unit = _unit(rest, QUANTITIES[quantity].units)
+            if unit is not None:
+                return Target(quantity, unit)
+            unit = _unit(rest, _LENGTH)
+            if quantity == 'contraction' and unit is not None:
+                return Target('position', unit)
+            # One more word is meant as a unit; several make another signal's name.
+            if '_' not in rest:
+                raise RecordingError(
+                    _unit_sentence(name, quantity, f'has the unit {rest!r}, which is not known')
+                )
+    return None
+
+
+def _unit(word: str, units: dict[str, float]) -> str | None:
+    if word in units:
+        return word
+    # MPa and mPa differ by their case alone; nothing else does.
+    same = [unit for unit in units if unit.lower() == word.lower()]
+    return same[0] if len(same) == 1 and word != 'mPa' else None
+
+
+def _unit_sentence(name: str, quantity: str, what: str) -> str:
+    units = ', '.join(QUANTITIES[quantity].units)
+    example = Target(quantity, next(iter(QUANTITIES[quantity].units)))
+    return (
+        f'{name!r} {what}: {quantity} is given in {units}; say what it is with '
+        f"--column '{name}={example}', or leave it out with --column '{name}=ignore'"
+    )

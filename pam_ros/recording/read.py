@@ -1,0 +1,59 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Read any recording: a rosbag2 directory, one of its files, or a CSV file."""
+
+import hashlib
+from dataclasses import replace
+from pathlib import Path
+
+from pam_ros.errors import RecordingError
+from pam_ros.recording.assemble import assemble
+from pam_ros.recording.bag import bag_files, read_bag
+from pam_ros.recording.csv_file import read_csv
+from pam_ros.recording.mapping import ColumnMapping
+from pam_ros.recording.quality import check
+from pam_ros.recording.recording import Recording
+
+BAG_SUFFIXES = ('.mcap', '.db3')
+
+
+def read_recording(
+    path: str | Path,
+    mapping: ColumnMapping | None = None,
+    kind: str | None = None,
+    l0: float | None = None,
+    p_max: float | None = None,
+    namespace: str | None = None,
+) -> Recording:
+    """Read the recording at *path*, checked, in SI.
+
+    ``mapping`` says what columns or topics with other names are, ``kind`` whether the load was
+    ``free`` or the length ``held`` (found from the data where None). ``l0`` in m turns a
+    contraction into a position; ``p_max`` in gauge Pa is the muscle's highest pressure, against
+    which the unit of the input is judged. ``namespace`` chooses a rig in a bag of several.
+
+    Raises RecordingError, with the sentence for the user, for what cannot be used.
+    """
+    path = Path(path)
+    mapping = mapping or ColumnMapping()
+    if not path.exists():
+        raise RecordingError(f'recording {path} does not exist')
+    if path.is_dir() or path.suffix in BAG_SUFFIXES:
+        files = bag_files(path)
+        series, notes = read_bag(path, mapping, namespace)
+    else:
+        files = [path]
+        series, notes = read_csv(path, mapping)
+    recording = assemble(path.name or str(path), series, notes, kind, l0)
+    warnings = check(recording, l0, p_max)
+    return replace(recording, warnings=(*recording.warnings, *warnings), digest=_digest(files))
+
+
+def _digest(files: list[Path]) -> str:
+    """Return the SHA-256 of the files' contents, one after the other."""
+    digest = hashlib.sha256()
+    for file in files:
+        with file.open('rb') as stream:
+            for block in iter(lambda: stream.read(1 << 20), b''):
+                digest.update(block)
+    return digest.hexdigest()

@@ -1,0 +1,99 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""One signal as it was sampled, on its own stamps, before a recording is made of several."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pam_ros.errors import RecordingError
+
+Array = NDArray[np.float64]
+
+GAP_PERIODS = 10.0  # a pause of more than this many sampling periods,
+GAP_SECONDS = 0.05  # and of more than this, is a gap: the scheduler alone makes shorter ones
+EDGE = 1.0  # s that a signal may begin later or end earlier than the others
+COARSE = 0.01  # share of equal stamps from which the clock is called too coarse
+
+
+@dataclass(frozen=True, eq=False)
+class Series:
+    """Values in SI over stamps in s, both (n,), as they came from *source*."""
+
+    source: str
+    t: Array
+    value: Array
+
+    @classmethod
+    def taken(cls, name: str, source: str, t: Array, value: Array) -> 'Series':
+        """Return the samples that were taken: those of *value* that are not NaN.
+
+        Single ones may be missing, or the column's rate may be lower than that of the stamps *t*.
+        Raises RecordingError, naming the recording, for infinite values, and for a stretch without
+        values that is longer than :attr:`gap_limit`, 1 s at the ends: the sensor failed.
+        """
+        if np.isinf(value).any():
+            at = t[np.argmax(np.isinf(value))]
+            raise RecordingError(f'{name}: {source} is infinite at {at:.6g} s')
+        taken = np.isfinite(value)
+        one = cls(source, t[taken], value[taken])
+        edges = np.concatenate(([t[0]], one.t, [t[-1]]))
+        limits = np.full(edges.size - 1, one.gap_limit)
+        limits[0] = limits[-1] = max(one.gap_limit, EDGE)
+        for i in np.flatnonzero(np.diff(edges) > limits):
+            start, end = edges[i : i + 2]
+            inside = np.count_nonzero((t > start) & (t < end))
+            if inside:
+                raise RecordingError(
+                    f'{name}: {source} has no values from {start:.6g} s to {end:.6g} s ({inside} '
+                    'empty or NaN): repair the sensor, or cut the recording there'
+                )
+        return one
+
+    @property
+    def gap_limit(self) -> float:
+        """Return the pause in s from which on samples are missing."""
+        if self.t.size < 2:
+            return GAP_SECONDS
+        return max(GAP_PERIODS * float(np.median(np.diff(self.t))), GAP_SECONDS)
+
+    def holes(self) -> list[tuple[float, float]]:
+        """Return the pauses (from, to) in s that are longer than :attr:`gap_limit`."""
+        at = np.flatnonzero(np.diff(self.t) > self.gap_limit)
+        return [(float(self.t[i]), float(self.t[i + 1])) for i in at]
+
+    def ascending(self, name: str) -> tuple['Series', str]:
+        """Return the series with strictly ascending stamps, and a warning or ''.
+
+        Of samples with one stamp the last is kept. Raises RecordingError, naming the recording,
+        where time goes backwards or the clock is too coarse for the samples.
+        """
+        step = np.diff(self.t)
+        refuse_backwards(self.t, f'{name}: time of {self.source}')
+        same = int(np.count_nonzero(step == 0.0))
+        if same == 0:
+            return self, ''
+        if same > max(COARSE * self.t.size, 2):
+            raise RecordingError(
+                f'{name}: {same} of {self.t.size} samples of {self.source} share their time with '
+                'the one before: the clock is too coarse (are milliseconds given as seconds, or '
+                'digits cut off?)'
+            )
+        keep = np.append(step > 0.0, True)
+        return (
+            Series(self.source, self.t[keep], self.value[keep]),
+            f'{same} samples of {self.source} share their time with another: the last is kept',
+        )
+
+
+def refuse_backwards(t: Array, what: str) -> None:
+    """Raise RecordingError where the stamps *t* in s go backwards."""
+    at = np.flatnonzero(np.diff(t) < 0.0)
+    if at.size:
+        i = int(at[0])
+        raise RecordingError(
+            f'{what} goes backwards: {t[i + 1]:.9g} s after {t[i]:.9g} s, at sample {i + 2} of '
+            f'{t.size} (a clock that was set, a simulation that was reset, or two recordings '
+            'in one file?)'
+        )
