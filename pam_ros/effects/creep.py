@@ -44,7 +44,7 @@ def force(
 
 def start(q: Row, j: int, p: float, kappa: float, y: float) -> tuple[float, ...]:
     """Return everything relaxed."""
-    f = law.force(p, kappa, q[A1], q[A2], q[A3], q[A4], q[A5], q[A6])
+    f = law.force_v(p, kappa, q[A1], q[A2], q[A3], q[A4], q[A5], q[A6])
     return (f, f, kappa, kappa)
 
 

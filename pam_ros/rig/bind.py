@@ -5,24 +5,20 @@
 The templates of :mod:`pam_ros.rig.kernel` call chains by name. Here each chain becomes a
 function that passes the value through the effects in their order, and each template is made
 anew with these chains as its globals. numba inlines the chains, and keeps the machine code of
-the loops on disk under a name that holds a hash of all sources that went in: numba itself
-notices changes of one file only.
+the loops on disk under a name that holds a hash of all code that went in: numba itself notices
+changes of one file only.
 """
 
 import hashlib
-import inspect
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import lru_cache
-from pathlib import Path
-from types import FunctionType
+from types import CodeType, FunctionType
 from typing import Any
 
 from pam_ros import compiled
 from pam_ros.effects.base import Effect
-from pam_ros.muscle import law
 from pam_ros.rig import kernel as templates
-from pam_ros.rig import layout as layout_module
 from pam_ros.rig.layout import Layout
 
 Function = Callable[..., Any]
@@ -110,21 +106,35 @@ def _chains(layout: Layout, active: tuple[Effect, ...]) -> dict[str, Function]:
     return chains
 
 
-def _fingerprint(layout: Layout, active: tuple[Effect, ...]) -> str:
-    """Hash every source and offset that the machine code depends on."""
+def fingerprint(function: Function) -> str:
+    """Hash what the machine code of *function* depends on.
+
+    That is the bytecode of all functions that it reaches, in whatever files they are, and the
+    constants that they read, offsets in the rows among them.
+    """
     digest = hashlib.sha256()
-    files = {inspect.getsourcefile(m) for m in (law, templates, layout_module, compiled)}
-    files.add(__file__)
-    for effect in active:
-        for place in ('delay', 'pressure', 'contraction', 'mass', 'force', 'damping', 'outside'):
-            f = getattr(effect, place)
-            if f is not None:
-                files.add(inspect.getsourcefile(f))
-    for path in sorted(str(f) for f in files):
-        digest.update(Path(path).read_bytes())
-    names = tuple(e.name for e in active)
-    digest.update(repr((names, layout.state_at, layout.parameter_at, layout.memory_from)).encode())
+    seen: set[FunctionType] = set()
+    for root in (function, compiled.scalar, compiled.cached):
+        for part in _parts(root, seen):
+            digest.update(repr(part).encode())
     return digest.hexdigest()[:16]
+
+
+def _parts(value: Any, seen: set[FunctionType]) -> Iterator[Any]:
+    plain = getattr(value, 'py_func', value)
+    if isinstance(plain, FunctionType):
+        code = plain.__code__
+        yield code.co_name
+        if plain not in seen:
+            seen.add(plain)
+            yield code.co_code, code.co_names, code.co_varnames, plain.__defaults__
+            yield [c for c in code.co_consts if not isinstance(c, CodeType)]
+            for cell in plain.__closure__ or ():
+                yield from _parts(cell.cell_contents, seen)
+            for name in code.co_names:
+                yield from _parts(plain.__globals__.get(name), seen)
+    elif isinstance(plain, (bool, int, float, str, tuple, dict)):
+        yield plain
 
 
 @lru_cache(maxsize=16)
@@ -140,9 +150,10 @@ def bind(layout: Layout, active: tuple[Effect, ...]) -> Kernel:
     names['MEMORY_FROM'] = layout.memory_from if remembers else layout.width
     for name in _INNER:
         names[name] = compiled.scalar(_rebound(getattr(templates, name), names, name))
-    tag = _fingerprint(layout, active)
     for name in _LOOPS:
-        names[name] = compiled.cached(_rebound(getattr(templates, name), names, f'{name}_{tag}'))
+        loop = _rebound(getattr(templates, name), names, name)
+        loop.__qualname__ = f'{name}_{fingerprint(loop)}'
+        names[name] = compiled.cached(loop)
     return Kernel(**{name: names[name] for name in Kernel.__dataclass_fields__})
 
 

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A rig as declared: a muscle, the load that it moves, and the effects that are present."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
@@ -17,6 +18,7 @@ from pam_ros.parameters import check_all, parameter
 from pam_ros.rig import layout as at
 from pam_ros.rig.layout import Layout, layout_of
 
+Array = NDArray[np.float64]
 EffectValues = Mapping[str, Mapping[str, float]]
 GRAVITY = 9.80665  # m/s^2, standard
 
@@ -71,7 +73,7 @@ class RigModel:
             known[name].values(dict(given))
         if self.muscle.is_load_only:
             return
-        for p in (0.0, self.muscle.p_max):
+        for p in (self.muscle.p_min, self.muscle.p_max):
             try:
                 self.muscle.equilibrium(p, self.weight)
             except RangeError as error:
@@ -95,9 +97,28 @@ class RigModel:
         return m
 
     @property
+    def delay(self) -> float:
+        """Time in s by which commands act late."""
+        q = self.row()
+        return sum(
+            float(effect.delay(q, self.layout.parameter_at[effect.name]))
+            for effect in self.library
+            if effect.delay is not None
+        )
+
+    @property
     def layout(self) -> Layout:
         """Offsets of the effects in the kernel's rows."""
         return layout_of(self.library)
+
+    @property
+    def present(self) -> tuple[Effect, ...]:
+        """The effects that are present: those with a strength that is not zero."""
+        return tuple(
+            effect
+            for effect in self.library
+            if effect.is_present(dict(self.effects.get(effect.name, {})))
+        )
 
     @property
     def active(self) -> tuple[Effect, ...]:
@@ -105,12 +126,9 @@ class RigModel:
 
         Two machine codes, without effects and with all, instead of one for each subset.
         """
-        for effect in self.library:
-            if effect.is_present(dict(self.effects.get(effect.name, {}))):
-                return self.library
-        return ()
+        return self.library if self.present else ()
 
-    def row(self) -> NDArray[np.float64]:
+    def row(self) -> Array:
         """Return the kernel's parameter row, SI, shape (layout.parameters,)."""
         q = np.empty(self.layout.parameters)
         q[at.A1 : at.A6 + 1] = self.muscle.si
@@ -122,6 +140,30 @@ class RigModel:
             q[j : j + len(values)] = values
         return q
 
+    @property
+    def longest_step(self) -> float:
+        """Step in s at which the rig's fastest motion in the working range turns by 1 rad.
+
+        The integrator is stable to 2.6 rad; the rest is left for motion beyond that range. A
+        force source without a muscle sets no limit, and effects bring their own updates.
+        """
+        m = self.muscle
+        p, kappa = np.meshgrid((m.p_min, m.p_max), (m.kappa_min, m.kappa_max))
+        k = float(np.max(m.stiffness(p, kappa)))  # as the least, the largest is at a corner
+        overdamped = math.sqrt(max(m.zeta * m.zeta - 1.0, 0.0))
+        fastest = math.sqrt(k / self.moved_mass) * max(1.0, m.zeta + overdamped)
+        return 1.0 / fastest if fastest > 0.0 else math.inf
+
+    def check_step(self, step: float) -> None:
+        """Raise ParameterError when *step* in s is too long for this rig's fastest motion."""
+        if not 0.0 < step <= self.longest_step:
+            raise ParameterError(
+                f'a physics step of {step * 1e3:g} ms does not resolve a mass of '
+                f'{self.moved_mass:g} kg on this muscle: give at most '
+                f'{self.longest_step * 1e3:.3g} ms (a rate of at least '
+                f'{1.0 / self.longest_step:.0f} Hz), or more mass'
+            )
+
     def rest(self, p: float) -> float:
         """Return the position y in m at which the declared model rests at *p* Pa.
 
@@ -132,26 +174,32 @@ class RigModel:
         return self.muscle.equilibrium(p, self.weight) * self.muscle.l0
 
 
-def start_row(
-    layout: Layout, q: NDArray[np.float64], p: float, y: float, v: float
-) -> NDArray[np.float64]:
+def start_row(layout: Layout, q: Array, p: float, y: float, v: float) -> Array:
     """Return a state row at position *y* m, velocity *v* m/s after a long rest at *p* Pa there.
 
     *q* is the parameter row; hidden states are those of their effect's ``start``.
     """
     x = np.zeros(layout.width)
-    x[at.Y], x[at.V], x[at.P] = y, v, p
-    kappa: Any = y / q[at.L0]
+    x[at.Y], x[at.V] = y, v
+    x[at.P] = start_effects(layout.effects, layout, q, x, p)
+    return x
+
+
+def start_effects(
+    effects: tuple[Effect, ...], layout: Layout, q: Array, x: Array, p: float
+) -> float:
+    """Set the hidden states of *effects* in the state row x as after a long rest where x is.
+
+    *p* in Pa is what their pressure path is fed with; returns what it passes on.
+    """
+    kappa: Any = x[at.Y] / q[at.L0]
     for effect in layout.effects:
         if effect.contraction is not None:
             kappa = effect.contraction(kappa, q, layout.parameter_at[effect.name])
-    chamber: Any = p
-    for effect in layout.effects:
+    for effect in effects:
         i, j = layout.state_at[effect.name], layout.parameter_at[effect.name]
         if effect.start is not None:
-            x[i : i + len(effect.states)] = effect.start(q, j, chamber, kappa, y)
+            x[i : i + len(effect.states)] = effect.start(q, j, p, kappa, x[at.Y])
         if effect.pressure is not None:
-            # Downstream effects start from what this one passes on at rest.
-            chamber = effect.pressure(chamber, 0.0, 0.0, x, i, x.copy(), q, j)
-    x[at.P] = chamber
-    return x
+            p = effect.pressure(p, 0.0, 0.0, x, i, x.copy(), q, j)
+    return p

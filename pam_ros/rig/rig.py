@@ -9,10 +9,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from pam_ros.rig import layout as at
 from pam_ros.rig.bind import bind
-from pam_ros.rig.model import RigModel, start_row
+from pam_ros.rig.model import RigModel, start_effects, start_row
 
 Array = NDArray[np.float64]
-QUEUE = 256  # commands that can be under way in the pressure path of one muscle
 
 
 class Rig:
@@ -23,32 +22,38 @@ class Rig:
     stiffness N/m, damping N s/m. Steps are counted, so time is exact; the same models, start
     and commands give the same bits, however the steps are split into calls.
 
-    *models* must share one library of effects. *step* is in s.
+    *models* must share one library of effects. *step* is in s. Raises ParameterError when it is
+    too long for one of them.
     """
 
     def __init__(self, models: Sequence[RigModel], step: float = 1e-3) -> None:
         """Make the rig at rest at 0 Pa; see :meth:`reset` to start elsewhere."""
-        self.step = step
-        self._layout = models[0].layout
         n = len(models)
+        self.step = step
+        self.models: tuple[RigModel, ...] = ()
+        self._layout = models[0].layout
         self._x = np.zeros((n, self._layout.width))
         self._scratch = np.zeros_like(self._x)
         self._out = np.zeros((n, 4))
-        self._at = np.zeros((n, QUEUE))
-        self._queue = np.zeros((n, QUEUE))
+        # Commands under way in the pressure path: stamps and values, grown as they are needed.
+        self._at = np.zeros((n, 16))
+        self._queue = np.zeros((n, 16))
         self.change(models)
-        rest = [m.rest(0.0) for m in models]
-        self.reset(np.zeros(n), rest, np.zeros(n))
+        self.reset(np.zeros(n), [m.rest(0.0) for m in models], np.zeros(n))
 
     def change(self, models: Sequence[RigModel]) -> None:
-        """Go on from the present state with other parameters.
+        """Go on from the present state with other parameters; with these errors, with the old.
 
-        Hidden states are kept; those of an effect that was absent start from their rest value.
+        Hidden states are kept; an effect that was absent starts as after a long rest here.
         """
-        self.models = tuple(models)
+        for model in models:
+            model.check_step(self.step)
         self._q = np.array([m.row() for m in models])
-        active = max((m.active for m in models), key=len)
-        self._kernel = bind(self._layout, active)
+        for x, q, old, new in zip(self._x, self._q, self.models, models, strict=False):
+            appeared = tuple(e for e in new.present if e not in old.present)
+            start_effects(appeared, self._layout, q, x, x[at.P])
+        self.models = tuple(models)
+        self._kernel = bind(self._layout, max((m.active for m in models), key=len))
 
     def reset(self, pressure: ArrayLike, position: ArrayLike, velocity: ArrayLike) -> None:
         """Set time to 0 and the state to these arrays, after a long rest at *pressure* there.
@@ -65,7 +70,12 @@ class Rig:
     def command(self, pressure: ArrayLike) -> None:
         """Command these gauge pressures in Pa from the present time on."""
         for m, value in enumerate(np.broadcast_to(np.asarray(pressure, float), self._u.shape)):
-            i = min(int(self._count[m]), QUEUE - 1)
+            i = int(self._count[m])
+            if i and self._at[m, i - 1] == self.time:
+                i -= 1  # the last one counts
+            elif i == self._at.shape[1]:
+                self._at = np.concatenate([self._at, self._at], axis=1)
+                self._queue = np.concatenate([self._queue, self._queue], axis=1)
             self._at[m, i], self._queue[m, i] = self.time, value
             self._count[m] = i + 1
 

@@ -39,14 +39,18 @@ def simulate(
     """Run a free rig over the stamps *t* with its commands exactly as stamped.
 
     t (n,), command_t, command (m,): s and gauge Pa, ascending; a command holds from its stamp
-    to the next, the first also before. The rig starts at t[0] at *position* m (default: at rest
-    under the first command) with *velocity* m/s. Samples are the state before a command of the
-    same stamp has acted. Steps are at most *step* s and never reach across a command.
+    to the next, the first also before. The rig starts at t[0] after a long rest under the
+    command that was in force there, at *position* m (default: where it rests) with *velocity*
+    m/s. Samples are the state before a command of the same stamp has acted. Steps are at most
+    *step* s and never reach across a command. Raises ParameterError when *step* is too long for
+    the model.
     """
+    model.check_step(step)
     t, command_t, command = (np.asarray(a, float) for a in (t, command_t, command))
     q = model.row()
-    y = model.rest(command[0]) if position is None else position
-    x = start_row(model.layout, q, command[0], y, velocity)
+    p = command[max(np.searchsorted(command_t + model.delay, t[0]) - 1, 0)]
+    y = model.rest(p) if position is None else position
+    x = start_row(model.layout, q, p, y, velocity)
     out = np.empty((len(t), 4))
     bind(model.layout, model.active).simulate(
         x, np.empty_like(x), q, t, command_t, command, step, out, True

@@ -11,7 +11,6 @@ from pam_ros.effects import EFFECTS
 from pam_ros.rig.bind import bind
 from pam_ros.rig.layout import layout_of
 from pam_ros.rig.model import RigModel, start_row
-from pam_ros.rig.rig import QUEUE
 
 
 def warm() -> None:
@@ -22,7 +21,7 @@ def warm() -> None:
         kernel = bind(layout, active)
         x = start_row(layout, q, 0.0, 0.0, 0.0)
         rows, scratch, q2 = x[None].copy(), np.zeros((1, len(x))), q[None].copy()
-        queue = np.zeros((1, QUEUE))
+        queue = np.zeros((1, 16))
         count = np.zeros(1, dtype=np.int64)
         kernel.advance(rows, scratch, q2, np.zeros(1), queue, queue.copy(), count, 0, 1, 1e-3)
         kernel.outputs(rows, scratch, q2, 0.0, np.zeros((1, 4)))
