@@ -92,6 +92,14 @@ def flat_rig(model: RigModel) -> dict[str, Any]:
     return values
 
 
+def with_defaults(table: Table, values: Values) -> Table:
+    """Return *table* with those of *values* that it has as its defaults, checked."""
+    return {
+        name: (kind, about.check(name, values[name], kind) if name in values else default, about)
+        for name, (kind, default, about) in table.items()
+    }
+
+
 def refuse_mistyped(names: Iterable[str], known: Iterable[str]) -> list[str]:
     """Return those *names* that are not *known*, as they may belong to another program.
 

@@ -53,5 +53,7 @@ class Diagnostics:
 
 
 def text(value: Any) -> str:
-    """Return a value as a diagnostic shows it."""
+    """Return a value as a diagnostic shows it; None is nothing."""
+    if value is None:
+        return ''
     return f'{value:.6g}' if isinstance(value, float) else str(value)

@@ -42,12 +42,10 @@ class NodeParameters(Generic[T]):
         """Declare all of *table* on *node* with the values that it was started with."""
         self._node, self._table = node, table
         self._build, self._apply = build, apply
-        # rclpy has no public way to look at what was given before it is declared.
-        given = {name: p.value for name, p in node._parameter_overrides.items()}
-        self.values = checked(table, given)
+        self.values = checked(table, given(node))
         self.built = build(self.values)
-        for name, (_, _, about) in table.items():
-            descriptor = describe(about, table[name][0])
+        for name, (kind, _, about) in table.items():
+            descriptor = describe(about, kind)
             node.declare_parameter(name, self.values[name], descriptor, ignore_override=True)
         node.add_pre_set_parameters_callback(self._to_float)
         node.add_on_set_parameters_callback(self._check)
@@ -59,8 +57,8 @@ class NodeParameters(Generic[T]):
         Others that nobody declared are warned of: they may be meant for another node. To be
         called when everything is declared, publishers and subscriptions included.
         """
-        known = [*self._node._parameters, *self._table]
-        for name in refuse_mistyped(self._node._parameter_overrides, known):
+        known = [name for name in given(self._node) if self._node.has_parameter(name)]
+        for name in refuse_mistyped(given(self._node), [*known, *self._table]):
             self._node.get_logger().warning(f'parameter {name} is not known here and not used')
 
     def _to_float(self, parameters: list[RosParameter]) -> list[RosParameter]:
@@ -89,6 +87,12 @@ class NodeParameters(Generic[T]):
             self.values = checked(self._table, self._changed(parameters))
             self.built = self._build(self.values)
             self._apply(self.built)
+
+
+def given(node: Node) -> dict[str, Any]:
+    """Return the values that *node* was started with, declared or not, by name."""
+    # rclpy has no public way to look at them before they are declared.
+    return {name: p.value for name, p in node._parameter_overrides.items()}
 
 
 def describe(about: Parameter, kind: type) -> ParameterDescriptor:

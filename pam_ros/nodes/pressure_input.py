@@ -4,17 +4,19 @@
 
 import math
 
+from pam_ros.muscle.muscle import Muscle
+
 
 class PressureInput:
     """Takes commands in Pa gauge, and remembers how many were bad and why.
 
-    A value outside 0..p_max is clamped, as a valve that is fully open or closed does. A value
+    A value outside p_min..p_max is clamped, as a valve that is fully open or closed does. A value
     that is no number is refused: the last good command stays in force.
     """
 
-    def __init__(self, p_max: float) -> None:
-        """Begin with the limit *p_max* in Pa and no command."""
-        self.p_max = p_max
+    def __init__(self, muscle: Muscle) -> None:
+        """Begin with the limits of *muscle* and no command."""
+        self.muscle = muscle
         self.accepted = 0
         self.clamped = 0
         self.refused = 0
@@ -29,8 +31,9 @@ class PressureInput:
             return None
         self.accepted += 1
         self.last = value
-        applied = min(max(value, 0.0), self.p_max)
+        low, high = self.muscle.p_min, self.muscle.p_max
+        applied = min(max(value, low), high)
         if applied != value:
             self.clamped += 1
-            self.reason = f'pressure command {value:g} Pa is outside 0 to {self.p_max:g}: clamped'
+            self.reason = f'pressure command {value:g} Pa is outside {low:g} to {high:g}: clamped'
         return applied

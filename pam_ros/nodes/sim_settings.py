@@ -5,9 +5,10 @@
 from dataclasses import dataclass
 from typing import Any
 
-from pam_ros.config import Table, build, build_rig, rig_table, table_of
+from pam_ros.config import Table, build, build_rig, rig_table, table_of, with_defaults
 from pam_ros.errors import ParameterError
-from pam_ros.parameters import check_all, parameter
+from pam_ros.parameter_files import read_known
+from pam_ros.parameters import Parameter, check_all, parameter
 from pam_ros.rig.model import RigModel
 from pam_ros.rig.sensors import Sensors
 
@@ -59,7 +60,7 @@ class SimSettings:
 class Start:
     """The state at the start and after each reset, long at rest there as far as memories go."""
 
-    pressure: float = parameter(0.0, 'gauge pressure at the start', 'Pa', low=0.0, high=5e6)
+    pressure: float = parameter(0.0, 'gauge pressure at the start', 'Pa', low=-101325.0, high=5e6)
     at_rest: bool = parameter(
         True, 'start where the load rests at initial.pressure; false: at initial.position'
     )
@@ -85,11 +86,13 @@ class Simulation:
     start: Start
 
     def __post_init__(self) -> None:
-        """Refuse a start that the muscle cannot have."""
+        """Refuse a step that is too long, and a start that the muscle cannot have."""
+        self.model.check_step(1.0 / self.settings.physics_rate)
         muscle, start = self.model.muscle, self.start
-        if start.pressure > muscle.p_max:
+        if not muscle.p_min <= start.pressure <= muscle.p_max:
             raise ParameterError(
-                f'initial.pressure = {start.pressure:g} Pa is above p_max = {muscle.p_max:g} Pa'
+                f'initial.pressure = {start.pressure:g} Pa is outside p_min = {muscle.p_min:g} '
+                f'to p_max = {muscle.p_max:g} Pa'
             )
         kappa = start.position / muscle.l0
         if not muscle.is_load_only and not start.at_rest and not -0.5 <= kappa <= 0.95:
@@ -107,14 +110,29 @@ class Simulation:
         return start.pressure, start.position, start.velocity
 
 
-def table() -> Table:
-    """Return the table of all parameters of the simulator."""
-    return {
+MUSCLE: Table = {
+    'muscle': (
+        str,
+        '',
+        Parameter(
+            'what is not given as a parameter comes from here: a muscle of this package, such as '
+            'dmsp_20_400n, or the path of a parameter file',
+            live=False,
+        ),
+    )
+}
+
+
+def table(muscle: Any = '') -> Table:
+    """Return the table of all parameters; their defaults come from *muscle* where it is given."""
+    plain = {
+        **MUSCLE,
         **rig_table(),
         **table_of(Sensors, 'sensor.'),
         **table_of(SimSettings),
         **table_of(Start, 'initial.'),
     }
+    return with_defaults(plain, read_known(str(muscle), plain)) if muscle else plain
 
 
 def simulation(values: dict[str, Any]) -> Simulation:

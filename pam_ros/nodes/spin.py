@@ -1,82 +1,82 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Run a node with a fixed rate until it is asked to stop, and leave cleanly.
+"""Run a node at a fixed rate until it is asked to stop, and leave cleanly.
 
 The loop waits in the executor for the time until the next tick and ticks itself: a timer of
-rclpy would skip the ticks that it is late for and costs half as much again.
+rclpy skips the ticks that it is late for, and costs half as much again.
 """
 
+import argparse
 import gc
 import re
-import signal
 import sys
 from collections.abc import Callable
 from time import monotonic_ns
-from types import FrameType
-from typing import Protocol
 
 import rclpy
-import rclpy.exceptions
+from rclpy.exceptions import NameValidationException, ParameterException
 from rclpy.executors import Executor, SingleThreadedExecutor
+from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
+from rclpy.utilities import remove_ros_args
 
 from pam_ros.errors import PamError
+from pam_ros.nodes.program import StopRequest
 from pam_ros.nodes.ticker import Ticker
 
 try:
     from rclpy.experimental import EventsExecutor
-except ImportError:  # before Jazzy's patch release of 2025
+except ImportError:  # Jazzy before its patch release of 2025
     EventsExecutor = SingleThreadedExecutor
 
 BAD_INPUT = 2
 LONGEST_WAIT = 0.1  # s in the executor, so that a stop is heeded whatever the rate
 
+# What rclpy raises for a command line that makes no node; RuntimeError is what rcl's own errors
+# and unknown policies in overrides of QoS come as.
+REFUSALS = (PamError, NameValidationException, ParameterException, RuntimeError)
 
-class TickingNode(Protocol):
-    """A node that does its work at the rate of its ticker."""
+
+class TickingNode(Node):
+    """A node that does its work in :meth:`tick`, at the rate of its ``ticker``."""
 
     ticker: Ticker
 
+    def start(self) -> None:
+        """Begin to count time: all is there and the loop starts."""
+        self.ticker.start(self.ticker.rate, monotonic_ns())
+
     def tick(self) -> None:
         """Do the work of one period."""
-
-    def destroy_node(self) -> None:
-        """Release what the node holds."""
+        raise NotImplementedError
 
 
-class StopRequest:
-    """Ctrl-C and SIGTERM, taken note of instead of raised: a second one does no harm."""
+def run(make: Callable[[], TickingNode], stop: StopRequest, about: str) -> int:
+    """Make a node and run it until *stop*; return the exit code.
 
-    def __init__(self) -> None:
-        """Take over both signals."""
-        self.is_made = False
-        for kind in (signal.SIGINT, signal.SIGTERM):
-            signal.signal(kind, self._note)
-
-    def _note(self, kind: int, frame: FrameType | None) -> None:
-        self.is_made = True
-
-
-def run(make: Callable[[], TickingNode]) -> int:
-    """Make a node and run it; return the exit code.
-
-    0 after Ctrl-C or SIGTERM; 2, with the sentence on stderr, when arguments or parameters make
-    no node. Arguments are those of the command line (``--ros-args ...``).
+    0 after a stop; 2, with the sentence on stderr, when the arguments (``--ros-args ...``) or
+    the parameters make no node.
     """
-    stop = StopRequest()
     node = None
     try:
         try:
+            parser = argparse.ArgumentParser(
+                description=about,
+                formatter_class=argparse.RawDescriptionHelpFormatter,
+                epilog='All else is told with --ros-args: see the manual of ROS 2.',
+            )
+            parser.parse_args(remove_ros_args(sys.argv)[1:])
             rclpy.init(args=sys.argv, signal_handler_options=SignalHandlerOptions.NO)
             node = make()
-        except (PamError, *_ROS_REFUSALS) as error:
-            print(f'{_program()}: {sentence(error)}', file=sys.stderr)
+        except REFUSALS as error:
+            print(f'{parser.prog}: {sentence(error)}', file=sys.stderr)
             return BAD_INPUT
         executor = EventsExecutor()
         executor.add_node(node)
         # What is there now stays: a collection over it would cost the loop some 20 ms.
         gc.collect()
         gc.freeze()
+        node.start()
         spin(node, executor, stop)
     finally:
         if node is not None:
@@ -99,20 +99,8 @@ def spin(node: TickingNode, executor: Executor, stop: StopRequest) -> None:
         executor.spin_once(timeout_sec=min(wait, LONGEST_WAIT))
 
 
-# What rclpy raises for command lines, names and parameters.
-_ROS_REFUSALS = (
-    rclpy.exceptions.NameValidationException,
-    rclpy.exceptions.ParameterException,
-    RuntimeError,  # RCLError of bad arguments and files, and overrides of QoS that do not exist
-)
-
-
 def sentence(error: Exception) -> str:
-    """Return the text of an error without rcl's places in its sources."""
+    """Return the text of an error in one line, without rcl's places in its sources."""
     text = re.sub(r', at \S+\.c(pp)?:\d+', '', str(error))
     text = text.replace('failed to initialize rcl: ', '')
     return ' '.join(text.split())
-
-
-def _program() -> str:
-    return sys.argv[0].rsplit('/', 1)[-1]

@@ -7,11 +7,17 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Punctuality:
-    """How a rate was kept over a while: Hz, overruns so far, worst lateness in s."""
+    """How a rate was kept over *span* s: ticks, overruns so far, worst lateness in s."""
 
-    rate: float
+    span: float
+    ticks: int
     overruns: int
     worst: float
+
+    @property
+    def rate(self) -> float:
+        """Ticks a second."""
+        return self.ticks / self.span
 
 
 class Ticker:
@@ -21,17 +27,17 @@ class Ticker:
     overrun; the ticks missed with it are not made up for.
     """
 
-    def __init__(self, rate: float, now: int) -> None:
-        """Begin at *now* with a *rate* in Hz; the first tick is due at once."""
+    def __init__(self, rate: float) -> None:
+        """Make it for a *rate* in Hz; :meth:`start` sets it going."""
         self.overruns = 0
-        self._since, self._ticks, self._worst = now, 0, 0
-        self.restart(rate, now)
+        self.start(rate, 0)
 
-    def restart(self, rate: float, now: int) -> None:
-        """Go on with another rate from *now*."""
+    def start(self, rate: float, now: int) -> None:
+        """Tick at *rate* from *now* on, the first time at once."""
+        self.rate = rate
         self._period = 1e9 / rate
-        self._start, self._due = now, now
-        self._n = 0
+        self._start, self._due, self._n = now, now, 0
+        self._since, self._ticks, self._worst = now, 0, 0
 
     def remaining(self, now: int) -> float:
         """Return the seconds until the next tick, 0 or less when it is due."""
@@ -50,7 +56,7 @@ class Ticker:
 
     def report(self, now: int) -> Punctuality:
         """Return how the rate was kept since the last report."""
-        rate = self._ticks * 1e9 / max(now - self._since, 1)
-        kept = Punctuality(rate, self.overruns, self._worst * 1e-9)
+        span = max(now - self._since, 1) * 1e-9
+        kept = Punctuality(span, self._ticks, self.overruns, self._worst * 1e-9)
         self._since, self._ticks, self._worst = now, 0, 0
         return kept

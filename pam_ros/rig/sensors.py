@@ -90,6 +90,9 @@ class Feedback:
         self._resolution = np.array(sensors.resolution)[:, None]
         self._is_noisy = any(sensors.noise)
         self._is_stepped = any(sensors.resolution)
+        self.is_ideal = not (
+            self._is_noisy or self._is_stepped or sensors.latency or sensors.position_offset
+        )
 
     def read(self, t: float, sample: Array) -> Array:
         """Return what the sensors say at *t* s, when the rig's state is *sample*.
@@ -110,6 +113,8 @@ class Feedback:
     def _late(self, t: float, sample: Array) -> Array:
         """Remember the sample; return the reading of one latency ago, interpolated."""
         past, wanted = self._past, t - self.sensors.latency
+        if past and past[-1][0] == t:  # time stands still
+            past.pop()
         past.append((t, sample.copy()))
         while len(past) > 1 and past[1][0] <= wanted:
             past.popleft()

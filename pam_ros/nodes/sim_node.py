@@ -1,0 +1,232 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The node of ``pam_sim``: its topics and services are listed there."""
+
+import math
+from time import monotonic_ns, time_ns
+
+import numpy as np
+from rclpy.qos import QoSProfile
+from std_msgs.msg import Float64
+from std_srvs.srv import SetBool, Trigger
+
+from pam_ros.nodes.diagnostics import ERROR, OK, WARN, Diagnostics, Health
+from pam_ros.nodes.pace import Pace
+from pam_ros.nodes.parameters import NodeParameters, given
+from pam_ros.nodes.pressure_input import PressureInput
+from pam_ros.nodes.sim_settings import Simulation, simulation, table
+from pam_ros.nodes.spin import TickingNode
+from pam_ros.nodes.telemetry import DEPTH, Telemetry, open_qos
+from pam_ros.nodes.ticker import Ticker
+from pam_ros.rig.rig import Rig
+from pam_ros.rig.sensors import Feedback
+
+
+class PamSim(TickingNode):
+    """A rig that follows ROS time step by step, hears commands and tells its state."""
+
+    def __init__(self) -> None:
+        """Make the rig that the parameters describe, at its initial state."""
+        super().__init__('pam_sim')
+        self._clock_of_node = self.get_clock()
+        self._given = NodeParameters(
+            self, table(given(self).get('muscle', '')), simulation, self._change
+        )
+        self._now = self._given.built
+        settings = self._now.settings
+        self._telemetry = Telemetry(self, settings.joint_name)
+        self._telemetry.describe(settings.frame_id, self._now.sensors.pressure_noise**2)
+        self._input = PressureInput(self._now.model.muscle)
+        self._rig = Rig([self._now.model], 1.0 / settings.physics_rate)
+        self._feedback = Feedback(self._now.sensors)
+        self._pace = Pace(settings.physics_rate, self._ros_ns(), monotonic_ns())
+        self._is_paused = False
+        self._published = 0
+        self._begin()
+        self._rig.outputs()  # compiled code is loaded at its first call
+        self._rig.advance(0)
+        self.create_subscription(
+            Float64,
+            'pressure_command',
+            self._command,
+            QoSProfile(depth=DEPTH),
+            qos_overriding_options=open_qos(),
+        )
+        self.create_service(Trigger, '~/reset', self._reset)
+        self.create_service(SetBool, '~/pause', self._pause)
+        self._diagnostics = Diagnostics(self, {'timing': self._timing, 'commands': self._commands})
+        self._given.refuse_mistyped()
+        self.ticker = Ticker(settings.publish_rate)
+
+    def start(self) -> None:
+        """Let simulated time begin now."""
+        super().start()
+        self._begin()
+
+    def _begin(self) -> None:
+        """Go to the initial state, now."""
+        pressure, position, velocity = self._now.initial
+        self._rig.reset([pressure], [position], [velocity])
+        self._feedback = Feedback(self._now.sensors)
+        self._step = 0
+        self._sample = 0
+        self._heard: float | None = None  # simulated time of the last good command
+        self._is_silent = False
+        self._fault = ''
+        self._pace.align(0, self._ros_ns(), monotonic_ns())
+
+    # Time ----------------------------------------------------------------------------------
+
+    def _ros_ns(self) -> int:
+        clock = self._clock_of_node
+        return clock.now().nanoseconds if clock.ros_time_is_active else time_ns()
+
+    def tick(self) -> None:
+        """Simulate what is due and publish."""
+        if self._is_paused:
+            self._publish(self._ros_ns())
+        else:
+            self._run_to_now()
+
+    def _run_to_now(self) -> None:
+        """Simulate what is due, and publish each sample that is due on the way."""
+        is_simulated = self._clock_of_node.ros_time_is_active
+        due = self._pace.due(self._step, self._ros_ns(), monotonic_ns(), is_simulated)
+        settings = self._now.settings
+        spacing = settings.physics_rate / settings.publish_rate
+        while not self._is_paused:
+            at = math.ceil(self._sample * spacing - 1e-9)
+            if at > due:
+                break
+            self._advance(at)
+            self._sample += 1
+            self._publish(self._pace.stamp(at))
+        self._advance(due)
+
+    def _advance(self, step: int) -> None:
+        if step > self._step:
+            self._rig.advance(step - self._step)
+            self._step = step
+            if self._heard is not None and not self._is_silent:
+                self._watch_silence()
+
+    def _watch_silence(self) -> None:
+        settings = self._now.settings
+        age = self._rig.time - self._heard
+        if settings.command_timeout and age > settings.command_timeout:
+            self._is_silent = True
+            if settings.on_timeout == 'vent':
+                self._rig.command([0.0])
+
+    # Out -----------------------------------------------------------------------------------
+
+    def _publish(self, stamp: int) -> None:
+        rig = self._rig
+        force, stiffness, damping, acceleration = rig.outputs()[0].tolist()
+        position, velocity = rig.position.item(), rig.velocity.item()
+        pressure = rig.pressure.item()
+        if not math.isfinite(force + position + velocity):
+            self._stop_at_fault()
+            return
+        if not self._feedback.is_ideal:
+            sample = np.array([[position], [velocity], [pressure], [force], [acceleration]])
+            reading = self._feedback.read(rig.time, sample)
+            position, velocity, pressure, force = reading[:, 0].tolist()
+        absolute = pressure + self._now.settings.ambient_pressure
+        self._telemetry.publish(stamp, position, velocity, absolute, force, stiffness, damping)
+        self._published += 1
+
+    def _stop_at_fault(self) -> None:
+        """Stand still at the initial state: what the model says now is no motion."""
+        at = self._rig.time
+        self._begin()
+        self._is_paused = True
+        self._fault = f'the motion left all bounds {at:.3f} s after the start: reset and paused'
+        self.get_logger().error(self._fault)
+
+    # In ------------------------------------------------------------------------------------
+
+    def _command(self, message: Float64) -> None:
+        pressure = self._input.take(message.data)
+        if pressure is None:
+            self.get_logger().warning(self._input.reason, throttle_duration_sec=1.0)
+            return
+        if pressure != message.data:
+            self.get_logger().warning(self._input.reason, throttle_duration_sec=1.0)
+        if not self._is_paused:
+            self._run_to_now()
+        self._rig.command([pressure])
+        self._heard = self._rig.time
+        self._is_silent = False
+
+    def _change(self, now: Simulation) -> None:
+        """Go on with other parameters."""
+        if not self._is_paused:
+            self._run_to_now()
+        before, self._now = self._now.settings.publish_rate, now
+        self._rig.change([now.model])
+        self._feedback.change(now.sensors)
+        self._input.muscle = now.model.muscle
+        self._telemetry.describe(now.settings.frame_id, now.sensors.pressure_noise**2)
+        rate = now.settings.publish_rate
+        if rate != before:
+            self.ticker.start(rate, monotonic_ns())
+            self._sample = math.ceil(self._rig.time * rate)
+
+    def _reset(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+        self._begin()
+        response.success, response.message = True, 'at the initial state'
+        return response
+
+    def _pause(self, request: SetBool.Request, response: SetBool.Response) -> SetBool.Response:
+        if request.data and not self._is_paused:
+            self._run_to_now()
+        elif self._is_paused and not request.data:
+            self._pace.align(self._step, self._ros_ns(), monotonic_ns())
+            self._fault = ''
+        self._is_paused = request.data
+        response.success, response.message = True, 'paused' if request.data else 'running'
+        return response
+
+    # Health --------------------------------------------------------------------------------
+
+    def _timing(self) -> Health:
+        kept = self.ticker.report(monotonic_ns())
+        rate, self._published = self._published / kept.span, 0
+        wanted = self._now.settings.publish_rate
+        values = {
+            'publish rate (Hz)': rate,
+            'wanted publish rate (Hz)': wanted,
+            'overruns': kept.overruns,
+            'worst lateness (s)': kept.worst,
+            'simulated time (s)': self._rig.time,
+            'simulated time lost (s)': self._pace.lost,
+            'clock jumps': self._pace.jumps,
+            'paused': self._is_paused,
+        }
+        if self._fault:
+            return Health(ERROR, self._fault, values)
+        if self._clock_of_node.ros_time_is_active and not self._ros_ns():
+            return Health(WARN, 'waits for /clock (use_sim_time is set)', values)
+        if self._is_paused:
+            return Health(OK, 'paused', values)
+        if rate < 0.95 * wanted:
+            return Health(WARN, f'publishes at {rate:.1f} Hz instead of {wanted:g}', values)
+        return Health(OK, 'keeps its rate', values)
+
+    def _commands(self) -> Health:
+        age = None if self._heard is None else self._rig.time - self._heard
+        values = {
+            'command age (s)': age,
+            'last command (Pa)': self._input.last,
+            'accepted': self._input.accepted,
+            'clamped': self._input.clamped,
+            'refused': self._input.refused,
+            'last reason': self._input.reason,
+        }
+        if age is None:
+            return Health(OK, 'no command yet', values)
+        if self._is_silent:
+            did = {'vent': 'vented', 'hold': 'held'}[self._now.settings.on_timeout]
+            return Health(WARN, f'no command for {age:.3g} s: {did}', values)
+        return Health(OK, 'commanded', values)

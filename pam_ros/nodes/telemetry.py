@@ -1,0 +1,69 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The topics on which a simulated muscle tells its state."""
+
+from rclpy.node import Node
+from rclpy.qos import QoSProfile
+from rclpy.qos_overriding_options import QoSOverridingOptions
+from sensor_msgs.msg import FluidPressure, JointState
+from std_msgs.msg import Float64
+
+from pam_ros.nodes.pace import SECOND
+
+DEPTH = 10
+
+
+def open_qos() -> QoSOverridingOptions:
+    """Let a user change history, depth and reliability by ``qos_overrides`` parameters."""
+    return QoSOverridingOptions.with_default_policies()
+
+
+class Telemetry:
+    """Publishes the state of one muscle; each message is made once and filled anew."""
+
+    def __init__(self, node: Node, joint: str) -> None:
+        """Create the publishers on *node*; *joint* names the joint."""
+        self._joint = JointState(name=[joint], position=[0.0], velocity=[0.0], effort=[0.0])
+        self._fluid = FluidPressure(header=self._joint.header)
+        self._float = Float64()
+        self._stamp = self._joint.header.stamp
+
+        def publisher(kind: type, name: str):
+            return node.create_publisher(
+                kind, name, QoSProfile(depth=DEPTH), qos_overriding_options=open_qos()
+            )
+
+        self._joint_states = publisher(JointState, 'joint_states')
+        self._pressure = publisher(FluidPressure, 'pressure')
+        self._force = publisher(Float64, 'force')
+        self._stiffness = publisher(Float64, 'stiffness')
+        self._damping = publisher(Float64, 'damping')
+
+    def describe(self, frame: str, variance: float) -> None:
+        """Set the frame in the headers, and the variance of the pressure in Pa^2."""
+        self._joint.header.frame_id = frame
+        self._fluid.variance = variance
+
+    def publish(
+        self,
+        stamp: int,
+        position: float,
+        velocity: float,
+        pressure: float,
+        force: float,
+        stiffness: float,
+        damping: float,
+    ) -> None:
+        """Publish one state of the given ROS time in ns; *pressure* is absolute, all SI."""
+        self._stamp.sec, self._stamp.nanosec = divmod(stamp, SECOND)
+        joint, value = self._joint, self._float
+        joint.position[0], joint.velocity[0], joint.effort[0] = position, velocity, force
+        self._joint_states.publish(joint)
+        self._fluid.fluid_pressure = pressure
+        self._pressure.publish(self._fluid)
+        value.data = force
+        self._force.publish(value)
+        value.data = stiffness
+        self._stiffness.publish(value)
+        value.data = damping
+        self._damping.publish(value)
