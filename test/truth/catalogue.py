@@ -3,7 +3,9 @@
 """The one table of what a truth plant may have beside its muscle, with magnitudes.
 
 A kind may come in several forms: other equations for the same physical effect. `small` and
-`large` bound what a blind trial draws, log-uniformly when both are positive.
+`large` bound what a blind trial draws, log-uniformly when both are positive. What
+draw_effect scales to the record at hand is bounded as a share: the static friction of
+Coulomb's, a stop of the stroke, a knee of the pressure range, a drift of the duration.
 """
 
 from __future__ import annotations
@@ -65,7 +67,7 @@ _FORMS = (
         'lugre',
         {
             'coulomb_n': R(15.0, 2.5, 25.0),
-            'static_n': R(1.5, 1.1, 2.0),  # as a multiple of coulomb_n when drawn
+            'static_n': R(22.5, 1.1, 2.0),
             'stribeck_m_s': R(10e-3, 3e-3, 30e-3),
             'bristle_n_m': R(1e6, 3e5, 2e6),
         },
@@ -152,7 +154,7 @@ _FORMS = (
         'end_stop',  # Hunt and Crossley
         'hunt_crossley',
         {
-            'stop_m': R(0.85, 0.6, 0.92),
+            'stop_m': R(0.07, 0.6, 0.92),
             'stop_n_m15': R(2e7, 5e6, 5e7),
             'stop_s_m': R(1.0, 0.3, 2.0),
         },
@@ -203,8 +205,8 @@ _FORMS = (
         'tanh',
         {
             'drift_share': R(0.02, 0.01, 0.04, signed=True),
-            'drift_mid_s': R(0.5, 0.4, 0.7),  # as a share of the record when drawn
-            'drift_width_s': R(0.1, 0.05, 0.15),
+            'drift_mid_s': R(30.0, 0.4, 0.7),
+            'drift_width_s': R(6.0, 0.05, 0.15),
         },
         held=True,
     ),
@@ -222,7 +224,7 @@ _FORMS = (
     Form(
         'saturation',
         'pressure_gain',
-        {'saturation': R(0.2, 0.1, 0.4), 'knee_pa': R(0.5, 0.3, 0.7)},
+        {'saturation': R(0.2, 0.1, 0.4), 'knee_pa': R(250e3, 0.3, 0.7)},
         held=True,
     ),
 )

@@ -27,8 +27,7 @@ class Effect:
 def effect(kind: str, form: str | None = None, **values: float) -> Effect:
     """Return an effect by name, with the table's defaults for what is not given.
 
-    static_n of friction is in newton here; left out, it is 1.5 times coulomb_n. The table's
-    defaults of an end stop, a knee and a drift are shares of a range: give them.
+    The static friction left out is 1.5 times Coulomb's.
     """
     chosen = FORMS[(kind, form or forms_of(kind)[0])]
     unknown = set(values) - set(chosen.ranges)
@@ -36,7 +35,7 @@ def effect(kind: str, form: str | None = None, **values: float) -> Effect:
         raise ValueError(f'{kind} ({chosen.form}) has no {sorted(unknown)}')
     full = {name: values.get(name, r.default) for name, r in chosen.ranges.items()}
     if 'static_n' in full and 'static_n' not in values:
-        full['static_n'] *= full['coulomb_n']
+        full['static_n'] = 1.5 * full['coulomb_n']
     return Effect(kind, chosen.form, {**full, **chosen.fixed})
 
 
