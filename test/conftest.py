@@ -1,0 +1,48 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""What every test run has: its own ROS domain, checked messages, plots without a screen."""
+
+import os
+from pathlib import Path
+
+import pytest
+
+from pam_ros.compiled import HAVE_NUMBA
+from support.domain import claim_domain
+
+DOMAIN = pytest.StashKey()
+
+
+def pytest_configure(config):
+    domain, lock = claim_domain()
+    config.stash[DOMAIN] = lock  # held until the run ends
+    os.environ['ROS_DOMAIN_ID'] = str(domain)
+    os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'] = 'LOCALHOST'
+    os.environ.pop('ROS_STATIC_PEERS', None)
+    os.environ['ROS_PYTHON_CHECK_FIELDS'] = '1'
+    os.environ['MPLBACKEND'] = 'Agg'
+
+
+def pytest_unconfigure(config):
+    config.stash[DOMAIN].close()
+
+
+def pytest_report_header():
+    return f'ROS_DOMAIN_ID {os.environ["ROS_DOMAIN_ID"]}, numba: {HAVE_NUMBA}'
+
+
+def pytest_collection_modifyitems(items):
+    if not HAVE_NUMBA:
+        skip = pytest.mark.skip(reason='needs numba: takes too long as plain Python')
+        for item in items:
+            if item.get_closest_marker('needs_numba'):
+                item.add_marker(skip)
+
+
+@pytest.fixture(scope='session')
+def shared_data():
+    """Return the folder of measured data; tests that read it are skipped where it is absent."""
+    folder = Path(os.environ.get('PAM_SHARED_DATA', Path(__file__).parents[2] / 'shared' / 'data'))
+    if not folder.is_dir():
+        pytest.skip(f'no measured data: {folder} is absent (PAM_SHARED_DATA names the folder)')
+    return folder
