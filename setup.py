@@ -48,6 +48,7 @@ setup(
         'PyYAML',
         'matplotlib',
         'jinja2',
+        'mcap',
         'rosbags',
         'tqdm',
     ],

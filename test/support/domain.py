@@ -35,8 +35,9 @@ def claim_domain() -> tuple[int, TextIO]:
         domain = DOMAINS[(os.getpid() + turn) % len(DOMAINS)]
         if domain in heard:
             continue
+        lock_file = Path(tempfile.gettempdir(), f'pam_ros_test_domain_{domain}.lock')
         try:
-            lock = Path(tempfile.gettempdir(), f'pam_ros_test_domain_{domain}.lock').open('a')
+            lock = lock_file.open('a')
         except PermissionError:  # another user's
             continue
         try:

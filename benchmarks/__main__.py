@@ -1,0 +1,43 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Run the benchmarks: ``python -m benchmarks`` for all, ``python -m benchmarks NAME...`` for some.
+
+A benchmark is a module of this folder with a function ``main()`` that measures and prints its
+table; modules whose name starts with an underscore are their helpers. Each runs in a process of
+its own, so that none measures what another left behind.
+"""
+
+import subprocess
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).parent
+RUN_ONE = 'import importlib, sys; importlib.import_module("benchmarks." + sys.argv[1]).main()'
+
+
+def names() -> list[str]:
+    """Return the names of all benchmarks."""
+    return sorted(path.stem for path in HERE.glob('*.py') if not path.stem.startswith('_'))
+
+
+def main(wanted: list[str]) -> int:
+    """Run the *wanted* benchmarks, all if there are none; return the exit code."""
+    known = names()
+    for name in wanted:
+        if name not in known:
+            print(f'{name} is no benchmark: there are {", ".join(known)}', file=sys.stderr)
+            return 2
+    failed = []
+    for name in wanted or known:
+        print(f'== {name}', flush=True)
+        done = subprocess.run([sys.executable, '-c', RUN_ONE, name], cwd=HERE.parent, check=False)
+        if done.returncode:
+            failed.append(name)
+        print(flush=True)
+    if failed:
+        print(f'failed: {", ".join(failed)}', file=sys.stderr)
+    return 1 if failed else 0
+
+
+if __name__ == '__main__':
+    sys.exit(main(sys.argv[1:]))
