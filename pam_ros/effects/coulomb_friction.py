@@ -24,22 +24,24 @@ def outside(
     """Return f less the friction, which opposes motion and holds a load at rest.
 
     Level: g = C + (S - C) exp(-(v / w)^2) + B p, with C, S, w, B = q[j] to q[j + 3] and S not
-    below C. Below it the contact is a spring of length q[j + 4], x[i] its force and x[i + 1]
-    the position before, with a damper; both together never exceed g (Prandtl's element: no
-    drift under loads that change). For a step of length h = x[i + 2] that cannot resolve the
-    spring, it is lengthened so that its frequency on the load stays below 1/h.
+    below C; (1 + A) g upwards and (1 - A) g downwards, A = q[j + 4]. Below it the contact is a
+    spring of length q[j + 5], x[i] its force and x[i + 1] the position before, with a damper;
+    both together never exceed g (Prandtl's element: no drift under loads that change). For a
+    step of length h = x[i + 2] that cannot resolve the spring, it is lengthened so that its
+    frequency on the load stays below 1/h.
     """
     if q[j] == 0.0 and q[j + 1] == 0.0 and q[j + 3] == 0.0:
         return f
     level = q[j] + q[j + 3] * max(p, 0.0)
     if q[j + 1] > q[j]:
         level += (q[j + 1] - q[j]) * exp(-(v / q[j + 2]) * (v / q[j + 2]))
-    k = level / (q[j + 4] + level * x[i + 2] * x[i + 2] / q[MASS])
-    spring = min(max(x[i] + k * (y - x[i + 1]), -level), level)
+    up, down = (1.0 + q[j + 4]) * level, (1.0 - q[j + 4]) * level
+    k = level / (q[j + 5] + level * x[i + 2] * x[i + 2] / q[MASS])
+    spring = min(max(x[i] + k * (y - x[i + 1]), -down), up)
     xn[i] = spring
     xn[i + 1] = y
     xn[i + 2] = h
-    return f - min(max(spring + sqrt(k * q[MASS]) * v, -level), level)
+    return f - min(max(spring + sqrt(k * q[MASS]) * v, -down), up)
 
 
 def start(q: Row, j: int, p: float, kappa: float, y: float) -> tuple[float, ...]:
@@ -95,6 +97,15 @@ EFFECT = Effect(
             sign=1,
         ),
         EffectParameter(
+            'asymmetry',
+            0.0,
+            'friction upwards less that downwards, relative to their sum',
+            '',
+            -1.0,
+            1.0,
+            scale=0.1,
+        ),
+        EffectParameter(
             'presliding',
             1e-5,
             'way of the contact until it slides',
@@ -106,7 +117,11 @@ EFFECT = Effect(
     ),
     signature='residual force that jumps with the sign of velocity; rests in the turns',
     experiment='slow triangles and micro-reversals: the force turns over within micrometres',
-    fit_starts=({'level': 3.0}, {'level': 15.0}, {'level': 5.0, 'breakaway': 8.0}),
+    fit_starts=(
+        {'level': 3.0},
+        {'level': 15.0, 'asymmetry': 0.0},
+        {'level': 5.0, 'breakaway': 8.0, 'stribeck_speed': 0.01},
+    ),
     states=('contact force', 'position', 'step'),
     start=start,
     rivals=('hysteresis', 'viscous_friction'),

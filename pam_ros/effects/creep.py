@@ -56,7 +56,7 @@ EFFECT = Effect(
         EffectParameter(
             'force',
             0.0,
-            'share of a change of force that comes late',
+            'share of a change of force that comes late; negative: surplus that relaxes',
             '',
             -0.9,
             0.9,
@@ -92,7 +92,7 @@ EFFECT = Effect(
         {'stiffness': 300.0, 'time': 5.0},
         {'stiffness': 500.0, 'time': 5.0, 'spread': 3.0},
         {'force': 0.03, 'time': 1.0},
-        {'force': 0.03, 'time': 5.0, 'spread': 3.0},
+        {'force': -0.03, 'time': 10.0},
     ),
     states=('fast force', 'slow force', 'fast contraction', 'slow contraction'),
     start=start,

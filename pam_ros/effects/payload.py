@@ -4,12 +4,12 @@
 
 from pam_ros.effects.base import Effect, EffectParameter, Row
 
-# A load can be overestimated, but never be nothing: the muscle's own ends move along.
-LEAST_SHARE = 0.02
+# A load can be overestimated, but never be nothing: other effects rely on the declared mass.
+LEAST_SHARE = 0.2
 
 
 def mass(m: float, q: Row, j: int) -> float:
-    """Return m + q[j], both in kg, at least a fiftieth of m."""
+    """Return m + q[j], both in kg, at least a fifth of m."""
     return max(m + q[j], LEAST_SHARE * m)
 
 

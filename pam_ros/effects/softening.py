@@ -6,8 +6,9 @@ from math import exp
 
 from pam_ros.effects.base import Effect, EffectParameter, Row
 
-# Pressure moves within this band, either way, are noise of a sensor and no part of a cycle.
-BAND = 5e3
+# Moves within these bands, either way, are noise of a sensor and no part of a cycle.
+BAND = 5e3  # Pa
+BAND_KAPPA = 2e-3
 
 
 def force(
@@ -25,19 +26,22 @@ def force(
 ) -> float:
     """Return f (1 - L (1 - exp(-d))): L = q[j] is lost when the damage d has grown large.
 
-    d grows by q[j + 1] for each Pa that the pressure moves, up or down, and by q[j + 2] each
-    second. x[i] is d, x[i + 1] the pressure with a play of ±BAND, which swallows noise.
+    d grows with the way that pressure and contraction go, up or down, by q[j + 1] per Pa and
+    q[j + 2] per unit of contraction, and by q[j + 3] each second. x[i] is d; x[i + 1] and
+    x[i + 2] are pressure and contraction with a play of ±BAND, which swallows noise.
     """
     if q[j] == 0.0:
         return f
     xn[i + 1] = min(max(x[i + 1], p - BAND), p + BAND)
-    xn[i] = x[i] + q[j + 1] * abs(xn[i + 1] - x[i + 1]) + q[j + 2] * h
+    xn[i + 2] = min(max(x[i + 2], kappa - BAND_KAPPA), kappa + BAND_KAPPA)
+    way = q[j + 1] * abs(xn[i + 1] - x[i + 1]) + q[j + 2] * abs(xn[i + 2] - x[i + 2])
+    xn[i] = x[i] + way + q[j + 3] * h
     return f * (1.0 - q[j] * (1.0 - exp(-xn[i])))
 
 
 def start(q: Row, j: int, p: float, kappa: float, y: float) -> tuple[float, ...]:
     """Return a rested muscle."""
-    return (0.0, p)
+    return (0.0, p, kappa)
 
 
 EFFECT = Effect(
@@ -66,6 +70,15 @@ EFFECT = Effect(
             scale=2e-7,
         ),
         EffectParameter(
+            'per_contraction',
+            0.0,
+            'approach to the limit for each unit of contraction that the muscle goes, up or down',
+            '1/fraction',
+            0.0,
+            1e3,
+            scale=0.3,
+        ),
+        EffectParameter(
             'per_second', 0.0, 'approach to the limit each second', '1/s', 0.0, 10.0, scale=0.02
         ),
     ),
@@ -74,10 +87,11 @@ EFFECT = Effect(
     fit_starts=(
         {'limit': 0.03, 'per_pressure': 1e-6},
         {'limit': 0.03, 'per_pressure': 1e-7},
+        {'limit': 0.03, 'per_contraction': 0.3},
         {'limit': 0.03, 'per_second': 0.1},
         {'limit': 0.03, 'per_second': 0.01},
     ),
-    states=('damage', 'pressure with play'),
+    states=('damage', 'pressure with play', 'contraction with play'),
     start=start,
     rivals=('creep', 'leak'),
     force=force,
