@@ -5,7 +5,10 @@
 import os
 from pathlib import Path
 
+import numpy as np
 import pytest
+import scipy
+from hypothesis import settings
 
 from pam_ros.compiled import HAVE_NUMBA
 from support.domain import claim_domain
@@ -21,6 +24,9 @@ def pytest_configure(config):
     os.environ.pop('ROS_STATIC_PEERS', None)
     os.environ['ROS_PYTHON_CHECK_FIELDS'] = '1'
     os.environ['MPLBACKEND'] = 'Agg'
+    # A slow machine is no failure; and what passes once in CI passes each time.
+    settings.register_profile('pam_ros', deadline=None, derandomize='CI' in os.environ)
+    settings.load_profile('pam_ros')
 
 
 def pytest_unconfigure(config):
@@ -28,7 +34,10 @@ def pytest_unconfigure(config):
 
 
 def pytest_report_header():
-    return f'ROS_DOMAIN_ID {os.environ["ROS_DOMAIN_ID"]}, numba: {HAVE_NUMBA}'
+    return (
+        f'numpy {np.__version__}, scipy {scipy.__version__}, '
+        f'{"with" if HAVE_NUMBA else "without"} numba, ROS_DOMAIN_ID {os.environ["ROS_DOMAIN_ID"]}'
+    )
 
 
 def pytest_collection_modifyitems(items):

@@ -1,0 +1,69 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The pure rooms on the oldest numpy and scipy that are supported, without numba and ROS."""
+
+import re
+import shutil
+import subprocess
+import sys
+import sysconfig
+from pathlib import Path
+
+import pytest
+
+FOLDER = '.venv/oldest'  # kept between runs, as tools/environment knows when it is out of date
+VERSIONS = ('3.12', '3.11', '3.10')  # what the oldest numpy and scipy have wheels for
+INSTALLATION_DEADLINE = 600.0  # s; both only bound how long something broken may hang
+TESTS_DEADLINE = 1200.0
+
+
+def base_python():
+    """Return an interpreter of a fitting version: this one's own, or another that is there."""
+    version = sysconfig.get_python_version()
+    if version in VERSIONS:
+        return str(Path(sys.base_prefix) / 'bin' / f'python{version}')
+    for other in VERSIONS:
+        found = shutil.which(f'python{other}')
+        if (
+            found
+            and subprocess.run([found, '-V'], check=False, capture_output=True).returncode == 0
+        ):
+            return found
+    return None
+
+
+def test_pure_rooms_pass_on_the_oldest_libraries(root, clean_environment):
+    python = base_python()
+    if python is None:
+        pytest.skip('no Python 3.10 to 3.12 here, and numpy 1.26 has no wheels for later ones')
+    made = subprocess.run(
+        ['tools/environment', FOLDER, 'requirements/oldest.txt'],
+        cwd=root,
+        env={**clean_environment, 'PYTHON': python},
+        capture_output=True,
+        text=True,
+        timeout=INSTALLATION_DEADLINE,
+        check=False,
+    )
+    assert made.returncode == 0, made.stdout + made.stderr
+    tested = subprocess.run(
+        [root / FOLDER / 'bin' / 'python', '-m', 'pytest', '-p', 'no:cacheprovider']
+        + [f'--ignore=test/{room}' for room in ('nodes', 'packaging')],
+        cwd=root,
+        env=clean_environment,
+        capture_output=True,
+        text=True,
+        timeout=TESTS_DEADLINE,
+        check=False,
+    )
+    assert tested.returncode == 0, tested.stdout + tested.stderr
+    assert re.search(r'numpy 1\.26\.\d+, scipy 1\.11\.\d+, without numba', tested.stdout)
+    assert re.search(r'\d+ passed', tested.stdout)
+    imported = subprocess.run(
+        [root / FOLDER / 'bin' / 'python', '-c', 'import rclpy'],
+        env=clean_environment,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert 'ModuleNotFoundError' in imported.stderr
