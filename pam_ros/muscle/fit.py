@@ -164,7 +164,7 @@ class _Search:
                 f'{measured} measured points do not determine six constants and the noise: '
                 'give at least 7 with a pull'
             )
-        trials = np.log(np.geomspace(*A3_RANGE, 64))
+        trials = np.log(np.geomspace(*A3_RANGE, 40))
         costs = [self._solve(-np.exp(t))[1] for t in trials]
         best = int(np.argmin(costs))
         if best in (0, len(trials) - 1):
@@ -183,8 +183,7 @@ class _Search:
         )
         a3 = -float(np.exp(found.x))
         linear, _, noise = self._solve(a3)
-        a1, a2, a4, a5, a6 = linear
-        constants = np.array([a1, a2, a3, a4, a5, a6])
+        constants = np.insert(linear, 2, a3)
         return constants, self._covariance(constants, noise)
 
     def _columns(self, a3: float) -> Array:
@@ -209,7 +208,9 @@ class _Search:
 
     def _censored(self, x: Array, linear: Array, noise: float) -> tuple[Array, float, float]:
         """Return what maximises the likelihood with the slack points, by Newton's method."""
-        rows, slack = self._rows(x), self.slack
+        slack = self.slack
+        # With u = (linear, 1)/sigma, rows @ u are the residuals over sigma; at the level if slack.
+        rows = np.column_stack([-x, np.where(slack, self.level, self.force)])
         measured = np.count_nonzero(~slack)
         u = np.append(linear, 1.0) / noise
 
@@ -237,38 +238,31 @@ class _Search:
             u, now = u - share * step, new
         return u[:-1] / u[-1], 1.0 / u[-1], now
 
-    def _rows(self, x: Array) -> Array:
-        """Return rows whose product with (linear, 1)/sigma is (y - x linear)/sigma.
-
-        y is the level where the point is slack.
-        """
-        y = np.where(self.slack, self.level, self.force)
-        return np.column_stack([-x, y])
-
     def _covariance(self, constants: Array, noise: float) -> Array:
         """Return the inverse information of a1..a6 with the noise estimated beside them."""
-        a1, a2, a3, a4, a5, a6 = constants
+        a1, a2, a3 = constants[:3]
         columns = self._columns(a3)
         by_a3 = (a1 * self.p + a2) * self.kappa * np.exp(a3 * self.kappa)
         jacobian = np.insert(columns, 2, by_a3, axis=1)
+        measured = np.count_nonzero(~self.slack)
         size = np.linalg.norm(jacobian, axis=0)
         if np.linalg.matrix_rank(jacobian[~self.slack] / size, tol=1e-7) < 6:
             raise ParameterError(
                 'the map does not determine the six constants: give more pressures (2 or more) '
                 'and contractions (4 or more) with a pull'
             )
-        # Linearised about the optimum, the problem is again that of _rows, in six constants.
-        scaled = constants * size
-        around = self._rows(jacobian / size)
-        around[:, -1] += jacobian @ constants - columns @ np.array([a1, a2, a4, a5, a6])
-        u = np.append(scaled, 1.0) / noise
-        _, weight = _mills(around @ u, self.slack)
-        information = around.T @ (weight[:, None] * around)
-        measured = np.count_nonzero(~self.slack)
-        information[-1, -1] += measured / u[-1] ** 2
-        to_constants = np.column_stack([np.eye(6), -scaled]) * noise
-        spread = to_constants @ np.linalg.inv(information) @ to_constants.T
-        spread *= measured / (measured - 6)
+        # Second derivatives of the cost by the constants and by the logarithm of the noise. Where
+        # measured they are simple, since the first derivatives are 0 at the optimum.
+        r = (
+            np.where(self.slack, self.level, self.force) - columns @ np.delete(constants, 2)
+        ) / noise
+        pull, weight = _mills(r, self.slack)
+        jacobian /= size
+        mixed = np.where(self.slack, weight * r - pull, 0.0)
+        information = jacobian.T @ (weight[:, None] * jacobian)
+        beside = jacobian.T @ mixed
+        information -= np.outer(beside, beside) / (2.0 * measured + r @ mixed)
+        spread = noise**2 * np.linalg.inv(information) * measured / (measured - 6)
         return np.asarray(spread / np.outer(size, size), dtype=float)
 
 
