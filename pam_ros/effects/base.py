@@ -35,9 +35,13 @@ from collections.abc import Callable, MutableSequence
 from dataclasses import dataclass, field
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from pam_ros.errors import ParameterError
 from pam_ros.parameters import Parameter
 
+Array = NDArray[np.float64]
 # A row of float64: numpy's array, or numba's; both are indexed like this.
 Row = MutableSequence[float]
 PLACES = ('delay', 'pressure', 'contraction', 'mass', 'force', 'damping', 'outside')
@@ -73,7 +77,10 @@ class Effect:
 
     ``start(q, j, p, kappa, y)`` gives the hidden states of a rig that has long been at rest there
     (default: zeros). ``fit_starts`` are sets of parameter values from which a fit begins; each
-    makes the effect clearly present. ``signature`` says in words what the residual looks like,
+    makes the effect clearly present and names what a fit from there may change. What constants
+    cannot foresee, a frequency or the place of a stop, comes from ``guess(t, p, kappa,
+    residual)``: further starts from a recording, arrays (n,) in SI, the residual being measured
+    less simulated position or force. ``signature`` says in words what the residual looks like,
     ``experiment`` what to record to tell it from its nearest rivals.
     """
 
@@ -86,6 +93,7 @@ class Effect:
     fit_starts: tuple[dict[str, float], ...]
     states: tuple[str, ...] = ()
     start: Callable[[Any, int, float, float, float], tuple[float, ...]] | None = None
+    guess: Callable[[Array, Array, Array, Array], tuple[dict[str, float], ...]] | None = None
     delay: Callable[..., float] | None = None
     pressure: Callable[..., float] | None = None
     contraction: Callable[..., float] | None = None

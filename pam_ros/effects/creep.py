@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Creep and stress relaxation: parts of the muscle's elasticity follow slowly."""
 
-from math import exp
+from math import expm1
 
 from pam_ros.effects.base import Effect, EffectParameter, Row
 from pam_ros.muscle import law
@@ -25,16 +25,22 @@ def force(
     """Return f - s (f - f_slow) - K (kappa - kappa_slow), with s = q[j] and K = q[j + 1].
 
     Both slow parts are means of two first-order lags of times T/r and T r, with T = q[j + 2]
-    and r = q[j + 3], each exact for what it follows constant over h.
+    and r = q[j + 3], exact for an f and a kappa that are linear over h. x[i + 4] and x[i + 5]
+    are f and kappa before.
     """
     if q[j] == 0.0 and q[j + 1] == 0.0:
         return f
-    fast = exp(-h * q[j + 3] / q[j + 2])
-    slow = exp(-h / (q[j + 2] * q[j + 3]))
-    xn[i] = f + (x[i] - f) * fast
-    xn[i + 1] = f + (x[i + 1] - f) * slow
-    xn[i + 2] = kappa + (x[i + 2] - kappa) * fast
-    xn[i + 3] = kappa + (x[i + 3] - kappa) * slow
+    df = f - x[i + 4]
+    dk = kappa - x[i + 5]
+    xn[i + 4] = f
+    xn[i + 5] = kappa
+    for n in range(2):
+        r = q[j + 3] if n == 0 else 1.0 / q[j + 3]
+        a = h * r / q[j + 2]
+        gone = -expm1(-a)
+        late = gone / a if a > 0.0 else 1.0
+        xn[i + n] = x[i + n] + (x[i + 4] - x[i + n]) * gone + df * (1.0 - late)
+        xn[i + 2 + n] = x[i + 2 + n] + (x[i + 5] - x[i + 2 + n]) * gone + dk * (1.0 - late)
     return (
         f
         - q[j] * (f - 0.5 * (xn[i] + xn[i + 1]))
@@ -45,7 +51,7 @@ def force(
 def start(q: Row, j: int, p: float, kappa: float, y: float) -> tuple[float, ...]:
     """Return everything relaxed."""
     f = law.force_v(p, kappa, q[A1], q[A2], q[A3], q[A4], q[A5], q[A6])
-    return (f, f, kappa, kappa)
+    return (f, f, kappa, kappa, f, kappa)
 
 
 EFFECT = Effect(
@@ -94,7 +100,14 @@ EFFECT = Effect(
         {'force': 0.03, 'time': 1.0},
         {'force': -0.03, 'time': 10.0},
     ),
-    states=('fast force', 'slow force', 'fast contraction', 'slow contraction'),
+    states=(
+        'fast force',
+        'slow force',
+        'fast contraction',
+        'slow contraction',
+        'force',
+        'contraction',
+    ),
     start=start,
     rivals=('hysteresis', 'softening', 'pressure_dependent_damping', 'leak'),
     force=force,

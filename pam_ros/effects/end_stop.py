@@ -2,7 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """End stops: the load meets a stiff pad at the top, and another at the bottom."""
 
-from pam_ros.effects.base import Effect, EffectParameter, Row
+import numpy as np
+
+from pam_ros.effects.base import Array, Effect, EffectParameter, Row
 from pam_ros.rig.layout import L0, MASS
 
 
@@ -46,6 +48,17 @@ def outside(
 def start(q: Row, j: int, p: float, kappa: float, y: float) -> tuple[float, ...]:
     """Return the usual step."""
     return (1e-3,)
+
+
+def guess(t: Array, p: Array, kappa: Array, residual: Array) -> tuple[dict[str, float], ...]:
+    """Return starts with a pad just within the travel that was recorded, at either end."""
+    low, high = np.quantile(kappa, [0.02, 0.98])
+    inside = 0.02 * (high - low)
+    return (
+        {'upper': float(high - inside), 'stiffness': 3e4},
+        {'upper': float(high - 10.0 * inside), 'stiffness': 1e4},
+        {'lower': float(low + inside), 'lower_stiffness': 3e4},
+    )
 
 
 EFFECT = Effect(
@@ -108,4 +121,5 @@ EFFECT = Effect(
     start=start,
     rivals=('slack', 'length_offset'),
     outside=outside,
+    guess=guess,
 )

@@ -4,7 +4,9 @@
 
 from math import cos, pi, sin
 
-from pam_ros.effects.base import Effect, EffectParameter, Row
+import numpy as np
+
+from pam_ros.effects.base import Array, Effect, EffectParameter, Row
 
 
 def force(
@@ -33,6 +35,37 @@ def pressure(p: float, t: float, h: float, x: Row, i: int, xn: Row, q: Row, j: i
         return p
     angle = 2.0 * pi * q[j + 4] * t
     return p + (q[j + 2] * sin(angle) + q[j + 3] * cos(angle))
+
+
+def guess(t: Array, p: Array, kappa: Array, residual: Array) -> tuple[dict[str, float], ...]:
+    """Return a start for each of the two tallest lines in the residual's spectrum.
+
+    Each is the best of a zero-padded Hann periodogram, refined by the parabola through its
+    logarithm, so that a fit begins well within 1/duration of it.
+    """
+    n = t.size
+    even = np.linspace(t[0], t[-1], n)
+    values = np.interp(even, t, residual)
+    trend = np.polynomial.Polynomial.fit(even, values, 3)
+    size = 8 * n
+    power = np.abs(np.fft.rfft((values - trend(even)) * np.hanning(n), size)) ** 2
+    step = (n - 1) / (size * (t[-1] - t[0]))
+    least = 8 * 3  # a line slower than three periods in the record is a drift
+    power[:least] = 0.0
+    found = []
+    for _ in range(2):
+        k = int(np.argmax(power[:-1]))
+        if k < least or power[k] <= 0.0:
+            break
+        left, peak, right = np.log(power[k - 1 : k + 2] + 1e-300)
+        bend = left - 2.0 * peak + right
+        shift = 0.5 * (left - right) / bend if bend < 0.0 else 0.0
+        found.append((k + float(np.clip(shift, -0.5, 0.5))) * step)
+        power[max(k - 32, 0) : k + 33] = 0.0
+    force = tuple({'force_sin': 1.0, 'force_cos': 1.0, 'frequency': f} for f in found)
+    return force + tuple(
+        {'pressure_sin': 500.0, 'pressure_cos': 500.0, 'frequency': f} for f in found
+    )
 
 
 EFFECT = Effect(
@@ -90,4 +123,5 @@ EFFECT = Effect(
     ),
     force=force,
     pressure=pressure,
+    guess=guess,
 )
