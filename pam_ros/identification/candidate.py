@@ -1,0 +1,97 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Fits with one more effect: first a cheap look from every starting value, then a full fit."""
+
+from collections.abc import Sequence
+from concurrent.futures import Executor
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pam_ros.effects.base import Effect
+from pam_ros.identification.problem import Problem
+from pam_ros.identification.solve import Solution, predicted_cost, solve
+from pam_ros.identification.unknowns import effect_unknowns
+from pam_ros.rig.model import RigModel
+
+Array = NDArray[np.float64]
+LOOKS = 2  # steps of the cheap look, with the parent's columns kept
+TRIED = 2  # starting values per effect from which it is taken
+
+
+@dataclass(frozen=True, eq=False)
+class Fit:
+    """A model that was fitted: the effects in it and where it ended."""
+
+    effects: tuple[str, ...]
+    solution: Solution
+    fit_error: float
+    held_error: float
+
+    @property
+    def score(self) -> float:
+        """Cost plus what its number of parameters costs (Schwarz): lower is better."""
+        problem = self.solution.problem
+        count = sum(k.prior == np.inf and k.segment < 0 for k in problem.unknowns)
+        return self.solution.cost + count * float(np.log(problem.independent))
+
+
+def fitted(effects: tuple[str, ...], solution: Solution) -> Fit:
+    """Return the Fit of a solution, its errors computed."""
+    fit, held = solution.problem.errors(solution.u)
+    return Fit(effects, solution, fit, held)
+
+
+def extended(
+    problem: Problem, model: RigModel, effect: Effect, start: dict[str, float]
+) -> tuple[Problem, Array]:
+    """Return the problem with *effect* added, and the coordinates at which it starts.
+
+    The effect's parameters that *start* does not name keep their defaults.
+    """
+    added = effect_unknowns(model, effect, start)
+    row = problem.row.copy()
+    j = model.layout.parameter_at[effect.name]
+    for k, p in enumerate(effect.parameters):
+        row[j + k] = start.get(p.name, p.default)
+    u = [k.coordinate(start[k.name.rsplit('.', 1)[1]]) for k in added]
+    new = replace(
+        problem, row=row, active=model.library, unknowns=(*problem.unknowns, *added)
+    )
+    return new, np.array(u)
+
+
+def look(parents: Sequence[Fit], model: RigModel, effect: Effect) -> Solution:
+    """Return the best cheap fit of *effect* on top of one of *parents*, over its starting values.
+
+    The columns of what a parent already has are taken from it; only the effect's own are
+    computed at each start. Parents are the same model at different places: where it was
+    re-tuned, its parameters may have gone astray to make up for what is missing; where it was
+    declared, they have not.
+    """
+    guesses = []
+    for parent in parents:
+        known = parent.solution
+        for start in effect.fit_starts:
+            problem, added = extended(known.problem, model, effect, start)
+            u = np.concatenate([known.u, added])
+            r = problem.residuals(u)
+            own = problem.jacobian(u, r, only=range(len(known.u), len(u)))
+            jacobian = np.hstack([known.jacobian, own])
+            guesses.append((predicted_cost(problem, u, r, jacobian), problem, u, jacobian))
+    guesses.sort(key=lambda guess: guess[0])
+    known_columns = len(parents[0].solution.u)
+    solutions = [
+        solve(problem, u, LOOKS, jacobian=jacobian, frozen=known_columns)
+        for _, problem, u, jacobian in guesses[:TRIED]
+    ]
+    return min(solutions, key=lambda solution: solution.cost)
+
+
+def refine(
+    parent: Fit, effect: Effect, start: Solution, pool: Executor | None, iterations: int = 8
+) -> Fit:
+    """Return the full fit of *effect* on top of *parent*, from a cheap one."""
+    solution = solve(start.problem, start.u, iterations=iterations, pool=pool)
+    return fitted((*parent.effects, effect.name), solution)

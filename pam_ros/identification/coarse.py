@@ -1,0 +1,89 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""A thinned copy of the runs, on which many models are compared before a few are fitted in full.
+
+Samples are thinned to the stride that the rig's own frequency allows. Commands that vary a
+little within a stride are replaced by their mean, which acts on the load like them; a jump
+keeps its stamp, because half a stride of delay would show above the noise.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pam_ros.identification.segment import Segment
+from pam_ros.rig.model import RigModel
+
+Array = NDArray[np.float64]
+
+PHASE = 0.2  # rad of the rig's fastest oscillation in one step
+STEPS = (1e-3, 5e-3)  # s, shortest and longest step
+JUMP = 0.01  # share of the command's range within a stride that makes a jump
+SAMPLES = 20_000  # most samples of a held run, whose steps cost nothing but themselves
+
+
+def coarse_step(model: RigModel) -> float:
+    """Return a step in s that resolves the oscillation of the rig at rest, stiffest 30-fold."""
+    muscle = model.muscle
+    if muscle.is_load_only:
+        return STEPS[1]
+    ends = (0.0, muscle.p_max)
+    k = max(float(muscle.stiffness(p, model.rest(p) / muscle.l0)) for p in ends)
+    return float(np.clip(PHASE / np.sqrt(k / model.load.mass), *STEPS))
+
+
+def thinned(segment: Segment, step: float) -> Segment:
+    """Return *segment* with every n-th sample, n so that the period is at most *step*."""
+    period = float(np.median(np.diff(segment.t)))
+    if segment.kind == 'held':
+        stride = max(1, segment.t.size // SAMPLES)
+        rows = slice(None, None, stride)
+        return replace(
+            segment,
+            **{
+                name: getattr(segment, name)[rows]
+                for name in ('t', 'target', 'fit', 'pressure', 'position', 'velocity')
+            },
+        )
+    stride = max(1, int(step / period + 1e-6))
+    t = segment.t[::stride]
+    drive_t, drive = _merged(segment.drive_t, segment.drive, t)
+    return replace(
+        segment,
+        t=t,
+        target=segment.target[::stride],
+        fit=segment.fit[::stride],
+        drive_t=drive_t,
+        drive=drive,
+    )
+
+
+def _merged(at: Array, u: Array, t: Array) -> tuple[Array, Array]:
+    """Return commands with one mean a sample interval where they vary little within it."""
+    if at.size < 2 or at.size <= t.size:
+        return at, u
+    # Time-weighted mean of the held command over each interval, by its integral.
+    integral = np.concatenate([[0.0], np.cumsum(u[:-1] * np.diff(at))])
+
+    def integrate(x: Array) -> Array:
+        i = np.clip(np.searchsorted(at, x, side='right') - 1, 0, at.size - 1)
+        return integral[i] + u[i] * (x - at[i])
+
+    mean = np.diff(integrate(t)) / np.diff(t)
+    cell = np.searchsorted(t, at, side='right') - 1
+    inside = (cell >= 0) & (cell < mean.size)
+    jump = np.zeros(mean.size, dtype=bool)
+    large = np.flatnonzero(np.abs(np.diff(u)) > JUMP * np.ptp(u)) + 1
+    jump[cell[large][inside[large]]] = True
+    keep = ~inside | jump[np.clip(cell, 0, mean.size - 1)]
+    # A cell that keeps its own commands starts with the one that holds at its first stamp.
+    cells = np.flatnonzero(~jump)
+    firsts = t[:-1][jump]
+    held = u[np.clip(np.searchsorted(at, firsts, side='right') - 1, 0, None)]
+    stamps = np.concatenate([at[keep], t[cells], firsts])
+    values = np.concatenate([u[keep], mean[cells], held])
+    order = np.argsort(stamps, kind='stable')
+    stamps, values = stamps[order], values[order]
+    once = np.concatenate([stamps[1:] > stamps[:-1], [True]])
+    return stamps[once], values[once]

@@ -1,0 +1,101 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""When does an effect count? Tests that noise, however coloured, does not pass by itself."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.stats import f as f_distribution
+
+from pam_ros.identification.candidate import Fit
+from pam_ros.identification.noise import independent_share
+from pam_ros.identification.problem import Problem
+
+Array = NDArray[np.float64]
+
+SIGNIFICANCE = 0.01  # of the whole family of candidates
+GAIN = 0.03  # least relative fall of the RMSE kept back
+LATER_SHARE = 0.05  # a second or third effect must explain this share of what re-tuning left
+SIGMAS = 2.6  # of a strength's distance from 0
+LONGEST = 4000  # samples over which a residual's correlation is summed
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """What speaks for a fit with one more effect than its parent."""
+
+    p: float
+    gain: float
+    interval_clear: bool
+    absorbed: bool
+
+
+def independent_samples(fit: Fit) -> float:
+    """Return how many independent samples the residuals of *fit* are worth in a test.
+
+    The fewer of what the noise allows and of what their own correlation allows.
+    """
+    r = fit.solution.r
+    return min(fit.solution.problem.independent, r.size * independent_share(r, LONGEST))
+
+
+def f_test(parent: Fit, child: Fit) -> float:
+    """Return the p value of the child's lower sum of squares under the parent's model."""
+    k = len(child.solution.u) - len(parent.solution.u)
+    left = float(child.solution.r @ child.solution.r)
+    fall = float(parent.solution.r @ parent.solution.r) - left
+    freedom = independent_samples(child) - len(child.solution.u)
+    if fall <= 0.0 or freedom < 1.0:
+        return 1.0
+    # Sums of squares are scaled alike by samples per independent sample, so the ratio stands.
+    return float(f_distribution.sf((fall / k) / (left / freedom), k, freedom))
+
+
+def holm(p: Array) -> Array:
+    """Return p values corrected for their number after Holm (1979)."""
+    order = np.argsort(p)
+    m = p.size
+    corrected = np.minimum(1.0, np.maximum.accumulate(p[order] * (m - np.arange(m))))
+    out = np.empty(m)
+    out[order] = corrected
+    return out
+
+
+def strengths_clear(fit: Fit) -> bool:
+    """Say whether a strength of the newest effect is surely not 0 and has its physical sign.
+
+    The standard errors are those of as many samples as the residual is worth.
+    """
+    problem: Problem = fit.solution.problem
+    worth = independent_samples(fit) / problem.independent
+    error = np.sqrt(np.diag(fit.solution.covariance()) / max(worth, 1e-6))
+    prefix = f'effects.{fit.effects[-1]}.'
+    effect = next(e for e in problem.layout.effects if e.name == fit.effects[-1])
+    signs = {p.name: p.sign for p in effect.parameters if p.strength}
+    for k, unknown in enumerate(problem.unknowns):
+        name = unknown.name.removeprefix(prefix)
+        if unknown.name.startswith(prefix) and name in signs:
+            value = fit.solution.u[k]
+            right = signs[name] == 0 or value * signs[name] > 0.0
+            if right and abs(value) > SIGMAS * error[k]:
+                return True
+    return False
+
+
+def held_difference(a: Fit, b: Fit) -> tuple[float, float]:
+    """Return mean and standard error of e_b^2 - e_a^2 over the samples kept back."""
+    d = _held(b) ** 2 - _held(a) ** 2
+    if d.size == 0:
+        return 0.0, np.inf
+    independent = max(2.0, d.size * independent_share(d, LONGEST))
+    return float(d.mean()), float(d.std() / np.sqrt(independent))
+
+
+def _held(fit: Fit) -> Array:
+    problem = fit.solution.problem
+    parts = [
+        (p - s.target)[~s.fit]
+        for p, s in zip(problem.predict(fit.solution.u), problem.segments, strict=True)
+    ]
+    return np.concatenate(parts)

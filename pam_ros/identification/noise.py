@@ -1,0 +1,105 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The noise floor of a measured signal: its size and its correlation, without any model."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import toeplitz
+from scipy.optimize import brentq
+
+Array = NDArray[np.float64]
+
+WINDOW = 0.25  # s: shorter than one period of a muscle's own oscillation
+SAMPLES = (24, 200)  # fewest and most samples in a window
+DEGREE = 4  # of the polynomial that follows the motion within a window
+
+
+@dataclass(frozen=True)
+class Noise:
+    """Standard deviation in the signal's unit, and correlation of neighbours (AR(1))."""
+
+    sigma: float
+    rho: float
+
+    @property
+    def independent(self) -> float:
+        """Independent samples per sample, (1 - rho)/(1 + rho), for slow regressors."""
+        return (1.0 - self.rho) / (1.0 + self.rho)
+
+
+def noise_of(signals: Sequence[tuple[Array, Array]]) -> Noise:
+    """Return the noise of signals (t, values), each gapless and about evenly sampled.
+
+    Quartics are fitted to short windows; the quietest quarter tells what the rest of the noise
+    looks like where the motion is smooth, and windows within 1.8 times its variance count.
+    What a quartic takes away of AR(1) noise is known exactly, so its two moments are corrected
+    for it. Slow drifts (beyond the window) are taken for motion, not for noise.
+    """
+    zero: list[Array] = []
+    one: list[Array] = []
+    size = 0
+    for t, values in signals:
+        period = float(np.median(np.diff(t)))
+        size = int(np.clip(round(WINDOW / period), *SAMPLES))
+        size = min(size, values.size)
+        if size < 2 * (DEGREE + 1):
+            continue
+        starts = np.arange(0, values.size - size + 1, max(1, size // 2))
+        windows = values[starts[:, None] + np.arange(size)]
+        left = windows @ _residual_maker(size)
+        zero.append(np.sum(left * left, axis=1))
+        one.append(np.sum(left[:, 1:] * left[:, :-1], axis=1))
+    if not zero:
+        spread = np.concatenate([v for _, v in signals])
+        return Noise(float(np.std(np.diff(spread)) / np.sqrt(2.0)), 0.0)
+    power, lagged = np.concatenate(zero), np.concatenate(one)
+    quiet = power <= 1.8 * np.quantile(power, 0.25)
+    m0, m1 = float(np.mean(power[quiet])), float(np.mean(lagged[quiet]))
+    if m0 <= 0.0:
+        return Noise(0.0, 0.0)
+
+    def ratio(rho: float) -> float:
+        a, b = _moments(size, rho)
+        return b / a - m1 / m0
+
+    low, high = 0.0, 0.98
+    if ratio(low) >= 0.0:
+        rho = low
+    elif ratio(high) <= 0.0:
+        rho = high
+    else:
+        rho = float(brentq(ratio, low, high, xtol=1e-3))
+    return Noise(float(np.sqrt(m0 / _moments(size, rho)[0])), rho)
+
+
+def _residual_maker(size: int) -> Array:
+    basis = np.linalg.qr(np.vander(np.linspace(-1.0, 1.0, size), DEGREE + 1))[0]
+    return np.asarray(np.eye(size) - basis @ basis.T)
+
+
+def _moments(size: int, rho: float) -> tuple[float, float]:
+    """Return the expected sums of squares and of lagged products of unit AR(1) noise."""
+    maker = _residual_maker(size)
+    covariance = maker @ toeplitz(rho ** np.arange(size)) @ maker
+    return float(np.trace(covariance)), float(np.sum(np.diag(covariance, 1)))
+
+
+def independent_share(residual: Array, longest: int) -> float:
+    """Return the independent samples per sample of a residual, from its autocorrelation.
+
+    One over the integrated autocorrelation time, summed up to its first negative value or
+    *longest* samples: what a residual with structure is worth in a test.
+    """
+    e = residual - np.mean(residual)
+    n = e.size
+    spectrum = np.abs(np.fft.rfft(e, 2 * n)) ** 2
+    correlation = np.fft.irfft(spectrum)[: min(longest, n)]
+    if correlation[0] <= 0.0:
+        return 1.0
+    correlation /= correlation[0]
+    negative = np.flatnonzero(correlation < 0.0)
+    end = negative[0] if negative.size else correlation.size
+    return float(1.0 / (1.0 + 2.0 * np.sum(correlation[1:end])))

@@ -1,0 +1,161 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Output-error residuals: free runs of the rig's kernel against what was measured."""
+
+from collections.abc import Callable, Sequence
+from concurrent.futures import Executor
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pam_ros.effects.base import Effect
+from pam_ros.identification.segment import Segment
+from pam_ros.identification.unknowns import Unknown
+from pam_ros.rig import layout as at
+from pam_ros.rig.bind import bind
+from pam_ros.rig.layout import Layout
+from pam_ros.rig.model import start_row
+
+Array = NDArray[np.float64]
+HELD_STEP = 0.02  # s; a held run has no dynamics of its own to resolve, only memories
+DIFFERENCE = 1e-3  # step of u for a derivative; a thousandth of a parameter's typical size
+
+
+@dataclass(frozen=True, eq=False)
+class Problem:
+    """Runs to be explained by a parameter row of which some entries are unknown.
+
+    ``row`` holds the values of what is not unknown; ``step`` is the longest step in s.
+    ``independent`` is how many independent samples the fitted ones are worth.
+    """
+
+    segments: Sequence[Segment]
+    layout: Layout
+    active: tuple[Effect, ...]
+    row: Array
+    unknowns: tuple[Unknown, ...]
+    independent: float
+    step: float = 1e-3
+    fit_rows: tuple[NDArray[np.intp], ...] = field(init=False)
+
+    def __post_init__(self) -> None:
+        """Find the samples to be fitted once."""
+        rows = tuple(np.flatnonzero(s.fit) for s in self.segments)
+        object.__setattr__(self, 'fit_rows', rows)
+
+    def row_at(self, u: Array) -> Array:
+        """Return the parameter row at the unknowns u."""
+        q = self.row.copy()
+        for unknown, value in zip(self.unknowns, u, strict=True):
+            if unknown.index >= 0:
+                q[unknown.index] = unknown.value(value)
+        return q
+
+    def runs(self, u: Array, only: int = -1) -> list[Array]:
+        """Return the free run of every segment, or of segment *only*, at u.
+
+        Each is (n, 4): position m, velocity m/s, chamber pressure Pa, and for held segments
+        the force N within the limits of its sensor.
+        """
+        q = self.row_at(u)
+        kernel = bind(self.layout, self.active)
+        found = []
+        for k, s in enumerate(self.segments):
+            if only not in (-1, k):
+                continue
+            y, v = s.y0, s.v0
+            for unknown, value in zip(self.unknowns, u, strict=True):
+                if unknown.segment == k:
+                    if unknown.index == -1 - at.Y:
+                        y = unknown.value(value)
+                    else:
+                        v = unknown.value(value)
+            out = np.empty((s.t.size, 4))
+            p0 = s.drive[0] if s.kind == 'free' else s.pressure[0]
+            x = start_row(self.layout, q, p0, y, v)
+            scratch = np.empty_like(x)
+            if s.kind == 'free':
+                kernel.simulate(x, scratch, q, s.t, s.drive_t, s.drive, self.step, out, False)
+            else:
+                kernel.simulate_held(
+                    x, scratch, q, s.t, s.pressure, s.position, s.velocity, HELD_STEP, out
+                )
+                np.clip(out[:, 3], s.floor, s.ceiling, out=out[:, 3])
+            found.append(out)
+        return found
+
+    def predict(self, u: Array, only: int = -1) -> list[Array]:
+        """Return the simulated target of every segment, or of segment *only*, at u."""
+        column = at.Y if self.segments[0].kind == 'free' else 3
+        return [out[:, column] for out in self.runs(u, only)]
+
+    def residuals(self, u: Array) -> Array:
+        """Return simulated - measured of the samples to be fitted.
+
+        A simulation that diverges gives large finite residuals, so that a fit steps back.
+        """
+        parts = [
+            p[rows] - s.target[rows]
+            for p, s, rows in zip(self.predict(u), self.segments, self.fit_rows, strict=True)
+        ]
+        return _finite(np.concatenate(parts))
+
+    def priors(self, u: Array) -> Array:
+        """Return the distance of every unknown from what is expected, in standard deviations."""
+        return np.array([x / k.prior for k, x in zip(self.unknowns, u, strict=True)])
+
+    def cost(self, u: Array, r: Array) -> float:
+        """Return -2 log posterior at u with residuals r, the noise variance profiled out."""
+        z = self.priors(u)
+        return float(self.independent * np.log(np.mean(r * r) + 1e-300) + z @ z)
+
+    def jacobian(
+        self, u: Array, r: Array, pool: Executor | None = None, only: Sequence[int] | None = None
+    ) -> Array:
+        """Return dr/du (rows, columns) by differences, one column a simulation.
+
+        *r* are the residuals at u; *only* restricts the columns; *pool* runs them side by side.
+        A column steps to the side that its bounds leave open.
+        """
+        columns = range(len(u)) if only is None else only
+
+        def column(k: int) -> Array:
+            unknown = self.unknowns[k]
+            h = DIFFERENCE if u[k] + DIFFERENCE <= unknown.bounds[1] else -DIFFERENCE
+            moved = u.copy()
+            moved[k] += h
+            if unknown.segment >= 0:
+                return self._column_of_start(u, moved, r, k, h)
+            return (self.residuals(moved) - r) / h
+
+        run: Callable[..., object] = map if pool is None else pool.map
+        return np.stack(list(run(column, columns)), axis=1)  # type: ignore[call-overload]
+
+    def _column_of_start(self, u: Array, moved: Array, r: Array, k: int, h: float) -> Array:
+        """Return the column of a start value: only its own run changes."""
+        out = np.zeros_like(r)
+        segment = self.unknowns[k].segment
+        first = sum(rows.size for rows in self.fit_rows[:segment])
+        rows = self.fit_rows[segment]
+        s = self.segments[segment]
+        new = _finite(self.predict(moved, segment)[0][rows] - s.target[rows])
+        out[first : first + rows.size] = (new - r[first : first + rows.size]) / h
+        return out
+
+    def errors(self, u: Array) -> tuple[float, float]:
+        """Return the RMSE of the fitted samples and of those kept back (NaN without any)."""
+        fit, held = [], []
+        for p, s in zip(self.predict(u), self.segments, strict=True):
+            e = p - s.target
+            fit.append(e[s.fit])
+            held.append(e[~s.fit])
+        return _rms(np.concatenate(fit)), _rms(np.concatenate(held))
+
+
+def _finite(e: Array) -> Array:
+    return np.clip(np.nan_to_num(e, nan=1e6), -1e6, 1e6)
+
+
+def _rms(e: Array) -> float:
+    return float(np.sqrt(np.mean(e * e))) if e.size else float('nan')

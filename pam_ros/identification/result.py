@@ -1,0 +1,105 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""What the trace of a residual finds: the numbers behind the report."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pam_ros.identification.noise import Noise
+from pam_ros.identification.segment import Segment
+from pam_ros.identification.structure import Structure
+from pam_ros.rig.model import RigModel
+
+Array = NDArray[np.float64]
+
+VERDICTS = (
+    'effect_found',
+    'no_missing_effect',
+    'parameters_wrong',
+    'unexplained_structure',
+    'insufficient_data',
+)
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """A parameter with its 95 % interval, in ``unit``; low = high = value where not fitted."""
+
+    value: float
+    low: float
+    high: float
+    unit: str
+    at_bound: bool = False
+
+
+@dataclass(frozen=True, eq=False)
+class Stage:
+    """One model on the way: declared, re-tuned or augmented.
+
+    Errors are RMSE in the unit of the target: over the samples fitted, and over those kept
+    back or the test recordings. ``simulated`` and ``tested`` are its free runs over the segments
+    of the trace, in their order.
+    """
+
+    name: str
+    model: RigModel
+    parameters: dict[str, Estimate]
+    fit_error: float
+    held_error: float
+    simulated: tuple[Array, ...]
+    tested: tuple[Array, ...]
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """An effect as it was tried on top of ``parents``.
+
+    p is that of the F test with the residual's effective sample size, corrected for the number
+    of candidates (Holm); gain the relative fall of the kept-back RMSE; interval_clear says that
+    a strength's interval excludes 0. decision: chosen, ambiguous or rejected.
+    """
+
+    effect: str
+    parents: tuple[str, ...]
+    fit_error: float
+    held_error: float
+    p: float
+    gain: float
+    interval_clear: bool
+    parameters: dict[str, Estimate]
+    decision: str
+    reason: str
+
+
+@dataclass(frozen=True)
+class Finding:
+    """An effect that the declared model lacks, and what could stand in its place."""
+
+    name: str
+    parameters: dict[str, Estimate]
+    alternatives: tuple[str, ...]
+    reason: str
+
+
+@dataclass(frozen=True, eq=False)
+class Trace:
+    """The whole answer; ``stages`` are declared, re-tuned and augmented, in this order.
+
+    ``test`` are the segments of the test recordings, empty when a part was kept back instead.
+    """
+
+    verdict: str
+    sentence: str
+    quantity: str
+    unit: str
+    noise: Noise
+    stages: tuple[Stage, Stage, Stage]
+    effects: tuple[Finding, ...]
+    candidates: tuple[Candidate, ...]
+    structure: Structure
+    segments: tuple[Segment, ...]
+    test: tuple[Segment, ...]
+    warnings: tuple[str, ...]
+    next_experiment: str

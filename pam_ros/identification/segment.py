@@ -1,0 +1,128 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""A gapless stretch of a recording, made ready to be simulated again and again."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.signal import savgol_filter
+
+from pam_ros.errors import RecordingError
+from pam_ros.recording.recording import Recording
+
+Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+# The recording is cut into this many blocks, of which every third is kept back.
+BLOCKS = 10
+CLIPPED_SHARE = 0.02  # share of samples at one extreme value that says the sensor is clipped
+
+
+@dataclass(frozen=True, eq=False)
+class Segment:
+    """One free run of the simulator, compared with what was measured.
+
+    t (n,) s; drive_t, drive (m,) the commands of a free run; pressure, position, velocity (n,)
+    the inputs of a held one; target (n,) what the simulation must give: position in m of a free
+    rig, force in N of a held one; fit (n,) marks the samples that may be used for fitting, the
+    others are kept back. Predictions are limited to floor..ceiling, where the sensor clips.
+    y0, v0: first guess of the state at t[0].
+    """
+
+    name: str
+    kind: str
+    t: Array
+    target: Array
+    fit: Mask
+    drive_t: Array
+    drive: Array
+    pressure: Array
+    position: Array
+    velocity: Array
+    y0: float
+    v0: float
+    floor: float = -np.inf
+    ceiling: float = np.inf
+
+    @property
+    def quantity(self) -> str:
+        """Name of the target."""
+        return 'position' if self.kind == 'free' else 'force'
+
+
+def segments_of(recordings: Sequence[Recording], keep_back: bool) -> list[Segment]:
+    """Return the gapless stretches of *recordings*, ready to be simulated.
+
+    With *keep_back* every third of ten blocks of each is marked as not to be fitted; the run
+    goes through them, so what is known there is only what the model carries over. Raises
+    RecordingError when kinds are mixed, since one error cannot be in m and in N.
+    """
+    kinds = {r.kind for r in recordings}
+    if len(kinds) > 1:
+        names = ', '.join(f'{r.name} is {r.kind}' for r in recordings)
+        raise RecordingError(f'recordings of one kind are needed: {names}')
+    return [
+        _segment(part, keep_back)
+        for recording in recordings
+        for part in recording.segments()
+        if part.t.size > 3
+    ]
+
+
+def _segment(part: Recording, keep_back: bool) -> Segment:
+    n = part.t.size
+    block = np.minimum((np.arange(n) * BLOCKS) // n, BLOCKS - 1)
+    fit = ~np.isin(block, (2, 5, 8)) if keep_back else np.ones(n, dtype=bool)
+    if part.position is None:
+        raise RecordingError(f'{part.name}: no position was recorded')
+    if part.kind == 'free':
+        drive_t, drive = part.drive(1e-3)
+        y0, v0 = _start(part.t, part.position)
+        empty = np.empty(0)
+        return Segment(
+            part.name, part.kind, part.t, part.position, fit, drive_t, drive,
+            empty, empty, empty, y0, v0,
+        )  # fmt: skip
+    pressure = part.pressure
+    if pressure is None:
+        assert part.command_t is not None and part.command is not None
+        at = np.searchsorted(part.command_t, part.t, side='right') - 1
+        pressure = part.command[np.maximum(at, 0)]
+    if part.force is None:
+        raise RecordingError(f'{part.name}: a held recording needs the force')
+    velocity = _velocity(part.t, part.position)
+    floor, ceiling = _clipped(part.force)
+    empty = np.empty(0)
+    return Segment(
+        part.name, part.kind, part.t, part.force, fit, empty, empty,
+        pressure, part.position, velocity, part.position[0], velocity[0], floor, ceiling,
+    )  # fmt: skip
+
+
+def _start(t: Array, y: Array) -> tuple[float, float]:
+    """Fit a parabola to the first 60 ms, at least 5 samples: position and velocity at t[0]."""
+    n = min(t.size, max(5, int(np.searchsorted(t, t[0] + 0.06))))
+    curve = np.polynomial.Polynomial.fit(t[:n] - t[0], y[:n], min(2, n - 1))
+    return float(curve(0.0)), float(curve.deriv()(0.0))
+
+
+def _velocity(t: Array, y: Array) -> Array:
+    if np.ptp(y) == 0.0:
+        return np.zeros_like(y)
+    n = min(t.size, max(5, int(0.1 / np.median(np.diff(t))))) | 1
+    smooth = savgol_filter(y, n if n <= t.size else n - 2, 2)
+    return np.asarray(np.gradient(smooth, t), dtype=float)
+
+
+def _clipped(values: Array) -> tuple[float, float]:
+    """Return the levels at which a sensor clips, infinite where it does not.
+
+    A level counts when many samples stand exactly there and none beyond.
+    """
+    low, high = float(values.min()), float(values.max())
+    enough = CLIPPED_SHARE * values.size
+    floor = low if np.count_nonzero(values == low) > enough else -np.inf
+    ceiling = high if np.count_nonzero(values == high) > enough else np.inf
+    return floor, ceiling

@@ -1,0 +1,141 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""From a fit's numbers back to a declared model: constants in their source's units, effects."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pam_ros.identification.evidence import independent_samples
+from pam_ros.identification.candidate import Fit
+from pam_ros.identification.problem import Problem
+from pam_ros.identification.result import Estimate, Stage
+from pam_ros.identification.segment import Segment
+from pam_ros.identification.unknowns import CONSTANTS, Unknown
+from pam_ros.muscle.constants import Constants, from_si
+from pam_ros.rig import layout as at
+from pam_ros.rig.model import RigModel
+
+Array = NDArray[np.float64]
+INTERVAL = 1.96  # standard errors to each side
+
+
+def estimates(fit: Fit, model: RigModel) -> dict[str, Estimate]:
+    """Return every unknown of *fit* but the start states, with its 95 % interval.
+
+    Intervals are as wide as the residual's independent samples demand.
+    """
+    solution = fit.solution
+    worth = independent_samples(fit) / solution.problem.independent
+    error = np.sqrt(np.diag(solution.covariance()) / max(worth, 1e-6))
+    found = {}
+    for k, unknown in enumerate(solution.problem.unknowns):
+        if unknown.segment >= 0:
+            continue
+        low, high = unknown.bounds
+        u = solution.u[k]
+        sides = [
+            unknown.value(float(np.clip(x, low, high)))
+            for x in (u - INTERVAL * error[k], u, u + INTERVAL * error[k])
+        ]
+        at_bound = bool(u <= low + 1e-6 or u >= high - 1e-6)
+        found[unknown.name] = _in_source_units(unknown, sides, model, at_bound)
+    return found
+
+
+def _in_source_units(
+    unknown: Unknown, sides: list[float], model: RigModel, at_bound: bool
+) -> Estimate:
+    if unknown.name in CONSTANTS:
+        k = CONSTANTS.index(unknown.name)
+        muscle = model.muscle
+        sides = [
+            from_si(_only(k, x), muscle.pressure_unit, muscle.contraction_unit)[k] for x in sides
+        ]
+        unit = _constant_unit(model, unknown.name)
+    elif unknown.name == 'zeta':
+        unit = ''
+    else:
+        unit = _effect_unit(model, unknown.name)
+    return Estimate(sides[1], min(sides), max(sides), unit, at_bound)
+
+
+def _only(k: int, value: float) -> Constants:
+    values = [0.0] * 6
+    values[k] = value
+    a1, a2, a3, a4, a5, a6 = values
+    return a1, a2, a3, a4, a5, a6
+
+
+def _constant_unit(model: RigModel, name: str) -> str:
+    p, kappa = model.muscle.pressure_unit, model.muscle.contraction_unit
+    return {
+        'a1': f'N/{p}',
+        'a2': 'N',
+        'a3': f'1/{kappa}',
+        'a4': f'N/({p} {kappa})',
+        'a5': f'N/{p}',
+        'a6': 'N',
+    }[name]
+
+
+def _effect_unit(model: RigModel, name: str) -> str:
+    _, effect_name, parameter_name = name.split('.')
+    effect = next(e for e in model.library if e.name == effect_name)
+    return next(p.unit for p in effect.parameters if p.name == parameter_name)
+
+
+def model_of(model: RigModel, problem: Problem, u: Array, effects: Sequence[str]) -> RigModel:
+    """Return *model* with the parameters at u: constants in the units in which it gives them.
+
+    *effects* are the names of those that the fit added to the declared ones.
+    """
+    q = problem.row_at(u)
+    si = tuple(float(a) for a in q[at.A1 : at.A6 + 1])
+    source = from_si(
+        (si[0], si[1], si[2], si[3], si[4], si[5]),
+        model.muscle.pressure_unit,
+        model.muscle.contraction_unit,
+    )
+    muscle = replace(
+        model.muscle, **dict(zip(CONSTANTS, source, strict=True)), zeta=float(q[at.ZETA])
+    )
+    values = {name: dict(given) for name, given in model.effects.items()}
+    for effect in model.library:
+        if effect.name in effects:
+            j = model.layout.parameter_at[effect.name]
+            values[effect.name] = {
+                p.name: float(q[j + k]) for k, p in enumerate(effect.parameters)
+            }
+    return replace(model, muscle=muscle, effects=values)
+
+
+def stage(name: str, model: RigModel, fit: Fit, test: Sequence[Segment]) -> Stage:
+    """Return the stage of a fit over all its segments and over *test*.
+
+    Test runs start from a parabola through the first 60 ms of their own measurement and are
+    free from there; their error replaces that of the samples kept back.
+    """
+    problem = fit.solution.problem
+    simulated = tuple(problem.predict(fit.solution.u))
+    held_error = fit.held_error
+    tested: tuple[Array, ...] = ()
+    if test:
+        known = [k for k, unknown in enumerate(problem.unknowns) if unknown.segment < 0]
+        again = replace(
+            problem, segments=tuple(test), unknowns=tuple(problem.unknowns[k] for k in known)
+        )
+        tested = tuple(again.predict(fit.solution.u[known]))
+        e = np.concatenate([p - s.target for p, s in zip(tested, test, strict=True)])
+        held_error = float(np.sqrt(np.mean(e * e)))
+    return Stage(
+        name,
+        model_of(model, problem, fit.solution.u, fit.effects),
+        estimates(fit, model),
+        fit.fit_error,
+        held_error,
+        simulated,
+        tested,
+    )
