@@ -32,7 +32,7 @@ class _Loader(yaml.SafeLoader):
     """YAML as ROS reads it: 6e5 is a number."""
 
 
-_Loader.add_implicit_resolver(  # type: ignore[no-untyped-call]
+_Loader.add_implicit_resolver(
     'tag:yaml.org,2002:float',
     re.compile(r'^[-+]?([0-9]+(\.[0-9]*)?|\.[0-9]+)[eE][-+]?[0-9]+$'),
     list('-+.0123456789'),

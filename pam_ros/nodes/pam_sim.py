@@ -25,3 +25,7 @@ from pam_ros.nodes.program import start_node
 def main() -> None:
     """Run the simulator until Ctrl-C or SIGTERM."""
     start_node('pam_ros.nodes.sim_node', 'PamSim', __doc__)
+
+
+if __name__ == '__main__':
+    main()

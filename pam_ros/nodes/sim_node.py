@@ -107,13 +107,13 @@ class PamSim(TickingNode):
         if step > self._step:
             self._rig.advance(step - self._step)
             self._step = step
-            if self._heard is not None and not self._is_silent:
-                self._watch_silence()
+            self._watch_silence()
 
     def _watch_silence(self) -> None:
         settings = self._now.settings
-        age = self._rig.time - self._heard
-        if settings.command_timeout and age > settings.command_timeout:
+        if self._heard is None or self._is_silent or not settings.command_timeout:
+            return
+        if self._rig.time - self._heard > settings.command_timeout:
             self._is_silent = True
             if settings.on_timeout == 'vent':
                 self._rig.command([0.0])

@@ -11,6 +11,7 @@ import gc
 import re
 import sys
 from collections.abc import Callable
+from pathlib import Path
 from time import monotonic_ns
 
 import rclpy
@@ -61,6 +62,7 @@ def run(make: Callable[[], TickingNode], stop: StopRequest, about: str) -> int:
     try:
         try:
             parser = argparse.ArgumentParser(
+                prog=Path(sys.argv[0]).stem,
                 description=about,
                 formatter_class=argparse.RawDescriptionHelpFormatter,
                 epilog='All else is told with --ros-args: see the manual of ROS 2.',

@@ -99,7 +99,7 @@ class Feedback:
 
         To be called in the order of time: samples are remembered for the latency.
         """
-        reading = self._late(t, sample) if self.sensors.latency else sample[:4].copy()
+        reading: Array = self._late(t, sample) if self.sensors.latency else sample[:4].copy()
         reading[POSITION] += self.sensors.position_offset
         if self._is_noisy:
             # All are drawn always, so that one sensor's noise does not depend on another's.
@@ -118,10 +118,10 @@ class Feedback:
         past.append((t, sample.copy()))
         while len(past) > 1 and past[1][0] <= wanted:
             past.popleft()
-        (t0, a) = past[0]
+        t0, a = past[0]
         if len(past) == 1 or wanted <= t0:
-            return a[:4].copy()
-        (t1, b) = past[1]
+            return np.array(a[:4])
+        t1, b = past[1]
         return between(a, b, t1 - t0, (wanted - t0) / (t1 - t0))
 
 
@@ -131,7 +131,7 @@ def between(a: Array, b: Array, h: float, share: float) -> Array:
     Position and velocity by cubic Hermite polynomials, whose slopes are velocity and
     acceleration: 2 ms apart this is exact to nanometres. Pressure and force linearly.
     """
-    reading = a[:4] + share * (b[:4] - a[:4])
+    reading: Array = a[:4] + share * (b[:4] - a[:4])
     rest = 1.0 - share
     for row, slope in ((POSITION, VELOCITY), (VELOCITY, ACCELERATION)):
         chord = b[row] - a[row]

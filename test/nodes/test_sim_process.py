@@ -1,0 +1,134 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""``pam_sim`` as a process: names, neighbours, signals, exit codes, bad arguments."""
+
+import signal
+
+import pytest
+from diagnostic_msgs.msg import DiagnosticArray
+from sensor_msgs.msg import FluidPressure, JointState
+from std_msgs.msg import Float64
+from std_srvs.srv import Trigger
+
+from support.harness import Program
+
+
+@pytest.mark.parametrize(
+    ('kind', 'times'), [(signal.SIGINT, 1), (signal.SIGINT, 3), (signal.SIGTERM, 1)]
+)
+def test_a_signal_ends_it_cleanly(peer, kind, times):
+    states = peer.collect(JointState, 'joint_states')
+    with Program('pam_sim') as sim:
+        peer.more(states)
+        sim.interrupt(kind, times)
+        assert sim.wait() == 0
+        assert 'Traceback' not in sim.output
+
+
+def test_a_signal_during_the_start_ends_it_cleanly():
+    with Program('pam_sim') as sim:
+        while not sim.has_loaded('numpy'):  # it is still importing
+            assert sim.is_running
+        sim.interrupt()
+        assert sim.wait() == 0
+        assert 'Traceback' not in sim.output
+
+
+@pytest.mark.parametrize(
+    ('arguments', 'named'),
+    [
+        (['-p', 'mass:=-3.0'], ['mass = -3.0', 'above 0']),
+        (['-p', 'mass:=heavy'], ['mass', 'heavy', 'above 0']),
+        (['-p', 'mas:=20.0'], ['mas ', 'mass']),
+        (['-p', 'sensor.latancy:=0.1'], ['sensor.latancy', 'sensor.latency']),
+        (['-p', 'mount:=sideways'], ['mount', 'vertical', 'horizontal']),
+        (['-p', 'muscle:=dmsp_99'], ['dmsp_99', 'dmsp_20_400n']),
+        (['-p', 'a1:=[1.0, 2.0]'], ['a1', 'a finite number']),
+        (['-p', 'publish_rate:=5000.0'], ['publish_rate', 'physics_rate']),
+        (['-p', 'effects.creep.nonsense:=1.0', '-p', 'a3:=5.0'], ['stiffness']),
+        (
+            ['-p', 'qos_overrides./joint_states.publisher.reliability:=sure'],
+            ['reliability', 'sure'],
+        ),
+        (['-p', 'qos_overrides./joint_states.publisher.depth:=deep'], ['depth']),
+        (['-p', 'mass'], ['mass']),
+        (['--nonsense'], ['nonsense']),
+        (['-r', '__node:=1st'], ['1st']),
+        (['--params-file', 'nowhere.yaml'], ['nowhere.yaml']),
+    ],
+)
+def test_bad_arguments_end_it_with_a_sentence(arguments, named):
+    with Program('pam_sim', *arguments) as sim:
+        assert sim.wait() == 2
+        sentence = sim.output.splitlines()[-1]
+        assert sentence.startswith('pam_sim: ')
+        for word in named:
+            assert word in sentence
+        assert 'Traceback' not in sim.output
+        assert '.c:' not in sentence
+
+
+@pytest.mark.parametrize(
+    ('content', 'named'),
+    [
+        ('/**:\n  ros__parameters:\n    mass: -1.0\n', 'mass = -1.0'),
+        ('/**:\n  ros__parameters:\n    mass: [1, a]\n', 'bad.yaml'),
+        ('pam_sim:\n  mass: 20\n', 'bad.yaml'),
+        ('/**: [\n', 'bad.yaml'),
+        ('pam_sim:\n  ros__parameters:\n    damping_ratio: 1\n    zetta: 0.1\n', 'zeta'),
+    ],
+)
+def test_a_bad_parameter_file_ends_it_with_a_sentence(tmp_path, content, named):
+    file = tmp_path / 'bad.yaml'
+    file.write_text(content)
+    with Program('pam_sim', '--params-file', str(file)) as sim:
+        assert sim.wait() == 2
+        assert named in sim.output.splitlines()[-1]
+        assert 'Traceback' not in sim.output
+
+
+def test_parameters_of_others_are_warned_of_and_passed_over(peer):
+    states = peer.collect(JointState, 'joint_states')
+    with Program('pam_sim', parameters={'robot_name': 'arm'}) as sim:
+        peer.more(states)
+        assert 'parameter robot_name is not known here' in sim.output
+
+
+def test_two_in_namespaces_and_remapped_do_not_disturb_each_other(peer):
+    left = peer.collect(JointState, '/left/joint_states')
+    right = peer.collect(JointState, '/right/load/state')
+    pressure = peer.collect(FluidPressure, '/right/pressure')
+    diagnostics = peer.collect(DiagnosticArray, '/diagnostics')
+    a = Program('pam_sim', '-r', '__ns:=/left', parameters={'joint_name': 'one'})
+    b = Program(
+        'pam_sim',
+        *('-r', '__ns:=/right', '-r', '__node:=plant', '-r', 'joint_states:=load/state'),
+        *('-r', 'pressure_command:=valve'),
+        parameters={'mass': 10.0, 'joint_name': 'two', 'command_timeout': 0.0},
+    )
+    with a, b:
+        peer.more(left)
+        peer.more(right)
+        at_rest = left[-1].position[0]
+        peer.publish(Float64(data=3e5), '/right/valve')
+        peer.until(lambda: right[-1].position[0] > 0.05, 'motion on the right')
+        assert left[-1].position[0] == pytest.approx(at_rest, abs=1e-12)
+        assert peer.call(Trigger, '/right/plant/reset').success
+        peer.until(lambda: pressure[-1].fluid_pressure == 101325.0, 'the reset')
+        assert peer.get('/left/pam_sim', 'mass') == [20.0]
+        assert peer.get('/right/plant', 'mass') == [10.0]
+        names = {'left/pam_sim: timing', 'right/plant: timing'}
+        peer.until(lambda: names <= {s.name for m in diagnostics for s in m.status}, 'both names')
+    assert {m.name[0] for m in left} == {'one'}
+    assert {m.name[0] for m in right} == {'two'}
+
+
+def test_joint_states_are_complete(peer):
+    states = peer.collect(JointState, 'joint_states')
+    with Program('pam_sim', parameters={'frame_id': 'rig'}):
+        peer.more(states)
+    message = states[-1]
+    assert message.header.frame_id == 'rig'
+    assert [
+        len(x) for x in (message.name, message.position, message.velocity, message.effort)
+    ] == [1] * 4

@@ -1,0 +1,94 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""``~/reset`` and ``~/pause`` of ``pam_sim`` over DDS."""
+
+from itertools import groupby
+
+import numpy as np
+from sensor_msgs.msg import JointState
+from std_msgs.msg import Float64
+from std_srvs.srv import SetBool, Trigger
+
+from support.harness import Program
+
+RELEASED = {'initial.pressure': 600e3, 'initial.at_rest': False, 'initial.position': 0.0}
+
+
+def stamp(message):
+    return message.header.stamp.sec * 10**9 + message.header.stamp.nanosec
+
+
+def from_start(peer, states, count):
+    """Reset, and return the first *count* states of the run that then begins."""
+    before = len(states)
+    assert peer.call(Trigger, 'pam_sim/reset').success
+
+    def begun():
+        return [i for i in range(before, len(states)) if states[i].position[0] == 0.0]
+
+    (first, *_) = peer.until(begun, 'the initial state')
+    peer.until(lambda: len(states) >= first + count, f'{count} states')
+    return states[first : first + count]
+
+
+def test_reset_repeats_the_run_to_the_bit_and_time_goes_on(peer):
+    states = peer.collect(JointState, 'joint_states')
+    noise = {'sensor.position_noise': 0.0, 'sensor.force_noise': 3.0, 'sensor.seed': 7}
+    with Program('pam_sim', parameters={**RELEASED, **noise}):
+        runs = [from_start(peer, states, 300) for _ in range(3)]
+    for a, b, c in zip(*runs, strict=True):
+        assert a.position == b.position == c.position
+        assert a.velocity == b.velocity == c.velocity
+        assert a.effort == b.effort == c.effort
+    stamps = [stamp(m) for m in states]
+    assert all(np.diff(stamps) > 0)
+
+
+def test_reset_goes_to_the_initial_state_of_now(peer):
+    states = peer.collect(JointState, 'joint_states')
+    with Program('pam_sim', parameters=RELEASED):
+        start = {'initial__position': 0.05, 'initial__velocity': -0.2}
+        assert peer.set_together('pam_sim', **start).successful
+        before = len(states)
+        assert peer.call(Trigger, 'pam_sim/reset').success
+        peer.until(
+            lambda: any((m.position[0], m.velocity[0]) == (0.05, -0.2) for m in states[before:]),
+            'the new initial state',
+        )
+        refused = peer.set_together('pam_sim', initial__position=0.5)
+        assert not refused.successful
+        assert 'initial.position = 0.5' in refused.reason
+
+
+def test_pause_stands_still_but_talks_and_resumes_without_a_jump(peer):
+    states = peer.collect(JointState, 'joint_states')
+    with Program('pam_sim', parameters={**RELEASED, 'publish_rate': 1000.0}):
+        whole = from_start(peer, states, 1500)
+        broken = from_start(peer, states, 300)  # in full motion
+        begin = states.index(broken[0])
+        assert peer.call(SetBool, 'pam_sim/pause', data=True).message == 'paused'
+        peer.more(states, 500)
+        paused = states[-200:]
+        assert len({m.position[0] for m in paused}) == 1
+        assert len({stamp(m) for m in paused}) == len(paused)
+        assert peer.call(SetBool, 'pam_sim/pause', data=False).message == 'running'
+        peer.more(states, 500)
+    assert all(np.diff([stamp(m) for m in states]) > 0)
+    # A sample each step: but for the standstill the states are those of the whole run.
+    motion = [position for position, _ in groupby(m.position[0] for m in states[begin:])]
+    n = min(len(motion), len(whole))
+    assert n > 700
+    assert motion[:n] == [m.position[0] for m in whole[:n]]
+
+
+def test_a_command_during_a_pause_acts_when_time_goes_on(peer):
+    states = peer.collect(JointState, 'joint_states')
+    with Program('pam_sim', parameters={'command_timeout': 0.0}):
+        peer.more(states)
+        peer.call(SetBool, 'pam_sim/pause', data=True)
+        peer.publish(Float64(data=400e3), 'pressure_command')
+        peer.more(states, 200)
+        at_rest = states[-1].position[0]
+        assert states[-100].position[0] == at_rest
+        peer.call(SetBool, 'pam_sim/pause', data=False)
+        peer.until(lambda: states[-1].position[0] > at_rest + 0.01, 'motion')
