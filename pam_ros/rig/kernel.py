@@ -9,11 +9,15 @@ The ODE is equation (3) of Sárosi (2015) with contraction positive (the load mo
 These functions are plain scalar Python and run as they stand. The names ``*_chain`` are bound to
 the effects in use by :mod:`pam_ros.rig.bind`, which also compiles them; called unbound, the
 rig is the paper's, without effects. x is a state row, q a parameter row (see ``layout``), xn a
-scratch row of the same width as x.
+scratch row of the same width as x. Written ``* (1.0 / m)``, a division is done once a step and
+not at every stage.
 
-Integrator: the classical fourth-order Runge-Kutta scheme with a fixed step. At 1 ms the
-muscle's 4 Hz are resolved 250-fold, so an explicit scheme is stable and its error (1e-11 m)
-far below any sensor; effects with stiff memory bring their own exact or implicit update.
+Integrator: Nyström's fourth-order scheme for second-order equations with a fixed step (Hairer,
+Nørsett & Wanner, Solving Ordinary Differential Equations I, section II.14). It is the classical
+Runge-Kutta scheme with better positions inside the step: half the error, and both stages in the
+middle are at one place, so that the exponential there is computed once. At 1 ms the muscle's
+4 Hz are resolved 250-fold: an explicit scheme is stable, and its error (below 1e-9 m) far below
+that of any sensor. Effects with stiff memory bring their own exact or implicit update.
 """
 
 from math import ceil, exp
@@ -69,15 +73,15 @@ MEMORY_FROM = 3  # bound with the chains
 
 def pull(y: float, v: float, p: float, t: float, h: float, x: Row, xn: Row, q: Row) -> float:
     """Return the muscle's force in N, effects included, h seconds after the state x."""
-    kappa = contraction_chain(y / q[L0], q)
+    kappa = contraction_chain(y * (1.0 / q[L0]), q)
     f = force_at(exp(q[A3] * kappa), p, kappa, q[A1], q[A2], q[A4], q[A5], q[A6])
     return force_chain(f, p, kappa, v, t, h, x, xn, q)
 
 
 def coefficient(y: float, v: float, p: float, m: float, q: Row) -> float:
     """Return the muscle's damping coefficient c in N s/m: equation (4), effects included."""
-    kappa = contraction_chain(y / q[L0], q)
-    k = -slope_at(exp(q[A3] * kappa), p, q[A1], q[A2], q[A3], q[A4]) / q[L0]
+    kappa = contraction_chain(y * (1.0 / q[L0]), q)
+    k = -slope_at(exp(q[A3] * kappa), p, q[A1], q[A2], q[A3], q[A4]) * (1.0 / q[L0])
     c = damping(k, m, q[ZETA])
     return damping_chain(c, p, kappa, v, q)
 
@@ -88,27 +92,26 @@ def acceleration(
     """Return y'' in m/s^2: equation (3) for the moved mass m."""
     f = pull(y, v, p, t, h, x, xn, q) - coefficient(y, v, p, m, q) * v
     f += outside_chain(0.0, p, y, v, t, h, x, xn, q)
-    net: float = f / m - q[GRAVITY]
+    net: float = f * (1.0 / m) - q[GRAVITY]
     return net
 
 
 def step(x: Row, xn: Row, q: Row, u: float, t: float, h: float) -> None:
     """Advance the state row x from t by h seconds with the pressure command u held, in place."""
     y, v = x[Y], x[V]
-    half = 0.5 * h
+    half, sixth = 0.5 * h, h / 6.0
     m = mass_chain(q[MASS], q)
     p0 = pressure_chain(u, t, 0.0, x, xn, q)
     p1 = pressure_chain(u, t + half, half, x, xn, q)
     p2 = pressure_chain(u, t + h, half, xn, x, q)
     a1 = acceleration(y, v, p0, t, 0.0, m, x, xn, q)
-    v2 = v + half * a1
-    a2 = acceleration(y + half * v, v2, p1, t + half, half, m, x, xn, q)
-    v3 = v + half * a2
-    a3 = acceleration(y + half * v2, v3, p1, t + half, half, m, x, xn, q)
-    v4 = v + h * a3
-    a4 = acceleration(y + h * v3, v4, p2, t + h, h, m, x, xn, q)
-    x[Y] = y + h * (v + 2.0 * v2 + 2.0 * v3 + v4) / 6.0
-    x[V] = v + h * (a1 + 2.0 * a2 + 2.0 * a3 + a4) / 6.0
+    middle = y + half * v + 0.5 * half * half * a1
+    a2 = acceleration(middle, v + half * a1, p1, t + half, half, m, x, xn, q)
+    a3 = acceleration(middle, v + half * a2, p1, t + half, half, m, x, xn, q)
+    end = y + h * v + 0.5 * h * h * a3
+    a4 = acceleration(end, v + h * a3, p2, t + h, h, m, x, xn, q)
+    x[Y] = y + h * v + h * sixth * (a1 + a2 + a3)
+    x[V] = v + sixth * (a1 + 2.0 * a2 + 2.0 * a3 + a4)
     x[P] = p2
     if x.shape[0] > MEMORY_FROM:
         # Once more at the end that was reached: what the memories have become there.
@@ -152,7 +155,7 @@ def outputs(x: Row, xn: Row, q: Row, t: float, out: Row) -> None:
     for n in range(x.shape[0]):
         y, v, p = x[n, Y], x[n, V], x[n, P]
         m = mass_chain(q[n, MASS], q[n])
-        kappa = contraction_chain(y / q[n, L0], q[n])
+        kappa = contraction_chain(y * (1.0 / q[n, L0]), q[n])
         e = exp(q[n, A3] * kappa)
         out[n, 0] = pull(y, v, p, t, 0.0, x[n], xn[n], q[n])
         out[n, 1] = -slope_at(e, p, q[n, A1], q[n, A2], q[n, A3], q[n, A4]) / q[n, L0]

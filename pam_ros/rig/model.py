@@ -144,8 +144,9 @@ class RigModel:
     def longest_step(self) -> float:
         """Step in s at which the rig's fastest motion in the working range turns by 1 rad.
 
-        The integrator is stable to 2.6 rad; the rest is left for motion beyond that range. A
-        force source without a muscle sets no limit, and effects bring their own updates.
+        The integrator is stable to 2.6 rad, with critical damping to 1.3 rad; the rest is left
+        for motion beyond that range. A force source without a muscle sets no limit, and effects
+        bring their own updates.
         """
         m = self.muscle
         p, kappa = np.meshgrid((m.p_min, m.p_max), (m.kappa_min, m.kappa_max))
