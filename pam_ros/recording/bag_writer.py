@@ -97,7 +97,7 @@ class BagWriter:
             'topic_type_hash': topic.type_hash,
         }
         schema = self._schemas[topic.type]
-        channel = self._writer.register_channel(topic.name, 'cdr', schema, metadata)
+        channel: int = self._writer.register_channel(topic.name, 'cdr', schema, metadata)
         self._topics[channel] = topic
         self.counts[topic.name] = 0
         self._is_sealed = False

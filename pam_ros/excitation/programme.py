@@ -1,0 +1,161 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""A pressure programme that tells the effects of a muscle apart, within its limits."""
+
+import csv
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pam_ros.errors import PamError
+from pam_ros.excitation import waves
+from pam_ros.excitation.settings import Excitation
+
+Array = NDArray[np.float64]
+
+RAMP = 1.5  # s from one segment to the next, and in and out
+REST = 1.0  # s vented at the start and at the end
+
+
+@dataclass(frozen=True)
+class Segment:
+    """A part of a programme: commands start..stop-1, and what it brings out."""
+
+    name: str
+    start: int
+    stop: int
+    text: str
+
+
+@dataclass(frozen=True, eq=False)
+class Programme:
+    """Commands in gauge Pa, (n,), *rate* a second, in segments. It starts and ends vented."""
+
+    rate: float
+    pressure: Array
+    segments: tuple[Segment, ...]
+
+    @property
+    def t(self) -> Array:
+        """Return the times of the commands in s, (n,)."""
+        return np.arange(self.pressure.size) / self.rate
+
+    @property
+    def duration(self) -> float:
+        """Return the length in s."""
+        return self.pressure.size / self.rate
+
+    def at(self, elapsed: float) -> float:
+        """Return the pressure in Pa to command *elapsed* s after the start."""
+        k = int(elapsed * self.rate + 1e-6)
+        return float(self.pressure[min(max(k, 0), self.pressure.size - 1)])
+
+    def segment_at(self, elapsed: float) -> Segment:
+        """Return the segment that is played *elapsed* s after the start."""
+        k = int(elapsed * self.rate + 1e-6)
+        return next((s for s in self.segments if k < s.stop), self.segments[-1])
+
+
+def programme(settings: Excitation) -> Programme:
+    """Return the programme of *settings*: a function of nothing else, to the bit.
+
+    Vented, ramp in, steps with holds, a slow triangle with minor loops, the same range four
+    times as fast, a multisine, chirps at three mean pressures, the steps' first half once more
+    (what has warmed or worn shows), ramp out, vented. All within the limits of pressure and rate.
+    """
+    rng = np.random.default_rng(settings.seed)
+    rate = settings.rate
+    time = settings.duration - 2.0 * REST - 7.0 * RAMP
+    first = waves.steps(rate, 0.30 * time, rng)
+    slow = waves.triangle(rate, 0.24 * time, rng, minor_loops=True)
+    # The plain triangle is less than half as long a way: this makes it four times as fast.
+    fast = waves.triangle(rate, 0.0275 * time, rng, minor_loops=False)
+    sines = waves.multisine(rate, 0.15 * time, rng, settings.frequency_max)
+    chirps = waves.chirp(rate, 0.16 * time, settings.frequency_max)
+    again = first[: first.size * 2 // 5]
+    parts: list[tuple[str, Array, str]] = [
+        ('steps with holds', first, 'lag, dead time, damping, creep'),
+        ('slow triangle', slow, 'hysteresis, friction, the static law'),
+        ('fast triangle', fast, 'hysteresis against creep'),
+        ('multisine', sines, 'the whole range of frequencies'),
+        ('chirps', chirps, 'damping over pressure, lag against dead time, mass'),
+        ('first steps again', again, 'softening, warming, drift'),
+    ]
+    levels: list[Array] = []
+    segments: list[Segment] = []
+    count = 0
+    low, span = settings.pressure_min, settings.pressure_max - settings.pressure_min
+    last = 0.0
+
+    def add(name: str, pressure: Array, text: str) -> None:
+        nonlocal count
+        levels.append(pressure)
+        segments.append(Segment(name, count, count + pressure.size, text))
+        count += pressure.size
+
+    add('vented', np.zeros(round(REST * rate)), 'the state to start from')
+    for name, wave, text in parts:
+        pressure = low + span * wave
+        add(name, np.concatenate((_ramp(last, pressure[0], rate), pressure)), text)
+        last = float(pressure[-1])
+    out = np.concatenate((_ramp(last, 0.0, rate), np.zeros(round(REST * rate))))
+    add('ramp out, vented', out, '')
+    limited = limit_rate(np.concatenate(levels), settings.pressure_rate / rate)
+    # A slow limit may not have let it down yet.
+    rest = limited[-1]
+    while rest > 0.0:
+        rest = max(rest - settings.pressure_rate / rate, 0.0)
+        limited = np.append(limited, rest)
+    segments[-1] = Segment(segments[-1].name, segments[-1].start, limited.size, '')
+    return Programme(rate, limited, tuple(segments))
+
+
+def limit_rate(pressure: Array, step: float) -> Array:
+    """Return *pressure* with changes of at most *step* from one command to the next."""
+    limited = np.empty_like(pressure)
+    now = float(pressure[0])
+    for k, wanted in enumerate(pressure.tolist()):
+        now = min(max(wanted, now - step), now + step)
+        limited[k] = now
+    return limited
+
+
+def _ramp(start: float, stop: float, rate: float) -> Array:
+    """Return a smooth way from one pressure to another: a raised cosine over RAMP s."""
+    x = np.arange(1, round(RAMP * rate) + 1) / round(RAMP * rate)
+    wave: Array = start + (stop - start) * 0.5 * (1.0 - np.cos(np.pi * x))
+    return wave
+
+
+def plan(programme: Programme, settings: Excitation) -> str:
+    """Return the table of a programme for the user to read before it starts."""
+    lines = [f'{"segment":<18} {"from":>7} {"to":>7}  {"pressure":<15} brings out']
+    for s in programme.segments:
+        part = programme.pressure[s.start : s.stop] / 1e3
+        span = f'{part.min():.0f} to {part.max():.0f} kPa'
+        lines.append(
+            f'{s.name:<18} {s.start / programme.rate:6.1f}s {s.stop / programme.rate:6.1f}s  '
+            f'{span:<15} {s.text}'.rstrip()
+        )
+    fastest = float(np.max(np.abs(np.diff(programme.pressure)))) * programme.rate
+    lines.append(
+        f'total {programme.duration:.1f} s, up to {programme.pressure.max() / 1e3:.0f} kPa and '
+        f'{fastest / 1e3:.0f} kPa/s, {programme.rate:g} commands a second, seed {settings.seed}'
+    )
+    return '\n'.join(lines)
+
+
+def write_csv(programme: Programme, path: Path) -> None:
+    """Write the commands as ``t_s,pressure_command_Pa``; raises PamError where it cannot."""
+    partial = path.with_name(path.name + '.part')
+    try:
+        with partial.open('w', newline='', encoding='utf-8') as stream:
+            writer = csv.writer(stream, lineterminator='\n')
+            writer.writerow(('t_s', 'pressure_command_Pa'))
+            writer.writerows(zip(programme.t.tolist(), programme.pressure.tolist(), strict=True))
+        partial.replace(path)
+    except OSError as error:
+        partial.unlink(missing_ok=True)
+        raise PamError(f'{path} cannot be written: {error.strerror}') from error

@@ -1,0 +1,109 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""What an excitation is told: its limits, its length, and when to give up."""
+
+from dataclasses import dataclass
+
+from pam_ros.errors import ParameterError
+from pam_ros.muscle.muscle import Muscle
+from pam_ros.parameters import check_all, parameter
+
+
+@dataclass(frozen=True)
+class Excitation:
+    """Limits and shape of a pressure programme. Raises ParameterError where they contradict."""
+
+    pressure_min: float = parameter(
+        50e3, 'lowest gauge pressure of the programme', 'Pa', low=0.0, high=5e6, live=False
+    )
+    pressure_max: float = parameter(
+        450e3, 'highest gauge pressure of the programme', 'Pa', low=0.0, high=5e6, live=False
+    )
+    pressure_rate: float = parameter(
+        1.5e6,
+        'fastest change of pressure, venting in an emergency included',
+        'Pa/s',
+        low=1e3,
+        high=1e9,
+        live=False,
+    )
+    contraction_min: float = parameter(
+        -0.04,
+        'contraction below which the programme stops and vents',
+        'fraction of l0',
+        low=-1.0,
+        high=1.0,
+        live=False,
+    )
+    contraction_max: float = parameter(
+        0.25,
+        'contraction above which the programme stops and vents',
+        'fraction of l0',
+        low=-1.0,
+        high=1.0,
+        live=False,
+    )
+    silence: float = parameter(
+        0.5,
+        'silence of joint_states after which the programme stops and vents',
+        's',
+        low=0.01,
+        high=60.0,
+        live=False,
+    )
+    duration: float = parameter(
+        85.0, 'length of the whole programme', 's', low=30.0, high=3600.0, live=False
+    )
+    frequency_max: float = parameter(
+        8.0, 'highest frequency of multisine and chirp', 'Hz', low=0.5, high=100.0, live=False
+    )
+    rate: float = parameter(200.0, 'commands per second', 'Hz', low=20.0, high=2000.0, live=False)
+    seed: int = parameter(
+        0, 'chooses the levels and phases; same seed, same programme', '', low=0, live=False
+    )
+    countdown: float = parameter(
+        3.0, 'time to read the plan before it starts', 's', low=0.0, high=60.0, live=False
+    )
+    patience: float = parameter(
+        10.0,
+        'how long joint_states and a subscriber of pressure_command are waited for',
+        's',
+        low=0.1,
+        high=3600.0,
+        live=False,
+    )
+    joint_name: str = parameter(
+        '', "joint to watch in joint_states; '' where there is only one", live=False
+    )
+
+    def __post_init__(self) -> None:
+        """Check every field, then each against the others."""
+        check_all(self)
+        for low, high in (
+            ('pressure_min', 'pressure_max'),
+            ('contraction_min', 'contraction_max'),
+        ):
+            if not getattr(self, low) < getattr(self, high):
+                raise ParameterError(
+                    f'{low} = {getattr(self, low):g} is not below {high} = {getattr(self, high):g}'
+                )
+        if self.frequency_max > self.rate / 10.0:
+            raise ParameterError(
+                f'frequency_max = {self.frequency_max:g} Hz needs at least ten commands a '
+                f'period: rate = {self.rate:g} Hz gives {self.rate / self.frequency_max:.2g}'
+            )
+
+    def within(self, muscle: Muscle) -> 'Excitation':
+        """Return this excitation, or raise ParameterError where it exceeds *muscle*."""
+        if self.pressure_max > muscle.p_max:
+            raise ParameterError(
+                f'pressure_max = {self.pressure_max:g} Pa is above p_max = {muscle.p_max:g} Pa '
+                'of the muscle'
+            )
+        if self.contraction_max > muscle.kappa_max or self.contraction_min < muscle.kappa_min:
+            raise ParameterError(
+                f'contraction_min..contraction_max = {self.contraction_min:g} to '
+                f'{self.contraction_max:g} is outside kappa_min..kappa_max = '
+                f'{muscle.kappa_min:g} to {muscle.kappa_max:g} of the muscle'
+            )
+        return self

@@ -1,0 +1,105 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The segments of an excitation as levels between 0 and 1, one for each command.
+
+Each function returns an array of shape (round(rate * duration),), the same for the same
+arguments: rate in Hz, duration in s.
+"""
+
+import numpy as np
+from numpy.random import Generator
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+# Levels of the staircase: both ends, steps of many sizes, up and down from most heights, none
+# so large that a lightly damped load overshoots far. The seed moves the inner ones a little.
+LEVELS = (0.5, 0.8, 0.6, 0.75, 1.0, 0.7, 0.35, 0.55, 0.2, 0.0, 0.3, 0.15, 0.45)
+SHIFT = 0.04
+LONG = 3.0  # the highest and the lowest level are held so many times longer: creep shows
+SINES = 14
+SLOWEST = 0.1  # Hz
+MEANS = (0.25, 0.5, 0.75)  # of the chirps
+PASSAGE = 0.6  # s from one to the next
+
+
+def steps(rate: float, duration: float, rng: Generator) -> Array:
+    """Return a staircase over the whole range, up and down in steps of many sizes.
+
+    The onsets show lag and dead time, the oscillation behind them damping and mass, the long
+    holds at both ends creep.
+    """
+    levels = np.array(LEVELS)
+    inner = (levels > 0.0) & (levels < 1.0)
+    levels[inner] += rng.uniform(-SHIFT, SHIFT, np.count_nonzero(inner))
+    hold = np.where(inner, 1.0, LONG)
+    ends = np.round(np.cumsum(hold) / hold.sum() * round(rate * duration)).astype(int)
+    wave: Array = np.repeat(levels, np.diff(ends, prepend=0))
+    return wave
+
+
+def triangle(rate: float, duration: float, rng: Generator, minor_loops: bool) -> Array:
+    """Return one triangle through the range, at a constant rate of change.
+
+    With *minor_loops* it turns back three times on the way up and three times on the way down,
+    by a third of the range and less: hysteresis remembers where it turned, friction only that
+    it did. Played at two rates, what is hysteresis stays the same, what is creep does not.
+    """
+    corners = [0.0]
+    if minor_loops:
+        for peak, back in ((0.3, 0.08), (0.55, 0.18), (0.85, 0.33)):
+            at = peak + rng.uniform(-0.05, 0.05)
+            corners += [at, at - back]
+        up = np.array([*corners, 1.0])
+        corners = [*up.tolist(), *(1.0 - up[1:]).tolist()]
+    else:
+        corners = [0.0, 1.0, 0.0]
+    path = np.concatenate(([0.0], np.cumsum(np.abs(np.diff(corners)))))
+    along = np.linspace(0.0, path[-1], round(rate * duration))
+    wave: Array = np.interp(along, path, corners)
+    return wave
+
+
+def multisine(rate: float, duration: float, rng: Generator, fastest: float) -> Array:
+    """Return sines from 0.1 Hz to *fastest* Hz at random phases about the middle of the range.
+
+    Whole periods fit into the duration; faster ones are smaller, as the load resonates.
+    """
+    t = np.arange(round(rate * duration)) / rate
+    cycles = np.unique(np.round(np.geomspace(SLOWEST, fastest, SINES) * duration))
+    frequency = np.maximum(cycles, 1.0) / duration
+    weight = 1.0 / (1.0 + frequency)
+    best = np.zeros_like(t)
+    crest = np.inf
+    for _ in range(20):
+        phase = rng.uniform(0.0, 2.0 * np.pi, frequency.size)
+        wave = weight @ np.sin(2.0 * np.pi * frequency[:, None] * t + phase[:, None])
+        peak = float(np.max(np.abs(wave)))
+        if peak < crest:
+            best, crest = wave, peak
+    return 0.5 + 0.35 * best / crest
+
+
+def chirp(rate: float, duration: float, fastest: float) -> Array:
+    """Return three small logarithmic chirps from 0.3 Hz to *fastest* Hz, low, middle and high.
+
+    Damping that depends on pressure is told from other damping by the mean pressures; the phase
+    tells lag from dead time.
+    """
+    count = round(rate * duration)
+    edges = [round(count * k / 3) for k in range(4)]
+    parts: list[Array] = []
+    before = MEANS[0]
+    for mean, start, end in zip(MEANS, edges[:-1], edges[1:], strict=True):
+        t = np.arange(end - start) / rate
+        # A smooth way from the last mean pressure, then the chirp, faded in and out.
+        way = 0.5 - 0.5 * np.cos(np.pi * np.clip(t / PASSAGE, 0.0, 1.0))
+        length = max(end - start, 1) / rate - PASSAGE
+        x = np.clip(t - PASSAGE, 0.0, length)
+        growth = np.log(fastest / 0.3)
+        phase = 2.0 * np.pi * 0.3 * length / growth * np.expm1(growth * x / length)
+        fade = np.clip(np.minimum(x, length - x) / 0.25, 0.0, 1.0)
+        parts.append(before + (mean - before) * way + 0.04 * fade * np.sin(phase))
+        before = mean
+    wave: Array = np.concatenate(parts)
+    return wave
