@@ -10,7 +10,7 @@ import argparse
 import gc
 import re
 import sys
-from collections.abc import Callable
+from collections.abc import Sequence
 from pathlib import Path
 from time import monotonic_ns
 
@@ -39,9 +39,23 @@ REFUSALS = (PamError, NameValidationException, ParameterException, RuntimeError)
 
 
 class TickingNode(Node):
-    """A node that does its work in :meth:`tick`, at the rate of its ``ticker``."""
+    """A node that does its work in :meth:`tick`, at the rate of its ``ticker``.
+
+    A node whose work comes to an end sets ``exit_code``; the others run until they are stopped.
+    """
 
     ticker: Ticker
+    exit_code: int | None = None
+
+    @classmethod
+    def of_arguments(cls, parser: argparse.ArgumentParser, given: Sequence[str]) -> 'TickingNode':
+        """Make the node of the command line's arguments, those for ROS left out: none."""
+        parser.parse_args(given)
+        return cls()
+
+    def make_executor(self) -> Executor:
+        """Return the executor that serves the node: the lightest there is."""
+        return EventsExecutor()
 
     def start(self) -> None:
         """Begin to count time: all is there and the loop starts."""
@@ -52,11 +66,11 @@ class TickingNode(Node):
         raise NotImplementedError
 
 
-def run(make: Callable[[], TickingNode], stop: StopRequest, about: str) -> int:
-    """Make a node and run it until *stop*; return the exit code.
+def run(kind: type[TickingNode], stop: StopRequest, about: str) -> int:
+    """Make a node of *kind* and run it until *stop* or its end; return the exit code.
 
-    0 after a stop; 2, with the sentence on stderr, when the arguments (``--ros-args ...``) or
-    the parameters make no node.
+    0 after a stop, the node's own at its end; 2, with the sentence on stderr, when the arguments
+    (``--ros-args ...``) or the parameters make no node.
     """
     node = None
     try:
@@ -67,13 +81,12 @@ def run(make: Callable[[], TickingNode], stop: StopRequest, about: str) -> int:
                 formatter_class=argparse.RawDescriptionHelpFormatter,
                 epilog='All else is told with --ros-args: see the manual of ROS 2.',
             )
-            parser.parse_args(remove_ros_args(sys.argv)[1:])
             rclpy.init(args=sys.argv, signal_handler_options=SignalHandlerOptions.NO)
-            node = make()
+            node = kind.of_arguments(parser, remove_ros_args(sys.argv)[1:])
         except REFUSALS as error:
             print(f'{parser.prog}: {sentence(error)}', file=sys.stderr)
             return BAD_INPUT
-        executor = EventsExecutor()
+        executor = node.make_executor()
         executor.add_node(node)
         # What is there now stays: a collection over it would cost the loop some 20 ms.
         gc.collect()
@@ -84,13 +97,13 @@ def run(make: Callable[[], TickingNode], stop: StopRequest, about: str) -> int:
         if node is not None:
             node.destroy_node()
         rclpy.try_shutdown()
-    return 0
+    return node.exit_code or 0
 
 
 def spin(node: TickingNode, executor: Executor, stop: StopRequest) -> None:
-    """Tick the node at its rate and let the executor work in between, until *stop*."""
+    """Tick the node and let the executor work in between, until *stop* or the node's end."""
     ticker = node.ticker
-    while not stop.is_made:
+    while not stop.is_made and node.exit_code is None:
         now = monotonic_ns()
         wait = ticker.remaining(now)
         if wait <= 0.0:
