@@ -4,6 +4,28 @@
 
 It shares no code with the package on purpose, and says each effect by other equations than the
 package where more than one description exists.
+
+Closed loop, a command held for 2 ms, the noisy position back::
+
+    plant = control_plant('friction', p0=300e3)
+    y = plant.measure()
+    for _ in range(5000):
+        y = plant.step(controller(y), 2e-3)
+    plant.y, plant.v, plant.force, plant.pressure  # the truth
+
+Any rig, and a recording of it::
+
+    lag = effect('pressure_lag', fill_s=0.05, vent_s=0.07)
+    recording = record([lag], rate=500.0, duration=60.0, noise=20e-6, rho=0.9, seed=1)
+    recording.write_csv('free.csv')
+    held_record([effect('hysteresis', 'pressure')]).write_csv('held.csv')
+
+Blind trials of a kind, a pair or nothing at all::
+
+    trial = blind_trial('hysteresis+pressure_lag', seed=3)
+    trial.recording, trial.declared  # what the finder gets
+    trial.kinds, trial.effects, trial.accepted  # the answer
+    visibility(trial)  # how much re-tuning alone would leave
 """
 
 from .catalogue import FORMS, KINDS, OUT_OF_LIBRARY

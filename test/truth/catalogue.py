@@ -72,7 +72,7 @@ _FORMS = (
             'bristle_n_m': R(1e6, 3e5, 2e6),
         },
     ),
-    Form('viscous_friction', 'linear', {'viscous_ns_m': R(60.0, 15.0, 200.0)}),
+    Form('viscous_friction', 'linear', {'viscous_ns_m': R(60.0, 25.0, 200.0)}),
     Form(
         'creep',  # two shares of the pressure act late
         'pressure',

@@ -23,7 +23,7 @@ def substep(P, S, force_out, d):
     t_mid = S.t + 0.5 * d
     mass = P.mass_kg + P.payload_kg
     receive(S)
-    chamber(P, S, S.t + 0.25 * d, 0.5 * d)
+    chamber(P, S, S.t, 0.5 * d)
     S.y += 0.5 * d * S.v
     S.second += 0.5 * d * S.second_v
     if P.bristle_n_m > 0.0:
@@ -67,7 +67,7 @@ def substep(P, S, force_out, d):
         bend_bristle(P, S, S.v, 0.5 * d)
     S.second += 0.5 * d * S.second_v
     S.y += 0.5 * d * S.v
-    chamber(P, S, S.t + 0.75 * d, 0.5 * d)
+    chamber(P, S, t_mid, 0.5 * d)
     S.link = min(S.y + P.play_m, max(S.y - P.play_m, S.link))
     S.t += d
 
@@ -85,11 +85,19 @@ def advance(P, S, u, force_out, h):
 
 
 @jit
-def run(P, S, t, u, force_out, y_path, out):
+def hold(parameters, states, u, force_out, h):
+    """Advance; return the time and the position of the sensor's linkage."""
+    advance(parameters[0], states[0], u, force_out, h)
+    return states[0].t, states[0].link
+
+
+@jit
+def run(parameters, states, t, u, force_out, y_path, out):
     """Play a programme; row k of out is y, v, pull, p, linked y at t[k], before u[k] acts.
 
     A held run (P.held) moves along y_path, else y_path is not looked at.
     """
+    P, S = parameters[0], states[0]
     for k in range(t.size):
         out[k, 0] = S.y
         out[k, 1] = S.v

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from .compiled import blank
+from .compiled import blank, element
 
 ELEMENTS = 12  # slip elements of a hysteresis
 QUEUE = 512  # commands in flight through a dead time
@@ -58,12 +58,12 @@ STATE_ARRAYS = {
 
 
 def new_parameters() -> Any:
-    """Return a record of all parameters, every effect absent."""
-    record = blank('parameters', PARAMETERS, {})
-    record.regulator_gain = 1.0
-    return record
+    """Return a sequence of one record of all parameters, every effect absent."""
+    sequence = blank('parameters', PARAMETERS, {})
+    element(sequence).regulator_gain = 1.0
+    return sequence
 
 
 def new_state() -> Any:
-    """Return a record of all states at zero."""
+    """Return a sequence of one record of all states at zero."""
     return blank('state', STATE, STATE_ARRAYS)

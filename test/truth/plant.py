@@ -10,9 +10,10 @@ from typing import Any
 
 import numpy as np
 
+from .compiled import element
 from .effects import Effect
 from .forces import law, tendon
-from .kernel import advance, run
+from .kernel import hold, run
 from .layout import ELEMENTS, new_parameters, new_state
 from .muscles import GRAVITY, constants_si
 from .pneumatics import KNEE_WIDTH
@@ -54,7 +55,8 @@ class TruthPlant:
         self.constants = constants_si(muscle) if isinstance(muscle, str) else tuple(muscle)
         self.effects = tuple(effects)
         self.sensor = sensor or Sensor()
-        self.parameters = P = new_parameters()
+        self._parameters = new_parameters()
+        self.parameters = P = element(self._parameters)
         P.a1, P.a2, P.a3, P.a4, P.a5, P.a6 = self.constants
         P.mass_kg, P.zeta, P.l0_m, P.dt = mass, zeta, l0, dt
         P.gravity = {'vertical': GRAVITY, 'horizontal': 0.0}[mount]
@@ -68,7 +70,10 @@ class TruthPlant:
     def reset(self, p0: float, seed: int = 0) -> float:
         """Put the plant at rest under a command of p0 (Pa) with virgin memory; return y in m."""
         P = self.parameters
-        self.state = S = new_state()
+        self._states = new_state()
+        self.state = S = element(self._states)
+        self._walks = P.walk_n_rs > 0.0
+        self._walked = 0.0
         self._rng = np.random.default_rng([seed, 1])
         self.sensor.reset(seed)
         S.u = p0
@@ -111,11 +116,9 @@ class TruthPlant:
 
     def step(self, u: float, h: float) -> float:
         """Hold a command (Pa) for h seconds; return the position measured at the end, m."""
-        force = 0.0
-        if self.parameters.walk_n_rs > 0.0:
-            force = self._walk(np.array([h]))[0]
-        advance(self.parameters, self.state, u, force, h)
-        return self.measure()
+        force = float(self._walk(np.array([h]))[0]) if self._walks else 0.0
+        t, y = hold(self._parameters, self._states, float(u), force, h)
+        return self.sensor.read(t, y)
 
     def measure(self) -> float:
         """Return the position sensor's reading now, m. Each call draws new noise."""
@@ -139,17 +142,15 @@ class TruthPlant:
             S.y = S.y_mem = S.link = S.strain_1 = S.strain_2 = path[0]
             S.lag_1 = S.lag_2 = self._static(S.p, path[0])
             S.pull = tendon(P, S.lag_1)
-        run(P, S, t, u, self._walk(np.diff(t, append=t[-1])), path, out)
+        run(self._parameters, self._states, t, u, self._walk(np.diff(t, append=t[-1])), path, out)
         return np.rec.fromarrays(out.T, names=list(OUTPUTS))
 
     def _walk(self, h: np.ndarray) -> np.ndarray:
         """Random-walk force in N on the load in each hold of h seconds."""
-        scale = self.parameters.walk_n_rs
-        if scale == 0.0:
+        if not self._walks:
             return np.zeros(h.size)
-        start = getattr(self, '_walked', 0.0)
-        steps = scale * np.sqrt(h) * self._rng.standard_normal(h.size)
-        walk = start + np.cumsum(steps)
+        steps = np.sqrt(h) * self._rng.standard_normal(h.size)
+        walk = self._walked + self.parameters.walk_n_rs * np.cumsum(steps)
         self._walked = float(walk[-1])
         return walk
 

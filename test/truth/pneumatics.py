@@ -66,11 +66,19 @@ def valve_rate(P, p, target):
 
 
 @jit
-def chamber(P, S, t_mid, d):
-    """Advance the chamber pressure over d seconds, the target held at its value at t_mid."""
+def regulated(P, S, t):
+    """Return the pressure that the regulator would give at time t."""
     target = min(max(S.u * P.regulator_gain + P.regulator_pa, 0.0), 1.0e6)
     if P.ripple_pa != 0.0:
-        target += P.ripple_pa * math.sin(2.0 * math.pi * P.ripple_hz * t_mid + P.ripple_rad)
+        target += P.ripple_pa * math.sin(2.0 * math.pi * P.ripple_hz * t + P.ripple_rad)
+    return target
+
+
+@jit
+def chamber(P, S, t, d):
+    """Advance the chamber pressure by d seconds from t; the target keeps its value of mid way."""
+    t_mid = t + 0.5 * d
+    target = regulated(P, S, t_mid)
     leak = P.leak_per_s
     if P.valve_open_s > 0.0 and t_mid - S.valve_time > P.valve_open_s:
         S.p *= math.exp(-leak * d)  # closed: nothing flows in, the chamber only loses
@@ -80,7 +88,7 @@ def chamber(P, S, t_mid, d):
     else:
         tau = P.fill_s if target > S.p else P.vent_s
         if tau <= 0.0:
-            S.p = target
+            S.p = regulated(P, S, t + d)
         elif P.refill_pa_s > 0.0 and abs(target - S.p) > P.refill_pa_s * tau:
             supply = math.copysign(P.refill_pa_s, target - S.p)
             S.p += (supply - leak * S.p) * -math.expm1(-leak * d) / leak

@@ -10,6 +10,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from truth import TruthPlant, effect
+from truth.compiled import element
 from truth.forces import bend_bristle, friction, stribeck, tendon
 from truth.layout import new_state
 from truth.muscles import constants_si, static_force
@@ -180,7 +181,7 @@ def test_maxwell_branches_relax_with_two_times():
 
 def test_bristles_follow_lugre_as_radau_solves_it():
     P = TruthPlant(effects=[effect('coulomb_friction', coulomb_n=15.0, static_n=25.0)]).parameters
-    S = new_state()
+    S = element(new_state())
 
     def level(v):
         return 15.0 + 10.0 * math.exp(-((v / 0.01) ** 2))
@@ -209,7 +210,7 @@ def test_bristles_follow_lugre_as_radau_solves_it():
 def test_sliding_friction_is_stribecks_curve():
     P = TruthPlant(effects=[effect('coulomb_friction', coulomb_n=15.0, static_n=25.0)]).parameters
     for v in (-0.2, -0.01, 0.002, 0.01, 0.2):
-        S = new_state()
+        S = element(new_state())
         for _ in range(400):
             bend_bristle(P, S, v, 1e-3)
         assert friction(P, S, v) == pytest.approx(math.copysign(stribeck(P, v), v), rel=1e-6)
@@ -228,7 +229,7 @@ def test_a_load_sticks_below_the_static_friction(force, slips):
     moved = got.y[-1] - got.y[0]
     assert (moved > 5e-4) == slips
     if not slips:
-        # Bristles bend as x = -z ln(1 - f / f_s), z = f_s / stiffness; the muscle gives way by 1 %.
+        # Bristles bend as x = -z ln(1 - f / f_s), z = f_s / stiffness; the muscle gives way 1 %.
         assert moved == pytest.approx(-25e-6 * math.log(1.0 - force / 25.0), rel=0.08)
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from truth import Sensor, TruthPlant, control_plant, effect
+from truth import FORMS, PROGRAMMES, Sensor, TruthPlant, control_plant, effect
 from truth.muscles import constants_si, contraction_for, pressure_for, static_force
 
 A = constants_si('dmsp_20_400n')
@@ -86,6 +86,17 @@ def test_benchmark_plants_have_converged(name):
     fine.parameters.dt = coarse.parameters.dt / 8.0
     difference = coarse.run(t, u).y - fine.run(t, u).y
     assert np.max(np.abs(difference)) < 1e-6
+
+
+@pytest.mark.parametrize(('kind', 'form'), [key for key in FORMS if key[0] != 'random_walk'])
+def test_every_effect_has_converged_far_below_the_noise(kind, form):
+    t = np.arange(0.0, 6.0, 5e-3)
+    u = PROGRAMMES['mixture'](200.0, 6.0, 150e3, 350e3, np.random.default_rng(3))
+    runs = []
+    for dt in (5e-5, 5e-5 / 8.0):
+        plant = TruthPlant(effects=[effect(kind, form)], p0=u[0], dt=dt)
+        runs.append(plant.run(t, u).linked)
+    assert np.max(np.abs(runs[0] - runs[1])) < 1e-7
 
 
 def test_stepping_and_running_are_the_same_bits():

@@ -98,7 +98,7 @@ def test_supply_ripple_is_in_the_pressure():
     ripple = effect('periodic_disturbance', 'supply', ripple_pa=3e3, ripple_hz=2.5, ripple_rad=0.4)
     got = held([ripple], T, np.full(T.size, 300e3))
     expected = 300e3 + 3e3 * np.sin(2.0 * np.pi * 2.5 * T + 0.4)
-    np.testing.assert_allclose(got.pressure[1:], expected[1:], atol=2.0)
+    np.testing.assert_allclose(got.pressure[1:], expected[1:], atol=1e-6)
 
 
 def test_creep_in_the_pressure_has_two_times():
