@@ -18,6 +18,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import yaml
 
 from pam_ros.config import Table, Value, build_rig, override, refuse_mistyped, rig_table
@@ -36,6 +37,19 @@ _Loader.add_implicit_resolver(
     'tag:yaml.org,2002:float',
     re.compile(r'^[-+]?([0-9]+(\.[0-9]*)?|\.[0-9]+)[eE][-+]?[0-9]+$'),
     list('-+.0123456789'),
+)
+
+
+class _Dumper(yaml.SafeDumper):
+    """YAML in which a text is a text for every parser: quoted."""
+
+
+class _Text(str):
+    """A string value, as opposed to a name."""
+
+
+_Dumper.add_representer(
+    _Text, lambda dumper, text: dumper.represent_scalar('tag:yaml.org,2002:str', text, style="'")
 )
 
 
@@ -163,9 +177,10 @@ def write(path: Path, values: Mapping[str, Value], about: str = '', node: str = 
         table = nested
         for group in groups:
             table = table.setdefault(group, {})
-        table[last] = getattr(value, 'item', lambda value=value: value)()  # numpy's to Python's
+        plain = value.item() if isinstance(value, np.generic) else value
+        table[last] = _Text(plain) if isinstance(plain, str) else plain
     text = ''.join(f'# {line}'.rstrip() + '\n' for line in about.splitlines())
-    text += yaml.safe_dump({node: {TABLE: nested}}, sort_keys=False, allow_unicode=True)
+    text += yaml.dump({node: {TABLE: nested}}, Dumper=_Dumper, sort_keys=False, allow_unicode=True)
     path.parent.mkdir(parents=True, exist_ok=True)
     with tempfile.NamedTemporaryFile(
         'w', dir=path.parent, prefix=f'.{path.name}', delete=False, encoding='utf-8'

@@ -39,12 +39,14 @@ class Pace:
         *is_simulated* says that ROS time comes from ``/clock``: then it may run at any speed, and
         only going backwards or leaping ahead is a jump.
         """
-        passed = ros - self._ros
-        leap = passed - (steady - self._steady)
-        self._ros, self._steady = ros, steady
+        leap = passed = ros - self._ros
         if is_simulated:
-            leap = passed if passed < 0 or passed > 2 * CATCH_UP else 0
-        if abs(leap) > JUMP:
+            is_jump = not 0 <= passed <= 2 * CATCH_UP
+        else:
+            leap -= steady - self._steady
+            is_jump = abs(leap) > JUMP
+        self._ros, self._steady = ros, steady
+        if is_jump:
             self.origin += leap
             self.jumps += 1
         behind = ros - self.stamp(step)
