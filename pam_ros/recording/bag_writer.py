@@ -69,7 +69,9 @@ class BagWriter:
         self._name = f'{directory.name}_0.mcap'
         try:
             directory.mkdir(parents=True)
-            self._file = os.open(directory / self._name, os.O_WRONLY | os.O_CREAT | os.O_EXCL)
+            self._file = os.open(
+                directory / self._name, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666
+            )
         except FileExistsError:
             raise RecordingError(f'{directory} exists already: give another name') from None
         except OSError as error:
