@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Coulomb and Stribeck friction of the guide, with a load that truly sticks."""
 
-from math import exp, sqrt
+from math import exp, hypot, sqrt
 
 from pam_ros.effects.base import Effect, EffectParameter, Row
 from pam_ros.rig.layout import MASS
@@ -36,7 +36,7 @@ def outside(
     if q[j + 1] > q[j]:
         level += (q[j + 1] - q[j]) * exp(-(v / q[j + 2]) * (v / q[j + 2]))
     up, down = (1.0 + q[j + 4]) * level, (1.0 - q[j + 4]) * level
-    k = level / (q[j + 5] + level * x[i + 2] * x[i + 2] / q[MASS])
+    k = level / hypot(q[j + 5], level * x[i + 2] * x[i + 2] / q[MASS])
     spring = min(max(x[i] + k * (y - x[i + 1]), -down), up)
     xn[i] = spring
     xn[i + 1] = y

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """End stops: the load meets a stiff pad at the top, and another at the bottom."""
 
+from math import hypot
+
 import numpy as np
 
 from pam_ros.effects.base import Array, Effect, EffectParameter, Row
@@ -30,17 +32,19 @@ def outside(
     if q[j + 1] == 0.0 and q[j + 3] == 0.0:
         return f
     xn[i] = h
-    soft = x[i] * x[i] / q[MASS]
-    slow = x[i] / q[MASS]
+    most_k = q[MASS] / (x[i] * x[i])
+    most_c = q[MASS] / x[i]
     d = y - q[j] * q[L0]
     if d > 0.0 and q[j + 1] > 0.0:
-        spring = d / (1.0 / q[j + 1] + soft)
-        push = spring * (1.0 + q[j + 4] * v / (1.0 + slow * spring * q[j + 4]))
+        spring = d * q[j + 1] / hypot(1.0, q[j + 1] / most_k)
+        c = q[j + 4] * spring
+        push = spring + c * v / hypot(1.0, c / most_c)
         f -= max(push, 0.0)
     d = q[j + 2] * q[L0] - y
     if d > 0.0 and q[j + 3] > 0.0:
-        spring = d / (1.0 / q[j + 3] + soft)
-        push = spring * (1.0 - q[j + 4] * v / (1.0 + slow * spring * q[j + 4]))
+        spring = d * q[j + 3] / hypot(1.0, q[j + 3] / most_k)
+        c = q[j + 4] * spring
+        push = spring - c * v / hypot(1.0, c / most_c)
         f += max(push, 0.0)
     return f
 

@@ -1,0 +1,42 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Dead time: the answer is that to the same commands, stamped later."""
+
+import numpy as np
+import pytest
+
+from pam_ros.rig.rig import Rig
+from pam_ros.rig.run import simulate
+from support import bench
+
+COMMANDS = np.array([0.0, 0.3, 0.55, 0.9])
+VALUES = np.array([3e5, 3.5e5, 2.5e5, 3e5])
+
+
+@pytest.mark.parametrize('delay', [0.02, 0.0123, 0.3])
+def test_delay_is_a_later_stamp(delay):
+    t = np.linspace(0.0, 1.5, 301)
+    late = simulate(bench.hanging(dead_time={'delay': delay}), t, COMMANDS, VALUES)
+    stamped = simulate(bench.hanging(), t, COMMANDS + delay * (COMMANDS > 0.0), VALUES)
+    np.testing.assert_allclose(late.position, stamped.position, atol=1e-10)
+    np.testing.assert_array_equal(late.pressure, stamped.pressure)
+
+
+def test_a_force_source_moves_only_after_the_delay():
+    delay, push = 0.05, 8.0
+    t = np.linspace(0.0, 0.5, 51)
+    run = simulate(
+        bench.cart(dead_time={'delay': delay}), t, [-1.0, 0.1], [0.0, push], position=0.0
+    )
+    after = np.maximum(t - 0.1 - delay, 0.0)
+    np.testing.assert_allclose(run.position, 0.5 * push / bench.MASS * after**2, atol=1e-14)
+
+
+def test_a_stepped_rig_takes_the_command_at_the_first_step_after_the_delay():
+    rig = Rig([bench.cart(dead_time={'delay': 0.0105})])
+    rig.command([5.0])
+    pressures = []
+    for _ in range(15):
+        rig.advance()
+        pressures.append(rig.pressure[0])
+    assert pressures == [0.0] * 11 + [5.0] * 4

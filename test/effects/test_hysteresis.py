@@ -1,0 +1,146 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Hysteresis against the differential equation of Bouc-Wen and the play operators of Prandtl."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.integrate import solve_ivp, trapezoid
+
+from pam_ros.effects.hysteresis import EFFECT, ELEMENTS
+from pam_ros.rig.run import simulate, simulate_held
+from support import bench
+
+TURNS = np.array([0.05, 0.12, 0.08, 0.1, 0.03, 0.15, 0.149, 0.15, 0.0, 0.06])  # of contraction
+BOUC_WEN = {'amplitude': 12.0, 'width': 0.02}
+SLIP = {'slip': 9.0, 'slip_width': 0.05, 'slip_onset': 0.1}
+
+
+def path(turns=TURNS, points=50):
+    """Return contractions along straight ways between turns, *points* a way."""
+    return np.interp(np.arange((len(turns) - 1) * points + 1) / points, range(len(turns)), turns)
+
+
+def loop(effect, kappa, p=3e5):
+    """Return the force that hysteresis adds along a path of contraction and pressure."""
+    p = np.broadcast_to(p, kappa.shape)
+    t, y, still = np.arange(float(kappa.size)), kappa * bench.L0, np.zeros(kappa.size)
+    with_it = simulate_held(bench.hanging(hysteresis=effect), t, p, y, still, step=1.0).force
+    return with_it - simulate_held(bench.hanging(), t, p, y, still, step=1.0).force
+
+
+@pytest.mark.parametrize('unloading', [1.0, 0.4, 0.0])
+def test_bouc_wen_loops_against_their_differential_equation(unloading):
+    beta, gamma = 0.5 * (1.0 + unloading), 0.5 * (1.0 - unloading)
+    width, z, expected = BOUC_WEN['width'], 0.0, [0.0]
+    for a, b in pairwise(TURNS):
+        speed = b - a
+
+        def rhs(_, z, speed=speed):
+            return (speed - beta * abs(speed) * z - gamma * speed * np.abs(z)) / width
+
+        run = solve_ivp(rhs, (0.0, 1.0), [z], rtol=1e-10, atol=1e-12, max_step=0.01)
+        z = run.y[0, -1]
+        expected.append(-BOUC_WEN['amplitude'] * z)
+    force = loop({**BOUC_WEN, 'unloading': unloading}, path())
+    np.testing.assert_allclose(force[::50], expected, atol=1e-7)
+
+
+@pytest.mark.parametrize('onset', [0.0, 0.3, 1.0])
+def test_maxwell_slip_is_the_complement_of_prandtls_plays(onset):
+    kappa = path()
+    radii = SLIP['slip_width'] * (onset + (1 - onset) * (np.arange(ELEMENTS) + 0.5) / ELEMENTS)
+    play, expected = np.full(ELEMENTS, kappa[0]), []
+    for k in kappa:
+        play = np.maximum(k - radii, np.minimum(k + radii, play))
+        expected.append(-SLIP['slip'] * np.mean((k - play) / radii))
+    force = loop({**SLIP, 'slip_onset': onset}, kappa)
+    np.testing.assert_allclose(force, expected, atol=1e-9)
+
+
+@pytest.mark.parametrize('effect', [BOUC_WEN, SLIP, {**BOUC_WEN, **SLIP}])
+def test_only_the_way_counts_neither_speed_nor_sampling(effect):
+    fine, coarse = loop(effect, path(points=100)), loop(effect, path(points=1))
+    np.testing.assert_allclose(fine[::100], coarse, atol=1e-10)
+
+
+def test_maxwell_slip_closes_minor_loops_and_forgets_them():
+    straight = loop(SLIP, path([0.0, 0.08, 0.1]))
+    with_loop = loop(SLIP, path([0.0, 0.08, 0.06, 0.07, 0.06, 0.08, 0.1]))
+    np.testing.assert_allclose(with_loop[-50:], straight[-50:], atol=1e-10)
+
+
+def test_held_muscle_shows_the_published_loop_of_pressure():
+    # Hunt et al. 2017: filling and venting differ by 15.6 kPa to either side.
+    y, half = 0.04, 15.6e3
+    gain = (bench.pull(2e5, y) - bench.pull(1e5, y)) / 1e5
+    p = np.concatenate([np.linspace(0.0, 6e5, 601), np.linspace(6e5, 0.0, 601)])
+    effect = {'amplitude': half * gain, 'width': 1e-3, 'pressure_share': 1e-7}
+    kappa = np.full(p.size, y / bench.L0)
+    force = loop(effect, kappa, p) + [bench.pull(a, y) for a in p]
+    level = np.linspace(100.0, 600.0, 6)
+    fill = np.interp(level, force[:601], p[:601])
+    vent = np.interp(level, force[601:][::-1], p[601:][::-1])
+    np.testing.assert_allclose(0.5 * (fill - vent), half, rtol=1e-6)
+
+
+@pytest.mark.parametrize(('growth', 'p', 'share'), [(1.0, 1.5e5, 0.5), (-0.5, 6e5, 0.5)])
+@pytest.mark.parametrize('effect', [BOUC_WEN, SLIP])
+def test_loop_grows_with_pressure(effect, growth, p, share):
+    grown = loop({**effect, 'pressure_growth': growth}, path(), p)
+    np.testing.assert_allclose(grown, share * loop(effect, path(), p), atol=1e-9)
+
+
+@pytest.mark.parametrize('effect', [BOUC_WEN, {**BOUC_WEN, 'unloading': 0.0}, SLIP])
+@given(turns=st.lists(st.floats(-0.03, 0.2), min_size=1, max_size=8))
+def test_a_path_repeated_never_gains_work(effect, turns):
+    once = [0.05, *turns, 0.05]
+    kappa = path(np.array(3 * once))
+    last = slice(-50 * (len(once) - 1) - 1, None)
+    assert trapezoid(loop(effect, kappa)[last], kappa[last]) <= 1e-9
+
+
+def test_load_on_a_muscle_with_hysteresis_against_an_adaptive_solver():
+    effect = {**BOUC_WEN, 'unloading': 0.5, 'pressure_share': 2e-7}
+    t = np.linspace(0.0, 1.5, 151)
+    commands = ((0.0, 2.5e5), (0.2, 3.5e5), (0.8, 3e5))
+    run = simulate(bench.hanging(hysteresis=effect), t, *zip(*commands, strict=True))
+    state, y = np.array([bench.rest(2.5e5), 0.0, 0.0]), []
+    ends = [0.2, 0.8, 1.5]
+    before = 2.5e5
+    for (begin, u), end in zip(commands, ends, strict=True):
+        # The jump of pressure is a way of s in no time.
+        way = 2e-7 * (u - before) / BOUC_WEN['width']
+        side, z = np.sign(way), state[2]
+
+        def along(_, z, side=side):
+            return side - 0.75 * z - 0.25 * side * np.abs(z)
+
+        if way:
+            state[2] = solve_ivp(along, (0.0, abs(way)), [z], rtol=1e-10, atol=1e-12).y[0, -1]
+        before = u
+
+        def rhs(_, state, u=u):
+            y, v, z = state
+            rate = v / bench.L0
+            dz = (rate - 0.75 * abs(rate) * z - 0.25 * rate * abs(z)) / BOUC_WEN['width']
+            net = bench.pull(u, y) - BOUC_WEN['amplitude'] * z - bench.drag(u, y) * v
+            return v, net / bench.MASS - bench.G, dz
+
+        inside = t[(t >= begin) & (t < end)] if end < 1.5 else t[t >= begin]
+        solution = solve_ivp(
+            rhs, (begin, end), state, rtol=1e-10, atol=1e-12, max_step=1e-3, dense_output=True
+        )
+        y += list(solution.sol(inside)[0])
+        state = solution.y[:, -1]
+    np.testing.assert_allclose(run.position, y, atol=1e-6)
+    assert np.ptp(y) > 0.01
+
+
+def test_every_start_is_allowed():
+    for start in EFFECT.fit_starts:
+        assert EFFECT.is_present(start)
+        EFFECT.values(start)

@@ -1,0 +1,62 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The leak, open valve and closed, against closed forms."""
+
+import numpy as np
+import pytest
+
+from pam_ros.rig.run import simulate
+from support import bench
+
+
+@pytest.mark.parametrize('step', [1e-3, 1e-2])
+def test_open_valve_balances_leak_and_refill(step):
+    rate, refill, u0, u1 = 0.4, 0.25, 2e4, 5e4
+    t = np.linspace(0.0, 2.0, 201)
+    model = bench.cart(mass=1e4, leak={'rate': rate, 'refill': refill})
+    run = simulate(model, t, [0.0, 0.5], [u0, u1], position=0.0, step=step)
+    share = 1.0 / (1.0 + rate * refill)
+    after = np.maximum(t - 0.5, 0.0)
+    expected = share * (u1 + (u0 - u1) * np.exp(-after * (1.0 / refill + rate)))
+    np.testing.assert_allclose(run.pressure[1:], expected[1:], rtol=1e-12)
+    assert run.pressure[0] == pytest.approx(share * u0)
+
+
+@pytest.mark.parametrize('step', [1e-3, 1e-2])
+def test_closed_valve_loses_pressure_until_the_command_changes(step):
+    rate, u0, u1 = 0.1, 2e4, 6e4
+    t = np.linspace(0.0, 4.0, 41)
+    run = simulate(
+        bench.cart(mass=1e4, leak={'rate': rate}), t, [0.0, 2.0], [u0, u1], position=0.0, step=step
+    )
+    before, after = t <= 2.0, t > 2.0
+    np.testing.assert_allclose(run.pressure[before], u0 * np.exp(-rate * t[before]), rtol=1e-12)
+    # A change of 40 kPa is 20 times what gives back all but 1/e of the loss.
+    np.testing.assert_allclose(
+        run.pressure[after], u1 * np.exp(-rate * (t[after] - 2.0)), rtol=1e-7
+    )
+
+
+def test_small_change_gives_back_a_part_of_the_loss():
+    rate, u0, du = 0.2, 2e4, 1e3
+    t = np.array([0.0, 1.0, 1.5])
+    effect = {'rate': rate, 'reopening': 1e3}
+    run = simulate(bench.cart(mass=1e4, leak=effect), t, [0.0, 1.0], [u0, u0 + du], position=0.0)
+    lost = u0 * (1.0 - np.exp(-rate))
+    expected = (u0 + du - lost / np.e) * np.exp(-0.5 * rate)
+    assert run.pressure[2] == pytest.approx(expected, rel=1e-12)
+
+
+def test_load_sinks_with_the_pressure():
+    rate = 0.05
+    t = np.linspace(0.0, 3.0, 61)
+    run = simulate(bench.hanging(leak={'rate': rate}), t, [0.0], [4e5])
+
+    def rhs(s, state, u):
+        y, v = state
+        p = u * np.exp(-rate * s)
+        return v, (bench.pull(p, y) - bench.drag(p, y) * v) / bench.MASS - bench.G
+
+    y, _ = bench.solved(rhs, t, (bench.rest(4e5), 0.0), ((0.0, 4e5),))
+    np.testing.assert_allclose(run.position, y, atol=1e-8)
+    assert y[-1] < y[0] - 5e-3

@@ -1,0 +1,54 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The pressure lag against its exponentials, and against an adaptive solver with the load."""
+
+import numpy as np
+import pytest
+
+from pam_ros.rig.run import simulate
+from support import bench
+
+FILL, VENT = 0.08, 0.2
+EFFECT = {'pressure_lag': {'fill': FILL, 'vent': VENT}}
+COMMANDS = ((0.0, 2e5), (0.1, 4e5), (0.4, 1e5), (0.4137, 3e5), (0.7, 2.5e5))
+
+
+def chamber(t):
+    """Return the pressure at t, from one command to the next."""
+    p = COMMANDS[0][1]
+    for k, (stamp, u) in enumerate(COMMANDS):
+        end = COMMANDS[k + 1][0] if k + 1 < len(COMMANDS) else np.inf
+        tau = FILL if u > p else VENT
+        if t <= end:
+            return u + (p - u) * np.exp(-max(t - stamp, 0.0) / tau)
+        p = u + (p - u) * np.exp(-(end - stamp) / tau)
+    return p
+
+
+@pytest.mark.parametrize('step', [1e-3, 1e-2])
+def test_fills_and_vents_exponentially_at_any_step(step):
+    t = np.linspace(0.0, 1.0, 101)
+    model = bench.cart(mass=1e4, **EFFECT)
+    run = simulate(model, t, *zip(*COMMANDS, strict=True), position=0.0, step=step)
+    np.testing.assert_allclose(run.pressure, [chamber(a) for a in t], rtol=1e-12)
+
+
+def test_load_follows_the_lagging_pressure():
+    t = np.linspace(0.0, 1.0, 101)
+    run = simulate(bench.hanging(**EFFECT), t, *zip(*COMMANDS, strict=True))
+
+    def rhs(s, state, u):
+        y, v, p = state
+        dp = (u - p) / (FILL if u > p else VENT)
+        return v, (bench.pull(p, y) - bench.drag(p, y) * v) / bench.MASS - bench.G, dp
+
+    y, _, p = bench.solved(rhs, t, (bench.rest(2e5), 0.0, 2e5), COMMANDS)
+    np.testing.assert_allclose(run.pressure, p, rtol=1e-8)
+    np.testing.assert_allclose(run.position, y, atol=1e-8)
+
+
+def test_either_way_may_be_immediate():
+    t = np.array([0.0, 0.1, 0.2, 0.3])
+    model = bench.cart(pressure_lag={'vent': 0.1})
+    run = simulate(model, t, [0.0, 0.05, 0.2], [100.0, 300.0, 100.0], position=0.0)
+    np.testing.assert_allclose(run.pressure, [100.0, 300.0, 300.0, 100.0 + 200.0 / np.e])

@@ -1,0 +1,42 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Viscous friction against the exponential of a coasting load and its final speed."""
+
+import numpy as np
+
+from pam_ros.rig.run import simulate, simulate_held
+from support import bench
+
+C = 40.0
+EFFECT = {'viscous_friction': {'coefficient': C}}
+
+
+def test_coasting_load_loses_its_speed_exponentially():
+    t = np.linspace(0.0, 1.0, 101)
+    run = simulate(bench.cart(**EFFECT), t, [0.0], [0.0], position=0.0, velocity=0.3)
+    np.testing.assert_allclose(run.velocity, 0.3 * np.exp(-C / bench.MASS * t), rtol=1e-10)
+
+
+def test_driven_load_reaches_force_over_coefficient():
+    run = simulate(bench.cart(**EFFECT), [0.0, 8.0], [0.0], [20.0], position=0.0)
+    np.testing.assert_allclose(run.velocity[1], 20.0 / C, rtol=1e-12)
+
+
+def test_swinging_load_against_an_adaptive_solver():
+    t = np.linspace(0.0, 1.0, 101)
+    y0 = bench.rest(3e5) + 0.01
+    run = simulate(bench.hanging(**EFFECT), t, [0.0], [3e5], position=y0)
+
+    def rhs(_, state, u):
+        y, v = state
+        return v, (bench.pull(u, y) - (bench.drag(u, y) + C) * v) / bench.MASS - bench.G
+
+    y, _ = bench.solved(rhs, t, (y0, 0.0), ((0.0, 3e5),))
+    np.testing.assert_allclose(run.position, y, atol=1e-9)
+
+
+def test_force_cell_at_the_muscle_does_not_feel_the_guide():
+    t = np.linspace(0.0, 1.0, 11)
+    p, y = np.full(11, 3e5), 0.02 + 0.03 * t
+    with_friction = simulate_held(bench.hanging(**EFFECT), t, p, y).force
+    np.testing.assert_array_equal(with_friction, simulate_held(bench.hanging(), t, p, y).force)
