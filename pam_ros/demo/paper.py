@@ -1,0 +1,144 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The paper's experiment in numbers: its printed values beside those of a recorded run.
+
+Sárosi (2015): a DMSP-20-400N at 600 kPa, loaded with 20 kg, released from its length at rest.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from pam_ros.demo.run import PublishedRun
+from pam_ros.rig.model import RigModel
+
+PRESSURE = 600e3  # Pa gauge
+MASS = 20.0  # kg
+SPRING_FORCE = 198.0  # N, section 3: what the paper's simulation gives
+STATIC_FORCE = 196.2  # N: m g with the paper's 9.81 m/s^2
+SETTLED = 0.5  # s at the end of a run over which its resting values are averaged
+
+
+@dataclass(frozen=True)
+class Row:
+    """One quantity: the value it should have, where that is from, and ours."""
+
+    quantity: str
+    unit: str
+    wanted: float
+    source: str
+    ours: float
+    digits: int = 1
+
+    @property
+    def difference(self) -> float:
+        """Ours less the one that it should be, in the row's unit."""
+        return self.ours - self.wanted
+
+    def cells(self) -> tuple[str, ...]:
+        """Return the row as text, column by column."""
+        return (
+            f'{self.quantity} [{self.unit}]',
+            f'{self.wanted:.{self.digits}f}',
+            self.source,
+            f'{self.ours:.{self.digits}f}',
+            signed(self.difference, self.digits),
+            signed(100.0 * self.difference / self.wanted, 2) + ' %',
+        )
+
+
+HEAD = ('quantity', 'paper', 'where', 'ours', 'difference', 'relative')
+
+
+def signed(value: float, digits: int) -> str:
+    """Return a number with its sign, nothing as 0."""
+    text = f'{value:+.{digits}f}'
+    return text if float(text) else f'{0.0:.{digits}f}'
+
+
+def resting(run: PublishedRun) -> PublishedRun:
+    """Return the end of a run, where it has come to rest."""
+    return run.between(float(run.t[-1]) - SETTLED, np.inf)
+
+
+def compare(released: PublishedRun, model: RigModel) -> list[Row]:
+    """Return the paper's values beside those of the released load."""
+    end = resting(released)
+    l0 = model.muscle.l0
+    kappa = model.muscle.equilibrium(PRESSURE, STATIC_FORCE)
+    k = float(model.muscle.stiffness(PRESSURE, kappa))
+    return [
+        Row('F_spring at rest', 'N', SPRING_FORCE, 'section 3', float(end.force.mean())),
+        Row('F_spring at rest', 'N', STATIC_FORCE, 'm g', float(end.force.mean())),
+        Row(
+            'contraction at rest',
+            '%',
+            100.0 * kappa,
+            'equation (1) = m g',
+            100.0 * float(end.position.mean()) / l0,
+            2,
+        ),
+        Row('stiffness at rest', 'N/m', k, 'equation (2)', float(end.stiffness.mean())),
+        Row(
+            'damping at rest',
+            'N s/m',
+            2.0 * model.muscle.zeta * float(np.sqrt(MASS * k)),
+            'equation (4)',
+            float(end.damping.mean()),
+        ),
+        Row(
+            'frequency',
+            'Hz',
+            float(np.sqrt(k / MASS * (1.0 - model.muscle.zeta**2)) / (2.0 * np.pi)),
+            'k and c, small swings',
+            frequency(released),
+            3,
+        ),
+    ]
+
+
+def frequency(run: PublishedRun) -> float:
+    """Return the frequency in Hz of the last swings of a decaying run that can be told.
+
+    From the times at which the velocity changes its sign, interpolated linearly.
+    """
+    v, t = run.velocity, run.t
+    turns = np.flatnonzero(v[:-1] * v[1:] < 0.0)
+    turns = turns[np.abs(run.position[turns] - run.position[-1]) > 1e-6]
+    at = t[turns] - v[turns] * (t[turns + 1] - t[turns]) / (v[turns + 1] - v[turns])
+    last = at[-9:]
+    return float(0.5 * (len(last) - 1) / (last[-1] - last[0]))
+
+
+def steps(runs: Sequence[PublishedRun], model: RigModel) -> list[Row]:
+    """Return the contraction to which each pressure step led, beside that of equation (1)."""
+    rows = []
+    for run in runs:
+        end = resting(run)
+        p = float(end.pressure.mean())
+        rows.append(
+            Row(
+                f'contraction at {p / 1e3:.0f} kPa',
+                '%',
+                100.0 * model.muscle.equilibrium(p, model.weight),
+                'equation (1) = m g',
+                100.0 * float(end.position.mean()) / model.muscle.l0,
+                2,
+            )
+        )
+    return rows
+
+
+def table(rows: Sequence[Row]) -> str:
+    """Return rows as a table in plain text, numbers to the right."""
+    lines = [HEAD, *(row.cells() for row in rows)]
+    widths = [max(len(line[i]) for line in lines) for i in range(len(HEAD))]
+    left = (0, 2)
+    return '\n'.join(
+        '  '.join(
+            cell.ljust(width) if i in left else cell.rjust(width)
+            for i, (cell, width) in enumerate(zip(line, widths, strict=True))
+        ).rstrip()
+        for line in lines
+    )

@@ -1,0 +1,39 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""A run of the simulated rig as it was published, in arrays."""
+
+from dataclasses import dataclass, fields
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pam_ros.rig.model import Load
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class PublishedRun:
+    """One sample a row of time, all (n,) and SI; contraction positive.
+
+    t s, position m, velocity m/s, pressure Pa gauge, force N (the muscle's pull, without its
+    damping), stiffness N/m, damping N s/m.
+    """
+
+    t: Array
+    position: Array
+    velocity: Array
+    pressure: Array
+    force: Array
+    stiffness: Array
+    damping: Array
+
+    def between(self, begin: float, end: float) -> 'PublishedRun':
+        """Return the part from *begin* up to *end* s."""
+        inside = (self.t >= begin) & (self.t < end)
+        return PublishedRun(*(getattr(self, item.name)[inside] for item in fields(self)))
+
+    def acceleration(self, load: Load) -> Array:
+        """Return y'' in m/s^2 by equation (3) from what was published."""
+        pull = self.force - self.damping * self.velocity
+        return np.asarray(pull / load.mass - load.gravity)
