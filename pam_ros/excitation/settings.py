@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What an excitation is told: its limits, its length, and when to give up."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from pam_ros.errors import ParameterError
 from pam_ros.muscle.muscle import Muscle
@@ -94,16 +94,14 @@ class Excitation:
             )
 
     def within(self, muscle: Muscle) -> 'Excitation':
-        """Return this excitation, or raise ParameterError where it exceeds *muscle*."""
-        if self.pressure_max > muscle.p_max:
-            raise ParameterError(
-                f'pressure_max = {self.pressure_max:g} Pa is above p_max = {muscle.p_max:g} Pa '
-                'of the muscle'
-            )
-        if self.contraction_max > muscle.kappa_max or self.contraction_min < muscle.kappa_min:
-            raise ParameterError(
-                f'contraction_min..contraction_max = {self.contraction_min:g} to '
-                f'{self.contraction_max:g} is outside kappa_min..kappa_max = '
-                f'{muscle.kappa_min:g} to {muscle.kappa_max:g} of the muscle'
-            )
-        return self
+        """Return this excitation with the limits of *muscle* applied as well.
+
+        Raises ParameterError where nothing is left between them.
+        """
+        return replace(
+            self,
+            pressure_min=max(self.pressure_min, muscle.p_min),
+            pressure_max=min(self.pressure_max, muscle.p_max),
+            contraction_min=max(self.contraction_min, muscle.kappa_min),
+            contraction_max=min(self.contraction_max, muscle.kappa_max),
+        )

@@ -1,0 +1,34 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Watch a joint while a programme is played: in its window, and heard of."""
+
+import math
+
+
+class Guard:
+    """Says when a programme must stop. Positions in m, times in s of one steady clock."""
+
+    def __init__(self, low: float, high: float, silence: float, now: float) -> None:
+        """Watch for positions outside *low*..*high*, and for *silence* s without any."""
+        self._low, self._high, self._silence = low, high, silence
+        self._seen = now
+        self.position: float | None = None
+
+    def see(self, position: float, now: float) -> None:
+        """Take note of the joint's position at *now*."""
+        self.position, self._seen = position, now
+
+    def problem(self, now: float) -> str:
+        """Return the sentence that says why to stop, or ''."""
+        if now - self._seen > self._silence:
+            return f'joint_states has been silent for {now - self._seen:.2f} s'
+        if self.position is None:
+            return ''
+        if not math.isfinite(self.position):
+            return f'the position of the joint is {self.position}'
+        if not self._low <= self.position <= self._high:
+            return (
+                f'the joint stands at {1e3 * self.position:.1f} mm, outside its window of '
+                f'{1e3 * self._low:.1f} to {1e3 * self._high:.1f} mm'
+            )
+        return ''

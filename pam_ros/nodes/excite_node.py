@@ -1,0 +1,280 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The node ``pam_excite``: waits for the rig, plays the programme, watches the joint."""
+
+import argparse
+import sys
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from rclpy.duration import Duration
+from rclpy.qos import QoSProfile, ReliabilityPolicy
+from sensor_msgs.msg import JointState
+from std_msgs.msg import Float64
+from tqdm import tqdm
+
+from pam_ros.config import Table, build, build_rig, rig_table, table_of, with_defaults
+from pam_ros.excitation.guard import Guard
+from pam_ros.excitation.programme import Programme, plan, programme, write_csv
+from pam_ros.excitation.settings import Excitation
+from pam_ros.nodes.parameters import NodeParameters, given
+from pam_ros.nodes.sim_settings import MUSCLE
+from pam_ros.nodes.spin import TickingNode
+from pam_ros.nodes.telemetry import DEPTH, open_qos
+from pam_ros.nodes.ticker import Ticker
+from pam_ros.parameter_files import read_known
+from pam_ros.rig.model import RigModel
+from pam_ros.rig.run import simulate
+
+STOPPED = 1  # exit code
+LAST = 0.2  # s for which 0 Pa is commanded after an emergency
+
+
+@dataclass(frozen=True)
+class Experiment:
+    """All that the node is told, and the programme that it makes."""
+
+    model: RigModel
+    settings: Excitation
+    programme: Programme
+
+    @property
+    def window(self) -> tuple[float, float]:
+        """Lowest and highest allowed position in m."""
+        l0 = self.model.muscle.l0
+        return self.settings.contraction_min * l0, self.settings.contraction_max * l0
+
+    def plan(self) -> str:
+        """Return what the user should read before it starts."""
+        low, high = (1e3 * x for x in self.window)
+        commands = self.programme
+        path = simulate(self.model, commands.t, commands.t, commands.pressure).position
+        lines = [
+            plan(commands, self.settings),
+            f'stops and vents outside {low:.1f} to {high:.1f} mm, and after '
+            f'{self.settings.silence:g} s without joint_states',
+            f'the declared model would move from {1e3 * path.min():.1f} to '
+            f'{1e3 * path.max():.1f} mm',
+        ]
+        if path.min() < self.window[0] or path.max() > self.window[1]:
+            lines.append('CAUTION: that leaves the window; narrow pressure_min..pressure_max')
+        return '\n'.join(lines)
+
+
+def table(muscle: Any = '') -> Table:
+    """Return the table of all parameters; their defaults come from *muscle* where it is given.
+
+    None of them can change while the programme is played.
+    """
+    live = {**MUSCLE, **rig_table(), **table_of(Excitation)}
+    plain: Table = {
+        name: (kind, default, replace(about, live=False))
+        for name, (kind, default, about) in live.items()
+    }
+    return with_defaults(plain, read_known(str(muscle), plain)) if muscle else plain
+
+
+def experiment(values: dict[str, Any]) -> Experiment:
+    """Make an experiment from flat values; raises ParameterError where they make none."""
+    model = build_rig(values)
+    settings = build(Excitation, values).within(model.muscle)
+    return Experiment(model, settings, programme(settings))
+
+
+class PamExcite(TickingNode):
+    """Plays a programme: waits, counts down, plays, vents."""
+
+    def __init__(self, csv: Path | None, is_dry: bool) -> None:
+        """Make the programme that the parameters describe."""
+        super().__init__('pam_excite')
+        parameters = NodeParameters(
+            self, table(given(self).get('muscle', '')), experiment, _nothing_live
+        )
+        self._now = parameters.built
+        parameters.refuse_mistyped()
+        if csv is not None:
+            write_csv(self._now.programme, csv)
+        self._is_dry = is_dry
+        self._pressure = 0.0  # last command
+        self._rest = round(LAST * self._now.settings.rate)  # commands of 0 Pa still to come
+        self._segment = ''
+        self._bar = tqdm(disable=True)
+        self._do = self._wait
+        self.ticker = Ticker(self._now.settings.rate)
+
+    @classmethod
+    def of_arguments(cls, parser: argparse.ArgumentParser, given: Sequence[str]) -> 'PamExcite':
+        """Make the node that the command line asks for."""
+        parser.add_argument(
+            '--dry-run', action='store_true', help='print the plan and play nothing'
+        )
+        parser.add_argument(
+            '--csv',
+            type=Path,
+            metavar='FILE',
+            help='write the commands as well: t_s,pressure_command_Pa',
+        )
+        arguments = parser.parse_args(given)
+        return cls(arguments.csv, arguments.dry_run)
+
+    def start(self) -> None:
+        """Print the plan and look for the rig."""
+        super().start()
+        print(self._now.plan(), flush=True)
+        if self._is_dry:
+            self.exit_code = 0
+            return
+        self._begun = time.monotonic()
+        self._guard = Guard(*self._now.window, self._now.settings.silence, self._begun)
+        self._misread = ''
+        self._publisher = self.create_publisher(
+            Float64,
+            'pressure_command',
+            QoSProfile(depth=DEPTH),
+            qos_overriding_options=open_qos(),
+        )
+        self.create_subscription(
+            JointState,
+            'joint_states',
+            self._see,
+            QoSProfile(depth=DEPTH, reliability=ReliabilityPolicy.BEST_EFFORT),
+            qos_overriding_options=open_qos(),
+        )
+
+    def tick(self) -> None:
+        """Do what is next."""
+        if self.exit_code is None:
+            self._do()
+
+    def _see(self, message: JointState) -> None:
+        names, wanted = list(message.name), self._now.settings.joint_name
+        if wanted and wanted not in names:
+            self._misread = f'joint_states has no joint {wanted!r}: it has {", ".join(names)}'
+        elif not wanted and len(names) != 1:
+            self._misread = f'joint_states has {len(names)} joints ({", ".join(names)}): choose '
+            self._misread += 'one with the parameter joint_name'
+        elif len(message.position) != len(names):
+            self._misread = 'joint_states carries no positions'
+        else:
+            at = names.index(wanted) if wanted else 0
+            self._guard.see(message.position[at], time.monotonic())
+
+    # Before --------------------------------------------------------------------------------
+
+    def _wait(self) -> None:
+        """Wait until the rig is there and alone."""
+        if self._misread:
+            self._refuse(self._misread)
+            return
+        rivals = [
+            info.node_name
+            for info in self.get_publishers_info_by_topic('pressure_command')
+            if info.node_name != self.get_name()
+        ]
+        if rivals:
+            self._refuse(f'{" and ".join(rivals)} commands pressures as well: stop it first')
+            return
+        is_heard = self._publisher.get_subscription_count() > 0
+        if self._guard.position is not None and is_heard:
+            self._play_from = time.monotonic() + self._now.settings.countdown
+            self._do = self._count_down
+        elif time.monotonic() - self._begun > self._now.settings.patience:
+            missing = (
+                'nobody subscribes to pressure_command'
+                if not is_heard
+                else 'joint_states is silent'
+            )
+            self._refuse(f'{missing}: is the rig running?')
+
+    def _count_down(self) -> None:
+        problem = self._misread or self._guard.problem(time.monotonic())
+        if problem:
+            self._refuse(problem)
+        elif time.monotonic() >= self._play_from:
+            self._clock = self.get_clock()
+            self._origin = self._ros_time()
+            self._bar = tqdm(
+                total=round(self._now.programme.duration, 1),
+                unit='s',
+                bar_format='{l_bar}{bar}| {n:.1f}/{total} s',
+                disable=not sys.stderr.isatty(),
+            )
+            self._do = self._play
+
+    def _refuse(self, why: str) -> None:
+        print(f'pam_excite: {why}', file=sys.stderr, flush=True)
+        self.exit_code = STOPPED
+
+    # While it plays ------------------------------------------------------------------------
+
+    def _ros_time(self) -> float:
+        if self._clock.ros_time_is_active:
+            return float(self._clock.now().nanoseconds) * 1e-9
+        return time.monotonic()
+
+    def _play(self) -> None:
+        elapsed = self._ros_time() - self._origin
+        problem = self._misread or self._guard.problem(time.monotonic())
+        if elapsed < 0.0:
+            problem = 'the clock went back'
+        if problem:
+            self._bar.close()
+            print(
+                f'pam_excite: {problem}: stopped after {elapsed:.1f} s, venting',
+                file=sys.stderr,
+                flush=True,
+            )
+            self._do = self._vent
+            return
+        if elapsed >= self._now.programme.duration:
+            self._bar.close()
+            print(f'played {self._now.programme.duration:.1f} s, vented', flush=True)
+            self.exit_code = 0
+            return
+        self._command(self._now.programme.at(elapsed))
+        self._show(elapsed)
+
+    def _command(self, pressure: float) -> None:
+        self._pressure = pressure
+        self._publisher.publish(Float64(data=pressure))
+
+    def _show(self, elapsed: float) -> None:
+        self._bar.update(elapsed - self._bar.n)
+        name = self._now.programme.segment_at(elapsed).name
+        if name != self._segment:
+            self._segment = name
+            self._bar.set_description(name)
+            if self._bar.disable:
+                print(f'{elapsed:6.1f} s  {name}', flush=True)
+
+    # The end -------------------------------------------------------------------------------
+
+    def _vent(self) -> None:
+        """Let the pressure out as fast as is allowed, one command."""
+        self._command(self._let_out())
+        if self._pressure == 0.0:
+            self._rest -= 1
+            if self._rest <= 0:
+                self.exit_code = STOPPED
+
+    def _let_out(self) -> float:
+        settings = self._now.settings
+        return max(self._pressure - settings.pressure_rate / settings.rate, 0.0)
+
+    def destroy_node(self) -> None:
+        """Vent where something is left to vent: the node was asked to stop."""
+        if self._pressure > 0.0:
+            self._bar.close()
+            print('pam_excite: asked to stop, venting', file=sys.stderr, flush=True)
+            while self._pressure > 0.0:
+                self._command(self._let_out())
+                time.sleep(1.0 / self._now.settings.rate)
+            self._publisher.wait_for_all_acked(Duration(seconds=1))
+        super().destroy_node()
+
+
+def _nothing_live(built: Experiment) -> None:
+    """Take changes: there are none, as every parameter is read-only while it plays."""
