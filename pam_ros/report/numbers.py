@@ -1,0 +1,169 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""``report.json``: the whole trace in numbers, SI, described in ``docs/report.md``."""
+
+import json
+import math
+from collections.abc import Mapping
+from dataclasses import asdict
+from typing import Any
+
+import numpy as np
+
+from pam_ros.identification.result import Candidate, Estimate, Finding, Trace
+from pam_ros.recording.recording import OUTPUTS, Recording
+from pam_ros.report.provenance import Provenance
+from pam_ros.report.runs import STAGES, Run, sizes
+
+# The first number rises when a key changes its meaning or goes, the second when one comes.
+SCHEMA_VERSION = '1.0'
+
+Table = dict[str, Any]
+
+
+def numbers(trace: Trace, runs: list[Run], source: Provenance) -> Table:
+    """Return the content of ``report.json``; *runs* are those of the trace."""
+    return {
+        'schema_version': SCHEMA_VERSION,
+        'verdict': trace.verdict,
+        'sentence': trace.sentence,
+        'effects': [_effect(finding) for finding in trace.effects],
+        'error': _error(trace, runs),
+        'structure': {
+            'ceiling': trace.structure.ceiling,
+            'whiteness_p': trace.structure.whiteness,
+            'share_above_noise': trace.structure.share,
+        },
+        'candidates': [_candidate(candidate) for candidate in trace.candidates],
+        'parameters': {
+            name: _estimates(stage.parameters)
+            for name, stage in zip(STAGES, trace.stages, strict=True)
+        },
+        'data': _data(runs, source),
+        'warnings': list(trace.warnings),
+        'next_experiment': trace.next_experiment,
+        'provenance': _provenance(source),
+    }
+
+
+def to_json(content: Table) -> str:
+    """Return *content* as JSON; what is not finite becomes null, for JSON has no word for it."""
+    return json.dumps(_plain(content), indent=2, ensure_ascii=False, allow_nan=False) + '\n'
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, Mapping):
+        return {str(key): _plain(item) for key, item in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_plain(item) for item in value]
+    if isinstance(value, np.generic):
+        value = value.item()
+    if isinstance(value, float) and not math.isfinite(value):
+        return None
+    return value
+
+
+def _effect(finding: Finding) -> Table:
+    return {
+        'name': finding.name,
+        'parameters': _estimates(finding.parameters),
+        'alternatives': list(finding.alternatives),
+        'reason': finding.reason,
+    }
+
+
+def _estimates(parameters: Mapping[str, Estimate]) -> Table:
+    return {name: asdict(estimate) for name, estimate in parameters.items()}
+
+
+def _error(trace: Trace, runs: list[Run]) -> Table:
+    table: Table = {
+        'quantity': trace.quantity,
+        'unit': trace.unit,
+        'noise_floor': trace.noise.sigma,
+        'noise_correlation': trace.noise.rho,
+        'held_out': 'test recordings' if trace.test else 'part kept back',
+    }
+    for k, (name, stage) in enumerate(zip(STAGES, trace.stages, strict=True)):
+        fit, held = sizes(runs, k)
+        table[name] = {
+            'fit': stage.fit_error,
+            'held_out': stage.held_error,
+            'details': {'fit': asdict(fit), 'held_out': asdict(held)},
+        }
+    return table
+
+
+def _candidate(candidate: Candidate) -> Table:
+    return {
+        'name': candidate.effect,
+        'on_top_of': list(candidate.parents),
+        'fit_error': candidate.fit_error,
+        'held_out_error': candidate.held_error,
+        'test': {
+            'p': candidate.p,
+            'gain': candidate.gain,
+            'interval_clear': candidate.interval_clear,
+        },
+        'parameters': _estimates(candidate.parameters),
+        'decision': candidate.decision,
+        'reason': candidate.reason,
+    }
+
+
+def _data(runs: list[Run], source: Provenance) -> Table:
+    held = sum(int(np.count_nonzero(run.held)) for run in runs)
+    return {
+        'segments': len(runs),
+        'fit_samples': sum(run.t.size for run in runs) - held,
+        'held_out_samples': held,
+        'recordings': [
+            *(_recording(recording, 'fit') for recording in source.recordings),
+            *(_recording(recording, 'test') for recording in source.test),
+        ],
+    }
+
+
+def _recording(recording: Recording, role: str) -> Table:
+    steps = np.diff(recording.t)
+    period = float(np.median(steps))
+    regular = steps[steps < 3.0 * period]
+    command = recording.command
+    ranges = {name: _range(getattr(recording, name)) for name in OUTPUTS}
+    ranges['pressure_command'] = _range(command)
+    return {
+        'name': recording.name,
+        'role': role,
+        'kind': recording.kind,
+        'samples': recording.t.size,
+        'duration': recording.duration,
+        'rate': 1.0 / period,
+        'jitter': float(np.std(regular)),
+        'gaps': [list(gap) for gap in recording.gaps],
+        'commands': None if command is None else command.size,
+        'ranges': {name: found for name, found in ranges.items() if found is not None},
+        'warnings': list(recording.warnings),
+        'sha256': recording.digest,
+    }
+
+
+def _range(values: Any) -> list[float] | None:
+    return None if values is None else [float(np.min(values)), float(np.max(values))]
+
+
+def _provenance(source: Provenance) -> Table:
+    return {
+        'date': source.date,
+        'command': source.command,
+        'parameters': {
+            'file': source.parameters,
+            'sha256': source.digest,
+            'overrides': list(source.overrides),
+        },
+        'configuration': dict(source.configuration),
+        'recordings': [
+            {'name': recording.name, 'sha256': recording.digest}
+            for recording in (*source.recordings, *source.test)
+        ],
+        'versions': dict(source.versions),
+    }

@@ -1,0 +1,102 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""``report.html``: one page that needs nothing else, for whoever owns the rig."""
+
+from itertools import pairwise
+
+import jinja2
+import numpy as np
+
+from pam_ros.identification.result import Trace
+from pam_ros.report import plots, rows, style
+from pam_ros.report.numbers import Table
+from pam_ros.report.provenance import Provenance
+from pam_ros.report.runs import STAGES, Run
+from pam_ros.report.time_plots import Curve
+from pam_ros.report.wording import Scale, listed, name_in_words, number, percent, scale_for
+
+VERDICTS = {
+    'effect_found': 'Effect found',
+    'no_missing_effect': 'Nothing missing',
+    'parameters_wrong': 'Parameters wrong',
+    'unexplained_structure': 'Unexplained structure',
+    'insufficient_data': 'Insufficient data',
+}
+
+
+def page(trace: Trace, runs: list[Run], source: Provenance, content: Table) -> str:
+    """Return the page as HTML: styles and plots inside, no script, nothing fetched.
+
+    *runs* and *content* are those of the trace, see ``runs.py`` and ``numbers.py``.
+    """
+    curves = curves_of(trace, runs)
+    scale = scale_for(trace.unit, trace.stages[-1].fit_error)
+    environment = jinja2.Environment(
+        loader=jinja2.PackageLoader('pam_ros', 'report'),
+        autoescape=True,
+        undefined=jinja2.StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    environment.filters |= {'words': name_in_words, 'number': number, 'percent': percent}
+    return environment.get_template('report.html.j2').render(
+        trace=trace,
+        verdict=VERDICTS[trace.verdict],
+        not_excluded=not_excluded(trace, scale),
+        curves=curves,
+        style=style,
+        scale=scale,
+        held_out='test recordings' if trace.test else 'part kept back',
+        errors=rows.errors(content, scale, {curve.stage: curve.label for curve in curves}),
+        pictures=plots.pictures(trace, runs, content, curves, scale),
+        candidates=rows.candidates(trace, scale),
+        parameters=rows.parameters(trace),
+        recordings=rows.recordings(content),
+        configuration=rows.configuration(source),
+        content=content,
+        source=source,
+    )
+
+
+def curves_of(trace: Trace, runs: list[Run]) -> list[Curve]:
+    """Return the models that differ, the declared one first, each with the name it goes by."""
+    names = [name_in_words(finding.name) for finding in trace.effects]
+    labels = ('as declared', 're-tuned', 're-tuned + ' + (listed(names) or 'nothing'))
+    found = [Curve(0, labels[0])]
+    for before, stage in pairwise(range(len(STAGES))):
+        if not all(np.array_equal(r.simulated[before], r.simulated[stage]) for r in runs):
+            found.append(Curve(stage, labels[stage]))
+    return found
+
+
+def not_excluded(trace: Trace, scale: Scale) -> list[str]:
+    """Return sentences on what the data leave open, whatever the verdict."""
+    floor = f'{scale.text(trace.noise.sigma)} {scale.unit}'
+    sentences = []
+    for finding in trace.effects:
+        name = name_in_words(finding.name)
+        others = [name_in_words(other) for other in finding.alternatives]
+        if others:
+            sentences.append(
+                f'Instead of {name} it could be {" or ".join(others)}: these data do not tell '
+                'them apart.'
+            )
+        else:
+            sentences.append(
+                f'No other effect of the library explains these data as well as {name}.'
+            )
+    if trace.verdict == 'no_missing_effect':
+        sentences.append(f'Effects that stay below the noise floor of {floor} could be there.')
+    elif trace.verdict == 'parameters_wrong':
+        sentences.append(
+            'An effect that acts just like a change of the parameters could be there: a payload '
+            'like a mass, an offset of pressure like a6.'
+        )
+    elif trace.verdict == 'unexplained_structure':
+        sentences.append(
+            f'Any effect beyond the {len(trace.candidates)} of the library could be the cause; '
+            'those were tried.'
+        )
+    elif trace.verdict == 'insufficient_data':
+        sentences.append('No effect can be excluded with these data.')
+    return sentences

@@ -1,0 +1,190 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""All plots of a page, each as wide as a page, a third of it, or a telephone."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from pam_ros.identification.result import Trace
+from pam_ros.report import residual_plots, style, time_plots
+from pam_ros.report.diagnostics import Size
+from pam_ros.report.numbers import Table
+from pam_ros.report.runs import STAGES, Run
+from pam_ros.report.time_plots import Curve
+from pam_ros.report.wording import Scale, scale_for
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A plot with its words; ``wide`` is empty where the narrow one serves for every page."""
+
+    name: str
+    title: str
+    caption: str
+    narrow: str
+    wide: str = ''
+
+
+def pictures(
+    trace: Trace, runs: list[Run], content: Table, curves: list[Curve], scale: Scale
+) -> dict[str, list[Picture]]:
+    """Return the plots of each section of the page; *content* is that of ``report.json``."""
+    with style.styled():
+        return {
+            'errors': _errors(trace, content, curves, scale),
+            'time': _over_time(trace, runs, curves, scale),
+            'correlation': _correlation(trace, runs, _last_two(curves), scale),
+            'against': _against(trace, runs, _last_two(curves), scale),
+        }
+
+
+def _last_two(curves: list[Curve]) -> list[Curve]:
+    """Return the model that was chosen and the one before it: what the choice has changed."""
+    return curves[-2:]
+
+
+def _wide(name: str, title: str, caption: str, draw: Callable[[int], Figure]) -> Picture:
+    narrow, wide = (
+        style.svg(draw(width), f'{name}-{width}', title) for width in (style.NARROW, style.WIDE)
+    )
+    return Picture(name, title, caption, narrow, wide)
+
+
+def _narrow(name: str, title: str, caption: str, figure: Figure) -> Picture:
+    return Picture(name, title, caption, style.svg(figure, name, title))
+
+
+def _errors(trace: Trace, content: Table, curves: list[Curve], scale: Scale) -> list[Picture]:
+    details = [content['error'][STAGES[curve.stage]]['details'] for curve in curves]
+    measured = [
+        (curve, Size(**each['fit']), Size(**each['held_out']))
+        for curve, each in zip(curves, details, strict=True)
+    ]
+    return [
+        _wide(
+            'rmse',
+            'RMSE of each model',
+            'Open: fitted data. Filled: held-out data. Bars: 95 % intervals. No model can be '
+            'better than the noise floor.',
+            lambda width: time_plots.errors(measured, trace.noise.sigma, scale, width),
+        )
+    ]
+
+
+def _over_time(trace: Trace, runs: list[Run], curves: list[Curve], scale: Scale) -> list[Picture]:
+    quantity, noise = trace.quantity, trace.noise.sigma
+    everything = time_plots.whole(runs)
+    before = curves[-2].stage if len(curves) > 1 else curves[-1].stage
+    close = time_plots.close_up(runs, before, curves[-1].stage)
+    several = f'{len(runs)} runs side by side. ' if len(runs) > 1 else ''
+    tint = '' if trace.test else 'Tinted ground: held out. '
+    band = 'Band: two standard deviations of the noise.'
+    return [
+        _wide(
+            'overview',
+            'The whole recording' if len(runs) == 1 else 'All recordings',
+            several + tint + band,
+            lambda width: time_plots.measured_and_simulated(
+                everything, curves, scale, quantity, noise, width
+            ),
+        ),
+        _wide(
+            'close-up',
+            'Where the models differ most',
+            f'{close.run.name}, from {close.run.t[close.start]:.4g} s. ' + tint + band,
+            lambda width: time_plots.measured_and_simulated(
+                [close], curves, scale, quantity, noise, width
+            ),
+        ),
+    ]
+
+
+def _correlation(
+    trace: Trace, runs: list[Run], curves: list[Curve], scale: Scale
+) -> list[Picture]:
+    return [
+        _narrow(
+            'autocorrelation',
+            'Residual with itself',
+            'Beyond lag 0 white noise stays within the band (95 %).',
+            residual_plots.autocorrelation(runs, curves),
+        ),
+        _narrow(
+            'cross-correlation',
+            'Residual with the input',
+            'A residual that the input does not explain stays within the band (Ljung, 99 %, '
+            'drawn for the last model).',
+            residual_plots.cross_correlation(runs, curves),
+        ),
+        _narrow(
+            'spectrum',
+            'Spectrum of the residual',
+            'Broken line: the noise alone.',
+            residual_plots.spectrum(runs, curves, scale, trace.noise),
+        ),
+        _narrow(
+            'coherence',
+            'Coherence with the input',
+            'Unrelated signals stay within the band (95 %).',
+            residual_plots.coherence(runs, curves),
+        ),
+    ]
+
+
+def _against(trace: Trace, runs: list[Run], curves: list[Curve], scale: Scale) -> list[Picture]:
+    muscle = trace.stages[0].model.muscle
+    pressures = np.concatenate([run.pressure for run in runs])
+    pressure = scale_for('Pa', float(np.max(np.abs(pressures))))
+    input_label = f'pressure, {pressure.unit}'
+    if muscle.is_load_only:
+        pressure, input_label = Scale(1.0, ''), 'input'
+    wanted: list[tuple[str, str, str, residual_plots.Pick]] = [
+        ('velocity', 'Against velocity', 'velocity, mm/s', lambda run: 1e3 * run.velocity),
+        ('pressure', 'Against pressure', input_label, lambda run: pressure.factor * run.pressure),
+        ('contraction', 'Against contraction', 'contraction, %', lambda r: 100.0 * r.contraction),
+        ('time', 'Against time', 'time, s', lambda run: run.t),
+    ]
+    if muscle.is_load_only:
+        wanted[1] = ('pressure', 'Against the input', *wanted[1][2:])
+        wanted[2] = (
+            'contraction',
+            'Against position',
+            'position, mm',
+            lambda run: 1e3 * muscle.l0 * run.contraction,
+        )
+    found = [
+        _narrow(
+            f'over-{name}',
+            title,
+            '',
+            residual_plots.against(runs, curves, scale, pick, label),
+        )
+        for name, title, label, pick in wanted
+        if np.ptp(np.concatenate([pick(run) for run in runs])) > 0.0
+    ]
+    found.append(
+        _narrow(
+            'directions',
+            'Rising and falling input',
+            'Solid where the input rises, broken where it falls: apart, they are a loop that '
+            'the model lacks.',
+            residual_plots.by_direction(runs, curves, scale, pressure, input_label),
+        )
+    )
+    stretch = residual_plots.loop_stretch(runs)
+    found.append(
+        _narrow(
+            'loop',
+            'Loop',
+            f'{trace.quantity.capitalize()} over the input: {stretch.run.name}, from '
+            f'{stretch.run.t[stretch.start]:.4g} s to {stretch.run.t[stretch.stop - 1]:.4g} s.',
+            residual_plots.loop(stretch, curves, scale, pressure, trace.quantity, input_label),
+        )
+    )
+    return found

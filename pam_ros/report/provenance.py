@@ -1,0 +1,74 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Where a report comes from: the files and their digests, what was declared, and with what."""
+
+import hashlib
+import platform
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from datetime import datetime, timezone
+from importlib import metadata
+from pathlib import Path
+from typing import Any
+
+import pam_ros
+from pam_ros.config import flat_rig
+from pam_ros.parameter_files import find
+from pam_ros.recording.recording import Recording
+from pam_ros.rig.model import RigModel
+
+LIBRARIES = ('numpy', 'scipy', 'numba')
+
+
+@dataclass(frozen=True, eq=False)
+class Provenance:
+    """What a trace was made of.
+
+    ``command`` is the command line; ``parameters`` the file or preset as it was named, with its
+    SHA-256 ``digest`` and the ``overrides``; ``configuration`` the flat values that all this
+    declared; ``date`` in UTC, ISO 8601. ``recordings`` were fitted, ``test`` was not.
+    """
+
+    command: str
+    parameters: str
+    digest: str
+    overrides: tuple[str, ...]
+    configuration: Mapping[str, Any]
+    recordings: tuple[Recording, ...]
+    test: tuple[Recording, ...]
+    date: str
+    versions: Mapping[str, str]
+
+
+def provenance(
+    model: RigModel,
+    parameters: str,
+    overrides: Sequence[str],
+    recordings: Sequence[Recording],
+    test: Sequence[Recording],
+    command: str,
+) -> Provenance:
+    """Return the provenance of a trace that is made now with the libraries of this process."""
+    path: Path = find(parameters)
+    return Provenance(
+        command,
+        parameters,
+        hashlib.sha256(path.read_bytes()).hexdigest(),
+        tuple(overrides),
+        flat_rig(model),
+        tuple(recordings),
+        tuple(test),
+        datetime.now(timezone.utc).isoformat(timespec='seconds'),
+        versions(),
+    )
+
+
+def versions() -> dict[str, str]:
+    """Return the versions of what computed: this package, Python, the numerical libraries."""
+    found = {'pam_ros': pam_ros.__version__, 'python': platform.python_version()}
+    for library in LIBRARIES:
+        try:
+            found[library] = metadata.version(library)
+        except metadata.PackageNotFoundError:
+            found[library] = 'absent'
+    return found

@@ -1,0 +1,158 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The rows of a page's tables: numbers of the trace as texts, in the units that people read."""
+
+from dataclasses import dataclass, field
+from typing import Any
+
+from pam_ros.config import rig_table
+from pam_ros.identification.result import Estimate, Trace
+from pam_ros.recording.quantities import QUANTITIES
+from pam_ros.report.numbers import Table
+from pam_ros.report.provenance import Provenance
+from pam_ros.report.runs import STAGES
+from pam_ros.report.wording import (
+    ABSENT,
+    Scale,
+    interval,
+    listed,
+    name_in_words,
+    number,
+    percent,
+    probability,
+    scale_for,
+)
+
+ORDER = {'chosen': 0, 'ambiguous': 1, 'rejected': 2}
+
+
+@dataclass(frozen=True)
+class Row:
+    """Cells by the name of their column, and a word for how the row is to look."""
+
+    cells: dict[str, Any]
+    kind: str = ''
+    notes: list[str] = field(default_factory=list)
+
+
+def errors(content: Table, scale: Scale, labels: dict[int, str]) -> list[Row]:
+    """Return a row for each model in *labels* (stage -> name): RMSE, fit, maximum."""
+    error = content['error']
+    floor = error['noise_floor']
+    found = []
+    for stage, label in labels.items():
+        sizes = error[STAGES[stage]]['details']
+        cells: dict[str, Any] = {'model': label}
+        for which, size in sizes.items():
+            rmse, low, high = (size[key] for key in ('rmse', 'low', 'high'))
+            cells[which] = {
+                'rmse': scale.text(rmse),
+                'interval': interval(scale.factor * low, scale.factor * high, 2),
+                'fit': number(size['fit_percent'], 4),
+                'maximum': scale.text(size['maximum']),
+                'times': number(rmse / floor, 2) if floor > 0.0 else ABSENT,
+            }
+        found.append(Row(cells, STAGES[stage]))
+    return found
+
+
+def candidates(trace: Trace, scale: Scale) -> list[Row]:
+    """Return a row for each candidate: those that count first, then by their error kept back."""
+    first = trace.stages[1].held_error
+    found = []
+    order = sorted(trace.candidates, key=lambda c: (ORDER.get(c.decision, 3), c.held_error))
+    for candidate in order:
+        cells = {
+            'effect': name_in_words(candidate.effect),
+            'parents': listed([name_in_words(name) for name in candidate.parents])
+            or 're\u2011tuned',
+            'error': scale.text(candidate.held_error),
+            'bar': _share(candidate.held_error, max(first, candidate.held_error)),
+            'gain': percent(candidate.gain),
+            'p': probability(candidate.p),
+            'is_clear': 'yes' if candidate.interval_clear else 'no',
+            'decision': candidate.decision,
+            'reason': candidate.reason,
+        }
+        found.append(Row(cells, candidate.decision))
+    return found
+
+
+def _share(value: float, whole: float) -> float:
+    return round(100.0 * value / whole, 1) if value < whole else 100.0
+
+
+def parameters(trace: Trace) -> list[Row]:
+    """Return a row for each parameter that a stage has fitted: value and interval in each."""
+    names: dict[str, None] = {}
+    for stage in trace.stages:
+        names.update(dict.fromkeys(stage.parameters))
+    table = rig_table()
+    found = []
+    for name in names:
+        stages = [stage.parameters.get(name) for stage in trace.stages]
+        known = next(estimate for estimate in stages if estimate is not None)
+        is_at_bound = any(estimate is not None and estimate.at_bound for estimate in stages)
+        cells: dict[str, Any] = {
+            'name': name,
+            'unit': known.unit,
+            'text': table[name][2].text if name in table else '',
+        }
+        for key, estimate in zip(STAGES, stages, strict=True):
+            cells[key] = _estimate(estimate)
+        found.append(Row(cells, 'bound' if is_at_bound else ''))
+    return found
+
+
+def _estimate(estimate: Estimate | None) -> dict[str, Any]:
+    if estimate is None:
+        return {'value': ABSENT, 'interval': '', 'at_bound': False}
+    is_fitted = estimate.low != estimate.high
+    return {
+        'value': number(estimate.value, 5 if abs(estimate.value) >= 100.0 else 4),
+        'interval': interval(estimate.low, estimate.high) if is_fitted else '',
+        'at_bound': estimate.at_bound,
+    }
+
+
+def recordings(content: Table) -> list[Row]:
+    """Return a row for each recording: how it was sampled, what it covers, what is poor in it."""
+    found = []
+    for one in content['data']['recordings']:
+        period = 1.0 / one['rate']
+        cells = {
+            'name': one['name'],
+            'role': 'fitted' if one['role'] == 'fit' else 'test',
+            'kind': one['kind'],
+            'samples': f'{one["samples"]:,}'.replace(',', ' '),
+            'duration': f'{number(one["duration"], 4)} s',
+            'rate': f'{number(one["rate"], 4)} Hz',
+            'jitter': _jitter(one['jitter'] / period),
+            'gaps': str(len(one['gaps'])),
+            'commands': ABSENT if one['commands'] is None else str(one['commands']),
+            'ranges': [_range(name, *ends) for name, ends in one['ranges'].items()],
+        }
+        found.append(Row(cells, one['role'], one['warnings']))
+    return found
+
+
+def _jitter(share: float) -> str:
+    return 'below 0.1 %' if share < 1e-3 else f'{percent(share)} of a period'
+
+
+def _range(name: str, low: float, high: float) -> str:
+    scale = scale_for(QUANTITIES[name].si, max(abs(low), abs(high)))
+    ends = interval(scale.factor * low, scale.factor * high)
+    return f'{name_in_words(name)} {ends} {scale.unit}'
+
+
+def configuration(source: Provenance) -> list[tuple[str, str]]:
+    """Return name and value, with its unit, of all that was declared."""
+    table = rig_table()
+    found = []
+    for name, value in source.configuration.items():
+        unit = table[name][2].unit if name in table else ''
+        text = f'{value:g}' if isinstance(value, float) else str(value)
+        if text:
+            found.append((name, f'{text} {unit}'.strip()))
+    return found

@@ -1,0 +1,87 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The segments of a trace as a report looks at them: measured, three times simulated, inputs."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pam_ros.identification.result import Trace
+from pam_ros.identification.segment import Segment
+from pam_ros.report.diagnostics import Size, size_of
+
+Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+STAGES = ('declared', 'retuned', 'augmented')
+
+
+@dataclass(frozen=True, eq=False)
+class Run:
+    """One gapless segment, every array (n,).
+
+    t in s on its recording's clock; target measured, simulated by the three models in the order
+    of ``STAGES``, in SI; held marks what no fit has seen. pressure (Pa), contraction and velocity
+    (m/s) are those of a free load's last model, without the measurement's noise, and as measured
+    of a held one.
+    """
+
+    name: str
+    t: Array
+    target: Array
+    simulated: tuple[Array, Array, Array]
+    held: Mask
+    is_test: bool
+    pressure: Array
+    contraction: Array
+    velocity: Array
+
+    def residual(self, stage: int) -> Array:
+        """Return measured - simulated (n,) of a stage."""
+        return self.target - self.simulated[stage]
+
+
+def runs_of(trace: Trace) -> list[Run]:
+    """Return the runs of a trace: its segments, then those of the test recordings."""
+    l0 = trace.stages[0].model.muscle.l0
+    found = []
+    for k, segment in enumerate(trace.segments):
+        a, b, c = (stage.simulated[k] for stage in trace.stages)
+        held = np.zeros_like(segment.fit) if trace.test else ~segment.fit
+        found.append(_run(segment, (a, b, c), held, False, l0))
+    for k, segment in enumerate(trace.test):
+        a, b, c = (stage.tested[k] for stage in trace.stages)
+        found.append(_run(segment, (a, b, c), np.ones_like(segment.fit), True, l0))
+    return found
+
+
+def _run(
+    segment: Segment, simulated: tuple[Array, Array, Array], held: Mask, is_test: bool, l0: float
+) -> Run:
+    if segment.kind == 'free':
+        position = simulated[-1]
+        velocity = np.asarray(np.gradient(position, segment.t), dtype=float)
+        at = np.searchsorted(segment.drive_t, segment.t, side='right') - 1
+        pressure = segment.drive[np.maximum(at, 0)]
+    else:
+        position, velocity, pressure = segment.position, segment.velocity, segment.pressure
+    return Run(
+        segment.name,
+        segment.t,
+        segment.target,
+        simulated,
+        held,
+        is_test,
+        pressure,
+        position / l0,
+        velocity,
+    )
+
+
+def sizes(runs: list[Run], stage: int) -> tuple[Size, Size]:
+    """Return how large the errors of a stage are: over what was fitted, and over the rest."""
+    fit, held = (
+        size_of([r.residual(stage)[m] for r, m in picked], [r.target[m] for r, m in picked])
+        for picked in ([(r, ~r.held) for r in runs], [(r, r.held) for r in runs])
+    )
+    return fit, held

@@ -1,0 +1,155 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Plots over time: measured against simulated with the residual beneath, and the errors."""
+
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from pam_ros.report import style
+from pam_ros.report.diagnostics import Size
+from pam_ros.report.runs import Run
+from pam_ros.report.wording import Scale
+
+Array = NDArray[np.float64]
+
+CLOSE_UP = 6.0  # s
+BETWEEN = 0.01  # share of the whole time that separates two runs in the overview
+
+
+@dataclass(frozen=True)
+class Curve:
+    """A model to be drawn: its stage, what it is called, and how it looks."""
+
+    stage: int
+    label: str
+
+    @property
+    def look(self) -> dict[str, Any]:
+        """Return colour and line as matplotlib wants them."""
+        return {'color': style.COLOURS[self.stage], 'linestyle': style.DASHES[self.stage]}
+
+
+@dataclass(frozen=True)
+class Stretch:
+    """A part of a run: samples start..stop-1, drawn *shift* s later than its own clock says."""
+
+    run: Run
+    start: int
+    stop: int
+    shift: float = 0.0
+
+
+def whole(runs: list[Run]) -> list[Stretch]:
+    """Return all runs side by side, each after the one before."""
+    total = sum(float(run.t[-1] - run.t[0]) for run in runs)
+    found, end = [], 0.0
+    for run in runs:
+        found.append(Stretch(run, 0, run.t.size, end - float(run.t[0])))
+        end += float(run.t[-1] - run.t[0]) + BETWEEN * total
+    return found
+
+
+def close_up(runs: list[Run], before: int, after: int) -> Stretch:
+    """Return the few seconds, kept back where possible, that tell two stages apart most."""
+    best, most = Stretch(runs[0], 0, runs[0].t.size), -np.inf
+    for run in runs:
+        span = min(CLOSE_UP, float(run.t[-1] - run.t[0]))
+        gain = run.residual(before) ** 2 - run.residual(after) ** 2
+        integral = np.concatenate([[0.0], np.cumsum(gain * np.gradient(run.t))])
+        kept = np.concatenate([[0.0], np.cumsum(run.held * np.gradient(run.t))])
+        starts = np.searchsorted(run.t, np.arange(run.t[0], run.t[-1] - span + 1e-9, span / 4.0))
+        for start in starts.tolist():
+            stop = int(np.searchsorted(run.t, run.t[start] + span, side='right'))
+            is_kept = float(kept[stop] - kept[start]) > 0.9 * span
+            worth = float(integral[stop] - integral[start]) + (1e12 if is_kept else 0.0)
+            if worth > most:
+                best, most = Stretch(run, start, stop), worth
+    return best
+
+
+def measured_and_simulated(
+    stretches: list[Stretch], curves: list[Curve], scale: Scale, quantity: str, noise: float,
+    width: int,
+) -> Figure:  # fmt: skip
+    """Return what was measured and simulated over time, with the residuals beneath.
+
+    What no fit has seen stands on a tinted ground; the band is two standard deviations of the
+    *noise* to each side.
+    """
+    heights = (230, 130) if width > 600 else (190, 130)
+    figure, (above, below) = style.stacked(width, heights)
+    share = [s.run.t[s.stop - 1] - s.run.t[s.start] for s in stretches]
+    columns = [max(20, int((width - 70) * x / sum(share) * 0.9)) for x in share]
+    for stretch, n in zip(stretches, columns, strict=True):
+        part = slice(stretch.start, stretch.stop)
+        t = stretch.run.t[part] + stretch.shift
+        _tint(above, t, stretch.run.held[part])
+        _tint(below, t, stretch.run.held[part])
+        y = scale.factor * stretch.run.target[part]
+        above.plot(*style.envelope(t, y, n), color=style.MEASURED, linewidth=3.0)
+        for curve in curves:
+            y = scale.factor * stretch.run.simulated[curve.stage][part]
+            above.plot(*style.envelope(t, y, n), **curve.look)
+            e = scale.factor * stretch.run.residual(curve.stage)[part]
+            below.plot(*style.envelope(t, e, n), **curve.look)
+    for a, b in pairwise(stretches):
+        middle = 0.5 * (a.run.t[a.stop - 1] + a.shift + b.run.t[b.start] + b.shift)
+        above.axvline(middle, color=style.FAINT, linewidth=0.6)
+        below.axvline(middle, color=style.FAINT, linewidth=0.6)
+    below.axhspan(-2.0 * noise * scale.factor, 2.0 * noise * scale.factor, **_BAND)
+    above.margins(x=0.0)
+    above.set_title(f'{quantity}, {scale.unit}')
+    below.set_title(f'residual (measured − simulated), {scale.unit}')
+    below.set_xlabel('time, s')
+    return figure
+
+
+_BAND: dict[str, Any] = {'color': style.NOISE, 'alpha': 0.16, 'linewidth': 0.0}
+
+
+def _tint(ax: Axes, t: Array, held: NDArray[np.bool_]) -> None:
+    if held.all():
+        return  # nothing to tell apart within this stretch
+    edges = np.flatnonzero(np.diff(np.concatenate([[0], held.astype(int), [0]])))
+    for start, stop in edges.reshape(-1, 2):
+        ax.axvspan(t[start], t[stop - 1], color=style.KEPT_BACK, linewidth=0.0, zorder=0)
+
+
+def errors(
+    sizes: list[tuple[Curve, Size, Size]], noise: float, scale: Scale, width: int
+) -> Figure:
+    """Return the RMSE of each model, fitted and held out, with its interval and the noise."""
+    height = 34 * len(sizes)
+    figure, (ax,) = style.stacked(width, (height,))
+    reached = []
+    for row, (curve, fit, held) in enumerate(sizes):
+        y = len(sizes) - 1 - row
+        for size, offset, filled in ((fit, 0.16, False), (held, -0.16, True)):
+            if not np.isfinite(size.rmse) or size.rmse <= 0.0:
+                continue
+            low, x, high = (scale.factor * v for v in (size.low, size.rmse, size.high))
+            reached += [x, high]
+            look = style.COLOURS[curve.stage]
+            ax.plot([max(low, 1e-3 * x), high], [y + offset] * 2, color=look, linewidth=1.4)
+            ax.plot(
+                x, y + offset, 'o', color=look, markersize=7,
+                markerfacecolor=look if filled else 'white',
+            )  # fmt: skip
+    if noise > 0.0:
+        reached.append(scale.factor * noise)
+        ax.axvline(scale.factor * noise, color=style.NOISE, linewidth=1.4, linestyle=(0, (5, 2)))
+    ax.set_ylim(-0.6, len(sizes) - 0.4)
+    ax.set_yticks([])
+    ax.spines['left'].set_visible(False)
+    if reached:
+        ax.set_xscale('log')
+        ax.set_xlim(0.7 * min(reached), 1.4 * max(reached))
+        style.log_axis(ax.xaxis)
+    ax.set_xlabel(f'RMSE, {scale.unit}')
+    return figure

@@ -1,0 +1,81 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Numbers as people read them: few digits, handy units, true minus signs."""
+
+import math
+from dataclasses import dataclass
+
+_SUPERSCRIPT = str.maketrans('-0123456789', '⁻⁰¹²³⁴⁵⁶⁷⁸⁹')
+ABSENT = '–'
+
+
+@dataclass(frozen=True)
+class Scale:
+    """A unit for display: a value in SI times ``factor`` is in ``unit``."""
+
+    factor: float
+    unit: str
+
+    def text(self, value: float, digits: int = 3) -> str:
+        """Return an SI value in this unit, without the unit."""
+        return number(value * self.factor, digits)
+
+
+def scale_for(unit: str, size: float) -> Scale:
+    """Return a handy unit for values in SI *unit* of about *size*: mm for m, kPa for Pa."""
+    if unit == 'm':
+        return Scale(1e6, 'µm') if 0.0 < size < 1e-5 else Scale(1e3, 'mm')
+    if unit == 'Pa':
+        return Scale(1e-3, 'kPa') if size >= 1e3 else Scale(1.0, 'Pa')
+    return Scale(1.0, unit)
+
+
+def number(value: float | None, digits: int = 3) -> str:
+    """Return *value* with that many significant digits; a dash where there is none."""
+    if value is None or math.isnan(value):
+        return ABSENT
+    if math.isinf(value):
+        return '∞' if value > 0 else '−∞'
+    if value == 0.0:
+        return '0'
+    exponent = math.floor(math.log10(abs(float(f'{value:.{digits - 1}e}'))))
+    if -4 < exponent < max(digits, 5):
+        return f'{value:.{max(digits - 1 - exponent, 0)}f}'.replace('-', '−')
+    mantissa, power = f'{value:.{digits - 1}e}'.split('e')
+    if '.' in mantissa:
+        mantissa = mantissa.rstrip('0').rstrip('.')
+    return f'{mantissa}·10{str(int(power)).translate(_SUPERSCRIPT)}'.replace('-', '−')
+
+
+def interval(low: float, high: float, digits: int = 3) -> str:
+    """Return an interval, both ends with the digits that tell them apart."""
+    width = abs(high - low)
+    largest = max(abs(low), abs(high))
+    if 0.0 < width < largest < math.inf:
+        digits = min(max(digits, 1 + math.ceil(math.log10(largest / width))), 7)
+    return f'{number(low, digits)} to {number(high, digits)}'
+
+
+def probability(p: float) -> str:
+    """Return a p value; below 0.0001 only that."""
+    return '< 0.0001' if p < 1e-4 else number(p, 2)
+
+
+def percent(share: float, digits: int = 2) -> str:
+    """Return a share in percent with its sign."""
+    if math.isnan(share):
+        return ABSENT
+    text = number(100.0 * share, digits)
+    return f'{text} %'
+
+
+def name_in_words(name: str) -> str:
+    """Return a name of the library as a reader sees it: ``pressure_lag`` as "pressure lag"."""
+    return name.replace('_', ' ')
+
+
+def listed(names: list[str]) -> str:
+    """Return names as a sentence lists them: "a, b and c"."""
+    if len(names) < 2:
+        return ''.join(names)
+    return ', '.join(names[:-1]) + ' and ' + names[-1]

@@ -1,0 +1,133 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""A report as a folder that is there whole or not at all."""
+
+import ctypes
+import json
+import os
+import shutil
+import tempfile
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from pam_ros.errors import PamError
+from pam_ros.identification.result import Trace
+from pam_ros.report.numbers import numbers, to_json
+from pam_ros.report.parameters import write_identified
+from pam_ros.report.provenance import Provenance
+from pam_ros.report.runs import runs_of
+from pam_ros.report.tables import residual_csv
+
+FILES = ('report.json', 'report.html', 'identified.yaml', 'residual.csv')
+_EXCHANGE = 2  # RENAME_EXCHANGE of Linux' renameat2()
+_HERE = -100  # AT_FDCWD
+
+
+def check_folder(folder: Path) -> None:
+    """Raise PamError where *folder* cannot become a report: it is something else already."""
+    try:
+        found = sorted(path.name for path in folder.iterdir())
+    except FileNotFoundError:
+        _check_parent(folder)
+        return
+    except NotADirectoryError:
+        raise PamError(f'{folder} is a file: give a folder for the report') from None
+    except OSError as error:
+        raise PamError(f'{folder} cannot be read: {error.strerror}') from error
+    strange = [name for name in found if name not in FILES]
+    if found and not strange and not _is_report(folder):
+        strange = found
+    if strange:
+        others = f' and {len(strange) - 1} more' if len(strange) > 1 else ''
+        raise PamError(
+            f'{folder} holds {strange[0]}{others}, which is no report of pam_identify: '
+            'give a new folder'
+        )
+    _check_parent(folder)
+
+
+def _check_parent(folder: Path) -> None:
+    parent = folder.resolve().parent
+    while not parent.exists():
+        parent = parent.parent
+    if not parent.is_dir() or not os.access(parent, os.W_OK | os.X_OK):
+        raise PamError(f'{folder} cannot be made: {parent} is no folder to write in')
+
+
+def _is_report(folder: Path) -> bool:
+    try:
+        content = json.loads((folder / 'report.json').read_text(encoding='utf-8'))
+    except (OSError, ValueError):
+        return False
+    return isinstance(content, dict) and 'schema_version' in content and 'verdict' in content
+
+
+def write_report(folder: Path, trace: Trace, source: Provenance) -> None:
+    """Write all files of the report into *folder*, in place of a former report.
+
+    Until the last moment nothing is to be seen but a hidden sibling, which goes when anything
+    fails. Raises PamError where *folder* holds something else or cannot be written.
+    """
+    from pam_ros.report.page import page  # brings matplotlib, which nothing else needs
+
+    check_folder(folder)
+    runs = runs_of(trace)
+    content = numbers(trace, runs, source)
+    parts: dict[str, Callable[[], str]] = {
+        'report.json': lambda: to_json(content),
+        'report.html': lambda: page(trace, runs, source, content),
+        'residual.csv': lambda: residual_csv(runs, trace.quantity, trace.unit),
+    }
+    with replaced(folder) as new:
+        for name, text in parts.items():
+            (new / name).write_text(text(), encoding='utf-8')
+        write_identified(new / 'identified.yaml', trace, source)
+
+
+@contextmanager
+def replaced(folder: Path) -> Iterator[Path]:
+    """Give an empty folder that takes the place of *folder* at the end, at one stroke.
+
+    Where the body raises, *folder* stays as it was. Raises PamError where the disk refuses.
+    """
+    target = folder.resolve()
+    try:
+        target.parent.mkdir(parents=True, exist_ok=True)
+        new = Path(tempfile.mkdtemp(dir=target.parent, prefix=f'.{target.name}.'))
+    except OSError as error:
+        raise PamError(f'{folder} cannot be made: {error.strerror}') from error
+    try:
+        new.chmod(0o777 & ~_umask())
+        yield new
+        if target.exists():
+            _exchange(new, target)
+        else:
+            new.rename(target)
+    except OSError as error:
+        raise PamError(f'{folder} cannot be written: {error.strerror}') from error
+    finally:
+        # What was there before, or what is not to be there.
+        shutil.rmtree(new, ignore_errors=True)
+
+
+def _exchange(new: Path, old: Path) -> None:
+    """Swap two folders: in one step where the file system can, else in two."""
+    libc = ctypes.CDLL(None, use_errno=True)
+    swap = getattr(libc, 'renameat2', None)
+    if swap is not None and not swap(_HERE, os.fsencode(new), _HERE, os.fsencode(old), _EXCHANGE):
+        return
+    aside = new.with_name(f'{new.name}.old')
+    old.rename(aside)
+    try:
+        new.rename(old)
+    except OSError:
+        aside.rename(old)
+        raise
+    aside.rename(new)
+
+
+def _umask() -> int:
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask

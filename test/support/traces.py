@@ -1,0 +1,227 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Traces made by hand from simulated recordings: what a report is made of, without a fit."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from pam_ros.config import build_rig
+from pam_ros.effects import EFFECTS
+from pam_ros.identification.noise import Noise
+from pam_ros.identification.result import Candidate, Estimate, Finding, Stage, Trace
+from pam_ros.identification.segment import segments_of
+from pam_ros.identification.structure import Structure
+from pam_ros.recording.recording import Recording
+from pam_ros.report.provenance import provenance
+from pam_ros.rig.run import simulate, simulate_held
+
+NOISE = 5e-5  # m
+DECLARED = {'mass': 20.0, 'zeta': 0.15}
+FRICTION = {'effects.coulomb_friction.level': 14.0}
+PRESET = 'dmsp_20_400n'
+
+
+def commands(seconds, rate, seed=0):
+    """Return stamps and pressures of steps, a slow triangle and a multisine, a third each."""
+    rng = np.random.default_rng(seed)
+    t = np.arange(round(seconds * rate)) / rate
+    third = t.size // 3
+    steps = np.repeat(rng.uniform(2.2e5, 4.8e5, 1 + third // round(1.5 * rate)), round(1.5 * rate))
+    x = np.linspace(0.0, 2.0, third, endpoint=False)
+    triangle = 2.2e5 + 2.6e5 * (1.0 - np.abs(1.0 - x))
+    rest = t[: t.size - 2 * third]
+    sines = sum(np.sin(2.0 * np.pi * f * rest + rng.uniform(0, 6)) for f in (0.3, 0.7, 1.6, 3.1))
+    return t, np.concatenate([steps[:third], triangle, 3.5e5 + 3e4 * sines])
+
+
+def free_recording(model, seconds=40.0, rate=200.0, seed=0, name='bench.csv', gap=False):
+    """Return a recording of a free rig with white noise on its position."""
+    t, command = commands(seconds, rate, seed)
+    y = simulate(model, t, t, command).position
+    y = y + NOISE * np.random.default_rng(seed + 1).standard_normal(t.size)
+    whole = Recording(name, t, t, command, y, None, None, None, 'free', digest=64 * 'a')
+    if not gap:
+        return whole
+    keep = (t < 0.4 * seconds) | (t > 0.42 * seconds)
+    gaps = ((float(t[keep][t[keep] < 0.4 * seconds][-1]), float(t[t > 0.42 * seconds][0])),)
+    return replace(whole, t=t[keep], position=y[keep], gaps=gaps, warnings=('1 gap(s)',))
+
+
+def held_recording(model, kappa, seconds=30.0, rate=100.0, seed=0):
+    """Return a recording of a muscle held at *kappa*, with white noise on its force."""
+    t, pressure = commands(seconds, rate, seed)
+    y = np.full(t.size, kappa * model.muscle.l0)
+    force = simulate_held(model, t, pressure, y).force
+    force = force + 2.0 * np.random.default_rng(seed + 1).standard_normal(t.size)
+    name = f'kappa_{100 * kappa:g}.csv'
+    return Recording(name, t, None, None, y, None, force, pressure, 'held', digest=64 * 'b')
+
+
+def rig(**values):
+    """Return a rig with flat *values*, ``__`` for a dot, over those that are declared."""
+    return build_rig({**DECLARED, **{k.replace('__', '.'): v for k, v in values.items()}})
+
+
+def rms(e):
+    return float(np.sqrt(np.mean(e**2))) if e.size else float('nan')
+
+
+def stage(name, model, segments, test, parameters):
+    """Return the stage of a model that starts where each segment was measured to start."""
+
+    def run(segment):
+        if segment.kind == 'free':
+            return simulate(
+                model, segment.t, segment.drive_t, segment.drive, segment.y0, segment.v0
+            ).position
+        return simulate_held(
+            model, segment.t, segment.pressure, segment.position, segment.velocity
+        ).force
+
+    simulated, tested = (tuple(run(s) for s in part) for part in (segments, test))
+    e = np.concatenate([p - s.target for p, s in zip(simulated, segments, strict=True)])
+    fit = np.concatenate([s.fit for s in segments])
+    held = e[~fit]
+    if test:
+        held = np.concatenate([p - s.target for p, s in zip(tested, test, strict=True)])
+    held_error = float(np.sqrt(np.mean(held**2))) if held.size else float('nan')
+    return Stage(
+        name,
+        model,
+        parameters,
+        float(np.sqrt(np.mean(e[fit] ** 2))),
+        held_error,
+        simulated,
+        tested,
+    )
+
+
+def estimate(value, share, unit, at_bound=False):
+    """Return an estimate with an interval of this share of its value to each side."""
+    return Estimate(value, value - share * abs(value), value + share * abs(value), unit, at_bound)
+
+
+def candidates(chosen, ambiguous=()):
+    """Return one candidate for each effect of the library, with what could have been found."""
+    found = []
+    for k, effect in enumerate(EFFECTS):
+        is_chosen = effect.name in chosen
+        gain = 0.9 if is_chosen else 0.02 + 0.001 * k
+        decision = 'chosen' if is_chosen else 'rejected'
+        reason = 'lowest error kept back, p < 0.01' if is_chosen else 'gain below 3 %'
+        if effect.name in ambiguous:
+            decision, reason, gain = 'ambiguous', 'within one standard error of the winner', 0.89
+        name, scale = effect.parameters[0].name, effect.parameters[0].scale
+        values = {name: estimate(scale, 0.3, effect.parameters[0].unit)}
+        p = 1e-12 if gain > 0.5 else 0.4
+        error = 1e-3 * (1.0 - gain)
+        found.append(
+            Candidate(
+                effect.name, (), error, 1.02 * error, p, gain, gain > 0.5, values, decision, reason
+            )
+        )
+    return tuple(found)
+
+
+def trace_of(recordings, test, declared, retuned, augmented, verdict, findings=(), quantity=None):
+    """Return the trace that three models make of the recordings."""
+    segments = segments_of(recordings, keep_back=not test)
+    test_segments = segments_of(test, keep_back=False) if test else []
+    quantity = quantity or segments[0].quantity
+    muscle = declared.muscle
+    known = {
+        'a1': estimate(muscle.a1, 0.0, 'N/bar'),
+        'a5': estimate(muscle.a5, 0.0, 'N/bar'),
+        'zeta': estimate(muscle.zeta, 0.0, ''),
+    }
+    moved = {
+        'a1': estimate(retuned.muscle.a1, 0.04, 'N/bar'),
+        'a5': estimate(retuned.muscle.a5, 0.003, 'N/bar'),
+        'zeta': estimate(retuned.muscle.zeta, 0.2, '', at_bound=True),
+    }
+    added = {
+        f'effects.{finding.name}.{name}': value
+        for finding in findings
+        for name, value in finding.parameters.items()
+    }
+    chosen = [finding.name for finding in findings]
+    others = [name for finding in findings for name in finding.alternatives]
+    return Trace(
+        verdict,
+        'The declared model lacks Coulomb friction.' if findings else 'Nothing is missing.',
+        quantity,
+        'm' if quantity == 'position' else 'N',
+        Noise(NOISE, 0.1) if quantity == 'position' else Noise(2.0, 0.0),
+        (
+            stage('declared', declared, segments, test_segments, known),
+            stage('retuned', retuned, segments, test_segments, moved),
+            stage('augmented', augmented, segments, test_segments, {**moved, **added}),
+        ),
+        tuple(findings),
+        candidates(chosen, others),
+        Structure(0.71, 0.0, 0.96),
+        tuple(segments),
+        tuple(test_segments),
+        ('the position covers 11 % of the stroke',),
+        'slow triangles and micro-reversals: the force turns over within micrometres',
+    )
+
+
+FRICTION_FOUND = Finding(
+    'coulomb_friction',
+    {'level': Estimate(14.02, 13.9, 14.14, 'N'), 'presliding': Estimate(1e-5, 1e-6, 1e-4, 'm')},
+    ('hysteresis',),
+    'lowers the held-out error by 90 %, p < 0.0001, level surely above 0',
+)
+
+
+def friction_trace(test=False, gap=False, seconds=40.0, rate=200.0):
+    """Return (trace, provenance) of a free rig with friction that was found."""
+    truth = rig(**{'effects.coulomb_friction.level': 14.0, 'a5': 303.5, 'zeta': 0.2})
+    recordings = [free_recording(truth, seconds, rate, gap=gap)]
+    others = [free_recording(truth, 0.5 * seconds, rate, 5, 'other.csv')] if test else []
+    declared, retuned = rig(), rig(a5=303.4, zeta=0.24)
+    augmented = rig(**{'effects.coulomb_friction.level': 14.02, 'a5': 303.502, 'zeta': 0.201})
+    trace = trace_of(
+        recordings, others, declared, retuned, augmented, 'effect_found', (FRICTION_FOUND,)
+    )
+    return trace, source_of(declared, recordings, others)
+
+
+def clean_trace():
+    """Return (trace, provenance) of a free rig that lacks nothing: augmented is re-tuned."""
+    truth = rig()
+    recordings = [free_recording(truth)]
+    retuned = rig(a5=302.23)
+    trace = trace_of(recordings, [], truth, retuned, retuned, 'no_missing_effect')
+    return trace, source_of(truth, recordings, [])
+
+
+def held_trace():
+    """Return (trace, provenance) of a muscle held at three lengths, with hysteresis found."""
+    values = {'effects.hysteresis.amplitude': 30.0}
+    name = next(iter(EFFECTS[0].parameters)).name
+    del name
+    hysteresis = next(e for e in EFFECTS if e.name == 'hysteresis')
+    strength = next(p for p in hysteresis.parameters if p.strength)
+    values = {f'effects.hysteresis.{strength.name}': 3.0 * strength.scale}
+    truth = rig(**values)
+    recordings = [
+        held_recording(truth, kappa, seed=k) for k, kappa in enumerate((0.02, 0.1, 0.18))
+    ]
+    found = Finding(
+        'hysteresis',
+        {'amplitude': estimate(30.0, 0.1, 'N')},
+        (),
+        'loops',
+    )
+    trace = trace_of(recordings, [], rig(), rig(a5=302.0), truth, 'effect_found', (found,))
+    return trace, source_of(rig(), recordings, [])
+
+
+def source_of(declared, recordings, test):
+    """Return the provenance of a trace that was made by hand."""
+    return provenance(
+        declared, PRESET, ('mass=20',), recordings, test, 'pam_identify bench.csv --out report'
+    )
