@@ -13,10 +13,12 @@ from pam_ros.effects.base import Effect
 from pam_ros.identification.problem import Problem
 from pam_ros.identification.solve import Solution, predicted_cost, solve
 from pam_ros.identification.unknowns import effect_unknowns
+from pam_ros.rig import layout as at
 from pam_ros.rig.model import RigModel
 
 Array = NDArray[np.float64]
 LOOKS = 2  # steps of the cheap look, with the parent's columns kept
+EARNED = 10.0  # fall of the score that pays for an effect's finer parameters
 TRIED = 2  # starting values per effect from which it is taken
 
 
@@ -56,9 +58,7 @@ def extended(
     for k, p in enumerate(effect.parameters):
         row[j + k] = start.get(p.name, p.default)
     u = [k.coordinate(start[k.name.rsplit('.', 1)[1]]) for k in added]
-    new = replace(
-        problem, row=row, active=model.library, unknowns=(*problem.unknowns, *added)
-    )
+    new = replace(problem, row=row, active=model.library, unknowns=(*problem.unknowns, *added))
     return new, np.array(u)
 
 
@@ -73,7 +73,7 @@ def look(parents: Sequence[Fit], model: RigModel, effect: Effect) -> Solution:
     guesses = []
     for parent in parents:
         known = parent.solution
-        for start in effect.fit_starts:
+        for start in (*effect.fit_starts, *_guessed(parents[0], effect)):
             problem, added = extended(known.problem, model, effect, start)
             u = np.concatenate([known.u, added])
             r = problem.residuals(u)
@@ -87,6 +87,45 @@ def look(parents: Sequence[Fit], model: RigModel, effect: Effect) -> Solution:
         for _, problem, u, jacobian in guesses[:TRIED]
     ]
     return min(solutions, key=lambda solution: solution.cost)
+
+
+def released(fit: Fit, model: RigModel, effect: Effect, pool: Executor | None) -> Fit:
+    """Return *fit* with the parameters of *effect* freed that its start left at their defaults.
+
+    The plainer fit is kept where the others do not earn their cost.
+    """
+    problem = fit.solution.problem
+    there = {unknown.name for unknown in problem.unknowns}
+    j = model.layout.parameter_at[effect.name]
+    row = problem.row_at(fit.solution.u)
+    rest = {
+        p.name: float(row[j + k])
+        for k, p in enumerate(effect.parameters)
+        if f'effects.{effect.name}.{p.name}' not in there
+    }
+    if not rest:
+        return fit
+    wider, added = extended(problem, model, effect, rest)
+    # What was fitted stays where the fit put it: only the row of the others is new.
+    start = np.concatenate([fit.solution.u, added])
+    wide = fitted(fit.effects, solve(wider, start, iterations=8, pool=pool))
+    return wide if wide.score < fit.score - EARNED else fit
+
+
+def _guessed(parent: Fit, effect: Effect) -> tuple[dict[str, float], ...]:
+    """Return the starts that *effect* reads from what *parent* leaves of the longest run.
+
+    Samples that are kept back stay unseen: their residual is given as 0.
+    """
+    if effect.guess is None:
+        return ()
+    problem = parent.solution.problem
+    longest = max(range(len(problem.segments)), key=lambda k: problem.segments[k].t.size)
+    s = problem.segments[longest]
+    out = problem.runs(parent.solution.u, longest)[0]
+    column = at.Y if s.kind == 'free' else 3
+    residual = np.where(s.fit, s.target - out[:, column], 0.0)
+    return effect.guess(s.t, out[:, at.P], out[:, at.Y] / problem.row[at.L0], residual)
 
 
 def refine(

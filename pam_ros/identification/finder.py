@@ -1,242 +1,198 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The trace: as declared, re-tuned, and with the effects that the residual asks for."""
+"""The trace: how wrong is the declared model, what does it lack, how wrong is it with that."""
 
-from collections.abc import Callable, Sequence
-from concurrent.futures import Executor, ThreadPoolExecutor
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pam_ros.effects.base import Effect
-from pam_ros.identification import evidence
-from pam_ros.identification.candidate import Fit, extended, fitted, look, refine
-from pam_ros.identification.coarse import coarse_step, thinned
+from pam_ros.identification import verdict
+from pam_ros.identification.candidate import Fit, fitted
 from pam_ros.identification.noise import Noise, noise_of
-from pam_ros.identification.problem import Problem
-from pam_ros.identification.segment import Segment
-from pam_ros.identification.solve import Solution, solve
-from pam_ros.identification.unknowns import Unknown, declared_unknowns, start_unknowns
+from pam_ros.identification.result import Candidate, Finding, Trace
+from pam_ros.identification.search import (
+    Progress,
+    Search,
+    Tried,
+    only_starts,
+    problem_of,
+    search,
+)
+from pam_ros.identification.segment import Segment, segments_of
+from pam_ros.identification.solve import solve
+from pam_ros.identification.stages import estimates, stage
+from pam_ros.identification.structure import Structure, structure_of
+from pam_ros.recording.recording import Recording
+from pam_ros.rig import layout as at
 from pam_ros.rig.model import RigModel
 
 Array = NDArray[np.float64]
-Progress = Callable[[float, str], None]
-
-EFFECTS_AT_MOST = 3
-REFINED = 5  # candidates of a round that get a full fit
-IMPLAUSIBLE = 12.0  # chi square of re-tuned parameters under their prior that asks for a reason
+STEP = 1e-3  # s, longest step of the final fits
+POLISH = 4  # iterations of a final fit, which starts where the thinned one ended
 
 
-@dataclass(frozen=True, eq=False)
-class Tried:
-    """A candidate's fit in a round, and what speaks for it."""
+def trace(
+    model: RigModel,
+    recordings: Sequence[Recording],
+    test: Sequence[Recording] = (),
+    progress: Progress | None = None,
+) -> Trace:
+    """Trace what *recordings* show beyond *model* to effects of the model's library.
 
-    effect: Effect
-    parents: tuple[str, ...]
-    fit: Fit
-    evidence: evidence.Evidence
-    rank: float
+    Errors are judged on *test*, or without it on every third of ten blocks of each recording,
+    which no fit sees. With *test*, all of the recordings are fitted in the end; what was chosen
+    was chosen before, on the blocks. progress(fraction, text) is told what runs.
 
-
-@dataclass(frozen=True, eq=False)
-class Search:
-    """How the search went: each round's candidates, and the models that it ended with."""
-
-    declared: Fit
-    retuned: Fit
-    augmented: Fit
-    rounds: tuple[tuple[Tried, ...], ...]
-
-
-def problem_of(
-    model: RigModel, segments: Sequence[Segment], noise: Noise, step: float, stride: int = 1
-) -> Problem:
-    """Return the problem of re-tuning *model* to the segments, at most *step* s a step.
-
-    *stride* says how many samples apart those of the segments were in the recording.
+    Raises RecordingError when the recordings do not fit together or carry no output.
     """
-    unknowns: list[Unknown] = declared_unknowns(model)
-    if segments[0].kind == 'free':
-        unknowns += start_unknowns(
-            len(segments), [s.y0 for s in segments], [s.v0 for s in segments]
-        )
-    rho = noise.rho**stride
-    samples = sum(int(np.count_nonzero(s.fit)) for s in segments)
-    return Problem(
-        tuple(segments),
-        model.layout,
-        model.active,
-        model.row(),
-        tuple(unknowns),
-        samples * (1.0 - rho) / (1.0 + rho),
-        step,
+    tell: Progress = progress or (lambda fraction, text: None)
+    blocks = segments_of(recordings, keep_back=True)
+    tests = segments_of(test, keep_back=False)
+    noise = noise_of([(s.t, s.target) for s in blocks])
+    lacking = verdict.too_little(blocks, noise)
+    found = search(model, blocks, noise, tell)
+    tell(0.9, 'fitting the chosen models in full')
+    final = segments_of(recordings, keep_back=not test)
+    fits = _polished(found, model, final, noise)
+    noise = _least(noise, fits, final)
+    stages = tuple(
+        stage(name, model, fit, tests)
+        for name, fit in zip(('declared', 'retuned', 'augmented'), fits, strict=True)
     )
+    tell(0.97, 'looking for structure in what is left')
+    structure = _structure(fits[2], noise)
+    effects = _findings(found, fits[2], model)
+    quantity = final[0].quantity
+    answer = Trace(
+        verdict='',
+        sentence='',
+        quantity=quantity,
+        unit='m' if quantity == 'position' else 'N',
+        noise=noise,
+        stages=(stages[0], stages[1], stages[2]),
+        effects=effects,
+        candidates=_candidates(found, model),
+        structure=structure,
+        segments=tuple(final),
+        test=tuple(tests),
+        warnings=tuple(w for r in (*recordings, *test) for w in r.warnings),
+        next_experiment='',
+    )
+    tell(1.0, 'done')
+    return verdict.judged(answer, lacking, model.library)
 
 
-def declared_fit(problem: Problem, pool: Executor) -> Fit:
-    """Return the model as declared, only its start states fitted, all columns computed."""
-    starts = [k for k, unknown in enumerate(problem.unknowns) if unknown.segment >= 0]
-    u = np.zeros(len(problem.unknowns))
-    if starts:
-        only = replace(problem, unknowns=tuple(problem.unknowns[k] for k in starts))
-        u[starts] = solve(only, u[starts], pool=pool).u
-    r = problem.residuals(u)
-    return fitted((), Solution(problem, u, r, problem.jacobian(u, r, pool), 0))
-
-
-def search(
-    model: RigModel, segments: Sequence[Segment], noise: Noise, progress: Progress
-) -> Search:
-    """Find the effects that *model* lacks, on thinned runs: forward, then backward."""
-    step = coarse_step(model)
-    thin = [thinned(s, step) for s in segments]
-    stride = max(1, round(segments[0].t.size / thin[0].t.size))
-    problem = problem_of(model, thin, noise, step, stride)
+def _polished(
+    found: Search, model: RigModel, segments: Sequence[Segment], noise: Noise
+) -> tuple[Fit, Fit, Fit]:
+    """Return the declared, re-tuned and augmented models fitted to every sample."""
+    plain = problem_of(model, segments, noise, STEP)
+    starts = [k for k in plain.unknowns if k.segment >= 0]
+    fits = []
     with ThreadPoolExecutor() as pool:
-        progress(0.0, 'simulating the model as declared')
-        declared = declared_fit(problem, pool)
-        progress(0.05, 're-tuning its parameters')
-        retuned = fitted((), solve(problem, declared.solution.u, pool=pool))
-        parent, rounds = retuned, []
-        for k in range(EFFECTS_AT_MOST):
-            progress(0.1 + 0.25 * k, f'trying effects, round {k + 1}')
-            tried = _round(parent, declared, model, pool)
-            rounds.append(tried)
-            chosen = next((t for t in tried if admitted(t, parent, retuned, noise)), None)
-            if chosen is None:
-                break
-            parent = chosen.fit
-        progress(0.85, 'leaving out what is not needed')
-        parent = _without_needless(parent, retuned, model, noise, pool)
-    return Search(declared, retuned, parent, tuple(rounds))
+        for fit in (found.declared, found.retuned, found.augmented):
+            thin = fit.solution.problem
+            kept = [k for k, x in enumerate(thin.unknowns) if x.segment < 0]
+            unknowns = (*(thin.unknowns[k] for k in kept), *starts)
+            full = replace(plain, row=thin.row, active=thin.active, unknowns=unknowns)
+            u = np.concatenate([fit.solution.u[kept], np.zeros(len(starts))])
+            if fit is found.declared:
+                solution = only_starts(full, u, pool)
+            else:
+                solution = solve(full, u, POLISH, pool)
+            fits.append(fitted(fit.effects, solution))
+    return fits[0], fits[1], fits[2]
 
 
-def admitted(tried: Tried, parent: Fit, retuned: Fit, noise: Noise) -> bool:
-    """Say whether a candidate counts as an effect that the model lacks."""
-    e = tried.evidence
-    if not e.interval_clear or e.p > evidence.SIGNIFICANCE:
-        return False
-    if e.absorbed:
-        return True
-    if e.gain < evidence.GAIN:
-        return False
-    excess = max(retuned.held_error - noise.sigma, 0.0)
-    first = not parent.effects
-    fall = parent.held_error - tried.fit.held_error
-    return first or fall >= evidence.LATER_SHARE * excess
+def _least(noise: Noise, fits: Sequence[Fit], segments: Sequence[Segment]) -> Noise:
+    """Return the smallest noise seen: in the signal, and in what each model leaves of it.
 
-
-def _round(
-    parent: Fit, declared: Fit, model: RigModel, pool: Executor
-) -> tuple[Tried, ...]:
-    """Return the candidates that got a full fit on top of *parent*, the best first."""
-    absent = [e for e in model.library if e.name not in (*parent.effects, *model.effects)]
-    parents = [parent] if parent.effects else [parent, declared]
-    looks = list(pool.map(lambda e: look(parents, model, e), absent))
-    order = np.argsort([s.cost for s in looks])
-    fits = {
-        absent[i].name: refine(parent, absent[i], looks[i], pool) for i in order[:REFINED]
-    }
-    if not parent.effects and _strain(parent) > IMPLAUSIBLE:
-        for effect in absent:
-            if _is_static(effect):
-                straight = _from_declared(declared, model, effect, pool)
-                other = fits.get(effect.name)
-                if other is None or straight.score < other.score:
-                    fits[effect.name] = straight
-    known = {e.name: e for e in absent}
-    p = evidence.holm(
-        np.array([_p(parent, fits[name]) if name in fits else 1.0 for name in known])
-    )
-    tried = []
-    for (name, effect), p_corrected in zip(known.items(), p, strict=True):
-        if name not in fits:
-            continue
-        fit = fits[name]
-        gain = 1.0 - fit.held_error / parent.held_error
-        found = evidence.Evidence(
-            float(p_corrected),
-            gain,
-            evidence.strengths_clear(fit),
-            parent.score - fit.score > IMPLAUSIBLE and gain > -evidence.GAIN,
+    A model that follows the motion leaves a smoother signal than the raw one, whose quick
+    parts a polynomial cannot follow.
+    """
+    found = [noise]
+    for fit in fits:
+        simulated = fit.solution.problem.predict(fit.solution.u)
+        found.append(
+            noise_of([(s.t, s.target - p) for s, p in zip(segments, simulated, strict=True)])
         )
-        tried.append(Tried(effect, parent.effects, fit, found, _rank(fit)))
-    return tuple(sorted(tried, key=lambda t: t.rank))
+    return min(found, key=lambda n: n.sigma)
 
 
-def _p(parent: Fit, fit: Fit) -> float:
-    """Return the p value of a fit: of its residuals, or of its less strained parameters."""
-    from scipy.stats import chi2
-
-    relief = _strain(parent) - _strain(fit)
-    count = len(fit.solution.u) - len(parent.solution.u)
-    return min(evidence.f_test(parent, fit), float(chi2.sf(max(relief, 0.0), count)))
-
-
-def _strain(fit: Fit) -> float:
-    """Return how far the declared parameters were moved, as a chi square."""
-    z = fit.solution.problem.priors(fit.solution.u)
-    return float(z @ z)
-
-
-def _rank(fit: Fit) -> float:
-    """Return the score of a fit with what it says of the samples kept back: low is good."""
+def _structure(fit: Fit, noise: Noise) -> Structure:
+    """Return the structure of the residual of the longest run."""
     problem = fit.solution.problem
-    kept = sum(int(np.count_nonzero(~s.fit)) for s in problem.segments)
-    if kept == 0:
-        return fit.score
-    share = problem.independent / fit.solution.r.size
-    return fit.score + kept * share * float(np.log(fit.held_error**2))
+    longest = max(range(len(problem.segments)), key=lambda k: problem.segments[k].t.size)
+    s = problem.segments[longest]
+    out = problem.runs(fit.solution.u, longest)[0]
+    column = at.Y if s.kind == 'free' else 3
+    inputs = (out[:, at.P], out[:, at.Y], out[:, at.V])
+    return structure_of(s.t, s.target - out[:, column], inputs, noise.sigma)
 
 
-def _is_static(effect: Effect) -> bool:
-    """Say whether an effect only changes what the parameters of the model could change too."""
-    where = (effect.mass, effect.contraction, effect.pressure)
-    return not effect.states and any(f is not None for f in where)
+def _findings(found: Search, fit: Fit, model: RigModel) -> tuple[Finding, ...]:
+    values = estimates(fit, model)
+    findings = []
+    for tried in _chosen(found):
+        name = tried.effect.name
+        if name not in fit.effects:
+            continue
+        prefix = f'effects.{name}.'
+        parameters = {k.removeprefix(prefix): v for k, v in values.items() if prefix in k}
+        findings.append(
+            Finding(name, parameters, verdict.alternatives(found, tried), _reason(tried))
+        )
+    return tuple(findings)
 
 
-def _from_declared(declared: Fit, model: RigModel, effect: Effect, pool: Executor) -> Fit:
-    """Return the fit of *effect* that begins at the declared parameters, not the re-tuned."""
-    best: Fit | None = None
-    for start in effect.fit_starts:
-        problem, added = extended(declared.solution.problem, model, effect, start)
-        u = np.concatenate([declared.solution.u, added])
-        fit = fitted((effect.name,), solve(problem, u, pool=pool))
-        if best is None or fit.score < best.score:
-            best = fit
-    assert best is not None
-    return best
+def _chosen(found: Search) -> list[Tried]:
+    """Return the candidate that each round chose, in order."""
+    chosen = []
+    for tried in found.rounds:
+        names = [t.effect.name for t in tried if t.chosen]
+        chosen += [t for t in tried if t.effect.name in names]
+    return chosen
 
 
-def _without_needless(
-    fit: Fit, retuned: Fit, model: RigModel, noise: Noise, pool: Executor
-) -> Fit:
-    """Return *fit* without the effects that it no longer needs, one after another."""
-    while len(fit.effects) > 1:
-        for name in fit.effects[:-1]:
-            smaller = _dropped(fit, name, model, pool)
-            gain = 1.0 - fit.held_error / smaller.held_error
-            excess = max(retuned.held_error - noise.sigma, 0.0)
-            fall = smaller.held_error - fit.held_error
-            if gain < evidence.GAIN or fall < evidence.LATER_SHARE * excess:
-                fit = smaller
-                break
-        else:
-            return fit
-    return fit
+def _reason(tried: Tried) -> str:
+    e = tried.evidence
+    if e.absorbed:
+        return (
+            'explains with its own parameter what re-tuning explains only by constants far from '
+            f'those declared (p = {e.p:.1g})'
+        )
+    return (
+        f'lowers the error of the samples kept back by {100 * e.gain:.0f} % '
+        f'(p = {e.p:.1g} after correction for the number of candidates)'
+    )
 
 
-def _dropped(fit: Fit, name: str, model: RigModel, pool: Executor) -> Fit:
-    """Return the fit without effect *name*, fitted anew."""
-    problem = fit.solution.problem
-    prefix = f'effects.{name}.'
-    keep = [k for k, u in enumerate(problem.unknowns) if not u.name.startswith(prefix)]
-    row = problem.row.copy()
-    j = model.layout.parameter_at[name]
-    effect = next(e for e in model.library if e.name == name)
-    for k, p in enumerate(effect.parameters):
-        row[j + k] = p.default
-    smaller = replace(problem, row=row, unknowns=tuple(problem.unknowns[k] for k in keep))
-    solution = solve(smaller, fit.solution.u[keep], pool=pool)
-    return fitted(tuple(e for e in fit.effects if e != name), solution)
+def _candidates(found: Search, model: RigModel) -> tuple[Candidate, ...]:
+    rows = []
+    for tried in found.rounds:
+        winner = next((t for t in tried if t.chosen), None)
+        for t in tried:
+            rivals = verdict.alternatives(found, winner) if winner else ()
+            decision = (
+                'chosen' if t.chosen else 'ambiguous' if t.effect.name in rivals else 'rejected'
+            )
+            prefix = f'effects.{t.effect.name}.'
+            values = estimates(t.fit, model)
+            rows.append(
+                Candidate(
+                    t.effect.name,
+                    t.parents,
+                    t.fit.fit_error,
+                    t.fit.held_error,
+                    t.evidence.p,
+                    t.evidence.gain,
+                    t.evidence.interval_clear,
+                    {k.removeprefix(prefix): v for k, v in values.items() if prefix in k},
+                    decision,
+                    _reason(t) if t.chosen else verdict.why_not(t, winner),
+                )
+            )
+    return tuple(rows)

@@ -3,7 +3,7 @@
 """A gapless stretch of a recording, made ready to be simulated again and again."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -99,6 +99,25 @@ def _segment(part: Recording, keep_back: bool) -> Segment:
         part.name, part.kind, part.t, part.force, fit, empty, empty,
         pressure, part.position, velocity, part.position[0], velocity[0], floor, ceiling,
     )  # fmt: skip
+
+
+def windows(segment: Segment, length: float) -> list[Segment]:
+    """Return a free run cut into runs of *length* s, each starting from its own measurement.
+
+    A load without a spring integrates every error for ever, so that a long run of a wrong model
+    says nothing any more; short ones stay near what was measured.
+    """
+    span = segment.t[-1] - segment.t[0]
+    edges = np.linspace(segment.t[0], segment.t[-1], max(1, round(span / length)) + 1)
+    found = []
+    for start, end in zip(edges[:-1], edges[1:], strict=True):
+        rows = np.flatnonzero((segment.t >= start) & (segment.t <= end))
+        t, y = segment.t[rows], segment.target[rows]
+        y0, v0 = _start(t, y)
+        found.append(
+            replace(segment, t=t, target=y, fit=segment.fit[rows], y0=y0, v0=v0)
+        )
+    return found
 
 
 def _start(t: Array, y: Array) -> tuple[float, float]:

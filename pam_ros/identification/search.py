@@ -1,0 +1,259 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Which effects does a residual ask for? Forward selection, then backward elimination."""
+
+from collections.abc import Callable, Sequence
+from concurrent.futures import Executor, ThreadPoolExecutor
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pam_ros.effects.base import Effect
+from pam_ros.identification import evidence
+from pam_ros.identification.candidate import Fit, extended, fitted, look, refine, released
+from pam_ros.identification.coarse import coarse_step, thinned
+from pam_ros.identification.noise import Noise, noise_of
+from pam_ros.identification.problem import Problem
+from pam_ros.identification.segment import Segment, windows
+from pam_ros.identification.solve import Solution, solve
+from pam_ros.identification.unknowns import Unknown, declared_unknowns, start_unknowns
+from pam_ros.rig.model import RigModel
+
+Array = NDArray[np.float64]
+Progress = Callable[[float, str], None]
+
+EFFECTS_AT_MOST = 3
+REFINED = 5  # candidates of a round that get a full fit
+WINDOW = 2.0  # s of a run of a load without a muscle
+PROMISING = 4.0  # fall of the cost in a cheap look that earns a full fit
+IMPLAUSIBLE = 12.0  # chi square of re-tuned parameters under their prior that asks for a reason
+
+
+@dataclass(frozen=True, eq=False)
+class Tried:
+    """A candidate's fit in a round, and what speaks for it."""
+
+    effect: Effect
+    parents: tuple[str, ...]
+    fit: Fit
+    evidence: evidence.Evidence
+    rank: float
+    chosen: bool = False
+
+
+@dataclass(frozen=True, eq=False)
+class Search:
+    """How the search went: each round's candidates, and the models that it ended with."""
+
+    declared: Fit
+    retuned: Fit
+    augmented: Fit
+    rounds: tuple[tuple[Tried, ...], ...]
+
+
+def problem_of(
+    model: RigModel, segments: Sequence[Segment], noise: Noise, step: float, stride: int = 1
+) -> Problem:
+    """Return the problem of re-tuning *model* to the segments, at most *step* s a step.
+
+    *stride* says how many samples apart those of the segments were in the recording.
+    """
+    unknowns: list[Unknown] = declared_unknowns(model)
+    if segments[0].kind == 'free':
+        unknowns += start_unknowns(
+            len(segments), [s.y0 for s in segments], [s.v0 for s in segments]
+        )
+    rho = noise.rho**stride
+    samples = sum(int(np.count_nonzero(s.fit)) for s in segments)
+    return Problem(
+        tuple(segments),
+        model.layout,
+        model.active,
+        model.row(),
+        tuple(unknowns),
+        samples * (1.0 - rho) / (1.0 + rho),
+        step,
+    )
+
+
+def only_starts(problem: Problem, u: Array, pool: Executor) -> Solution:
+    """Return u with its start states fitted and the rest as it is, all columns computed."""
+    starts = [k for k, unknown in enumerate(problem.unknowns) if unknown.segment >= 0]
+    if starts:
+        rest = [k for k in range(len(u)) if k not in starts]
+        row = replace(problem, unknowns=tuple(problem.unknowns[k] for k in rest)).row_at(u[rest])
+        only = replace(problem, row=row, unknowns=tuple(problem.unknowns[k] for k in starts))
+        u = u.copy()
+        u[starts] = solve(only, u[starts], pool=pool).u
+    r = problem.residuals(u)
+    return Solution(problem, u, r, problem.jacobian(u, r, pool), 0)
+
+
+def search(
+    model: RigModel, segments: Sequence[Segment], noise: Noise, progress: Progress
+) -> Search:
+    """Find the effects that *model* lacks, on thinned runs: forward, then backward."""
+    step = coarse_step(model)
+    thin = [thinned(s, step) for s in segments]
+    stride = max(1, round(segments[0].t.size / thin[0].t.size))
+    if model.muscle.is_load_only:
+        thin = [part for s in thin for part in windows(s, WINDOW)]
+    problem = problem_of(model, thin, noise, step, stride)
+    with ThreadPoolExecutor() as pool:
+        progress(0.0, 'simulating the model as declared')
+        declared = fitted((), only_starts(problem, np.zeros(len(problem.unknowns)), pool))
+        progress(0.05, 're-tuning its parameters')
+        retuned = fitted((), solve(problem, declared.solution.u, pool=pool))
+        parent, rounds = retuned, []
+        for k in range(EFFECTS_AT_MOST):
+            progress(0.1 + 0.25 * k, f'trying effects, round {k + 1}')
+            tried = _round(parent, declared, model, pool)
+            first = next((t for t in tried if admitted(t, parent, retuned, noise)), None)
+            if first is None:
+                rounds.append(tried)
+                break
+            chosen = replace(first, chosen=True)
+            rounds.append(tuple(chosen if t is first else t for t in tried))
+            parent = released(chosen.fit, model, chosen.effect, pool)
+        progress(0.85, 'leaving out what is not needed')
+        parent = _without_needless(parent, retuned, model, noise, pool)
+    return Search(declared, retuned, parent, tuple(rounds))
+
+
+def admitted(tried: Tried, parent: Fit, retuned: Fit, noise: Noise) -> bool:
+    """Say whether a candidate counts as an effect that the model lacks."""
+    e = tried.evidence
+    if not e.interval_clear or e.p > evidence.SIGNIFICANCE:
+        return False
+    if e.absorbed:
+        return True
+    if e.gain < evidence.GAIN:
+        return False
+    excess = max(retuned.held_error - noise.sigma, 0.0)
+    first = not parent.effects
+    fall = parent.held_error - tried.fit.held_error
+    return first or fall >= evidence.LATER_SHARE * excess
+
+
+def _round(parent: Fit, declared: Fit, model: RigModel, pool: Executor) -> tuple[Tried, ...]:
+    """Return the candidates that got a full fit on top of *parent*, the best first."""
+    absent = [e for e in model.library if e.name not in (*parent.effects, *model.effects)]
+    parents = [parent] if parent.effects else [parent, declared]
+    looks = list(pool.map(lambda e: look(parents, model, e), absent))
+    order = [
+        i
+        for i in np.argsort([s.cost for s in looks])
+        if looks[i].cost < parent.solution.cost - PROMISING
+    ]
+    fits = {absent[i].name: refine(parent, absent[i], looks[i], pool) for i in order[:REFINED]}
+    if not parent.effects and _strain(parent) > IMPLAUSIBLE:
+        for effect in absent:
+            if _is_static(effect):
+                straight = _from_declared(declared, model, effect, pool)
+                other = fits.get(effect.name)
+                if other is None or straight.score < other.score:
+                    fits[effect.name] = straight
+    known = {e.name: e for e in absent}
+    p = evidence.holm(
+        np.array([_p(parent, fits[name]) if name in fits else 1.0 for name in known])
+    )
+    tried = []
+    for (name, effect), p_corrected in zip(known.items(), p, strict=True):
+        if name not in fits:
+            continue
+        fit = fits[name]
+        gain = 1.0 - fit.held_error / parent.held_error
+        found = evidence.Evidence(
+            float(p_corrected),
+            gain,
+            evidence.strengths_clear(fit),
+            _absorbed(parent, fit, effect) and gain > -evidence.GAIN,
+        )
+        tried.append(Tried(effect, parent.effects, fit, found, _rank(fit)))
+    return tuple(sorted(tried, key=lambda t: t.rank))
+
+
+def _absorbed(parent: Fit, fit: Fit, effect: Effect) -> bool:
+    """Say whether *effect* explains what re-tuning explains, too, but only by odd parameters."""
+    relief = _strain(parent) - _strain(fit)
+    return not parent.effects and _is_static(effect) and relief > IMPLAUSIBLE
+
+
+def _p(parent: Fit, fit: Fit) -> float:
+    """Return the p value of a fit: of its residuals, or of its less strained parameters."""
+    from scipy.stats import chi2
+
+    count = len(fit.solution.u) - len(parent.solution.u)
+    p = evidence.f_test(parent, fit)
+    if not parent.effects:
+        p = min(p, float(chi2.sf(max(_strain(parent) - _strain(fit), 0.0), count)))
+    return p
+
+
+def _strain(fit: Fit) -> float:
+    """Return how far the declared parameters were moved, as a chi square."""
+    z = fit.solution.problem.priors(fit.solution.u)
+    return float(z @ z)
+
+
+def _rank(fit: Fit) -> float:
+    """Return the score of a fit with what it says of the samples kept back: low is good."""
+    problem = fit.solution.problem
+    kept = sum(int(np.count_nonzero(~s.fit)) for s in problem.segments)
+    if kept == 0:
+        return fit.score
+    share = problem.independent / fit.solution.r.size
+    return fit.score + kept * share * float(np.log(fit.held_error**2))
+
+
+def _is_static(effect: Effect) -> bool:
+    """Say whether an effect only changes what the parameters of the model could change too."""
+    where = (effect.mass, effect.contraction, effect.pressure)
+    return not effect.states and any(f is not None for f in where)
+
+
+def _from_declared(declared: Fit, model: RigModel, effect: Effect, pool: Executor) -> Fit:
+    """Return the fit of *effect* that begins at the declared parameters, not the re-tuned."""
+    best: Fit | None = None
+    for start in effect.fit_starts:
+        problem, added = extended(declared.solution.problem, model, effect, start)
+        u = np.concatenate([declared.solution.u, added])
+        fit = fitted((effect.name,), solve(problem, u, pool=pool))
+        if best is None or fit.score < best.score:
+            best = fit
+    assert best is not None
+    return best
+
+
+def _without_needless(
+    fit: Fit, retuned: Fit, model: RigModel, noise: Noise, pool: Executor
+) -> Fit:
+    """Return *fit* without the effects that it no longer needs, one after another."""
+    while len(fit.effects) > 1:
+        for name in fit.effects[:-1]:
+            smaller = _dropped(fit, name, model, pool)
+            gain = 1.0 - fit.held_error / smaller.held_error
+            excess = max(retuned.held_error - noise.sigma, 0.0)
+            fall = smaller.held_error - fit.held_error
+            if gain < evidence.GAIN or fall < evidence.LATER_SHARE * excess:
+                fit = smaller
+                break
+        else:
+            return fit
+    return fit
+
+
+def _dropped(fit: Fit, name: str, model: RigModel, pool: Executor) -> Fit:
+    """Return the fit without effect *name*, fitted anew."""
+    problem = fit.solution.problem
+    prefix = f'effects.{name}.'
+    keep = [k for k, u in enumerate(problem.unknowns) if not u.name.startswith(prefix)]
+    row = problem.row.copy()
+    j = model.layout.parameter_at[name]
+    effect = next(e for e in model.library if e.name == name)
+    for k, p in enumerate(effect.parameters):
+        row[j + k] = p.default
+    smaller = replace(problem, row=row, unknowns=tuple(problem.unknowns[k] for k in keep))
+    solution = solve(smaller, fit.solution.u[keep], pool=pool)
+    return fitted(tuple(e for e in fit.effects if e != name), solution)
