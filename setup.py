@@ -9,7 +9,7 @@ from setuptools import find_packages, setup
 PACKAGE = 'pam_ros'
 
 # Each program is the module of its name in pam_ros/nodes/, with a function main().
-PROGRAMS = ['pam_sim']
+PROGRAMS = ['pam_excite', 'pam_record', 'pam_sim']
 
 
 def shared(folder: str, pattern: str = '**/*') -> list[tuple[str, list[str]]]:
@@ -48,7 +48,7 @@ setup(
         'PyYAML',
         'matplotlib',
         'jinja2',
-        'mcap',
+        'mcap>=1.5',
         'rosbags',
         'tqdm',
     ],

@@ -181,10 +181,16 @@ class _Whole(io.BufferedReader):
 
 
 def _read_unfinished(files: list[Path]) -> Read:
-    from mcap.exceptions import McapError
-    from mcap.records import Channel, Schema
-    from mcap.records import Message as Record
-    from mcap.stream_reader import StreamReader
+    try:
+        from mcap.exceptions import McapError
+        from mcap.records import Channel, Schema
+        from mcap.records import Message as Record
+        from mcap.stream_reader import StreamReader
+    except ImportError:
+        raise RecordingError(
+            f'{files[-1].name} was not closed by its recorder: to read it, install the Python '
+            'package mcap with pip, or repair it with ros2 bag reindex'
+        ) from None
 
     def records(wanted: Collection[str] | None) -> Iterator[tuple[str, Topic, Message | None]]:
         for file in files:

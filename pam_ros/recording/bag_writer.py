@@ -14,7 +14,6 @@ from pathlib import Path
 from typing import Any
 
 import yaml
-from mcap.writer import CompressionType, Writer
 
 from pam_ros.errors import RecordingError
 
@@ -65,6 +64,13 @@ class BagWriter:
 
     def __init__(self, directory: Path, ros_distro: str = '') -> None:
         """Make *directory* with an empty bag in it."""
+        try:
+            from mcap.writer import CompressionType, Writer
+        except ImportError:
+            raise RecordingError(
+                'writing bags needs the Python package mcap: install it with pip, or record with '
+                'ros2 bag record'
+            ) from None
         self._directory, self._distro = directory, ros_distro
         self._name = f'{directory.name}_0.mcap'
         try:
