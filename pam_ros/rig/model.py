@@ -142,27 +142,38 @@ class RigModel:
 
     @property
     def longest_step(self) -> float:
-        """Step in s at which the rig's fastest motion in the working range turns by 1 rad.
+        """Step in s at which the rig's fastest motion turns by 1 rad.
 
-        The integrator is stable to 2.6 rad, with critical damping to 1.3 rad; the rest is left
-        for motion beyond that range. A force source without a muscle sets no limit, and effects
+        That is where the muscle is stiffest: in the working range, or where the load stretches
+        it to when it is vented at kappa_max and falls. The integrator is stable to 2.6 rad, with
+        critical damping to 1.3 rad. A force source without a muscle sets no limit, and effects
         bring their own updates.
         """
         m = self.muscle
-        p, kappa = np.meshgrid((m.p_min, m.p_max), (m.kappa_min, m.kappa_max))
+        if m.is_load_only:
+            return math.inf
+        p, kappa = np.meshgrid((m.p_min, m.p_max), (self._deepest(), m.kappa_max))
         k = float(np.max(m.stiffness(p, kappa)))  # as the least, the largest is at a corner
         overdamped = math.sqrt(max(m.zeta * m.zeta - 1.0, 0.0))
-        fastest = math.sqrt(k / self.moved_mass) * max(1.0, m.zeta + overdamped)
-        return 1.0 / fastest if fastest > 0.0 else math.inf
+        return math.sqrt(self.moved_mass / k) / max(1.0, m.zeta + overdamped)
+
+    def _deepest(self) -> float:
+        """Return the least contraction of an undamped fall from kappa_max at p_min."""
+        m = self.muscle
+        kappa = np.linspace(m.kappa_max, m.kappa_min - 0.3, 500)
+        energy = self.weight * m.l0 * kappa - m.potential(m.p_min, kappa)
+        landed = (energy >= energy[0]) & (kappa < m.kappa_min)
+        return float(kappa[np.argmax(landed)]) if np.any(landed) else float(kappa[-1])
 
     def check_step(self, step: float) -> None:
         """Raise ParameterError when *step* in s is too long for this rig's fastest motion."""
-        if not 0.0 < step <= self.longest_step:
+        if not step > 0.0:
+            raise ParameterError(f'a physics step of {step:g} s is not allowed: give more than 0')
+        if step > self.longest_step:
             raise ParameterError(
                 f'a physics step of {step * 1e3:g} ms does not resolve a mass of '
-                f'{self.moved_mass:g} kg on this muscle: give at most '
-                f'{self.longest_step * 1e3:.3g} ms (a rate of at least '
-                f'{1.0 / self.longest_step:.0f} Hz), or more mass'
+                f'{self.moved_mass:g} kg on this muscle: give at least '
+                f'{math.ceil(1.0 / self.longest_step)} steps a second, or more mass'
             )
 
     def rest(self, p: float) -> float:
