@@ -57,7 +57,7 @@ def start(q: Row, j: int, p: float, kappa: float, y: float) -> tuple[float, ...]
 EFFECT = Effect(
     name='creep',
     text='force and stiffness of which a part follows slowly',
-    source='Standard linear solid; Minh et al. 2010, 2012 for fluidic muscles: up to 5 % of force',
+    source='Standard linear solid; Minh et al. 2012 for a fluidic muscle',
     parameters=(
         EffectParameter(
             'force',

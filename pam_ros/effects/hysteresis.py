@@ -83,7 +83,7 @@ def start(q: Row, j: int, p: float, kappa: float, y: float) -> tuple[float, ...]
 EFFECT = Effect(
     name='hysteresis',
     text='rate-independent hysteresis of braid and bladder',
-    source='Dahl 1968; Wen 1976; Al-Bender et al. 2004 (Maxwell slip); Hunt et al. 2017 (by p)',
+    source='Dahl 1968; Wen 1976; Minh et al. 2011 (Maxwell slip); Hunt et al. 2017 (by pressure)',
     parameters=(
         EffectParameter(
             'amplitude',
