@@ -9,11 +9,10 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[2]
-# What the commands of the Makefile, and the tools behind them, leave in a checkout.
-LEFT_BEHIND = shutil.ignore_patterns(
-    '.*_cache', '.git', '.hypothesis', '.venv', '*.egg-info', '__pycache__',
-    'build', 'demo', 'install', 'log',
-)  # fmt: skip
+# What the commands of the Makefile, and the tools behind them, leave in a checkout: in its top
+# folder, and in any.
+ON_TOP = {'.git', '.hypothesis', '.venv', 'build', 'demo', 'install', 'log'}
+ANYWHERE = shutil.ignore_patterns('*.egg-info', '.*_cache', '__pycache__')
 OF_A_SOURCED_ROS = (
     '_ROS_WHEELS_BOOTSTRAP_COMPLETE',
     'AMENT_PREFIX_PATH',
@@ -32,10 +31,15 @@ def root():
 
 @pytest.fixture(scope='session')
 def sources(tmp_path_factory):
-    """Return a copy of the checkout as it is in git, more or less: sources alone."""
+    """Return a copy of the checkout: its sources alone."""
     folder = tmp_path_factory.mktemp('sources') / 'pam_ros'
-    shutil.copytree(ROOT, folder, ignore=LEFT_BEHIND)
+    shutil.copytree(ROOT, folder, ignore=left_behind)
     return folder
+
+
+def left_behind(folder, names):
+    """Return the names in a folder that are none of the sources, as copytree asks for them."""
+    return ANYWHERE(folder, names) | (ON_TOP if Path(folder) == ROOT else set())
 
 
 @pytest.fixture(scope='session')

@@ -12,10 +12,11 @@ from pathlib import Path
 import pytest
 from sensor_msgs.msg import JointState
 
-from support.harness import DEADLINE, Peer
+from support.harness import Peer
 
 HAVE_COLCON = importlib.util.find_spec('colcon_core') is not None
-BUILD_DEADLINE = 300.0  # s, only bounds how long a broken build may hang
+BUILD_DEADLINE = 300.0  # s; both only bound how long something broken may hang
+DEADLINE = 60.0
 
 pytestmark = pytest.mark.skipif(not HAVE_COLCON, reason='colcon is not installed')
 
@@ -46,20 +47,20 @@ def installed(workspace):
     return workspace / 'install' / 'pam_ros'
 
 
-def test_everything_is_where_ros2_looks(installed, root):
+def test_everything_is_where_ros2_looks(installed, sources):
     share = installed / 'share'
     assert (share / 'ament_index' / 'resource_index' / 'packages' / 'pam_ros').is_file()
     for path in ('package.xml', 'launch/sim.launch.py'):
-        assert (share / 'pam_ros' / path).read_bytes() == (root / path).read_bytes()
-    for path in (root / 'config').rglob('*.yaml'):
-        place = share / 'pam_ros' / path.relative_to(root)
+        assert (share / 'pam_ros' / path).read_bytes() == (sources / path).read_bytes()
+    for path in (sources / 'config').rglob('*.yaml'):
+        place = share / 'pam_ros' / path.relative_to(sources)
         assert place.read_bytes() == path.read_bytes()
 
 
-def test_every_program_is_in_lib(installed, root):
+def test_every_program_is_in_lib(installed, sources):
     programs = installed / 'lib' / 'pam_ros'
     present = {path.name for path in programs.iterdir() if os.access(path, os.X_OK)}
-    nodes = root / 'pam_ros' / 'nodes'
+    nodes = sources / 'pam_ros' / 'nodes'
     assert present == {path.stem for path in nodes.glob('pam_*.py')}
 
 
