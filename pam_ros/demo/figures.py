@@ -78,8 +78,9 @@ def figure_6(run: PublishedRun, model: RigModel) -> Figure:
             ax.plot(run.t - run.t[0], values, color=MODEL)
         axes[-1].annotate(
             f'at rest {run.force[-1]:.1f} N (paper: {SPRING_FORCE:g} N)',
-            (run.t[-1] - run.t[0], run.force[-1]),
+            (1.0, float(run.force[-1])),
             (-6, 10),
+            xycoords=('axes fraction', 'data'),
             textcoords='offset points',
             ha='right',
             color=INK,

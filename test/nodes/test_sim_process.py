@@ -10,7 +10,7 @@ from sensor_msgs.msg import FluidPressure, JointState
 from std_msgs.msg import Float64
 from std_srvs.srv import Trigger
 
-from support.harness import Program
+from support.harness import Program, has_loaded
 
 
 @pytest.mark.parametrize(
@@ -27,7 +27,7 @@ def test_a_signal_ends_it_cleanly(peer, kind, times):
 
 def test_a_signal_during_the_start_ends_it_cleanly():
     with Program('pam_sim') as sim:
-        while not sim.has_loaded('numpy'):  # it is still importing
+        while not has_loaded(sim, 'numpy'):  # it is still importing
             assert sim.is_running
         sim.interrupt()
         assert sim.wait() == 0
