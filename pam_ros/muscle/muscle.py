@@ -141,7 +141,7 @@ class Muscle:
         return _array(law.gain_v(_array(kappa), a1, a3, a4, a5))
 
     def potential(self, p: ArrayLike, kappa: ArrayLike) -> Array:
-        """Return the work in J that (1) does from contraction 0 to *kappa* at constant pressure."""
+        """Return the work in J that (1) does from kappa = 0 to *kappa* at constant pressure."""
         return _array(law.potential_v(_array(p), _array(kappa), *self.si, self.l0))
 
     def pressure_for_force(self, wanted: ArrayLike, kappa: ArrayLike) -> Array:

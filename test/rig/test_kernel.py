@@ -70,7 +70,7 @@ def test_a_staircase_of_commands_is_within_a_nanometre_of_dop853():
 def test_the_order_of_convergence_is_four():
     t = np.array([0.0, 0.96])
     exact = solve(smooth_supply.at, (0.1, 0.0), t)[0, -1]
-    steps = np.array([8e-3, 4e-3, 2e-3, 1e-3])
+    steps = np.array([6e-3, 3e-3, 1.5e-3, 0.75e-3])
     errors = [abs(swinging(step, t).position[-1] - exact) for step in steps]
     orders = np.diff(np.log(errors)) / np.diff(np.log(steps))
     assert np.all(np.abs(orders - 4.0) < 0.3), orders

@@ -1,0 +1,156 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Kernels bound to effects: what their names on disk depend on, and plain Python instead."""
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from pam_ros.compiled import HAVE_NUMBA
+from pam_ros.effects.base import Effect, EffectParameter
+from pam_ros.rig.bind import bind, fingerprint
+from pam_ros.rig.layout import layout_of
+from pam_ros.rig.model import Load, RigModel
+from pam_ros.rig.rig import Rig
+
+ROOT = Path(__file__).parents[2]
+SOURCE = '''
+from math import cos
+from pam_ros.compiled import scalar
+
+SCALE = 2.0
+
+@scalar
+def helper(v):
+    return SCALE * v
+
+def outside(f, p, y, v, t, h, x, i, xn, q, j):
+    """Say something."""
+    return f - q[j] * helper(v)
+'''
+
+
+def function_of(source):
+    names = {}
+    exec(compile(source, 'effect.py', 'exec'), names)
+    return names['outside']
+
+
+def effect_of(source, name='drag'):
+    strength = EffectParameter('strength', 0.0, '', '', 0.0, 1e3, scale=1.0, strength=True)
+    return Effect(name, '', '', (strength,), '', '', (), outside=function_of(source))
+
+
+@pytest.mark.parametrize(
+    ('old', 'new', 'differs'),
+    [
+        ('f - q[j]', 'f + q[j]', True),  # another operator
+        ('SCALE = 2.0', 'SCALE = 3.0', True),  # another constant in its file
+        ('SCALE * v', 'SCALE * v * v', True),  # another helper
+        ('SCALE * v', 'cos(SCALE * v)', True),
+        ('SCALE * v', 'SCALE*v  # a comment', False),
+        ('SCALE = 2.0\n', 'SCALE = 2.0\n\n\n', False),
+    ],
+)
+def test_the_fingerprint_changes_when_an_effects_code_changes(old, new, differs):
+    changed = SOURCE.replace(old, new)
+    assert changed != SOURCE
+    same = fingerprint(function_of(SOURCE)) == fingerprint(function_of(changed))
+    assert same is not differs
+
+
+def loops(effects, active):
+    kernel = bind(layout_of(effects), active)
+    return [f.__qualname__ for f in (kernel.advance, kernel.outputs, kernel.simulate)]
+
+
+@pytest.mark.skipif(not HAVE_NUMBA, reason='nothing is kept on disk without numba')
+def test_kernels_on_disk_are_told_apart_by_code_and_place():
+    one, other = effect_of(SOURCE), effect_of(SOURCE.replace('f - q[j]', 'f + q[j]'))
+    names = loops((one,), (one,))
+    again = effect_of(SOURCE)
+    assert loops((again,), (again,)) == names  # the same code: found on disk
+    assert loops((other,), (other,)) != names
+    assert loops((one,), ()) != names
+    first = effect_of(SOURCE, 'first')
+    assert loops((first, one), (one,)) != names  # the parameter is at another place
+    assert len(set(names)) == 3
+
+
+@pytest.mark.skipif(not HAVE_NUMBA, reason='nothing is kept on disk without numba')
+def test_the_fingerprint_is_the_same_in_every_process():
+    code = (
+        'from pam_ros.rig.model import RigModel; from pam_ros.rig.bind import bind; '
+        'm = RigModel(); print(bind(m.layout, m.library).advance.__qualname__)'
+    )
+    model = RigModel()
+    here = bind(model.layout, model.library).advance.__qualname__
+    for seed in ('1', '2'):
+        assert run(code, {'PYTHONHASHSEED': seed}) == here
+
+
+def run(code, environment=None):
+    """Run code in a Python of its own; return what it printed."""
+    done = subprocess.run(
+        [sys.executable, '-c', code],
+        cwd=ROOT,
+        env={**os.environ, **(environment or {})},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    return done.stdout.strip()
+
+
+RUN = """
+import json, sys
+if {blocked}:
+    sys.modules['numba'] = None  # as if it were not installed
+from pam_ros.compiled import HAVE_NUMBA
+from pam_ros.rig.model import Load, RigModel
+from pam_ros.rig.rig import Rig
+from pam_ros.rig.run import simulate
+assert HAVE_NUMBA is not {blocked}
+effects = {{
+    'pressure_lag': {{'fill': 0.05, 'vent': 0.1}},
+    'dead_time': {{'delay': 0.01}},
+    'creep': {{'stiffness': 300.0, 'time': 0.5}},
+    'coulomb_friction': {{'level': 5.0}},
+}}
+found = []
+for model in (RigModel(), RigModel(load=Load(mass=8.0), effects=effects)):
+    rig = Rig([model])
+    for p in (4e5, 1e5, 6e5):
+        rig.command(p)
+        rig.advance(100)
+        found += [rig.position[0], rig.velocity[0], rig.pressure[0], *rig.outputs()[0]]
+    run = simulate(model, [0.0, 0.05, 0.1], [0.0, 0.031], [2e5, 5e5])
+    found += [*run.position, *run.velocity, *run.force]
+print(json.dumps([float(each) for each in found]))
+"""
+
+
+@pytest.mark.skipif(not HAVE_NUMBA, reason='there is only plain Python here')
+def test_plain_python_gives_what_the_compiled_kernel_gives():
+    compiled, plain = (json.loads(run(RUN.format(blocked=b))) for b in (False, True))
+    assert len(compiled) == 2 * (3 * 7 + 9)
+    np.testing.assert_allclose(plain, compiled, rtol=1e-12, atol=1e-12)
+
+
+def test_an_effect_of_ones_own_acts():
+    """2 N s/m of drag for a strength of 1: a load that falls is slowed by just that."""
+    drag = effect_of(SOURCE)
+    load = Load(mass=10.0)
+    bare, slowed = (
+        Rig([RigModel(load=load, effects=effects, library=(drag,))])
+        for effects in ({}, {'drag': {'strength': 30.0}})
+    )
+    for rig in (bare, slowed):
+        rig.reset([3e5], [0.05], [0.7])
+    difference = slowed.outputs()[0, 3] - bare.outputs()[0, 3]
+    assert difference == pytest.approx(-30.0 * 2.0 * 0.7 / 10.0)
