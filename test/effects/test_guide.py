@@ -5,7 +5,7 @@
 Run as a script, this file writes the tables anew.
 """
 
-import importlib.util
+import importlib
 import re
 from pathlib import Path
 
@@ -55,13 +55,6 @@ def with_tables(text):
     return text
 
 
-def load(path, name):
-    spec = importlib.util.spec_from_file_location(name, path)
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
-
-
 @pytest.fixture
 def blocks():
     """Return the guide's blocks of Python: the example and its test."""
@@ -74,13 +67,13 @@ def test_tables_are_those_of_the_library():
 
 
 def test_example_works_and_passes_its_test(blocks, tmp_path, monkeypatch):
-    effect, test = tmp_path / 'choked_valve.py', tmp_path / 'test_choked_valve.py'
-    effect.write_text(blocks[0])
-    test.write_text(blocks[1])
-    new = load(effect, 'choked_valve').EFFECT
+    (tmp_path / 'choked_valve.py').write_text(blocks[0])
+    (tmp_path / 'test_choked_valve.py').write_text(blocks[1])
+    monkeypatch.syspath_prepend(tmp_path)
+    new = importlib.import_module('choked_valve').EFFECT
     # The one line.
     monkeypatch.setattr(pam_ros.effects, 'EFFECTS', (*EFFECTS[:2], new, *EFFECTS[2:]))
-    load(test, 'test_choked_valve').test_chamber_fills_along_a_ramp()
+    importlib.import_module('test_choked_valve').test_chamber_fills_along_a_ramp()
 
 
 if __name__ == '__main__':
