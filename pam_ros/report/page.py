@@ -12,8 +12,18 @@ from pam_ros.report import plots, rows, style
 from pam_ros.report.numbers import Table
 from pam_ros.report.provenance import Provenance
 from pam_ros.report.runs import STAGES, Run
+from pam_ros.report.summary import added
 from pam_ros.report.time_plots import Curve
-from pam_ros.report.wording import Scale, listed, name_in_words, number, percent, scale_for
+from pam_ros.report.wording import (
+    Scale,
+    interval,
+    listed,
+    name_in_words,
+    number,
+    percent,
+    scale_for,
+    spoken,
+)
 
 VERDICTS = {
     'effect_found': 'Effect found',
@@ -38,18 +48,25 @@ def page(trace: Trace, runs: list[Run], source: Provenance, content: Table) -> s
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    environment.filters |= {'words': name_in_words, 'number': number, 'percent': percent}
+    library = trace.stages[0].model.library
+    environment.filters |= {
+        'words': name_in_words,
+        'number': number,
+        'percent': percent,
+        'spoken': lambda text: spoken(text, [effect.name for effect in library]),
+    }
     return environment.get_template('report.html.j2').render(
         trace=trace,
         verdict=VERDICTS[trace.verdict],
         not_excluded=not_excluded(trace, scale),
         curves=curves,
         style=style,
+        interval=interval,
         scale=scale,
         held_out='test recordings' if trace.test else 'part kept back',
         errors=rows.errors(content, scale, {curve.stage: curve.label for curve in curves}),
         pictures=plots.pictures(trace, runs, content, curves, scale),
-        candidates=rows.candidates(trace, scale),
+        rounds=rows.rounds(trace, scale),
         parameters=rows.parameters(trace),
         recordings=rows.recordings(content),
         configuration=rows.configuration(source),
@@ -60,8 +77,8 @@ def page(trace: Trace, runs: list[Run], source: Provenance, content: Table) -> s
 
 def curves_of(trace: Trace, runs: list[Run]) -> list[Curve]:
     """Return the models that differ, the declared one first, each with the name it goes by."""
-    names = [name_in_words(finding.name) for finding in trace.effects]
-    labels = ('as declared', 're-tuned', 're-tuned + ' + (listed(names) or 'nothing'))
+    names = [name_in_words(name) for name in added(trace)]
+    labels = ('as declared', 're-tuned', 're-tuned + ' + (listed(names) or 'declared effects'))
     found = [Curve(0, labels[0])]
     for before, stage in pairwise(range(len(STAGES))):
         if not all(np.array_equal(r.simulated[before], r.simulated[stage]) for r in runs):

@@ -2,19 +2,28 @@
 # SPDX-License-Identifier: Apache-2.0
 """``identified.yaml``: the best model of a trace as the parameter file of a simulator."""
 
+import textwrap
+from dataclasses import replace
 from pathlib import Path
 
 from pam_ros import parameter_files
 from pam_ros.config import Values, flat_rig
 from pam_ros.identification.result import Trace
 from pam_ros.report.provenance import Provenance
-from pam_ros.report.wording import listed, number
+from pam_ros.report.summary import last_line
+from pam_ros.report.wording import listed
 from pam_ros.rig.model import RigModel
 
 
-def identified(trace: Trace) -> RigModel:
-    """Return the model that the trace ends with: re-tuned, with the effects that it found."""
-    return trace.stages[-1].model
+def identified(trace: Trace, source: Provenance) -> RigModel:
+    """Return the model that the trace ends with: re-tuned, with the effects that it found.
+
+    Its constants are no longer those of the declared source, and say so.
+    """
+    model = trace.stages[-1].model
+    names = listed([recording.name for recording in source.recordings])
+    text = f'pam_identify, re-tuned on {names}; declared: {source.parameters}'
+    return replace(model, muscle=replace(model.muscle, source=text))
 
 
 def values(model: RigModel) -> Values:
@@ -32,31 +41,23 @@ def write_identified(path: Path, trace: Trace, source: Provenance) -> None:
 
     Constants are in the units of the declared file. Read again, it makes the same rig to the bit.
     """
-    parameter_files.write(path, values(identified(trace)), about(trace, source))
+    parameter_files.write(path, values(identified(trace, source)), about(trace, source))
 
 
 def about(trace: Trace, source: Provenance) -> str:
     """Return the comment at the head of the file: what it is, and where it comes from."""
-    declared, *_, last = trace.stages
-    names = [finding.name for finding in trace.effects]
+    files = [
+        ('Declared', source.parameters, source.digest),
+        *(('Recording', one.name, one.digest) for one in source.recordings),
+        *(('Test recording', one.name, one.digest) for one in source.test),
+    ]
     lines = [
-        'Identified by pam_identify: ' + trace.verdict + '.',
-        trace.sentence,
-        'Effects that were added: ' + (listed(names) or 'none') + '.',
-        f'Error on held-out data: {number(declared.held_error)} {trace.unit} as declared, '
-        f'{number(last.held_error)} {trace.unit} now; noise {number(trace.noise.sigma)} '
-        f'{trace.unit}.',
-        f'Declared: {source.parameters}, SHA-256 {source.digest}.',
+        'Identified by pam_identify:',
+        *textwrap.wrap(last_line(trace), 95),
+        'To simulate it: pam_sim --ros-args --params-file <this file>',
+        '',
+        *(f'{what} {name}\n  SHA-256 {digest}' for what, name, digest in files),
         *(f'  with {override}' for override in source.overrides),
-        *(
-            f'Recording: {recording.name}, SHA-256 {recording.digest}.'
-            for recording in source.recordings
-        ),
-        *(
-            f'Test recording: {recording.name}, SHA-256 {recording.digest}.'
-            for recording in source.test
-        ),
-        f'Written {source.date} by pam_ros {source.versions["pam_ros"]}. Use it with',
-        '  pam_sim --ros-args --params-file identified.yaml',
+        f'Written {source.date} by pam_ros {source.versions["pam_ros"]}.',
     ]
     return '\n'.join(lines)

@@ -70,8 +70,8 @@ def _errors(trace: Trace, content: Table, curves: list[Curve], scale: Scale) -> 
         _wide(
             'rmse',
             'RMSE of each model',
-            'Open: fitted data. Filled: held-out data. Bars: 95 % intervals. No model can be '
-            'better than the noise floor.',
+            'Open: fitted data. Filled: held-out data. Bars: 95 % intervals. A model that '
+            'lacks nothing reaches the noise floor.',
             lambda width: time_plots.errors(measured, trace.noise.sigma, scale, width),
         )
     ]

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from pam_ros.config import rig_table
-from pam_ros.identification.result import Estimate, Trace
+from pam_ros.identification.result import Candidate, Estimate, Trace
 from pam_ros.recording.quantities import QUANTITIES
 from pam_ros.report.numbers import Table
 from pam_ros.report.provenance import Provenance
@@ -56,26 +56,41 @@ def errors(content: Table, scale: Scale, labels: dict[int, str]) -> list[Row]:
     return found
 
 
-def candidates(trace: Trace, scale: Scale) -> list[Row]:
-    """Return a row for each candidate: those that count first, then by their error kept back."""
+def rounds(trace: Trace, scale: Scale) -> list[tuple[str, list[Row]]]:
+    """Return for each round of the search what was tried on top of which model.
+
+    Within a round those that count come first, then the others by their error kept back.
+    """
+    found: dict[tuple[str, ...], list[Candidate]] = {}
+    for candidate in trace.candidates:
+        found.setdefault(candidate.parents, []).append(candidate)
     first = trace.stages[1].held_error
-    found = []
-    order = sorted(trace.candidates, key=lambda c: (ORDER.get(c.decision, 3), c.held_error))
-    for candidate in order:
-        cells = {
-            'effect': name_in_words(candidate.effect),
-            'parents': listed([name_in_words(name) for name in candidate.parents])
-            or 're\u2011tuned',
-            'error': scale.text(candidate.held_error),
-            'bar': _share(candidate.held_error, max(first, candidate.held_error)),
-            'gain': percent(candidate.gain),
-            'p': probability(candidate.p),
-            'is_clear': 'yes' if candidate.interval_clear else 'no',
-            'decision': candidate.decision,
-            'reason': candidate.reason,
-        }
-        found.append(Row(cells, candidate.decision))
-    return found
+    return [
+        (
+            'On top of ' + (listed([name_in_words(name) for name in parents]) or 're-tuning'),
+            [
+                _candidate(candidate, scale, first)
+                for candidate in sorted(
+                    tried, key=lambda c: (ORDER.get(c.decision, 3), c.held_error)
+                )
+            ],
+        )
+        for parents, tried in found.items()
+    ]
+
+
+def _candidate(candidate: Candidate, scale: Scale, first: float) -> Row:
+    cells = {
+        'effect': name_in_words(candidate.effect),
+        'error': scale.text(candidate.held_error),
+        'bar': _share(candidate.held_error, max(first, candidate.held_error)),
+        'gain': percent(candidate.gain),
+        'p': probability(candidate.p),
+        'is_clear': 'yes' if candidate.interval_clear else 'no',
+        'decision': candidate.decision,
+        'reason': candidate.reason,
+    }
+    return Row(cells, candidate.decision)
 
 
 def _share(value: float, whole: float) -> float:

@@ -116,13 +116,15 @@ def plain_tick(value: float, _: int) -> str:
 
 
 def log_axis(axis: Any) -> None:
-    """Give a logarithmic axis labels in plain numbers at whole decades, a few in between."""
+    """Give a logarithmic axis of at least one decade labels in plain numbers."""
     low, high = axis.get_view_interval()
-    decades = np.log10(high / low)
-    subs = (1.0,) if decades > 1.6 else (1.0, 2.0, 5.0)
-    axis.set_major_locator(LogLocator(subs=subs, numticks=7))
+    short = np.log10(high / low)
+    if short < 1.0:
+        grow = 10.0 ** (0.5 * (1.0 - short))
+        axis.axes.set(**{f'{axis.axis_name}lim': (low / grow, high * grow)})
+    axis.set_major_locator(LogLocator(subs=(1.0,) if short > 1.6 else (1.0, 2.0, 5.0), numticks=7))
     axis.set_minor_locator(NullLocator())
-    axis.set_major_formatter(FuncFormatter(lambda x, _: number(x, 1)))
+    axis.set_major_formatter(FuncFormatter(plain_tick))
 
 
 def svg(figure: Figure, name: str, text: str) -> str:

@@ -74,6 +74,13 @@ def name_in_words(name: str) -> str:
     return name.replace('_', ' ')
 
 
+def spoken(text: str, names: list[str]) -> str:
+    """Return *text* with those of *names* that stand in it as a reader sees them."""
+    for name in names:
+        text = text.replace(name, name_in_words(name))
+    return text
+
+
 def listed(names: list[str]) -> str:
     """Return names as a sentence lists them: "a, b and c"."""
     if len(names) < 2:
