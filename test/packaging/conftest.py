@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""A copy of the checkout to build from, and an environment that no other ROS has touched."""
+"""A copy of the checkout to build from, and the environment variables to do it with."""
 
 import os
 import shutil
@@ -44,5 +44,11 @@ def left_behind(folder, names):
 
 @pytest.fixture(scope='session')
 def clean_environment():
-    """Return the environment variables without those of a ROS that is already set up."""
+    """Return the environment variables, on a machine without ROS also without the wheels' own.
+
+    The wheels set up a process and its children for one environment; another environment, or a
+    workspace, starts from the shell. Where ROS is installed its variables are needed.
+    """
+    if '_ROS_WHEELS_BOOTSTRAP_COMPLETE' not in os.environ:
+        return dict(os.environ)
     return {name: value for name, value in os.environ.items() if name not in OF_A_SOURCED_ROS}
