@@ -1,0 +1,69 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The runner of the benchmarks: finds them by file, runs them apart, says which failed."""
+
+import ast
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+FOLDER = Path(__file__).parents[2] / 'benchmarks'
+BENCHMARKS = sorted(p for p in FOLDER.glob('*.py') if not p.stem.startswith('_'))
+
+
+@pytest.fixture
+def run(tmp_path):
+    """Return a function that runs the runner over benchmarks given by name and body."""
+
+    def run(sources, *wanted):
+        folder = tmp_path / 'benchmarks'
+        folder.mkdir()
+        for name in ('__init__.py', '__main__.py'):
+            shutil.copy(FOLDER / name, folder)
+        for name, body in sources.items():
+            (folder / f'{name}.py').write_text(body)
+        return subprocess.run(
+            [sys.executable, '-m', 'benchmarks', *wanted],
+            cwd=tmp_path,
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+
+    return run
+
+
+@pytest.mark.parametrize('path', BENCHMARKS, ids=lambda path: path.stem)
+def test_each_benchmark_states_its_claim_and_has_a_main(path):
+    tree = ast.parse(path.read_text(encoding='utf-8'))
+    assert ast.get_docstring(tree)
+    assert 'main' in {node.name for node in tree.body if isinstance(node, ast.FunctionDef)}
+
+
+def test_runs_all_in_order_but_helpers(run):
+    said = {name: f'def main():\n    print("table of {name}")\n' for name in ('b', 'a', '_c')}
+    done = run(said)
+    assert done.returncode == 0
+    assert done.stdout.split('\n') == ['== a', 'table of a', '', '== b', 'table of b', '', '']
+
+
+def test_runs_the_wanted_one(run):
+    done = run({'a': 'def main(): print(1)\n', 'b': 'def main(): print(2)\n'}, 'b')
+    assert done.stdout == '== b\n2\n\n'
+
+
+def test_goes_on_after_a_failure_and_tells(run):
+    done = run({'a': 'def main(): raise RuntimeError\n', 'b': 'def main(): print(2)\n'})
+    assert done.returncode == 1
+    assert done.stdout.endswith('== b\n2\n\n')
+    assert done.stderr.endswith('failed: a\n')
+
+
+def test_refuses_an_unknown_name(run):
+    done = run({'a': 'def main(): print(1)\n'}, 'c')
+    assert done.returncode == 2
+    assert done.stderr == 'c is no benchmark: there are a\n'
+    assert done.stdout == ''
