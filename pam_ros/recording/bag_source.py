@@ -101,12 +101,15 @@ def _metadata(path: Path) -> dict[str, Any]:
 
 
 def _is_unfinished(file: Path) -> bool:
+    """Say whether an MCAP lacks its end. Raises RecordingError where it is none."""
     if file.suffix != '.mcap':
         return False
     with file.open('rb') as stream:
+        if stream.read(len(_MAGIC)) != _MAGIC:
+            raise RecordingError(f'{file.name} cannot be read as a rosbag2: it is no MCAP file')
         size = stream.seek(0, 2)
-        stream.seek(max(size - len(_MAGIC), 0))
-        return stream.read() != _MAGIC or size <= len(_MAGIC)
+        stream.seek(size - len(_MAGIC))
+        return stream.read() != _MAGIC or size == len(_MAGIC)
 
 
 Read = tuple[dict[str, Topic], Callable[[Collection[str]], Iterator[Message]]]

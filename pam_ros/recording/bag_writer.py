@@ -151,6 +151,9 @@ class BagWriter:
         return max(self._end - self._start, 0) * 1e-9
 
     def _put(self, data: bytes, position: int) -> None:
+        # The old summary goes first: a file that lacks its end is known to, one whose summary
+        # is half another's is not.
+        os.ftruncate(self._file, position)
         rest = memoryview(data)
         while rest:
             written = os.pwrite(self._file, rest, position)

@@ -143,8 +143,12 @@ def _warn_range(recording: Recording, l0: float | None, p_max: float | None) -> 
 
 
 def _warn_extremes(recording: Recording) -> list[str]:
-    """Warn of measured outputs that rest at their lowest or highest value."""
+    """Warn of measured outputs that rest at their lowest or highest value.
+
+    A pressure that does so under one command is no sensor at its limit.
+    """
     found = []
+    driver, drive = driving(recording)
     for name in OUTPUTS:
         value = getattr(recording, name)
         if value is None or np.ptp(value) == 0.0:
@@ -152,7 +156,10 @@ def _warn_extremes(recording: Recording) -> list[str]:
         for word, extreme in (('lowest', np.min(value)), ('highest', np.max(value))):
             at = value == extreme
             runs = np.count_nonzero(at[1:] & at[:-1])
-            if at.mean() > RESTING and runs > 0.5 * np.count_nonzero(at):
+            if at.mean() < RESTING or runs < 0.5 * np.count_nonzero(at):
+                continue
+            is_commanded = driver != name and np.ptp(drive[at]) < 0.01 * np.ptp(drive)
+            if name != 'pressure' or not is_commanded:
                 found.append(
                     f'{name} rests at its {word} value, {extreme:.6g} {QUANTITIES[name].si}, in '
                     f'{100 * at.mean():.0f} % of the samples: a sensor at its limit, or a stop?'

@@ -1,0 +1,255 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Bags, whichever library reads them and however their recorder ended."""
+
+import importlib.util
+import shutil
+import sys
+from types import SimpleNamespace
+
+import pytest
+from rosbags.rosbag2 import Reader, StoragePlugin
+
+from pam_ros.errors import RecordingError
+from pam_ros.recording.bag_source import bag_files, open_bag
+from support import bags
+
+PLUGINS = list(StoragePlugin)
+
+
+@pytest.fixture
+def bag(tmp_path):
+    topics, _ = bags.rig_topics()
+    return bags.write_bag(tmp_path / 'bag', topics)
+
+
+def contents(source):
+    """Return everything in a bag: topic, stamp and number of each message."""
+    return [
+        (m.topic, m.stamp, _number(source.decode(source.topics[m.topic], m.data)))
+        for m in source.messages(list(source.topics))
+    ]
+
+
+def _number(message):
+    for name in ('data', 'fluid_pressure'):
+        if hasattr(message, name):
+            return getattr(message, name)
+    return message.position[0]
+
+
+def test_topics_types_and_messages(bag):
+    source = open_bag(bag)
+    assert source.notes == []
+    assert source.topics['/joint_states'].type == bags.JOINT
+    found = contents(source)
+    assert len(found) == 800 + 1000 + 400 + 14
+    assert [m.topic for m in source.messages(['/force'])] == ['/force'] * 1000
+    assert list(source.messages([])) == []
+
+
+@pytest.mark.parametrize('plugin', PLUGINS)
+def test_a_bag_without_metadata(tmp_path, plugin):
+    topics, _ = bags.rig_topics()
+    bag = bags.write_bag(tmp_path / 'bag', topics, plugin)
+    whole = contents(open_bag(bag))
+    (bag / 'metadata.yaml').unlink()
+    assert contents(open_bag(bag)) == whole
+
+
+def test_a_bag_in_several_files(tmp_path):
+    topics, _ = bags.rig_topics()
+    whole = bags.write_bag(tmp_path / 'whole', topics)
+    split = tmp_path / 'split'
+    split.mkdir()
+    for k in range(11):
+        part = {name: (kind, m[k::11]) for name, (kind, m) in topics.items()}
+        written = bags.write_bag(tmp_path / f'part{k}', part)
+        shutil.move(written / f'part{k}.mcap', split / f'split_{k}.mcap')
+    assert [f.name for f in bag_files(split)] == [f'split_{k}.mcap' for k in range(11)]
+    assert sorted(contents(open_bag(split))) == sorted(contents(open_bag(whole)))
+
+
+@pytest.mark.parametrize('cut', [1, 30, 60, 400, 5000, 60_000])
+def test_a_file_that_ends_anywhere_is_read_up_to_there(tmp_path, cut):
+    """As a recorder leaves it that was killed: first without an end, then within the data."""
+    topics, _ = bags.rig_topics()
+    unchunked = tmp_path / 'killed.mcap'
+    expected = write_unchunked(unchunked, topics)
+    with unchunked.open('r+b') as file:
+        size = file.seek(0, 2)
+        file.truncate(size - cut)
+    source = open_bag(unchunked)
+    found = contents(source)
+    assert source.notes == ['the bag was not closed by its recorder: read up to where it ends']
+    assert found == expected[: len(found)]
+    # A message takes some hundred bytes at most, the summary and the end some thousand.
+    assert len(expected) - len(found) <= max(0, cut // 40)
+    assert len(found) >= 0.3 * len(expected)
+
+
+def write_unchunked(path, topics):
+    """Write an MCAP without chunks, as rosbag2's fastwrite profile does; return its contents."""
+    from mcap.writer import Writer
+
+    expected = []
+    with path.open('wb') as file:
+        writer = Writer(file, use_chunking=False)
+        writer.start(profile='ros2')
+        for topic, (kind, messages) in topics.items():
+            text, _ = bags.STORE.generate_msgdef(kind)
+            schema = writer.register_schema(kind, 'ros2msg', text.encode())
+            channel = writer.register_channel(topic, 'cdr', schema)
+            for stamp, message in messages:
+                data = bytes(bags.STORE.serialize_cdr(message, kind))
+                writer.add_message(channel, stamp, data, stamp)
+                expected.append((topic, stamp, _number(message)))
+        writer.finish()
+    return expected
+
+
+def test_a_type_that_the_bag_defines_itself(tmp_path):
+    """Read as ROS readers do where neither the library nor the machine knows the type."""
+    from rosbags.rosbag2 import Writer
+    from rosbags.typesys import get_types_from_msg
+
+    bags.STORE.register(get_types_from_msg('float64 level\nint32 code\n', 'lab_msgs/msg/Valve'))
+    valve = bags.STORE.types['lab_msgs/msg/Valve']
+    with Writer(tmp_path / 'bag', version=9, storage_plugin=StoragePlugin.MCAP) as writer:
+        connection = writer.add_connection('/valve', 'lab_msgs/msg/Valve', typestore=bags.STORE)
+        data = bags.STORE.serialize_cdr(valve(0.25, 7), 'lab_msgs/msg/Valve')
+        writer.write(connection, bags.EPOCH, data)
+    source = open_bag(tmp_path / 'bag')
+    (message,) = source.messages(['/valve'])
+    decoded = source.decode(source.topics['/valve'], message.data)
+    assert (decoded.level, decoded.code) == (0.25, 7)
+
+
+@pytest.mark.parametrize(
+    ('spoil', 'words'),
+    [
+        (lambda bag: [f.unlink() for f in bag.iterdir()], ['no rosbag2', '.mcap', '.db3']),
+        (lambda bag: (bag / 'bag.mcap').unlink(), ['lists bag.mcap', 'not there']),
+        (lambda bag: (bag / 'metadata.yaml').write_text('{'), ['metadata.yaml', 'no metadata']),
+        (lambda bag: (bag / 'metadata.yaml').write_text('a: 1'), ['no metadata']),
+        (
+            lambda bag: (bag / 'metadata.yaml').write_text(
+                (bag / 'metadata.yaml').read_text().replace('version: 9', 'version: 99')
+            ),
+            ['cannot be read', '99'],
+        ),
+    ],
+)
+def test_what_is_no_bag(bag, spoil, words):
+    spoil(bag)
+    with pytest.raises(RecordingError) as caught:
+        open_bag(bag)
+    for word in words:
+        assert word in str(caught.value)
+
+
+@pytest.mark.parametrize('name', ['rubbish.mcap', 'rubbish.db3'])
+def test_a_file_that_only_has_the_name(tmp_path, name):
+    (tmp_path / name).write_bytes(b'nothing of the kind' * 100)
+    with pytest.raises(RecordingError, match=name):
+        open_bag(tmp_path / name)
+
+
+class FakeRosbag2Py:
+    """ROS' library as its interface is published, over the other one: for machines without."""
+
+    def __init__(self):
+        self.opened = []
+        self.readers = []
+
+    def close(self):
+        for reader in self.readers:
+            reader.close()
+
+    def StorageOptions(self, uri, storage_id):  # noqa: N802 its name there
+        return SimpleNamespace(uri=uri, storage_id=storage_id)
+
+    def ConverterOptions(self, given, wanted):  # noqa: N802 its name there
+        return (given, wanted)
+
+    def StorageFilter(self, topics):  # noqa: N802 its name there
+        return topics
+
+    def SequentialReader(self):  # noqa: N802 its name there
+        fake = self
+
+        class Opened:
+            def open(self, storage, converter):
+                fake.opened.append(storage)
+                if 'broken' in storage.uri:
+                    raise RuntimeError('No storage could be initialized')
+                self._reader = Reader(storage.uri)
+                self._reader.open()
+                fake.readers.append(self._reader)
+                self.set_filter([c.topic for c in self._reader.connections])
+
+            def get_all_topics_and_types(self):
+                return [
+                    SimpleNamespace(name=c.topic, type=c.msgtype) for c in self._reader.connections
+                ]
+
+            def set_filter(self, topics):
+                chosen = [c for c in self._reader.connections if c.topic in topics]
+                self._left = list(self._reader.messages(chosen))
+
+            def has_next(self):
+                return bool(self._left)
+
+            def read_next(self):
+                connection, stamp, data = self._left.pop(0)
+                return connection.topic, bytes(data), stamp
+
+        return Opened()
+
+
+@pytest.fixture
+def ros_library(monkeypatch):
+    """Put ROS' library in place: from then on it reads."""
+    pytest.importorskip('rclpy', reason='no ROS here to read with')
+    fake = FakeRosbag2Py()
+    find_spec = importlib.util.find_spec
+    monkeypatch.setitem(sys.modules, 'rosbag2_py', fake)
+    monkeypatch.setattr(
+        importlib.util, 'find_spec', lambda name: name == 'rosbag2_py' or find_spec(name)
+    )
+    yield fake
+    fake.close()
+
+
+@pytest.fixture
+def read_without_ros(bag):
+    return contents(open_bag(bag))
+
+
+def test_where_ros_brings_its_library_that_reads(bag, read_without_ros, ros_library):
+    source = open_bag(bag)
+    assert contents(source) == read_without_ros
+    open_bag(bag / 'bag.mcap')
+    assert type(source.decode(source.topics['/force'], b'\0\1\0\0' + bytes(8))).__module__ == (
+        'std_msgs.msg._float64'
+    )
+    assert [options.storage_id for options in ros_library.opened] == ['', '', 'mcap']
+
+
+def test_what_ros_cannot_read_is_said(bag, ros_library):
+    broken = bag.rename(bag.with_name('broken'))
+    with pytest.raises(RecordingError, match='broken cannot be read as a rosbag2: No storage'):
+        open_bag(broken)
+
+
+def test_a_type_that_ros_does_not_know_is_said(tmp_path, ros_library):
+    source = open_bag(bags.write_bag(tmp_path / 'bag', {'/x': (bags.FLOAT, [])}))
+    topic = source.topics['/x']._replace(type='lab_msgs/msg/Valve')
+    with pytest.raises(RecordingError, match='lab_msgs/msg/Valve is not installed here'):
+        source.decode(topic, b'')
+
+
+def test_without_any_library_the_ways_out_are_named(bag, monkeypatch):
+    monkeypatch.setattr(importlib.util, 'find_spec', lambda name: None)
+    with pytest.raises(RecordingError, match='rosbag2_py, or the Python package rosbags'):
+        open_bag(bag)

@@ -1,0 +1,154 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""What is refused in a recording, and what is warned of."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from pam_ros.errors import RecordingError
+from pam_ros.recording.quality import check, driving
+from pam_ros.recording.recording import Recording
+
+T = np.arange(4000) * 0.005
+RNG = np.random.default_rng(11)
+
+
+def recording(**changes):
+    """Return a good one: 20 s at 200 Hz, a smooth command, noise on what is measured."""
+    command = 3e5 + 2e5 * np.sin(1.3 * T) * np.sin(0.21 * T)
+    one = Recording(
+        name='log',
+        t=T,
+        command_t=T,
+        command=command,
+        position=2e-7 * command + 1e-5 * RNG.normal(size=T.size),
+        velocity=None,
+        force=196.0 + RNG.normal(size=T.size),
+        pressure=command + 500.0 * RNG.normal(size=T.size),
+        kind='free',
+    )
+    return replace(one, **changes)
+
+
+def held(**changes):
+    one = recording(kind='held', position=np.full(T.size, 0.04), command=None, command_t=None)
+    return replace(one, **changes)
+
+
+def test_a_good_recording_has_no_warnings():
+    assert check(recording(), l0=0.4, p_max=6e5) == ()
+    assert check(held(), l0=0.4, p_max=6e5) == ()
+
+
+def test_the_input_over_the_samples_is_the_command_that_holds():
+    one = recording(command_t=np.array([0.0, 1.0025, 2.0]), command=np.array([1.0, 2.0, 3.0]))
+    name, value = driving(one)
+    assert name == 'pressure_command'
+    assert value[[0, 200, 201, 399, 400]].tolist() == [1.0, 1.0, 2.0, 2.0, 3.0]
+
+
+def constant(value):
+    return {'command': np.full(T.size, value)}
+
+
+@pytest.mark.parametrize(
+    ('one', 'p_max', 'words'),
+    [
+        (recording().part(0, 80), None, ['80 usable samples', '100']),
+        (recording(t=T * 1e3), None, ['5 s apart', 't_ms']),
+        (recording(t=T * 1e-6), None, ['5e-09 s apart']),
+        (recording(position=recording().position * 1e3), None, ['position reaches', '10 m']),
+        (
+            recording(command=recording().command * 1e3),
+            None,
+            ['pressure_command reaches', '1e+07'],
+        ),
+        (recording(command=recording().command * 1e-5), 6e5, ['stays below 4.9', 'bar']),
+        (recording(force=recording().force * 1e5), None, ['force reaches']),
+        (recording(**constant(2e5)), None, ['pressure_command is constant at 200000 Pa']),
+        (held(pressure=3e5 + 900.0 * RNG.normal(size=T.size)), None, ['pressure is constant at']),
+        (recording(position=np.full(T.size, 0.03)), None, ['position is constant while']),
+        (held(force=np.full(T.size, 7.0)), None, ['force is constant while pressure changes']),
+    ],
+)
+def test_what_is_refused(one, p_max, words):
+    with pytest.raises(RecordingError) as caught:
+        check(one, p_max=p_max)
+    assert str(caught.value).startswith('log')
+    for word in words:
+        assert word in str(caught.value)
+
+
+def test_a_moving_length_makes_up_for_a_constant_pressure():
+    moved = held(position=0.04 + 0.02 * np.sin(T), pressure=np.full(T.size, 3e5))
+    assert check(moved) == ()
+
+
+def test_a_small_signal_about_a_pressure_is_not_constant():
+    small = held(pressure=3e5 + 900.0 * np.sin(T) + 100.0 * RNG.normal(size=T.size))
+    assert any('covers only' in warning for warning in check(small))
+
+
+def only(one, **known):
+    """Return the one warning that there is."""
+    (warning,) = check(one, **known)
+    return warning
+
+
+def test_gaps_are_counted_and_measured():
+    gaps = ((1.0, 1.3), (5.0, 7.0))
+    assert '2 gap(s) without samples, 2.3 s in all, the longest 2 s at 5 s' in only(
+        recording(gaps=gaps)
+    )
+
+
+def test_a_clipped_sensor():
+    clipped = np.maximum(held().pressure * 1e-3 - 200.0, -18.6)
+    warning = only(held(force=clipped))
+    assert 'force rests at its lowest value, -18.6 N' in warning
+
+
+def test_a_muscle_that_is_vented_does_not_look_like_a_clipped_sensor():
+    """Where the command rests at its own extreme, so does an ideal pressure."""
+    command = np.clip(recording().command, 2.2e5, 4.5e5)
+    assert check(recording(command=command, pressure=command)) == ()
+
+
+def test_a_coarse_sensor():
+    coarse = np.round(recording().position / 2e-3) * 2e-3
+    assert any(
+        'position takes only' in warning and '0.002 m apart' in warning
+        for warning in check(recording(position=coarse))
+    )
+
+
+def test_units_against_what_is_known_of_the_muscle():
+    assert 'position reaches' in only(recording(), l0=0.1)
+    assert 'above p_max = 300000 Pa' in only(recording(), p_max=3e5)
+
+
+def test_an_absolute_pressure():
+    vented = recording().command - recording().command.min()
+    one = recording(command=vented, pressure=vented + 101325.0)
+    assert any('is it absolute?' in warning for warning in check(one))
+
+
+@pytest.mark.parametrize(
+    ('changes', 'words'),
+    [
+        (constant(0.0) | {'command': 2e5 + 1e5 * (T > 9.0)}, ['only 2 levels', 'turns round 0']),
+        ({'command': 3e5 + 2e4 * np.sin(3.0 * T)}, ['covers only 12 %']),
+        ({'command': 1e5 + 2e4 * T}, ['turns round 0 time(s)']),
+    ],
+)
+def test_poor_excitation(changes, words):
+    warnings = check(recording(pressure=None, **changes))
+    for word in words:
+        assert any(word in warning for warning in warnings)
+
+
+def test_a_short_recording():
+    warnings = check(recording().part(0, 1500))
+    assert any('only 7.5 s long' in warning for warning in warnings)
