@@ -11,7 +11,7 @@ from support import bench
 
 
 def slackened(f, toe, push):
-    return EFFECT.force(f, 0.0, 0.0, 0.0, 0.0, 0.0, [], 0, [], [toe, push], 0)
+    return EFFECT.force(f, 0.0, 0.0, 0.0, 0.0, 0.0, [], 0, [], [1.0, toe, push], 0)
 
 
 @pytest.mark.parametrize('push', [0.0, 12.0])
@@ -31,22 +31,26 @@ def test_held_muscle_pulls_or_is_slack():
     p = np.linspace(0.0, 4e5, 101)
     t = np.linspace(0.0, 1.0, 101)
     y = np.full(101, 0.15 * bench.L0)
-    run = simulate_held(bench.hanging(slack={'toe': 1e-3}), t, p, y)
+    run = simulate_held(bench.hanging(slack={'share': 1.0, 'toe': 1e-3}), t, p, y)
     expected = np.maximum([bench.pull(a, y[0]) for a in p], 0.0)
     np.testing.assert_allclose(run.force, expected, atol=1e-3)
     assert expected[0] == 0.0 < expected[-1]
 
 
+def test_half_a_share_misses_half_the_push():
+    assert EFFECT.force(-40.0, 0.0, 0.0, 0.0, 0.0, 0.0, [], 0, [], [0.5, 1.0, 0.0], 0) == -20.0
+
+
 def test_load_falls_freely_while_the_muscle_is_slack():
     t = np.linspace(0.0, 0.05, 51)
     y0 = 0.12
-    model = bench.hanging(slack={'toe': 1e-6})
+    model = bench.hanging(slack={'share': 1.0, 'toe': 1e-3})
     run = simulate(model, t, [0.0], [0.0], position=y0)
 
     def rhs(_, state, u):
         y, v = state
-        pull = max(bench.pull(u, y), 0.0)
-        return v, (pull - bench.drag(u, y) * v) / bench.MASS - bench.G
+        pull = bench.pull(u, y)
+        return v, -bench.G if pull < 0.0 else (pull - bench.drag(u, y) * v) / bench.MASS - bench.G
 
     y, _ = bench.solved(rhs, t, (y0, 0.0))
     np.testing.assert_allclose(run.position, y, atol=1e-9)
