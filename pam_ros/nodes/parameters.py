@@ -75,15 +75,19 @@ class NodeParameters(Generic[T]):
         changes = {p.name: p.value for p in parameters if p.name in self._table}
         return {**self.values, **changes}
 
+    def _are_ours(self, parameters: list[RosParameter]) -> bool:
+        return any(p.name in self._table for p in parameters)
+
     def _check(self, parameters: list[RosParameter]) -> SetParametersResult:
-        try:
-            self._build(checked(self._table, self._changed(parameters)))
-        except PamError as error:
-            return SetParametersResult(successful=False, reason=str(error))
+        if self._are_ours(parameters):
+            try:
+                self._build(checked(self._table, self._changed(parameters)))
+            except PamError as error:
+                return SetParametersResult(successful=False, reason=str(error))
         return SetParametersResult(successful=True)
 
     def _take(self, parameters: list[RosParameter]) -> None:
-        if any(p.name in self._table for p in parameters):
+        if self._are_ours(parameters):
             self.values = checked(self._table, self._changed(parameters))
             self.built = self._build(self.values)
             self._apply(self.built)

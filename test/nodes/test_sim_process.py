@@ -6,6 +6,7 @@ import signal
 
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray
+from rclpy.qos import DurabilityPolicy, ReliabilityPolicy
 from sensor_msgs.msg import FluidPressure, JointState
 from std_msgs.msg import Float64
 from std_srvs.srv import Trigger
@@ -121,6 +122,19 @@ def test_two_in_namespaces_and_remapped_do_not_disturb_each_other(peer):
         peer.until(lambda: names <= {s.name for m in diagnostics for s in m.status}, 'both names')
     assert {m.name[0] for m in left} == {'one'}
     assert {m.name[0] for m in right} == {'two'}
+
+
+def test_quality_of_service_is_the_users_choice(peer):
+    def quality(topic):
+        peer.until(lambda: peer.node.get_publishers_info_by_topic(topic), topic)
+        return peer.node.get_publishers_info_by_topic(topic)[0].qos_profile
+
+    given = {'qos_overrides./joint_states.publisher.reliability': 'best_effort'}
+    with Program('pam_sim', parameters=given):
+        assert quality('/joint_states').reliability == ReliabilityPolicy.BEST_EFFORT
+        for topic in ('/pressure', '/force', '/stiffness', '/damping'):
+            assert quality(topic).reliability == ReliabilityPolicy.RELIABLE
+            assert quality(topic).durability == DurabilityPolicy.VOLATILE
 
 
 def test_joint_states_are_complete(peer):
