@@ -65,6 +65,17 @@ def test_looking_at_the_outputs_changes_nothing():
     np.testing.assert_array_equal(state(rig), state(watched))
 
 
+def test_what_was_read_stays_as_it_was():
+    rig = Rig(MODELS)
+    read = rig.position, rig.velocity, rig.pressure, rig.outputs()
+    before = [each.copy() for each in read]
+    rig.command(5e5)
+    rig.advance(20)
+    for each, old in zip(read, before, strict=True):
+        np.testing.assert_array_equal(each, old)
+    assert not np.array_equal(rig.outputs(), before[3])
+
+
 @pytest.mark.parametrize('which', [(0, 0), (1, 2), (3, 1)])
 def test_each_muscle_is_what_it_is_alone(which):
     """Two muscles with effects, or without any: to the bit what each is in a rig of its own."""
