@@ -121,4 +121,4 @@ class Rig:
         Force is the muscle's pull, effects included, without its damping.
         """
         self._kernel.outputs(self._x, self._scratch, self._q, self.time, self._out)
-        return self._out.copy()
+        return np.array(self._out)
