@@ -89,8 +89,8 @@ def run(kind: type[TickingNode], stop: StopRequest, about: str) -> int:
         executor = node.make_executor()
         executor.add_node(node)
         # What is there now stays: a collection over it would cost the loop some 20 ms.
-        gc.collect()
         gc.freeze()
+        gc.enable()
         node.start()
         spin(node, executor, stop)
     finally:
