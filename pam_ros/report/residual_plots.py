@@ -199,8 +199,7 @@ def binned(x: Array, e: Array, bins: int = BINS) -> tuple[Array, Array, Array, A
     order = np.argsort(x, kind='stable')
     x, e = x[order], e[order]
     edges = np.unique(x[np.linspace(0, x.size - 1, bins + 1).astype(int)])
-    at = np.searchsorted(x, edges[1:], side='right')
-    at = np.concatenate([[0], at])
+    at = np.concatenate([[0], np.searchsorted(x, edges, side='right')])
     rows = []
     for i, j in pairwise(at.tolist()):
         if j - i >= FEWEST:

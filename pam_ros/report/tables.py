@@ -38,10 +38,9 @@ def residual_csv(runs: list[Run], quantity: str, unit: str) -> str:
             *run.simulated,
             *(run.residual(stage) for stage in range(len(STAGES))),
         ]
-        name = f'"{run.name}"' if set(run.name) & set('",\n') else run.name
         sets = np.where(run.held, 'held_out', 'fit').tolist()
         rows = zip(
-            repeat(f'{name},{k}'),
+            repeat(f'{_quoted(run.name)},{k}'),
             sets,
             map('{:.9g}'.format, run.t.tolist()),
             *(map('{:.9g}'.format, column.tolist()) for column in columns),
@@ -49,3 +48,9 @@ def residual_csv(runs: list[Run], quantity: str, unit: str) -> str:
         )
         lines.extend(map(','.join, rows))
     return '\n'.join(lines) + '\n'
+
+
+def _quoted(name: str) -> str:
+    if set(name) & set('",\r\n'):
+        return '"' + name.replace('"', '""') + '"'
+    return name

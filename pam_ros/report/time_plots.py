@@ -57,7 +57,7 @@ def whole(runs: list[Run]) -> list[Stretch]:
 
 def close_up(runs: list[Run], before: int, after: int) -> Stretch:
     """Return the few seconds, kept back where possible, that tell two stages apart most."""
-    best, most = Stretch(runs[0], 0, runs[0].t.size), -np.inf
+    best, most = Stretch(runs[0], 0, runs[0].t.size), (False, -np.inf)
     for run in runs:
         span = min(CLOSE_UP, float(run.t[-1] - run.t[0]))
         gain = run.residual(before) ** 2 - run.residual(after) ** 2
@@ -67,7 +67,7 @@ def close_up(runs: list[Run], before: int, after: int) -> Stretch:
         for start in starts.tolist():
             stop = int(np.searchsorted(run.t, run.t[start] + span, side='right'))
             is_kept = float(kept[stop] - kept[start]) > 0.9 * span
-            worth = float(integral[stop] - integral[start]) + (1e12 if is_kept else 0.0)
+            worth = (is_kept, float(integral[stop] - integral[start]))
             if worth > most:
                 best, most = Stretch(run, start, stop), worth
     return best

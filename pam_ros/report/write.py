@@ -32,7 +32,7 @@ def check_folder(folder: Path) -> None:
         _check_parent(folder)
         return
     except NotADirectoryError:
-        raise PamError(f'{folder} is a file: give a folder for the report') from None
+        raise PamError(f'{folder} is no folder: give one for the report') from None
     except OSError as error:
         raise PamError(f'{folder} cannot be read: {error.strerror}') from error
     strange = [name for name in found if name not in FILES]

@@ -1,0 +1,131 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""report.json: valid against its published schema, true to the trace, and described."""
+
+import json
+import math
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from pam_ros.identification.result import VERDICTS
+from pam_ros.report.numbers import SCHEMA_VERSION, numbers, to_json
+
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.fixture(scope='module')
+def schema():
+    return json.loads((ROOT / 'docs' / 'report.schema.json').read_text(encoding='utf-8'))
+
+
+@pytest.fixture(scope='module')
+def validate(schema):
+    """Return a function that lists what is wrong with a report."""
+    jsonschema = pytest.importorskip('jsonschema')
+    jsonschema.Draft202012Validator.check_schema(schema)
+    validator = jsonschema.Draft202012Validator(schema)
+    return lambda report: [f'{e.json_path}: {e.message}' for e in validator.iter_errors(report)]
+
+
+def report_of(parts):
+    trace, source, runs = parts
+    return json.loads(to_json(numbers(trace, runs, source)))
+
+
+def test_report_is_valid(any_trace, validate):
+    assert validate(report_of(any_trace)) == []
+
+
+def test_schema_refuses_what_is_missing_or_new(friction, validate):
+    report = report_of(friction)
+    for key in report:
+        assert validate({k: v for k, v in report.items() if k != key}), key
+    assert validate({**report, 'more': 1})
+    assert validate({**report, 'verdict': 'fine'})
+
+
+def test_schema_knows_the_verdicts_and_the_version(schema):
+    assert tuple(schema['properties']['verdict']['enum']) == VERDICTS
+    assert schema['properties']['schema_version']['const'] == SCHEMA_VERSION
+
+
+def test_document_names_every_key_of_the_schema(schema):
+    text = (ROOT / 'docs' / 'report.md').read_text(encoding='utf-8')
+
+    def keys(part):
+        for name, inner in part.get('properties', {}).items():
+            yield name
+            yield from keys(inner)
+        if 'items' in part:
+            yield from keys(part['items'])
+
+    parts = [schema, *schema['$defs'].values()]
+    assert {name for part in parts for name in keys(part) if name not in text} == set()
+    assert f'`{SCHEMA_VERSION}`' in text
+
+
+def test_numbers_are_those_of_the_trace(friction):
+    trace, _, (run,) = friction
+    report = report_of(friction)
+    assert report['verdict'] == 'effect_found'
+    (effect,) = report['effects']
+    assert effect['name'] == 'coulomb_friction'
+    assert effect['parameters']['level'] == {
+        'value': 14.02,
+        'low': 13.9,
+        'high': 14.14,
+        'unit': 'N',
+        'at_bound': False,
+    }
+    assert effect['alternatives'] == ['hysteresis']
+    error = report['error']
+    assert (error['quantity'], error['unit'], error['noise_floor']) == ('position', 'm', 5e-5)
+    for name, stage in zip(('declared', 'retuned', 'augmented'), trace.stages, strict=True):
+        e = stage.simulated[0] - run.target
+        fit, held = e[trace.segments[0].fit], e[~trace.segments[0].fit]
+        assert error[name]['fit'] == pytest.approx(np.sqrt(np.mean(fit**2)))
+        assert error[name]['held_out'] == pytest.approx(np.sqrt(np.mean(held**2)))
+        assert error[name]['details']['held_out']['maximum'] == np.max(np.abs(held))
+    assert len(report['candidates']) == len(trace.candidates)
+    assert report['parameters']['retuned']['zeta']['at_bound'] is True
+    assert 'effects.coulomb_friction.level' in report['parameters']['augmented']
+
+
+def test_data_are_described(tested):
+    report = report_of(tested)
+    first, second = report['data']['recordings']
+    assert (first['role'], second['role']) == ('fit', 'test')
+    assert first['rate'] == pytest.approx(200.0)
+    assert first['jitter'] < 1e-9
+    assert first['duration'] == pytest.approx(40.0 - 1 / 200.0)
+    ((start, end),) = first['gaps']
+    assert (start, end) == pytest.approx((16.0, 16.8), abs=0.011)
+    low, high = first['ranges']['pressure_command']
+    assert 2.0e5 < low < high < 5.0e5
+    assert report['data']['segments'] == 3
+    assert report['data']['held_out_samples'] == second['samples'] == 4000
+    assert report['data']['fit_samples'] == first['samples']
+    assert report['error']['held_out'] == 'test recordings'
+
+
+def test_provenance_names_files_and_versions(tested):
+    source = report_of(tested)['provenance']
+    assert source['parameters']['file'] == 'dmsp_20_400n'
+    assert source['parameters']['overrides'] == ['mass=20']
+    assert source['configuration']['mass'] == 20.0
+    assert [r['name'] for r in source['recordings']] == ['bench.csv', 'other.csv']
+    assert source['versions']['numpy'] == np.__version__
+
+
+def test_what_is_not_finite_becomes_null(friction, validate):
+    trace, source, runs = friction
+    declared, *others = trace.stages
+    broken = replace(trace, stages=(replace(declared, held_error=math.nan), *others))
+    text = to_json(numbers(broken, runs, source))
+    assert 'NaN' not in text
+    report = json.loads(text)
+    assert report['error']['declared']['held_out'] is None
+    assert validate(report) == []

@@ -1,0 +1,158 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""report.html as text: complete, in order, self-contained, and true to the numbers."""
+
+import re
+from dataclasses import replace
+from html.parser import HTMLParser
+
+import pytest
+
+from pam_ros.report.numbers import numbers
+from pam_ros.report.page import VERDICTS, curves_of, not_excluded, page
+from pam_ros.report.wording import Scale
+
+SECTIONS = ['error', 'simulated', 'residual', 'shape', 'candidates', 'parameters', 'data', 'next']
+SECTIONS.append('provenance')
+VOID = {'meta', 'br', 'img', 'link', 'input', 'hr'}
+
+
+class Outline(HTMLParser):
+    """Checks that elements are nested, and collects ids, tags, links and text."""
+
+    def __init__(self):
+        super().__init__()
+        self.open, self.ids, self.tags, self.text = [], [], [], []
+        self.links = []
+
+    def handle_starttag(self, tag, attributes):
+        given = dict(attributes)
+        self.tags.append(tag)
+        if 'id' in given:
+            self.ids.append(given['id'])
+        self.links += [given[k] for k in ('src', 'href', 'xlink:href', 'srcset') if k in given]
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag, attributes):
+        self.handle_starttag(tag, attributes)
+        if tag not in VOID:
+            self.open.pop()
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
+
+    def handle_data(self, data):
+        if 'style' not in self.open:
+            self.text.append(data)
+
+
+def outline(html):
+    found = Outline()
+    found.feed(html)
+    assert found.open == []
+    return found
+
+
+def rendered(parts):
+    trace, source, runs = parts
+    return page(trace, runs, source, numbers(trace, runs, source))
+
+
+@pytest.fixture(scope='module')
+def friction_page(friction):
+    return rendered(friction)
+
+
+def test_page_is_whole_and_needs_nothing_else(html):
+    found = outline(html)
+    assert not {'script', 'iframe', 'link', 'object'} & set(found.tags)
+    assert all(link.startswith('#') for link in found.links)
+    assert not re.search(r'@import|url\((?!#)', html)
+    assert len(found.ids) == len(set(found.ids))
+    assert len(html) < 2.5e6
+
+
+def test_sections_come_in_the_order_in_which_they_are_read(html):
+    ids = outline(html).ids
+    assert [i for i in ids if i in SECTIONS] == list(SECTIONS)
+    assert ids.index('verdict') < ids.index('not-excluded') < ids.index('error')
+
+
+def test_no_cell_shows_the_inside_of_the_program(html):
+    text = ' '.join(outline(html).text)
+    for bad in ('built-in', 'object at 0x', 'nan', 'None', 'Undefined', '{{', 'Estimate('):
+        assert not re.search(rf'(?<![A-Za-z]){re.escape(bad)}(?![a-z])', text), bad
+
+
+def test_page_says_the_numbers_of_the_trace(friction, friction_page):
+    trace, _, _ = friction
+    text = ' '.join(' '.join(outline(friction_page).text).split())
+    assert 'Effect found : coulomb friction' in text.replace('found:', 'found :')
+    assert 'Instead of coulomb friction it could be hysteresis' in text
+    for stage in trace.stages:
+        assert f'{1e3 * stage.held_error:.3g}' in text
+    assert '14.02 N' in text
+    assert 'at its bound' in text
+    for candidate in trace.candidates:
+        assert candidate.effect.replace('_', ' ') in text
+    assert 64 * 'a' in text
+
+
+@pytest.mark.parametrize('verdict', VERDICTS)
+def test_every_verdict_says_what_is_open(clean, verdict):
+    sentences = not_excluded(replace(clean[0], verdict=verdict), Scale(1e3, 'mm'))
+    assert len(sentences) == (0 if verdict == 'effect_found' else 1)
+
+
+def test_nothing_missing_says_what_would_not_be_seen(clean):
+    html = rendered(clean)
+    assert '<h1 id="verdict">Nothing missing</h1>' in html
+    assert 'stay below the noise floor of 0.0500 mm' in html
+
+
+def test_user_text_cannot_become_markup(friction):
+    trace, source, runs = friction
+    html = rendered((replace(trace, sentence='1 < 2 & <b>3</b>'), source, runs))
+    assert '1 &lt; 2 &amp; &lt;b&gt;3&lt;/b&gt;' in html
+
+
+def test_models_that_do_not_differ_are_drawn_once(clean, friction):
+    assert [c.label for c in curves_of(clean[0], clean[2])] == ['as declared', 're-tuned']
+    labels = [c.label for c in curves_of(friction[0], friction[2])]
+    assert labels == ['as declared', 're-tuned', 're-tuned + coulomb friction']
+
+
+def test_an_effect_that_did_not_suffice_is_named_all_the_same(friction):
+    trace, _, runs = friction
+    partial = replace(trace, verdict='unexplained_structure', effects=())
+    assert curves_of(partial, runs)[-1].label == 're-tuned + coulomb friction'
+
+
+def test_later_rounds_stand_below_the_first(friction):
+    trace, source, runs = friction
+    later = tuple(replace(c, parents=('coulomb_friction',)) for c in trace.candidates[:3])
+    html = rendered((replace(trace, candidates=(*trace.candidates, *later)), source, runs))
+    assert html.index('On top of re-tuning') < html.index('On top of coulomb friction')
+
+
+def test_page_without_candidates_says_so(clean):
+    trace, source, runs = clean
+    html = rendered((replace(trace, candidates=(), next_experiment=''), source, runs))
+    assert 'None: the data do not allow it.' in html
+    assert 'None is needed for this verdict.' in html
+
+
+def test_load_without_a_muscle_has_an_input_and_a_position(friction, friction_page):
+    trace, source, runs = friction
+    assert 'Against pressure' in friction_page
+    muscle = replace(
+        trace.stages[0].model.muscle,
+        a1=0.0, a2=0.0, a3=0.0, a4=0.0, a6=0.0, a5=35.15, pressure_unit='Pa', zeta=0.0,
+        p_min=-10.0, p_max=10.0, force_max=351.5,
+    )  # fmt: skip
+    declared = replace(trace.stages[0], model=replace(trace.stages[0].model, muscle=muscle))
+    html = rendered((replace(trace, stages=(declared, *trace.stages[1:])), source, runs))
+    assert 'Against the input' in html
+    assert 'Against position' in html
+    assert 'contraction, %' not in html

@@ -1,0 +1,73 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""identified.yaml: loaded again it is the same rig, and simulates the same to the bit."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from pam_ros.parameter_files import load_rig
+from pam_ros.report.parameters import identified, write_identified
+from pam_ros.rig.model import RigModel
+from pam_ros.rig.run import simulate, simulate_held
+
+
+def reloaded(parts, tmp_path):
+    trace, source, _ = parts
+    write_identified(tmp_path / 'identified.yaml', trace, source)
+    return load_rig(str(tmp_path / 'identified.yaml'))[0]
+
+
+def test_loaded_again_it_is_the_same_rig(any_trace, tmp_path):
+    trace, source, _ = any_trace
+    model = reloaded(any_trace, tmp_path)
+    assert model == identified(trace, source)
+    last = trace.stages[-1].model
+    assert replace(model.muscle, source=last.muscle.source) == last.muscle
+    assert np.array_equal(model.row(), last.row())
+
+
+def test_it_simulates_as_the_last_stage_did_to_the_bit(any_trace, tmp_path):
+    trace, _, _ = any_trace
+    model = reloaded(any_trace, tmp_path)
+    for s, simulated in zip(trace.segments, trace.stages[-1].simulated, strict=True):
+        if s.kind == 'free':
+            again = simulate(model, s.t, s.drive_t, s.drive, s.y0, s.v0).position
+        else:
+            again = simulate_held(model, s.t, s.pressure, s.position, s.velocity).force
+        assert np.array_equal(again, simulated)
+
+
+def test_awkward_numbers_survive(friction, tmp_path):
+    trace, source, _ = friction
+    model: RigModel = trace.stages[-1].model
+    odd = replace(
+        model,
+        muscle=replace(model.muscle, a1=-4.1e-7, a5=302.00000000000006, a2=1e2 / 3.0),
+        effects={
+            'coulomb_friction': {'level': np.float64(1.0) / 3.0, 'presliding': 1e-5},
+            'creep': {},
+        },
+    )
+    changed = replace(trace, stages=(*trace.stages[:2], replace(trace.stages[2], model=odd)))
+    again = reloaded((changed, source, None), tmp_path)
+    assert np.array_equal(again.row(), odd.row())
+    assert 'creep' not in (tmp_path / 'identified.yaml').read_text(encoding='utf-8')
+
+
+def test_constants_stay_in_the_units_of_their_source(friction, tmp_path):
+    model = reloaded(friction, tmp_path)
+    assert (model.muscle.pressure_unit, model.muscle.contraction_unit) == ('bar', 'percent')
+    assert model.muscle.a5 == pytest.approx(303.5, abs=0.1)
+    assert 're-tuned on bench.csv' in model.muscle.source
+
+
+def test_comment_says_where_it_comes_from(tested, tmp_path):
+    reloaded(tested, tmp_path)
+    lines = (tmp_path / 'identified.yaml').read_text(encoding='utf-8').splitlines()
+    comment = [line for line in lines if line.startswith('#')]
+    assert max(map(len, comment)) <= 99
+    text = '\n'.join(comment)
+    for part in ('effect_found', 'bench.csv', 'other.csv', 64 * 'a', 'mass=20', 'dmsp_20_400n'):
+        assert part in text

@@ -1,0 +1,61 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The segments of a trace as the report sees them."""
+
+import numpy as np
+import pytest
+
+from pam_ros.report.runs import runs_of, sizes
+
+
+def test_held_out_is_the_part_kept_back(friction):
+    trace, _, runs = friction
+    assert len(runs) == 1
+    assert np.array_equal(runs[0].held, ~trace.segments[0].fit)
+    assert 0.25 < runs[0].held.mean() < 0.35
+
+
+def test_held_out_is_the_test_recording_where_there_is_one(tested):
+    trace, _, runs = tested
+    assert [run.is_test for run in runs] == [False, False, True]
+    assert [bool(run.held.all()) for run in runs] == [False, False, True]
+    assert not runs[0].held.any()
+    assert runs[2].name == 'other.csv'
+    assert runs[2].target is trace.test[0].target
+
+
+def test_residual_is_measured_less_simulated(friction):
+    trace, _, runs = friction
+    segment = trace.segments[0]
+    for k, stage in enumerate(trace.stages):
+        assert np.array_equal(runs[0].residual(k), segment.target - stage.simulated[0])
+
+
+def test_sizes_are_the_stages_own_errors(any_trace):
+    trace, _, runs = any_trace
+    for k, stage in enumerate(trace.stages):
+        fit, held = sizes(runs, k)
+        assert fit.rmse == pytest.approx(stage.fit_error, rel=1e-12)
+        assert held.rmse == pytest.approx(stage.held_error, rel=1e-12)
+        assert fit.low <= fit.rmse <= fit.high
+        assert fit.rmse <= fit.maximum
+
+
+def test_inputs_of_a_free_load(friction):
+    trace, _, (run,) = friction
+    segment = trace.segments[0]
+    last = trace.stages[2].simulated[0]
+    assert run.contraction * 0.4 == pytest.approx(last)
+    # The integral of the velocity is the way.
+    way = np.sum(0.5 * (run.velocity[1:] + run.velocity[:-1]) * np.diff(run.t))
+    assert way == pytest.approx(last[-1] - last[0], abs=1e-4)
+    for k in (0, 777, run.t.size - 1):
+        holding = segment.drive[segment.drive_t <= run.t[k]][-1]
+        assert run.pressure[k] == holding
+
+
+def test_inputs_of_a_held_length_are_measured(held):
+    trace, _, runs = held
+    assert [run.contraction[0] for run in runs] == pytest.approx([0.02, 0.1, 0.18])
+    assert all(run.pressure is s.pressure for run, s in zip(runs, trace.segments, strict=True))
+    assert runs_of(trace)[0].velocity.max() == 0.0

@@ -1,0 +1,34 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The last line of the command."""
+
+from dataclasses import replace
+
+from pam_ros.report.summary import added, last_line
+
+
+def test_line_says_verdict_and_errors(friction):
+    trace, _, _ = friction
+    line = last_line(trace)
+    assert line.startswith('effect_found (coulomb_friction): held-out error ')
+    assert f'{1e3 * trace.stages[0].held_error:.3g} mm as declared' in line
+    assert f'{1e3 * trace.stages[2].held_error:.3g}' in line
+    assert line.endswith('noise 0.0500 mm')
+    assert '\n' not in line
+
+
+def test_without_an_effect_two_errors(clean):
+    line = last_line(clean[0])
+    assert 'with' not in line
+    assert 're-tuned; noise' in line
+
+
+def test_force_is_in_newtons(held):
+    assert ' N as declared' in last_line(held[0])
+
+
+def test_added_effects_are_those_that_were_not_declared(friction):
+    trace, _, _ = friction
+    assert added(trace) == ['coulomb_friction']
+    declared = replace(trace.stages[0], model=trace.stages[2].model)
+    assert added(replace(trace, stages=(declared, *trace.stages[1:]))) == []

@@ -1,0 +1,113 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The folder of a report: whole or not at all, and never in the place of something else."""
+
+import json
+import stat
+
+import pytest
+
+from pam_ros.errors import PamError
+from pam_ros.report import write
+from pam_ros.report.write import FILES, check_folder, replaced, write_report
+
+
+def names(folder):
+    return sorted(path.name for path in folder.iterdir())
+
+
+def test_all_files_are_there_and_nothing_else(folder):
+    assert names(folder) == sorted(FILES)
+    assert names(folder.parent) == ['report']
+    assert json.loads((folder / 'report.json').read_text(encoding='utf-8'))['schema_version']
+    assert (folder / 'report.html').stat().st_size < 2.5e6
+
+
+def test_folder_has_the_permissions_of_any_other(folder, tmp_path):
+    (tmp_path / 'other').mkdir()
+    modes = [stat.S_IMODE(path.stat().st_mode) for path in (folder, tmp_path / 'other')]
+    assert modes[0] == modes[1]
+
+
+def test_former_report_is_replaced(friction, clean, tmp_path):
+    for parts in (friction, clean):
+        write_report(tmp_path / 'out', parts[0], parts[1])
+    report = json.loads((tmp_path / 'out' / 'report.json').read_text(encoding='utf-8'))
+    assert report['verdict'] == 'no_missing_effect'
+    assert names(tmp_path) == ['out']
+
+
+@pytest.mark.parametrize('swaps', [True, False])
+def test_replacing_swaps_two_folders(tmp_path, monkeypatch, swaps):
+    if not swaps:  # a file system or a machine that cannot
+        monkeypatch.setattr(write.ctypes, 'CDLL', lambda *_, **__: object())
+    target = tmp_path / 'report'
+    for text in ('first', 'second'):
+        with replaced(target) as new:
+            (new / 'report.json').write_text(text, encoding='utf-8')
+            if text == 'second':
+                assert (target / 'report.json').read_text(encoding='utf-8') == 'first'
+        assert (target / 'report.json').read_text(encoding='utf-8') == text
+        assert names(tmp_path) == ['report']
+
+
+@pytest.mark.parametrize('error', [KeyboardInterrupt, RuntimeError, SystemExit])
+def test_nothing_is_left_where_writing_breaks_off(friction, tmp_path, monkeypatch, error):
+    trace, source, _ = friction
+    target = tmp_path / 'deep' / 'report'
+    write_report(target, trace, source)
+    before = (target / 'report.json').read_bytes()
+
+    def fail(*_):
+        raise error
+
+    monkeypatch.setattr(write, 'write_identified', fail)
+    with pytest.raises(error):
+        write_report(target, trace, source)
+    assert names(target.parent) == ['report']
+    assert names(target) == sorted(FILES)
+    assert (target / 'report.json').read_bytes() == before
+
+
+def test_a_full_disk_is_a_sentence(tmp_path):
+    def body():
+        with replaced(tmp_path / 'report'):
+            raise OSError(28, 'No space left on device')
+
+    with pytest.raises(PamError, match='cannot be written: No space left'):
+        body()
+    assert names(tmp_path) == []
+
+
+def test_other_folders_are_refused(tmp_path, friction):
+    trace, source, _ = friction
+    (tmp_path / 'notes.txt').write_text('mine', encoding='utf-8')
+    with pytest.raises(PamError, match=r'holds notes\.txt, which is no report'):
+        write_report(tmp_path, trace, source)
+    assert names(tmp_path) == ['notes.txt']
+
+
+def test_files_that_only_look_like_a_report_are_refused(tmp_path):
+    (tmp_path / 'report.json').write_text('{"title": "accounts"}', encoding='utf-8')
+    with pytest.raises(PamError, match='no report of pam_identify'):
+        check_folder(tmp_path)
+
+
+def test_a_file_is_refused_and_an_empty_or_new_folder_taken(tmp_path):
+    (tmp_path / 'file').write_text('', encoding='utf-8')
+    with pytest.raises(PamError, match='is no folder'):
+        check_folder(tmp_path / 'file')
+    with pytest.raises(PamError, match='is no folder'):
+        check_folder(tmp_path / 'file' / 'below')
+    (tmp_path / 'empty').mkdir()
+    check_folder(tmp_path / 'empty')
+    check_folder(tmp_path / 'new' / 'below')
+
+
+def test_a_link_stays_a_link(tmp_path, friction):
+    trace, source, _ = friction
+    (tmp_path / 'real').mkdir()
+    (tmp_path / 'link').symlink_to(tmp_path / 'real')
+    write_report(tmp_path / 'link', trace, source)
+    assert (tmp_path / 'link').is_symlink()
+    assert names(tmp_path / 'real') == sorted(FILES)
