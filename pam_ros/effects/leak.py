@@ -81,4 +81,5 @@ EFFECT = Effect(
     start=start,
     rivals=('pressure_lag', 'pressure_offset', 'creep', 'softening'),
     pressure=pressure,
+    needs_muscle=True,
 )

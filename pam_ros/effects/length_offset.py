@@ -31,4 +31,5 @@ EFFECT = Effect(
     fit_starts=({'offset': 0.02}, {'offset': -0.02}),
     rivals=('pressure_offset', 'payload'),
     contraction=contraction,
+    needs_muscle=True,
 )

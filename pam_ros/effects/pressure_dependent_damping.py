@@ -51,4 +51,5 @@ EFFECT = Effect(
     ),
     rivals=('viscous_friction', 'creep'),
     damping=damping,
+    needs_muscle=True,
 )

@@ -95,4 +95,5 @@ EFFECT = Effect(
     start=start,
     rivals=('creep', 'leak'),
     force=force,
+    needs_muscle=True,
 )

@@ -19,7 +19,7 @@ from pam_ros.rig.model import RigModel
 Array = NDArray[np.float64]
 LOOKS = 2  # steps of the cheap look, with the parent's columns kept
 EARNED = 10.0  # fall of the score that pays for an effect's finer parameters
-TRIED = 2  # starting values per effect from which it is taken
+TRIED = 3  # starting values per effect from which it is taken
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,8 +62,8 @@ def extended(
     return new, np.array(u)
 
 
-def look(parents: Sequence[Fit], model: RigModel, effect: Effect) -> Solution:
-    """Return the best cheap fit of *effect* on top of one of *parents*, over its starting values.
+def look(parents: Sequence[Fit], model: RigModel, effect: Effect) -> list[Solution]:
+    """Return the best cheap fits of *effect* on top of one of *parents*, the best first.
 
     The columns of what a parent already has are taken from it; only the effect's own are
     computed at each start. Parents are the same model at different places: where it was
@@ -86,7 +86,7 @@ def look(parents: Sequence[Fit], model: RigModel, effect: Effect) -> Solution:
         solve(problem, u, LOOKS, jacobian=jacobian, frozen=known_columns)
         for _, problem, u, jacobian in guesses[:TRIED]
     ]
-    return min(solutions, key=lambda solution: solution.cost)
+    return sorted(solutions, key=lambda solution: solution.cost)
 
 
 def released(fit: Fit, model: RigModel, effect: Effect, pool: Executor | None) -> Fit:
@@ -129,8 +129,22 @@ def _guessed(parent: Fit, effect: Effect) -> tuple[dict[str, float], ...]:
 
 
 def refine(
-    parent: Fit, effect: Effect, start: Solution, pool: Executor | None, iterations: int = 8
+    parent: Fit,
+    effect: Effect,
+    looks: Sequence[Solution],
+    pool: Executor | None,
+    iterations: int = 10,
 ) -> Fit:
-    """Return the full fit of *effect* on top of *parent*, from a cheap one."""
-    solution = solve(start.problem, start.u, iterations=iterations, pool=pool)
-    return fitted((*parent.effects, effect.name), solution)
+    """Return the best full fit of *effect* on top of *parent*, from its cheap ones.
+
+    Friction and stops make a fit stop in the wrong place now and then, so that the better look
+    is not always the better fit.
+    """
+    fits = [
+        fitted(
+            (*parent.effects, effect.name),
+            solve(start.problem, start.u, iterations=iterations, pool=pool),
+        )
+        for start in looks
+    ]
+    return min(fits, key=lambda fit: fit.score)

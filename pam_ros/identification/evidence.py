@@ -18,6 +18,7 @@ SIGNIFICANCE = 0.01  # of the whole family of candidates
 GAIN = 0.03  # least relative fall of the RMSE kept back
 LATER_SHARE = 0.05  # a second or third effect must explain this share of what re-tuning left
 AMBIGUOUS = 6.0  # difference of scores that does not decide between two effects
+LATER_GAIN = 0.35  # or lower the RMSE kept back by this share
 SIGMAS = 2.6  # of a strength's distance from 0
 LONGEST = 4000  # samples over which a residual's correlation is summed
 

@@ -97,7 +97,13 @@ def _polished(
             thin = fit.solution.problem
             kept = [k for k, x in enumerate(thin.unknowns) if x.segment < 0]
             unknowns = (*(thin.unknowns[k] for k in kept), *starts)
-            full = replace(plain, row=thin.row, active=thin.active, unknowns=unknowns)
+            full = replace(
+                plain,
+                row=thin.row,
+                active=thin.active,
+                unknowns=unknowns,
+                outlier=thin.outlier,
+            )
             u = np.concatenate([fit.solution.u[kept], np.zeros(len(starts))])
             if fit is found.declared:
                 solution = only_starts(full, u, pool)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from pam_ros.effects.base import Effect
 from pam_ros.identification.segment import Segment
-from pam_ros.identification.unknowns import Unknown
+from pam_ros.identification.unknowns import START_V, START_Y, Unknown
 from pam_ros.rig import layout as at
 from pam_ros.rig.bind import bind
 from pam_ros.rig.layout import Layout
@@ -27,7 +27,8 @@ class Problem:
     """Runs to be explained by a parameter row of which some entries are unknown.
 
     ``row`` holds the values of what is not unknown; ``step`` is the longest step in s.
-    ``independent`` is how many independent samples the fitted ones are worth.
+    ``independent`` is how many independent samples the fitted ones are worth. Residuals
+    beyond ``outlier`` (in the target's unit) count by their size, not its square (pseudo-Huber).
     """
 
     segments: Sequence[Segment]
@@ -37,6 +38,7 @@ class Problem:
     unknowns: tuple[Unknown, ...]
     independent: float
     step: float = 1e-3
+    outlier: float = np.inf
     fit_rows: tuple[NDArray[np.intp], ...] = field(init=False)
 
     def __post_init__(self) -> None:
@@ -56,7 +58,7 @@ class Problem:
         """Return the free run of every segment, or of segment *only*, at u.
 
         Each is (n, 4): position m, velocity m/s, chamber pressure Pa, and for held segments
-        the force N within the limits of its sensor.
+        the force N.
         """
         q = self.row_at(u)
         kernel = bind(self.layout, self.active)
@@ -64,16 +66,13 @@ class Problem:
         for k, s in enumerate(self.segments):
             if only not in (-1, k):
                 continue
-            y, v = s.y0, s.v0
+            own = {START_Y: s.y0, START_V: s.v0}
             for unknown, value in zip(self.unknowns, u, strict=True):
                 if unknown.segment == k:
-                    if unknown.index == -1 - at.Y:
-                        y = unknown.value(value)
-                    else:
-                        v = unknown.value(value)
+                    own[unknown.index] = unknown.value(value)
             out = np.empty((s.t.size, 4))
-            p0 = s.drive[0] if s.kind == 'free' else s.pressure[0]
-            x = start_row(self.layout, q, p0, y, v)
+            p0 = s.first_pressure
+            x = start_row(self.layout, q, p0, own[START_Y], own[START_V])
             scratch = np.empty_like(x)
             if s.kind == 'free':
                 kernel.simulate(x, scratch, q, s.t, s.drive_t, s.drive, self.step, out, False)
@@ -81,7 +80,6 @@ class Problem:
                 kernel.simulate_held(
                     x, scratch, q, s.t, s.pressure, s.position, s.velocity, HELD_STEP, out
                 )
-                np.clip(out[:, 3], s.floor, s.ceiling, out=out[:, 3])
             found.append(out)
         return found
 
@@ -91,7 +89,7 @@ class Problem:
         return [out[:, column] for out in self.runs(u, only)]
 
     def residuals(self, u: Array) -> Array:
-        """Return simulated - measured of the samples to be fitted.
+        """Return simulated - measured of the samples to be fitted, outliers compressed.
 
         A simulation that diverges gives large finite residuals, so that a fit steps back.
         """
@@ -99,7 +97,14 @@ class Problem:
             p[rows] - s.target[rows]
             for p, s, rows in zip(self.predict(u), self.segments, self.fit_rows, strict=True)
         ]
-        return _finite(np.concatenate(parts))
+        return self._compressed(_finite(np.concatenate(parts)))
+
+    def _compressed(self, e: Array) -> Array:
+        """Return e so that its square is pseudo-Huber's loss."""
+        if self.outlier == np.inf:
+            return e
+        d = self.outlier
+        return np.sign(e) * d * np.sqrt(2.0 * (np.sqrt(1.0 + (e / d) ** 2) - 1.0))
 
     def priors(self, u: Array) -> Array:
         """Return the distance of every unknown from what is expected, in standard deviations."""
@@ -126,20 +131,20 @@ class Problem:
             moved = u.copy()
             moved[k] += h
             if unknown.segment >= 0:
-                return self._column_of_start(u, moved, r, k, h)
+                return self._column_of_run(u, moved, r, k, h)
             return (self.residuals(moved) - r) / h
 
         run: Callable[..., object] = map if pool is None else pool.map
         return np.stack(list(run(column, columns)), axis=1)  # type: ignore[call-overload]
 
-    def _column_of_start(self, u: Array, moved: Array, r: Array, k: int, h: float) -> Array:
-        """Return the column of a start value: only its own run changes."""
+    def _column_of_run(self, u: Array, moved: Array, r: Array, k: int, h: float) -> Array:
+        """Return the column of what a run has for itself: only that run changes."""
         out = np.zeros_like(r)
         segment = self.unknowns[k].segment
         first = sum(rows.size for rows in self.fit_rows[:segment])
         rows = self.fit_rows[segment]
         s = self.segments[segment]
-        new = _finite(self.predict(moved, segment)[0][rows] - s.target[rows])
+        new = self._compressed(_finite(self.predict(moved, segment)[0][rows] - s.target[rows]))
         out[first : first + rows.size] = (new - r[first : first + rows.size]) / h
         return out
 

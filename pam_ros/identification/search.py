@@ -17,7 +17,7 @@ from pam_ros.identification.noise import Noise, noise_of
 from pam_ros.identification.problem import Problem
 from pam_ros.identification.segment import Segment, windows
 from pam_ros.identification.solve import Solution, solve
-from pam_ros.identification.unknowns import Unknown, declared_unknowns, start_unknowns
+from pam_ros.identification.unknowns import Unknown, declared_unknowns, run_unknowns
 from pam_ros.rig.model import RigModel
 
 Array = NDArray[np.float64]
@@ -26,6 +26,7 @@ Progress = Callable[[float, str], None]
 EFFECTS_AT_MOST = 3
 REFINED = 5  # candidates of a round that get a full fit
 WINDOW = 2.0  # s of a run of a load without a muscle
+OUTLIER = 1.48  # median residuals beyond which one is an outlier
 PROMISING = 4.0  # fall of the cost in a cheap look that earns a full fit
 IMPLAUSIBLE = 12.0  # chi square of re-tuned parameters under their prior that asks for a reason
 
@@ -59,11 +60,7 @@ def problem_of(
 
     *stride* says how many samples apart those of the segments were in the recording.
     """
-    unknowns: list[Unknown] = declared_unknowns(model)
-    if segments[0].kind == 'free':
-        unknowns += start_unknowns(
-            len(segments), [s.y0 for s in segments], [s.v0 for s in segments]
-        )
+    unknowns: list[Unknown] = [*declared_unknowns(model), *run_unknowns(segments)]
     rho = noise.rho**stride
     samples = sum(int(np.count_nonzero(s.fit)) for s in segments)
     return Problem(
@@ -105,6 +102,10 @@ def search(
         declared = fitted((), only_starts(problem, np.zeros(len(problem.unknowns)), pool))
         progress(0.05, 're-tuning its parameters')
         retuned = fitted((), solve(problem, declared.solution.u, pool=pool))
+        if thin[0].kind == 'held':
+            retuned = _robust(retuned, pool)
+            same = retuned.solution.problem
+            declared = fitted((), only_starts(same, np.zeros(len(same.unknowns)), pool))
         parent, rounds = retuned, []
         for k in range(EFFECTS_AT_MOST):
             progress(0.1 + 0.25 * k, f'trying effects, round {k + 1}')
@@ -116,9 +117,31 @@ def search(
             chosen = replace(first, chosen=True)
             rounds.append(tuple(chosen if t is first else t for t in tried))
             parent = released(chosen.fit, model, chosen.effect, pool)
+            if thin[0].kind == 'held':
+                parent = _robust(parent, pool)
         progress(0.85, 'leaving out what is not needed')
         parent = _without_needless(parent, retuned, model, noise, pool)
     return Search(declared, retuned, parent, tuple(rounds))
+
+
+def _robust(fit: Fit, pool: Executor) -> Fit:
+    """Return *fit* with outliers limited: a force cell that slipped spoils a whole recording.
+
+    A residual is an outlier beyond the normal one's scale, by the median of its size.
+    """
+    for _ in range(2):
+        solution = fit.solution
+        e = np.concatenate(
+            [
+                (p - s.target)[s.fit]
+                for p, s in zip(
+                    solution.problem.predict(solution.u), solution.problem.segments, strict=True
+                )
+            ]
+        )
+        limited = replace(solution.problem, outlier=OUTLIER * float(np.median(np.abs(e))))
+        fit = fitted(fit.effects, solve(limited, solution.u, pool=pool))
+    return fit
 
 
 def admitted(tried: Tried, parent: Fit, retuned: Fit, noise: Noise) -> bool:
@@ -130,21 +153,36 @@ def admitted(tried: Tried, parent: Fit, retuned: Fit, noise: Noise) -> bool:
         return True
     if e.gain < evidence.GAIN:
         return False
+    return not parent.effects or _matters(parent, tried.fit, retuned, noise)
+
+
+def _matters(without: Fit, fit: Fit, retuned: Fit, noise: Noise) -> bool:
+    """Say whether a further effect explains more than the form of those before it could miss.
+
+    No effect of the library is quite the one of nature, and the rest that it leaves invites
+    others: so a further one must explain a share of what re-tuning left, or much of the rest.
+    """
+    fall = without.held_error - fit.held_error
     excess = max(retuned.held_error - noise.sigma, 0.0)
-    first = not parent.effects
-    fall = parent.held_error - tried.fit.held_error
-    return first or fall >= evidence.LATER_SHARE * excess
+    return (
+        fall >= evidence.LATER_SHARE * excess or fall >= evidence.LATER_GAIN * without.held_error
+    )
 
 
 def _round(parent: Fit, declared: Fit, model: RigModel, pool: Executor) -> tuple[Tried, ...]:
     """Return the candidates that got a full fit on top of *parent*, the best first."""
-    absent = [e for e in model.library if e.name not in (*parent.effects, *model.effects)]
+    absent = [
+        e
+        for e in model.library
+        if e.name not in (*parent.effects, *model.effects)
+        and not (e.needs_muscle and model.muscle.is_load_only)
+    ]
     parents = [parent] if parent.effects else [parent, declared]
     looks = list(pool.map(lambda e: look(parents, model, e), absent))
     order = [
         i
-        for i in np.argsort([s.cost for s in looks])
-        if looks[i].cost < parent.solution.cost - PROMISING
+        for i in np.argsort([s[0].cost for s in looks])
+        if looks[i][0].cost < parent.solution.cost - PROMISING
     ]
     fits = {absent[i].name: refine(parent, absent[i], looks[i], pool) for i in order[:REFINED]}
     if not parent.effects and _strain(parent) > IMPLAUSIBLE:
@@ -234,9 +272,7 @@ def _without_needless(
         for name in fit.effects[:-1]:
             smaller = _dropped(fit, name, model, pool)
             gain = 1.0 - fit.held_error / smaller.held_error
-            excess = max(retuned.held_error - noise.sigma, 0.0)
-            fall = smaller.held_error - fit.held_error
-            if gain < evidence.GAIN or fall < evidence.LATER_SHARE * excess:
+            if gain < evidence.GAIN or not _matters(smaller, fit, retuned, noise):
                 fit = smaller
                 break
         else:

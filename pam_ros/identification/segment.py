@@ -15,9 +15,9 @@ from pam_ros.recording.recording import Recording
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
-# The recording is cut into this many blocks, of which every third is kept back.
+# The recording is cut into this many blocks, of which three are kept back.
 BLOCKS = 10
-CLIPPED_SHARE = 0.02  # share of samples at one extreme value that says the sensor is clipped
+ONSET = 0.4  # s
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,8 +27,7 @@ class Segment:
     t (n,) s; drive_t, drive (m,) the commands of a free run; pressure, position, velocity (n,)
     the inputs of a held one; target (n,) what the simulation must give: position in m of a free
     rig, force in N of a held one; fit (n,) marks the samples that may be used for fitting, the
-    others are kept back. Predictions are limited to floor..ceiling, where the sensor clips.
-    y0, v0: first guess of the state at t[0].
+    others are kept back. y0, v0: first guess of the state at t[0].
     """
 
     name: str
@@ -43,8 +42,14 @@ class Segment:
     velocity: Array
     y0: float
     v0: float
-    floor: float = -np.inf
-    ceiling: float = np.inf
+
+    @property
+    def first_pressure(self) -> float:
+        """Pressure in Pa, commanded or measured, under which the run begins."""
+        if self.kind == 'held':
+            return float(self.pressure[0])
+        before = int(np.searchsorted(self.drive_t, self.t[0], side='right')) - 1
+        return float(self.drive[max(before, 0)])
 
     @property
     def quantity(self) -> str:
@@ -55,7 +60,7 @@ class Segment:
 def segments_of(recordings: Sequence[Recording], keep_back: bool) -> list[Segment]:
     """Return the gapless stretches of *recordings*, ready to be simulated.
 
-    With *keep_back* every third of ten blocks of each is marked as not to be fitted; the run
+    With *keep_back* three of ten blocks of each are marked as not to be fitted; the run
     goes through them, so what is known there is only what the model carries over. Raises
     RecordingError when kinds are mixed, since one error cannot be in m and in N.
     """
@@ -74,7 +79,8 @@ def segments_of(recordings: Sequence[Recording], keep_back: bool) -> list[Segmen
 def _segment(part: Recording, keep_back: bool) -> Segment:
     n = part.t.size
     block = np.minimum((np.arange(n) * BLOCKS) // n, BLOCKS - 1)
-    fit = ~np.isin(block, (2, 5, 8)) if keep_back else np.ones(n, dtype=bool)
+    kept = np.array([_kept_back(k) for k in range(BLOCKS)])
+    fit = ~kept[block] if keep_back else np.ones(n, dtype=bool)
     if part.position is None:
         raise RecordingError(f'{part.name}: no position was recorded')
     if part.kind == 'free':
@@ -93,30 +99,35 @@ def _segment(part: Recording, keep_back: bool) -> Segment:
     if part.force is None:
         raise RecordingError(f'{part.name}: a held recording needs the force')
     velocity = _velocity(part.t, part.position)
-    floor, ceiling = _clipped(part.force)
     empty = np.empty(0)
     return Segment(
         part.name, part.kind, part.t, part.force, fit, empty, empty,
-        pressure, part.position, velocity, part.position[0], velocity[0], floor, ceiling,
+        pressure, part.position, velocity, part.position[0], velocity[0],
     )  # fmt: skip
+
+
+def _kept_back(k: int) -> bool:
+    """Say whether part k is kept back: a third of them, in no rhythm that a rig could share."""
+    return (k + 1) * 0.6180339887 % 1.0 > 2.0 / 3.0
 
 
 def windows(segment: Segment, length: float) -> list[Segment]:
     """Return a free run cut into runs of *length* s, each starting from its own measurement.
 
     A load without a spring integrates every error for ever, so that a long run of a wrong model
-    says nothing any more; short ones stay near what was measured.
+    says nothing any more; short ones stay near what was measured. Of the runs that are kept
+    back only the onset is fitted, for its start state.
     """
     span = segment.t[-1] - segment.t[0]
     edges = np.linspace(segment.t[0], segment.t[-1], max(1, round(span / length)) + 1)
     found = []
-    for start, end in zip(edges[:-1], edges[1:], strict=True):
+    for k, (start, end) in enumerate(zip(edges[:-1], edges[1:], strict=True)):
         rows = np.flatnonzero((segment.t >= start) & (segment.t <= end))
         t, y = segment.t[rows], segment.target[rows]
+        kept = _kept_back(k) and not segment.fit.all()
+        fit = t < t[0] + ONSET if kept else np.ones(rows.size, dtype=bool)
         y0, v0 = _start(t, y)
-        found.append(
-            replace(segment, t=t, target=y, fit=segment.fit[rows], y0=y0, v0=v0)
-        )
+        found.append(replace(segment, t=t, target=y, fit=fit, y0=y0, v0=v0))
     return found
 
 
@@ -133,15 +144,3 @@ def _velocity(t: Array, y: Array) -> Array:
     n = min(t.size, max(5, int(0.1 / np.median(np.diff(t))))) | 1
     smooth = savgol_filter(y, n if n <= t.size else n - 2, 2)
     return np.asarray(np.gradient(smooth, t), dtype=float)
-
-
-def _clipped(values: Array) -> tuple[float, float]:
-    """Return the levels at which a sensor clips, infinite where it does not.
-
-    A level counts when many samples stand exactly there and none beyond.
-    """
-    low, high = float(values.min()), float(values.max())
-    enough = CLIPPED_SHARE * values.size
-    floor = low if np.count_nonzero(values == low) > enough else -np.inf
-    ceiling = high if np.count_nonzero(values == high) > enough else np.inf
-    return floor, ceiling

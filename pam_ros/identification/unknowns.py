@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What a fit may change: entries of the parameter row, and the state at the start of a run."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import exp, log
 
@@ -9,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pam_ros.effects.base import Effect
+from pam_ros.identification.segment import Segment
 from pam_ros.rig import layout as at
 from pam_ros.rig.model import RigModel
 
@@ -21,14 +23,16 @@ CONSTANTS = ('a1', 'a2', 'a3', 'a4', 'a5', 'a6')
 SPECIMEN = 0.05
 A1_OF_A5 = 0.01
 DAMPING = 0.5
+# Indices of what a run has for itself, beside those of the parameter row.
+START_Y, START_V = -1, -2
 
 
 @dataclass(frozen=True)
 class Unknown:
     """One number to be fitted, without unit: value = base + scale u, or base exp(scale u).
 
-    ``index`` is the entry of the parameter row, or -1 - i for entry i of the state row at the
-    start of run ``segment``. ``prior`` is the standard deviation of u around 0 that is expected
+    ``index`` is the entry of the parameter row, or one of START_Y, START_V of the run
+    ``segment``. ``prior`` is the standard deviation of u around 0 that is expected
     beforehand, infinite where nothing is known. ``low``, ``high`` bound the value.
     """
 
@@ -83,12 +87,13 @@ def declared_unknowns(model: RigModel) -> list[Unknown]:
     return found
 
 
-def start_unknowns(count: int, y: list[float], v: list[float]) -> list[Unknown]:
-    """Return position and velocity at the start of each of *count* free runs."""
+def run_unknowns(segments: Sequence[Segment]) -> list[Unknown]:
+    """Return position and velocity at the start of each free run that is fitted at all."""
     found = []
-    for k in range(count):
-        found.append(Unknown(f'y0[{k}]', -1 - at.Y, y[k], 1e-3, segment=k))
-        found.append(Unknown(f'v0[{k}]', -1 - at.V, v[k], 1e-2, segment=k))
+    for k, s in enumerate(segments):
+        if s.kind == 'free' and s.fit.any():
+            found.append(Unknown(f'y0[{k}]', START_Y, s.y0, 1e-3, segment=k))
+            found.append(Unknown(f'v0[{k}]', START_V, s.v0, 1e-2, segment=k))
     return found
 
 
