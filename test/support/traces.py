@@ -220,6 +220,34 @@ def held_trace():
     return trace, source_of(rig(), recordings, [])
 
 
+def crowded_trace():
+    """Return (trace, provenance) with long names, nine recordings and three effects."""
+    truth = rig(**{'effects.coulomb_friction.level': 14.0})
+    names = [f'2026-11-20T10-15-{k:02d}_bench_south_muscle_dmsp_20_400n.csv' for k in range(9)]
+    recordings = [free_recording(truth, 8.0, 200.0, k, name) for k, name in enumerate(names)]
+    warning = 'pressure_command has only 3 levels: poor excitation, curvature cannot be seen'
+    recordings = [replace(recording, warnings=(warning,)) for recording in recordings]
+    tiny = Estimate(-1.2345678e-9, -3.1415926e5, 1e4, 'N/(bar percent)', at_bound=True)
+    values = dict.fromkeys(('level', 'breakaway', 'stribeck_speed', 'pressure_growth'), tiny)
+    reason = 'explains with its own parameter what re-tuning explains only by constants far away '
+    findings = [
+        Finding(effect.name, values, ('pressure_dependent_damping', 'hysteresis'), 3 * reason)
+        for effect in EFFECTS[-3:]
+    ]
+    trace = trace_of(recordings, [], rig(), rig(a5=304.0), truth, 'effect_found', findings)
+    later = tuple(
+        replace(c, parents=tuple(f.name for f in findings), reason=2 * reason, held_error=123.4e-9)
+        for c in trace.candidates
+    )
+    overrides = ('mass=20', 'zeta=0.2', 'effects.pressure_dependent_damping.per_pressure=1e-5')
+    source = replace(
+        source_of(rig(), recordings, []),
+        overrides=overrides,
+        command='pam_identify ' + ' '.join(names) + ' --out /a/long/' + 40 * 'path' + '/out',
+    )
+    return replace(trace, candidates=(*trace.candidates, *later), sentence=4 * reason), source
+
+
 def source_of(declared, recordings, test):
     """Return the provenance of a trace that was made by hand."""
     return provenance(

@@ -1,0 +1,110 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""report.html in a real browser, at the width of a desk and of a telephone."""
+
+import html as markup
+import json
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from pam_ros.report.numbers import numbers
+from pam_ros.report.page import page
+from pam_ros.report.runs import runs_of
+from support import traces
+
+SIZES = {1280: 900, 390: 844}
+SECTIONS = ['error', 'simulated', 'residual', 'shape', 'candidates', 'parameters', 'data']
+SECTIONS += ['next', 'provenance']
+NAMES = ('chromium', 'chromium-browser', 'google-chrome', 'google-chrome-stable', 'chrome')
+FLAGS = ('--headless', '--no-sandbox', '--disable-gpu', '--no-first-run', '--dump-dom')
+QUIET = ('dev-shm-usage', 'quic', 'background-networking', 'component-update', 'sync')
+# Each size is a frame: a window of its own, as far as a page can tell.
+STAND = """<!DOCTYPE html><meta charset="utf-8"><body><pre id="found"></pre><script>{look}
+addEventListener('load', () => {{
+  const found = [...document.querySelectorAll('iframe')].map((frame) => look(frame.contentWindow));
+  document.getElementById('found').textContent = JSON.stringify(found);
+}});
+</script>{frames}</body>"""
+
+
+@pytest.fixture(scope='module')
+def browser():
+    found = next(filter(None, map(shutil.which, NAMES)), None)
+    if found is None:
+        pytest.skip('no Chromium or Chrome on this machine to look at the page with')
+    return found
+
+
+@pytest.fixture(scope='module')
+def look(browser, tmp_path_factory):
+    """Return a function that renders a page at every size and gives what was measured."""
+
+    def at_all_sizes(html):
+        folder = tmp_path_factory.mktemp('browser')
+        frames = ''.join(
+            f'<iframe style="border:0;width:{w}px;height:{h}px" srcdoc="{markup.escape(html)}">'
+            '</iframe>'
+            for w, h in SIZES.items()
+        )
+        script = (Path(__file__).parent / 'look.js').read_text(encoding='utf-8')
+        (folder / 'stand.html').write_text(
+            STAND.format(look=script, frames=frames), encoding='utf-8'
+        )
+        quiet = [f'--disable-{name}' for name in QUIET]
+        command = [browser, *FLAGS, *quiet, f'--user-data-dir={folder / "profile"}']
+        done = subprocess.run(
+            [*command, (folder / 'stand.html').as_uri()],
+            capture_output=True,
+            check=True,
+            encoding='utf-8',
+            timeout=240,
+        )
+        found = re.search(r'<pre id="found">(.*?)</pre>', done.stdout, re.DOTALL)
+        assert found, done.stderr[-2000:]
+        return dict(zip(SIZES, json.loads(markup.unescape(found[1])), strict=True))
+
+    return at_all_sizes
+
+
+def test_nothing_is_missing_overlapping_or_sticking_out(html, look):
+    for width, found in look(html).items():
+        assert found['width'] in (width, width - 15)  # a scroll bar takes its place
+        assert found['problems'] == {name: [] for name in found['problems']}, width
+        assert found['sections'] == SECTIONS
+        ending = '-1080' if width > 1000 else '-356'
+        assert [n for n in found['plots'] if n.startswith(('rmse', 'overview', 'close-up'))] == [
+            f'{name}{ending}' for name in ('rmse', 'overview', 'close-up')
+        ]
+        assert len(found['plots']) >= 3 + 4 + 5
+        assert found['pieces'] > 250
+
+
+def test_long_names_many_recordings_and_three_effects_find_their_room(look):
+    trace, source = traces.crowded_trace()
+    runs = runs_of(trace)
+    html = page(trace, runs, source, numbers(trace, runs, source))
+    for width, found in look(html).items():
+        assert found['problems'] == {name: [] for name in found['problems']}, width
+
+
+def test_the_measuring_finds_what_is_wrong(look):
+    page = (
+        '<style>svg{width:300px}</style><section id="a"><h2></h2><p style="position:absolute;'
+        'top:50px;left:9px">over</p><p style="position:absolute;top:52px;left:20px">under</p>'
+        '<div style="width:5000px">far</div><p style="margin-left:-30px;width:400px">left out</p>'
+        '<svg class="plot" data-name="p" viewBox="0 0 600 90" height="45">'
+        '<text x="590" y="40" font-size="12">cut off</text></svg></section>'
+    )
+    for found in look(page).values():
+        problems = found['problems']
+        assert problems['overlaps'] == ['over | under']
+        assert problems['outside'] == ['left out']
+        assert 'DIV ' in problems['wide']
+        assert problems['cut'] == ['p: cut off']
+        assert problems['small'] == ['p: 6.0 px']
+        assert problems['empty'] == ['p']
+        assert problems['missing'] == ['H2 ']
