@@ -10,7 +10,14 @@ from pam_ros.demo.run import PublishedRun
 from pam_ros.errors import PamError
 from pam_ros.nodes.client import Client
 
+TOPICS = ('joint_states', 'pressure', 'force', 'stiffness', 'damping')
+HISTORY = 5000  # messages that the simulator keeps for a listener who is late: 10 s at 500 Hz
 QUIET = 0.3  # s without a message after which none is under way any more
+
+
+def lose_nothing(namespace: str = '') -> dict[str, int]:
+    """Return the parameters with which a ``pam_sim`` keeps messages until they are heard."""
+    return {f'qos_overrides.{namespace}/{topic}.publisher.depth': HISTORY for topic in TOPICS}
 
 
 class RigLog:
@@ -19,11 +26,9 @@ class RigLog:
     def __init__(self, client: Client, ambient: float = 101325.0) -> None:
         """Subscribe; *ambient* is the simulator's ambient pressure in Pa."""
         self._client, self._ambient = client, ambient
-        self.states = client.collect(JointState, 'joint_states')
-        self._pressures = client.collect(FluidPressure, 'pressure')
-        self._floats = [
-            client.collect(Float64, name) for name in ('force', 'stiffness', 'damping')
-        ]
+        kinds = (JointState, FluidPressure, Float64, Float64, Float64)
+        self._topics = [client.collect(k, name) for k, name in zip(kinds, TOPICS, strict=True)]
+        self.states = self._topics[0]
 
     @property
     def now(self) -> float:
@@ -31,19 +36,17 @@ class RigLog:
         return seconds(self.states[-1])
 
     def put_in_step(self) -> PublishedRun:
-        """Return all that came, once the simulator has stopped.
+        """Return all that came, after letting the simulator all but fall silent.
 
-        Floats carry no stamp, but the simulator publishes all topics in one go: counted from
-        their ends they are in step. Raises PamError where a message was lost.
+        Floats carry no stamp, but the simulator publishes all topics in one go: with none under
+        way they are in step, counted from their ends. Raises PamError where one was lost.
         """
-        topics = [self.states, self._pressures, *self._floats]
-        while True:
-            before = [len(messages) for messages in topics]
+        self._client.set_together('pam_sim', publish_rate=1.0)
+        before = None
+        while before != (before := [len(messages) for messages in self._topics]):
             self._client.work(QUIET)
-            if before == [len(messages) for messages in topics]:
-                break
         n = min(before)
-        states, pressures, force, stiffness, damping = (m[len(m) - n :] for m in topics)
+        states, pressures, force, stiffness, damping = (m[len(m) - n :] for m in self._topics)
         run = PublishedRun(
             np.array([seconds(m) for m in states]),
             np.array([m.position[0] for m in states]),

@@ -6,7 +6,7 @@ from diagnostic_msgs.msg import DiagnosticArray
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
 
-from support.harness import Program
+from support.harness import Program, lose_nothing
 
 
 def stamp(message):
@@ -44,6 +44,7 @@ def test_it_follows_the_clock_and_survives_a_jump_back(peer):
         'initial.pressure': 600e3,
         'initial.at_rest': False,
         'initial.position': 0.0,
+        **lose_nothing(),
     }
     with Program('pam_sim', parameters=given):
         peer.until(

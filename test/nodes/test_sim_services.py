@@ -9,9 +9,14 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64
 from std_srvs.srv import SetBool, Trigger
 
-from support.harness import Program
+from support.harness import Program, lose_nothing
 
-RELEASED = {'initial.pressure': 600e3, 'initial.at_rest': False, 'initial.position': 0.0}
+RELEASED = {
+    'initial.pressure': 600e3,
+    'initial.at_rest': False,
+    'initial.position': 0.0,
+    **lose_nothing(),
+}
 
 
 def stamp(message):

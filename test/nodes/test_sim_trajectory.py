@@ -13,12 +13,17 @@ from sensor_msgs.msg import FluidPressure, JointState
 from std_msgs.msg import Float64
 from std_srvs.srv import Trigger
 
-from support.harness import Program
+from support.harness import Program, lose_nothing
 
 # DMSP-20-400N for p in bar and contraction in percent, as printed.
 A1, A2, A3, A4, A5, A6 = -4.35573, 281.22370, -0.32866, -9.27035, 302.20107, -263.69185
 L0, ZETA, MASS, G, AMBIENT = 0.4, 0.15, 20.0, 9.80665, 101325.0
-RELEASED = {'initial.pressure': 600e3, 'initial.at_rest': False, 'initial.position': 0.0}
+RELEASED = {
+    'initial.pressure': 600e3,
+    'initial.at_rest': False,
+    'initial.position': 0.0,
+    **lose_nothing(),
+}
 
 
 def spring(p, y):
@@ -121,7 +126,8 @@ def test_commands_act_where_the_pressure_says_they_did(peer):
     rate = 1000
     states = peer.collect(JointState, 'joint_states')
     pressures = peer.collect(FluidPressure, 'pressure')
-    with Program('pam_sim', parameters={'publish_rate': float(rate), 'command_timeout': 0.0}):
+    given = {'publish_rate': float(rate), 'command_timeout': 0.0, **lose_nothing()}
+    with Program('pam_sim', parameters=given):
         peer.more(states)
         for command in (300e3, 500e3, 450e3):
             peer.publish(Float64(data=command), 'pressure_command')

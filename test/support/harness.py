@@ -15,8 +15,9 @@ from rclpy.parameter import parameter_value_to_python
 from pam_ros.nodes.children import PATIENCE as DEADLINE
 from pam_ros.nodes.children import Program
 from pam_ros.nodes.client import Client, parameter_messages
+from pam_ros.nodes.rig_log import lose_nothing
 
-__all__ = ['DEADLINE', 'Peer', 'Program', 'has_loaded']
+__all__ = ['DEADLINE', 'Peer', 'Program', 'has_loaded', 'lose_nothing']
 
 
 class Peer(Client):

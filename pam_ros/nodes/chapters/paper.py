@@ -11,7 +11,7 @@ from pam_ros.demo.run import PublishedRun
 from pam_ros.nodes.chapters.stage import Stage, hold_pressure
 from pam_ros.nodes.children import Program
 from pam_ros.nodes.client import Client
-from pam_ros.nodes.rig_log import RigLog, seconds
+from pam_ros.nodes.rig_log import RigLog, lose_nothing, seconds
 from pam_ros.parameter_files import load_rig
 
 MUSCLE = 'dmsp_20_400n'
@@ -48,6 +48,7 @@ def record(stage: Stage) -> tuple[PublishedRun, list[PublishedRun]]:
         'initial.pressure': paper.PRESSURE,
         'initial.at_rest': False,
         'initial.position': 0.0,
+        **lose_nothing(stage.namespace),
     }
     with Program('pam_sim', *remap, parameters=given) as sim, Client(stage.namespace) as client:
         log = RigLog(client)
@@ -65,7 +66,6 @@ def record(stage: Stage) -> tuple[PublishedRun, list[PublishedRun]]:
             what = f'step to {pressure / 1e3:.0f} kPa'
             hold_pressure(client, pressure, STEP, lambda: log.now, what)
             marks.append(log.now)
-        sim.stop()
         run = log.put_in_step()
     parts = [run.between(a, b) for a, b in pairwise(marks)]
     return run.between(begin, marks[0]), parts

@@ -1,0 +1,251 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""``pam_excite`` as a process, on a rig that the test plays; simulated time where it is long."""
+
+import signal
+
+import numpy as np
+import pytest
+from rclpy.qos import QoSProfile
+from rosgraph_msgs.msg import Clock
+from sensor_msgs.msg import JointState
+from std_msgs.msg import Float64
+
+from pam_ros.excitation.programme import programme
+from pam_ros.excitation.settings import Excitation
+from support.harness import Program
+
+SHORT = {'duration': 30.0, 'countdown': 0.0}
+PATIENT = {**SHORT, 'silence': 30.0}  # a busy machine may keep the rig of the test quiet
+
+
+class Rig:
+    """Answers commands with joint states, and keeps what it was told."""
+
+    def __init__(self, peer, name='pam'):
+        self.peer, self.names = peer, [name]
+        self.position = 0.03
+        self.commands = []
+        node = peer.node
+        self._joints = node.create_publisher(JointState, 'joint_states', 10)
+        self._clock = node.create_publisher(Clock, '/clock', 10)
+        node.create_subscription(Float64, 'pressure_command', self._take, QoSProfile(depth=20_000))
+        self.time = 0.0
+
+    def _take(self, message):
+        self.commands.append(message.data)
+
+    def tell(self):
+        """Publish the state once."""
+        state = JointState(name=self.names, position=[self.position] * len(self.names))
+        self._joints.publish(state)
+        return True
+
+    def advance(self, seconds):
+        """Let simulated time go on."""
+        self.time += seconds
+        clock = Clock()
+        clock.clock.sec, clock.clock.nanosec = divmod(round(self.time * 1e9), 10**9)
+        self._clock.publish(clock)
+
+    def until(self, condition, what):
+        """Tell the state again and again until *condition*."""
+        self.peer.until(lambda: self.tell() and condition(), what)
+
+    def until_pressed(self):
+        """Play until there is pressure in the muscle."""
+        self.until(lambda: self.commands and self.commands[-1] > 1e4, 'pressure')
+
+
+@pytest.fixture
+def rig(peer):
+    return Rig(peer)
+
+
+def excite(parameters=PATIENT, *arguments):
+    ros = [text for name, value in parameters.items() for text in ('-p', f'{name}:={value}')]
+    return Program('pam_excite', *ros, '--', *arguments)
+
+
+def check_vented(commands):
+    """Let the last commands go down to 0 no faster than is allowed."""
+    limits = Excitation()
+    assert commands[-1] == 0.0
+    assert np.diff(commands).min() >= -limits.pressure_rate / limits.rate * (1 + 1e-9)
+
+
+def test_it_plays_the_programme_to_its_end(rig):
+    expected = programme(Excitation(**SHORT))
+    with excite({**PATIENT, 'use_sim_time': 'true'}) as program:
+        rig.until(lambda: 'countdown' in program.output or rig.commands, 'the first command')
+
+        def plays():
+            rig.advance(0.04)
+            return not program.is_running
+
+        rig.until(plays, 'the end')
+        assert program.wait() == 0
+        output = program.output
+    commands = np.array(rig.commands)
+    assert commands[0] == 0.0
+    assert commands[-1] == 0.0
+    assert commands.max() == pytest.approx(450e3)
+    # Time is simulated and fast, so that commands are passed over, but none is out of place.
+    places = 0
+    for command in commands:
+        after = np.flatnonzero(expected.pressure[places:] == command)
+        assert after.size > 0
+        places += after[0]
+    for segment in expected.segments:
+        assert f' s  {segment.name}' in output
+    assert f'played {expected.duration:.1f} s, vented' in output
+    assert output.index('total') < output.index(' s  vented')
+
+
+def test_the_plan_alone(peer, tmp_path):
+    commands = peer.collect(Float64, 'pressure_command')
+    file = tmp_path / 'plan.csv'
+    with excite({'seed': 5}, '--dry-run', '--csv', str(file)) as program:
+        assert program.wait() == 0
+        output = program.output
+    assert 'steps with holds' in output
+    assert 'seed 5' in output
+    assert 'outside -16.0 to 100.0 mm' in output
+    assert 'the declared model would move from' in output
+    assert 'CAUTION' not in output
+    table = np.genfromtxt(file, delimiter=',', names=True)
+    np.testing.assert_array_equal(
+        table['pressure_command_Pa'], programme(Excitation(seed=5)).pressure
+    )
+    assert commands == []
+
+
+def test_the_muscle_narrows_the_limits_and_a_window_too_narrow_is_warned_of():
+    values = {'muscle': 'dmsp_10', 'contraction_max': 0.1}
+    with excite(values, '--dry-run') as program:
+        assert program.wait() == 0
+        assert 'to 25.0 mm' in program.output
+        assert 'CAUTION' in program.output
+
+
+@pytest.mark.parametrize('position', [0.11, -0.02, float('nan')])
+def test_a_joint_that_leaves_its_window_stops_it(rig, position):
+    with excite() as program:
+        rig.until_pressed()
+        rig.position = position
+        rig.until(lambda: not program.is_running, 'the end')
+        assert program.wait() == 1
+        sentence = next(line for line in program.output.splitlines() if 'stopped' in line)
+    assert sentence.startswith('pam_excite: the ')
+    assert 'venting' in sentence
+    check_vented(rig.commands)
+
+
+def test_a_joint_that_falls_silent_stops_it(rig, peer):
+    with excite({**SHORT, 'silence': 1.0}) as program:
+        rig.until_pressed()
+        peer.until(lambda: not program.is_running, 'the end')
+        assert program.wait() == 1
+        assert 'joint_states has been silent for' in program.output
+    check_vented(rig.commands)
+
+
+@pytest.mark.parametrize('kind', [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_vents(rig, kind):
+    with excite() as program:
+        rig.until_pressed()
+        program.interrupt(kind, 2)
+        rig.until(lambda: not program.is_running, 'the end')
+        assert program.wait() == 0
+        assert 'asked to stop, venting' in program.output
+        assert 'Traceback' not in program.output
+    rig.until(lambda: rig.commands[-1] == 0.0, 'the last command')
+    check_vented(rig.commands)
+
+
+def test_a_signal_before_it_plays(peer):
+    with excite() as program:
+        peer.until(lambda: 'total' in program.output, 'the plan')
+        program.interrupt()
+        assert program.wait() == 0
+
+
+def test_without_a_rig_it_gives_up():
+    with excite({**SHORT, 'patience': 0.1}) as program:
+        assert program.wait() == 1
+        assert 'nobody subscribes to pressure_command: is the rig running?' in program.output
+
+
+def test_a_rig_that_does_not_speak(peer):
+    peer.collect(Float64, 'pressure_command')
+    with excite({**SHORT, 'patience': 2.0}) as program:
+        assert program.wait() == 1
+        assert 'joint_states is silent' in program.output
+
+
+def test_another_commander_is_named(rig, peer):
+    rival = peer.node.create_publisher(Float64, 'pressure_command', 10)
+    with excite({**PATIENT, 'countdown': 30.0}) as program:
+        rig.until(lambda: not program.is_running, 'the end')
+        assert program.wait() == 1
+        assert f'/{peer.node.get_name()} commands pressures as well' in program.output
+    peer.node.destroy_publisher(rival)
+
+
+def test_of_several_joints_one_must_be_chosen(rig):
+    rig.names = ['base', 'elbow']
+    with excite() as program:
+        rig.until(lambda: not program.is_running, 'the end')
+        assert program.wait() == 1
+        assert '2 joints (base, elbow)' in program.output
+        assert 'joint_name' in program.output
+    with excite({**PATIENT, 'joint_name': 'knee'}) as program:
+        rig.until(lambda: not program.is_running, 'the end')
+        assert program.wait() == 1
+        assert "no joint 'knee': it has base, elbow" in program.output
+    with excite({**PATIENT, 'joint_name': 'elbow'}):
+        rig.until_pressed()
+
+
+def test_a_joint_outside_its_window_is_not_started(rig):
+    rig.position = 0.2
+    with excite() as program:
+        rig.until(lambda: not program.is_running, 'the end')
+        assert program.wait() == 1
+        assert 'stands at 200.0 mm' in program.output
+    assert rig.commands == []
+
+
+def test_nothing_can_be_changed_while_it_plays(rig, peer):
+    with excite({**PATIENT, 'countdown': 60.0}):
+        rig.until(lambda: True, 'the rig')
+        for values in ({'seed': 3}, {'mass': 10.0}, {'pressure_max': 6e5}):
+            assert not peer.set_one('pam_excite', **values).successful
+        (described,) = peer.describe('pam_excite', 'pressure_rate')
+        assert described.read_only
+        assert 'Pa/s' in described.description
+
+
+@pytest.mark.parametrize(
+    ('parameters', 'named'),
+    [
+        ({'duration': 3.0}, ['duration = 3.0', '30 to 3600 s']),
+        ({'pressure_min': 5e5}, ['pressure_min = 500000', 'pressure_max = 450000']),
+        ({'presure_max': 4e5}, ['presure_max', 'pressure_max']),
+        ({'muscle': 'dmsp_99'}, ['dmsp_99']),
+    ],
+)
+def test_bad_parameters_end_it_with_a_sentence(parameters, named):
+    with excite(parameters) as program:
+        assert program.wait() == 2
+        sentence = program.output.splitlines()[-1]
+        assert sentence.startswith('pam_excite: ')
+        for word in named:
+            assert word in sentence
+        assert 'Traceback' not in program.output
+
+
+def test_a_csv_that_cannot_be_written(tmp_path):
+    with excite(SHORT, '--csv', str(tmp_path / 'nowhere' / 'plan.csv')) as program:
+        assert program.wait() == 2
+        assert 'cannot be written' in program.output

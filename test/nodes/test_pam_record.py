@@ -1,0 +1,230 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""``pam_record`` as a process: every message in a bag that another library reads."""
+
+import signal
+
+import numpy as np
+import pytest
+import yaml
+from rclpy.duration import Duration
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from rosbags.highlevel import AnyReader
+from rosgraph_msgs.msg import Clock
+from sensor_msgs.msg import FluidPressure, JointState
+from std_msgs.msg import Float64, String
+
+from support.harness import DEADLINE, Program
+
+DEEP = QoSProfile(depth=20_000)  # so that the publisher of the test drops nothing either
+
+
+def recorder(path, *arguments):
+    return Program('pam_record', '--', '-o', str(path), *arguments)
+
+
+def heard(peer, kind, topic, qos=DEEP):
+    """Return a publisher once the recorder listens."""
+    publisher = peer.node.create_publisher(kind, topic, qos)
+    peer.until(publisher.get_subscription_count, f'the recorder on {topic}')
+    return publisher
+
+
+def delivered(*publishers):
+    for publisher in publishers:
+        assert publisher.wait_for_all_acked(Duration(seconds=DEADLINE))
+
+
+def contents(bag):
+    """Return topic -> [(stamp in ns, message), ...] as another library reads the bag."""
+    found = {}
+    with AnyReader([bag]) as reader:
+        for connection in reader.connections:
+            found[connection.topic] = []
+        for connection, stamp, data in reader.messages():
+            message = reader.deserialize(data, connection.msgtype)
+            found[connection.topic].append((stamp, message))
+    return found
+
+
+def written(bag):
+    """Return the number of messages that the bag on disk says it has."""
+    file = bag / 'metadata.yaml'
+    if not file.exists():
+        return -1
+    return yaml.safe_load(file.read_text())['rosbag2_bagfile_information']['message_count']
+
+
+@pytest.mark.parametrize('kind', [signal.SIGINT, signal.SIGTERM])
+def test_all_messages_of_a_rig_are_in_the_bag(peer, tmp_path, kind):
+    count = 3000
+    bag = tmp_path / 'rig'
+    with recorder(bag) as program:
+        floats = {
+            topic: heard(peer, Float64, topic)
+            for topic in ('pressure_command', 'force', 'stiffness', 'damping')
+        }
+        joints = heard(peer, JointState, 'joint_states')
+        fluid = heard(peer, FluidPressure, 'pressure')
+        state = JointState(name=['pam'], position=[0.0], velocity=[1.0], effort=[2.0])
+        for k in range(count):
+            state.header.stamp = peer.node.get_clock().now().to_msg()
+            state.position[0] = float(k)
+            joints.publish(state)
+            fluid.publish(FluidPressure(header=state.header, fluid_pressure=1e5 + k))
+            for publisher in floats.values():
+                publisher.publish(Float64(data=float(k)))
+        delivered(joints, fluid, *floats.values())
+        program.interrupt(kind)
+        assert program.wait() == 0
+        output = program.output
+    found = contents(bag)
+    expected = list(range(count))
+    for topic in floats:
+        assert [message.data for _, message in found[f'/{topic}']] == expected
+    assert [message.position[0] for _, message in found['/joint_states']] == expected
+    assert [message.fluid_pressure for _, message in found['/pressure']] == [
+        1e5 + k for k in expected
+    ]
+    for topic in found:
+        stamps = [stamp for stamp, _ in found[topic]]
+        assert stamps == sorted(stamps)
+        assert f'{topic} ' in output
+    assert output.count(f'{count} messages') == 6
+    assert 'lost' not in output
+    for stamp, message in found['/joint_states']:
+        sent = message.header.stamp.sec * 10**9 + message.header.stamp.nanosec
+        assert stamp >= sent
+
+
+def test_what_is_recorded_describes_itself(peer, tmp_path):
+    """The reader checks the definitions in the bag against the hashes of the types."""
+    bag = tmp_path / 'rig'
+    with recorder(bag):
+        joints = heard(peer, JointState, 'joint_states', QoSProfile(depth=7))
+        joints.publish(JointState())
+        delivered(joints)
+    with AnyReader([bag]) as reader:
+        (connection,) = reader.connections
+        assert connection.digest == (
+            'RIHS01_a13ee3a330e346c9d87b5aa18d24e11690752bd33a0350f11c5882bc9179260e'
+        )
+        assert 'MSG: builtin_interfaces/Time' in connection.msgdef.data
+        (profile,) = connection.ext.offered_qos_profiles
+        assert profile.reliability.name == 'RELIABLE'
+        assert profile.durability.name == 'VOLATILE'
+        assert (profile.deadline.sec, profile.deadline.nsec) == (9223372036, 854775807)
+
+
+def test_topics_that_come_late_and_topics_that_are_named(peer, tmp_path):
+    bag = tmp_path / 'rig'
+    with recorder(bag, 'notes', '/other/level', 'silent') as program:
+        force = heard(peer, Float64, 'force')
+        force.publish(Float64(data=1.0))
+        notes = heard(peer, String, 'notes')
+        notes.publish(String(data='now it creaks'))
+        level = heard(peer, Float64, '/other/level')
+        level.publish(Float64(data=2.0))
+        ignored = peer.node.create_publisher(Float64, 'unasked', 10)
+        delivered(force, notes, level)
+        assert ignored.get_subscription_count() == 0
+        program.interrupt()
+        assert program.wait() == 0
+        assert '/silent' in program.output
+        assert 'was not published' in program.output
+    found = contents(bag)
+    assert sorted(found) == ['/force', '/notes', '/other/level']
+    assert found['/notes'][0][1].data == 'now it creaks'
+
+
+def test_a_rig_in_a_namespace_and_remapped(peer, tmp_path):
+    bag = tmp_path / 'rig'
+    arguments = ('-r', '__ns:=/left', '-r', 'force:=cell')
+    with Program('pam_record', *arguments, '--', '-o', str(bag)):
+        force = heard(peer, Float64, '/left/cell')
+        force.publish(Float64(data=1.0))
+        delivered(force)
+    assert sorted(contents(bag)) == ['/left/cell']
+
+
+@pytest.mark.parametrize('reliability', list(ReliabilityPolicy)[1:3])
+@pytest.mark.parametrize(
+    'durability', [DurabilityPolicy.VOLATILE, DurabilityPolicy.TRANSIENT_LOCAL]
+)
+def test_publishers_of_every_quality_are_heard(peer, tmp_path, reliability, durability):
+    bag = tmp_path / 'rig'
+    qos = QoSProfile(depth=5, reliability=reliability, durability=durability)
+    with recorder(bag):
+        force = heard(peer, Float64, 'force', qos)
+        peer.until(lambda: [force.publish(Float64(data=3.0)), written(bag) > 0][1], 'a message')
+    assert contents(bag)['/force'][0][1].data == 3.0
+
+
+def test_what_was_published_before_is_there_where_the_publisher_keeps_it(peer, tmp_path):
+    bag = tmp_path / 'rig'
+    qos = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+    force = peer.node.create_publisher(Float64, 'force', qos)
+    force.publish(Float64(data=4.0))
+    with recorder(bag):
+        peer.until(lambda: written(bag) == 1, 'the message from before')
+
+
+def test_a_recorder_that_is_killed_leaves_a_whole_bag(peer, tmp_path):
+    bag = tmp_path / 'rig'
+    sent = 0
+    with recorder(bag) as program:
+        force = heard(peer, Float64, 'force')
+
+        def publish():
+            nonlocal sent
+            force.publish(Float64(data=float(sent)))
+            sent += 1
+
+        peer.until(lambda: [publish(), written(bag) >= 200][1], 'two hundred messages on disk')
+        on_disk = written(bag)
+        program.interrupt(signal.SIGKILL)
+        assert program.wait() == -signal.SIGKILL
+    for path in (bag, bag / 'rig_0.mcap'):
+        numbers = [message.data for _, message in contents(path)['/force']]
+        assert numbers == list(range(len(numbers)))
+        assert len(numbers) >= on_disk
+
+
+def test_where_time_is_simulated_it_is_what_is_recorded(peer, tmp_path):
+    bag = tmp_path / 'rig'
+    with Program('pam_record', '-p', 'use_sim_time:=true', '--', '-o', str(bag)):
+        force = heard(peer, Float64, 'force')
+        clock = peer.node.create_publisher(Clock, '/clock', 10)
+        now = Clock()
+        now.clock.sec = 5
+
+        def is_recorded():
+            clock.publish(now)
+            force.publish(Float64())
+            if written(bag) < 1:
+                return False
+            stamps = [stamp for stamp, _ in contents(bag)['/force']]
+            return stamps[-1] == 5 * 10**9
+
+        peer.until(is_recorded, 'a message of simulated time')
+    stamps = np.array([stamp for stamp, _ in contents(bag)['/force']])
+    assert set(stamps) <= {0, 5 * 10**9}
+
+
+def test_a_directory_that_exists_is_left_alone(tmp_path):
+    (tmp_path / 'rig').mkdir()
+    with recorder(tmp_path / 'rig') as program:
+        assert program.wait() == 2
+        assert program.output.splitlines()[-1].startswith('pam_record: ')
+        assert 'rig exists already' in program.output
+        assert 'Traceback' not in program.output
+    assert list((tmp_path / 'rig').iterdir()) == []
+
+
+@pytest.mark.parametrize('arguments', [['--nonsense'], ['two words'], ['1st']])
+def test_bad_arguments_end_it_with_a_sentence(tmp_path, arguments):
+    with recorder(tmp_path / 'rig', *arguments) as program:
+        assert program.wait() == 2
+        assert arguments[0] in program.output
+        assert 'Traceback' not in program.output
+    assert not (tmp_path / 'rig').exists()
