@@ -100,7 +100,6 @@ class Excitation:
         """
         return replace(
             self,
-            pressure_min=max(self.pressure_min, muscle.p_min),
             pressure_max=min(self.pressure_max, muscle.p_max),
             contraction_min=max(self.contraction_min, muscle.kappa_min),
             contraction_max=min(self.contraction_max, muscle.kappa_max),

@@ -30,6 +30,7 @@ from pam_ros.rig.model import RigModel
 from pam_ros.rig.run import simulate
 
 STOPPED = 1  # exit code
+UNNAMED = '_NODE_NAME_UNKNOWN_'  # what a node is called until it is discovered whole
 LAST = 0.2  # s for which 0 Pa is commanded after an emergency
 
 
@@ -169,25 +170,32 @@ class PamExcite(TickingNode):
         if self._misread:
             self._refuse(self._misread)
             return
-        rivals = [
-            info.node_name
-            for info in self.get_publishers_info_by_topic('pressure_command')
-            if info.node_name != self.get_name()
-        ]
-        if rivals:
+        rivals = self._rivals()
+        if rivals and UNNAMED not in rivals:
             self._refuse(f'{" and ".join(rivals)} commands pressures as well: stop it first')
             return
         is_heard = self._publisher.get_subscription_count() > 0
-        if self._guard.position is not None and is_heard:
+        if self._guard.position is not None and is_heard and not rivals:
             self._play_from = time.monotonic() + self._now.settings.countdown
             self._do = self._count_down
         elif time.monotonic() - self._begun > self._now.settings.patience:
-            missing = (
-                'nobody subscribes to pressure_command'
-                if not is_heard
-                else 'joint_states is silent'
-            )
-            self._refuse(f'{missing}: is the rig running?')
+            if not is_heard:
+                self._refuse('nobody subscribes to pressure_command: is the rig running?')
+            elif self._guard.position is None:
+                self._refuse('joint_states is silent: is the rig running?')
+            else:
+                self._refuse('a node without a name commands pressures as well: stop it first')
+
+    def _rivals(self) -> list[str]:
+        """Return the other nodes that publish pressure_command."""
+        names = [
+            info.node_namespace.rstrip('/') + '/' + info.node_name
+            for info in self.get_publishers_info_by_topic('pressure_command')
+        ]
+        own = self.get_fully_qualified_name()
+        if own in names:
+            names.remove(own)
+        return [UNNAMED if UNNAMED in name else name for name in names]
 
     def _count_down(self) -> None:
         problem = self._misread or self._guard.problem(time.monotonic())

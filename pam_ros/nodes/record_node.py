@@ -77,7 +77,7 @@ class PamRecord(TickingNode):
         super().__init__('pam_record')
         self._directory = directory
         names = dict.fromkeys((*TOPICS, *topics))
-        self._wanted = {self.resolve_topic_name(name): name in topics for name in names}
+        self._wanted = {self._resolved(name): name in topics for name in names}
         self._writer = BagWriter(directory, os.environ.get('ROS_DISTRO', 'unknown'))
         self._recorded: dict[str, _Recorded] = {}
         self._refused: set[str] = set()
@@ -115,6 +115,12 @@ class PamRecord(TickingNode):
         super().start()
         self._thread.start()
         print(f'recording to {self._directory}: Ctrl-C ends it', flush=True)
+
+    def _resolved(self, name: str) -> str:
+        try:
+            return str(self.resolve_topic_name(name))
+        except RuntimeError as error:
+            raise RecordingError(f'{name!r} is no name of a topic: {error}') from error
 
     # Finding topics ------------------------------------------------------------------------
 
