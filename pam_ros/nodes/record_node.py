@@ -238,13 +238,13 @@ class PamRecord(TickingNode):
         super().destroy_node()
 
     def _summarise(self) -> None:
-        duration = self._writer.duration
-        lines = [f'{self._directory}: {duration:.2f} s']
+        lines = [f'{self._directory}: {self._writer.duration:.2f} s']
         for topic, count in sorted(self._writer.counts.items()):
-            rate = (count - 1) / duration if duration > 0.0 else 0.0
             lost = self._recorded[topic].lost
             note = f'  {lost} lost before they came here' if lost else ''
-            lines.append(f'  {topic:<28} {count:>9} messages {rate:9.1f} Hz{note}')
+            lines.append(
+                f'  {topic:<28} {count:>9} messages {self._writer.rate(topic):9.1f} Hz{note}'
+            )
         for topic, is_asked in self._wanted.items():
             if topic not in self._writer.counts and is_asked:
                 lines.append(f'  {topic:<28} was not published')

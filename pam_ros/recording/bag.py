@@ -3,9 +3,7 @@
 """A rig's topics in a rosbag2: which they are, what their fields mean, which clock counts."""
 
 import re
-from collections import defaultdict
 from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -13,7 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pam_ros.errors import RecordingError
-from pam_ros.recording.bag_source import BagSource, Topic, bag_files, open_bag
+from pam_ros.recording.bag_source import BagSource, Message, Topic, bag_files, open_bag
+from pam_ros.recording.cdr import FLOAT64, FLUID_PRESSURE, JOINT_STATE, read_alike
 from pam_ros.recording.mapping import ColumnMapping, Meaning
 from pam_ros.recording.quantities import Target
 from pam_ros.recording.series import Series
@@ -23,13 +22,13 @@ __all__ = ['bag_files', 'read_bag']
 ATMOSPHERE = 101325.0  # Pa: FluidPressure is absolute, a recording's pressures are gauge
 _LATENCY = (-2e-3, 0.5)  # s from a header's stamp to its receipt; outside, the clocks differ
 
-_FLOAT = ('std_msgs/msg/Float64', 'std_msgs/msg/Float32')
+_FLOAT = (FLOAT64, 'std_msgs/msg/Float32')
 _PA, _M = Target('pressure_command', 'Pa'), Target('position', 'm')
 # topic -> type -> field -> meaning: the package's own topics.
 _OURS: dict[str, dict[str, dict[str, Meaning]]] = {
     'pressure_command': {kind: {'data': Meaning(_PA)} for kind in _FLOAT},
     'joint_states': {
-        'sensor_msgs/msg/JointState': {
+        JOINT_STATE: {
             'position': Meaning(_M),
             'velocity': Meaning(Target('velocity', 'm_s')),
             'effort': Meaning(Target('force', 'N')),
@@ -37,9 +36,7 @@ _OURS: dict[str, dict[str, dict[str, Meaning]]] = {
     },
     'force': {kind: {'data': Meaning(Target('force', 'N'))} for kind in _FLOAT},
     'pressure': {
-        'sensor_msgs/msg/FluidPressure': {
-            'fluid_pressure': Meaning(Target('pressure', 'Pa'), 1.0, -ATMOSPHERE)
-        }
+        FLUID_PRESSURE: {'fluid_pressure': Meaning(Target('pressure', 'Pa'), 1.0, -ATMOSPHERE)}
     },
 }
 
@@ -53,13 +50,12 @@ class _Field(NamedTuple):
     asked: bool  # by the user, so that it must be there
 
 
-@dataclass(eq=False)
-class _Samples:
-    """What was read of one topic: receive times and header stamps in ns, rows of numbers."""
+class _Samples(NamedTuple):
+    """What was read of one topic: receive times and header stamps in ns, columns of numbers."""
 
-    received: list[int]
-    stamped: list[int]
-    rows: list[list[float]]
+    received: NDArray[np.int64]
+    stamped: NDArray[np.int64]
+    columns: list[NDArray[np.float64]]
 
 
 def read_bag(
@@ -83,13 +79,13 @@ def read_bag(
     samples = _read(path, source, fields)
     notes = list(source.notes)
     use_header = _headers_agree(samples, notes)
-    origin = min((one.received[0] for one in samples.values() if one.received), default=0)
+    origin = min((one.received[0] for one in samples.values()), default=0)
     series: dict[str, Series] = {}
     for topic, one in samples.items():
-        stamps = one.stamped if use_header and min(one.stamped, default=0) > 0 else one.received
-        t = 1e-9 * (np.array(stamps, dtype=np.int64) - origin).astype(float)
-        rows = np.array(one.rows, dtype=float).reshape(len(stamps), -1)
-        for field, value in zip((f for f in fields if f.topic == topic), rows.T, strict=False):
+        stamps = one.stamped if use_header and one.stamped.min() > 0 else one.received
+        t = 1e-9 * (stamps - origin).astype(float)
+        own = [field for field in fields if field.topic == topic]
+        for field, value in zip(own, one.columns, strict=True):
             _add(series, path, field, t, value, notes)
     return series, notes
 
@@ -164,20 +160,37 @@ def _find(
 
 
 def _read(path: Path, source: BagSource, fields: list[_Field]) -> dict[str, _Samples]:
-    getters: dict[str, list[Callable[[Any], float]]] = defaultdict(list)
-    for field in fields:
-        getters[field.topic].append(_getter(path, field))
-    samples = {topic: _Samples([], [], []) for topic in getters}
-    for message in source.messages(list(getters)):
-        topic: Topic = source.topics[message.topic]
+    """Return what the bag has of each topic that has messages."""
+    messages: dict[str, list[Message]] = {field.topic: [] for field in fields}
+    for message in source.messages(list(messages)):
+        messages[message.topic].append(message)
+    return {
+        topic: _samples(path, source, [f for f in fields if f.topic == topic], found)
+        for topic, found in messages.items()
+        if found
+    }
+
+
+def _samples(
+    path: Path, source: BagSource, fields: list[_Field], messages: list[Message]
+) -> _Samples:
+    """Return the *fields* of the *messages* of one topic."""
+    received = np.array([message.stamp for message in messages], dtype=np.int64)
+    topic: Topic = source.topics[fields[0].topic]
+    paths = [field.path for field in fields]
+    alike = read_alike(topic.type, paths, [message.data for message in messages])
+    if alike is not None:
+        stamped = np.zeros_like(received) if alike.stamps is None else alike.stamps
+        return _Samples(received, stamped, [alike.columns[path] for path in paths])
+    getters = [_getter(path, field) for field in fields]
+    stamps, rows = [], []
+    for message in messages:
         content = source.decode(topic, message.data)
-        one = samples[message.topic]
-        header = getattr(content, 'header', None)
-        stamp = getattr(header, 'stamp', None)
-        one.received.append(message.stamp)
-        one.stamped.append(0 if stamp is None else stamp.sec * 10**9 + stamp.nanosec)
-        one.rows.append([get(content) for get in getters[message.topic]])
-    return samples
+        stamp = getattr(getattr(content, 'header', None), 'stamp', None)
+        stamps.append(0 if stamp is None else stamp.sec * 10**9 + stamp.nanosec)
+        rows.append([get(content) for get in getters])
+    columns = np.array(rows, dtype=float).T
+    return _Samples(received, np.array(stamps, dtype=np.int64), list(columns))
 
 
 def _getter(path: Path, field: _Field) -> Callable[[Any], float]:
@@ -235,10 +248,9 @@ def _only(where: str, message: Any, value: Any, asked: bool) -> float:
 def _headers_agree(samples: dict[str, _Samples], notes: list[str]) -> bool:
     """Say whether the clock of the headers is that of the receipts; note it where it is not."""
     for topic, one in samples.items():
-        stamped = np.array(one.stamped, dtype=np.int64)
-        if stamped.size == 0 or stamped.min() <= 0:
+        if one.stamped.min() <= 0:
             continue
-        late = 1e-9 * float(np.median(np.array(one.received, dtype=np.int64) - stamped))
+        late = 1e-9 * float(np.median(one.received - one.stamped))
         if not _LATENCY[0] <= late <= _LATENCY[1]:
             notes.append(
                 f'{topic} was stamped by a clock {late:.4g} s behind that of the recorder: all '

@@ -85,7 +85,7 @@ class BagWriter:
         self._topics: dict[int, BagTopic] = {}
         self._schemas: dict[str, int] = {}
         self.counts: dict[str, int] = {}
-        self._start, self._end = _NO_TIME, 0
+        self._spans: dict[str, tuple[int, int]] = {}  # first and last time of each topic
         self._tail = _Tail(0)
         self._writer: Any = Writer(
             self._tail, compression=CompressionType.ZSTD, use_summary_offsets=False
@@ -114,8 +114,10 @@ class BagWriter:
     def write(self, channel: int, received: int, published: int, data: bytes) -> None:
         """Add a message of *channel* with its times in ns."""
         self._writer.add_message(channel, received, data, published)
-        self.counts[self._topics[channel].name] += 1
-        self._start, self._end = min(self._start, received), max(self._end, received)
+        name = self._topics[channel].name
+        self.counts[name] += 1
+        first, last = self._spans.get(name, (received, received))
+        self._spans[name] = min(first, received), max(last, received)
         self._is_sealed = False
 
     def seal(self) -> None:
@@ -148,7 +150,18 @@ class BagWriter:
     @property
     def duration(self) -> float:
         """Return the time in s from the first message to the last."""
-        return max(self._end - self._start, 0) * 1e-9
+        start, end = self._span()
+        return (end - start) * 1e-9
+
+    def rate(self, topic: str) -> float:
+        """Return the messages a second of *topic* between its first and its last."""
+        first, last = self._spans.get(topic, (0, 0))
+        return (self.counts[topic] - 1) / ((last - first) * 1e-9) if last > first else 0.0
+
+    def _span(self) -> tuple[int, int]:
+        if not self._spans:
+            return _NO_TIME, _NO_TIME
+        return min(s for s, _ in self._spans.values()), max(e for _, e in self._spans.values())
 
     def _put(self, data: bytes, position: int) -> None:
         # The old summary goes first: a file that lacks its end is known to, one whose summary
@@ -161,8 +174,9 @@ class BagWriter:
 
     def _put_metadata(self) -> None:
         total = sum(self.counts.values())
-        duration = {'nanoseconds': max(self._end - self._start, 0)}
-        start = {'nanoseconds_since_epoch': self._start}
+        first, last = self._span()
+        duration = {'nanoseconds': last - first}
+        start = {'nanoseconds_since_epoch': first}
         content = {
             'version': METADATA_VERSION,
             'storage_identifier': 'mcap',
