@@ -85,7 +85,9 @@ def open_bag(path: Path) -> BagSource:
         notes = ['the bag was not closed by its recorder: read up to where it ends']
         topics, messages = _read_unfinished(files)
         return BagSource(topics, messages, decode, notes)
-    topics, messages = _read_with_ros(path) if has_ros else _read_with_rosbags(path, files)
+    # A directory without metadata (a recorder that was killed) is read file by file.
+    parts = [path] if path.is_file() or (path / METADATA).exists() else files
+    topics, messages = (_read_with_ros if has_ros else _read_with_rosbags)(path, parts)
     return BagSource(topics, messages, decode, [])
 
 
@@ -115,11 +117,9 @@ def _is_unfinished(file: Path) -> bool:
 Read = tuple[dict[str, Topic], Callable[[Collection[str]], Iterator[Message]]]
 
 
-def _read_with_rosbags(path: Path, files: list[Path]) -> Read:
+def _read_with_rosbags(path: Path, parts: list[Path]) -> Read:
     from rosbags.rosbag2 import Reader
 
-    # A directory without metadata (a recorder that was killed) is read file by file.
-    parts = [path] if path.is_file() or (path / METADATA).exists() else files
     topics: dict[str, Topic] = {}
     try:
         for part in parts:
@@ -142,33 +142,39 @@ def _read_with_rosbags(path: Path, files: list[Path]) -> Read:
     return topics, messages
 
 
-def _read_with_ros(path: Path) -> Read:
+def _read_with_ros(path: Path, parts: list[Path]) -> Read:
     rosbag2_py = importlib.import_module('rosbag2_py')
+    storages = {'.mcap': 'mcap', '.db3': 'sqlite3'}
 
-    def reader() -> Any:
-        compressed = path.is_dir() and bool(_metadata(path).get('compression_mode'))
-        kind = 'SequentialCompressionReader' if compressed else 'SequentialReader'
-        opened = getattr(rosbag2_py, kind)()
-        storage = ''
-        if path.is_file():
-            storage = 'mcap' if path.suffix == '.mcap' else 'sqlite3'
+    def opened(part: Path) -> Any:
+        is_compressed = part.is_dir() and bool(_metadata(part).get('compression_mode'))
+        kind = 'SequentialCompressionReader' if is_compressed else 'SequentialReader'
+        reader = getattr(rosbag2_py, kind)()
         try:
-            opened.open(
-                rosbag2_py.StorageOptions(uri=str(path), storage_id=storage),
+            reader.open(
+                rosbag2_py.StorageOptions(
+                    uri=str(part),
+                    storage_id=storages.get(part.suffix, '') if part.is_file() else '',
+                ),
                 rosbag2_py.ConverterOptions('', ''),
             )
         except RuntimeError as error:
             raise RecordingError(f'{path} cannot be read as a rosbag2: {error}') from error
-        return opened
+        return reader
 
     def messages(wanted: Collection[str]) -> Iterator[Message]:
-        opened = reader()
-        opened.set_filter(rosbag2_py.StorageFilter(topics=list(wanted)))
-        while wanted and opened.has_next():
-            topic, data, stamp = opened.read_next()
-            yield Message(topic, stamp, data)
+        for part in parts if wanted else []:
+            reader = opened(part)
+            reader.set_filter(rosbag2_py.StorageFilter(topics=list(wanted)))
+            while reader.has_next():
+                topic, data, stamp = reader.read_next()
+                yield Message(topic, stamp, data)
 
-    topics = {topic.name: Topic(topic.type) for topic in reader().get_all_topics_and_types()}
+    topics = {
+        topic.name: Topic(topic.type)
+        for part in parts
+        for topic in opened(part).get_all_topics_and_types()
+    }
     return topics, messages
 
 

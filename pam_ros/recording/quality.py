@@ -17,6 +17,7 @@ PERIODS = (1e-6, 2.0)  # s between samples: outside, the unit of time must be wr
 TOO_LOW = 1e-3  # an input that stays below this share of p_max is in another unit
 SHORT = 10.0  # s
 RESTING = 0.02  # share of samples at an extreme value from which it may be a stop
+SATURATED = 0.6  # share of samples of an input at one end of its range that is too much
 LEVELS = 100  # distinct values, fewer of which are called coarse
 SMALL_RANGE = 0.2  # of the input's largest value
 
@@ -195,6 +196,10 @@ def _warn_excitation(recording: Recording, p_max: float | None) -> list[str]:
     if share < SMALL_RANGE:
         whole = 'p_max' if p_max is not None else 'its largest value'
         found.append(f'{name} covers only {100 * share:.0f} % of {whole}: poor excitation')
+    for word, extreme in (('lowest', np.min(value)), ('highest', np.max(value))):
+        at = 100 * float(np.mean(value == extreme))
+        if at > 100 * SATURATED:
+            found.append(f'{name} is at its {word} value in {at:.0f} % of the samples')
     levels = np.unique(value)
     if levels.size < 4:
         found.append(

@@ -230,10 +230,12 @@ def test_where_ros_brings_its_library_that_reads(bag, read_without_ros, ros_libr
     source = open_bag(bag)
     assert contents(source) == read_without_ros
     open_bag(bag / 'bag.mcap')
+    (bag / 'metadata.yaml').unlink()
+    assert contents(open_bag(bag)) == read_without_ros
     assert type(source.decode(source.topics['/force'], b'\0\1\0\0' + bytes(8))).__module__ == (
         'std_msgs.msg._float64'
     )
-    assert [options.storage_id for options in ros_library.opened] == ['', '', 'mcap']
+    assert [one.storage_id for one in ros_library.opened] == ['', '', 'mcap', 'mcap', 'mcap']
 
 
 def test_what_ros_cannot_read_is_said(bag, ros_library):

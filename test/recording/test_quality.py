@@ -141,6 +141,10 @@ def test_an_absolute_pressure():
         (constant(0.0) | {'command': 2e5 + 1e5 * (T > 9.0)}, ['only 2 levels', 'turns round 0']),
         ({'command': 3e5 + 2e4 * np.sin(3.0 * T)}, ['covers only 12 %']),
         ({'command': 1e5 + 2e4 * T}, ['turns round 0 time(s)']),
+        (
+            {'command': 6e5 * np.clip(np.sin(T) * 3.0, 0.0, 1.0) * (T > 10.0)},
+            ['at its lowest value in 7'],
+        ),
     ],
 )
 def test_poor_excitation(changes, words):
