@@ -6,6 +6,8 @@ from math import exp
 
 from pam_ros.effects.base import Effect, EffectParameter, Row
 
+SHORTEST = 1e-6  # s; a faster refill than any rig's is as good as immediate
+
 
 def pressure(p: float, t: float, h: float, x: Row, i: int, xn: Row, q: Row, j: int) -> float:
     """Return the pressure of a leaking chamber, exact for p_in constant over h.
@@ -19,7 +21,7 @@ def pressure(p: float, t: float, h: float, x: Row, i: int, xn: Row, q: Row, j: i
     if r == 0.0:
         return p
     if q[j + 1] > 0.0:
-        fill = 1.0 / q[j + 1]
+        fill = 1.0 / max(q[j + 1], SHORTEST)
         rest = p * fill / (fill + r)
         xn[i] = rest + (x[i] - rest) * exp(-h * (fill + r))
     else:

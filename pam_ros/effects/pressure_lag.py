@@ -6,6 +6,8 @@ from math import exp
 
 from pam_ros.effects.base import Effect, EffectParameter, Row
 
+SHORTEST = 1e-6  # s; a faster chamber than any rig's is immediate
+
 
 def pressure(p: float, t: float, h: float, x: Row, i: int, xn: Row, q: Row, j: int) -> float:
     """Return the chamber pressure of tau dp/dt = p_in - p, exact for p_in constant over h.
@@ -16,7 +18,7 @@ def pressure(p: float, t: float, h: float, x: Row, i: int, xn: Row, q: Row, j: i
     if q[j] == 0.0 and q[j + 1] == 0.0:
         return p
     tau = q[j] if p > x[i] else q[j + 1]
-    xn[i] = p + (x[i] - p) * exp(-h / tau) if tau > 0.0 else p
+    xn[i] = p + (x[i] - p) * exp(-h / tau) if tau > SHORTEST else p
     return xn[i]
 
 

@@ -60,3 +60,11 @@ def test_load_sinks_with_the_pressure():
     y, _ = bench.solved(rhs, t, (bench.rest(4e5), 0.0), ((0.0, 4e5),))
     np.testing.assert_allclose(run.position, y, atol=1e-8)
     assert y[-1] < y[0] - 5e-3
+
+
+@pytest.mark.parametrize('refill', [1e-300, 1e-9])
+def test_a_refill_faster_than_any_leaves_no_loss_and_no_nan(refill):
+    t = np.array([0.0, 0.5, 1.0])
+    model = bench.cart(mass=1e4, leak={'rate': 0.5, 'refill': refill})
+    run = simulate(model, t, [0.0, 0.5], [100.0, 200.0], position=0.0)
+    np.testing.assert_allclose(run.pressure, [100.0, 100.0, 200.0], rtol=1e-6)

@@ -42,7 +42,7 @@ CLEAR = {
     'softening': {'limit': 0.06, 'per_pressure': 5e-7, 'per_second': 0.05},
     'creep': {'force': -0.03, 'stiffness': 600.0, 'time': 0.8, 'spread': 2.0},
     'hysteresis': {'amplitude': 9.0, 'slip': 5.0, 'pressure_share': 2e-7},
-    'slack': {'toe': 20.0},
+    'slack': {'share': 1.0, 'toe': 20.0},
     'pressure_dependent_damping': {'inflating': 3e-4, 'deflating': 1e-4},
     'periodic_disturbance': {'force_sin': 3.0, 'pressure_cos': 2e3, 'frequency': 2.3},
     'payload': {'mass': 1.5},
@@ -133,6 +133,7 @@ def test_rig_at_rest_stays_at_rest(name):
     assert abs(again.velocity[1]) < 1e-7
 
 
+@pytest.mark.needs_numba
 @BY_EFFECT
 def test_answer_converges_as_the_step_shrinks(effect):
     effects = {effect.name: CLEAR[effect.name]}
