@@ -70,6 +70,8 @@ def page(trace: Trace, runs: list[Run], source: Provenance, content: Table) -> s
         parameters=rows.parameters(trace),
         recordings=rows.recordings(content),
         configuration=rows.configuration(source),
+        warnings=warnings_of(trace, source),
+        inputs='pressure and length' if trace.quantity == 'force' else 'command',
         content=content,
         source=source,
     )
@@ -83,6 +85,15 @@ def curves_of(trace: Trace, runs: list[Run]) -> list[Curve]:
     for before, stage in pairwise(range(len(STAGES))):
         if not all(np.array_equal(r.simulated[before], r.simulated[stage]) for r in runs):
             found.append(Curve(stage, labels[stage]))
+    return found
+
+
+def warnings_of(trace: Trace, source: Provenance) -> list[tuple[str, str]]:
+    """Return (recording, what limits it) and, without a name, what limits the whole trace."""
+    all_of_them = (*source.recordings, *source.test)
+    told = {warning for recording in all_of_them for warning in recording.warnings}
+    found = [('', warning) for warning in trace.warnings if warning not in told]
+    found += [(one.name, '; '.join(one.warnings)) for one in all_of_them if one.warnings]
     return found
 
 

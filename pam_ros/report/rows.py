@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The rows of a page's tables: numbers of the trace as texts, in the units that people read."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
 from pam_ros.config import rig_table
@@ -32,7 +32,6 @@ class Row:
 
     cells: dict[str, Any]
     kind: str = ''
-    notes: list[str] = field(default_factory=list)
 
 
 def errors(content: Table, scale: Scale, labels: dict[int, str]) -> list[Row]:
@@ -131,7 +130,7 @@ def _estimate(estimate: Estimate | None) -> dict[str, Any]:
 
 
 def recordings(content: Table) -> list[Row]:
-    """Return a row for each recording: how it was sampled, what it covers, what is poor in it."""
+    """Return a row for each recording: how it was sampled, what it covers."""
     found = []
     for one in content['data']['recordings']:
         period = 1.0 / one['rate']
@@ -147,7 +146,7 @@ def recordings(content: Table) -> list[Row]:
             'commands': ABSENT if one['commands'] is None else str(one['commands']),
             'ranges': [_range(name, *ends) for name, ends in one['ranges'].items()],
         }
-        found.append(Row(cells, one['role'], one['warnings']))
+        found.append(Row(cells, one['role']))
     return found
 
 
@@ -157,6 +156,8 @@ def _jitter(share: float) -> str:
 
 def _range(name: str, low: float, high: float) -> str:
     scale = scale_for(QUANTITIES[name].si, max(abs(low), abs(high)))
+    if low == high:
+        return f'{name_in_words(name)} {scale.text(low)} {scale.unit}'
     ends = interval(scale.factor * low, scale.factor * high)
     return f'{name_in_words(name)} {ends} {scale.unit}'
 

@@ -79,18 +79,20 @@ def measured_and_simulated(
 ) -> Figure:  # fmt: skip
     """Return what was measured and simulated over time, with the residuals beneath.
 
-    What no fit has seen stands on a tinted ground; the band is two standard deviations of the
-    *noise* to each side.
+    The last model's stands once more by itself, since those before it may be far larger. What no
+    fit has seen stands on a tinted ground; the band is two standard deviations of the *noise* to
+    each side.
     """
-    heights = (230, 130) if width > 600 else (190, 130)
-    figure, (above, below) = style.stacked(width, heights)
+    heights = (220, 100, 90) if width > 600 else (180, 100, 90)
+    figure, (above, below, alone) = style.stacked(width, heights)
+    last = curves[-1]
     share = [s.run.t[s.stop - 1] - s.run.t[s.start] for s in stretches]
     columns = [max(20, int((width - 70) * x / sum(share) * 0.9)) for x in share]
     for stretch, n in zip(stretches, columns, strict=True):
         part = slice(stretch.start, stretch.stop)
         t = stretch.run.t[part] + stretch.shift
-        _tint(above, t, stretch.run.held[part])
-        _tint(below, t, stretch.run.held[part])
+        for ax in figure.axes:
+            _tint(ax, t, stretch.run.held[part])
         y = scale.factor * stretch.run.target[part]
         above.plot(*style.envelope(t, y, n), color=style.MEASURED, linewidth=3.0)
         for curve in curves:
@@ -98,15 +100,18 @@ def measured_and_simulated(
             above.plot(*style.envelope(t, y, n), **curve.look)
             e = scale.factor * stretch.run.residual(curve.stage)[part]
             below.plot(*style.envelope(t, e, n), **curve.look)
-    for a, b in pairwise(stretches):
-        middle = 0.5 * (a.run.t[a.stop - 1] + a.shift + b.run.t[b.start] + b.shift)
-        above.axvline(middle, color=style.FAINT, linewidth=0.6)
-        below.axvline(middle, color=style.FAINT, linewidth=0.6)
-    below.axhspan(-2.0 * noise * scale.factor, 2.0 * noise * scale.factor, **_BAND)
+            if curve is last:
+                alone.plot(*style.envelope(t, e, n), **curve.look)
+    for ax in figure.axes:
+        for a, b in pairwise(stretches):
+            middle = 0.5 * (a.run.t[a.stop - 1] + a.shift + b.run.t[b.start] + b.shift)
+            ax.axvline(middle, color=style.FAINT, linewidth=0.6)
+    alone.axhspan(-2.0 * noise * scale.factor, 2.0 * noise * scale.factor, **_BAND)
     above.margins(x=0.0)
     above.set_title(f'{quantity}, {scale.unit}')
     below.set_title(f'residual (measured − simulated), {scale.unit}')
-    below.set_xlabel('time, s')
+    alone.set_title(f'residual, {last.label}, {scale.unit}')
+    alone.set_xlabel('time, s')
     return figure
 
 

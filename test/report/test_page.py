@@ -9,7 +9,7 @@ from html.parser import HTMLParser
 import pytest
 
 from pam_ros.report.numbers import numbers
-from pam_ros.report.page import VERDICTS, curves_of, not_excluded, page
+from pam_ros.report.page import VERDICTS, curves_of, not_excluded, page, warnings_of
 from pam_ros.report.wording import Scale
 
 SECTIONS = ['error', 'simulated', 'residual', 'shape', 'candidates', 'parameters', 'data', 'next']
@@ -156,3 +156,10 @@ def test_load_without_a_muscle_has_an_input_and_a_position(friction, friction_pa
     assert 'Against the input' in html
     assert 'Against position' in html
     assert 'contraction, %' not in html
+
+
+def test_warnings_are_told_once_with_the_recording_they_are_about(tested):
+    trace, source, _ = tested
+    told = (*trace.warnings, *(w for r in source.recordings for w in r.warnings))
+    found = warnings_of(replace(trace, warnings=told), source)
+    assert found == [('', 'the position covers 11 % of the stroke'), ('bench.csv', '1 gap(s)')]

@@ -44,12 +44,14 @@ def test_curves_and_residuals_are_drawn_in_the_display_unit(friction):
         figure = time_plots.measured_and_simulated(
             time_plots.whole(runs), CURVES, MM, 'position', 5e-5, style.WIDE
         )
-    above, below = figure.axes
+    above, below, alone = figure.axes
     measured = above.lines[0]
     assert measured.get_ydata().max() == pytest.approx(1e3 * runs[0].target.max())
     declared = below.lines[0]
     assert declared.get_ydata().min() == pytest.approx(1e3 * runs[0].residual(0).min())
     assert above.get_title('left') == 'position, mm'
+    (last,) = (line for line in alone.lines if len(line.get_xdata()) > 2)
+    assert last.get_ydata().max() == pytest.approx(1e3 * runs[0].residual(2).max())
     assert declared.get_xdata()[-1] <= runs[0].t[-1]
 
 
