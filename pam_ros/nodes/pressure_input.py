@@ -31,9 +31,13 @@ class PressureInput:
             return None
         self.accepted += 1
         self.last = value
-        low, high = self.muscle.p_min, self.muscle.p_max
-        applied = min(max(value, low), high)
+        applied = self.within_limits(value)
         if applied != value:
             self.clamped += 1
-            self.reason = f'pressure command {value:g} Pa is outside {low:g} to {high:g}: clamped'
+            limits = f'{self.muscle.p_min:g} to {self.muscle.p_max:g}'
+            self.reason = f'pressure command {value:g} Pa is outside {limits}: clamped'
         return applied
+
+    def within_limits(self, pressure: float) -> float:
+        """Return the pressure in Pa that the valve can give nearest to *pressure*."""
+        return min(max(pressure, self.muscle.p_min), self.muscle.p_max)

@@ -32,13 +32,13 @@ class PamSim(TickingNode):
         self._given = NodeParameters(
             self, table(given(self).get('muscle', '')), simulation, self._change
         )
-        self._now = self._given.built
-        settings = self._now.settings
+        self._told = self._given.built
+        settings = self._told.settings
         self._telemetry = Telemetry(self, settings.joint_name)
-        self._telemetry.describe(settings.frame_id, self._now.sensors.pressure_noise**2)
-        self._input = PressureInput(self._now.model.muscle)
-        self._rig = Rig([self._now.model], 1.0 / settings.physics_rate)
-        self._feedback = Feedback(self._now.sensors)
+        self._telemetry.describe(settings.frame_id, self._told.sensors.pressure_noise**2)
+        self._input = PressureInput(self._told.model.muscle)
+        self._rig = Rig([self._told.model], 1.0 / settings.physics_rate)
+        self._feedback = Feedback(self._told.sensors)
         self._pace = Pace(settings.physics_rate, self._ros_ns(), monotonic_ns())
         self._is_paused = False
         self._published = 0
@@ -65,11 +65,12 @@ class PamSim(TickingNode):
 
     def _begin(self) -> None:
         """Go to the initial state, now."""
-        pressure, position, velocity = self._now.initial
+        pressure, position, velocity = self._told.initial
         self._rig.reset([pressure], [position], [velocity])
-        self._feedback = Feedback(self._now.sensors)
+        self._feedback = Feedback(self._told.sensors)
         self._step = 0
         self._sample = 0
+        self._ordered = pressure  # Pa, what the valve was last told
         self._heard: float | None = None  # simulated time of the last good command
         self._is_silent = False
         self._fault = ''
@@ -95,17 +96,19 @@ class PamSim(TickingNode):
 
     def _run_to_now(self) -> None:
         """Simulate what is due, and publish each sample that is due on the way."""
+        if self._is_paused:
+            return
         due = self._pace.due(self._step, self._ros_ns(), monotonic_ns(), self._follows_clock)
-        settings = self._now.settings
+        settings = self._told.settings
         spacing = settings.physics_rate / settings.publish_rate
-        while not self._is_paused:
-            at = math.ceil(self._sample * spacing - 1e-9)
-            if at > due:
-                break
-            self._advance(at)
-            self._sample += 1
-            self._publish(self._pace.stamp(at))
-        self._advance(due)
+        try:
+            while (at := math.ceil(self._sample * spacing - 1e-9)) <= due:
+                self._advance(at)
+                self._publish(self._pace.stamp(at))
+                self._sample += 1
+            self._advance(due)
+        except (ArithmeticError, ValueError) as error:  # the kernel's own as plain Python
+            self._stop_at_fault(error)
 
     def _advance(self, step: int) -> None:
         if step > self._step:
@@ -114,13 +117,18 @@ class PamSim(TickingNode):
             self._watch_silence()
 
     def _watch_silence(self) -> None:
-        settings = self._now.settings
+        settings = self._told.settings
         if self._heard is None or self._is_silent or not settings.command_timeout:
             return
         if self._rig.time - self._heard > settings.command_timeout:
             self._is_silent = True
             if settings.on_timeout == 'vent':
-                self._rig.command([0.0])
+                self._order(0.0)
+
+    def _order(self, pressure: float) -> None:
+        """Tell the valve a pressure in Pa from now on."""
+        self._ordered = self._input.within_limits(pressure)
+        self._rig.command([self._ordered])
 
     # Out -----------------------------------------------------------------------------------
 
@@ -129,23 +137,22 @@ class PamSim(TickingNode):
         force, stiffness, damping, acceleration = rig.outputs()[0].tolist()
         position, velocity = rig.position.item(), rig.velocity.item()
         pressure = rig.pressure.item()
-        if not math.isfinite(force + position + velocity):
-            self._stop_at_fault()
-            return
+        if not (abs(position) < self._told.reach and math.isfinite(force + velocity)):
+            raise ArithmeticError(f"at {position:g} m it is out of the muscle's reach")
         if not self._feedback.is_ideal:
             sample = np.array([[position], [velocity], [pressure], [force], [acceleration]])
             reading = self._feedback.read(rig.time, sample)
             position, velocity, pressure, force = reading[:, 0].tolist()
-        absolute = pressure + self._now.settings.ambient_pressure
+        absolute = pressure + self._told.settings.ambient_pressure
         self._telemetry.publish(stamp, position, velocity, absolute, force, stiffness, damping)
         self._published += 1
 
-    def _stop_at_fault(self) -> None:
+    def _stop_at_fault(self, error: Exception) -> None:
         """Stand still at the initial state: what the model says now is no motion."""
-        at = self._rig.time
+        time = self._rig.time
         self._begin()
         self._is_paused = True
-        self._fault = f'the motion left all bounds {at:.3f} s after the start: reset and paused'
+        self._fault = f'the load is lost {time:.3f} s after the start, {error}: reset and paused'
         self.get_logger().error(self._fault)
 
     # In ------------------------------------------------------------------------------------
@@ -157,20 +164,19 @@ class PamSim(TickingNode):
             return
         if pressure != message.data:
             self.get_logger().warning(self._input.reason, throttle_duration_sec=1.0)
-        if not self._is_paused:
-            self._run_to_now()
-        self._rig.command([pressure])
+        self._run_to_now()
+        self._order(pressure)
         self._heard = self._rig.time
         self._is_silent = False
 
     def _change(self, now: Simulation) -> None:
         """Go on with other parameters."""
-        if not self._is_paused:
-            self._run_to_now()
-        before, self._now = self._now.settings.publish_rate, now
+        self._run_to_now()
+        before, self._told = self._told.settings.publish_rate, now
         self._rig.change([now.model])
         self._feedback.change(now.sensors)
         self._input.muscle = now.model.muscle
+        self._order(self._ordered)  # the limits may have changed
         self._telemetry.describe(now.settings.frame_id, now.sensors.pressure_noise**2)
         rate = now.settings.publish_rate
         if rate != before:
@@ -183,9 +189,8 @@ class PamSim(TickingNode):
         return response
 
     def _pause(self, request: SetBool.Request, response: SetBool.Response) -> SetBool.Response:
-        if request.data and not self._is_paused:
-            self._run_to_now()
-        elif self._is_paused and not request.data:
+        self._run_to_now()
+        if self._is_paused and not request.data:
             self._pace.align(self._step, self._ros_ns(), monotonic_ns())
             self._fault = ''
         self._is_paused = request.data
@@ -197,7 +202,7 @@ class PamSim(TickingNode):
     def _timing(self) -> Health:
         kept = self.ticker.report(monotonic_ns())
         rate, self._published = self._published / kept.span, 0
-        wanted = self._now.settings.publish_rate
+        wanted = self._told.settings.publish_rate
         values = {
             'publish rate (Hz)': rate,
             'wanted publish rate (Hz)': wanted,
@@ -214,7 +219,7 @@ class PamSim(TickingNode):
             return Health(WARN, 'waits for /clock (use_sim_time is set)', values)
         if self._is_paused:
             return Health(OK, 'paused', values)
-        if rate < 0.95 * wanted:
+        if rate < 0.95 * wanted and not self._follows_clock:
             return Health(WARN, f'publishes at {rate:.1f} Hz instead of {wanted:g}', values)
         return Health(OK, 'keeps its rate', values)
 
@@ -231,6 +236,6 @@ class PamSim(TickingNode):
         if age is None:
             return Health(OK, 'no command yet', values)
         if self._is_silent:
-            did = {'vent': 'vented', 'hold': 'held'}[self._now.settings.on_timeout]
+            did = {'vent': 'vented', 'hold': 'held'}[self._told.settings.on_timeout]
             return Health(WARN, f'no command for {age:.3g} s: {did}', values)
         return Health(OK, 'commanded', values)

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What ``pam_sim`` is told beside the rig itself: rates, time-out, start, names."""
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -11,6 +12,8 @@ from pam_ros.parameter_files import read_known
 from pam_ros.parameters import Parameter, check_all, parameter
 from pam_ros.rig.model import RigModel
 from pam_ros.rig.sensors import Sensors
+
+START = (-0.2, 0.95)  # contractions at which a simulation may start
 
 
 @dataclass(frozen=True)
@@ -94,12 +97,18 @@ class Simulation:
                 f'initial.pressure = {start.pressure:g} Pa is outside p_min = {muscle.p_min:g} '
                 f'to p_max = {muscle.p_max:g} Pa'
             )
-        kappa = start.position / muscle.l0
-        if not muscle.is_load_only and not start.at_rest and not -0.5 <= kappa <= 0.95:
+        low, high = ((bound * muscle.l0) for bound in START)
+        if not (muscle.is_load_only or start.at_rest or low <= start.position <= high):
             raise ParameterError(
                 f'initial.position = {start.position:g} m is no length of a muscle of '
-                f'{muscle.l0:g} m: give {-0.5 * muscle.l0:g} to {0.95 * muscle.l0:g} m'
+                f'{muscle.l0:g} m: give {low:g} to {high:g} m'
             )
+
+    @property
+    def reach(self) -> float:
+        """Position in m at which a muscle would have no length left; inf where there is none."""
+        muscle = self.model.muscle
+        return math.inf if muscle.is_load_only else muscle.l0
 
     @property
     def initial(self) -> tuple[float, float, float]:

@@ -8,6 +8,7 @@ import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from sensor_msgs.msg import FluidPressure, JointState
 from std_msgs.msg import Float64
+from std_srvs.srv import SetBool, Trigger
 
 from support.harness import Program
 
@@ -105,6 +106,29 @@ def test_a_bad_command_does_not_count_as_a_sign_of_life(watch):
             return watch.pressures[-1].fluid_pressure == AMBIENT
 
         watch.peer.until(vents_while_told_nonsense, 'venting')
+
+
+def test_a_lower_limit_lowers_the_pressure_in_force(watch):
+    with Program('pam_sim', parameters={'command_timeout': 0.0}):
+        watch.command(5e5)
+        watch.pressure_becomes(5e5)
+        assert watch.peer.set_one('pam_sim', p_max=4.5e5).successful
+        watch.pressure_becomes(4.5e5)
+
+
+def test_a_lost_load_is_told_and_never_published(watch):
+    given = {'initial.at_rest': False, 'initial.velocity': -100.0}  # no muscle holds that
+    with Program('pam_sim', parameters=given) as sim:
+        status, values = watch.status('timing', lambda s, v: s.level == DiagnosticStatus.ERROR)
+        assert 'the load is lost' in status.message
+        assert values['paused'] == 'True'
+        assert status.message in sim.output
+        # Set right, it goes on.
+        assert watch.peer.set_one('pam_sim', initial__velocity=0.0).successful
+        assert watch.peer.call(Trigger, 'pam_sim/reset').success
+        assert watch.peer.call(SetBool, 'pam_sim/pause', data=False).success
+        watch.status('timing', lambda s, v: s.level == DiagnosticStatus.OK)
+    assert all(abs(m.position[0]) < 0.4 for m in watch.states)
 
 
 def test_the_initial_pressure_stands_until_a_first_command(watch):
