@@ -54,7 +54,7 @@ setup(
     ],
     extras_require={
         'fast': ['numba'],
-        'test': ['pytest', 'hypothesis'],
+        'test': ['pytest', 'hypothesis', 'jsonschema'],
     },
     zip_safe=False,
     entry_points={

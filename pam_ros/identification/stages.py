@@ -130,10 +130,16 @@ def stage(name: str, model: RigModel, fit: Fit, test: Sequence[Segment]) -> Stag
         tested = tuple(again.predict(fit.solution.u[known]))
         e = np.concatenate([p - s.target for p, s in zip(tested, test, strict=True)])
         held_error = float(np.sqrt(np.mean(e * e)))
+    parameters = estimates(fit, model)
+    if name == 'declared':  # nothing of it was fitted
+        parameters = {
+            key: Estimate(one.value, one.value, one.value, one.unit)
+            for key, one in parameters.items()
+        }
     return Stage(
         name,
         model_of(model, problem, fit.solution.u, fit.effects),
-        estimates(fit, model),
+        parameters,
         fit.fit_error,
         held_error,
         simulated,

@@ -56,7 +56,7 @@ def whole(runs: list[Run]) -> list[Stretch]:
 
 
 def close_up(runs: list[Run], before: int, after: int) -> Stretch:
-    """Return the few seconds, kept back where possible, that tell two stages apart most."""
+    """Return the few seconds, mostly kept back, that tell two stages apart most."""
     best, most = Stretch(runs[0], 0, runs[0].t.size), (False, -np.inf)
     for run in runs:
         span = min(CLOSE_UP, float(run.t[-1] - run.t[0]))
@@ -66,7 +66,7 @@ def close_up(runs: list[Run], before: int, after: int) -> Stretch:
         starts = np.searchsorted(run.t, np.arange(run.t[0], run.t[-1] - span + 1e-9, span / 4.0))
         for start in starts.tolist():
             stop = int(np.searchsorted(run.t, run.t[start] + span, side='right'))
-            is_kept = float(kept[stop] - kept[start]) > 0.9 * span
+            is_kept = float(kept[stop] - kept[start]) > 0.5 * span
             worth = (is_kept, float(integral[stop] - integral[start]))
             if worth > most:
                 best, most = Stretch(run, start, stop), worth
