@@ -4,6 +4,7 @@
 
 import argparse
 import os
+import signal
 import sys
 from importlib import import_module
 from pathlib import Path
@@ -26,6 +27,8 @@ def main() -> None:
     for name in given.chapters:
         if name not in CHAPTERS:
             parser.error(f'there is no chapter {name}: give one of ' + ', '.join(CHAPTERS))
+    # A polite kill stops the programs that a chapter has started, as Ctrl-C does.
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
     # Nothing of the demonstration needs another machine, and none should hear it.
     os.environ.setdefault('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
     try:

@@ -10,6 +10,7 @@ import argparse
 import gc
 import re
 import sys
+from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from pathlib import Path
 from time import monotonic_ns
@@ -38,7 +39,7 @@ LONGEST_WAIT = 0.1  # s in the executor, so that a stop is heeded whatever the r
 REFUSALS = (PamError, NameValidationException, ParameterException, RuntimeError)
 
 
-class TickingNode(Node):
+class TickingNode(Node, ABC):
     """A node that does its work in :meth:`tick`, at the rate of its ``ticker``.
 
     A node whose work comes to an end sets ``exit_code``; the others run until they are stopped.
@@ -61,9 +62,9 @@ class TickingNode(Node):
         """Begin to count time: all is there and the loop starts."""
         self.ticker.start(self.ticker.rate, monotonic_ns())
 
+    @abstractmethod
     def tick(self) -> None:
         """Do the work of one period."""
-        raise NotImplementedError
 
 
 def run(kind: type[TickingNode], stop: StopRequest, about: str) -> int:

@@ -8,6 +8,7 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
 from matplotlib.image import imread
 
 DEMO = [sys.executable, '-m', 'pam_ros.nodes.pam_demo']
@@ -56,7 +57,8 @@ def test_an_unknown_chapter_is_refused_with_those_that_there_are(tmp_path):
     assert not list(tmp_path.iterdir())
 
 
-def test_ctrl_c_leaves_no_simulator_behind(tmp_path):
+@pytest.mark.parametrize('kind', [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_leaves_no_simulator_behind(tmp_path, kind):
     with subprocess.Popen(
         [*DEMO, 'paper'],
         cwd=tmp_path,
@@ -70,7 +72,7 @@ def test_ctrl_c_leaves_no_simulator_behind(tmp_path):
                 break
         children = children_of(demo)
         assert children
-        os.killpg(demo.pid, signal.SIGINT)
+        os.killpg(demo.pid, kind)
         demo.stderr.read()
         assert demo.wait() == 130
     assert not [folder for folder in children if folder.exists()]
