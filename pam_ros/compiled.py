@@ -22,7 +22,13 @@ HAVE_NUMBA = numba is not None
 # Nothing here allocates, so that arrays need no reference counts: counting them at every call
 # of every effect would take ten times as long as the physics.
 _OPTIONS: dict[str, Any] = {'nogil': True, 'error_model': 'numpy', '_nrt': False}
-_ON_ARRAYS = {'exp': np.exp, 'sqrt': np.sqrt, 'max': np.maximum}
+_ON_ARRAYS = {
+    'exp': np.exp,
+    'sqrt': np.sqrt,
+    'max': np.maximum,
+    'sin': np.sin,
+    'cos': np.cos,
+}
 F = TypeVar('F', bound=Callable[..., Any])
 
 
@@ -52,9 +58,9 @@ def cached(function: F) -> F:
 def broadcast(function: Callable[..., float]) -> Callable[..., Any]:
     """Return a scalar function as one that broadcasts over numpy arrays (and numpy scalars).
 
-    The source stays one: it is run with numpy's ``exp``, ``sqrt`` and ``max`` under the names of
-    the scalar ones, and so are the functions that it calls. Unlike a compiled ufunc this costs
-    nothing at import, and needs no numba.
+    The source stays one: it is run with numpy's ``exp``, ``sqrt``, ``max``, ``sin`` and ``cos``
+    under the names of the scalar ones, and so are the functions that it calls. Unlike a compiled
+    ufunc this costs nothing at import, and needs no numba.
     """
     plain = getattr(function, 'py_func', function)
     names = {**plain.__globals__, **_ON_ARRAYS}

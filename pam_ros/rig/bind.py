@@ -18,13 +18,17 @@ from typing import Any
 
 from pam_ros import compiled
 from pam_ros.effects.base import Effect
+from pam_ros.rig import joint_kernel
 from pam_ros.rig import kernel as templates
+from pam_ros.rig.joints import JOINTS
 from pam_ros.rig.layout import Layout
 
 Function = Callable[..., Any]
 # Inner templates in the order in which they call each other, then the loops, which are cached.
 _INNER = ('pull', 'coefficient', 'acceleration', 'step')
 _LOOPS = ('advance', 'outputs', 'simulate', 'simulate_held')
+_INNER_OF_JOINTS = ('share', 'joint_acceleration', 'joint_step')
+_LOOPS_OF_JOINTS = ('advance_joints', 'outputs_of_joints')
 
 
 @dataclass(frozen=True)
@@ -35,6 +39,14 @@ class Kernel:
     outputs: Function
     simulate: Function
     simulate_held: Function
+
+
+@dataclass(frozen=True)
+class JointKernel:
+    """The compiled functions for joints of all kinds and one set of effects."""
+
+    advance_joints: Function
+    outputs_of_joints: Function
 
 
 def _with_parameters(inner: Function, f: Function, j: int) -> Function:
@@ -144,17 +156,83 @@ def bind(layout: Layout, active: tuple[Effect, ...]) -> Kernel:
     Rows keep the layout's width whatever is active. Compilation happens at the first call of
     each loop, or comes from disk.
     """
+    names = _inner(layout, active)
+    return Kernel(**_loops(templates, _LOOPS, names))
+
+
+@lru_cache(maxsize=16)
+def bind_joints(layout: Layout, active: tuple[Effect, ...]) -> JointKernel:
+    """Return the kernel of joints of any kind, mixed; otherwise as :func:`bind`."""
+    names = {**vars(joint_kernel), **_inner(layout, active), **_choices()}
+    for name in _INNER_OF_JOINTS:
+        names[name] = compiled.scalar(_rebound(getattr(joint_kernel, name), names, name))
+    return JointKernel(**_loops(joint_kernel, _LOOPS_OF_JOINTS, names))
+
+
+def _inner(layout: Layout, active: tuple[Effect, ...]) -> dict[str, Any]:
+    """Return the names of the templates, chains and inner functions bound and compiled."""
     remembers = any(e.states and e.pressure is None for e in active)
     names: dict[str, Any] = dict(vars(templates))
     names.update(_chains(layout, active))
     names['MEMORY_FROM'] = layout.memory_from if remembers else layout.width
     for name in _INNER:
         names[name] = compiled.scalar(_rebound(getattr(templates, name), names, name))
-    for name in _LOOPS:
-        loop = _rebound(getattr(templates, name), names, name)
+    return names
+
+
+def _loops(module: Any, loops: tuple[str, ...], names: dict[str, Any]) -> dict[str, Function]:
+    """Return the *loops* of a module of templates, each cached under a name with its hash."""
+    bound = {}
+    for name in loops:
+        loop = _rebound(getattr(module, name), names, name)
         loop.__qualname__ = f'{name}_{fingerprint(loop)}'
-        names[name] = compiled.cached(loop)
-    return Kernel(**{name: names[name] for name in Kernel.__dataclass_fields__})
+        bound[name] = compiled.cached(loop)
+    return bound
+
+
+def _choices() -> dict[str, Function]:
+    """Return the functions by which a kernel calls the joint of a kind, an index in JOINTS."""
+    choices = {}
+    for name, make in (
+        ('position', _of_muscle),
+        ('arm', _of_muscle),
+        ('inertia', _of_mass),
+        ('fall', _of_coordinate),
+    ):
+        chosen = compiled.scalar(getattr(joint_kernel, f'{name}_of'))
+        for kind, joint in enumerate(JOINTS):
+            chosen = compiled.scalar(make(chosen, compiled.scalar(getattr(joint, name)), kind))
+        choices[f'{name}_of'] = chosen
+    return choices
+
+
+def _of_muscle(others: Function, f: Function, own: int) -> Function:
+    """Call f for its *own* kind, else the *others*."""
+
+    def chosen(kind, s, i, g):  # type: ignore[no-untyped-def]
+        if kind == own:
+            return f(s, i, g)
+        return others(kind, s, i, g)
+
+    return chosen
+
+
+def _of_mass(others: Function, f: Function, own: int) -> Function:
+    def chosen(kind, m, g):  # type: ignore[no-untyped-def]
+        if kind == own:
+            return f(m, g)
+        return others(kind, m, g)
+
+    return chosen
+
+
+def _of_coordinate(others: Function, f: Function, own: int) -> Function:
+    def chosen(kind, s, m, j, g):  # type: ignore[no-untyped-def]
+        if kind == own:
+            return f(s, m, j, g)
+        return others(kind, s, m, j, g)
+
+    return chosen
 
 
 def _rebound(template: Function, names: dict[str, Any], qualname: str) -> Function:

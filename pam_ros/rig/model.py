@@ -167,14 +167,9 @@ class RigModel:
 
     def check_step(self, step: float) -> None:
         """Raise ParameterError when *step* in s is too long for this rig's fastest motion."""
-        if not step > 0.0:
-            raise ParameterError(f'a physics step of {step:g} s is not allowed: give more than 0')
-        if step > self.longest_step:
-            raise ParameterError(
-                f'a physics step of {step * 1e3:g} ms does not resolve a mass of '
-                f'{self.moved_mass:g} kg on this muscle: give at least '
-                f'{math.ceil(1.0 / self.longest_step)} steps a second, or more mass'
-            )
+        check_step(
+            step, self.longest_step, f'a mass of {self.moved_mass:g} kg on this muscle', 'mass'
+        )
 
     def rest(self, p: float) -> float:
         """Return the position y in m at which the declared model rests at *p* Pa.
@@ -184,6 +179,17 @@ class RigModel:
         if self.muscle.is_load_only:
             return 0.0
         return self.muscle.equilibrium(p, self.weight) * self.muscle.l0
+
+
+def check_step(step: float, longest: float, moved: str, more: str) -> None:
+    """Raise ParameterError when *step* is none, or longer than *longest*, both in s."""
+    if not step > 0.0:
+        raise ParameterError(f'a physics step of {step:g} s is not allowed: give more than 0')
+    if step > longest:
+        raise ParameterError(
+            f'a physics step of {step * 1e3:g} ms does not resolve {moved}: give at least '
+            f'{math.ceil(1.0 / longest)} steps a second, or more {more}'
+        )
 
 
 def start_row(layout: Layout, q: Array, p: float, y: float, v: float) -> Array:
