@@ -111,4 +111,5 @@ EFFECT = Effect(
     start=start,
     rivals=('hysteresis', 'softening', 'pressure_dependent_damping', 'leak'),
     force=force,
+    needs_muscle=True,
 )

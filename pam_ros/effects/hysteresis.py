@@ -2,22 +2,37 @@
 # SPDX-License-Identifier: Apache-2.0
 """Rate-independent hysteresis of braid and bladder: a force that depends on the way come from.
 
-Two operators stand side by side, since measured loops are of two families. Bouc and Wen's has
-minor loops that drift until they are closed by the major one; Maxwell's slip elements close
-every minor loop and remember all turning points. Either may be absent. Both are driven by
-
-    s = kappa + C p,
-
-so that a muscle held at its length, too, shows the loop that is measured when it is filled and
-vented: braid and bladder rub when the pressure changes, whether the ends move or not.
+Three operators stand side by side, since measured loops are of more than one family; each may
+be absent. Over contraction, Bouc and Wen's, whose minor loops drift until the major one closes
+them, and Maxwell's slip elements, which close every minor loop and remember all turning points.
+Over pressure, Maxwell's slip once more: braid and bladder rub when the muscle is filled or
+vented, whether its ends move or not, and the loop is so many Pa wide (Hunt et al. 2017).
 """
 
 from math import exp, expm1, log1p
 
+from pam_ros.compiled import scalar
 from pam_ros.effects.base import Effect, EffectParameter, Row
+from pam_ros.muscle.law import gain
+from pam_ros.rig.layout import A1, A3, A4, A5
 
 ELEMENTS = 6
 P_REFERENCE = 3e5  # Pa, where the amplitude is as given, whatever its growth
+
+
+@scalar
+def slipped(ds: float, width: float, onset: float, x: Row, i: int, xn: Row) -> float:
+    """Return the mean of Maxwell elements after a way ds, in -1..1; x[i] and on are strains.
+
+    They stick up to thresholds from onset width to width and slip there.
+    """
+    mean = 0.0
+    for n in range(ELEMENTS):
+        d = width * (onset + (1.0 - onset) * (n + 0.5) / ELEMENTS)
+        strain = min(max(x[i + n] + ds, -d), d)
+        xn[i + n] = strain
+        mean += strain / d
+    return mean / ELEMENTS
 
 
 def force(
@@ -33,23 +48,23 @@ def force(
     q: Row,
     j: int,
 ) -> float:
-    """Return f - g(p) (A z + B m), z and m in -1..1, exact for any monotone way of s.
+    """Return f - g(p) (A z + B m) - P (dF/dp) n, with z, m, n in -1..1 and exact.
 
-    Bouc-Wen (n = 1) over l = |s|/W, u = z sign(ds): du/dl = 1 - u on loading, u > 0, and
-    1 - a u on unloading, u < 0. A = q[j], W = q[j + 1], a = q[j + 2]: 1 is Dahl's law, 0 has
-    elastic unloading. x[i] is z.
+    Bouc-Wen (n = 1) over l = |kappa|/W, u = z sign(dkappa): du/dl = 1 - u on loading, u > 0,
+    and 1 - a u on unloading, u < 0. A = q[j], W = q[j + 1], a = q[j + 2]: 1 is Dahl's law, 0
+    has elastic unloading. x[i] is z, x[i + 1] kappa, x[i + 2] the pressure before.
 
-    Maxwell slip: the mean of elements that stick up to thresholds from r D to D and slip there.
-    B = q[j + 3], D = q[j + 4], r = q[j + 5]; r = 1 is a single element. x[i + 2] and on are
-    their strains.
+    Maxwell slip m over contraction: B = q[j + 3], width q[j + 4], onset q[j + 5]; n over
+    pressure: P = q[j + 7], width q[j + 8], onset q[j + 9].
 
-    g = 1 + G (p / 300 kPa - 1), G = q[j + 6], not negative. C = q[j + 7]. x[i + 1] is s.
+    g = 1 + G (p / 300 kPa - 1), G = q[j + 6], not negative.
     """
-    if q[j] == 0.0 and q[j + 3] == 0.0:
+    if q[j] == 0.0 and q[j + 3] == 0.0 and q[j + 7] == 0.0:
         return f
-    s = kappa + q[j + 7] * p
-    ds = s - x[i + 1]
-    xn[i + 1] = s
+    ds = kappa - x[i + 1]
+    dp = p - x[i + 2]
+    xn[i + 1] = kappa
+    xn[i + 2] = p
     rub = 0.0
     if q[j] != 0.0:
         side = 1.0 if ds > 0.0 else -1.0
@@ -65,19 +80,17 @@ def force(
         xn[i] = u * side
         rub = q[j] * xn[i]
     if q[j + 3] != 0.0:
-        mean = 0.0
-        for n in range(ELEMENTS):
-            d = q[j + 4] * (q[j + 5] + (1.0 - q[j + 5]) * (n + 0.5) / ELEMENTS)
-            strain = min(max(x[i + 2 + n] + ds, -d), d)
-            xn[i + 2 + n] = strain
-            mean += strain / d
-        rub += q[j + 3] * mean / ELEMENTS
-    return f - max(1.0 + q[j + 6] * (p / P_REFERENCE - 1.0), 0.0) * rub
+        rub += q[j + 3] * slipped(ds, q[j + 4], q[j + 5], x, i + 3, xn)
+    f -= max(1.0 + q[j + 6] * (p / P_REFERENCE - 1.0), 0.0) * rub
+    if q[j + 7] != 0.0:
+        late = q[j + 7] * slipped(dp, q[j + 8], q[j + 9], x, i + 3 + ELEMENTS, xn)
+        f -= late * gain(kappa, q[A1], q[A3], q[A4], q[A5])
+    return f
 
 
 def start(q: Row, j: int, p: float, kappa: float, y: float) -> tuple[float, ...]:
     """Return the middle of all loops."""
-    return (0.0, kappa + q[j + 7] * p) + ELEMENTS * (0.0,)
+    return (0.0, kappa, p) + 2 * ELEMENTS * (0.0,)
 
 
 EFFECT = Effect(
@@ -153,13 +166,33 @@ EFFECT = Effect(
             scale=0.5,
         ),
         EffectParameter(
-            'pressure_share',
+            'pressure',
             0.0,
-            'contraction that a change of pressure counts for, at held length too',
-            '1/Pa',
+            'half width of the loop over pressure, Maxwell slip',
+            'Pa',
             0.0,
-            1e-4,
-            scale=5e-7,
+            1e5,
+            scale=5e3,
+            strength=True,
+            sign=1,
+        ),
+        EffectParameter(
+            'pressure_width',
+            3e4,
+            'pressure over which the last of its elements slips',
+            'Pa',
+            10.0,
+            1e6,
+            scale=3e4,
+        ),
+        EffectParameter(
+            'pressure_onset',
+            0.0,
+            'share of it at which the first one slips; 1: all at once',
+            '',
+            0.0,
+            1.0,
+            scale=0.3,
         ),
     ),
     signature='loops over contraction or pressure whose area does not depend on the speed',
@@ -169,11 +202,18 @@ EFFECT = Effect(
         {'amplitude': 10.0, 'width': 0.03, 'unloading': 0.5},
         {'slip': 5.0, 'slip_width': 0.01},
         {'slip': 10.0, 'slip_width': 0.05, 'slip_onset': 0.2},
-        {'amplitude': 10.0, 'pressure_share': 3e-7},
-        {'amplitude': 20.0, 'pressure_share': 3e-8},
+        {'pressure': 3e3, 'pressure_width': 1e4},
+        {'pressure': 1e4, 'pressure_width': 5e4},
     ),
-    states=('loop', 'path', *(f'strain {n + 1}' for n in range(ELEMENTS))),
+    states=(
+        'loop',
+        'contraction',
+        'pressure',
+        *(f'strain {n + 1}' for n in range(ELEMENTS)),
+        *(f'strain over pressure {n + 1}' for n in range(ELEMENTS)),
+    ),
     start=start,
     rivals=('coulomb_friction', 'creep'),
     force=force,
+    needs_muscle=True,
 )

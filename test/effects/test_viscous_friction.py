@@ -3,7 +3,9 @@
 """Viscous friction against the exponential of a coasting load and its final speed."""
 
 import numpy as np
+import pytest
 
+from pam_ros.errors import ParameterError
 from pam_ros.rig.run import simulate, simulate_held
 from support import bench
 
@@ -40,3 +42,23 @@ def test_force_cell_at_the_muscle_does_not_feel_the_guide():
     p, y = np.full(11, 3e5), 0.02 + 0.03 * t
     with_friction = simulate_held(bench.hanging(**EFFECT), t, p, y).force
     np.testing.assert_array_equal(with_friction, simulate_held(bench.hanging(), t, p, y).force)
+
+
+@pytest.mark.parametrize(
+    'effect',
+    [
+        {'viscous_friction': {'coefficient': 1e4}},
+        {'pressure_dependent_damping': {'deflating': 0.05}},
+    ],
+    ids=['viscous', 'by pressure'],
+)
+def test_drag_that_the_step_cannot_resolve_is_refused(effect):
+    with pytest.raises(ParameterError, match='with a drag of .* N s/m: give at least'):
+        simulate(bench.hanging(2.0, **effect), [0.0, 0.1], [0.0], [3e5])
+
+
+def test_drag_up_to_that_is_stepped_as_it_is():
+    model = bench.cart(0.5, viscous_friction={'coefficient': 400.0})
+    assert model.longest_step == pytest.approx(0.5 / 400.0)
+    run = simulate(model, [0.0, 0.1], [0.0], [20.0], position=0.0)
+    np.testing.assert_allclose(run.velocity[1], 20.0 / 400.0, rtol=1e-9)
