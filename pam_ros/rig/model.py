@@ -146,16 +146,35 @@ class RigModel:
 
         That is where the muscle is stiffest: in the working range, or where the load stretches
         it to when it is vented at kappa_max and falls. The integrator is stable to 2.6 rad, with
-        critical damping to 1.3 rad. A force source without a muscle sets no limit, and effects
-        bring their own updates.
+        critical damping to 1.3 rad. A force source without a muscle sets no limit. The drag of
+        effects counts as damping; those with memory bring their own updates.
         """
-        m = self.muscle
-        if m.is_load_only:
-            return math.inf
-        p, kappa = np.meshgrid((m.p_min, m.p_max), (self._deepest(), m.kappa_max))
-        k = float(np.max(m.stiffness(p, kappa)))  # as the least, the largest is at a corner
-        overdamped = math.sqrt(max(m.zeta * m.zeta - 1.0, 0.0))
-        return math.sqrt(self.moved_mass / k) / max(1.0, m.zeta + overdamped)
+        m, k = self.muscle, 0.0
+        if not m.is_load_only:
+            p, kappa = np.meshgrid((m.p_min, m.p_max), (self._deepest(), m.kappa_max))
+            k = float(np.max(m.stiffness(p, kappa)))  # as the least, the largest is at a corner
+        square = k / self.moved_mass
+        decay = m.zeta * math.sqrt(square) + 0.5 * self._drag() / self.moved_mass
+        fastest = max(math.sqrt(square), decay + math.sqrt(max(decay * decay - square, 0.0)))
+        return 1.0 / fastest if fastest > 0.0 else math.inf
+
+    def _drag(self) -> float:
+        """Return the largest force per velocity in N s/m that effects add to the muscle's."""
+        speed = 10.0  # m/s: fast, so that dry friction counts for nothing
+        q, most = self.row(), 0.0
+        x = start_row(self.layout, q, 0.0, 0.0, 0.0)
+        for p in (self.muscle.p_min, self.muscle.p_max):
+            for v in (-speed, speed):
+                c = 0.0
+                for effect in self.present:
+                    j, i = self.layout.parameter_at[effect.name], self.layout.state_at[effect.name]
+                    if effect.damping is not None:
+                        c = float(effect.damping(c, p, 0.0, v, q, j))
+                    if effect.outside is not None:
+                        f = effect.outside(0.0, p, 0.0, v, 0.0, 0.0, x, i, x.copy(), q, j)
+                        c -= float(f) / v
+                most = max(most, c)
+        return most
 
     def _deepest(self) -> float:
         """Return the least contraction of an undamped fall from kappa_max at p_min."""
@@ -167,9 +186,10 @@ class RigModel:
 
     def check_step(self, step: float) -> None:
         """Raise ParameterError when *step* in s is too long for this rig's fastest motion."""
-        check_step(
-            step, self.longest_step, f'a mass of {self.moved_mass:g} kg on this muscle', 'mass'
-        )
+        drag = self._drag()
+        braked = f' with a drag of {drag:.4g} N s/m' if drag > 0.0 else ''
+        moved = f'a mass of {self.moved_mass:g} kg on this muscle{braked}'
+        check_step(step, self.longest_step, moved, 'mass')
 
     def rest(self, p: float) -> float:
         """Return the position y in m at which the declared model rests at *p* Pa.

@@ -53,7 +53,7 @@ def test_force_cell_at_the_muscle_does_not_feel_the_guide():
     ids=['viscous', 'by pressure'],
 )
 def test_drag_that_the_step_cannot_resolve_is_refused(effect):
-    with pytest.raises(ParameterError, match='with a drag of .* N s/m: give at least'):
+    with pytest.raises(ParameterError, match=r'with a drag of .* N s/m: give at least'):
         simulate(bench.hanging(2.0, **effect), [0.0, 0.1], [0.0], [3e5])
 
 
