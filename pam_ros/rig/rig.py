@@ -65,7 +65,7 @@ class Rig:
         if not np.array_equal(old.kind, new.kind):
             raise ParameterError('a rig that runs keeps its joints: make a new one for others')
         active = max((m.active for m in models), key=len)
-        self._rows = new
+        self._rows, self._is_plain = new, new.is_plain
         self._muscles: Any = slice(None) if new.is_plain else new.muscle
         self._loads: Any = slice(None) if new.is_plain else new.load
         if self.models:
@@ -135,22 +135,37 @@ class Rig:
 
     def advance(self, steps: int = 1) -> None:
         """Step all joints *steps* times."""
-        rows, commands = self._rows, (self._u, self._at, self._queue, self._count)
-        when = (self._k, steps, self.step)
-        if rows.is_plain:
-            self._kernel.advance(self._x, self._scratch, rows.q, *commands, *when)
+        rows = self._rows
+        if self._is_plain:
+            self._kernel.advance(
+                self._x,
+                self._scratch,
+                rows.q,
+                self._u,
+                self._at,
+                self._queue,
+                self._count,
+                self._k,
+                steps,
+                self.step,
+            )
         else:
             self._joint_kernel.advance_joints(
                 self._x,
                 self._scratch,
                 rows.q,
                 rows.g,
-                *commands,
+                self._u,
+                self._at,
+                self._queue,
+                self._count,
                 self._taken,
                 rows.kind,
                 rows.first,
                 rows.load,
-                *when,
+                self._k,
+                steps,
+                self.step,
             )
         self._k += steps
 
@@ -196,11 +211,11 @@ class Rig:
         rad/s^2.
         """
         self._look()
-        return np.array(self._out[:, (0, 1, 3)] if self._rows.is_plain else self._joint_out)
+        return np.array(self._out[:, (0, 1, 3)] if self._is_plain else self._joint_out)
 
     def _look(self) -> None:
         rows = self._rows
-        if rows.is_plain:
+        if self._is_plain:
             self._kernel.outputs(self._x, self._scratch, rows.q, self.time, self._out)
         else:
             self._joint_kernel.outputs_of_joints(

@@ -9,12 +9,18 @@ import numpy as np
 from pam_ros.compiled import HAVE_NUMBA
 from pam_ros.effects import EFFECTS
 from pam_ros.rig.bind import bind
+from pam_ros.rig.joint_model import JointModel
 from pam_ros.rig.layout import layout_of
 from pam_ros.rig.model import RigModel, start_row
+from pam_ros.rig.rig import Rig
 
 
 def warm() -> None:
-    """Call every loop of both kernels once, with the types that the package uses."""
+    """Call every loop of all kernels once, with the types that the package uses."""
+    for effects in ({}, {'viscous_friction': {'coefficient': 1.0}}):
+        rig = Rig([JointModel(effects=effects)])
+        rig.advance()
+        rig.outputs()
     layout = layout_of(EFFECTS)
     q = RigModel().row()
     for active in ((), EFFECTS):
