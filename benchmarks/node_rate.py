@@ -21,8 +21,9 @@ SECONDS = 30.0
 TICK = os.sysconf('SC_CLK_TCK')
 BARE = [sys.executable, '-m', 'benchmarks._bare_node']
 PUBLISHERS = {
-    'bare node, timer of rclpy': [*BARE, 'timer', str(RATE)],
-    'bare node, own loop': [*BARE, 'loop', str(RATE)],
+    # rclpy's timer leaves out the periods that it is late for, so that its lateness means little.
+    'bare node, rclpy timer': [*BARE, 'timer', str(RATE)],
+    'bare node': [*BARE, 'loop', str(RATE)],
     'pam_sim': [
         *(sys.executable, '-m', 'pam_ros.nodes.pam_sim', '--ros-args'),
         *('-p', f'publish_rate:={RATE}', '-p', f'physics_rate:={RATE}'),
@@ -96,12 +97,9 @@ def main() -> None:
             f'{name:26} {got.cpu:11.1f} {got.rate:8.2f} {p50:9.0f} {p99:8.0f} {worst:8.0f}',
             flush=True,
         )
-    *bare, sim = results.values()
-    for name, other in zip(results, bare, strict=False):
-        print(
-            f'pam_sim / {name}: CPU {sim.cpu / other.cpu:.2f} (at most 1.3), '
-            f'late p99 {sim.lateness[1] / other.lateness[1]:.2f} (at most 1.1)'
-        )
+    bare, sim = results['bare node'], results['pam_sim']
+    print(f'CPU, pam_sim / bare node: {sim.cpu / bare.cpu:.2f} (at most 1.3)')
+    print(f'late p99, pam_sim / bare node: {sim.lateness[1] / bare.lateness[1]:.2f} (at most 1.1)')
     print(f'pam_sim: {sim.rate:.2f} Hz (at least 999)')
 
 

@@ -28,6 +28,10 @@ class Pace:
         """Return the ROS time of a step."""
         return self.origin + round(step * SECOND / self.rate)
 
+    def steady_time(self, step: int) -> int:
+        """Return the steady time at which a step will be due."""
+        return self._steady + self.stamp(step) - self._ros
+
     def align(self, step: int, ros: int, steady: int) -> None:
         """Let *step* be now, whatever has passed."""
         self.origin = ros - round(step * SECOND / self.rate)

@@ -69,6 +69,7 @@ class PamSim(TickingNode):
         self._rig.reset([pressure], [position], [velocity])
         self._feedback = Feedback(self._told.sensors)
         self._step = 0
+        self._next = 0  # the step of the next sample
         self._sample = 0
         self._ordered = pressure  # Pa, what the valve was last told
         self._heard: float | None = None  # simulated time of the last good command
@@ -91,24 +92,31 @@ class PamSim(TickingNode):
         """Simulate what is due and publish."""
         if self._is_paused:
             self._publish(self._ros_ns())
-        else:
-            self._run_to_now()
+            return
+        self._run_to_now()
+        if not self._follows_clock:
+            # Wake up when the next sample is due: its grid moves with ROS time and each reset.
+            self.ticker.aim(self._pace.steady_time(self._next))
 
     def _run_to_now(self) -> None:
         """Simulate what is due, and publish each sample that is due on the way."""
         if self._is_paused:
             return
         due = self._pace.due(self._step, self._ros_ns(), monotonic_ns(), self._follows_clock)
-        settings = self._told.settings
-        spacing = settings.physics_rate / settings.publish_rate
         try:
-            while (at := math.ceil(self._sample * spacing - 1e-9)) <= due:
-                self._advance(at)
-                self._publish(self._pace.stamp(at))
-                self._sample += 1
+            while self._next <= due:
+                self._advance(self._next)
+                self._publish(self._pace.stamp(self._next))
+                self._aim_at_sample(self._sample + 1)
             self._advance(due)
         except (ArithmeticError, ValueError) as error:  # the kernel's own as plain Python
             self._stop_at_fault(error)
+
+    def _aim_at_sample(self, sample: int) -> None:
+        """Let this sample, counted from the start, be the next one."""
+        settings = self._told.settings
+        self._sample = sample
+        self._next = math.ceil(sample * settings.physics_rate / settings.publish_rate - 1e-9)
 
     def _advance(self, step: int) -> None:
         if step > self._step:
@@ -181,7 +189,7 @@ class PamSim(TickingNode):
         rate = now.settings.publish_rate
         if rate != before:
             self.ticker.start(rate, monotonic_ns())
-            self._sample = math.ceil(self._rig.time * rate)
+            self._aim_at_sample(math.ceil(self._rig.time * rate))
 
     def _reset(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         self._begin()

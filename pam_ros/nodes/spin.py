@@ -3,7 +3,7 @@
 """Run a node at a fixed rate until it is asked to stop, and leave cleanly.
 
 The loop waits in the executor for the time until the next tick and ticks itself: a timer of
-rclpy skips the ticks that it is late for, and costs half as much again.
+rclpy skips the ticks that it is late for, and costs more (``benchmarks/node_rate.py``).
 """
 
 import argparse

@@ -43,6 +43,11 @@ class Ticker:
         """Return the seconds until the next tick, 0 or less when it is due."""
         return (self._due - now) * 1e-9
 
+    def aim(self, due: int) -> None:
+        """Move all ticks to come, so that the next one is due then."""
+        self._start += due - self._due
+        self._due = due
+
     def tick(self, now: int) -> None:
         """Count the tick that is due and set the next one."""
         late = now - self._due

@@ -106,6 +106,16 @@ def test_a_jump_of_simulated_time_moves_the_stamps_only(jump):
     assert clocks.passes(20 * MS, MS) == 20
 
 
+def test_the_steady_time_of_a_step_is_when_it_becomes_due():
+    clocks = Clocks()
+    clocks.passes(100 * MS + MS // 2)
+    wait = clocks.pace.steady_time(103) - clocks.steady
+    assert clocks.passes(wait - 1) == 2
+    assert clocks.passes(1) == 1
+    clocks.passes(-50 * MS, MS)  # the ROS clock is set back a little: it takes longer
+    assert clocks.pace.steady_time(clocks.step + 1) - clocks.steady == 51 * MS
+
+
 def test_align_lets_time_stand_still():
     clocks = Clocks()
     clocks.passes(100 * MS)

@@ -31,6 +31,19 @@ def test_a_late_tick_does_not_move_the_next_one():
     assert ticker.overruns == 0
 
 
+def test_aiming_moves_all_ticks_to_come():
+    ticker = Ticker(500.0)
+    ticker.start(500.0, 0)
+    ticker.tick(0)
+    ticker.aim(2 * MS + 300_000)
+    for n in range(1, 5):
+        due = n * 2 * MS + 300_000
+        assert ticker.remaining(due) == 0.0
+        ticker.tick(due)
+    assert ticker.overruns == 0
+    assert ticker.report(10 * MS).worst == 0.0
+
+
 def test_a_tick_late_by_periods_is_one_overrun_and_keeps_the_grid():
     ticker = Ticker(500.0)
     ticker.start(500.0, 0)
