@@ -1,0 +1,118 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The loop closed over topics: a rig is excited, recorded and identified, then simulated better.
+
+``pam_sim`` stands in for the rig, with effects that are told to nobody. ``pam_excite`` plays its
+programme, ``pam_record`` writes a rosbag2, ``pam_identify`` finds what the declared model lacks.
+Then the rig runs once more, beside it a simulator as declared and one that was started with
+``identified.yaml``; all three hear the same commands.
+"""
+
+import json
+import shlex
+import shutil
+import subprocess
+import sys
+from collections.abc import Mapping
+from contextlib import ExitStack
+from pathlib import Path
+from typing import Any
+
+from tqdm import tqdm
+
+from pam_ros.demo import loop
+from pam_ros.errors import PamError
+from pam_ros.nodes.chapters.stage import Stage
+from pam_ros.nodes.children import Program
+from pam_ros.nodes.client import Client
+
+DURATION = 45.0  # s
+EXCITATION = {
+    'muscle': loop.MUSCLE,
+    'duration': DURATION,
+    'pressure_min': 150e3,
+    'pressure_max': 400e3,
+    'countdown': 1.0,
+}
+RATE = 250.0  # states per second
+
+
+def play(stage: Stage) -> None:
+    """Excite, record, identify, replay; leave the bags, the report, a plot and a table."""
+    folder = stage.folder / 'loop'
+    for name in ('recording', 'replay'):
+        shutil.rmtree(folder / name, ignore_errors=True)
+    folder.mkdir(parents=True, exist_ok=True)
+    stage.say(f'Closing the loop: what does a rig have that {loop.MUSCLE} has not?')
+    record(stage, folder / 'recording', {'rig': loop.HIDDEN})
+    stage.wrote(folder / 'recording')
+    report = identify(stage, folder)
+    stage.say('The rig once more, beside it pam_sim as declared and with identified.yaml')
+    identified = {'muscle': str(folder / 'report' / 'identified.yaml')}
+    again = {
+        'rig': {**loop.HIDDEN, 'sensor.seed': 1},
+        'declared': {'muscle': loop.MUSCLE},
+        'identified': identified,
+    }
+    record(stage, folder / 'replay', again)
+    command, *spaces = (f'{stage.namespace}/{name}' for name in ('pressure_command', *again))
+    replay = loop.read_replay(folder / 'replay', command, *spaces)
+    from pam_ros.demo import figures
+
+    figures.save(loop.figure(replay), folder / 'before_and_after.png')
+    stage.wrote(folder / 'before_and_after.png')
+    stage.text('loop/before_and_after.txt', loop.table(replay, report))
+
+
+def record(stage: Stage, bag: Path, rigs: Mapping[str, Mapping[str, Any]]) -> None:
+    """Record simulated *rigs* (name -> parameters), the first of them excited, to *bag*.
+
+    All hear the same commands. Raises PamError where the excitation stopped early.
+    """
+    space = stage.namespace
+    states = [f'{space}/{name}/joint_states' for name in rigs]
+    hear = ('-r', f'pressure_command:={space}/pressure_command')
+    with ExitStack() as programs, Client(space) as client:
+        for name, given in rigs.items():
+            where = ('-r', f'__ns:={space}/{name}')
+            parameters = {**given, 'publish_rate': RATE}
+            programs.enter_context(Program('pam_sim', *where, *hear, parameters=parameters))
+        recorder = programs.enter_context(
+            Program('pam_record', '-r', f'__ns:={space}', '--', *states, '-o', str(bag))
+        )
+        client.until(
+            lambda: all(client.node.count_subscribers(topic) for topic in states),
+            'the recorder to hear all rigs',
+        )
+        watch = ('-r', f'__ns:={space}', '-r', f'joint_states:={states[0]}')
+        with Program('pam_excite', *watch, parameters=EXCITATION) as excite:
+            show(client, excite)
+            if excite.wait():
+                raise PamError(f'pam_excite stopped: {excite.output.splitlines()[-1]}')
+        recorder.stop()
+
+
+def show(client: Client, excite: Program) -> None:
+    """Show how far the excitation is, until it ends."""
+    pause = 0.1 if sys.stderr.isatty() else 5.0
+    form = '  {desc:<20} {bar:30} {n:4.1f} of {total:g} s'
+    with tqdm(total=DURATION, desc='exciting', bar_format=form, mininterval=pause) as bar:
+        while excite.is_running:
+            client.work(0.2)
+            if 'vented' in excite.output:
+                bar.update(min(0.2, DURATION - bar.n))
+
+
+def identify(stage: Stage, folder: Path) -> dict[str, Any]:
+    """Run ``pam_identify`` on the recording and return its report.json."""
+    given = (str(folder / 'recording'), '--params', loop.MUSCLE, '--out', str(folder / 'report'))
+    stage.say(f'  $ pam_identify {shlex.join(given)}')
+    command = [sys.executable, '-m', 'pam_ros.nodes.pam_identify', *given]
+    done = subprocess.run(command, stdout=subprocess.PIPE, text=True, check=False)
+    if done.returncode:
+        raise PamError(f'pam_identify ended with code {done.returncode}')
+    stage.say(f'  {done.stdout.strip()}')
+    content: dict[str, Any] = json.loads(
+        (folder / 'report' / 'report.json').read_text(encoding='utf-8')
+    )
+    return content
