@@ -1,0 +1,357 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Joints in motion, against scipy's DOP853 on equations of their own and against conservation."""
+
+import numpy as np
+import pytest
+from scipy.integrate import quad, solve_ivp
+
+from pam_ros.effects import EFFECTS
+from pam_ros.rig.model import Load, RigModel
+from pam_ros.rig.rig import Rig
+from support import joint_models, joints, paper, smooth_supply
+from support.joint_models import BOTH_LONG, UNEQUAL, muscle, pair, parallel
+
+BAR = 1e5
+MASS, OFFSETS = 50.0, (0.02, -0.01)
+
+
+def solve(rhs, start, t):
+    found = solve_ivp(rhs, (t[0], t[-1]), start, 'DOP853', t, rtol=1e-12, atol=1e-14)
+    assert found.success
+    return found.y
+
+
+def run(model, t, start, pressure=(0.0, 0.0), step=1e-3):
+    """Return coordinate and speed at the stamps t, whole numbers of steps apart."""
+    rig = Rig([model], step)
+    rig.reset(pressure, [start[0]], [start[1]])
+    found = [start]
+    for span in np.diff(t):
+        rig.advance(round(span / step))
+        found.append((rig.position[0], rig.velocity[0]))
+    return np.array(found).T
+
+
+# On an arm, 4 nrad are a tenth of a nanometre at the muscles' ends; with half the step, 0.3 nrad.
+STEPS = pytest.mark.parametrize(('step', 'bound'), [(1e-3, 4e-9), (5e-4, 3e-10)])
+
+
+@STEPS
+@pytest.mark.parametrize('strands', [BOTH_LONG, UNEQUAL])
+@pytest.mark.parametrize('start', [(0.0, 0.0), (0.5, 0.0), (-0.3, 4.0)])
+def test_a_pair_that_is_let_go_is_within_nanoradians_of_dop853(strands, start, step, bound):
+    t = np.linspace(0.0, 5.0, 501)
+    found = run(pair(strands), t, start, (4.2 * BAR, 2.9 * BAR), step)
+    angle, rate = solve(joints.pair(lambda _: (4.2, 2.9), strands), start, t)
+    assert np.ptp(angle) > 0.05
+    assert np.max(np.abs(found[0] - angle)) < bound
+    assert np.max(np.abs(found[1] - rate)) < 30.0 * bound
+
+
+@pytest.mark.parametrize('start', [(0.0, 0.0), (0.05, 0.3)])
+def test_a_mass_on_two_muscles_is_within_a_nanometre_of_dop853(start):
+    t = np.linspace(0.0, 5.0, 501)
+    found = run(parallel(MASS, offsets=OFFSETS), t, start, (4.2 * BAR, 2.9 * BAR))
+    rhs = joints.parallel(lambda _: (4.2, 2.9), UNEQUAL, MASS, OFFSETS)
+    s, v = solve(rhs, start, t)
+    assert np.ptp(s) > 0.02
+    assert np.max(np.abs(found[0] - s)) < 1e-9
+    assert np.max(np.abs(found[1] - v)) < 3e-8
+
+
+# Both muscles under pressures that swing, each in its own way.
+SWINGS = ((3.0, 1.2, 5.0), (2.5, -0.8, 8.0))  # mean and amplitude in bar, rad/s
+
+
+def swinging(t):
+    return tuple(mean + amplitude * np.sin(rate * t) for mean, amplitude, rate in SWINGS)
+
+
+def swung(t, step=1e-3, start=(0.1, 0.0)):
+    supplies = tuple(
+        {'smooth_supply': {'mean': mean * BAR, 'amplitude': amplitude * BAR, 'rate': rate}}
+        for mean, amplitude, rate in SWINGS
+    )
+    model = pair(effects=supplies, library=(smooth_supply.EFFECT,))
+    return run(model, t, start, step=step)
+
+
+@STEPS
+def test_a_pair_under_swinging_pressures_is_within_nanoradians_of_dop853(step, bound):
+    t = np.linspace(0.0, 5.0, 501)
+    angle, rate = solve(joints.pair(swinging, UNEQUAL), (0.1, 0.0), t)
+    found = swung(t, step)
+    assert np.ptp(angle[t > 2.0]) > 0.3
+    assert np.max(np.abs(found[0] - angle)) < bound
+    assert np.max(np.abs(found[1] - rate)) < 30.0 * bound
+
+
+@STEPS
+def test_a_staircase_of_commands_is_within_nanoradians_of_dop853(step, bound):
+    rig = Rig([pair()], step)
+    rig.reset([3e5, 3e5], [0.0], [0.0])
+    state = np.zeros(2)
+    for k in range(100):
+        p = 3.0 + np.sin(0.13 * k), 3.0 + np.cos(0.3 * k)
+        rig.command(BAR * np.array(p))
+        rig.advance(round(0.02 / step))
+        rhs = joints.pair(lambda _, p=p: p, UNEQUAL)
+        state = solve(rhs, state, np.array([0.0, 0.02]))[:, -1]
+        assert rig.position[0] == pytest.approx(state[0], abs=bound)
+    assert rig.time == pytest.approx(2.0, abs=1e-12)
+
+
+def test_the_order_of_convergence_is_four():
+    t = np.array([0.0, 0.96])
+    exact = solve(joints.pair(swinging, UNEQUAL), (0.1, 0.0), t)[0, -1]
+    steps = np.array([4e-3, 2e-3, 1e-3])
+    errors = [abs(swung(t, step)[0, -1] - exact) for step in steps]
+    orders = np.diff(np.log(errors)) / np.diff(np.log(steps))
+    assert np.all(np.abs(orders - 4.0) < 0.3), orders
+
+
+@pytest.mark.needs_numba
+def test_energy_without_damping_drifts_by_a_millionth_in_a_minute():
+    """Motion, muscles and gravity: what one loses, the others gain."""
+    p = 4.0, 3.0
+
+    def energy(angle, rate):
+        work, _ = quad(
+            lambda a: joints.torque(p, a, UNEQUAL) - joints.gravity(a), 0.0, angle, epsabs=1e-13
+        )
+        return 0.5 * joints.J * rate**2 - work
+
+    rig = Rig([pair(zeta=0.0)])
+    rest = rig.models[0].rest(BAR * np.array(p))
+    rig.reset(BAR * np.array(p), [rest + 0.4], [0.0])
+    start = energy(rest + 0.4, 0.0)
+    swing = start - energy(rest, 0.0)
+    assert swing > 1.0
+    drift = []
+    for _ in range(60):
+        rig.advance(1000)
+        drift.append(energy(rig.position[0], rig.velocity[0]) - start)
+    assert min(drift) > -1e-6 * swing
+    assert max(drift) < 1e-7 * swing
+
+
+def test_two_equal_muscles_are_one_with_half_the_mass():
+    t = np.linspace(0.0, 2.0, 201)
+    two = run(parallel(30.0, BOTH_LONG), t, (0.03, 0.1), (4e5, 4e5))
+    one = run(RigModel(muscle(joints.LONG), Load(mass=15.0)), t, (0.03, 0.1), (4e5,))
+    np.testing.assert_allclose(two, one, rtol=0.0, atol=1e-12)
+
+
+def test_a_pair_of_equal_muscles_rings_down_with_their_damping_ratio():
+    """In the middle and for small swings, Lehr's ratio of the joint is that of its muscles."""
+    same = {'contraction_1': 0.1, 'contraction_2': 0.1, 'plane': 'horizontal'}
+    rig = Rig([pair(BOTH_LONG, zeta=0.08, **same)], 1e-4)
+    rig.reset([3e5, 3e5], [1e-6], [0.0])
+    peaks, last = [], (1e-6, 0.0)
+    for _ in range(20_000):
+        rig.advance()
+        now = rig.position[0], rig.velocity[0]
+        if last[1] > 0.0 >= now[1]:
+            peaks.append(last[0])
+        last = now
+    decrement = np.log(peaks[0] / peaks[3]) / 3.0
+    ratio = decrement / np.hypot(decrement, 2.0 * np.pi)
+    assert ratio == pytest.approx(0.08, rel=1e-3)
+
+
+def test_outputs_are_those_of_the_equations():
+    rig = Rig([pair()])
+    rig.reset([4.2e5, 2.9e5], [0.3], [2.0])
+    p, y = (4.2, 2.9), joints.ends(0.3, UNEQUAL)
+    found, (effort, stiffness, acceleration) = rig.outputs(), rig.joint_outputs()[0]
+    k = [strand.stiffness(*each) for strand, *each in zip(UNEQUAL, p, y, strict=True)]
+    for i, strand in enumerate(UNEQUAL):
+        assert found[i, 0] == pytest.approx(strand.force(p[i], y[i]), abs=1e-8)
+        assert found[i, 1] == pytest.approx(k[i], rel=1e-12)
+        c = 2.0 * joints.ZETA * np.sqrt(joints.J / (2.0 * joints.R**2) * k[i])
+        assert found[i, 2] == pytest.approx(c, rel=1e-12)
+    tau = joints.torque(p, 0.3, UNEQUAL)
+    assert effort == pytest.approx(tau, abs=1e-9)
+    assert stiffness == pytest.approx(joints.R**2 * sum(k), rel=1e-12)
+    net = tau - 2.0 * joints.drag(p, 0.3, UNEQUAL) - joints.gravity(0.3)
+    assert acceleration == pytest.approx(net / joints.J, rel=1e-10)
+    np.testing.assert_allclose(found[:, 3], [joints.R * acceleration, -joints.R * acceleration])
+    l0 = [strand.l0 for strand in UNEQUAL]
+    np.testing.assert_allclose(rig.contraction, np.divide(y, l0), rtol=1e-14)
+
+
+# Effects, each against equations of its own -------------------------------------------------
+
+
+def test_a_lag_in_one_muscle_of_the_pair():
+    lag = {'pressure_lag': {'fill': 0.08, 'vent': 0.2}}
+    t = np.linspace(0.0, 1.0, 101)
+    rig = Rig([pair(effects=({}, lag))])
+    rig.reset([3e5, 3e5], [0.0], [0.0])
+    rig.command([2e5, 5e5])
+    found = [0.0]
+    for _ in t[1:]:
+        rig.advance(10)
+        found.append(rig.position[0])
+    np.testing.assert_allclose(rig.pressure, [2e5, 5e5 - 2e5 * np.exp(-1.0 / 0.08)], rtol=1e-12)
+    rhs = joints.pair(lambda s: (2.0, 5.0 - 2.0 * np.exp(-s / 0.08)), UNEQUAL)
+    angle, _ = solve(rhs, (0.0, 0.0), t)
+    np.testing.assert_allclose(found, angle, atol=1e-8)
+
+
+def test_hysteresis_of_one_muscle_of_the_pair():
+    """Dahl's law, dz/dkappa = (1 - z sign(v)) / W, on the second muscle, which v lengthens."""
+    amplitude, width = 20.0, 0.01
+    rub = {'hysteresis': {'amplitude': amplitude, 'width': width}}
+    t = np.linspace(0.0, 0.5, 51)
+    # Towards one side alone: Dahl's law is smooth there, and exact at any step.
+    start = (0.0, 0.0)
+    found = run(pair(effects=({}, rub)), t, start, (4.0 * BAR, 2.0 * BAR), step=1e-4)
+    two = UNEQUAL[1]
+
+    def rhs(_, state):
+        angle, rate, z = state
+        p = 4.0, 2.0
+        kappa_rate = -joints.R * rate / two.l0
+        tau = joints.torque(p, angle, UNEQUAL) + joints.R * amplitude * z
+        net = tau - joints.drag(p, angle, UNEQUAL) * rate - joints.gravity(angle)
+        return rate, net / joints.J, (kappa_rate - abs(kappa_rate) * z) / width
+
+    run_of_it = solve_ivp(
+        rhs, (0.0, 0.5), (*start, 0.0), 'DOP853', t, rtol=1e-10, atol=1e-12, max_step=1e-3
+    )
+    assert np.ptp(run_of_it.y[2]) > 0.5
+    np.testing.assert_allclose(found[0], run_of_it.y[0], atol=1e-6)
+    free = run(pair(), t, start, (4.0 * BAR, 2.0 * BAR))
+    assert np.max(np.abs(free[0] - found[0])) > 1e-2
+
+
+def test_friction_of_the_pivot_and_a_payload_on_the_arm():
+    """Viscous friction in N m s/rad; a payload moves, and weighs, at the end of the arm."""
+    friction, more = 0.4, 0.7
+    on_load = {'viscous_friction': {'coefficient': friction}, 'payload': {'mass': more}}
+    t = np.linspace(0.0, 2.0, 201)
+    model = pair(load=on_load)
+    found = run(model, t, (0.5, 0.0), (4.2 * BAR, 2.9 * BAR))
+    j = joints.J + more * joints.ARM**2
+    assert model.inertia == pytest.approx(j, rel=1e-14)
+    p = 4.2, 2.9
+
+    def rhs(_, state):
+        angle, rate = state
+        c = joints.drag(p, angle, UNEQUAL) * np.sqrt(j / joints.J) + friction
+        down = joints.gravity(angle) * (joints.M + more) / joints.M
+        return rate, (joints.torque(p, angle, UNEQUAL) - c * rate - down) / j
+
+    angle, _ = solve(rhs, (0.5, 0.0), t)
+    np.testing.assert_allclose(found[0], angle, atol=1e-9)
+
+
+def test_dry_friction_of_the_pivot_holds_the_arm():
+    """It stays where the muscles' torque and gravity differ by less than the friction."""
+    rig = Rig([pair(load={'coulomb_friction': {'level': 0.8}})])
+    rest = rig.models[0].rest([4e5, 3e5])
+    k = joints.R**2 * sum(
+        strand.stiffness(p, y)
+        for strand, p, y in zip(UNEQUAL, (4.0, 3.0), joints.ends(rest, UNEQUAL), strict=True)
+    )
+    reach = 0.8 / (k + joints.M * paper.G * joints.ARM * np.cos(rest - joints.HANGING_AT))
+    rig.reset([4e5, 3e5], [rest + 0.9 * reach], [0.0])
+    rig.advance(3000)
+    assert rig.position[0] == pytest.approx(rest + 0.9 * reach, abs=2e-4)
+    rig.reset([4e5, 3e5], [rest + 3.0 * reach], [0.0])
+    rig.advance(3000)
+    assert abs(rig.position[0] - rest) < 1.1 * reach
+    assert abs(rig.velocity[0]) < 1e-6
+
+
+def test_a_stop_begins_at_its_angle():
+    rig = Rig([pair(load={'end_stop': {'upper': 0.2, 'stiffness': 1e4}})])
+    rest = rig.models[0].rest([5e5, 1e5])
+    assert rest > 0.5
+    rig.command([5e5, 1e5])
+    rig.advance(3000)
+    pressed = rig.position[0] - 0.2
+    push = joints.torque((5.0, 1.0), rig.position[0], UNEQUAL) - joints.gravity(rig.position[0])
+    # What a step of 1 ms cannot resolve is softened: 1/hypot(1, k h^2 / J).
+    softer = 1e4 / np.hypot(1.0, 1e4 * 1e-6 / joints.J)
+    assert pressed == pytest.approx(push / softer, rel=1e-3)
+
+
+# Bits ---------------------------------------------------------------------------------------
+
+IN_MUSCLE = {'creep': {'stiffness': 300.0, 'time': 0.5}, 'dead_time': {'delay': 0.0125}}
+ON_LOAD = {'coulomb_friction': {'level': 0.5}, 'payload': {'mass': 0.5}}
+MODELS = (
+    RigModel(effects=IN_MUSCLE | ON_LOAD),
+    pair(effects=(IN_MUSCLE, {}), load=ON_LOAD),
+    parallel(MASS, effects=({}, IN_MUSCLE)),
+    RigModel(load=Load(mount='horizontal'), effects={'hysteresis': {'slip': 3.0}}),
+    pair(BOTH_LONG, load=ON_LOAD, plane='horizontal'),
+)
+
+
+def driven(models, commands):
+    rig = Rig(models)
+    for row in commands:
+        rig.command(row)
+        rig.advance(37)
+    return rig
+
+
+def state(rig, joints_at, muscles_at):
+    return np.concatenate(
+        [
+            rig.position[joints_at],
+            rig.velocity[joints_at],
+            rig.joint_outputs()[joints_at].ravel(),
+            rig.pressure[muscles_at],
+            rig.contraction[muscles_at],
+            rig.outputs()[muscles_at].ravel(),
+        ]
+    )
+
+
+def test_joints_of_all_kinds_together_are_each_what_it_is_alone():
+    """To the bit: also one muscle with its own load, which has a kernel of its own when alone."""
+    commands = np.random.default_rng(1).uniform(0.0, 6e5, (8, 8))
+    together = driven(MODELS, commands)
+    muscle_at = 0
+    for i, model in enumerate(MODELS):
+        n = 1 if isinstance(model, RigModel) else 2
+        mine = slice(muscle_at, muscle_at + n)
+        alone = driven([model], commands[:, mine])
+        expected = state(alone, slice(0, 1), slice(0, n))
+        np.testing.assert_array_equal(state(together, slice(i, i + 1), mine), expected)
+        muscle_at += n
+    assert muscle_at == commands.shape[1]
+
+
+def test_plain_rigs_beside_a_plain_joint_are_what_they_are_alone_to_the_bit():
+    commands = np.random.default_rng(2).uniform(0.0, 6e5, (8, 3))
+    together, alone = driven([RigModel(), pair()], commands), driven([RigModel()], commands[:, :1])
+    first = slice(0, 1)
+    np.testing.assert_array_equal(state(together, first, first), state(alone, first, first))
+
+
+def test_templates_run_as_they_stand():
+    """Unbound and uncompiled they are a mass on one muscle."""
+    from pam_ros.rig import joint_kernel, kernel
+    from pam_ros.rig.model import start_row
+
+    model = RigModel(library=())
+    q = model.row()
+    x = start_row(model.layout, q, 3e5, 0.02, 0.0)[None]
+    one, scratch = x[0].copy(), x.copy()
+    g, u = np.array([model.load.mass, model.load.gravity]), np.array([3e5])
+    for i in range(20):
+        joint_kernel.joint_step(x, scratch, q[None], g, u, 0, 0, 1, 0, i * 1e-3, 1e-3)
+        kernel.step(one, scratch[0].copy(), q, 3e5, i * 1e-3, 1e-3)
+    np.testing.assert_array_equal(x[0], one)
+
+
+def test_all_effects_are_those_of_the_library():
+    """The joints here and the rigs of other tests have one library, as a rig must."""
+    assert {model.library for model in MODELS} == {EFFECTS}
+    assert joint_models.pair().library == EFFECTS
