@@ -31,6 +31,7 @@ from pam_ros.rig.run import simulate
 
 STOPPED = 1  # exit code
 UNNAMED = '_NODE_NAME_UNKNOWN_'  # what a node is called until it is discovered whole
+LONGEST = 0.1  # s without a command for which the pressure may change at once
 LAST = 0.2  # s for which 0 Pa is commanded after an emergency
 
 
@@ -101,6 +102,7 @@ class PamExcite(TickingNode):
         self._is_dry = is_dry
         self._pressure = 0.0  # last command
         self._rest = round(LAST * self._now.settings.rate)  # commands of 0 Pa still to come
+        self._ros_clock = self.get_clock()
         self._segment = ''
         self._bar = tqdm(disable=True)
         self._do = self._wait
@@ -174,17 +176,18 @@ class PamExcite(TickingNode):
         if rivals and UNNAMED not in rivals:
             self._refuse(f'{" and ".join(rivals)} commands pressures as well: stop it first')
             return
-        is_heard = self._publisher.get_subscription_count() > 0
-        if self._guard.position is not None and is_heard and not rivals:
+        missing = {
+            'nobody subscribes to pressure_command': not self._publisher.get_subscription_count(),
+            'joint_states is silent': self._guard.position is None,
+            'use_sim_time is set and /clock is silent': self._ros_time() == 0.0,
+            'another node commands pressures': bool(rivals),
+        }
+        if not any(missing.values()):
             self._play_from = time.monotonic() + self._now.settings.countdown
             self._do = self._count_down
         elif time.monotonic() - self._begun > self._now.settings.patience:
-            if not is_heard:
-                self._refuse('nobody subscribes to pressure_command: is the rig running?')
-            elif self._guard.position is None:
-                self._refuse('joint_states is silent: is the rig running?')
-            else:
-                self._refuse('a node without a name commands pressures as well: stop it first')
+            problems = ', '.join(text for text, is_so in missing.items() if is_so)
+            self._refuse(f'{problems}: is the rig running?')
 
     def _rivals(self) -> list[str]:
         """Return the other nodes that publish pressure_command."""
@@ -202,8 +205,7 @@ class PamExcite(TickingNode):
         if problem:
             self._refuse(problem)
         elif time.monotonic() >= self._play_from:
-            self._clock = self.get_clock()
-            self._origin = self._ros_time()
+            self._origin = self._last = self._ros_time()
             self._bar = tqdm(
                 total=round(self._now.programme.duration, 1),
                 unit='s',
@@ -219,14 +221,16 @@ class PamExcite(TickingNode):
     # While it plays ------------------------------------------------------------------------
 
     def _ros_time(self) -> float:
-        if self._clock.ros_time_is_active:
-            return float(self._clock.now().nanoseconds) * 1e-9
+        if self._ros_clock.ros_time_is_active:
+            return float(self._ros_clock.now().nanoseconds) * 1e-9
         return time.monotonic()
 
     def _play(self) -> None:
-        elapsed = self._ros_time() - self._origin
+        now = self._ros_time()
+        elapsed, since = now - self._origin, now - self._last
+        self._last = now
         problem = self._misread or self._guard.problem(time.monotonic())
-        if elapsed < 0.0:
+        if since < 0.0:
             problem = 'the clock went back'
         if problem:
             self._bar.close()
@@ -237,12 +241,15 @@ class PamExcite(TickingNode):
             )
             self._do = self._vent
             return
-        if elapsed >= self._now.programme.duration:
+        if elapsed >= self._now.programme.duration and self._pressure == 0.0:
             self._bar.close()
             print(f'played {self._now.programme.duration:.1f} s, vented', flush=True)
             self.exit_code = 0
             return
-        self._command(self._now.programme.at(elapsed))
+        # Behind a pause of this process the programme is caught up with, not jumped to.
+        step = self._now.settings.pressure_rate * min(since, LONGEST)
+        wanted = self._now.programme.at(elapsed)
+        self._command(min(max(wanted, self._pressure - step), self._pressure + step))
         self._show(elapsed)
 
     def _command(self, pressure: float) -> None:

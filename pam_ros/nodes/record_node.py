@@ -19,7 +19,7 @@ from rclpy.executors import Executor, SingleThreadedExecutor
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.subscription import Subscription
 
-from pam_ros.errors import PamError, RecordingError
+from pam_ros.errors import RecordingError
 from pam_ros.nodes.message_text import message_text
 from pam_ros.nodes.spin import TickingNode
 from pam_ros.nodes.ticker import Ticker
@@ -188,8 +188,8 @@ class PamRecord(TickingNode):
                     if monotonic_ns() - sealed > SEAL * 1e9:
                         self._writer.seal()
                         sealed = monotonic_ns()
-        except PamError as error:
-            self._problem = str(error)
+        except Exception as error:  # whatever it is, nothing is recorded any more: say so
+            self._problem = str(error) or type(error).__name__
 
     def _take(self, is_simulated: bool) -> None:
         """Write all messages that have come."""

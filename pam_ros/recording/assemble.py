@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from pam_ros.errors import RecordingError
 from pam_ros.recording.recording import KINDS, OUTPUTS, Recording
-from pam_ros.recording.series import GAP_SECONDS, Series
+from pam_ros.recording.series import GAP_SECONDS, Series, refuse_backwards
 
 Array = NDArray[np.float64]
 
@@ -35,21 +35,20 @@ def assemble(
     Raises RecordingError where a signal is missing that the kind needs.
     """
     notes = list(notes)
-    series = {q: _ascending(name, one, notes) for q, one in series.items() if one.t.size}
+    series = {quantity: one for quantity, one in series.items() if one.t.size}
     _make_position(name, series, l0, notes)
     if 'pressure_command' not in series and 'pressure' not in series:
         raise RecordingError(f'{name} has no pressure_command and no pressure: nothing drives it')
     kind = _find_kind(name, series, kind)
-    main = series['position' if kind == 'free' else 'force']
-    needed = {main.source: main}
-    if kind == 'held':
-        needed['position'] = series['position']
-    command = series.get('pressure_command')
-    if command is None:
-        needed['pressure'] = series['pressure']
-    t = _common(name, main, needed, command, notes)
+    judged = 'position' if kind == 'free' else 'force'
+    needed = {judged, 'position'}
+    if 'pressure_command' not in series:
+        needed.add('pressure')
+    series = _ascending(name, series, needed, notes)
+    main, command = series[judged], series.get('pressure_command')
+    t = _common(name, main, [series[quantity] for quantity in needed], command, notes)
     for quantity in OUTPUTS:
-        if quantity in series and series[quantity] not in needed.values():
+        if quantity in series and quantity not in needed:
             _leave_out_short(quantity, series, t, notes)
     for one in (series[q] for q in OUTPUTS if q in series):
         for start, end in one.holes():
@@ -78,11 +77,30 @@ def assemble(
     return replace(recording, gaps=gaps, warnings=tuple(notes))
 
 
-def _ascending(name: str, one: Series, notes: list[str]) -> Series:
-    one, note = one.ascending(name)
-    if note:
-        notes.append(note)
-    return one
+def _ascending(
+    name: str, series: dict[str, Series], needed: set[str], notes: list[str]
+) -> dict[str, Series]:
+    """Return the series with strictly ascending stamps; raise where time goes backwards.
+
+    Samples that share their time are harmless in a command: the last one holds. Of an output,
+    many of them mean a clock too coarse: refused where it is needed, else left out.
+    """
+    kept = {}
+    for quantity, one in series.items():
+        refuse_backwards(one.t, f'{name}: time of {one.source}')
+        share = f'{one.shared} of {one.t.size} samples of {one.source} share their time with'
+        if one.is_coarse and quantity != 'pressure_command':
+            if quantity in needed:
+                raise RecordingError(
+                    f'{name}: {share} the one before: the clock is too coarse (are milliseconds '
+                    'given as seconds, or digits cut off?)'
+                )
+            notes.append(f'{share} the one before: it is not used')
+            continue
+        if one.shared:
+            notes.append(f'{share} another: the last is kept')
+        kept[quantity] = one.ascending()
+    return kept
 
 
 def _make_position(
@@ -121,13 +139,13 @@ def _find_kind(name: str, series: dict[str, Series], kind: str | None) -> str:
 def _common(
     name: str,
     main: Series,
-    needed: dict[str, Series],
+    needed: list[Series],
     command: Series | None,
     notes: list[str],
 ) -> Array:
     """Return the stamps of *main* at which all *needed* signals and a command are there."""
-    start = max(one.t[0] for one in needed.values())
-    end = min(one.t[-1] for one in needed.values())
+    start = max(one.t[0] for one in needed)
+    end = min(one.t[-1] for one in needed)
     if command is not None and command.t[0] > start:
         lost = min(float(command.t[0]), end) - start
         if lost > GAP_SECONDS:

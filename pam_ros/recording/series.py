@@ -63,28 +63,20 @@ class Series:
         at = np.flatnonzero(np.diff(self.t) > self.gap_limit)
         return [(float(self.t[i]), float(self.t[i + 1])) for i in at]
 
-    def ascending(self, name: str) -> tuple['Series', str]:
-        """Return the series with strictly ascending stamps, and a warning or ''.
+    @property
+    def shared(self) -> int:
+        """Return how many samples share their time with the one before."""
+        return int(np.count_nonzero(np.diff(self.t) == 0.0))
 
-        Of samples with one stamp the last is kept. Raises RecordingError, naming the recording,
-        where time goes backwards or the clock is too coarse for the samples.
-        """
-        step = np.diff(self.t)
-        refuse_backwards(self.t, f'{name}: time of {self.source}')
-        same = int(np.count_nonzero(step == 0.0))
-        if same == 0:
-            return self, ''
-        if same > max(COARSE * self.t.size, 2):
-            raise RecordingError(
-                f'{name}: {same} of {self.t.size} samples of {self.source} share their time with '
-                'the one before: the clock is too coarse (are milliseconds given as seconds, or '
-                'digits cut off?)'
-            )
-        keep = np.append(step > 0.0, True)
-        return (
-            Series(self.source, self.t[keep], self.value[keep]),
-            f'{same} samples of {self.source} share their time with another: the last is kept',
-        )
+    @property
+    def is_coarse(self) -> bool:
+        """Say whether so many do that the clock must be too coarse for the samples."""
+        return self.shared > max(COARSE * self.t.size, 2)
+
+    def ascending(self) -> 'Series':
+        """Return the series with strictly ascending stamps: of those with one, the last."""
+        keep = np.append(np.diff(self.t) > 0.0, True)
+        return Series(self.source, self.t[keep], self.value[keep])
 
 
 def refuse_backwards(t: Array, what: str) -> None:

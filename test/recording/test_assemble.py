@@ -119,6 +119,35 @@ def test_an_output_that_covers_too_little_is_left_out_and_noted():
     assert one.warnings == ('cell is not used: it covers 51 % of the samples',)
 
 
+def test_time_that_goes_backwards_is_refused():
+    back = T.copy()
+    back[500:] -= 1.0
+    with pytest.raises(RecordingError, match='log: time of f goes backwards'):
+        assemble('log', free(force=signal('f', 1.0, back)), [])
+
+
+def test_a_clock_too_coarse_for_what_is_needed_is_refused():
+    coarse = signal('y', np.sin(T), np.floor(T * 50) / 50)
+    with pytest.raises(RecordingError, match='500 of 1000 samples of y share their time'):
+        assemble('log', free(position=coarse), [])
+
+
+def test_a_clock_too_coarse_for_what_is_not_needed():
+    coarse = signal('cell', np.sin(T), np.floor(T * 50) / 50)
+    one = assemble('log', free(force=coarse), [])
+    assert one.force is None
+    assert one.warnings == (
+        '500 of 1000 samples of cell share their time with the one before: it is not used',
+    )
+
+
+def test_of_commands_at_one_time_the_last_holds():
+    command = signal('u', [1.0, 2.0, 3.0, 4.0, 5.0, 6.0], [0.0, 0.0, 1.0, 1.0, 1.0, 2.0])
+    one = assemble('log', free(pressure_command=command), [])
+    assert one.command.tolist() == [2.0, 5.0, 6.0]
+    assert one.warnings == ('3 of 6 samples of u share their time with another: the last is kept',)
+
+
 def test_a_gap_is_known():
     keep = (T < 3.0) | (T >= 4.5)
     one = assemble('log', free(position=signal('y', np.sin(T[keep]), T[keep])), [])

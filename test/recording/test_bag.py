@@ -123,6 +123,23 @@ def test_where_two_clocks_differ_all_are_taken_at_their_receipt(tmp_path):
         assert series[name].t[0] - series['force'].t[0] == pytest.approx(LATE, abs=1e-9)
 
 
+def test_a_simulated_clock_may_tick_behind_the_stamps(tmp_path):
+    """Receipts then are those of the clock's ticks; the headers stay the better stamps."""
+    topics, _ = bags.rig_topics(duration=4.0)
+    ticked = {}
+    for topic, (kind, messages) in topics.items():
+        ticked[topic] = (kind, [])
+        for stamp, message in messages:
+            now = (stamp - bags.EPOCH) // 10_000_000 * 10_000_000
+            if hasattr(message, 'header'):
+                since = message.header.stamp.sec * 10**9 + message.header.stamp.nanosec
+                message.header = bags.header(since - bags.EPOCH + 1)
+            ticked[topic][1].append((now, message))
+    series, notes = read(tmp_path, ticked)
+    assert notes == []
+    np.testing.assert_allclose(np.diff(series['position'].t), 1 / 200, atol=1e-9)
+
+
 def test_what_other_topics_and_fields_mean(tmp_path):
     ours, truth = bags.rig_topics()
     _, states = ours['/joint_states']

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from pam_ros.errors import RecordingError
-from pam_ros.recording.series import Series
+from pam_ros.recording.series import Series, refuse_backwards
 
 
 def series(t):
@@ -14,30 +14,23 @@ def series(t):
     return Series('pos', t, np.arange(t.size, dtype=float))
 
 
-def test_ascending_stamps_stay_as_they_are():
-    one = series([0.0, 0.1, 0.2])
-    assert one.ascending('log') == (one, '')
-
-
 def test_time_that_goes_backwards_is_refused_with_the_place():
     with pytest.raises(
-        RecordingError, match=r'log: time of pos goes backwards: 0.1 s after 0.2 s'
+        RecordingError, match=r'log goes backwards: 0.1 s after 0.2 s, at sample 3'
     ):
-        series([0.0, 0.2, 0.1, 0.3]).ascending('log')
+        refuse_backwards(np.array([0.0, 0.2, 0.1, 0.3]), 'log')
+    refuse_backwards(np.array([0.0, 0.1, 0.1, 0.2]), 'log')
 
 
 def test_of_two_samples_at_one_time_the_last_is_kept():
     t = np.arange(1000) * 0.01
     t[500] = t[499]
-    one, note = series(t).ascending('log')
-    assert one.t.size == 999
-    assert one.value[499] == 500.0
-    assert '1 samples of pos share' in note
-
-
-def test_a_clock_too_coarse_is_refused():
-    with pytest.raises(RecordingError, match='500 of 1000 samples of pos share their time'):
-        series(np.repeat(np.arange(500.0), 2)).ascending('log')
+    one = series(t)
+    assert one.shared == 1
+    assert not one.is_coarse
+    assert one.ascending().t.size == 999
+    assert one.ascending().value[499] == 500.0
+    assert series(np.repeat(np.arange(500.0), 2)).is_coarse
 
 
 @pytest.mark.parametrize(('period', 'limit'), [(1e-3, 0.05), (0.02, 0.2)])
