@@ -111,7 +111,7 @@ EFFECT = Effect(
             'way of the contact until it slides',
             'm',
             1e-6,
-            1e-2,
+            2e-4,
             scale=1e-5,
         ),
     ),

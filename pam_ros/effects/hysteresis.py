@@ -89,8 +89,11 @@ def force(
 
 
 def start(q: Row, j: int, p: float, kappa: float, y: float) -> tuple[float, ...]:
-    """Return the middle of all loops."""
-    return (0.0, kappa, p) + 2 * ELEMENTS * (0.0,)
+    """Return all loops at the share q[j + 10] of their height: from -1 to 1, 0 in the middle."""
+    inner = [(n + 0.5) / ELEMENTS for n in range(ELEMENTS)]
+    slip = [q[j + 10] * q[j + 4] * (q[j + 5] + (1.0 - q[j + 5]) * a) for a in inner]
+    over_p = [q[j + 10] * q[j + 8] * (q[j + 9] + (1.0 - q[j + 9]) * a) for a in inner]
+    return (q[j + 10], kappa, p, *slip, *over_p)
 
 
 EFFECT = Effect(
@@ -114,7 +117,7 @@ EFFECT = Effect(
             0.01,
             'contraction over which the Bouc-Wen loop approaches its height',
             'fraction',
-            1e-5,
+            5e-4,
             10.0,
             scale=0.01,
         ),
@@ -143,7 +146,7 @@ EFFECT = Effect(
             0.02,
             'contraction over which the last Maxwell element slips',
             'fraction',
-            1e-5,
+            1.5e-3,
             10.0,
             scale=0.02,
         ),
@@ -194,16 +197,25 @@ EFFECT = Effect(
             1.0,
             scale=0.3,
         ),
+        EffectParameter(
+            'initial',
+            0.0,
+            'where the loops stand at the start; 1: as after a long way up, -1: down',
+            '',
+            -1.0,
+            1.0,
+            scale=0.5,
+        ),
     ),
     signature='loops over contraction or pressure whose area does not depend on the speed',
     experiment='slow triangles at two rates with minor loops',
     fit_starts=(
-        {'amplitude': 5.0, 'width': 0.003},
-        {'amplitude': 10.0, 'width': 0.03, 'unloading': 0.5},
-        {'slip': 5.0, 'slip_width': 0.01},
-        {'slip': 10.0, 'slip_width': 0.05, 'slip_onset': 0.2},
-        {'pressure': 3e3, 'pressure_width': 1e4},
-        {'pressure': 1e4, 'pressure_width': 5e4},
+        {'amplitude': 5.0, 'width': 0.003, 'initial': 0.0},
+        {'amplitude': 10.0, 'width': 0.03, 'unloading': 0.5, 'initial': 0.0},
+        {'slip': 5.0, 'slip_width': 0.01, 'initial': 0.0},
+        {'slip': 10.0, 'slip_width': 0.05, 'initial': 0.0},
+        {'pressure': 3e3, 'pressure_width': 1e4, 'initial': 0.0},
+        {'pressure': 1e4, 'pressure_width': 5e4, 'initial': 0.0},
     ),
     states=(
         'loop',

@@ -19,7 +19,7 @@ from pam_ros.rig.model import RigModel
 Array = NDArray[np.float64]
 LOOKS = 2  # steps of the cheap look, with the parent's columns kept
 EARNED = 10.0  # fall of the score that pays for an effect's finer parameters
-TRIED = 3  # starting values per effect from which it is taken
+TRIED = 2  # starting values per effect from which it is taken
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,7 +108,7 @@ def released(fit: Fit, model: RigModel, effect: Effect, pool: Executor | None) -
     wider, added = extended(problem, model, effect, rest)
     # What was fitted stays where the fit put it: only the row of the others is new.
     start = np.concatenate([fit.solution.u, added])
-    wide = fitted(fit.effects, solve(wider, start, iterations=8, pool=pool))
+    wide = fitted(fit.effects, solve(wider, start, pool=pool))
     return wide if wide.score < fit.score - EARNED else fit
 
 
@@ -128,13 +128,7 @@ def _guessed(parent: Fit, effect: Effect) -> tuple[dict[str, float], ...]:
     return effect.guess(s.t, out[:, at.P], out[:, at.Y] / problem.row[at.L0], residual)
 
 
-def refine(
-    parent: Fit,
-    effect: Effect,
-    looks: Sequence[Solution],
-    pool: Executor | None,
-    iterations: int = 10,
-) -> Fit:
+def refine(parent: Fit, effect: Effect, looks: Sequence[Solution], pool: Executor | None) -> Fit:
     """Return the best full fit of *effect* on top of *parent*, from its cheap ones.
 
     Friction and stops make a fit stop in the wrong place now and then, so that the better look
@@ -143,7 +137,7 @@ def refine(
     fits = [
         fitted(
             (*parent.effects, effect.name),
-            solve(start.problem, start.u, iterations=iterations, pool=pool),
+            solve(start.problem, start.u, pool=pool, jacobian=start.jacobian),
         )
         for start in looks
     ]

@@ -17,14 +17,14 @@ from pam_ros.rig.model import RigModel
 
 Array = NDArray[np.float64]
 
-PHASE = 0.2  # rad of the rig's fastest oscillation in one step
-STEPS = (1e-3, 5e-3)  # s, shortest and longest step
+PHASE = 0.3  # rad of the rig's fastest oscillation in one step
+STEPS = (1e-3, 6e-3)  # s, shortest and longest step
 JUMP = 0.01  # share of the command's range within a stride that makes a jump
 SAMPLES = 20_000  # most samples of a held run, whose steps cost nothing but themselves
 
 
 def coarse_step(model: RigModel) -> float:
-    """Return a step in s that resolves the oscillation of the rig at rest, stiffest 30-fold."""
+    """Return a step in s that resolves the oscillation of the rig at rest, stiffest 20-fold."""
     muscle = model.muscle
     if muscle.is_load_only:
         return STEPS[1]

@@ -20,6 +20,7 @@ LATER_SHARE = 0.05  # a second or third effect must explain this share of what r
 AMBIGUOUS = 6.0  # difference of scores that does not decide between two effects
 LATER_GAIN = 0.35  # or lower the RMSE kept back by this share
 SIGMAS = 2.6  # of a strength's distance from 0
+LEAST = 24.0
 LONGEST = 4000  # samples over which a residual's correlation is summed
 
 
@@ -36,10 +37,12 @@ class Evidence:
 def independent_samples(fit: Fit) -> float:
     """Return how many independent samples the residuals of *fit* are worth in a test.
 
-    The fewer of what the noise allows and of what their own correlation allows.
+    The fewer of what the noise allows and of what their own correlation allows, but not below
+    LEAST: a drift that fills the record has no correlation time that the record could show.
     """
     r = fit.solution.r
-    return min(fit.solution.problem.independent, r.size * independent_share(r, LONGEST))
+    own = max(LEAST, r.size * independent_share(r, LONGEST))
+    return min(fit.solution.problem.independent, own)
 
 
 def f_test(parent: Fit, child: Fit) -> float:

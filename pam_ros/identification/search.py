@@ -13,10 +13,10 @@ from pam_ros.effects.base import Effect
 from pam_ros.identification import evidence
 from pam_ros.identification.candidate import Fit, extended, fitted, look, refine, released
 from pam_ros.identification.coarse import coarse_step, thinned
-from pam_ros.identification.noise import Noise, noise_of
+from pam_ros.identification.noise import Noise
 from pam_ros.identification.problem import Problem
 from pam_ros.identification.segment import Segment, windows
-from pam_ros.identification.solve import Solution, solve
+from pam_ros.identification.solve import Solution, predicted_cost, solve
 from pam_ros.identification.unknowns import Unknown, declared_unknowns, run_unknowns
 from pam_ros.rig.model import RigModel
 
@@ -24,9 +24,10 @@ Array = NDArray[np.float64]
 Progress = Callable[[float, str], None]
 
 EFFECTS_AT_MOST = 3
-REFINED = 5  # candidates of a round that get a full fit
+REFINED = 4  # candidates of a round that get a full fit
 WINDOW = 2.0  # s of a run of a load without a muscle
 OUTLIER = 1.48  # median residuals beyond which one is an outlier
+DOUBTED = 1  # of these that are fitted from further starting values, too
 PROMISING = 4.0  # fall of the cost in a cheap look that earns a full fit
 IMPLAUSIBLE = 12.0  # chi square of re-tuned parameters under their prior that asks for a reason
 
@@ -253,15 +254,17 @@ def _is_static(effect: Effect) -> bool:
 
 def _from_declared(declared: Fit, model: RigModel, effect: Effect, pool: Executor) -> Fit:
     """Return the fit of *effect* that begins at the declared parameters, not the re-tuned."""
-    best: Fit | None = None
+    known = declared.solution
+    guesses = []
     for start in effect.fit_starts:
-        problem, added = extended(declared.solution.problem, model, effect, start)
-        u = np.concatenate([declared.solution.u, added])
-        fit = fitted((effect.name,), solve(problem, u, pool=pool))
-        if best is None or fit.score < best.score:
-            best = fit
-    assert best is not None
-    return best
+        problem, added = extended(known.problem, model, effect, start)
+        u = np.concatenate([known.u, added])
+        r = problem.residuals(u)
+        own = problem.jacobian(u, r, pool, range(len(known.u), len(u)))
+        jacobian = np.hstack([known.jacobian, own])
+        guesses.append((predicted_cost(problem, u, r, jacobian), problem, u, jacobian))
+    _, problem, u, jacobian = min(guesses, key=lambda guess: guess[0])
+    return fitted((effect.name,), solve(problem, u, pool=pool, jacobian=jacobian))
 
 
 def _without_needless(

@@ -4,6 +4,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -93,7 +94,8 @@ def _segment(part: Recording, keep_back: bool) -> Segment:
         )  # fmt: skip
     pressure = part.pressure
     if pressure is None:
-        assert part.command_t is not None and part.command is not None
+        assert part.command_t is not None
+        assert part.command is not None
         at = np.searchsorted(part.command_t, part.t, side='right') - 1
         pressure = part.command[np.maximum(at, 0)]
     if part.force is None:
@@ -121,7 +123,7 @@ def windows(segment: Segment, length: float) -> list[Segment]:
     span = segment.t[-1] - segment.t[0]
     edges = np.linspace(segment.t[0], segment.t[-1], max(1, round(span / length)) + 1)
     found = []
-    for k, (start, end) in enumerate(zip(edges[:-1], edges[1:], strict=True)):
+    for k, (start, end) in enumerate(pairwise(edges)):
         rows = np.flatnonzero((segment.t >= start) & (segment.t <= end))
         t, y = segment.t[rows], segment.target[rows]
         kept = _kept_back(k) and not segment.fit.all()

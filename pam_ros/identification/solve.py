@@ -54,48 +54,63 @@ class Solution:
 def solve(
     problem: Problem,
     u: Array,
-    iterations: int = 12,
+    iterations: int = 20,
     pool: Executor | None = None,
     jacobian: Array | None = None,
     frozen: int = 0,
 ) -> Solution:
     """Minimise the problem's cost from u; never ends higher than it began.
 
-    The noise variance is that of the residuals at each step. Stops when a step lowers the cost,
-    a -2 log likelihood, by less than a tenth. The first *frozen* columns are taken from
-    *jacobian* and not computed again.
+    The noise variance is that of the residuals at each step. A Jacobian that is handed in is
+    used as it is and, like any other, kept up to date by Broyden's rule; it is computed anew
+    when steps stop to lower the cost, a -2 log likelihood, by a tenth or by half of what they
+    promise. With *frozen* its first columns never are, and the others at every step: a cheap
+    look, not a converged fit.
     """
     low, high = np.array([k.bounds for k in problem.unknowns]).reshape(-1, 2).T
     prior = np.array([k.prior for k in problem.unknowns])
     u = np.clip(u, low, high)
     r = problem.residuals(u)
     cost = problem.cost(u, r)
-    fresh = list(range(frozen, len(u)))
-    j = np.empty((r.size, len(u)))
-    if jacobian is not None:
-        j[:, :frozen] = jacobian[:, :frozen]
+    j = problem.jacobian(u, r, pool) if jacobian is None else jacobian.copy()
+    stale = jacobian is not None
+    own = range(frozen, len(u))
     damping, done = 1e-9, 0
-    j[:, frozen:] = problem.jacobian(u, r, pool, fresh)
-    for done in range(1, iterations + 1):
+    while done < iterations:
+        done += 1
         weight = problem.independent / float(r @ r)
         normal = weight * (j.T @ j) + np.diag(prior**-2.0)
         gradient = weight * (j.T @ r) + u / prior**2.0
         free = ~(((u <= low) & (gradient > 0.0)) | ((u >= high) & (gradient < 0.0)))
-        before = cost
-        for _ in range(8):
+        before, hoped = cost, np.inf
+        for _ in range(3 if stale else 8):
             trial = np.clip(u + _step(normal, gradient, free, damping), low, high)
             r_trial = problem.residuals(trial)
             cost_trial = problem.cost(trial, r_trial)
             if cost_trial < cost:
+                hoped = cost - problem.cost(trial, r + j @ (trial - u))
+                j = _broyden(j, trial - u, r_trial - r)
                 u, r, cost = trial, r_trial, cost_trial
                 damping = max(0.03 * damping, 1e-9)
                 break
             damping *= 30.0
-        if cost < before:
-            j[:, frozen:] = problem.jacobian(u, r, pool, fresh)
-        if before - cost < 0.1:
-            break
+        gain = before - cost
+        if frozen:
+            if gain < 0.1:
+                break
+            j[:, frozen:] = problem.jacobian(u, r, pool, own)
+        elif gain < max(0.1, 0.5 * hoped) if np.isfinite(hoped) else True:
+            if gain < 0.1 and not stale:
+                break
+            j, stale = problem.jacobian(u, r, pool), False
+        else:
+            stale = True
     return Solution(problem, u, r, j, done)
+
+
+def _broyden(j: Array, du: Array, dr: Array) -> Array:
+    """Return j with the least change that makes it give dr for the step du just taken."""
+    return np.asarray(j + np.outer(dr - j @ du, du) / max(float(du @ du), 1e-300))
 
 
 def predicted_cost(problem: Problem, u: Array, r: Array, jacobian: Array) -> float:

@@ -8,8 +8,8 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from pam_ros.identification.evidence import independent_samples
 from pam_ros.identification.candidate import Fit
+from pam_ros.identification.evidence import independent_samples
 from pam_ros.identification.problem import Problem
 from pam_ros.identification.result import Estimate, Stage
 from pam_ros.identification.segment import Segment

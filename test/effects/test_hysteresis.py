@@ -143,6 +143,17 @@ def test_load_on_a_muscle_with_hysteresis_against_an_adaptive_solver():
     assert np.ptp(y) > 0.01
 
 
+@pytest.mark.parametrize('effect', [BOUC_WEN, SLIP, {'pressure': 5e3}])
+@pytest.mark.parametrize('side', [1.0, -1.0])
+def test_loops_can_start_where_a_long_way_has_left_them(effect, side):
+    far = np.linspace(0.0, side * 0.4, 401) + 0.1
+    back = np.linspace(0.1 + side * 0.4, 0.1, 51)
+    p = 3e5 + 1e6 * (np.concatenate([far, back]) - 0.1)
+    come = loop(effect, np.concatenate([far, back]), p)[400:]
+    put = loop({**effect, 'initial': side}, back, p[400:])
+    np.testing.assert_allclose(put, come, atol=1e-6)
+
+
 def test_every_start_is_allowed():
     for start in EFFECT.fit_starts:
         assert EFFECT.is_present(start)

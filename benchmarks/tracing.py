@@ -1,0 +1,176 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Blind trials: does the finder name the effect that is in a recording, and no other?
+
+Recordings come from the truth plant in ``test/truth``, which shares neither equations nor
+integrator with the package. Options: ``--seeds N`` (default 12), ``--kinds a,b+c,noise_only``,
+``--jobs N``, ``--log FILE`` (one JSON line a trial).
+"""
+
+import argparse
+import json
+import sys
+import time
+from collections.abc import Sequence
+from collections import Counter, defaultdict
+from concurrent.futures import ProcessPoolExecutor
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / 'test'))
+
+from truth import KINDS, NOISE_ONLY, OUT_OF_LIBRARY, PAIRS, Trial, blind_trial
+
+from pam_ros.identification.finder import trace
+from pam_ros.muscle.muscle import Muscle
+from pam_ros.recording.recording import Recording
+from pam_ros.rig.model import Load, RigModel
+
+TARGETS = {
+    'single: right effect first, or in a set of two': (0.95, 'min'),
+    'noise only: an effect claimed': (0.01, 'max'),
+    'pairs: both found': (0.75, 'min'),
+    'pairs: one found and no wrong one': (0.95, 'min'),
+    'out of library: called unexplained_structure': (0.85, 'min'),
+    'single: median error after / noise floor': (1.2, 'max'),
+}
+
+
+def declared_model(trial: Trial) -> RigModel:
+    """Return what the user of the trial believes."""
+    d = trial.declared
+    muscle = Muscle(
+        *d.constants_si, pressure_unit='Pa', contraction_unit='fraction', zeta=d.zeta, l0=d.l0
+    )
+    return RigModel(muscle, Load(mass=d.mass))
+
+
+def recording_of(trial: Trial) -> Recording:
+    """Return the recording of a trial as the finder gets it."""
+    r = trial.recording
+    t = r.t_s - r.t_s[0]
+    return Recording(
+        f'{trial.kind} {trial.seed}', t, t, r.pressure_command_pa, r.position_m,
+        None, None, None, 'free',
+    )  # fmt: skip
+
+
+def run_trial(job: tuple[str, int]) -> dict[str, Any]:
+    """Run one trial and return a row of what was there and what was found."""
+    kind, seed = job
+    trial = blind_trial(kind, seed)
+    began = time.perf_counter()
+    found = trace(declared_model(trial), [recording_of(trial)])
+    declared, retuned, augmented = found.stages
+    return {
+        'kind': kind,
+        'seed': seed,
+        'forms': [e.form for e in trial.effects],
+        'accepted': [sorted(names) for names in trial.accepted],
+        'in_library': trial.in_library,
+        'verdict': found.verdict,
+        'found': [e.name for e in found.effects],
+        'alternatives': [list(e.alternatives) for e in found.effects],
+        'declared': declared.held_error,
+        'retuned': retuned.held_error,
+        'augmented': augmented.held_error,
+        'noise': trial.noise,
+        'floor': found.noise.sigma,
+        'ceiling': found.structure.ceiling,
+        'share': found.structure.share,
+        'samples': int(trial.recording.t_s.size),
+        'seconds': time.perf_counter() - began,
+    }
+
+
+def is_right(row: dict[str, Any]) -> bool:
+    """Say whether a single effect was named first, or in a stated set of at most two."""
+    if not row['found']:
+        return False
+    stated = [row['found'][0], *row['alternatives'][0]]
+    truth = set(row['accepted'][0])
+    return stated[0] in truth or (len(stated) <= 2 and bool(truth & set(stated)))
+
+
+def pair_hits(row: dict[str, Any]) -> tuple[int, int]:
+    """Return how many of a pair's effects were named, and how many names are wrong."""
+    left = [set(names) for names in row['accepted']]
+    wrong = 0
+    for name, others in zip(row['found'], row['alternatives'], strict=True):
+        stated = {name, *others[:1]}
+        hit = next((truth for truth in left if truth & stated), None)
+        if hit is not None:
+            left.remove(hit)
+        elif not any(name in names for names in row['accepted']):
+            wrong += 1
+    return len(row['accepted']) - len(left), wrong
+
+
+def scores(rows: list[dict[str, Any]]) -> dict[str, float]:
+    """Return the figures that the targets are about."""
+    single = [r for r in rows if len(r['accepted']) == 1 and r['in_library']]
+    noise = [r for r in rows if not r['accepted']]
+    pairs = [r for r in rows if len(r['accepted']) == 2]
+    strange = [r for r in rows if not r['in_library']]
+    hits = [pair_hits(r) for r in pairs]
+    values = [
+        np.mean([is_right(r) for r in single]) if single else np.nan,
+        np.mean([bool(r['found']) for r in noise]) if noise else np.nan,
+        np.mean([h == 2 for h, _ in hits]) if hits else np.nan,
+        np.mean([h >= 1 and wrong == 0 for h, wrong in hits]) if hits else np.nan,
+        np.mean([r['verdict'] == 'unexplained_structure' for r in strange]) if strange else np.nan,
+        np.median([r['augmented'] / r['noise'] for r in single]) if single else np.nan,
+    ]
+    return dict(zip(TARGETS, map(float, values), strict=True))
+
+
+def report(rows: list[dict[str, Any]]) -> None:
+    """Print the table of scores, the confusions, and the rows that are wrong."""
+    print(f'\n{len(rows)} trials, median {np.median([r["seconds"] for r in rows]):.1f} s each')
+    for name, value in scores(rows).items():
+        target, side = TARGETS[name]
+        good = value >= target if side == 'min' else value <= target
+        sign = '>=' if side == 'min' else '<='
+        word = '-' if np.isnan(value) else 'reached' if good else 'SHORT'
+        print(f'  {name:52s} {value:7.3f}   {sign} {target:<5g} {word}')
+    confusion: dict[str, Counter[str]] = defaultdict(Counter)
+    ratio: dict[str, list[float]] = defaultdict(list)
+    for r in rows:
+        confusion[r['kind']][' + '.join(r['found']) or r['verdict']] += 1
+        ratio[r['kind']].append(r['augmented'] / r['noise'])
+    print('\nwhat was there: what was called (median error after / noise)')
+    for kind, counts in confusion.items():
+        named = ', '.join(f'{n} x {name}' for name, n in counts.most_common())
+        print(f'  {kind:38s} {named}  ({np.median(ratio[kind]):.2f})')
+
+
+def main(argv: Sequence[str] = ()) -> None:
+    """Run the trials that the command line asks for, and print the scores."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument('--seeds', type=int, default=12)
+    parser.add_argument('--kinds', default='')
+    parser.add_argument('--jobs', type=int, default=2)
+    parser.add_argument('--log', type=Path)
+    given = parser.parse_args(argv)
+    kinds = given.kinds.split(',') if given.kinds else [NOISE_ONLY, *KINDS, *PAIRS, *OUT_OF_LIBRARY]
+    jobs = [(kind, seed) for seed in range(given.seeds) for kind in kinds]
+    rows = []
+    with ProcessPoolExecutor(given.jobs) as pool:
+        for row in pool.map(run_trial, jobs):
+            rows.append(row)
+            if given.log:
+                with given.log.open('a') as log:
+                    log.write(json.dumps(row) + '\n')
+            print(
+                f'{len(rows):4d}/{len(jobs)} {row["kind"]:36s} {row["seed"]:3d} '
+                f'{"+".join(row["found"]) or row["verdict"]:40s} '
+                f'{row["augmented"] / row["noise"]:6.2f} x noise  {row["seconds"]:5.1f} s',
+                flush=True,
+            )
+    report(rows)
+
+
+if __name__ == '__main__':
+    main(sys.argv[1:])
