@@ -47,10 +47,12 @@ class Unknown:
     segment: int = -1
 
     def value(self, u: float) -> float:
-        """Return the physical value at u."""
+        """Return the physical value at u, which rounding does not carry past its bounds."""
         if self.logarithmic:
-            return self.base * exp(self.scale * u)
-        return self.base + self.scale * u
+            value = self.base * exp(self.scale * u)
+        else:
+            value = self.base + self.scale * u
+        return min(max(value, self.low), self.high)
 
     def coordinate(self, value: float) -> float:
         """Return u at a physical value; infinite beyond what a logarithm can say."""
