@@ -1,0 +1,75 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The replay of the closed loop: three rigs of one bag on one clock, and their errors."""
+
+import numpy as np
+import pytest
+
+from pam_ros.config import build_rig
+from pam_ros.demo import loop
+from pam_ros.demo.loop import Replay, read_replay
+from pam_ros.parameter_files import load_rig
+from support.bags import FLOAT, JOINT, joint, ns, number, write_bag
+
+
+@pytest.fixture
+def replay():
+    t = np.arange(5000) / 250.0
+    measured = 0.05 + 0.02 * np.sin(t)
+    wave = np.where(np.arange(t.size) % 2, 1.0, -1.0)
+    return Replay(t, measured, measured - 3e-3 * wave, measured - 1e-4 * wave)
+
+
+def test_three_rigs_are_put_on_the_clock_of_their_commands(tmp_path):
+    """Each starts at a time of its own, at a rate of its own; all show y = t after the first."""
+    topics = {
+        '/demo/pressure_command': (FLOAT, [(ns(3.0 + 0.1 * k), number(k)) for k in range(99)])
+    }
+    for name, start, rate in (('rig', 0.0, 200), ('declared', 1.3, 250), ('identified', 0.7, 125)):
+        stamps = start + np.arange(round(10 * rate)) / rate
+        messages = [(ns(s), joint(ns(s), [s - 3.0], [0.0], [0.0])) for s in stamps]
+        topics[f'/demo/{name}/joint_states'] = (JOINT, messages)
+    write_bag(tmp_path / 'bag', topics)
+    spaces = (f'/demo/{name}' for name in ('rig', 'declared', 'identified'))
+    found = read_replay(tmp_path / 'bag', '/demo/pressure_command', *spaces)
+    assert found.t[0] == pytest.approx(0.0, abs=1e-6)
+    assert found.t[-1] == pytest.approx(7.0, abs=0.01)
+    for y in (found.measured, found.declared, found.identified):
+        assert y == pytest.approx(found.t, abs=1e-6)
+
+
+def test_sizes_are_those_of_the_two_models(replay):
+    assert replay.size(0).rmse == pytest.approx(3e-3)
+    assert replay.size(2).rmse == pytest.approx(1e-4)
+    assert replay.size(2).maximum == pytest.approx(1e-4)
+
+
+def test_table_has_errors_and_what_was_hidden_beside_what_was_found(replay):
+    level = {'value': 11.9, 'low': 11.7, 'high': 12.2, 'unit': 'N', 'at_bound': False}
+    report = {
+        'verdict': 'effect_found',
+        'parameters': {'augmented': {'effects.coulomb_friction.level': level}},
+    }
+    rows = {line.split('  ')[0]: line.split() for line in loop.table(replay, report).splitlines()}
+    assert rows['as declared'][2:4] == ['3.00', '3.00']
+    assert rows['identified'][1:3] == ['0.100', '0.100']
+    friction = rows['coulomb_friction.level [N]']
+    assert friction[2:] == ['12', '11.9', '11.7', 'to', '12.2']
+    assert rows['pressure_lag.fill'] == ['pressure_lag.fill', '0.04']
+    assert rows['effect_found: the error fell to 1/30']
+
+
+def test_figure_shows_the_rig_and_both_models(replay):
+    above, below, alone = loop.figure(replay).axes
+    assert len(above.lines) == 3
+    assert below.lines[0].get_ydata().max() == pytest.approx(3.0)
+    assert alone.lines[0].get_ydata().max() == pytest.approx(0.1)
+
+
+def test_what_is_hidden_makes_a_rig_that_is_not_the_declared_one():
+    declared, values = load_rig(loop.MUSCLE)
+    hidden = {k: v for k, v in loop.HIDDEN.items() if k != 'muscle'}
+    rig = build_rig({**values, **hidden})
+    assert {effect.name for effect in rig.present} == {'coulomb_friction', 'pressure_lag'}
+    assert not declared.present
+    assert rig.muscle.a5 != declared.muscle.a5

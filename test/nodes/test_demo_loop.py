@@ -1,0 +1,55 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The loop closed over DDS: excited, recorded, identified, simulated better."""
+
+import json
+import subprocess
+import sys
+
+import pytest
+
+from pam_ros.demo.loop import HIDDEN, NOISE
+from pam_ros.recording.read import read_recording
+from pam_ros.report.write import FILES
+
+
+@pytest.mark.needs_numba
+def test_the_loop_closes_over_topics(tmp_path):
+    done = subprocess.run(
+        [sys.executable, '-m', 'pam_ros.nodes.pam_demo', 'loop', '--out', 'shown'],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    folder = tmp_path / 'shown' / 'loop'
+    assert {path.name for path in folder.iterdir()} == {
+        'recording',
+        'report',
+        'replay',
+        'before_and_after.png',
+        'before_and_after.txt',
+    }
+    assert {path.name for path in (folder / 'report').iterdir()} == set(FILES)
+
+    recording = read_recording(folder / 'recording')
+    assert recording.kind == 'free'
+    assert recording.period == pytest.approx(1 / 250.0, rel=0.02)
+    assert recording.command.size > 5000
+
+    report = json.loads((folder / 'report' / 'report.json').read_text(encoding='utf-8'))
+    assert report['verdict'] == 'effect_found'
+    hidden = {name.split('.')[1] for name in HIDDEN if name.startswith('effects.')}
+    found = {effect['name']: effect for effect in report['effects']}
+    assert set(found) == hidden
+    level = found['coulomb_friction']['parameters']['level']['value']
+    assert level == pytest.approx(HIDDEN['effects.coulomb_friction.level'], rel=0.2)
+    assert report['error']['noise_floor'] == pytest.approx(NOISE, rel=0.3)
+
+    table = (folder / 'before_and_after.txt').read_text(encoding='utf-8')
+    assert table.strip() in done.stdout
+    rows = {line.split('  ')[0]: line.split() for line in table.splitlines()}
+    before, after = float(rows['as declared'][2]), float(rows['identified'][1])
+    assert before > 1.0
+    assert after < 0.15 * before
