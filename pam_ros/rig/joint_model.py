@@ -15,7 +15,7 @@ from pam_ros.effects.base import Effect
 from pam_ros.errors import ParameterError, RangeError
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig import layout as at
-from pam_ros.rig import statics, swing
+from pam_ros.rig import settle, statics, swing
 from pam_ros.rig.joints import JOINTS
 from pam_ros.rig.joints.antagonistic_pair import PulleyArm
 from pam_ros.rig.joints.base import Joint, acts_in_muscle, acts_on_load
@@ -49,7 +49,7 @@ class JointModel:
     load: Any = field(default_factory=PulleyArm)
     actuators: tuple[Actuator, ...] = (Actuator(), Actuator())
     effects: EffectValues = field(default_factory=dict)
-    library: tuple[Effect, ...] = EFFECTS
+    library: tuple[Effect, ...] = field(default=EFFECTS, repr=False)
 
     def __post_init__(self) -> None:
         """Check the muscles, the effects, and that there are equilibria."""
@@ -148,8 +148,8 @@ class JointModel:
         return [float(one) for one in np.broadcast_to(np.asarray(p, float), len(self.actuators))]
 
     def rest(self, p: ArrayLike) -> float:
-        """Return the coordinate at which the declared model rests at *p* Pa."""
-        return statics.equilibrium(self, p)
+        """Return the coordinate at which the joint rests at *p* Pa, effects included."""
+        return settle.rest(self, p)
 
     @cached_property
     def longest_step(self) -> float:

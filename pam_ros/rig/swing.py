@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 BELOW, ABOVE = 0.3, 0.7  # contraction beyond the rated one that is looked at
 POINTS = 500
+LONGEST_WITH_EFFECTS = 0.01  # s: stops that are softened for longer steps hold nothing
 FAST = 10.0  # m/s or rad/s, at which dry friction counts for nothing beside a drag
 
 
@@ -40,7 +41,8 @@ def longest_step(model: JointModel) -> float:
     square = float(np.max(k[far])) / model.inertia
     zeta = max(m.zeta for m in model.muscles)
     decay = zeta * math.sqrt(square) + 0.5 * _drag(model) / model.inertia
-    return 1.0 / max(math.sqrt(square), decay + math.sqrt(max(decay * decay - square, 0.0)))
+    fastest = max(math.sqrt(square), decay + math.sqrt(max(decay * decay - square, 0.0)))
+    return min(1.0 / fastest, LONGEST_WITH_EFFECTS) if model.active else 1.0 / fastest
 
 
 def _drag(model: JointModel) -> float:

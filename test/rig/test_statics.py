@@ -175,7 +175,7 @@ def test_a_load_that_stands_on_soft_muscles_falls_to_either_side():
 
 
 def test_the_span_is_where_both_muscles_have_permissible_lengths():
-    """The contraction goes from -4 to 25 %: the first muscle limits one end, the second the other."""
+    """From -4 to 25 %: the first muscle limits one end, the second the other."""
     low, high = statics.span(pair())
     kappa = np.array([joints.ends(a, UNEQUAL) for a in (low, high)]) / [s.l0 for s in UNEQUAL]
     assert np.all(kappa > -0.04 - 1e-12)
