@@ -6,6 +6,7 @@ import json
 import os
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -13,7 +14,8 @@ import pytest
 
 from pam_ros.compiled import HAVE_NUMBA
 from pam_ros.effects.base import Effect, EffectParameter
-from pam_ros.rig.bind import bind, fingerprint
+from pam_ros.rig.bind import bind, bind_joints, fingerprint
+from pam_ros.rig.joints import JOINTS
 from pam_ros.rig.layout import layout_of
 from pam_ros.rig.model import Load, RigModel
 from pam_ros.rig.rig import Rig
@@ -83,6 +85,20 @@ def test_kernels_on_disk_are_told_apart_by_code_and_place():
 
 
 @pytest.mark.skipif(not HAVE_NUMBA, reason='nothing is kept on disk without numba')
+def test_kernels_of_joints_on_disk_change_with_any_joint(monkeypatch):
+    def name():
+        bind_joints.cache_clear()
+        return bind_joints(layout_of(()), ()).advance_joints.__qualname__
+
+    before = name()
+    assert name() == before
+    changed = replace(JOINTS[-1], arm=lambda s, i, g: 0.5 * g[1])
+    monkeypatch.setattr('pam_ros.rig.bind.JOINTS', (*JOINTS[:-1], changed))
+    assert name() != before
+    bind_joints.cache_clear()
+
+
+@pytest.mark.skipif(not HAVE_NUMBA, reason='nothing is kept on disk without numba')
 def test_the_fingerprint_is_the_same_in_every_process():
     code = (
         'from pam_ros.rig.model import RigModel; from pam_ros.rig.bind import bind; '
@@ -112,6 +128,7 @@ import json, sys
 if {blocked}:
     sys.modules['numba'] = None  # as if it were not installed
 from pam_ros.compiled import HAVE_NUMBA
+from pam_ros.rig.joint_model import Actuator, JointModel
 from pam_ros.rig.model import Load, RigModel
 from pam_ros.rig.rig import Rig
 from pam_ros.rig.run import simulate
@@ -131,6 +148,16 @@ for model in (RigModel(), RigModel(load=Load(mass=8.0), effects=effects)):
         found += [rig.position[0], rig.velocity[0], rig.pressure[0], *rig.outputs()[0]]
     run = simulate(model, [0.0, 0.05, 0.1], [0.0, 0.031], [2e5, 5e5])
     found += [*run.position, *run.velocity, *run.force]
+in_muscle = {{name: effects[name] for name in ('pressure_lag', 'dead_time', 'creep')}}
+on_load = {{'coulomb_friction': {{'level': 0.3}}}}
+for model in (JointModel(), JointModel(actuators=(Actuator(effects=in_muscle), Actuator()),
+                                       effects=on_load)):
+    rig = Rig([model])
+    for p in ([4e5, 3e5], [1e5, 5e5]):
+        rig.command(p)
+        rig.advance(100)
+        found += [*rig.position, *rig.velocity, *rig.pressure, *rig.outputs().ravel(),
+                  *rig.joint_outputs()[0]]
 print(json.dumps([float(each) for each in found]))
 """
 
@@ -138,7 +165,7 @@ print(json.dumps([float(each) for each in found]))
 @pytest.mark.skipif(not HAVE_NUMBA, reason='there is only plain Python here')
 def test_plain_python_gives_what_the_compiled_kernel_gives():
     compiled, plain = (json.loads(run(RUN.format(blocked=b))) for b in (False, True))
-    assert len(compiled) == 2 * (3 * 7 + 9)
+    assert len(compiled) == 2 * (3 * 7 + 9) + 2 * 2 * (4 + 8 + 3)
     np.testing.assert_allclose(plain, compiled, rtol=1e-12, atol=1e-12)
 
 
