@@ -1,0 +1,72 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""What more muscles cost: a step of 1, 8 and 64 of them, each alone with its load or in pairs.
+
+Claims: the time of a step grows with the number of muscles and no faster, and a muscle of a
+joint costs at most twice what one with a load of its own costs. All are called once for
+STEPS steps of 1 ms a muscle. The contestants take turns; each number is the median of its turns,
+in CPU time, which other programs on the machine change least.
+"""
+
+import os
+import sys
+import time
+
+import numpy as np
+
+from pam_ros.compiled import HAVE_NUMBA
+from pam_ros.rig.joint_model import JointModel
+from pam_ros.rig.joints.parallel import ParallelLoad
+from pam_ros.rig.model import RigModel
+from pam_ros.rig.rig import Rig
+
+STEPS = 64_000  # of one muscle; fewer of many, so that each turn takes as long
+STEP = 1e-3  # s
+TURNS = 15
+MUSCLES = (1, 8, 64)
+# An effect that is present but does nothing to speak of: the kernel steps all of the library.
+SLIGHT = {'viscous_friction': {'coefficient': 1e-9}}
+
+
+def rigs(effects: dict[str, dict[str, float]]) -> dict[str, Rig]:
+    """Return rigs by name, with as many muscles as the name says."""
+    single, pair = RigModel(effects=effects), JointModel(effects=effects)
+    parallel = JointModel(ParallelLoad(mass=40.0), effects=effects)
+    found = {f'{n:2} alone': Rig([single] * n, STEP) for n in MUSCLES}
+    found |= {f'{2 * n:2} in {n} pairs': Rig([pair] * n, STEP) for n in (1, 4, 32)}
+    found[' 2 in parallel'] = Rig([parallel], STEP)
+    found['64, 32 alone, 16 pairs'] = Rig([single] * 32 + [pair] * 16, STEP)
+    return found
+
+
+def start(rig: Rig) -> None:
+    """Let a rig begin anew where it has something to do."""
+    still = np.zeros(len(rig.position))
+    rig.reset(np.full(len(rig.pressure), 3e5), still, still)
+
+
+def main() -> None:
+    """Measure all in turn and print the table."""
+    if not HAVE_NUMBA:
+        sys.exit('this benchmark needs numba')
+    kinds = {'no effects': rigs({}), 'all effects bound': rigs(SLIGHT)}
+    contestants = {(kind, name): rig for kind in kinds for name, rig in kinds[kind].items()}
+    took: dict[tuple[str, str], list[float]] = {key: [] for key in contestants}
+    for turn in range(TURNS + 1):
+        for key, rig in contestants.items():
+            steps = STEPS // len(rig.pressure)
+            start(rig)
+            begin = time.thread_time()
+            rig.advance(steps)
+            spent = time.thread_time() - begin
+            if turn:  # the first warms
+                took[key].append(spent / (steps * len(rig.pressure)) * 1e9)
+    print(f'median of {TURNS} turns, load {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores')
+    print(f'{"muscles":24} {"effects":18} {"ns/step/muscle":>15} {"best":>8} {"of 1 alone":>11}')
+    for (kind, name), times in took.items():
+        median, alone = float(np.median(times)), float(np.median(took[kind, ' 1 alone']))
+        print(f'{name:24} {kind:18} {median:15.1f} {min(times):8.1f} {median / alone:11.2f}')
+
+
+if __name__ == '__main__':
+    main()
