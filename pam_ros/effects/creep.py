@@ -4,9 +4,30 @@
 
 from math import expm1
 
+from pam_ros.compiled import scalar
 from pam_ros.effects.base import Effect, EffectParameter, Row
 from pam_ros.muscle import law
+from pam_ros.muscle.law import gain
 from pam_ros.rig.layout import A1, A2, A3, A4, A5, A6
+
+
+@scalar
+def late(now: float, h: float, x: Row, i: int, xn: Row, q: Row, j: int) -> float:
+    """Return what *now* has over its slow follower, exact for a way linear over h.
+
+    The follower is the mean, with weights 1 - b and b, of two first-order lags of times T/r and
+    T r: T = q[j], r = q[j + 1], b = q[j + 2]. x[i], x[i + 1] are the lags, x[i + 2] what
+    they follow.
+    """
+    way = now - x[i + 2]
+    xn[i + 2] = now
+    for n in range(2):
+        r = q[j + 1] if n == 0 else 1.0 / q[j + 1]
+        a = h * r / q[j]
+        gone = -expm1(-a)
+        share = gone / a if a > 0.0 else 1.0
+        xn[i + n] = x[i + n] + (x[i + 2] - x[i + n]) * gone + way * (1.0 - share)
+    return now - (1.0 - q[j + 2]) * xn[i] - q[j + 2] * xn[i + 1]
 
 
 def force(
@@ -22,41 +43,33 @@ def force(
     q: Row,
     j: int,
 ) -> float:
-    """Return f - s (f - f_slow) - K (kappa - kappa_slow), with s = q[j] and K = q[j + 1].
+    """Return f less what comes late: s (f - f'), K (kappa - kappa') and u (dF/dp) (p - p').
 
-    Both slow parts are means of two first-order lags of times T/r and T r, with T = q[j + 2]
-    and r = q[j + 3], exact for an f and a kappa that are linear over h. x[i + 4] and x[i + 5]
-    are f and kappa before.
+    A prime marks the slow follower of each, see :func:`late`; s = q[j], K = q[j + 1] and
+    u = q[j + 2]. The muscle under load creeps by K and u, at its held length by s and u.
     """
-    if q[j] == 0.0 and q[j + 1] == 0.0:
+    if q[j] == 0.0 and q[j + 1] == 0.0 and q[j + 2] == 0.0:
         return f
-    df = f - x[i + 4]
-    dk = kappa - x[i + 5]
-    xn[i + 4] = f
-    xn[i + 5] = kappa
-    for n in range(2):
-        r = q[j + 3] if n == 0 else 1.0 / q[j + 3]
-        a = h * r / q[j + 2]
-        gone = -expm1(-a)
-        late = gone / a if a > 0.0 else 1.0
-        xn[i + n] = x[i + n] + (x[i + 4] - x[i + n]) * gone + df * (1.0 - late)
-        xn[i + 2 + n] = x[i + 2 + n] + (x[i + 5] - x[i + 2 + n]) * gone + dk * (1.0 - late)
-    return (
-        f
-        - q[j] * (f - 0.5 * (xn[i] + xn[i + 1]))
-        - q[j + 1] * (kappa - 0.5 * (xn[i + 2] + xn[i + 3]))
-    )
+    out = f
+    if q[j] != 0.0:
+        out -= q[j] * late(f, h, x, i, xn, q, j + 3)
+    if q[j + 1] != 0.0:
+        out -= q[j + 1] * late(kappa, h, x, i + 3, xn, q, j + 3)
+    if q[j + 2] != 0.0:
+        behind = late(p, h, x, i + 6, xn, q, j + 3)
+        out -= q[j + 2] * behind * gain(kappa, q[A1], q[A3], q[A4], q[A5])
+    return out
 
 
 def start(q: Row, j: int, p: float, kappa: float, y: float) -> tuple[float, ...]:
     """Return everything relaxed."""
-    f = law.force_v(p, kappa, q[A1], q[A2], q[A3], q[A4], q[A5], q[A6])
-    return (f, f, kappa, kappa, f, kappa)
+    f = float(law.force_v(p, kappa, q[A1], q[A2], q[A3], q[A4], q[A5], q[A6]))
+    return (f, f, f, kappa, kappa, kappa, p, p, p)
 
 
 EFFECT = Effect(
     name='creep',
-    text='force and stiffness of which a part follows slowly',
+    text='force, stiffness and pressure of which a part acts late',
     source='Standard linear solid; Minh et al. 2012 for a fluidic muscle',
     parameters=(
         EffectParameter(
@@ -80,6 +93,16 @@ EFFECT = Effect(
             strength=True,
             sign=1,
         ),
+        EffectParameter(
+            'pressure',
+            0.0,
+            'share of a change of pressure whose pull comes late',
+            '',
+            -0.9,
+            0.9,
+            scale=0.02,
+            strength=True,
+        ),
         EffectParameter('time', 5.0, 'mean time constant', 's', 1e-3, 1e4, scale=5.0),
         EffectParameter(
             'spread',
@@ -90,6 +113,7 @@ EFFECT = Effect(
             100.0,
             scale=2.0,
         ),
+        EffectParameter('balance', 0.5, 'part that the slow time has', '', 0.0, 1.0, scale=0.3),
     ),
     signature='drift after steps that slows down: of length under load, of force at held length',
     experiment='holds of several minutes after steps, up and down',
@@ -97,16 +121,15 @@ EFFECT = Effect(
         {'stiffness': 300.0, 'time': 0.5},
         {'stiffness': 300.0, 'time': 5.0},
         {'stiffness': 500.0, 'time': 5.0, 'spread': 3.0},
+        {'pressure': 0.02, 'time': 1.0},
+        {'pressure': 0.02, 'time': 5.0, 'spread': 3.0},
         {'force': 0.03, 'time': 1.0},
         {'force': -0.03, 'time': 10.0},
     ),
-    states=(
-        'fast force',
-        'slow force',
-        'fast contraction',
-        'slow contraction',
-        'force',
-        'contraction',
+    states=tuple(
+        f'{which} {of}'
+        for of in ('force', 'contraction', 'pressure')
+        for which in ('fast', 'slow', 'last')
     ),
     start=start,
     rivals=('hysteresis', 'softening', 'pressure_dependent_damping', 'leak'),

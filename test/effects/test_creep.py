@@ -12,19 +12,23 @@ from support import bench
 TIME, SPREAD = 2.0, 3.0
 
 
-def late(after):
+def late(after, balance=0.5):
     """Return the part of a unit step that is still to come, after so many seconds."""
-    return 0.5 * (np.exp(-after * SPREAD / TIME) + np.exp(-after / (TIME * SPREAD)))
+    fast, slow = np.exp(-after * SPREAD / TIME), np.exp(-after / (TIME * SPREAD))
+    return (1.0 - balance) * fast + balance * slow
 
 
 @pytest.mark.parametrize('share', [0.06, -0.04])
-def test_force_at_held_length_creeps_after_a_step_of_pressure(share):
-    effect = {'force': share, 'time': TIME, 'spread': SPREAD}
+@pytest.mark.parametrize('balance', [0.5, 0.2])
+@pytest.mark.parametrize('of', ['force', 'pressure'])
+def test_force_at_held_length_creeps_after_a_step_of_pressure(of, balance, share):
+    # The pull is affine in the pressure: a share of either is the same share of the step.
+    effect = {of: share, 'time': TIME, 'spread': SPREAD, 'balance': balance}
     t = np.concatenate([[0.0, 1.0], 1.0 + 1e-9 + np.linspace(0.0, 20.0, 201)])
     p = np.where(t > 1.0, 4e5, 2e5)
     run = simulate_held(bench.hanging(creep=effect), t, p, np.full(t.size, 0.03))
     low, high = bench.pull(2e5, 0.03), bench.pull(4e5, 0.03)
-    expected = np.where(t > 1.0, high - share * (high - low) * late(t - 1.0), low)
+    expected = np.where(t > 1.0, high - share * (high - low) * late(t - 1.0, balance), low)
     np.testing.assert_allclose(run.force, expected, rtol=1e-8)
 
 
