@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from pam_ros.errors import ParameterError
 from pam_ros.identification.candidate import Fit
 from pam_ros.identification.evidence import independent_samples
 from pam_ros.identification.problem import Problem
@@ -15,6 +16,7 @@ from pam_ros.identification.result import Estimate, Stage
 from pam_ros.identification.segment import Segment
 from pam_ros.identification.unknowns import CONSTANTS, Unknown
 from pam_ros.muscle.constants import Constants, from_si
+from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig import layout as at
 from pam_ros.rig.model import RigModel
 
@@ -90,18 +92,12 @@ def _effect_unit(model: RigModel, name: str) -> str:
 def model_of(model: RigModel, problem: Problem, u: Array, effects: Sequence[str]) -> RigModel:
     """Return *model* with the parameters at u: constants in the units in which it gives them.
 
-    *effects* are the names of those that the fit added to the declared ones.
+    *effects* are the names of those that the fit added to the declared ones. Constants that
+    were fitted where the rig went may make no muscle beyond: then the model's contraction is
+    limited to where it went, and in the last resort its constants are taken back towards those
+    declared until they make a muscle.
     """
     q = problem.row_at(u)
-    si = tuple(float(a) for a in q[at.A1 : at.A6 + 1])
-    source = from_si(
-        (si[0], si[1], si[2], si[3], si[4], si[5]),
-        model.muscle.pressure_unit,
-        model.muscle.contraction_unit,
-    )
-    muscle = replace(
-        model.muscle, **dict(zip(CONSTANTS, source, strict=True)), zeta=float(q[at.ZETA])
-    )
     values = {name: dict(given) for name, given in model.effects.items()}
     for effect in model.library:
         if effect.name in effects:
@@ -109,7 +105,30 @@ def model_of(model: RigModel, problem: Problem, u: Array, effects: Sequence[str]
             values[effect.name] = {
                 p.name: float(q[j + k]) for k, p in enumerate(effect.parameters)
             }
-    return replace(model, muscle=muscle, effects=values)
+    went = np.concatenate([s.target if s.kind == 'free' else s.position for s in problem.segments])
+    limits = {
+        'kappa_min': min(0.0, float(went.min()) / q[at.L0]),
+        'kappa_max': max(0.01, float(went.max()) / q[at.L0]),
+    }
+    declared = model.row()
+    for back, changes in ((0.0, {}), *((a, limits) for a in np.linspace(0.0, 1.0, 11))):
+        row = q + back * (declared - q)
+        try:
+            return replace(model, muscle=_muscle(model, row, changes), effects=values)
+        except ParameterError:
+            continue
+    return replace(model, effects=values)
+
+
+def _muscle(model: RigModel, q: Array, changes: dict[str, float]) -> Muscle:
+    si = tuple(float(a) for a in q[at.A1 : at.A6 + 1])
+    source = from_si(
+        (si[0], si[1], si[2], si[3], si[4], si[5]),
+        model.muscle.pressure_unit,
+        model.muscle.contraction_unit,
+    )
+    fitted = dict(zip(CONSTANTS, source, strict=True))
+    return replace(model.muscle, **fitted, **changes, zeta=float(q[at.ZETA]))
 
 
 def stage(name: str, model: RigModel, fit: Fit, test: Sequence[Segment]) -> Stage:
