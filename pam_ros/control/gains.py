@@ -1,0 +1,203 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The gains of the sliding-mode law, in what a user can think in, and the conditions on them."""
+
+from dataclasses import dataclass
+from math import acos, exp, log, pi, sqrt
+
+from pam_ros.errors import ParameterError
+from pam_ros.parameters import check_all, parameter
+from pam_ros.rig.model import RigModel
+
+BOUNDARY_LAYER, SUPER_TWISTING = 'boundary_layer', 'super_twisting'
+SPREAD = 4.0  # by which the velocity estimate must be faster than the sliding variable's decay
+SAMPLES = 1.5  # largest product of velocity bandwidth and control period
+
+
+@dataclass(frozen=True)
+class Gains:
+    """Gains of :class:`pam_ros.control.sliding_mode.SlidingMode`.
+
+    What follows from them, for a moved mass m:
+
+    switching gain
+        K = disturbance_bound / m. Reaching condition (Slotine & Li 1991, section 7.1): with
+        |d| <= disturbance_bound, where d is what the observer leaves of the disturbance, s s' <
+        0 outside the boundary layer, and s reaches it within |s(0)| m / (disturbance_bound - |d|).
+    boundary width
+        Phi = K / bandwidth: K sat(s / Phi) is bandwidth s within the layer, so that s decays at
+        *bandwidth* there. Boundedness: |s| <= Phi for ever, and |e| <= :meth:`error_bound`.
+    super-twisting
+        k1 = 1.5 sqrt(L), k2 = 1.1 L with L = disturbance_rate / m >= |d'| / m: the pair of Levant
+        (1998). k2 > L is necessary; Moreno & Osorio (2012) prove convergence in finite time for
+        each such k2 with k1 large enough.
+
+    Raises ParameterError for a value out of range, or where the conditions that do not depend on
+    the rig fail; :meth:`check` has the others.
+    """
+
+    bandwidth: float = parameter(
+        14.0,
+        'decay rate of the sliding variable in the boundary layer; a loop with an undeclared '
+        'pressure lag of 1/bandwidth is still well damped',
+        '1/s',
+        low=0.5,
+        high=200.0,
+    )
+    fast_bandwidth: float = parameter(
+        50.0,
+        'what the bandwidth grows to once learning has found that the pressure follows fast',
+        '1/s',
+        low=0.5,
+        high=200.0,
+    )
+    surface_bandwidth: float = parameter(
+        8.0,
+        'least natural frequency of the error on the sliding surface; where the spring of the '
+        'muscle gives more, that is left to it',
+        'rad/s',
+        low=0.1,
+        high=200.0,
+    )
+    surface_damping: float = parameter(
+        0.28, 'damping ratio of the error on the sliding surface', '', low=0.05, high=5.0
+    )
+    disturbance_bound: float = parameter(
+        200.0,
+        'largest force that the switching term must overcome',
+        'N',
+        low=0.0,
+        high=1e5,
+        above_low=True,
+    )
+    switching: str = parameter(
+        BOUNDARY_LAYER,
+        'switching term: boundary_layer (saturation), or super_twisting (second order; for a '
+        'pressure that follows at once)',
+        choices=(BOUNDARY_LAYER, SUPER_TWISTING),
+    )
+    disturbance_rate: float = parameter(
+        100.0,
+        'largest rate of the disturbance that super_twisting must follow',
+        'N/s',
+        low=0.0,
+        high=1e6,
+        above_low=True,
+    )
+    observer: bool = parameter(True, 'whether the disturbance observer acts')
+    observer_bandwidth: float = parameter(
+        4.0, 'bandwidth of the disturbance observer', 'rad/s', low=0.01, high=200.0
+    )
+    velocity_bandwidth: float = parameter(
+        126.0,
+        'bandwidth of the velocity estimate, which lags what the model does not foresee by '
+        '2/velocity_bandwidth',
+        'rad/s',
+        low=5.0,
+        high=2000.0,
+    )
+    use_measured_velocity: bool = parameter(
+        False, 'whether the velocity of the joint state is used instead of the estimate'
+    )
+    rest_factor: float = parameter(
+        0.2,
+        'by how much all bandwidths shrink while the reference rests and is reached',
+        '',
+        low=0.01,
+        high=1.0,
+    )
+    rest_tolerance: float = parameter(
+        12e-6,
+        'error below which a resting reference counts as reached; from 2.5 times this on the '
+        'full bandwidths act',
+        'm',
+        low=0.0,
+        high=0.01,
+        above_low=True,
+    )
+    learning: bool = parameter(
+        True, 'whether friction, hysteresis and lag that nobody declared are learned from motion'
+    )
+    pressure_time: float = parameter(
+        0.02,
+        'time constant down to which a declared or learned pressure lag is inverted',
+        's',
+        low=0.001,
+        high=1.0,
+    )
+
+    def __post_init__(self) -> None:
+        """Check every field, then what must hold between them."""
+        check_all(self)
+        if self.fast_bandwidth < self.bandwidth:
+            raise ParameterError(
+                f'fast_bandwidth = {self.fast_bandwidth:g} 1/s is below bandwidth = '
+                f'{self.bandwidth:g} 1/s: it is what that grows to'
+            )
+        if self.velocity_bandwidth < SPREAD * self.bandwidth:
+            raise ParameterError(
+                f'velocity_bandwidth = {self.velocity_bandwidth:g} rad/s is too slow for '
+                f'bandwidth = {self.bandwidth:g} 1/s: give at least {SPREAD:g} times as much, or '
+                'the boundary layer is not kept'
+            )
+        if self.observer and self.observer_bandwidth > self.bandwidth:
+            raise ParameterError(
+                f'observer_bandwidth = {self.observer_bandwidth:g} rad/s is above bandwidth = '
+                f'{self.bandwidth:g} 1/s: the observer takes what the switching term leaves over '
+                'and must be slower'
+            )
+
+    def check(self, model: RigModel, period: float) -> None:
+        """Raise ParameterError where these gains do not suit a rig, sampled each *period* s."""
+        if self.velocity_bandwidth * period > SAMPLES:
+            raise ParameterError(
+                f'velocity_bandwidth = {self.velocity_bandwidth:g} rad/s is too fast for a '
+                f'control rate of {1.0 / period:g} Hz: give at most {SAMPLES / period:g}'
+            )
+        muscle = model.muscle
+        contraction = 0.0 if muscle.is_load_only else 0.5 * muscle.kappa_max
+        available = muscle.gain(contraction).item() * (muscle.p_max - max(muscle.p_min, 0.0))
+        if self.disturbance_bound > available:
+            raise ParameterError(
+                f'disturbance_bound = {self.disturbance_bound:g} N cannot be overcome: this '
+                f'muscle changes its force by {available:.4g} N over its range of pressure'
+            )
+
+    def switching_gain(self, mass: float) -> float:
+        """Return K in m/s^2."""
+        return self.disturbance_bound / mass
+
+    def boundary_width(self, mass: float) -> float:
+        """Return Phi in m/s: half the width of the boundary layer."""
+        return self.switching_gain(mass) / self.bandwidth
+
+    def super_twisting(self, mass: float) -> tuple[float, float]:
+        """Return k1 in m^0.5/s^1.5 and k2 in m/s^3."""
+        rate = self.disturbance_rate / mass
+        return 1.5 * sqrt(rate), 1.1 * rate
+
+    def error_bound(self, disturbance: float, mass: float, frequency: float) -> float:
+        """Return the largest error in m under any disturbance that stays within +-*disturbance*.
+
+        With a surface of natural *frequency* in rad/s: |s| <= disturbance / (m bandwidth), times
+        the absolute area of the impulse response from s to e, which is that of
+        p / (p^2 + 2 z w p + w^2).
+        """
+        z, w = self.surface_damping, frequency
+        if z < 1.0:
+            root = sqrt(1.0 - z * z)
+            first = exp(-z / root * acos(z)) / w
+            area = 2.0 * first / (1.0 - exp(-z * pi / root))
+        else:
+            area = 2.0 * _overdamped_peak(z) / w
+        return disturbance / (mass * self.bandwidth) * area
+
+
+def _overdamped_peak(z: float) -> float:
+    """Return the peak of the step response of p / (p^2 + 2 z p + 1), z >= 1."""
+    root = sqrt(max(z * z - 1.0, 0.0))
+    if root < 1e-6:
+        return exp(-1.0)
+    slow, fast = z - root, z + root
+    t = (1.0 / (fast - slow)) * log(fast / slow)
+    return (exp(-slow * t) - exp(-fast * t)) / (fast - slow)

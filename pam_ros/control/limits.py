@@ -1,0 +1,104 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""What a valve may be asked for, and where a load can be held."""
+
+from dataclasses import dataclass
+
+from pam_ros.errors import ParameterError, RangeError
+from pam_ros.parameters import check_all, parameter
+from pam_ros.rig.model import RigModel
+
+MARGIN = 0.02  # share of the range of pressure that is kept for control at both ends
+
+
+@dataclass(frozen=True)
+class Limits:
+    """Limits of the commanded pressure, within those of the muscle."""
+
+    pressure_low: float = parameter(
+        0.0, 'lowest gauge pressure that is commanded', 'Pa', low=0.0, high=5e6
+    )
+    pressure_high: float = parameter(
+        5e6,
+        "highest gauge pressure that is commanded, where the muscle's p_max is not below it",
+        'Pa',
+        low=0.0,
+        high=5e6,
+        above_low=True,
+    )
+    pressure_rate: float = parameter(
+        20e6, 'fastest change of the commanded pressure', 'Pa/s', low=1e3, high=1e9
+    )
+
+    def __post_init__(self) -> None:
+        """Check every field, then that they leave a range."""
+        check_all(self)
+        if self.pressure_low >= self.pressure_high:
+            raise ParameterError(
+                f'pressure_low = {self.pressure_low:g} Pa is not below pressure_high = '
+                f'{self.pressure_high:g} Pa'
+            )
+
+    def range_for(self, model: RigModel) -> tuple[float, float]:
+        """Return the lowest and highest pressure in Pa for this rig; raises ParameterError."""
+        low = max(self.pressure_low, model.muscle.p_min)
+        high = min(self.pressure_high, model.muscle.p_max)
+        if low >= high:
+            raise ParameterError(
+                f'pressure_low = {self.pressure_low:g} Pa leaves no range below the p_max = '
+                f'{model.muscle.p_max:g} Pa of the muscle'
+            )
+        return low, high
+
+
+class Limiter:
+    """Keeps commands within a range and a rate."""
+
+    def __init__(self, low: float, high: float, rate: float) -> None:
+        """Keep them within *low* to *high* Pa and *rate* Pa/s."""
+        self.low, self.high, self.rate = low, high, rate
+        self.last = low
+
+    def start(self, pressure: float) -> None:
+        """Begin at a *pressure* in Pa."""
+        self.last = min(max(pressure, self.low), self.high)
+
+    def limit(self, wanted: float, dt: float) -> float:
+        """Return the pressure in Pa nearest to *wanted* that is allowed *dt* s after the last."""
+        step = self.rate * dt
+        within = min(max(wanted, self.last - step), self.last + step)
+        self.last = min(max(within, self.low), self.high)
+        return self.last
+
+
+def reachable(model: RigModel, limits: Limits) -> tuple[float, float]:
+    """Return the lowest and highest position in m at which the load can be held.
+
+    The declared model at rest, with MARGIN of the range of pressure left at both ends, within the
+    contractions that the muscle permits. A load without a muscle has no bounds.
+    """
+    muscle = model.muscle
+    if muscle.is_load_only:
+        return -float('inf'), float('inf')
+    low, high = limits.range_for(model)
+    spare = MARGIN * (high - low)
+    ends = (model.rest(low + spare), model.rest(high - spare))
+    bounds = (muscle.kappa_min * muscle.l0, muscle.kappa_max * muscle.l0)
+    found = max(min(ends), bounds[0]), min(max(ends), bounds[1])
+    if found[0] >= found[1]:
+        raise ParameterError(
+            f'the load cannot be held anywhere: {low / 1e3:g} to {high / 1e3:g} kPa hold it at '
+            f'{min(ends):.4g} to {max(ends):.4g} m, the muscle permits {bounds[0]:.4g} to '
+            f'{bounds[1]:.4g} m'
+        )
+    return found
+
+
+def refuse_unreachable(position: float, reach: tuple[float, float]) -> None:
+    """Raise RangeError, with the range, for a reference at which the load cannot be held."""
+    low, high = reach
+    if not low <= position <= high:
+        raise RangeError(
+            f'reference {position:.6g} m is out of reach: this rig holds its load at '
+            f'{low:.4g} to {high:.4g} m'
+        )

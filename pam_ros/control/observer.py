@@ -1,0 +1,64 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Estimate velocity and disturbance from position: an extended-state observer.
+
+The disturbance is a third state with no dynamics of its own (Han 2009, "From PID to active
+disturbance rejection control"); what the model knows is fed through, so that only what it lacks
+shows up there.
+"""
+
+from math import exp
+
+from pam_ros.control.inner_model import InnerModel
+
+SUBSTEPS = 2
+
+
+class Observer:
+    """Position m, velocity m/s and disturbance N of the load, from measured positions.
+
+    The disturbance is the force upwards that the model does not have. Poles are real: two at the
+    *velocity* bandwidth, one at the *disturbance* bandwidth, both in rad/s and free to change at
+    any step. The velocity lags a motion that the model does not foresee by 2/velocity s, the
+    disturbance by 1/disturbance + 2/velocity s; a motion that it foresees, not at all.
+    """
+
+    def __init__(self, model: InnerModel) -> None:
+        """Make it at rest at 0; see :meth:`start`."""
+        self.model = model
+        self.start(0.0, 0.0)
+
+    def start(self, position: float, disturbance: float) -> None:
+        """Begin anew, at rest."""
+        self.position, self.velocity, self.disturbance = position, 0.0, disturbance
+
+    def correct(self, position: float, dt: float, velocity: float, disturbance: float) -> None:
+        """Take in a measured *position*, *dt* s after the last one, with these bandwidths.
+
+        The gains place the three discrete poles exactly for the chain of integrators that the
+        model's feed-through leaves.
+        """
+        slow, fast = exp(-disturbance * dt), exp(-velocity * dt)
+        first = slow + 2.0 * fast
+        second = 2.0 * slow * fast + fast * fast
+        third = slow * fast * fast
+        l1 = 1.0 - third
+        l3 = (1.0 - first + second - third) / (dt * dt)
+        l2 = (3.0 - first - l1 - 0.5 * l3 * dt * dt) / dt
+        surprise = position - self.position
+        self.position += l1 * surprise
+        self.velocity += l2 * surprise
+        self.disturbance += l3 * surprise * self.model.mass
+
+    def predict(self, dt: float, pressure: float, known: float = 0.0) -> None:
+        """Go on by *dt* s with a chamber at *pressure* Pa and a *known* force upwards in N."""
+        model = self.model
+        h = dt / SUBSTEPS
+        y, v = self.position, self.velocity
+        given = self.disturbance + known - model.weight
+        for _ in range(SUBSTEPS):
+            pull = model.force(pressure, y) - model.damping(pressure, y, v) * v
+            a = (pull + given) / model.mass
+            y += h * (v + 0.5 * h * a)
+            v += h * a
+        self.position, self.velocity = y, v

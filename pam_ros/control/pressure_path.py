@@ -1,0 +1,86 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The way of the pressure from the command to the chamber, and its inverse.
+
+Dead time, regulator offset and chamber lag are those of the declared effects ``dead_time``,
+``pressure_offset`` and ``pressure_lag``.
+"""
+
+from collections import deque
+from math import exp
+
+from pam_ros.rig.model import RigModel
+
+
+class Chamber:
+    """A chamber that follows what flows in by a first-order lag, filling and venting apart."""
+
+    def __init__(self, fill: float = 0.0, vent: float = 0.0) -> None:
+        """Make it with time constants in s; 0 is none."""
+        self.fill, self.vent = fill, vent
+        self.pressure = 0.0
+
+    def follow(self, inflow: float, dt: float) -> float:
+        """Go on by *dt* s with *inflow* Pa upstream; return the mean pressure meanwhile."""
+        before = self.pressure
+        tau = self.fill if inflow > before else self.vent
+        left = exp(-dt / tau) if tau > 1e-6 else 0.0
+        self.pressure = inflow + (before - inflow) * left
+        return 0.5 * (before + self.pressure)
+
+
+class PressurePath:
+    """What is known of the chamber of a rig from the commands that it was given.
+
+    *quickest* is the time constant in s that the inverse makes of a lag: a shorter one would ask
+    for more pressure than it is worth, since noise is amplified by lag / quickest.
+    """
+
+    def __init__(self, model: RigModel, quickest: float) -> None:
+        """Take the declared effects of *model*."""
+        lag = model.effects.get('pressure_lag', {})
+        offset = model.effects.get('pressure_offset', {})
+        self.is_lag_declared = lag.get('fill', 0.0) > 0.0 or lag.get('vent', 0.0) > 0.0
+        self.chamber = Chamber(lag.get('fill', 0.0), lag.get('vent', 0.0))
+        self.delay = model.delay
+        self.quickest = quickest
+        self._offset = offset.get('offset', 0.0)
+        self._gain = 1.0 + offset.get('gain', 0.0)
+        self.start(0.0)
+
+    def start(self, command: float) -> None:
+        """Begin anew, long after a *command* in Pa."""
+        self._queue: deque[tuple[float, float]] = deque()
+        self._time = 0.0
+        self.inflow = self.chamber.pressure = self.reached(command)
+
+    def reached(self, command: float) -> float:
+        """Return the pressure in Pa at which the chamber rests under a *command*."""
+        return command * self._gain + self._offset
+
+    def command_at_rest(self, pressure: float) -> float:
+        """Return the command in Pa under which the chamber rests at *pressure*."""
+        return (pressure - self._offset) / self._gain
+
+    def command_for(self, pressure: float, rate: float) -> float:
+        """Return the command in Pa that brings the chamber to *pressure*, which goes at *rate*.
+
+        The part of *pressure* that is foreseen has its known *rate* in Pa/s and is led by what
+        the path will take: dead time and lag, the lag down to ``quickest``. The rest of a longer
+        lag is driven out by ``u = p + r (p - chamber)``, which closes a loop of that time around
+        the lag.
+        """
+        chamber = self.chamber
+        lag = min(0.5 * (chamber.fill + chamber.vent), self.quickest)
+        ahead = pressure + (self.delay + lag) * rate
+        tau = chamber.fill if ahead > chamber.pressure else chamber.vent
+        drive = max(tau / self.quickest - 1.0, 0.0)
+        return self.command_at_rest(ahead + drive * (ahead - chamber.pressure))
+
+    def follow(self, command: float, dt: float) -> float:
+        """Give a *command* in Pa for *dt* s; return the chamber's mean pressure meanwhile."""
+        self._queue.append((self._time + self.delay, command))
+        while self._queue and self._queue[0][0] <= self._time + 0.5 * dt:
+            self.inflow = self.reached(self._queue.popleft()[1])
+        self._time += dt
+        return self.chamber.follow(self.inflow, dt)

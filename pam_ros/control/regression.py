@@ -1,0 +1,37 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Recursive least squares with a prior: Kalman's filter of parameters that hardly change."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+class Regression:
+    """Finds theta in y = phi . theta + noise, one sample after another.
+
+    *spread* (n,) are the standard deviations expected of theta before anything is known, *low* and
+    *high* (n,) what is physically possible, *noise* the variance of y. A spread of 0 keeps a
+    parameter where it is.
+    """
+
+    def __init__(self, spread: Array, low: Array, high: Array, noise: float) -> None:
+        """Begin with theta = 0."""
+        self._prior = spread * spread
+        self._low, self._high, self._noise = low, high, noise
+        self.theta = np.zeros(len(spread))
+        self.covariance = np.diag(self._prior)
+
+    def update(self, phi: Array, error: float, forgotten: float) -> None:
+        """Take in a sample whose y was *error* above phi . theta.
+
+        *forgotten* is the share of the prior variance by which theta may have wandered since the
+        last sample.
+        """
+        direction = self.covariance @ phi
+        gain = direction / (self._noise + phi @ direction)
+        self.theta = np.clip(self.theta + gain * error, self._low, self._high)
+        self.covariance -= np.outer(gain, direction)
+        diagonal = self.covariance.diagonal() + forgotten * self._prior
+        np.fill_diagonal(self.covariance, np.minimum(diagonal, self._prior))

@@ -1,0 +1,76 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""What goes into a position law and what can be read out of it."""
+
+from dataclasses import dataclass
+from typing import NamedTuple, Protocol
+
+
+class Reference(NamedTuple):
+    """Where the load shall be: m, m/s, m/s^2, m/s^3, contraction positive."""
+
+    position: float
+    velocity: float = 0.0
+    acceleration: float = 0.0
+    jerk: float = 0.0
+
+
+@dataclass
+class Terms:
+    """What a law found at its last step, for plots: SI, forces in N, contraction positive.
+
+    reference, position, velocity
+        where the load shall be and where it is estimated to be, m and m/s
+    error
+        reference less position, m
+    surface
+        sliding variable, m/s; 0 where the law has none
+    equivalent, switching, observer, learned
+        parts of the wanted force: what the model wants, what the sliding variable wants, what
+        the disturbance observer takes back, and what has been learned
+    pressure
+        gauge Pa commanded
+    bandwidth
+        decay rate of the sliding variable in use, 1/s
+    saturated
+        whether a limit of pressure or of its rate holds
+    """
+
+    reference: float = 0.0
+    position: float = 0.0
+    velocity: float = 0.0
+    error: float = 0.0
+    surface: float = 0.0
+    equivalent: float = 0.0
+    switching: float = 0.0
+    observer: float = 0.0
+    learned: float = 0.0
+    pressure: float = 0.0
+    bandwidth: float = 0.0
+    saturated: bool = False
+
+
+class PositionLaw(Protocol):
+    """A law that turns positions into pressures; it has no clock and knows no ROS."""
+
+    terms: Terms
+
+    def start(self, position: float, pressure: float | None = None) -> None:
+        """Begin anew with the load at *position* m, its chamber at *pressure* gauge Pa if known.
+
+        The first pressure that is commanded then is that pressure.
+        """
+
+    def update(
+        self,
+        dt: float,
+        reference: Reference,
+        position: float | None,
+        velocity: float | None = None,
+        age: float = 0.0,
+    ) -> float:
+        """Return the gauge pressure in Pa to command for the next *dt* s.
+
+        *position* is the newest measurement in m, taken *age* s ago, None where there is no new
+        one; *velocity* is the measured one in m/s, where there is one.
+        """
