@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Blind trials: does the finder name the effect that is in a recording, and no other?
+"""Blind trials: how often the finder names the effect that is in a recording, and no other.
 
 Recordings come from the truth plant in ``test/truth``, which shares neither equations nor
 integrator with the package. Options: ``--seeds N`` (default 12), ``--kinds a,b+c,noise_only``,
@@ -11,8 +11,8 @@ import argparse
 import json
 import sys
 import time
-from collections.abc import Sequence
 from collections import Counter, defaultdict
+from collections.abc import Sequence
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 from typing import Any
@@ -21,12 +21,11 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / 'test'))
 
-from truth import KINDS, NOISE_ONLY, OUT_OF_LIBRARY, PAIRS, Trial, blind_trial
-
 from pam_ros.identification.finder import trace
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.recording.recording import Recording
 from pam_ros.rig.model import Load, RigModel
+from truth import KINDS, NOISE_ONLY, OUT_OF_LIBRARY, PAIRS, Trial, blind_trial
 
 TARGETS = {
     'single: right effect first, or in a set of two': (0.95, 'min'),
@@ -154,7 +153,9 @@ def main(argv: Sequence[str] = ()) -> None:
     parser.add_argument('--jobs', type=int, default=2)
     parser.add_argument('--log', type=Path)
     given = parser.parse_args(argv)
-    kinds = given.kinds.split(',') if given.kinds else [NOISE_ONLY, *KINDS, *PAIRS, *OUT_OF_LIBRARY]
+    kinds = (
+        given.kinds.split(',') if given.kinds else [NOISE_ONLY, *KINDS, *PAIRS, *OUT_OF_LIBRARY]
+    )
     jobs = [(kind, seed) for seed in range(given.seeds) for kind in kinds]
     rows = []
     with ProcessPoolExecutor(given.jobs) as pool:

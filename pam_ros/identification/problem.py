@@ -48,7 +48,7 @@ class Problem:
 
     def row_at(self, u: Array) -> Array:
         """Return the parameter row at the unknowns u."""
-        q = self.row.copy()
+        q: Array = self.row.copy()
         for unknown, value in zip(self.unknowns, u, strict=True):
             if unknown.index >= 0:
                 q[unknown.index] = unknown.value(value)

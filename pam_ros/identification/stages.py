@@ -4,6 +4,7 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -127,8 +128,8 @@ def _muscle(model: RigModel, q: Array, changes: dict[str, float]) -> Muscle:
         model.muscle.pressure_unit,
         model.muscle.contraction_unit,
     )
-    fitted = dict(zip(CONSTANTS, source, strict=True))
-    return replace(model.muscle, **fitted, **changes, zeta=float(q[at.ZETA]))
+    values: dict[str, Any] = {**dict(zip(CONSTANTS, source, strict=True)), **changes}
+    return replace(model.muscle, **values, zeta=float(q[at.ZETA]))
 
 
 def stage(name: str, model: RigModel, fit: Fit, test: Sequence[Segment]) -> Stage:

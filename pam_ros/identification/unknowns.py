@@ -48,10 +48,8 @@ class Unknown:
 
     def value(self, u: float) -> float:
         """Return the physical value at u, which rounding does not carry past its bounds."""
-        if self.logarithmic:
-            value = self.base * exp(self.scale * u)
-        else:
-            value = self.base + self.scale * u
+        move = self.scale * u
+        value = self.base * exp(move) if self.logarithmic else self.base + move
         return min(max(value, self.low), self.high)
 
     def coordinate(self, value: float) -> float:
