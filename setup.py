@@ -54,7 +54,7 @@ setup(
     ],
     extras_require={
         'fast': ['numba'],
-        'test': ['pytest', 'hypothesis', 'jsonschema'],
+        'test': ['pytest', 'hypothesis', 'jsonschema', 'urdf-parser-py'],
     },
     zip_safe=False,
     entry_points={
