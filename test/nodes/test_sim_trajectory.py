@@ -128,7 +128,8 @@ def test_commands_act_where_the_pressure_says_they_did(peer):
     pressures = peer.collect(FluidPressure, 'pressure')
     given = {'publish_rate': float(rate), 'command_timeout': 0.0, **lose_nothing()}
     with Program('pam_sim', parameters=given):
-        peer.more(states)
+        for messages in (pressures, states):  # both are heard before the first command
+            peer.more(messages, 50)
         for command in (300e3, 500e3, 450e3):
             peer.publish(Float64(data=command), 'pressure_command')
             peer.more(states, rate // 2)
