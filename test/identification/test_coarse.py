@@ -1,0 +1,157 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Thinned runs push the load as hard and as early as the full ones."""
+
+import numpy as np
+import pytest
+
+from pam_ros.identification.coarse import PHASE, SAMPLES, STEPS, coarse_step, thinned
+from pam_ros.identification.segment import segments_of
+from pam_ros.muscle.muscle import Muscle
+from pam_ros.recording.recording import Recording
+from pam_ros.rig.model import Load, RigModel
+from pam_ros.rig.run import simulate
+
+STEP = 6e-3
+
+
+def recorded(t, stamps, command, position=None):
+    position = np.zeros_like(t) if position is None else position
+    recording = Recording('r', t, stamps, command, position, None, None, None, 'free')
+    (segment,) = segments_of([recording], keep_back=True)
+    return segment
+
+
+def wave(stamps):
+    """Return a command that varies by far less than a hundredth of its range in a stride."""
+    return 3e5 + 5e4 * np.sin(2 * np.pi * 0.2 * stamps) + 1e3 * np.sin(2 * np.pi * 1.0 * stamps)
+
+
+def impulse(stamps, values, start, end):
+    """Return the integral of a held command from start to end, piece by piece."""
+    inside = stamps[(stamps > start) & (stamps < end)]
+    edges = np.concatenate([[start], inside, [end]])
+    held = [values[max(np.flatnonzero(stamps <= e)[-1:], default=0)] for e in edges[:-1]]
+    return float(np.sum(np.array(held) * np.diff(edges)))
+
+
+def uneven(rng, n):
+    """Return n stamps at about 1 kHz that jitter."""
+    return np.concatenate([[0.0], np.cumsum(1e-3 * rng.uniform(0.5, 1.5, n - 1))])
+
+
+@pytest.mark.parametrize('seed', range(4))
+@pytest.mark.parametrize('kind', ['smooth', 'steps', 'noise'])
+def test_impulse_over_every_stride_is_kept(kind, seed):
+    rng = np.random.default_rng(seed)
+    t = np.arange(1500) * 1e-3
+    stamps = uneven(rng, 1800)
+    command = {
+        'smooth': wave(stamps),
+        'steps': wave(stamps) + 1e5 * (rng.random(stamps.size).cumsum() // 40 % 2),
+        'noise': 3e5 + 1e4 * rng.standard_normal(stamps.size),
+    }[kind]
+    thin = thinned(recorded(t, stamps, command), STEP)
+    for start, end in zip(thin.t[:-1], thin.t[1:], strict=True):
+        full = impulse(stamps, command, start, end)
+        assert impulse(thin.drive_t, thin.drive, start, end) == pytest.approx(full, rel=1e-9)
+
+
+def test_samples_are_every_nth_and_commands_fewer():
+    t = np.arange(6000) * 1e-3
+    segment = recorded(t, t, wave(t), 0.01 * np.sin(t))
+    thin = thinned(segment, STEP)
+    np.testing.assert_array_equal(thin.t, t[::6])
+    np.testing.assert_array_equal(thin.target, segment.target[::6])
+    np.testing.assert_array_equal(thin.fit, segment.fit[::6])
+    assert thin.drive_t.size <= thin.t.size + 6
+    assert np.all(np.diff(thin.drive_t) > 0.0)
+    assert (thin.y0, thin.v0) == (segment.y0, segment.v0)
+
+
+def test_a_jump_keeps_its_stamp():
+    t = np.arange(4000) * 1e-3
+    jumps = (0.5004, 1.2337, 2.0)
+    stamps = np.unique(np.concatenate([t, jumps]))
+    command = wave(stamps) + 1e5 * np.searchsorted(jumps, stamps, side='right')
+    thin = thinned(recorded(t, stamps, command), STEP)
+    for jump in jumps:
+        k = np.flatnonzero(thin.drive_t == jump)
+        assert k.size == 1
+        assert thin.drive[k[0]] == command[stamps == jump][0]
+        assert thin.drive[k[0]] - thin.drive[k[0] - 1] == pytest.approx(1e5, rel=0.02)
+
+
+def test_few_commands_are_left_as_they_are():
+    t = np.arange(4000) * 1e-3
+    stamps = np.arange(0.0, 4.0, 0.25)
+    command = 1e5 + 1e5 * (np.arange(stamps.size) % 2)
+    thin = thinned(recorded(t, stamps, command), STEP)
+    np.testing.assert_array_equal(thin.drive_t, stamps)
+    np.testing.assert_array_equal(thin.drive, command)
+
+
+def test_what_is_sampled_coarsely_is_not_thinned():
+    t = np.arange(400) * 1e-2
+    segment = recorded(t, t, wave(t))
+    thin = thinned(segment, STEP)
+    np.testing.assert_array_equal(thin.t, t)
+    np.testing.assert_array_equal(thin.drive, segment.drive)
+
+
+def test_a_held_run_keeps_every_sample_up_to_a_number():
+    t = np.arange(2 * SAMPLES + 10) * 1e-3
+    y = np.full(t.size, 0.02)
+    recording = Recording('h', t, None, None, y, None, 5.0 * t, 1e5 + t, 'held')
+    (segment,) = segments_of([recording], keep_back=True)
+    thin = thinned(segment, STEP)
+    np.testing.assert_array_equal(thin.t, t[::2])
+    np.testing.assert_array_equal(thin.target, 5.0 * t[::2])
+    np.testing.assert_array_equal(thin.pressure, segment.pressure[::2])
+    (short,) = segments_of([recording.part(0, SAMPLES)], keep_back=True)
+    np.testing.assert_array_equal(thinned(short, STEP).t, short.t)
+
+
+def test_the_step_turns_the_rigs_fastest_swing_by_a_set_angle():
+    model = RigModel(Muscle(), Load(mass=10.0))
+    # Stiffness of Sarosi's law by hand, p in bar and kappa in percent: -dF/dkappa / l0 in N/m.
+    k = []
+    for p in (0.0, 6.0):
+        rest = 100.0 * model.rest(p * 1e5) / 0.4
+        slope = (-4.35573 * p + 281.2237) * -0.32866 * np.exp(-0.32866 * rest) - 9.27035 * p
+        k.append(-100.0 * slope / 0.4)
+    expected = PHASE / np.sqrt(max(k) / 10.0)
+    assert STEPS[0] < expected < STEPS[1]
+    assert coarse_step(model) == pytest.approx(expected, rel=1e-9)
+
+
+def test_the_step_stays_between_its_limits():
+    heavy = RigModel(Muscle(), Load(mass=40.0, mount='horizontal'))
+    assert STEPS[0] <= coarse_step(heavy) <= STEPS[1]
+    source = Muscle(a1=0.0, a2=0.0, a4=0.0, zeta=0.0)
+    assert coarse_step(RigModel(source, Load(mass=5.0, mount='horizontal'))) == STEPS[1]
+
+
+@pytest.mark.needs_numba
+def test_a_thinned_run_moves_like_the_full_one():
+    model = RigModel(Muscle(), Load(mass=20.0))
+    rng = np.random.default_rng(0)
+    t = np.arange(20_000) * 1e-3
+    command = wave(t) + 1e4 * np.sin(2 * np.pi * 4.0 * t) + 4e4 * (uneven(rng, t.size) // 1.7 % 2)
+    segment = recorded(t, t, command)
+    thin = thinned(segment, coarse_step(model))
+    stride = round(thin.t[1] / t[1])
+    assert stride >= 5
+
+    def run(at, drive_t, drive, step):
+        rest = model.rest(command[0])
+        return simulate(model, at, drive_t, drive, rest, step=step).position
+
+    full = run(t, t, command, 1e-3)[::stride]
+    assert np.ptp(full) > 5e-3
+    coarse = run(thin.t, thin.drive_t, thin.drive, coarse_step(model))
+    # Below the quietest sensor's noise; every sixth command alone comes half a stride late.
+    error = np.sqrt(np.mean((coarse - full) ** 2))
+    plain = run(thin.t, t[::stride], command[::stride], coarse_step(model))
+    assert error < 5e-6
+    assert error < 0.05 * np.sqrt(np.mean((plain - full) ** 2))

@@ -1,0 +1,102 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Noise of known size and colour is measured as such, on motion that is not noise."""
+
+import numpy as np
+import pytest
+
+from pam_ros.identification.noise import Noise, independent_share, noise_of
+from support.equations import coloured
+
+SIGMA = 2e-5  # m, beside motion of some 20 mm
+
+
+def motion(t):
+    """Return a load that swings at up to 1 Hz, in m."""
+    return 0.02 * np.sin(2 * np.pi * 0.4 * t) + 4e-3 * np.sin(2 * np.pi * 1.0 * t)
+
+
+@pytest.mark.parametrize(
+    ('rate', 'rho', 'low', 'high', 'off'),
+    [
+        (100.0, 0.0, 0.93, 1.02, 0.03),
+        (250.0, 0.0, 0.97, 1.03, 0.03),
+        (1000.0, 0.0, 0.98, 1.02, 0.03),
+        (250.0, 0.5, 0.95, 1.04, 0.04),
+        (1000.0, 0.5, 0.97, 1.03, 0.03),
+        (1000.0, 0.9, 0.90, 1.05, 0.03),
+        # Windows of few samples hold few independent ones: the quietest of them look quieter
+        # and whiter than all are. The floor is then too low, never too high.
+        (100.0, 0.5, 0.80, 1.02, 0.15),
+        (250.0, 0.9, 0.65, 1.05, 0.12),
+        (100.0, 0.9, 0.40, 1.05, 0.35),
+    ],
+)
+def test_size_and_colour_on_smooth_motion(rate, rho, low, high, off):
+    t = np.arange(round(60.0 * rate)) / rate
+    noise = coloured(np.random.default_rng(1), t.size, rho, SIGMA)
+    found = noise_of([(t, motion(t) + noise)])
+    assert low < found.sigma / SIGMA < high
+    assert found.rho == pytest.approx(rho, abs=off)
+    assert found.independent == (1.0 - found.rho) / (1.0 + found.rho)
+
+
+def test_steps_and_their_ringing_are_not_noise():
+    rate = 200.0
+    t = np.arange(round(60.0 * rate)) / rate
+    since = t % 3.0
+    ringing = 0.01 * np.exp(-4.0 * since) * np.cos(2 * np.pi * 4.0 * since)
+    y = 0.02 * (t // 3.0 % 2) + ringing
+    found = noise_of([(t, y + coloured(np.random.default_rng(2), t.size, 0.0, SIGMA))])
+    assert found.sigma == pytest.approx(SIGMA, rel=0.1)
+    assert found.rho < 0.1
+
+
+def test_scales_with_the_unit_and_pools_signals():
+    rng = np.random.default_rng(3)
+    t = np.arange(4000) / 200.0
+    signals = [(t + start, motion(t) + coloured(rng, t.size, 0.6, SIGMA)) for start in (0.0, 50.0)]
+    metres = noise_of(signals)
+    millimetres = noise_of([(t, 1e3 * y) for t, y in signals])
+    assert millimetres.sigma == pytest.approx(1e3 * metres.sigma, rel=1e-9)
+    assert millimetres.rho == pytest.approx(metres.rho, abs=2e-3)
+    single = [noise_of([one]) for one in signals]
+    between = sorted(n.sigma for n in single)
+    assert 0.98 * between[0] < metres.sigma < 1.02 * between[1]
+
+
+def test_a_silent_signal_has_no_noise():
+    t = np.arange(1000) / 100.0
+    assert noise_of([(t, np.full(t.size, 0.03))]).sigma < 1e-12
+    # A polynomial that the windows follow exactly is motion, whatever its size.
+    assert noise_of([(t, 1e-3 * t**3)]).sigma < 1e-9
+
+
+def test_too_short_for_a_window_takes_differences():
+    rng = np.random.default_rng(4)
+    signals = [(np.arange(8) / 10.0, SIGMA * rng.standard_normal(8)) for _ in range(200)]
+    found = noise_of(signals)
+    # Differences across the joints of 200 signals of white noise are those of white noise.
+    assert found.sigma == pytest.approx(SIGMA, rel=0.1)
+    assert found.rho == 0.0
+
+
+def test_independent_is_what_a_mean_of_coloured_noise_is_worth():
+    rng, n, rho = np.random.default_rng(5), 400, 0.8
+    means = [np.mean(coloured(rng, n, rho)) for _ in range(4000)]
+    worth = 1.0 / np.var(means)
+    assert n * Noise(1.0, rho).independent == pytest.approx(worth, rel=0.1)
+
+
+@pytest.mark.parametrize('rho', [0.0, 0.5, 0.9, 0.98])
+def test_independent_share_of_coloured_noise(rho):
+    rng = np.random.default_rng(6)
+    shares = [independent_share(coloured(rng, 100_000, rho), 4000) for _ in range(5)]
+    assert np.mean(shares) == pytest.approx((1.0 - rho) / (1.0 + rho), rel=0.15)
+
+
+def test_independent_share_of_what_never_turns():
+    # The correlation of a slow wave stays near 1 up to the longest lag that is summed.
+    slow = np.cos(2 * np.pi * np.arange(100_000) / 100_000)
+    assert independent_share(slow, 50) == pytest.approx(1.0 / (1.0 + 2.0 * 49), rel=0.01)
+    assert independent_share(np.full(10, 3.0), 50) == 1.0

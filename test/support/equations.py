@@ -1,0 +1,60 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Problems whose residuals are a plain function, so that closed forms and scipy can judge fits."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.signal import lfilter
+
+from pam_ros.effects import EFFECTS
+from pam_ros.identification.candidate import Fit
+from pam_ros.identification.problem import Problem
+from pam_ros.identification.solve import Solution
+from pam_ros.identification.unknowns import Unknown
+from pam_ros.rig.layout import layout_of
+
+
+@dataclass(frozen=True, eq=False)
+class Equation(Problem):
+    """A problem without a rig: ``function`` maps u (k,) to the residuals (n,)."""
+
+    function: Callable = None
+
+    def residuals(self, u):
+        return self.function(np.asarray(u, dtype=float))
+
+    def errors(self, u):
+        rms = float(np.sqrt(np.mean(self.residuals(u) ** 2)))
+        return rms, rms
+
+
+def equation(function, unknowns, independent):
+    """Return the problem of *unknowns*: Unknowns, or names of ones that nothing is known of."""
+    made = tuple(Unknown(one, 0, 0.0, 1.0) if isinstance(one, str) else one for one in unknowns)
+    layout = layout_of(EFFECTS)
+    return Equation((), layout, (), np.zeros(layout.parameters), made, independent, 1e-3, np.inf,
+                    function)  # fmt: skip
+
+
+def linear(columns, values, unknowns, independent):
+    """Return the problem of explaining *values* (n,) by *columns* (n, k)."""
+    return equation(lambda u: columns @ u - values, unknowns, independent)
+
+
+def least_squares_fit(columns, values, names, independent, effects=()):
+    """Return the Fit of *values* (n,) by *columns* (n, k), solved by numpy."""
+    problem = linear(columns, values, names, independent)
+    u = np.linalg.lstsq(columns, values, rcond=None)[0]
+    r = columns @ u - values
+    error = float(np.sqrt(np.mean(r**2)))
+    return Fit(tuple(effects), Solution(problem, u, r, columns, 0), error, error)
+
+
+def coloured(rng, n, rho, sigma=1.0):
+    """Return n samples of stationary AR(1) noise of standard deviation *sigma*."""
+    white = rng.standard_normal(n)
+    first = np.array([rho * rng.standard_normal()])
+    drive = np.sqrt(1.0 - rho**2) * white
+    return sigma * lfilter([1.0], [1.0, -rho], drive, zi=first)[0]
