@@ -57,9 +57,10 @@ def test_pure_rooms_pass_on_the_oldest_libraries(clean_environment):
     oldest = ROOT / FOLDER / 'bin' / 'python'
     no_ros = 'import importlib.util as u, sys; sys.exit(u.find_spec("rclpy") is not None)'
     subprocess.run([oldest, '-c', no_ros], env=clean_environment, check=True)
+    # Pure tests may share the machine, unlike those that keep a rate.
     pure = [f'--ignore=test/{room}' for room in NOT_PURE]
     tested = subprocess.run(
-        [oldest, '-m', 'pytest', '-p', 'no:cacheprovider', *pure],
+        [oldest, '-m', 'pytest', '-n', 'auto', '-p', 'no:cacheprovider', *pure],
         cwd=ROOT,
         env=clean_environment,
         capture_output=True,
