@@ -65,7 +65,8 @@ def test_starts_programs_that_exist(path):
 def test_names_files_that_exist(path):
     texts = [node.value for node in ast.walk(parsed(path)) if isinstance(node, ast.Constant)]
     for text in texts:
-        if isinstance(text, str) and text.endswith(('.yaml', '.launch.py', '.urdf', '.rviz')):
+        is_name = isinstance(text, str) and Path(text).suffix  # and not an ending by itself
+        if is_name and text.endswith(('.yaml', '.launch.py', '.urdf', '.rviz')):
             assert list(ROOT.rglob(Path(text).name)), text
 
 
