@@ -18,6 +18,7 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
+from std_msgs.msg import Float64
 from tqdm import tqdm
 
 from pam_ros.demo import loop
@@ -32,7 +33,7 @@ EXCITATION = {
     'duration': DURATION,
     'pressure_min': 150e3,
     'pressure_max': 400e3,
-    'countdown': 1.0,
+    'countdown': 2.0,
 }
 RATE = 250.0  # states per second
 
@@ -80,10 +81,16 @@ def record(stage: Stage, bag: Path, rigs: Mapping[str, Mapping[str, Any]]) -> No
         recorder = programs.enter_context(
             Program('pam_record', '-r', f'__ns:={space}', '--', *states, '-o', str(bag))
         )
+        # The recorder listens to what is published: without a first command it would come late.
+        publisher = client.node.create_publisher(Float64, 'pressure_command', 1)
         client.until(
-            lambda: all(client.node.count_subscribers(topic) for topic in states),
-            'the recorder to hear all rigs',
+            lambda: (
+                all(client.node.count_subscribers(topic) for topic in states)
+                and publisher.get_subscription_count() == len(rigs) + 1
+            ),
+            'the rigs and the recorder',
         )
+        client.node.destroy_publisher(publisher)
         watch = ('-r', f'__ns:={space}', '-r', f'joint_states:={states[0]}')
         with Program('pam_excite', *watch, parameters=EXCITATION) as excite:
             show(client, excite)
