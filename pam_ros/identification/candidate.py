@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from pam_ros.effects.base import Effect
 from pam_ros.identification.problem import Problem
-from pam_ros.identification.solve import Solution, predicted_cost, solve
+from pam_ros.identification.solve import Solution, amplified_cost, solve
 from pam_ros.identification.unknowns import effect_unknowns
 from pam_ros.rig import layout as at
 from pam_ros.rig.model import RigModel
@@ -65,27 +65,28 @@ def extended(
 def look(parents: Sequence[Fit], model: RigModel, effect: Effect) -> list[Solution]:
     """Return the best cheap fits of *effect* on top of one of *parents*, the best first.
 
-    The columns of what a parent already has are taken from it; only the effect's own are
-    computed at each start. Parents are the same model at different places: where it was
-    re-tuned, its parameters may have gone astray to make up for what is missing; where it was
-    declared, they have not.
+    One simulation at each starting value tells in which direction it moves the residual; from
+    the most promising, steps are taken in which the columns of what a parent already has are
+    taken from it, and only the effect's own are computed. Parents are the same model at
+    different places: where it was re-tuned, its parameters may have gone astray to make up for
+    what is missing; where it was declared, they have not.
     """
     guesses = []
+    starts = (*effect.fit_starts, *_guessed(parents[0], effect))
     for parent in parents:
         known = parent.solution
-        for start in (*effect.fit_starts, *_guessed(parents[0], effect)):
+        for start in starts:
             problem, added = extended(known.problem, model, effect, start)
             u = np.concatenate([known.u, added])
             r = problem.residuals(u)
-            own = problem.jacobian(u, r, only=range(len(known.u), len(u)))
-            jacobian = np.hstack([known.jacobian, own])
-            guesses.append((predicted_cost(problem, u, r, jacobian), problem, u, jacobian))
+            guesses.append((amplified_cost(known, r), known, problem, u, r))
     guesses.sort(key=lambda guess: guess[0])
-    known_columns = len(parents[0].solution.u)
-    solutions = [
-        solve(problem, u, LOOKS, jacobian=jacobian, frozen=known_columns)
-        for _, problem, u, jacobian in guesses[:TRIED]
-    ]
+    solutions = []
+    for _, known, problem, u, r in guesses[:TRIED]:
+        count = len(known.u)
+        own = problem.jacobian(u, r, only=range(count, len(u)))
+        jacobian = np.hstack([known.jacobian, own])
+        solutions.append(solve(problem, u, LOOKS, jacobian=jacobian, frozen=count))
     return sorted(solutions, key=lambda solution: solution.cost)
 
 

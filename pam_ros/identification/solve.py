@@ -125,6 +125,24 @@ def predicted_cost(problem: Problem, u: Array, r: Array, jacobian: Array) -> flo
     return problem.cost(there, r + jacobian @ (there - u))
 
 
+def amplified_cost(known: Solution, r: Array) -> float:
+    """Return the cost that an effect promises which turns the residuals of *known* into r.
+
+    Linear in its size, which is free but not negative, and in the unknowns of *known*.
+    """
+    problem = known.problem
+    prior = np.array([k.prior for k in problem.unknowns] + [np.inf])
+    jacobian = np.column_stack([known.jacobian, r - known.r])
+    weight = problem.independent / float(known.r @ known.r)
+    normal = weight * (jacobian.T @ jacobian) + np.diag(prior**-2.0)
+    u = np.append(known.u, 0.0)
+    gradient = weight * (jacobian.T @ known.r) + u / prior**2.0
+    step = _step(normal, gradient, np.ones(len(u), dtype=bool), 1e-9)
+    if step[-1] <= 0.0:
+        return known.cost
+    return problem.cost((u + step)[:-1], known.r + jacobian @ step)
+
+
 def _step(normal: Array, gradient: Array, free: NDArray[np.bool_], damping: float) -> Array:
     step = np.zeros_like(gradient)
     k = np.flatnonzero(free)
