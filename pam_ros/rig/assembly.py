@@ -38,7 +38,7 @@ class Assembly:
     @property
     def is_plain(self) -> bool:
         """Whether each muscle has a load of its own."""
-        return len(self.muscle) == len(self.kind)
+        return bool(np.all(self.first == self.load))
 
 
 def assemble(models: Sequence[Model]) -> Assembly:

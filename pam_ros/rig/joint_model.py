@@ -16,7 +16,7 @@ from pam_ros.errors import ParameterError, RangeError
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig import layout as at
 from pam_ros.rig import settle, statics, swing
-from pam_ros.rig.joints import JOINTS
+from pam_ros.rig.joints import JOINTS, mass
 from pam_ros.rig.joints.antagonistic_pair import PulleyArm
 from pam_ros.rig.joints.base import Joint, acts_in_muscle, acts_on_load
 from pam_ros.rig.layout import Layout, layout_of
@@ -107,11 +107,11 @@ class JointModel:
     def kind(self) -> int:
         """Index of the kind of joint among JOINTS."""
         for kind, joint in enumerate(JOINTS):
-            if type(self.load) is joint.declared and joint.muscles > 1:
+            if type(self.load) is joint.declared and joint is not mass.JOINT:
                 return kind
         raise ParameterError(
             f'{type(self.load).__name__} is the load of no joint: give one of '
-            + ', '.join(joint.declared.__name__ for joint in JOINTS if joint.muscles > 1)
+            + ', '.join(joint.declared.__name__ for joint in JOINTS if joint is not mass.JOINT)
         )
 
     @property

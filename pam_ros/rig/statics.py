@@ -44,9 +44,8 @@ def pull(model: JointModel, p: ArrayLike, s: ArrayLike) -> Any:
     """Return :func:`effort` without what muscles push where the law lets them."""
     total: Any = 0.0
     for i, (muscle, each) in enumerate(zip(model.muscles, model.each(p), strict=True)):
-        arm = model.joint.arm(_array(s), i, model.geometry)
         force = law.force_v(each, contraction(model, i, s), *muscle.si)
-        total = total + arm * np.maximum(force, 0.0)
+        total = total + arm(model, i, s) * np.maximum(force, 0.0)
     return total
 
 
@@ -74,7 +73,13 @@ def weight_stiffness(model: JointModel, s: ArrayLike) -> Any:
 
 def contraction(model: JointModel, i: int, s: ArrayLike) -> Any:
     """Return the contraction of muscle i as a fraction; *s* may be an array."""
-    return model.joint.position(_array(s), i, model.geometry) / model.muscles[i].l0
+    position = _on_arrays(model.joint.position)
+    return position(_array(s), i, model.geometry) / model.muscles[i].l0
+
+
+def arm(model: JointModel, i: int, s: ArrayLike) -> Any:
+    """Return how fast muscle i shortens with the coordinate; *s* may be an array."""
+    return _on_arrays(model.joint.arm)(_array(s), i, model.geometry)
 
 
 def equilibrium(model: JointModel, p: ArrayLike) -> float:
@@ -179,15 +184,15 @@ def _effort(model: JointModel, i: int, s: ArrayLike) -> tuple[Any, Any]:
     """Return a and b of muscle i."""
     muscle, kappa = model.muscles[i], contraction(model, i, s)
     a1, _, a3, a4, a5, _ = muscle.si
-    arm = model.joint.arm(_array(s), i, model.geometry)
-    return arm * law.force_v(0.0, kappa, *muscle.si), arm * law.gain_v(kappa, a1, a3, a4, a5)
+    r = arm(model, i, s)
+    return r * law.force_v(0.0, kappa, *muscle.si), r * law.gain_v(kappa, a1, a3, a4, a5)
 
 
 def _stiffness(model: JointModel, i: int, s: ArrayLike) -> tuple[Any, Any]:
     """Return c and d of muscle i."""
     muscle, kappa = model.muscles[i], contraction(model, i, s)
     a1, a2, a3, a4, _, _ = muscle.si
-    square = model.joint.arm(_array(s), i, model.geometry) ** 2
+    square = arm(model, i, s) ** 2
     at_0, at_1 = (
         square * law.stiffness_v(p, kappa, a1, a2, a3, a4, muscle.l0) for p in (0.0, BAR)
     )

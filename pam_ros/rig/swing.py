@@ -48,6 +48,7 @@ def longest_step(model: JointModel) -> float:
 def _drag(model: JointModel) -> float:
     """Return the largest effort per velocity that effects add to the muscles' damping."""
     *muscles, load = model.rows()
+    travel = np.linspace(*model.travel, POINTS)
     *in_muscles, on_load = model.present
     total = 0.0
     for i, (muscle, q, effects) in enumerate(zip(model.muscles, muscles, in_muscles, strict=True)):
@@ -59,7 +60,7 @@ def _drag(model: JointModel) -> float:
                     j = model.layout.parameter_at[effect.name]
                     c = float(effect.damping(c, p, 0.0, v, q, j))
             most = max(most, c)
-        total += most * model.joint.arm(0.0, i, model.geometry) ** 2
+        total += most * float(np.max(statics.arm(model, i, travel) ** 2))
     x = start_row(model.layout, load, 0.0, 0.0, 0.0)
     most = 0.0
     for v in (-FAST, FAST):

@@ -39,7 +39,7 @@ def view(monkeypatch):
     """Return what the launch file defines, loaded with stand-ins that remember what they get."""
     stand_ins = {
         'LaunchConfiguration': Configuration,
-        'Node': lambda **words: SimpleNamespace(**words),
+        'Node': SimpleNamespace,
         'ParameterValue': lambda value, value_type: (value, value_type),
         'IfCondition': lambda value: value,
         'DeclareLaunchArgument': lambda name, **words: SimpleNamespace(name=name, **words),

@@ -18,7 +18,8 @@ Functions of a joint; g is its row of numbers, g[0] always the mass of the load 
 ``position(s, i, g) -> m``
     Where muscle i is.
 ``arm(s, i, g) -> m/rad, or 1 for a prismatic joint``
-    How fast muscle i shortens with s; never 0.
+    How fast muscle i shortens with s; never 0. Where it changes with s, it turns stiffness into
+    the joint's as it is there: what its change adds, force times slope, is not counted.
 ``coordinate(y, i, g) -> s``
     The inverse of ``position``. Python calls it, not the kernel.
 ``inertia(m, g) -> kg, kg m^2``
