@@ -14,6 +14,7 @@ from pam_ros.report.diagnostics import Size, size_of
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 STAGES = ('declared', 'retuned', 'augmented')
+FAR = 1e6  # m or N: where a simulation that diverges is cut, so that it can be drawn
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,13 +47,17 @@ def runs_of(trace: Trace) -> list[Run]:
     l0 = trace.stages[0].model.muscle.l0
     found = []
     for k, segment in enumerate(trace.segments):
-        a, b, c = (stage.simulated[k] for stage in trace.stages)
+        a, b, c = (_cut(stage.simulated[k]) for stage in trace.stages)
         held = np.zeros_like(segment.fit) if trace.test else ~segment.fit
         found.append(_run(segment, (a, b, c), held, False, l0))
     for k, segment in enumerate(trace.test):
-        a, b, c = (stage.tested[k] for stage in trace.stages)
+        a, b, c = (_cut(stage.tested[k]) for stage in trace.stages)
         found.append(_run(segment, (a, b, c), np.ones_like(segment.fit), True, l0))
     return found
+
+
+def _cut(simulated: Array) -> Array:
+    return np.clip(np.nan_to_num(simulated, nan=FAR), -FAR, FAR)
 
 
 def _run(

@@ -2,14 +2,17 @@
 # SPDX-License-Identifier: Apache-2.0
 """report.html as text: complete, in order, self-contained, and true to the numbers."""
 
+import json
 import re
 from dataclasses import replace
 from html.parser import HTMLParser
 
+import numpy as np
 import pytest
 
-from pam_ros.report.numbers import numbers
+from pam_ros.report.numbers import numbers, to_json
 from pam_ros.report.page import VERDICTS, curves_of, not_excluded, page, warnings_of
+from pam_ros.report.runs import runs_of
 from pam_ros.report.wording import Scale
 
 SECTIONS = ['error', 'simulated', 'residual', 'shape', 'candidates', 'parameters', 'data', 'next']
@@ -163,3 +166,17 @@ def test_warnings_are_told_once_with_the_recording_they_are_about(tested):
     told = (*trace.warnings, *(w for r in source.recordings for w in r.warnings))
     found = warnings_of(replace(trace, warnings=told), source)
     assert found == [('', 'the position covers 11 % of the stroke'), ('bench.csv', '1 gap(s)')]
+
+
+@pytest.mark.parametrize('value', [np.nan, np.inf, -1e300])
+def test_a_model_that_diverges_is_drawn_and_its_numbers_stay_finite(clean, value):
+    trace, source, _ = clean
+    declared = trace.stages[0]
+    simulated = declared.simulated[0].copy()
+    simulated[3000:] = value
+    broken = replace(declared, simulated=(simulated,), fit_error=value, held_error=value)
+    changed = replace(trace, stages=(broken, *trace.stages[1:]))
+    runs = runs_of(changed)
+    content = numbers(changed, runs, source)
+    assert json.loads(to_json(content))['error']['declared']['details']['fit']['maximum'] > 1e5
+    assert outline(page(changed, runs, source, content)).ids
