@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from pam_ros.identification.problem import Problem
 
 Array = NDArray[np.float64]
+LEAST_DAMPING = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,7 +76,7 @@ def solve(
     j = problem.jacobian(u, r, pool) if jacobian is None else jacobian.copy()
     stale = jacobian is not None
     own = range(frozen, len(u))
-    damping, done = 1e-9, 0
+    damping, done = LEAST_DAMPING, 0
     while done < iterations:
         done += 1
         weight = problem.independent / float(r @ r)
@@ -91,7 +92,7 @@ def solve(
                 hoped = cost - problem.cost(trial, r + j @ (trial - u))
                 j = _broyden(j, trial - u, r_trial - r)
                 u, r, cost = trial, r_trial, cost_trial
-                damping = max(0.03 * damping, 1e-9)
+                damping = max(0.03 * damping, LEAST_DAMPING)
                 break
             damping *= 30.0
         gain = before - cost
@@ -102,7 +103,8 @@ def solve(
         elif gain < max(0.1, 0.5 * hoped) if np.isfinite(hoped) else True:
             if gain < 0.1 and not stale:
                 break
-            j, stale = problem.jacobian(u, r, pool), False
+            # Steps along an old Jacobian may have failed by its own fault: begin undamped.
+            j, stale, damping = problem.jacobian(u, r, pool), False, LEAST_DAMPING
         else:
             stale = True
     return Solution(problem, u, r, j, done)
@@ -120,7 +122,7 @@ def predicted_cost(problem: Problem, u: Array, r: Array, jacobian: Array) -> flo
     weight = problem.independent / float(r @ r)
     normal = weight * (jacobian.T @ jacobian) + np.diag(prior**-2.0)
     gradient = weight * (jacobian.T @ r) + u / prior**2.0
-    step = _step(normal, gradient, np.ones(len(u), dtype=bool), 1e-9)
+    step = _step(normal, gradient, np.ones(len(u), dtype=bool), LEAST_DAMPING)
     there = np.clip(u + step, low, high)
     return problem.cost(there, r + jacobian @ (there - u))
 
@@ -137,7 +139,7 @@ def amplified_cost(known: Solution, r: Array) -> float:
     normal = weight * (jacobian.T @ jacobian) + np.diag(prior**-2.0)
     u = np.append(known.u, 0.0)
     gradient = weight * (jacobian.T @ known.r) + u / prior**2.0
-    step = _step(normal, gradient, np.ones(len(u), dtype=bool), 1e-9)
+    step = _step(normal, gradient, np.ones(len(u), dtype=bool), LEAST_DAMPING)
     if step[-1] <= 0.0:
         return known.cost
     return problem.cost((u + step)[:-1], known.r + jacobian @ step)
