@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import least_squares
 
-from pam_ros.identification.solve import predicted_cost, solve
+from pam_ros.identification.solve import amplified_cost, predicted_cost, solve
 from pam_ros.identification.unknowns import Unknown
 from support.equations import coloured, equation, linear
 
@@ -167,6 +167,20 @@ def test_the_promise_for_a_linear_problem_is_its_optimum():
     assert predicted_cost(problem, start, r, columns) == pytest.approx(least, abs=1e-3)
     one_step = solve(problem, start, 1)
     assert one_step.cost == pytest.approx(least, abs=1e-2)
+
+
+def test_the_promise_of_an_effect_scales_what_it_does_but_not_backwards():
+    wave = np.sin(3.0 * T)
+    values = 1.0 + 0.3 * T + 0.2 * wave + NOISE * np.random.default_rng(2).standard_normal(T.size)
+    problem, columns = line(values)
+    known = solve(problem, np.zeros(2), 20, jacobian=columns)
+    three = np.column_stack([columns, wave])
+    left = three @ np.linalg.lstsq(three, values, rcond=None)[0] - values
+    least = T.size * np.log(np.mean(left**2))
+    for size in (0.01, 1.0):  # the effect at its start, too small or too large
+        promise = amplified_cost(known, known.r + size * wave)
+        assert promise == pytest.approx(least, abs=1e-3)
+    assert amplified_cost(known, known.r - 0.1 * wave) == known.cost
 
 
 def test_covariance_of_a_linear_problem_in_closed_form():
