@@ -10,15 +10,23 @@ SHORTEST = 1e-6  # s; a faster chamber than any rig's is immediate
 
 
 def pressure(p: float, t: float, h: float, x: Row, i: int, xn: Row, q: Row, j: int) -> float:
-    """Return the chamber pressure of tau dp/dt = p_in - p, exact for p_in constant over h.
+    """Return the chamber pressure of dp/dt = (p_in - p)/tau, at most R, exact for p_in constant.
 
     tau is q[j] while the chamber fills and q[j + 1] while it vents; x[i] is its pressure. It
-    never crosses p_in, so that tau is one or the other for all of h.
+    never crosses p_in, so that tau is one or the other for all of h. R = q[j + 2] in Pa/s is
+    what a choked valve lets through, whatever the difference of pressure.
     """
     if q[j] == 0.0 and q[j + 1] == 0.0:
         return p
     tau = q[j] if p > x[i] else q[j + 1]
-    xn[i] = p + (x[i] - p) * exp(-h / tau) if tau > SHORTEST else p
+    left = abs(p - x[i])
+    choked = min(h, max(left - q[j + 2] * tau, 0.0) / q[j + 2])
+    left -= choked * q[j + 2]
+    if tau > SHORTEST:
+        left *= exp(-(h - choked) / tau)
+    elif choked < h:
+        left = 0.0
+    xn[i] = p - left if p > x[i] else p + left
     return xn[i]
 
 
@@ -30,7 +38,7 @@ def start(q: Row, j: int, p: float, kappa: float, y: float) -> tuple[float, ...]
 EFFECT = Effect(
     name='pressure_lag',
     text='first-order lag of the chamber behind the command, filling and venting apart',
-    source='Linearised chamber with an ISO 6358 orifice; 20 to 130 ms with servo valves',
+    source='Chamber behind an ISO 6358 orifice, linearised below choking; 20 to 130 ms with servo valves',
     parameters=(
         EffectParameter(
             'fill',
@@ -54,6 +62,15 @@ EFFECT = Effect(
             strength=True,
             sign=1,
         ),
+        EffectParameter(
+            'fastest',
+            1e9,
+            'fastest change of pressure, where the flow is choked',
+            'Pa/s',
+            1e3,
+            1e9,
+            scale=1e6,
+        ),
     ),
     signature='phase that rolls off with frequency; rounded answers to steps',
     experiment='steps up and down with the pressure measured, or a chirp',
@@ -61,6 +78,7 @@ EFFECT = Effect(
         {'fill': 0.02, 'vent': 0.02},
         {'fill': 0.1, 'vent': 0.1},
         {'fill': 0.5, 'vent': 0.5},
+        {'fill': 0.05, 'vent': 0.05, 'fastest': 5e5},
     ),
     states=('pressure',),
     start=start,
