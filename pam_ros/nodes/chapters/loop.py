@@ -34,8 +34,9 @@ EXCITATION = {
     'pressure_min': 150e3,
     'pressure_max': 400e3,
     'countdown': 2.0,
+    'rate': 100.0,
 }
-RATE = 250.0  # states per second
+RATE = 200.0  # states per second
 
 
 def play(stage: Stage) -> None:
@@ -74,22 +75,26 @@ def record(stage: Stage, bag: Path, rigs: Mapping[str, Mapping[str, Any]]) -> No
     states = [f'{space}/{name}/joint_states' for name in rigs]
     hear = ('-r', f'pressure_command:={space}/pressure_command')
     with ExitStack() as programs, Client(space) as client:
+        running = []
         for name, given in rigs.items():
             where = ('-r', f'__ns:={space}/{name}')
             parameters = {**given, 'publish_rate': RATE}
-            programs.enter_context(Program('pam_sim', *where, *hear, parameters=parameters))
-        recorder = programs.enter_context(
-            Program('pam_record', '-r', f'__ns:={space}', '--', *states, '-o', str(bag))
-        )
+            running.append(Program('pam_sim', *where, *hear, parameters=parameters))
+            programs.enter_context(running[-1])
+        recorder = Program('pam_record', '-r', f'__ns:={space}', '--', *states, '-o', str(bag))
+        running.append(programs.enter_context(recorder))
         # The recorder listens to what is published: without a first command it would come late.
         publisher = client.node.create_publisher(Float64, 'pressure_command', 1)
-        client.until(
-            lambda: (
-                all(client.node.count_subscribers(topic) for topic in states)
-                and publisher.get_subscription_count() == len(rigs) + 1
-            ),
-            'the rigs and the recorder',
-        )
+
+        def is_ready() -> bool:
+            for program in running:
+                if not program.is_running:
+                    raise PamError(f'{program.name} ended: {program.output.strip()}')
+            return publisher.get_subscription_count() > len(rigs) and all(
+                client.node.count_subscribers(topic) for topic in states
+            )
+
+        client.until(is_ready, 'the rigs and the recorder')
         client.node.destroy_publisher(publisher)
         watch = ('-r', f'__ns:={space}', '-r', f'joint_states:={states[0]}')
         with Program('pam_excite', *watch, parameters=EXCITATION) as excite:
