@@ -1,0 +1,110 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""README.md against running programs: topics, services, parameters, defaults, commands."""
+
+import re
+
+import pytest
+from rcl_interfaces.srv import ListParameters
+from sensor_msgs.msg import JointState
+
+from support.harness import Program
+from support.pages import README, commands, names, part, rows
+
+# What every node has: parameters, logging, its description.
+OF_EVERY_NODE = ('rcl_interfaces/', 'type_description_interfaces/')
+SETTINGS = ('effects.', 'initial.', 'sensor.')
+STARTS = [
+    words[words.index('--ros-args') + 1 :]
+    for words in commands(README)
+    if any(word.endswith('pam_sim') for word in words) and '--ros-args' in words
+]
+DRY_RUNS = [
+    words[words.index('--ros-args') + 1 :] for words in commands(README) if '--dry-run' in words
+]
+
+
+def in_code(cell):
+    return re.findall(r'`([^`]+)`', cell)
+
+
+@pytest.fixture(scope='module')
+def told():
+    """Return what the table of the interface says: name -> type, `/` for what is absolute."""
+    found = {}
+    for name_cell, type_cell, _ in rows(part(README, 'interface')):
+        (kind,) = in_code(type_cell)
+        for name in in_code(name_cell):
+            found[name] = kind
+    return found
+
+
+def seen(peer, get):
+    """Return the topics or services of a running pam_sim as the table names them."""
+    own = {}
+    for name, (kind, *_) in get('pam_sim', '/'):
+        if not kind.startswith(OF_EVERY_NODE):
+            short = name.replace('/pam_sim/', '~/')
+            own[short if name == '/diagnostics' else short.lstrip('/')] = re.sub(
+                '/(msg|srv)/', '/', kind
+            )
+    return own
+
+
+def test_the_interface_is_that_of_the_running_simulator(peer, told):
+    node = peer.node
+    getters = (
+        node.get_publisher_names_and_types_by_node,
+        node.get_subscriber_names_and_types_by_node,
+        node.get_service_names_and_types_by_node,
+    )
+
+    def interface():
+        if ('pam_sim', '/') not in node.get_node_names_and_namespaces():
+            return {}
+        return {name: kind for get in getters for name, kind in seen(peer, get).items()}
+
+    with Program('pam_sim'):
+        peer.until(lambda: set(told) <= set(interface()), f'{", ".join(told)}')
+        assert interface() == told
+
+
+def test_parameters_exist_and_have_their_defaults(peer):
+    named = [name for name in names(README) if name.startswith(SETTINGS)]
+    with Program('pam_sim'):
+        known = peer.call(ListParameters, 'pam_sim/list_parameters').result.names
+        for name in named:
+            if '<' in name:
+                assert any(one.startswith(name.partition('<')[0]) for one in known), name
+            else:
+                assert name in known
+        for name_cell, default_cell, _ in rows(part(README, 'parameters')):
+            of_row = [name for name in in_code(name_cell) if '<' not in name]
+            assert set(of_row) <= set(known)
+            defaults = [one.strip(' `') for one in default_cell.split(',')]
+            if len(defaults) != len(of_row):
+                continue
+            for name, default in zip(of_row, defaults, strict=True):
+                value = peer.get('pam_sim', name)[0]
+                number = re.match(r'[\d.]+', default)
+                assert value == (float(number.group()) if number else default), name
+
+
+@pytest.mark.parametrize('arguments', STARTS, ids=' '.join)
+def test_the_simulator_starts_as_shown(peer, arguments, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    if '--params-file' in arguments:
+        file = tmp_path / arguments[arguments.index('--params-file') + 1]
+        file.parent.mkdir()
+        file.write_text('/**:\n  ros__parameters:\n    mass: 12.0\n')
+    states = peer.collect(JointState, 'joint_states')
+    with Program('pam_sim', *arguments) as sim:
+        peer.until(lambda: states or not sim.is_running, 'the first state')
+        assert states, sim.output
+
+
+@pytest.mark.parametrize('arguments', DRY_RUNS, ids=' '.join)
+def test_the_excitation_plans_as_shown(arguments):
+    with Program('pam_excite', *arguments, '--', '--dry-run') as excite:
+        assert excite.wait() == 0, excite.output
+        assert 'total' in excite.output

@@ -1,0 +1,192 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""README.md and docs/: commands, options, files and links exist; pictures are small."""
+
+import json
+import re
+import subprocess
+import sys
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+from benchmarks.__main__ import names as benchmarks
+from pam_ros.nodes import pam_identify
+from pam_ros.parameter_files import load_rig
+from support.pages import (
+    PAGES,
+    README,
+    ROOT,
+    anchors,
+    blocks,
+    commands,
+    links,
+    names,
+    rows,
+    text_of,
+)
+
+# Programs that are not ours, as they are called: whether they are right is for their manuals.
+OF_OTHERS = {
+    'colcon build',
+    'ros2 bag record',
+    'ros2 topic echo /joint_states',
+    'rosdep install --from-paths src --ignore-src',
+    'source install/setup.bash',
+}
+PROGRAMS = sorted(path.stem for path in (ROOT / 'pam_ros' / 'nodes').glob('pam_*.py'))
+FILE = re.compile(r'[\w./*<>-]+\.(css|csv|html|json|md|png|py|rst|toml|txt|xml|yaml)')
+LARGEST = 300_000  # bytes of a picture
+
+each_page = pytest.mark.parametrize('page', PAGES, ids=lambda page: page.name)
+
+
+@cache
+def help_of(program):
+    done = subprocess.run(
+        [sys.executable, '-m', f'pam_ros.nodes.{program}', '--help'],
+        capture_output=True,
+        text=True,
+        check=True,
+        timeout=60,
+    )
+    return done.stdout
+
+
+def check_make(words):
+    target, *rest = words
+    makefile = text_of(ROOT / 'Makefile')
+    assert re.search(rf'^{target}:', makefile, re.MULTILINE), f'make {target}'
+    for word in rest:
+        name, _, value = word.partition('=')
+        assert name == 'ARGS', word
+        if target == 'bench':
+            assert set(value.split()) <= set(benchmarks())
+        else:
+            assert all((ROOT / path).exists() for path in value.split())
+
+
+def check_program(name, words):
+    """Check that a program understands its options; those of ROS are tried over topics."""
+    assert name in PROGRAMS
+    own = words[: words.index('--ros-args')] if '--ros-args' in words else words
+    if name == 'pam_identify':
+        given = pam_identify.parser().parse_args(own)
+        known = not given.params.startswith(('MUSCLE', 'FILE'))
+        if known:
+            load_rig(str(ROOT / given.params) if '/' in given.params else given.params, given.set)
+        return
+    for word in own:
+        if word.startswith('-'):
+            assert re.search(rf'(^|[\s,\[]){word}(?![\w-])', help_of(name)), f'{name} {word}'
+
+
+def check_launch(words):
+    file, *arguments = words
+    source = text_of(ROOT / 'launch' / file)
+    known = re.findall(r"DeclareLaunchArgument\(\s*'(\w+)'", source)
+    for word in arguments:
+        assert word.partition(':=')[0] in known, f'{file} {word}'
+
+
+def check(words):
+    """Check a command of the documentation, given as words."""
+    first = Path(words[0]).name
+    if first == 'make':
+        check_make(words[1:])
+    elif first in PROGRAMS:
+        check_program(first, words[1:])
+    elif words[:3] == ['ros2', 'run', 'pam_ros']:
+        check_program(words[3], words[4:])
+    elif words[:3] == ['ros2', 'launch', 'pam_ros']:
+        check_launch(words[3:])
+    elif words[:3] == ['ros2', 'param', 'describe']:
+        assert words[3].lstrip('/') in PROGRAMS
+    elif words[:3] == ['ros2', 'topic', 'pub']:
+        assert '/pressure_command' in words
+        assert 'std_msgs/msg/Float64' in words
+    else:
+        assert ' '.join(words) in OF_OTHERS
+
+
+@pytest.mark.parametrize('words', commands(README), ids=' '.join)
+def test_command_of_the_readme_exists(words):
+    check(words)
+
+
+def test_the_readme_shows_how_to_begin():
+    shown = {' '.join(words) for words in commands(README)}
+    assert {'make demo', 'make test', 'colcon build'} <= shown
+
+
+def test_the_readme_names_every_command_of_its_own():
+    text = text_of(README)
+    for name in PROGRAMS:
+        assert name in text
+
+
+def test_a_wrong_command_would_be_found():
+    for command in (
+        'make dmeo',
+        'make bench ARGS=plant_stop',
+        'ros2 run pam_ros pam_sum',
+        'ros2 run pam_ros pam_excite --dry --ros-args',
+        'ros2 launch pam_ros sim.launch.py muscel:=dmsp_10',
+    ):
+        with pytest.raises(AssertionError):
+            check(command.split())
+    with pytest.raises(SystemExit):
+        check(['pam_identify', 'monday', '--parms', 'dmsp_10', '--out', 'report'])
+
+
+@each_page
+def test_links_lead_somewhere(page):
+    for target in links(page):
+        file, _, anchor = target.partition('#')
+        path = (page.parent / file).resolve() if file else page
+        assert path.exists(), target
+        assert ROOT in path.parents, target
+        if anchor:
+            assert anchor in anchors(path), target
+
+
+def test_every_page_is_in_the_index():
+    listed = {target.partition('#')[0] for target in links(ROOT / 'docs' / 'README.md')}
+    assert {page.name for page in PAGES if page.parent.name == 'docs'} - {'README.md'} <= listed
+
+
+@cache
+def sources():
+    files = (path for path in (ROOT / 'pam_ros').rglob('*') if path.suffix in ('.py', '.j2'))
+    return '\n'.join(path.read_text(encoding='utf-8') for path in files)
+
+
+@pytest.mark.parametrize('name', sorted({n for n in names(README) if FILE.fullmatch(n)}))
+def test_file_of_the_readme_exists_or_is_written(name):
+    # What is not in the repository is left by a program of it, which then names it.
+    assert list(ROOT.glob(name)) or f"'{Path(name).name}'" in sources()
+
+
+@pytest.mark.parametrize('picture', sorted((ROOT / 'docs' / 'images').iterdir()), ids=str)
+def test_pictures_are_small_and_shown(picture):
+    assert picture.suffix == '.png'
+    assert picture.stat().st_size < LARGEST
+    shown = {(page.parent / target).resolve() for page in PAGES for target in links(page)}
+    assert picture in shown
+
+
+@pytest.mark.parametrize('which', range(len(blocks(README, 'python'))))
+def test_python_of_the_readme_prints_what_it_says(which, capsys):
+    example = blocks(README, 'python')[which]
+    exec(compile(example, 'README.md', 'exec'), {})
+    expected = re.findall(r'print\(.*\)  # (.*)', example)
+    assert expected
+    assert capsys.readouterr().out.splitlines() == expected
+
+
+def test_verdicts_are_those_of_the_report():
+    schema = json.loads(text_of(ROOT / 'docs' / 'report.schema.json'))
+    verdicts = schema['properties']['verdict']['enum']
+    shown = [row[0].strip('`') for row in rows(text_of(README)) if row[0].strip('`') in verdicts]
+    assert sorted(shown) == sorted(verdicts)
