@@ -2,7 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """The page on joints: its examples run, and the joint that it adds moves as its equations say."""
 
+import importlib
 import re
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -35,14 +37,16 @@ def test_examples_run_and_print_what_their_comments_say(example, capsys):
 
 
 @pytest.fixture
-def own(monkeypatch):
-    """Return what the example of a joint defines, listed among the joints."""
-    names = {'__name__': 'elbow'}
-    exec(compile(OWN, str(PAGE), 'exec'), names)
+def own(monkeypatch, tmp_path):
+    """Return the file that the example is, listed among the joints."""
+    (tmp_path / 'elbow.py').write_text(OWN, encoding='utf-8')
+    monkeypatch.syspath_prepend(tmp_path)
+    monkeypatch.delitem(sys.modules, 'elbow', raising=False)
+    elbow = importlib.import_module('elbow')
     for module in (bind, joint_model, assembly):
-        monkeypatch.setattr(module, 'JOINTS', (*JOINTS, names['JOINT']))
+        monkeypatch.setattr(module, 'JOINTS', (*JOINTS, elbow.JOINT))
     bind.bind_joints.cache_clear()
-    yield names
+    yield elbow
     bind.bind_joints.cache_clear()
 
 
@@ -62,7 +66,7 @@ def slope(angle, h=1e-6):
 
 def test_a_joint_of_ones_own_moves_as_its_equations_say(own):
     zeta, inertia = 0.15, MASS * ARM**2
-    model = JointModel(own['Forearm'](), (Actuator(muscle(joints.LONG, zeta)),))
+    model = JointModel(own.Forearm(), (Actuator(muscle(joints.LONG, zeta)),))
     assert statics.contraction(model, 0, 0.4) * 0.4 == pytest.approx(contraction(0.4))
     assert statics.arm(model, 0, 0.4) == pytest.approx(slope(0.4), rel=1e-8)
 
@@ -94,7 +98,7 @@ def test_it_stands_beside_the_others(own):
     """In one rig with a mass on a muscle and a pair: its own kind in the one compiled call."""
     from pam_ros.rig.model import RigModel
 
-    elbow = JointModel(own['Forearm'](), (Actuator(),))
+    elbow = JointModel(own.Forearm(), (Actuator(),))
     rig, alone = Rig([RigModel(), elbow, JointModel()]), Rig([elbow])
     rig.command([3e5, 2e5, 4e5, 3e5])
     alone.command([2e5])
@@ -107,9 +111,9 @@ def test_it_stands_beside_the_others(own):
 
 
 def test_it_passes_the_tests_that_every_joint_has_to(own):
-    joint = own['JOINT']
-    g, h = joint.row(own['Forearm'](), (muscle(joints.LONG),)), 1e-6
-    assert g[0] == own['Forearm']().mass
+    joint = own.JOINT
+    g, h = joint.row(own.Forearm(), (muscle(joints.LONG),)), 1e-6
+    assert g[0] == own.Forearm().mass
     for s in (-0.3, 0.0, 0.7):
         assert joint.arm(s, 0, g) == pytest.approx(
             (joint.position(s + h, 0, g) - joint.position(s - h, 0, g)) / (2.0 * h), rel=1e-8
