@@ -35,10 +35,10 @@ EVERY = 0.01  # s between two samples of the regressions
 NOISE = 1.0  # N^2
 FORGOTTEN = 0.01  # share of the prior variance per second
 LAG_SPREAD, LAG_HIGH = 0.05, 0.2  # s
-JUDGE, CENTRE = 2.0, 2.0  # s over which prediction errors, and the mean force, are averaged
+JUDGE, CENTRE = 1.0, 2.0  # s over which prediction errors, and the mean force, are averaged
 CONVINCED = 1.5  # s of motion after which what is learned is trusted
 FLOOR = 1.0  # N^2 of missing force that is not worth a word
-BETTER, WORSE, LOST = 1.0, 0.8, 0.6  # ratios of errors that change, or restart, a hypothesis
+BETTER, WORSE, LOST = 1.0, 0.7, 0.6  # ratios of errors that change, or restart, a hypothesis
 RESTART = 2.0  # s of motion
 BLEND, GROW = 0.2, 0.2  # s
 MARGIN = 3.0  # periods of a lag that make a decay time
@@ -107,10 +107,11 @@ class Learner:
             one.theta[beside.CONSTANT] = -disturbance
         # Three equal poles, like the observer's: of the features, and of the force by which the
         # learned chamber differs from the declared one.
-        self._filter = np.zeros((3, _N + 3))
+        self._filter = np.zeros((3, _N + 5))
         self._filter[:, beside.CONSTANT] = 1.0
-        self._input = np.zeros(_N + 3)
+        self._input = np.zeros(_N + 5)
         self._plain_error = self._lagged_error = self._whole = 1.0
+        self._plain_miss = self._lagged_miss = 1.0
         self._centre = -disturbance
         self._moved = self._restarted = self._waited = 0.0
         self._prefers_lag = False
@@ -125,6 +126,9 @@ class Learner:
     def feed_forward(self, dt: float, reference: Reference) -> tuple[float, float]:
         """Return the force in N that the reference needs more than modelled, and its rate."""
         self._wanted.follow(dt, reference.position, reference.velocity)
+        values = self._wanted.values
+        self._input[_N + 3] = self._plain.theta[:_N].dot(values)
+        self._input[_N + 4] = self._lagged.theta[:_N].dot(values)
         self._share += dt / BLEND * (self._prefers_lag - self._share)
         weights = self._weights.tolist()
         force = rate = 0.0
@@ -160,8 +164,10 @@ class Learner:
     def go_on(self, dt: float, inflow: float, declared: float, may_learn: bool) -> None:
         """Go on by *dt* s with *inflow* Pa at the chamber, in it *declared* Pa as declared."""
         share = 1.0 - exp(-FAST * dt)
-        for before, stage in zip((self._input, *self._filter), self._filter, strict=False):
-            stage += share * (before - stage)
+        stages = self._filter
+        stages[0] += share * (self._input - stages[0])
+        stages[1] += share * (stages[0] - stages[1])
+        stages[2] += share * (stages[1] - stages[2])
         if may_learn:
             self._moved += dt
             self._waited += dt
@@ -200,6 +206,10 @@ class Learner:
         share = min(span / JUDGE, 1.0)
         self._plain_error += share * (plain * plain - self._plain_error)
         self._lagged_error += share * (lagged * lagged - self._lagged_error)
+        self._plain_miss += share * (
+            (as_declared - self._filter[2, _N + 3]) ** 2 - self._plain_miss
+        )
+        self._lagged_miss += share * ((missing - self._filter[2, _N + 4]) ** 2 - self._lagged_miss)
         self._centre += min(span / CENTRE, 1.0) * (as_declared - self._centre)
         self._whole += share * ((as_declared - self._centre) ** 2 - self._whole)
         self._choose()
@@ -220,7 +230,7 @@ class Learner:
                 and self._moved - self._restarted > RESTART
             ):
                 self._restart_lagged()
-        error = self._lagged_error if self._prefers_lag else self._plain_error
+        error = self._lagged_miss if self._prefers_lag else self._plain_miss
         explained = 1.0 - (error + FLOOR) / (self._whole + 1e-9)
         practice = 1.0 - exp(-((self._moved / CONVINCED) ** 2))
         self.trust = min(max(1.25 * explained, 0.0), 1.0) * practice

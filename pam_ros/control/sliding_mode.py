@@ -43,11 +43,13 @@ from pam_ros.control.observer import Observer
 from pam_ros.control.pressure_path import PressurePath
 from pam_ros.control.signals import Reference, Terms
 from pam_ros.control.standstill import Standstill
+from pam_ros.control.stiction import Stiction
 from pam_ros.control.switching import SuperTwisting, boundary_layer
 from pam_ros.rig.model import RigModel
 
 REST_SPEED, REST_ACCELERATION = 1e-4, 1e-3  # m/s, m/s^2 below which a reference rests
 QUICKEST = 2.0  # times its bandwidth that the velocity estimate grows to
+STICTION_TOLERANCE = 2.0  # rest tolerances that a load which sticks and slips may be off
 STUCK_RATE = 30.0  # N/s at most with which a contact is loaded
 
 
@@ -66,6 +68,7 @@ class SlidingMode:
         self._observer = Observer(rig)
         self._learner = Learner(rig, gains, self._path.is_lag_declared)
         self._standstill = Standstill(gains.rest_tolerance)
+        self._stiction = Stiction(STICTION_TOLERANCE * gains.rest_tolerance)
         self._twisting = SuperTwisting()
         self.start(0.0)
 
@@ -94,6 +97,7 @@ class SlidingMode:
         self._learner.start(position, chamber, disturbance)
         self._losses.start(position, chamber)
         self._standstill.start()
+        self._stiction.start()
         self._twisting.w = 0.0
         self._integral = 0.0
         self._slope = 0.0  # bandwidth of the last step, 1/s
@@ -120,11 +124,10 @@ class SlidingMode:
         )
         self._take_in(dt, reference, position, age, moves)
         force, rate = self._wanted_force(dt, reference, velocity)
+        force = self._push(dt, reference, force)
         pressure = self._rig.pressure_for(force, reference.position)
         gain = self._rig.gain(reference.position)
         wanted = self._path.command_for(pressure, rate / gain)
-        if self._standstill.gives_up:
-            wanted = self._limiter.last
         command = self._limiter.limit(wanted, dt)
         self.terms.pressure, self.terms.saturated = command, command != wanted
         self._go_on(dt, reference, force, command, wanted)
@@ -189,6 +192,20 @@ class SlidingMode:
         terms.switching, terms.observer, terms.learned = switching, taken, learned
         terms.bandwidth = self._bandwidth
         return terms.equivalent + switching + taken + learned, rate + learned_rate
+
+    def _push(self, dt: float, reference: Reference, force: float) -> float:
+        """Return the force to apply: pushes where the load sticks and slips, else *force*."""
+        stiction, standstill = self._stiction, self._standstill
+        if standstill.is_moving:
+            stiction.start()
+            return force
+        error = reference.position - self._seen
+        pushed = stiction.follow(dt, error, force, standstill.stiffness)
+        if pushed is None:
+            return force
+        # The integral takes the force over, so that the law goes on from there.
+        self._integral += (pushed - force) / (self._rig.mass * self._bandwidth)
+        return pushed
 
     def _switching(self, dt: float) -> float:
         """Return the switching force in N; sets the sliding variable."""

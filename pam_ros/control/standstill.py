@@ -17,8 +17,6 @@ FULL = 2.5  # times the tolerance: error at which the full bandwidth acts
 SLOW, MEMORY = 0.2, 0.3  # s, for the slopes of force and position and for what they show
 DOUBT = 1.5  # N, change of force below which nothing is concluded
 STIFFEST = 20.0
-HUNTS = 4  # crossings of the goal, each from outside the tolerance, after which hunting is over
-LET_GO = 1.5  # times the error that was put up with: from there on control begins anew
 
 
 class Standstill:
@@ -28,9 +26,6 @@ class Standstill:
         0 (rests where it shall) to 1 (moves, or shall): what all bandwidths go with
     stiffness
         how many times stiffer than the muscle the load shows itself, 1 to STIFFEST
-    gives_up
-        whether stick and slip have gone round the goal HUNTS times: the pressure shall be held,
-        since every further attempt would miss as well
     """
 
     def __init__(self, tolerance: float) -> None:
@@ -42,13 +37,8 @@ class Standstill:
         """Begin anew, at rest at the goal."""
         self.factor = 0.0
         self.stiffness = 1.0
-        self.gives_up = False
         self._error = 0.0
         self._since = AFTER
-        self._side = 0.0
-        self._crossings = 0
-        self._largest = 0.0
-        self._has_stuck = False
         self._reset_slopes(0.0, 0.0)
 
     @property
@@ -66,24 +56,6 @@ class Standstill:
             self.factor = wanted
         else:
             self.factor += dt / RELEASE * (wanted - self.factor)
-        self._watch_hunting(size)
-
-    def _watch_hunting(self, size: float) -> None:
-        if self.is_moving:
-            self._side, self._crossings, self._largest = 0.0, 0, 0.0
-            self.gives_up = self._has_stuck = False
-            return
-        if self.gives_up:
-            if abs(self._error) > LET_GO * self._largest:
-                self._crossings, self.gives_up = 0, False
-            return
-        if size > FULL:
-            side = 1.0 if self._error > 0.0 else -1.0
-            if side == -self._side:
-                self._crossings += 1
-            self._side = side
-            self._largest = max(self._largest, abs(self._error))
-            self.gives_up = self._crossings >= HUNTS and self._has_stuck
 
     def _reset_slopes(self, force: float, position: float) -> None:
         self._force, self._position = force, position
@@ -108,4 +80,3 @@ class Standstill:
         k = max(stiffness, 1.0)
         compliance = (self._product + doubt / k) / (self._power + doubt)
         self.stiffness = min(max(1.0 / (k * max(compliance, 1e-12)), 1.0), STIFFEST)
-        self._has_stuck = self._has_stuck or self.stiffness > 2.0

@@ -15,9 +15,9 @@ class SuperTwisting:
 
         s' = -k1 sqrt|s| sign s + w + d,    w' = -k2 sign s
 
-    The term is found from the s that it leads to at the end of the step (implicit Euler, Brogliato,
-    Polyakov & Efimov 2020), for which there is a closed form: so it does not chatter in discrete
-    time, and is zero where s is.
+    The term is found from the s that it leads to at the end of the step (implicit Euler:
+    Brogliato, Polyakov & Efimov 2020), for which there is a closed form: so it does not chatter in
+    discrete time, and is zero where s is.
     """
 
     def __init__(self) -> None:

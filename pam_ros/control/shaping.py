@@ -1,0 +1,165 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""From where the load is told to be to a reference that it can follow.
+
+A target that jumps is approached within bounds of velocity, acceleration and jerk. A target that
+moves smoothly is passed on with its derivatives and without lag, whatever the bounds: what is
+added to it is an offset that goes to zero within the bounds and is nothing once it is there.
+"""
+
+from dataclasses import dataclass
+from math import exp
+
+from pam_ros.control.profile import Bounds, Rest
+from pam_ros.control.signals import Reference
+from pam_ros.parameters import check_all, parameter
+
+QUICK, PER_SAMPLE = 30.0, 1.5  # rad/s of the tracker, and rad a sample: the lower one counts
+PAUSE = 0.5  # s without a sample after which the next one is a new target
+LEAST_INTERVAL = 1e-4  # s, for samples that come at once
+MISSED, LEAST = 4.0, 0.05  # intervals, and s, without a sample after which a stream has ended
+
+
+@dataclass(frozen=True)
+class Shape:
+    """Bounds of the motion to a target that jumps."""
+
+    max_velocity: float = parameter(
+        0.1, 'velocity of the reference after a step', 'm/s', low=0.0, high=10.0, above_low=True
+    )
+    max_acceleration: float = parameter(
+        0.5,
+        'acceleration of the reference after a step',
+        'm/s^2',
+        low=0.0,
+        high=1000.0,
+        above_low=True,
+    )
+    max_jerk: float = parameter(
+        6.0, 'jerk of the reference after a step', 'm/s^3', low=0.0, high=1e6, above_low=True
+    )
+
+    def __post_init__(self) -> None:
+        """Check every field."""
+        check_all(self)
+
+    @property
+    def bounds(self) -> Bounds:
+        """The same as a tuple."""
+        return Bounds(self.max_velocity, self.max_acceleration, self.max_jerk)
+
+
+class Tracker:
+    """Velocity and acceleration of a target that is only told as positions, sample by sample.
+
+    An alpha-beta-gamma filter with three equal poles at QUICK rad/s: it follows a constant
+    acceleration without error, a sine of amplitude A and w rad/s with one of A (w / QUICK)^3. A
+    sample that no acceleration within *most* m/s^2 explains is a jump: the target is there, at
+    rest, until there are more.
+    """
+
+    def __init__(self, most: float) -> None:
+        """Make it for a target at rest at 0; see :meth:`start`."""
+        self.most = most
+        self.start(0.0)
+
+    def start(self, position: float) -> None:
+        """Begin anew with a target at rest at *position* m."""
+        self.state = (position, 0.0, 0.0)
+        self._last = position
+        self._age = self._interval = PAUSE
+
+    def follow(self, dt: float) -> bool:
+        """Go on by *dt* s; return whether the target jumped because its stream ended."""
+        self._age += dt
+        x, v, a = self.state
+        if v == a == 0.0:
+            return False
+        if self._age > max(MISSED * self._interval, LEAST):
+            self.state = (self._last, 0.0, 0.0)
+            return True
+        self.state = (x + dt * (v + 0.5 * dt * a), v + dt * a, a)
+        return False
+
+    def take(self, position: float, ago: float) -> bool:
+        """Take in a sample in m that came *ago* s ago; return whether it is a jump."""
+        interval = max(self._age - ago, LEAST_INTERVAL)
+        self._interval, self._age, self._last = interval, ago, position
+        x, v, a = self.state
+        # Compared where both are now: the sample is taken along.
+        surprise = position + ago * (v + 0.5 * ago * a) - x
+        rate = min(QUICK, PER_SAMPLE / interval)
+        if interval > PAUSE or abs(surprise) * rate * rate > self.most:
+            self.state = (position, 0.0, 0.0)
+            return True
+        z = exp(-rate * interval)
+        left = 1.0 - z
+        self.state = (
+            x + (1.0 - z * z * z) * surprise,
+            v + 1.5 * left * left * (1.0 + z) / interval * surprise,
+            a + left * left * left / (interval * interval) * surprise,
+        )
+        return False
+
+
+class Shaper:
+    """Turns targets into references."""
+
+    def __init__(self, shape: Shape) -> None:
+        """Make it at rest at 0; see :meth:`start`."""
+        self.shape = shape
+        self._offset = Rest()
+        self._tracker = Tracker(shape.max_acceleration)
+        self.start(0.0)
+
+    def start(self, position: float) -> None:
+        """Begin anew at rest at *position* m."""
+        self._tracker.start(position)
+        self._offset = Rest()
+        self.reference = Reference(position)
+
+    def set_shape(self, shape: Shape) -> None:
+        """Go on within other bounds, those of the present approach apart."""
+        self.shape = shape
+        self._tracker.most = shape.max_acceleration
+
+    def take(self, position: float, ago: float = 0.0) -> None:
+        """Take in a target in m that was told *ago* s ago."""
+        if self._tracker.take(position, ago):
+            self._set_out(*self._tracker.state)
+
+    def join(self, target: Reference) -> None:
+        """Let the target go on from the motion *target*, as that of a trajectory."""
+        self._set_out(*target[:3])
+
+    def _set_out(self, position: float, velocity: float, acceleration: float) -> None:
+        """Approach a target that is in another state than the reference."""
+        now = self.reference
+        start = (
+            now.position - position,
+            now.velocity - velocity,
+            now.acceleration - acceleration,
+        )
+        self._offset.begin(start, self.shape.bounds)
+
+    def follow(self, dt: float) -> Reference:
+        """Return the reference *dt* s on."""
+        if self._tracker.follow(dt):
+            self._set_out(*self._tracker.state)
+        return self.along(dt, Reference(*self._tracker.state))
+
+    def along(self, dt: float, target: Reference) -> Reference:
+        """Return the reference *dt* s on, where the target is *target* and joined."""
+        x, v, a = self._offset.follow(dt)
+        self.reference = Reference(
+            target.position + x,
+            target.velocity + v,
+            target.acceleration + a,
+            target.jerk + self._offset.jerk,
+        )
+        return self.reference
+
+    def rest_at(self, target: Reference) -> None:
+        """Let the target rest where *target* is: the end of a trajectory."""
+        self._tracker.start(target.position)
+        self._set_out(target.position, 0.0, 0.0)

@@ -1,0 +1,143 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Bring a load that sticks and slips to its goal by measured pushes.
+
+Friction that falls when the load begins to slide makes every integral hunt: the load sticks
+beside the goal, is pulled until it breaks loose, slips past and sticks on the other side. Two such
+breaks, one each way, tell what the hunt is about: the force in their middle, at which the load
+would stay in peace, and the force that breaks it loose. From then on the load is pushed from the
+middle force until it breaks loose, and the push is taken back as soon as what the load will still
+slide brings it to the goal (after Popovic, Gorinevsky & Goldenberg 2000, who fix the pushes
+beforehand). In the end it rests at the middle force, where nothing pulls at it.
+"""
+
+from math import copysign, exp
+
+LOOSE_WAY, LOOSE_SPEED = 60e-6, 4e-3  # m and m/s that tell a slip from a bent contact
+SEE, SEE_SPEED = 0.008, 0.012  # s of the filters of place and speed
+ANCHOR, REST = 0.3, 0.06  # s of those of the sticking place and of the place at rest
+DWELL = 0.08  # s at rest before a slip, for it to be a break
+CALM = 0.25  # s after a push until the load is looked at again
+QUICK, CAREFUL = 2.0, 0.6  # loading, in breaking forces per second, up to and from NEAR of it
+NEAR, TOO_MUCH = 0.75, 2.0  # breaking forces
+REACTION = 0.03  # s between a speed and its end when the push is taken back, to begin with
+PATIENCE = 6  # pushes after which the tolerance doubles
+STUCK = 2.0  # stiffness, in muscles, that counts as sticking
+
+
+class Stiction:
+    """Says what force to apply instead of the law's, while it is at work."""
+
+    def __init__(self, tolerance: float) -> None:
+        """Be content within *tolerance* m."""
+        self.tolerance = tolerance
+        self.start()
+
+    def start(self) -> None:
+        """Begin anew: nothing is known of sticking."""
+        self.is_active = False
+        self._x = self._v = self._anchor = self._mean = 0.0
+        self._is_new = True
+        self._stuck = False
+        self._dwelt = 0.0
+        self._breaks: dict[float, float] = {}
+        self._middle = self._breaking = 0.0
+        self._force = 0.0
+        self._side = 0.0  # direction of the push, 0 when there is none
+        self._is_loose = False
+        self._calm = 0.0
+        self._reaction = REACTION
+        self._expected = self._speed = 0.0
+        self._pushes = 0
+        self._wide = self.tolerance
+
+    def follow(self, dt: float, error: float, force: float, stiffness: float) -> float | None:
+        """Go on by *dt* s under a resting reference; return the force in N to apply, or None.
+
+        *error* is the measured one in m, *force* the one that the law wants and *stiffness* how
+        many times stiffer than the muscle the load shows itself.
+        """
+        self._see(dt, -error)
+        slipped = self._has_slipped()
+        if not self.is_active:
+            self._stuck = self._stuck or stiffness > STUCK
+            if slipped:
+                towards_goal = self._v * self._anchor < 0.0
+                if self._stuck and self._dwelt > DWELL and towards_goal:
+                    self._note_break(force)
+                self._anchor, self._dwelt = self._x, 0.0
+            return self._force if self.is_active else None
+        self._push(dt, slipped)
+        return self._force
+
+    def _see(self, dt: float, x: float) -> None:
+        """Filter the place, its speed, and the place where the load sticks."""
+        if self._is_new:
+            self._x = self._anchor = x
+            self._is_new = False
+        way = (1.0 - exp(-dt / SEE)) * (x - self._x)
+        self._x += way
+        self._v += (1.0 - exp(-dt / SEE_SPEED)) * (way / dt - self._v)
+        if abs(self._v) < LOOSE_SPEED:
+            self._anchor += (1.0 - exp(-dt / ANCHOR)) * (self._x - self._anchor)
+        if abs(self._v) < 0.5 * LOOSE_SPEED:
+            self._dwelt += dt
+
+    def _has_slipped(self) -> bool:
+        way = self._x - self._anchor
+        return abs(way) > LOOSE_WAY and abs(self._v) > LOOSE_SPEED and way * self._v > 0.0
+
+    def _note_break(self, force: float) -> None:
+        """Take note of a break, and set to work once there was one each way."""
+        side = copysign(1.0, self._v)
+        self._breaks[side] = force
+        self._stuck = False
+        if len(self._breaks) == 2 and self._breaks[1.0] > self._breaks[-1.0]:
+            self._middle = 0.5 * (self._breaks[1.0] + self._breaks[-1.0])
+            self._breaking = 0.5 * (self._breaks[1.0] - self._breaks[-1.0])
+            self._force, self._side, self._is_loose = force, side, True
+            self.is_active = True
+
+    def _push(self, dt: float, slipped: bool) -> None:
+        """Load, wait for the slip and take the push back in time, or rest."""
+        if self._side == 0.0:
+            self._rest(dt)
+            return
+        ahead = self._side * (self._x + self._v * self._reaction)
+        if slipped:
+            self._is_loose = True
+        if ahead >= 0.0 or (self._is_loose and self._v * self._side <= 0.0):
+            self._expected, self._speed = self._x + self._v * self._reaction, self._v
+            self._end_push()
+            return
+        if self._is_loose:
+            return
+        loaded = self._side * (self._force - self._middle)
+        rate = QUICK if loaded < NEAR * self._breaking else CAREFUL
+        self._force += self._side * rate * self._breaking * dt
+        if loaded > TOO_MUCH * self._breaking:
+            self.start()  # this is no friction as it was: back to the law
+
+    def _end_push(self) -> None:
+        self._force, self._side, self._is_loose = self._middle, 0.0, False
+        self._calm = 0.0
+        self._pushes += 1
+
+    def _rest(self, dt: float) -> None:
+        """Let the load come to rest, learn how far it slid, and push again if it must be."""
+        self._calm += dt
+        if self._calm < CALM:
+            self._anchor = self._mean = self._x
+            return
+        self._mean += (1.0 - exp(-dt / REST)) * (self._x - self._mean)
+        if self._calm < CALM + REST:
+            return
+        if self._speed != 0.0:
+            # How long the speed lasted beyond what was expected corrects the next push.
+            late = (self._mean - self._expected) / self._speed
+            self._reaction = min(max(self._reaction + 0.5 * late, 0.0), 0.3)
+            self._speed = 0.0
+        if self._pushes % PATIENCE == 0 and self._pushes:
+            self._wide = self.tolerance * 2.0 ** (self._pushes // PATIENCE)
+        if abs(self._mean) > self._wide:
+            self._side = copysign(1.0, -self._mean)

@@ -1,0 +1,92 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Position laws in simulated time on the truth plant: deterministic, without ROS."""
+
+from dataclasses import dataclass, field
+from math import pi, sin
+
+import numpy as np
+
+from pam_ros.control.shaping import Shape, Shaper
+from pam_ros.muscle.muscle import Muscle
+from pam_ros.rig.model import Load, RigModel
+from truth import CONTROL_PLANTS, Sensor, TruthPlant
+from truth.control_plants import FEEDBACK_NOISE
+
+STREAM = 0.01  # s between two samples of a moving target
+LAG = {'pressure_lag': {'fill': 0.050, 'vent': 0.070}}
+
+
+@dataclass
+class Run:
+    """What a run left: times s, target and true position m, pressure commanded Pa, terms."""
+
+    t: np.ndarray
+    target: np.ndarray
+    position: np.ndarray
+    pressure: np.ndarray
+    terms: dict[str, np.ndarray] = field(default_factory=dict)
+
+    @property
+    def error(self):
+        """Target less true position, m."""
+        return self.target - self.position
+
+    def last(self, seconds):
+        """Return which samples are in the last *seconds*."""
+        return self.t > self.t[-1] - seconds
+
+
+def truth(name, mass=20.0, p0=300e3, noise=FEEDBACK_NOISE, seed=0, **more):
+    """Return a plant of the benchmark's table, or with effects of its own."""
+    effects = CONTROL_PLANTS[name] if isinstance(name, str) else name
+    return TruthPlant(
+        effects=effects, mass=mass, p0=p0, sensor=Sensor(noise=noise), seed=seed, **more
+    )
+
+
+def declared(mass=20.0, effects=None, **muscle):
+    """Return the rig as it is declared to the controller."""
+    return RigModel(Muscle(zeta=0.15, **muscle), Load(mass=mass), effects or {})
+
+
+def step_target(height, at=1.0):
+    """Return a target that jumps by *height* m at a time, from where the load rests."""
+    return lambda t: height if t >= at else 0.0
+
+
+def sine_target(amplitude, frequency):
+    """Return a target that swings by *amplitude* m at *frequency* Hz around where it rests."""
+    return lambda t: amplitude * sin(2.0 * pi * frequency * t)
+
+
+def close_loop(law, plant, target, duration, rate=500.0, shape=None):
+    """Run *law* on *plant*; *target* (s -> m) is relative to where the load rests at first.
+
+    The law gets the target as samples every STREAM s, as from a topic, and measured positions of
+    the truth plant at its own *rate*; its state is the one at the end of each period.
+    """
+    dt = 1.0 / rate
+    count = round(duration * rate)
+    origin = plant.y
+    law.start(origin, plant.state.u)
+    shaper = Shaper(shape or Shape())
+    shaper.start(origin)
+    measured = plant.measure()
+    told = None
+    rows = np.zeros((count, 4))
+    names = ('error', 'surface', 'equivalent', 'switching', 'observer', 'learned', 'bandwidth')
+    terms = np.zeros((count, len(names)))
+    for n in range(count):
+        t = n * dt
+        sample = int(t / STREAM + 1e-9)
+        if sample != told:
+            told = sample
+            shaper.take(origin + target(sample * STREAM), t - sample * STREAM)
+        pressure = law.update(dt, shaper.reference, measured)
+        measured = plant.step(pressure, dt)
+        shaper.follow(dt)
+        end = (n + 1) * dt
+        rows[n] = end, origin + target(end), plant.y, pressure
+        terms[n] = [getattr(law.terms, name) for name in names]
+    return Run(*rows.T, dict(zip(names, terms.T, strict=True)))
