@@ -32,15 +32,21 @@ def names(page):
 
 
 def commands(page):
-    """Return the commands of a page as lists of words: those of its consoles and in its text."""
+    """Return the commands of a page, in its consoles, scripts and text, as lists of words."""
     shown = [
         line.removeprefix('$ ')
         for block in blocks(page, 'console')
         for line in block.replace('\\\n', ' ').splitlines()
         if line.startswith('$ ')
     ]
+    shown += [
+        line
+        for block in blocks(page, 'bash')
+        for line in block.splitlines()
+        if line.startswith(SHELL_WORDS)
+    ]
     spoken = [name for name in names(page) if ' ' in name and name.startswith(SHELL_WORDS)]
-    return [shlex.split(command) for command in (*shown, *spoken)]
+    return [shlex.split(command, comments=True) for command in (*shown, *spoken)]
 
 
 def part(page, name):
