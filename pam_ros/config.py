@@ -19,7 +19,7 @@ from pam_ros.muscle.muscle import Muscle
 from pam_ros.parameters import Parameter, described
 from pam_ros.rig.model import Load, RigModel
 
-Value = bool | int | float | str
+Value = bool | int | float | str | tuple[str, ...]
 Values = Mapping[str, Value]
 Table = dict[str, tuple[type, Any, Parameter]]
 T = TypeVar('T')

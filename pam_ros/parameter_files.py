@@ -111,8 +111,10 @@ def read(path: Path, node: str = 'pam_sim') -> dict[str, Value]:
     values: dict[str, Value] = {}
     for table in tables:
         for name, value in _flat(table):
-            if not isinstance(value, (bool, int, float, str)):
-                raise ParameterError(f'{path}: {name} = {value!r} is not a single value')
+            if isinstance(value, list) and all(isinstance(v, str) for v in value):
+                value = tuple(value)
+            if not isinstance(value, (bool, int, float, str, tuple)):
+                raise ParameterError(f'{path}: {name} = {value!r} is not a single value, nor a list of texts')
             values[name] = value
     return values
 

@@ -37,8 +37,8 @@ class Parameter:
         """Say in words what is allowed of a *kind*, for the sentence of an error."""
         if self.choices:
             return 'one of ' + ', '.join(self.choices)
-        if kind is bool or kind is str:
-            return 'true or false' if kind is bool else 'a text'
+        if kind in (bool, str, tuple):
+            return {bool: 'true or false', str: 'a text', tuple: 'a list of texts'}[kind]
         whole = 'a whole number' if kind is int else ''
         unit = f' {self.unit}' if self.unit else ''
         if self.low is None and self.high is None:
@@ -62,6 +62,8 @@ class Parameter:
     def _fits(self, value: Any, kind: type) -> bool:
         if kind is str:
             return isinstance(value, str) and (not self.choices or value in self.choices)
+        if kind is tuple:
+            return isinstance(value, list | tuple) and all(isinstance(v, str) for v in value)
         if kind is bool or isinstance(value, bool):
             return kind is bool and isinstance(value, bool)
         if not isinstance(value, numbers.Real):  # numpy's are among them

@@ -83,4 +83,6 @@ class Program:
 
 
 def _text(value: Any) -> str:
+    if isinstance(value, list | tuple):
+        return '[' + ', '.join(map(str, value)) + ']'
     return str(value).lower() if isinstance(value, bool) else str(value)

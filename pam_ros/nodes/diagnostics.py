@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
 from rclpy.clock import Clock, ClockType
 from rclpy.node import Node
+from rclpy.time import Time
 
 PERIOD = 1.0  # s
 OK, WARN, ERROR = DiagnosticStatus.OK, DiagnosticStatus.WARN, DiagnosticStatus.ERROR
@@ -24,9 +25,18 @@ class Health(NamedTuple):
 class Diagnostics:
     """Publishes the health of a node's parts, each named ``node: part``."""
 
-    def __init__(self, node: Node, parts: Mapping[str, Callable[[], Health]]) -> None:
-        """Ask each of *parts* for its health once a second, by the steady clock."""
-        self._node, self._parts = node, parts
+    def __init__(
+        self,
+        node: Node,
+        parts: Mapping[str, Callable[[], Health]],
+        now: Callable[[], Time] | None = None,
+    ) -> None:
+        """Ask each of *parts* for its health once a second, by the steady clock.
+
+        *now* says the time for the stamp, where it is not that of the node's clock.
+        """
+        self._parts = parts
+        self._now = now or node.get_clock().now
         self._name = node.get_fully_qualified_name().lstrip('/')
         self._publisher = node.create_publisher(DiagnosticArray, '/diagnostics', 10)
         self._timer = node.create_timer(
@@ -36,7 +46,7 @@ class Diagnostics:
     def publish(self) -> None:
         """Publish the health of all parts now."""
         message = DiagnosticArray()
-        message.header.stamp = self._node.get_clock().now().to_msg()
+        message.header.stamp = self._now().to_msg()
         for part, health_of in self._parts.items():
             health = health_of()
             values = [KeyValue(key=k, value=text(v)) for k, v in health.values.items()]

@@ -45,8 +45,16 @@ class NodeParameters(Generic[T]):
         self.values = checked(table, given(node))
         self.built = build(self.values)
         for name, (kind, _, about) in table.items():
-            descriptor = describe(about, kind)
-            node.declare_parameter(name, self.values[name], descriptor, ignore_override=True)
+            descriptor, value = describe(about, kind), self.values[name]
+            if kind is tuple:
+                # An empty list tells rclpy no type: there is no public way to declare one.
+                texts = RosParameter.Type.STRING_ARRAY
+                descriptor.type = texts.value
+                node._declare_parameter_common(
+                    [RosParameter(name, texts, list(value))], {name: descriptor}
+                )
+            else:
+                node.declare_parameter(name, value, descriptor, ignore_override=True)
         node.add_pre_set_parameters_callback(self._to_float)
         node.add_on_set_parameters_callback(self._check)
         node.add_post_set_parameters_callback(self._take)

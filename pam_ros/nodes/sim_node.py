@@ -3,206 +3,317 @@
 """The node of ``pam_sim``: its topics and services are listed there."""
 
 import math
-from time import monotonic_ns, time_ns
+from functools import partial
+from time import monotonic_ns
 
-import numpy as np
 from rclpy.qos import QoSProfile
-from std_msgs.msg import Float64
+from rclpy.time import Time
+from rosgraph_msgs.msg import Clock
+from std_msgs.msg import Float64, Float64MultiArray
 from std_srvs.srv import SetBool, Trigger
 
+from pam_ros.nodes import sim_health
 from pam_ros.nodes.diagnostics import ERROR, OK, WARN, Diagnostics, Health
-from pam_ros.nodes.pace import Pace
+from pam_ros.nodes.lockstep import Turns
+from pam_ros.nodes.pace import SECOND
 from pam_ros.nodes.parameters import NodeParameters, given
-from pam_ros.nodes.pressure_input import PressureInput
-from pam_ros.nodes.sim_settings import Simulation, simulation, table
+from pam_ros.nodes.plant import Plant
+from pam_ros.nodes.sim_scene import Scene, Simulation
+from pam_ros.nodes.sim_time import FollowedTime, OwnTime
 from pam_ros.nodes.spin import TickingNode
 from pam_ros.nodes.telemetry import DEPTH, Telemetry, open_qos
+from pam_ros.nodes.telemetry_arrays import ArrayTelemetry, MuscleTelemetry
 from pam_ros.nodes.ticker import Ticker
-from pam_ros.rig.rig import Rig
-from pam_ros.rig.sensors import Feedback
+
+SLICE = 5_000_000  # ns of simulating after which commands and services get their turn
+BREATH = 200_000  # ns that they get where everything is due at once
+IDLE_RATE = 10.0  # Hz at which a simulator whose time stands still tells its state
+FASTEST_TICK = 1000.0  # Hz
 
 
 class PamSim(TickingNode):
-    """A rig that follows ROS time step by step, hears commands and tells its state."""
+    """A rig whose time passes as it is told; it hears commands and tells its state."""
 
     def __init__(self) -> None:
         """Make the rig that the parameters describe, at its initial state."""
         super().__init__('pam_sim')
-        self._clock_of_node = self.get_clock()
-        self._given = NodeParameters(
-            self, table(given(self).get('muscle', '')), simulation, self._change
-        )
+        scene = Scene(given(self))
+        self._given = NodeParameters(self, scene.table(), scene.build, self._change)
         self._told = self._given.built
         settings = self._told.settings
-        self._telemetry = Telemetry(self, settings.joint_name)
-        self._telemetry.describe(settings.frame_id, self._told.sensors.pressure_noise**2)
-        self._input = PressureInput(self._told.model.muscle)
-        self._rig = Rig([self._told.model], 1.0 / settings.physics_rate)
-        self._feedback = Feedback(self._told.sensors)
-        self._pace = Pace(settings.physics_rate, self._ros_ns(), monotonic_ns())
+        self._plant = Plant(self._told)
+        self._is_lockstep = settings.time_mode == 'lockstep'
+        self._is_followed = not settings.has_own_time
+        self._time: FollowedTime | OwnTime
+        if self._is_followed:
+            self._time = FollowedTime(settings.physics_rate, self.get_clock())
+        else:
+            self._time = OwnTime(settings.physics_rate, self._factor)
+            self._clock_message = Clock()
+            self._clock_publisher = self.create_publisher(Clock, '/clock', DEPTH)
         self._is_paused = False
-        self._published = 0
+        self._published = self._bad = 0
+        self._open_topics()
         self._begin()
-        self._rig.outputs()  # compiled code is loaded at its first call
-        self._rig.advance(0)
-        self.create_subscription(
-            Float64,
-            'pressure_command',
-            self._command,
-            QoSProfile(depth=DEPTH),
-            qos_overriding_options=open_qos(),
-        )
         self.create_service(Trigger, '~/reset', self._reset)
         self.create_service(SetBool, '~/pause', self._pause)
-        self._diagnostics = Diagnostics(self, {'timing': self._timing, 'commands': self._commands})
+        self.create_service(Trigger, '~/step', self._step)
+        self._diagnostics = Diagnostics(
+            self,
+            {'timing': self._timing, 'commands': self._commands},
+            None if self._is_followed else lambda: Time(nanoseconds=self._time.now()),
+        )
         self._given.refuse_mistyped()
-        self.ticker = Ticker(settings.publish_rate)
+        self.ticker = Ticker(self._tick_rate)
+
+    def _open_topics(self) -> None:
+        told, settings = self._told, self._told.settings
+        self._turns = Turns(self, len(told.muscles))
+
+        def hear(kind: type, topic: str, callback) -> None:
+            quality = QoSProfile(depth=DEPTH)
+            subscription = self.create_subscription(
+                kind, topic, callback, quality, qos_overriding_options=open_qos()
+            )
+            self._turns.watch(subscription)
+
+        self._one = self._arrays = self._each = None
+        if told.is_one:
+            self._one = Telemetry(self, told.joint_names[0])
+            hear(Float64, 'pressure_command', partial(self._command, 0))
+        else:
+            self._arrays = ArrayTelemetry(self, told.joint_names, told.muscle_names)
+            hear(Float64MultiArray, 'pressure_commands', self._command_all)
+            if settings.muscle_topics:
+                self._each = MuscleTelemetry(self, told.muscle_names, settings.joint == 'load')
+                for i, name in enumerate(told.muscle_names):
+                    hear(Float64, f'{name}/pressure_command', partial(self._command, i))
+        self._describe()
+
+    def _describe(self) -> None:
+        frame, variance = self._told.settings.frame_id, self._told.sensors.pressure_noise**2
+        if self._one:
+            self._one.describe(frame, variance)
+        if self._arrays:
+            self._arrays.describe(frame)
+        if self._each:
+            self._each.describe(frame, variance)
 
     def start(self) -> None:
         """Let simulated time begin now."""
         super().start()
         self._begin()
+        if self._is_lockstep:
+            self._run_to(0)
 
     def _begin(self) -> None:
         """Go to the initial state, now."""
-        pressure, position, velocity = self._told.initial
-        self._rig.reset([pressure], [position], [velocity])
-        self._feedback = Feedback(self._told.sensors)
-        self._step = 0
-        self._next = 0  # the step of the next sample
-        self._sample = 0
-        self._ordered = pressure  # Pa, what the valve was last told
-        self._heard: float | None = None  # simulated time of the last good command
-        self._is_silent = False
+        self._time.restart(self._plant.step, round(SECOND / self._told.settings.publish_rate))
+        self._plant.begin()
         self._fault = ''
-        self._pace.align(0, self._ros_ns(), monotonic_ns())
+        self._aim_at_sample(0)
+        self._aim_at_clock(0)
+        self._turns.begin()
 
     # Time ----------------------------------------------------------------------------------
 
     @property
-    def _follows_clock(self) -> bool:
-        """Whether ROS time comes from ``/clock``."""
-        return self._clock_of_node.ros_time_is_active
+    def _factor(self) -> float:
+        """How fast simulated time is to pass: in lockstep as fast as its turns are."""
+        return 0.0 if self._is_lockstep else self._told.settings.speed_factor
 
-    def _ros_ns(self) -> int:
-        # Otherwise it is the system's, which is cheaper to ask itself.
-        return self._clock_of_node.now().nanoseconds if self._follows_clock else time_ns()
+    @property
+    def _tick_rate(self) -> float:
+        settings = self._told.settings
+        if self._is_followed:
+            return settings.publish_rate
+        if self._is_lockstep or self._is_paused:
+            return IDLE_RATE
+        rate = max(settings.publish_rate, settings.clock_rate) * self._factor
+        return min(rate, FASTEST_TICK) if rate else FASTEST_TICK
 
     def tick(self) -> None:
-        """Simulate what is due and publish."""
+        """Simulate what is due and publish; tell the state where time stands still."""
         if self._is_paused:
-            self._publish(self._ros_ns())
-            return
-        self._run_to_now()
-        if not self._follows_clock:
-            # Wake up when the next sample is due: its grid moves with ROS time and each reset.
-            self.ticker.aim(self._pace.steady_time(self._next))
+            self._tell_again()
+        elif self._is_lockstep:
+            if self._turns.must_repeat():
+                self._tell_again()
+        else:
+            self._run_to_now()
+            if not self._time.follows_clock:
+                # Wake up when the next sample is due: its grid moves with ROS time and resets.
+                next_one = self._time.steady_time(min(self._next, self._next_clock))
+                self.ticker.aim(next_one if self._time_is_paced else monotonic_ns() + BREATH)
+
+    @property
+    def _time_is_paced(self) -> bool:
+        return self._is_followed or self._factor > 0.0
+
+    def _tell_again(self) -> None:
+        """Publish the state that there is, with the time of now."""
+        if not self._is_followed:
+            self._publish_clock(self._time.now())
+        self._publish(self._time.now())
 
     def _run_to_now(self) -> None:
         """Simulate what is due, and publish each sample that is due on the way."""
-        if self._is_paused:
-            return
-        due = self._pace.due(self._step, self._ros_ns(), monotonic_ns(), self._follows_clock)
+        if not (self._is_paused or self._is_lockstep):
+            self._run_to(self._time.due(self._plant.step), monotonic_ns() + SLICE)
+
+    def _run_to(self, due: int, end: float = math.inf) -> None:
+        """Simulate until the step *due*, or until the steady time *end* at a sample."""
+        plant = self._plant
+        # The time that others make is followed at once: what is due there is bounded.
+        end = math.inf if self._is_followed else end
         try:
-            while self._next <= due:
-                self._advance(self._next)
-                self._publish(self._pace.stamp(self._next))
-                self._aim_at_sample(self._sample + 1)
-            self._advance(due)
+            while (step := min(self._next, self._next_clock)) <= due:
+                plant.advance(step)
+                if step == self._next_clock:
+                    self._publish_clock(self._time.stamp(step))
+                    self._aim_at_clock(self._clock_tick + 1)
+                if step == self._next:
+                    self._publish(self._time.stamp(step))
+                    self._aim_at_sample(self._sample + 1)
+                    self._turns.begin()
+                if end < math.inf and monotonic_ns() > end:
+                    return
+            plant.advance(due)
         except (ArithmeticError, ValueError) as error:  # the kernel's own as plain Python
             self._stop_at_fault(error)
 
     def _aim_at_sample(self, sample: int) -> None:
         """Let this sample, counted from the start, be the next one."""
-        settings = self._told.settings
-        self._sample = sample
-        self._next = math.ceil(sample * settings.physics_rate / settings.publish_rate - 1e-9)
+        self._sample, self._next = sample, self._grid(sample, self._told.settings.publish_rate)
 
-    def _advance(self, step: int) -> None:
-        if step > self._step:
-            self._rig.advance(step - self._step)
-            self._step = step
-            self._watch_silence()
+    def _aim_at_clock(self, tick: int) -> None:
+        """Let this message on ``/clock``, counted from the start, be the next one."""
+        rate = self._told.settings.clock_rate
+        self._clock_tick = tick
+        self._next_clock = math.inf if self._is_followed else self._grid(tick, rate)
 
-    def _watch_silence(self) -> None:
-        settings = self._told.settings
-        if self._heard is None or self._is_silent or not settings.command_timeout:
-            return
-        if self._rig.time - self._heard > settings.command_timeout:
-            self._is_silent = True
-            if settings.on_timeout == 'vent':
-                self._order(0.0)
-
-    def _order(self, pressure: float) -> None:
-        """Tell the valve a pressure in Pa from now on."""
-        self._ordered = self._input.within_limits(pressure)
-        self._rig.command([self._ordered])
+    def _grid(self, n: int, rate: float) -> int:
+        return math.ceil(n * self._told.settings.physics_rate / rate - 1e-9)
 
     # Out -----------------------------------------------------------------------------------
 
+    def _publish_clock(self, stamp: int) -> None:
+        self._clock_message.clock.sec, self._clock_message.clock.nanosec = divmod(stamp, SECOND)
+        self._clock_publisher.publish(self._clock_message)
+
     def _publish(self, stamp: int) -> None:
-        rig = self._rig
-        force, stiffness, damping, acceleration = rig.outputs()[0].tolist()
-        position, velocity = rig.position.item(), rig.velocity.item()
-        pressure = rig.pressure.item()
-        if not (abs(position) < self._told.reach and math.isfinite(force + velocity)):
-            raise ArithmeticError(f"at {position:g} m it is out of the muscle's reach")
-        if not self._feedback.is_ideal:
-            sample = np.array([[position], [velocity], [pressure], [force], [acceleration]])
-            reading = self._feedback.read(rig.time, sample)
-            position, velocity, pressure, force = reading[:, 0].tolist()
-        absolute = pressure + self._told.settings.ambient_pressure
-        self._telemetry.publish(stamp, position, velocity, absolute, force, stiffness, damping)
+        ambient = self._told.settings.ambient_pressure
+        if self._one:
+            position, velocity, pressure, force, stiffness, damping = self._plant.read_one()
+            self._one.publish(
+                stamp, position, velocity, pressure + ambient, force, stiffness, damping
+            )
+        else:
+            reading = self._plant.read()
+            self._arrays.publish(stamp, reading, ambient)
+            if self._each:
+                self._each.publish(stamp, reading, ambient)
         self._published += 1
 
     def _stop_at_fault(self, error: Exception) -> None:
         """Stand still at the initial state: what the model says now is no motion."""
-        time = self._rig.time
+        time = self._plant.time
         self._begin()
-        self._is_paused = True
+        self._set_paused(True)
         self._fault = f'the load is lost {time:.3f} s after the start, {error}: reset and paused'
         self.get_logger().error(self._fault)
 
     # In ------------------------------------------------------------------------------------
 
-    def _command(self, message: Float64) -> None:
-        pressure = self._input.take(message.data)
-        if pressure is None:
-            self.get_logger().warning(self._input.reason, throttle_duration_sec=1.0)
+    def _command(self, muscle: int, message: Float64) -> None:
+        if self._time_is_paced:
+            self._run_to_now()
+        self._complain(self._plant.take(muscle, message.data), muscle)
+        self._answer(muscle)
+
+    def _command_all(self, message: Float64MultiArray) -> None:
+        wanted, count = len(self._told.muscles), len(message.data)
+        if count != wanted:
+            self._complain(
+                f'pressure_commands has {count} values for {wanted} muscles: nothing taken', 0
+            )
             return
-        if pressure != message.data:
-            self.get_logger().warning(self._input.reason, throttle_duration_sec=1.0)
-        self._run_to_now()
-        self._order(pressure)
-        self._heard = self._rig.time
-        self._is_silent = False
+        if self._time_is_paced:
+            self._run_to_now()
+        self._complain(self._plant.take_all(message.data.tolist()), 0)
+        self._answer(None)
+
+    def _complain(self, reason: str, muscle: int) -> None:
+        if reason:
+            self._bad = muscle
+            self.get_logger().warning(reason, throttle_duration_sec=1.0)
+
+    def _answer(self, muscle: int | None) -> None:
+        """In lockstep, simulate a period when all muscles were commanded."""
+        if self._is_lockstep:
+            self._turns.take(muscle)
+            if self._turns.is_complete and not self._is_paused:
+                self._run_to(self._next)
 
     def _change(self, now: Simulation) -> None:
         """Go on with other parameters."""
         self._run_to_now()
-        before, self._told = self._told.settings.publish_rate, now
-        self._rig.change([now.model])
-        self._feedback.change(now.sensors)
-        self._input.muscle = now.model.muscle
-        self._order(self._ordered)  # the limits may have changed
-        self._telemetry.describe(now.settings.frame_id, now.sensors.pressure_noise**2)
-        rate = now.settings.publish_rate
-        if rate != before:
-            self.ticker.start(rate, monotonic_ns())
-            self._aim_at_sample(math.ceil(self._rig.time * rate))
+        before, self._told = self._told.settings, now
+        self._plant.change(now)
+        self._describe()
+        settings = now.settings
+        if isinstance(self._time, OwnTime):
+            self._time.factor = self._factor
+        if (settings.publish_rate, settings.clock_rate, settings.speed_factor) != (
+            *(before.publish_rate, before.clock_rate, before.speed_factor),
+        ):
+            if not self._is_followed:
+                self._time.align(self._plant.step)
+            self.ticker.start(self._tick_rate, monotonic_ns())
+            time, own = self._plant.time, not self._is_followed
+            # A time of one's own stands at a sample that was published already.
+            self._aim_at_sample(math.floor(time * settings.publish_rate + 1e-9) + 1)
+            self._aim_at_clock(math.floor(time * settings.clock_rate + 1e-9) + 1 if own else 0)
 
     def _reset(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         self._begin()
+        if self._is_lockstep or (self._is_paused and not self._is_followed):
+            self._run_to(0)
         response.success, response.message = True, 'at the initial state'
         return response
 
     def _pause(self, request: SetBool.Request, response: SetBool.Response) -> SetBool.Response:
-        self._run_to_now()
+        if self._time_is_paced:
+            self._run_to_now()
         if self._is_paused and not request.data:
-            self._pace.align(self._step, self._ros_ns(), monotonic_ns())
+            self._time.align(self._plant.step)
             self._fault = ''
-        self._is_paused = request.data
+        self._set_paused(request.data)
+        if self._is_lockstep and not request.data and self._turns.is_complete:
+            self._run_to(self._next)  # what was commanded meanwhile
         response.success, response.message = True, 'paused' if request.data else 'running'
+        return response
+
+    def _set_paused(self, is_paused: bool) -> None:
+        if is_paused != self._is_paused:
+            self._is_paused = is_paused
+            self.ticker.start(self._tick_rate, monotonic_ns())
+
+    def _step(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+        """Simulate some periods, each published, with the commands in force."""
+        if not self._is_paused:
+            response.message = 'time goes on: pause first'
+            return response
+        periods = self._told.settings.step_periods
+        for _ in range(periods):
+            if self._is_followed:
+                self._time.align(self._next)  # each is stamped with the time that it is told at
+            self._run_to(self._next)
+            if self._fault:
+                response.message = self._fault
+                return response
+        response.success = True
+        response.message = f'simulated {periods} periods, until {self._plant.time:.9g} s'
         return response
 
     # Health --------------------------------------------------------------------------------
@@ -210,40 +321,33 @@ class PamSim(TickingNode):
     def _timing(self) -> Health:
         kept = self.ticker.report(monotonic_ns())
         rate, self._published = self._published / kept.span, 0
-        wanted = self._told.settings.publish_rate
+        settings = self._told.settings
+        wanted = settings.publish_rate * (1.0 if self._is_followed else self._factor)
         values = {
             'publish rate (Hz)': rate,
             'wanted publish rate (Hz)': wanted,
             'overruns': kept.overruns,
             'worst lateness (s)': kept.worst,
-            'simulated time (s)': self._rig.time,
-            'simulated time lost (s)': self._pace.lost,
-            'clock jumps': self._pace.jumps,
+            'simulated time (s)': self._plant.time,
+            'simulated time lost (s)': self._time.lost,
+            'clock jumps': self._time.jumps,
             'paused': self._is_paused,
+            'time mode': settings.time_mode,
         }
+        if not self._is_followed:
+            values['speed (simulated s / s)'] = rate / settings.publish_rate
         if self._fault:
             return Health(ERROR, self._fault, values)
-        if self._follows_clock and not self._ros_ns():
+        if self._time.follows_clock and not self._time.now():
             return Health(WARN, 'waits for /clock (use_sim_time is set)', values)
         if self._is_paused:
             return Health(OK, 'paused', values)
-        if rate < 0.95 * wanted and not self._follows_clock:
+        if self._is_lockstep:
+            complaint = self._turns.complaint
+            return Health(WARN if complaint else OK, complaint or 'in lockstep', values)
+        if rate < 0.95 * wanted and not self._time.follows_clock:
             return Health(WARN, f'publishes at {rate:.1f} Hz instead of {wanted:g}', values)
-        return Health(OK, 'keeps its rate', values)
+        return Health(OK, 'keeps its rate' if wanted else 'as fast as possible', values)
 
     def _commands(self) -> Health:
-        age = None if self._heard is None else self._rig.time - self._heard
-        values = {
-            'command age (s)': age,
-            'last command (Pa)': self._input.last,
-            'accepted': self._input.accepted,
-            'clamped': self._input.clamped,
-            'refused': self._input.refused,
-            'last reason': self._input.reason,
-        }
-        if age is None:
-            return Health(OK, 'no command yet', values)
-        if self._is_silent:
-            did = {'vent': 'vented', 'hold': 'held'}[self._told.settings.on_timeout]
-            return Health(WARN, f'no command for {age:.3g} s: {did}', values)
-        return Health(OK, 'commanded', values)
+        return sim_health.commands(self._plant, self._bad)

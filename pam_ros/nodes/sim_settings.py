@@ -1,25 +1,54 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What ``pam_sim`` is told beside the rig itself: rates, time-out, start, names."""
+"""What ``pam_sim`` is told beside the rig itself: time, rates, time-out, start, names."""
 
-import math
 from dataclasses import dataclass
-from typing import Any
 
-from pam_ros.config import Table, build, build_rig, rig_table, table_of, with_defaults
+from pam_ros.config import Table
 from pam_ros.errors import ParameterError
-from pam_ros.parameter_files import read_known
 from pam_ros.parameters import Parameter, check_all, parameter
-from pam_ros.rig.model import RigModel
-from pam_ros.rig.sensors import Sensors
 
-START = (-0.2, 0.95)  # contractions at which a simulation may start
+SLOWEST = 0.1  # least speed_factor but 0
+MUSCLE: Table = {
+    'muscle': (
+        str,
+        '',
+        Parameter(
+            'what is not given as a parameter comes from here: a muscle of this package, such as '
+            'dmsp_20_400n, or the path of a parameter file',
+            live=False,
+        ),
+    )
+}
 
 
 @dataclass(frozen=True)
 class SimSettings:
-    """Rates, safety and names of the simulator node."""
+    """Time, rates, safety and names of the simulator node."""
 
+    time_mode: str = parameter(
+        'real_time',
+        'real_time: as fast as ROS time; scaled: speed_factor times as fast as the wall clock; '
+        'lockstep: one period of publish_rate for each pressure command',
+        choices=('real_time', 'scaled', 'lockstep'),
+        live=False,
+    )
+    speed_factor: float = parameter(
+        1.0,
+        'simulated seconds a second in time_mode scaled, 0.1 or more; 0: as fast as possible',
+        low=0.0,
+        high=1000.0,
+    )
+    clock_rate: float = parameter(
+        100.0,
+        'messages on /clock per simulated second, in time_mode scaled and lockstep',
+        'Hz',
+        low=1.0,
+        high=5000.0,
+    )
+    step_periods: int = parameter(
+        1, 'periods of publish_rate that ~/step simulates', '', low=1, high=100_000
+    )
     physics_rate: float = parameter(
         1000.0, 'integration steps per second', 'Hz', low=100.0, high=100e3, live=False
     )
@@ -46,17 +75,45 @@ class SimSettings:
         low=0.0,
         high=1e6,
     )
+    joint: str = parameter(
+        'load',
+        'load: each muscle has a load of its own; antagonistic: two muscles turn a pulley '
+        'against each other; parallel: two muscles move one load',
+        choices=('load', 'antagonistic', 'parallel'),
+        live=False,
+    )
+    muscles: tuple[str, ...] = parameter(
+        (), 'names of the muscles in order, two in a row for a joint of two; none: one', live=False
+    )
+    muscle_topics: bool = parameter(
+        False, 'beside the arrays, topics of each muscle below its name', live=False
+    )
     joint_name: str = parameter('pam', 'name of the joint in joint_states', live=False)
+    joint_names: tuple[str, ...] = parameter(
+        (), 'names of the joints in joint_states where they are several', live=False
+    )
     frame_id: str = parameter('', 'frame in the headers of joint_states and pressure')
 
     def __post_init__(self) -> None:
         """Check every field, then the rates against each other."""
         check_all(self)
-        if self.publish_rate > self.physics_rate:
+        if 0.0 < self.speed_factor < SLOWEST:
             raise ParameterError(
-                f'publish_rate = {self.publish_rate:g} Hz is above physics_rate = '
-                f'{self.physics_rate:g} Hz: there is nothing new to publish so often'
+                f'speed_factor = {self.speed_factor:g} is not allowed: give {SLOWEST:g} or more, '
+                'or 0 for as fast as possible'
             )
+        for name in ('publish_rate', 'clock_rate'):
+            rate = getattr(self, name)
+            if rate > self.physics_rate and (name == 'publish_rate' or self.has_own_time):
+                raise ParameterError(
+                    f'{name} = {rate:g} Hz is above physics_rate = {self.physics_rate:g} Hz: '
+                    'there is nothing new to publish so often'
+                )
+
+    @property
+    def has_own_time(self) -> bool:
+        """Whether the node makes ROS time, and publishes it on ``/clock``."""
+        return self.time_mode != 'real_time'
 
 
 @dataclass(frozen=True)
@@ -68,87 +125,20 @@ class Start:
         True, 'start where the load rests at initial.pressure; false: at initial.position'
     )
     position: float = parameter(
-        0.0, 'contraction at the start unless initial.at_rest', 'm', low=-5.0, high=9.0
+        0.0,
+        'contraction at the start unless initial.at_rest; rad for a pulley',
+        'm',
+        low=-5.0,
+        high=9.0,
     )
     velocity: float = parameter(
-        0.0, 'velocity at the start unless initial.at_rest', 'm/s', low=-100.0, high=100.0
+        0.0,
+        'velocity at the start unless initial.at_rest; rad/s for a pulley',
+        'm/s',
+        low=-100.0,
+        high=100.0,
     )
 
     def __post_init__(self) -> None:
         """Check every field."""
         check_all(self)
-
-
-@dataclass(frozen=True)
-class Simulation:
-    """All that the node is told, checked together."""
-
-    model: RigModel
-    sensors: Sensors
-    settings: SimSettings
-    start: Start
-
-    def __post_init__(self) -> None:
-        """Refuse a step that is too long, and a start that the muscle cannot have."""
-        self.model.check_step(1.0 / self.settings.physics_rate)
-        muscle, start = self.model.muscle, self.start
-        if not muscle.p_min <= start.pressure <= muscle.p_max:
-            raise ParameterError(
-                f'initial.pressure = {start.pressure:g} Pa is outside p_min = {muscle.p_min:g} '
-                f'to p_max = {muscle.p_max:g} Pa'
-            )
-        low, high = ((bound * muscle.l0) for bound in START)
-        if not (muscle.is_load_only or start.at_rest or low <= start.position <= high):
-            raise ParameterError(
-                f'initial.position = {start.position:g} m is no length of a muscle of '
-                f'{muscle.l0:g} m: give {low:g} to {high:g} m'
-            )
-
-    @property
-    def reach(self) -> float:
-        """Position in m at which a muscle would have no length left; inf where there is none."""
-        muscle = self.model.muscle
-        return math.inf if muscle.is_load_only else muscle.l0
-
-    @property
-    def initial(self) -> tuple[float, float, float]:
-        """Pressure in Pa, position in m and velocity in m/s at the start."""
-        start = self.start
-        if start.at_rest:
-            return start.pressure, self.model.rest(start.pressure), 0.0
-        return start.pressure, start.position, start.velocity
-
-
-MUSCLE: Table = {
-    'muscle': (
-        str,
-        '',
-        Parameter(
-            'what is not given as a parameter comes from here: a muscle of this package, such as '
-            'dmsp_20_400n, or the path of a parameter file',
-            live=False,
-        ),
-    )
-}
-
-
-def table(muscle: Any = '') -> Table:
-    """Return the table of all parameters; their defaults come from *muscle* where it is given."""
-    plain = {
-        **MUSCLE,
-        **rig_table(),
-        **table_of(Sensors, 'sensor.'),
-        **table_of(SimSettings),
-        **table_of(Start, 'initial.'),
-    }
-    return with_defaults(plain, read_known(str(muscle), plain)) if muscle else plain
-
-
-def simulation(values: dict[str, Any]) -> Simulation:
-    """Make a simulation from flat values; raises ParameterError where they make none."""
-    return Simulation(
-        build_rig(values),
-        build(Sensors, values, 'sensor.'),
-        build(SimSettings, values),
-        build(Start, values, 'initial.'),
-    )

@@ -21,8 +21,11 @@ def open_qos() -> QoSOverridingOptions:
 class Telemetry:
     """Publishes the state of one muscle; each message is made once and filled anew."""
 
-    def __init__(self, node: Node, joint: str) -> None:
-        """Create the publishers on *node*; *joint* names the joint."""
+    def __init__(self, node: Node, joint: str, below: str = '', *, has_joint: bool = True) -> None:
+        """Create the publishers on *node*; *joint* names the joint, where there is one.
+
+        *below* leads the names of the topics.
+        """
         self._joint = JointState(name=[joint], position=[0.0], velocity=[0.0], effort=[0.0])
         self._fluid = FluidPressure(header=self._joint.header)
         self._float = Float64()
@@ -30,10 +33,10 @@ class Telemetry:
 
         def publisher(kind: type, name: str):
             return node.create_publisher(
-                kind, name, QoSProfile(depth=DEPTH), qos_overriding_options=open_qos()
+                kind, below + name, QoSProfile(depth=DEPTH), qos_overriding_options=open_qos()
             )
 
-        self._joint_states = publisher(JointState, 'joint_states')
+        self._joint_states = publisher(JointState, 'joint_states') if has_joint else None
         self._pressure = publisher(FluidPressure, 'pressure')
         self._force = publisher(Float64, 'force')
         self._stiffness = publisher(Float64, 'stiffness')
@@ -57,8 +60,9 @@ class Telemetry:
         """Publish one state of the given ROS time in ns; *pressure* is absolute, all SI."""
         self._stamp.sec, self._stamp.nanosec = divmod(stamp, SECOND)
         joint, value = self._joint, self._float
-        joint.position[0], joint.velocity[0], joint.effort[0] = position, velocity, force
-        self._joint_states.publish(joint)
+        if self._joint_states:
+            joint.position[0], joint.velocity[0], joint.effort[0] = position, velocity, force
+            self._joint_states.publish(joint)
         self._fluid.fluid_pressure = pressure
         self._pressure.publish(self._fluid)
         value.data = force

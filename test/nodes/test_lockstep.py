@@ -1,0 +1,187 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""``pam_sim`` in lockstep over DDS: a period for a command, whoever commands and however late."""
+
+import math
+
+import numpy as np
+import pytest
+from diagnostic_msgs.msg import DiagnosticArray
+from rosgraph_msgs.msg import Clock
+from sensor_msgs.msg import JointState
+from std_msgs.msg import Float64, Float64MultiArray
+from std_srvs.srv import SetBool, Trigger
+
+from pam_ros.rig.model import RigModel
+from pam_ros.rig.rig import Rig
+from support.harness import Peer, Program, lose_nothing
+
+PERIOD = 2_000_000  # ns
+LOCKSTEP = {'time_mode': 'lockstep', 'command_timeout': 0.0, **lose_nothing()}
+RELEASED = {'initial.at_rest': False, 'initial.position': 0.0}
+
+
+def stamp(message):
+    return message.header.stamp.sec * 10**9 + message.header.stamp.nanosec
+
+
+def pressure_at(k):
+    return 3e5 + 1e5 * math.sin(0.05 * k)
+
+
+def last(states, after=0):
+    return states[-1] if states and stamp(states[-1]) > after else None
+
+
+class Controller:
+    """Answers each new state once, with pressures that the test knows."""
+
+    def __init__(self, peer):
+        self.peer, self.states = peer, peer.collect(JointState, 'joint_states')
+        self.time = 0
+
+    def answer(self, pressure):
+        """Wait for the next state, answer it and return it."""
+        state = self.peer.until(lambda: last(self.states, self.time), 'the next state')
+        self.time = stamp(state)
+        self.peer.publish(Float64(data=pressure), 'pressure_command')
+        return state
+
+
+def expected(periods):
+    """Return positions and velocities of the released rig, period by period."""
+    rig = Rig([RigModel()], 1e-3)
+    rig.reset([0.0], [0.0], [0.0])
+    found = []
+    for k in range(periods):
+        found.append((rig.position.item(), rig.velocity.item()))
+        rig.command([pressure_at(k)])
+        rig.advance(2)
+    return found
+
+
+def test_a_command_is_a_period_to_the_bit_and_nothing_else_is(peer):
+    clocks = peer.collect(Clock, '/clock')
+    with Program('pam_sim', parameters={**LOCKSTEP, **RELEASED}):
+        controller = Controller(peer)
+        got = [controller.answer(pressure_at(k)) for k in range(200)]
+        peer.until(lambda: last(controller.states, controller.time), 'the last state')
+        end = len(controller.states)
+        peer.work(1.5)  # a controller that thinks is not told twice
+        assert len(controller.states) == end
+    assert [(m.position[0], m.velocity[0]) for m in got] == expected(200)
+    assert set(np.diff([stamp(m) for m in got])) == {PERIOD}
+    # 100 Hz of simulated time, from one clock with the states.
+    ticks = sorted({m.clock.sec * 10**9 + m.clock.nanosec for m in clocks})
+    assert set(np.diff(ticks)) == {10_000_000}
+    assert ticks[-1] <= stamp(controller.states[-1])
+    assert ticks[0] == stamp(got[0])
+
+
+def test_a_refused_command_is_a_period_with_the_last_good_one(peer):
+    with Program('pam_sim', parameters=LOCKSTEP):
+        controller = Controller(peer)
+        a = controller.answer(3e5)
+        b = controller.answer(math.nan)
+        c = controller.answer(3e5)
+        assert stamp(c) - stamp(a) == 2 * PERIOD
+        assert c.position[0] > b.position[0] > a.position[0]
+
+
+def test_a_dead_controller_is_waited_for_and_told_and_a_new_one_goes_on(peer):
+    diagnostics = peer.collect(DiagnosticArray, '/diagnostics')
+
+    def said(words):
+        return [s.message for m in diagnostics for s in m.status if words in s.message]
+
+    with Program('pam_sim', parameters={**LOCKSTEP, **RELEASED}):
+        with Peer() as first:
+            controller = Controller(first)
+            got = [controller.answer(pressure_at(k)) for k in range(50)]
+            first.until(lambda: last(controller.states, controller.time), 'the last state')
+        diagnostics.clear()
+        peer.until(lambda: said('waits for a controller since'), 'word that one is missing')
+        with Peer() as second:
+            controller = Controller(second)
+            got += [controller.answer(pressure_at(k)) for k in range(50, 100)]
+        diagnostics.clear()
+    assert [(m.position[0], m.velocity[0]) for m in got] == expected(100)
+    assert set(np.diff([stamp(m) for m in got])) == {PERIOD}
+
+
+def test_pause_keeps_an_answer_and_step_goes_on_without_one(peer):
+    with Program('pam_sim', parameters={**LOCKSTEP, **RELEASED, 'step_periods': 7}):
+        controller = Controller(peer)
+        assert not peer.call(Trigger, 'pam_sim/step').success  # not while time goes on
+        controller.answer(3e5)
+        peer.until(lambda: last(controller.states, controller.time), 'the next state')
+        assert peer.call(SetBool, 'pam_sim/pause', data=True).success
+        before = controller.answer(3e5)
+        peer.more(controller.states, 3)  # it goes on telling its state
+        assert stamp(controller.states[-1]) == stamp(before)
+        assert controller.states[-1].position == before.position
+        peer.call(SetBool, 'pam_sim/pause', data=False)
+        after = peer.until(lambda: last(controller.states, stamp(before)), 'what it kept')
+        assert stamp(after) - stamp(before) == PERIOD
+        peer.call(SetBool, 'pam_sim/pause', data=True)
+        count = len(controller.states)
+        response = peer.call(Trigger, 'pam_sim/step')
+        assert response.success, response.message
+        peer.until(lambda: last(controller.states, stamp(after) + 6 * PERIOD), 'seven periods')
+        peer.more(controller.states)
+        assert stamp(controller.states[-1]) - stamp(after) == 7 * PERIOD
+        stepped = {stamp(m) for m in controller.states[count:]} - {stamp(after)}
+        assert len(stepped) == 7
+
+
+def test_reset_repeats_the_run_and_time_goes_on(peer):
+    given = {**LOCKSTEP, **RELEASED, 'sensor.position_noise': 1e-5, 'sensor.seed': 3}
+    with Program('pam_sim', parameters=given):
+        controller = Controller(peer)
+        runs = []
+        for _ in range(2):
+            runs.append([controller.answer(pressure_at(k)) for k in range(100)])
+            peer.until(lambda: last(controller.states, controller.time), 'the last state')
+            controller.time = stamp(controller.states[-1])
+            assert peer.call(Trigger, 'pam_sim/reset').success
+        assert peer.set_together('pam_sim', sensor__seed=4, initial__position=0.02).successful
+        assert peer.call(Trigger, 'pam_sim/reset').success
+        peer.until(lambda: controller.states[-1].position[0] > 0.0199, 'the given state')
+    first, second = ([(m.position[0], m.velocity[0], m.effort[0]) for m in run] for run in runs)
+    assert first == second
+    assert all(np.diff([stamp(m) for run in runs for m in run]) > 0)
+
+
+def test_all_muscles_are_waited_for(peer):
+    names = ['left', 'right']
+    given = {**LOCKSTEP, 'muscles': names, 'muscle_topics': True}
+    with Program('pam_sim', parameters=given):
+        states = peer.collect(JointState, 'joint_states')
+        peer.more(states)
+        begin = stamp(states[-1])
+        peer.publish(Float64(data=3e5), 'left/pressure_command')
+        peer.publish(Float64(data=2e5), 'left/pressure_command')
+        peer.work(0.5)
+        assert stamp(states[-1]) == begin
+        peer.publish(Float64(data=1e5), 'right/pressure_command')
+        peer.until(lambda: last(states, begin), 'the next state')
+        peer.publish(Float64MultiArray(data=[2e5, 1e5]), 'pressure_commands')
+        peer.until(lambda: last(states, begin + PERIOD), 'the state after')
+        assert stamp(states[-1]) == begin + 2 * PERIOD
+        assert states[-1].name == names
+        assert states[-1].position[0] > states[-1].position[1]
+
+
+@pytest.mark.parametrize('values', [[3e5], [3e5] * 3])
+def test_an_array_of_another_length_is_no_command(peer, values):
+    diagnostics = peer.collect(DiagnosticArray, '/diagnostics')
+    given = {**LOCKSTEP, 'muscles': ['left', 'right']}
+    with Program('pam_sim', parameters=given) as sim:
+        states = peer.collect(JointState, 'joint_states')
+        peer.more(states)
+        begin = stamp(states[-1])
+        peer.publish(Float64MultiArray(data=values), 'pressure_commands')
+        peer.until(lambda: 'values for 2 muscles' in sim.output, 'a warning')
+        seconds = len(diagnostics)
+        peer.until(lambda: len(diagnostics) > seconds, 'a second')
+        assert stamp(states[-1]) == begin
