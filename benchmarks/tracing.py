@@ -7,6 +7,11 @@ integrator with the package. Options: ``--seeds N`` (default 12), ``--kinds a,b+
 ``--jobs N``, ``--log FILE`` (one JSON line a trial).
 """
 
+import os
+
+# One thread for each of many small matrices: trials run side by side instead.
+os.environ.setdefault('OPENBLAS_NUM_THREADS', '1')
+
 import argparse
 import json
 import sys

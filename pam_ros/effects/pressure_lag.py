@@ -10,18 +10,21 @@ SHORTEST = 1e-6  # s; a faster chamber than any rig's is immediate
 
 
 def pressure(p: float, t: float, h: float, x: Row, i: int, xn: Row, q: Row, j: int) -> float:
-    """Return the chamber pressure of dp/dt = (p_in - p)/tau, at most R, exact for p_in constant.
+    """Return the chamber pressure of dp/dt = (p_in - p)/tau, exact for p_in constant over h.
 
     tau is q[j] while the chamber fills and q[j + 1] while it vents; x[i] is its pressure. It
-    never crosses p_in, so that tau is one or the other for all of h. R = q[j + 2] in Pa/s is
-    what a choked valve lets through, whatever the difference of pressure.
+    never crosses p_in, so that tau is one or the other for all of h. Filling is not faster than
+    q[j + 2] in Pa/s: a choked valve lets a constant flow in, but out in proportion to p.
     """
     if q[j] == 0.0 and q[j + 1] == 0.0:
         return p
-    tau = q[j] if p > x[i] else q[j + 1]
     left = abs(p - x[i])
-    choked = min(h, max(left - q[j + 2] * tau, 0.0) / q[j + 2])
-    left -= choked * q[j + 2]
+    choked = 0.0
+    tau = q[j + 1]
+    if p > x[i]:
+        tau = q[j]
+        choked = min(h, max(left - q[j + 2] * tau, 0.0) / q[j + 2])
+        left -= choked * q[j + 2]
     if tau > SHORTEST:
         left *= exp(-(h - choked) / tau)
     elif choked < h:
@@ -65,7 +68,7 @@ EFFECT = Effect(
         EffectParameter(
             'fastest',
             1e9,
-            'fastest change of pressure, where the flow is choked',
+            'fastest rise of pressure, where the flow in is choked',
             'Pa/s',
             1e3,
             1e9,

@@ -77,16 +77,10 @@ def look(parents: Sequence[Fit], model: RigModel, effect: Effect) -> list[Soluti
         known = parent.solution
         for start in starts:
             problem, added = extended(known.problem, model, effect, start)
-            u = np.concatenate([known.u, added])
-            r = problem.residuals(u)
-            guesses.append((amplified_cost(known, r), known, problem, u, r))
+            r = problem.residuals(np.concatenate([known.u, added]))
+            guesses.append((amplified_cost(known, r), known, problem, added))
     guesses.sort(key=lambda guess: guess[0])
-    solutions = []
-    for _, known, problem, u, r in guesses[:TRIED]:
-        count = len(known.u)
-        own = problem.jacobian(u, r, only=range(count, len(u)))
-        jacobian = np.hstack([known.jacobian, own])
-        solutions.append(solve(problem, u, LOOKS, jacobian=jacobian, frozen=count))
+    solutions = [_stepped(known, problem, added) for _, known, problem, added in guesses[:TRIED]]
     return sorted(solutions, key=lambda solution: solution.cost)
 
 
@@ -106,11 +100,26 @@ def released(fit: Fit, model: RigModel, effect: Effect, pool: Executor | None) -
     }
     if not rest:
         return fit
-    wider, added = extended(problem, model, effect, rest)
-    # What was fitted stays where the fit put it: only the row of the others is new.
-    start = np.concatenate([fit.solution.u, added])
-    wide = fitted(fit.effects, solve(wider, start, pool=pool))
+    # All of the others from where they are absent, or some from where a start has them.
+    options = [rest]
+    for start in effect.fit_starts:
+        some = {name: value for name, value in start.items() if name in rest}
+        if some and some not in options:
+            options.append(some)
+    looks = [_stepped(fit.solution, *extended(problem, model, effect, o)) for o in options]
+    best = min(looks, key=lambda solution: solution.cost)
+    wide = fitted(fit.effects, solve(best.problem, best.u, pool=pool, jacobian=best.jacobian))
     return wide if wide.score < fit.score - EARNED else fit
+
+
+def _stepped(known: Solution, problem: Problem, added: Array) -> Solution:
+    """Return a few steps from the *added* unknowns on top of *known*, whose columns are kept."""
+    count = len(known.u)
+    u = np.concatenate([known.u, added])
+    r = problem.residuals(u)
+    own = problem.jacobian(u, r, only=range(count, len(u)))
+    jacobian = np.hstack([known.jacobian, own])
+    return solve(problem, u, LOOKS, jacobian=jacobian, frozen=count)
 
 
 def _guessed(parent: Fit, effect: Effect) -> tuple[dict[str, float], ...]:

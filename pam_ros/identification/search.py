@@ -28,6 +28,8 @@ REFINED = 4  # candidates of a round that get a full fit
 WINDOW = 2.0  # s of a run of a load without a muscle
 OUTLIER = 1.48  # median residuals beyond which one is an outlier
 DOUBTED = 1  # of these that are fitted from further starting values, too
+COMPARABLE = 0.15  # and its share of the best fall
+OBVIOUS = 0.8  # ratio of errors kept back below which no odd parameter needs a reason
 PROMISING = 4.0  # fall of the cost in a cheap look that earns a full fit
 IMPLAUSIBLE = 12.0  # chi square of re-tuned parameters under their prior that asks for a reason
 
@@ -171,7 +173,7 @@ def _matters(without: Fit, fit: Fit, retuned: Fit, noise: Noise) -> bool:
 
 
 def _round(parent: Fit, declared: Fit, model: RigModel, pool: Executor) -> tuple[Tried, ...]:
-    """Return the candidates that got a full fit on top of *parent*, the best first."""
+    """Return every candidate on top of *parent*, the promising in full, the best first."""
     absent = [
         e
         for e in model.library
@@ -180,27 +182,28 @@ def _round(parent: Fit, declared: Fit, model: RigModel, pool: Executor) -> tuple
     ]
     parents = [parent] if parent.effects else [parent, declared]
     looks = list(pool.map(lambda e: look(parents, model, e), absent))
-    order = [
-        i
-        for i in np.argsort([s[0].cost for s in looks])
-        if looks[i][0].cost < parent.solution.cost - PROMISING
-    ]
-    fits = {absent[i].name: refine(parent, absent[i], looks[i], pool) for i in order[:REFINED]}
-    if not parent.effects and _strain(parent) > IMPLAUSIBLE:
+    fits = {
+        e.name: fitted((*parent.effects, e.name), found[0])
+        for e, found in zip(absent, looks, strict=True)
+    }
+    falls = np.array([parent.solution.cost - found[0].cost for found in looks])
+    worth = falls > max(PROMISING, COMPARABLE * falls.max())
+    order = [i for i in np.argsort(-falls)[:REFINED] if worth[i]]
+    for i in order:
+        fits[absent[i].name] = refine(parent, absent[i], looks[i][:1], pool)
+    for i in sorted(order, key=lambda i: fits[absent[i].name].score)[:DOUBTED]:
+        again = refine(parent, absent[i], looks[i][1:], pool)
+        fits[absent[i].name] = min(fits[absent[i].name], again, key=lambda fit: fit.score)
+    nearest = min(fits.values(), key=lambda fit: fit.score)
+    if nearest.held_error > OBVIOUS * parent.held_error and not parent.effects:
         for effect in absent:
-            if _is_static(effect):
+            if _is_static(effect) and _strain(parent) > IMPLAUSIBLE:
                 straight = _from_declared(declared, model, effect, pool)
-                other = fits.get(effect.name)
-                if other is None or straight.score < other.score:
-                    fits[effect.name] = straight
+                fits[effect.name] = min(fits[effect.name], straight, key=lambda fit: fit.score)
     known = {e.name: e for e in absent}
-    p = evidence.holm(
-        np.array([_p(parent, fits[name]) if name in fits else 1.0 for name in known])
-    )
+    p = evidence.holm(np.array([_p(parent, fits[name]) for name in known]))
     tried = []
     for (name, effect), p_corrected in zip(known.items(), p, strict=True):
-        if name not in fits:
-            continue
         fit = fits[name]
         gain = 1.0 - fit.held_error / parent.held_error
         found = evidence.Evidence(

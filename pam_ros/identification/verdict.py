@@ -16,9 +16,10 @@ from pam_ros.identification.segment import Segment
 
 SHORTEST = 5.0  # s of recording
 VISIBLE = 10.0  # noise floors that the target must move
-CEILING = 0.25  # R^2 of the generic regressor from which a residual is structured
-ABOVE = 0.4  # share of the residual's variance above the noise floor that matters
-UNEXPLAINED = 0.35  # share of what re-tuning left that a found effect may leave unexplained
+CEILING = 0.12  # R^2 of the generic regressor from which a residual is structured
+ABOVE = 0.4  # share of the residual's variance above the noise floor that then matters
+FAR_ABOVE = 2.5  # noise floors from which a residual is no noise, predictable or not
+UNEXPLAINED = 0.6  # share of what re-tuning left that found effects may leave unexplained
 CLOSE = 1.05  # ratio of errors that are the same for a user
 
 
@@ -98,10 +99,10 @@ def _verdict(answer: Trace, lacking: str) -> str:
     left = np.sqrt(max(augmented**2 - floor**2, 0.0))
     asked = np.sqrt(max(retuned**2 - floor**2, 0.0))
     structured = answer.structure.ceiling > CEILING and answer.structure.share > ABOVE
-    absorbed = answer.effects and retuned < CLOSE * augmented
-    if answer.effects and (absorbed or not structured or left < UNEXPLAINED * asked):
+    remains = structured or augmented > FAR_ABOVE * floor
+    if answer.effects and (not remains or left < UNEXPLAINED * asked):
         return 'effect_found'
-    if structured:
+    if remains:
         return 'unexplained_structure'
     if declared < CLOSE * retuned:
         return 'no_missing_effect'

@@ -149,8 +149,8 @@ def test_loops_can_start_where_a_long_way_has_left_them(effect, side):
     far = np.linspace(0.0, side * 0.4, 401) + 0.1
     back = np.linspace(0.1 + side * 0.4, 0.1, 51)
     p = 3e5 + 1e6 * (np.concatenate([far, back]) - 0.1)
-    come = loop(effect, np.concatenate([far, back]), p)[400:]
-    put = loop({**effect, 'initial': side}, back, p[400:])
+    come = loop(effect, np.concatenate([far, back]), p)[401:]
+    put = loop({**effect, 'initial': side}, back, p[401:])
     np.testing.assert_allclose(put, come, atol=1e-6)
 
 
