@@ -4,6 +4,7 @@
 
 import math
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +16,17 @@ from pam_ros.rig.rig import Rig
 from pam_ros.rig.sensors import Feedback
 
 Array = NDArray[np.float64]
+
+
+OneReading = tuple[float, float, float, float, float, float]  # see Plant.read_one
+
+
+class BadCommand(NamedTuple):
+    """A command that a muscle did not take as it was."""
+
+    muscle: int
+    reason: str
+    is_refused: bool  # else clamped
 
 
 @dataclass(frozen=True)
@@ -88,32 +100,36 @@ class Plant:
 
     # Valves ----------------------------------------------------------------------------------
 
-    def take(self, muscle: int, value: float) -> str:
-        """Command one muscle in Pa; return what was wrong with that, '' for nothing."""
+    def take(self, muscle: int, value: float) -> BadCommand | None:
+        """Command one muscle in Pa; return what was wrong with that."""
         given = self.inputs[muscle]
         pressure = given.take(value)
         if pressure is None:
-            return given.reason
+            return self._bad(muscle, is_refused=True)
         self._order(muscle, pressure)
         self.heard[muscle] = self._rig.time
         self.is_silent[muscle] = False
         self._set_deadline()
-        return '' if pressure == value else given.reason
+        return None if pressure == value else self._bad(muscle)
 
-    def take_all(self, values: list[float]) -> str:
+    def _bad(self, muscle: int, *, is_refused: bool = False) -> BadCommand:
+        whose = f'{self.told.muscle_names[muscle]}: ' if len(self.inputs) > 1 else ''
+        return BadCommand(muscle, whose + self.inputs[muscle].reason, is_refused)
+
+    def take_all(self, values: list[float]) -> BadCommand | None:
         """Command all muscles in Pa; a bad value leaves its muscle as it is."""
-        reason, now, ordered = '', self._rig.time, self._ordered
+        bad, now, ordered = None, self._rig.time, self._ordered
         for i, (given, value) in enumerate(zip(self.inputs, values, strict=True)):
             pressure = given.take(value)
             if pressure != value:
-                reason = f'{self.told.muscle_names[i]}: {given.reason}'
+                bad = self._bad(i, is_refused=pressure is None)
             if pressure is not None:
                 ordered[i] = pressure
                 self.heard[i] = now
                 self.is_silent[i] = False
         self._rig.command(ordered)
         self._set_deadline()
-        return reason
+        return bad
 
     def _order(self, muscle: int, pressure: float) -> None:
         self._ordered[muscle] = pressure
@@ -144,7 +160,7 @@ class Plant:
 
     # Sensors ---------------------------------------------------------------------------------
 
-    def read_one(self) -> tuple[float, float, float, float, float, float]:
+    def read_one(self) -> OneReading:
         """Return position, velocity, pressure, force, stiffness and damping of a muscle alone.
 
         Raises ArithmeticError where the muscle cannot be.

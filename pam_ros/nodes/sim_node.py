@@ -17,7 +17,7 @@ from pam_ros.nodes.diagnostics import ERROR, OK, WARN, Diagnostics, Health
 from pam_ros.nodes.lockstep import Turns
 from pam_ros.nodes.pace import SECOND
 from pam_ros.nodes.parameters import NodeParameters, given
-from pam_ros.nodes.plant import Plant
+from pam_ros.nodes.plant import BadCommand, OneReading, Plant, Reading
 from pam_ros.nodes.sim_scene import Scene, Simulation
 from pam_ros.nodes.sim_time import FollowedTime, OwnTime
 from pam_ros.nodes.spin import TickingNode
@@ -53,6 +53,7 @@ class PamSim(TickingNode):
             self._clock_publisher = self.create_publisher(Clock, '/clock', DEPTH)
         self._is_paused = False
         self._published = self._bad = 0
+        self._said: tuple[int, Reading | OneReading] | None = None
         self._open_topics()
         self._begin()
         self.create_service(Trigger, '~/reset', self._reset)
@@ -77,27 +78,25 @@ class PamSim(TickingNode):
             )
             self._turns.watch(subscription)
 
-        self._one = self._arrays = self._each = None
-        if told.is_one:
-            self._one = Telemetry(self, told.joint_names[0])
+        self._one = told.is_one
+        self._telemetry: list[Telemetry | ArrayTelemetry | MuscleTelemetry]
+        if self._one:
+            self._telemetry = [Telemetry(self, told.joint_names[0])]
             hear(Float64, 'pressure_command', partial(self._command, 0))
         else:
-            self._arrays = ArrayTelemetry(self, told.joint_names, told.muscle_names)
+            self._telemetry = [ArrayTelemetry(self, told.joint_names, told.muscle_names)]
             hear(Float64MultiArray, 'pressure_commands', self._command_all)
             if settings.muscle_topics:
-                self._each = MuscleTelemetry(self, told.muscle_names, settings.joint == 'load')
+                have_loads = settings.joint == 'load'
+                self._telemetry.append(MuscleTelemetry(self, told.muscle_names, have_loads))
                 for i, name in enumerate(told.muscle_names):
                     hear(Float64, f'{name}/pressure_command', partial(self._command, i))
         self._describe()
 
     def _describe(self) -> None:
         frame, variance = self._told.settings.frame_id, self._told.sensors.pressure_noise**2
-        if self._one:
-            self._one.describe(frame, variance)
-        if self._arrays:
-            self._arrays.describe(frame)
-        if self._each:
-            self._each.describe(frame, variance)
+        for telemetry in self._telemetry:
+            telemetry.describe(frame, variance)
 
     def start(self) -> None:
         """Let simulated time begin now."""
@@ -151,10 +150,16 @@ class PamSim(TickingNode):
         return self._is_followed or self._factor > 0.0
 
     def _tell_again(self) -> None:
-        """Publish the state that there is, with the time of now."""
-        if not self._is_followed:
+        """Publish the state that there is.
+
+        Where time stands still, too, it is what the sensors said: they are not asked again, so
+        that their noise does not depend on how long that takes.
+        """
+        if self._is_followed:
+            self._publish(self._time.now())
+        elif self._said:
             self._publish_clock(self._time.now())
-        self._publish(self._time.now())
+            self._say(*self._said)
 
     def _run_to_now(self) -> None:
         """Simulate what is due, and publish each sample that is due on the way."""
@@ -202,17 +207,13 @@ class PamSim(TickingNode):
         self._clock_publisher.publish(self._clock_message)
 
     def _publish(self, stamp: int) -> None:
+        self._said = stamp, self._plant.read_one() if self._one else self._plant.read()
+        self._say(*self._said)
+
+    def _say(self, stamp: int, reading: Reading | OneReading) -> None:
         ambient = self._told.settings.ambient_pressure
-        if self._one:
-            position, velocity, pressure, force, stiffness, damping = self._plant.read_one()
-            self._one.publish(
-                stamp, position, velocity, pressure + ambient, force, stiffness, damping
-            )
-        else:
-            reading = self._plant.read()
-            self._arrays.publish(stamp, reading, ambient)
-            if self._each:
-                self._each.publish(stamp, reading, ambient)
+        for telemetry in self._telemetry:
+            telemetry.publish(stamp, reading, ambient)
         self._published += 1
 
     def _stop_at_fault(self, error: Exception) -> None:
@@ -228,25 +229,28 @@ class PamSim(TickingNode):
     def _command(self, muscle: int, message: Float64) -> None:
         if self._time_is_paced:
             self._run_to_now()
-        self._complain(self._plant.take(muscle, message.data), muscle)
+        self._complain(self._plant.take(muscle, message.data))
         self._answer(muscle)
 
     def _command_all(self, message: Float64MultiArray) -> None:
         wanted, count = len(self._told.muscles), len(message.data)
         if count != wanted:
-            self._complain(
-                f'pressure_commands has {count} values for {wanted} muscles: nothing taken', 0
-            )
+            reason = f'pressure_commands has {count} values for {wanted} muscles: nothing taken'
+            self.get_logger().warning(reason, throttle_duration_sec=1.0)
             return
         if self._time_is_paced:
             self._run_to_now()
-        self._complain(self._plant.take_all(message.data.tolist()), 0)
+        self._complain(self._plant.take_all(message.data.tolist()))
         self._answer(None)
 
-    def _complain(self, reason: str, muscle: int) -> None:
-        if reason:
-            self._bad = muscle
-            self.get_logger().warning(reason, throttle_duration_sec=1.0)
+    def _complain(self, bad: BadCommand | None) -> None:
+        if bad is None:
+            return
+        self._bad = bad.muscle
+        if bad.is_refused:  # each kind of warning is held back for itself
+            self.get_logger().warning(bad.reason, throttle_duration_sec=1.0)
+        else:
+            self.get_logger().warning(bad.reason, throttle_duration_sec=1.0)
 
     def _answer(self, muscle: int | None) -> None:
         """In lockstep, simulate a period when all muscles were commanded."""

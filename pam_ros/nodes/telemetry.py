@@ -9,6 +9,7 @@ from sensor_msgs.msg import FluidPressure, JointState
 from std_msgs.msg import Float64
 
 from pam_ros.nodes.pace import SECOND
+from pam_ros.nodes.plant import OneReading
 
 DEPTH = 10
 
@@ -47,23 +48,15 @@ class Telemetry:
         self._joint.header.frame_id = frame
         self._fluid.variance = variance
 
-    def publish(
-        self,
-        stamp: int,
-        position: float,
-        velocity: float,
-        pressure: float,
-        force: float,
-        stiffness: float,
-        damping: float,
-    ) -> None:
-        """Publish one state of the given ROS time in ns; *pressure* is absolute, all SI."""
+    def publish(self, stamp: int, reading: OneReading, ambient: float) -> None:
+        """Publish one state of the given ROS time in ns; the pressure with *ambient* Pa added."""
+        position, velocity, pressure, force, stiffness, damping = reading
         self._stamp.sec, self._stamp.nanosec = divmod(stamp, SECOND)
         joint, value = self._joint, self._float
         if self._joint_states:
             joint.position[0], joint.velocity[0], joint.effort[0] = position, velocity, force
             self._joint_states.publish(joint)
-        self._fluid.fluid_pressure = pressure
+        self._fluid.fluid_pressure = pressure + ambient
         self._pressure.publish(self._fluid)
         value.data = force
         self._force.publish(value)

@@ -44,8 +44,8 @@ class ArrayTelemetry:
             publish = publisher(Float64MultiArray, name).publish
             self._arrays.append((publish, message, np.frombuffer(message.data)))
 
-    def describe(self, frame: str) -> None:
-        """Set the frame in the header."""
+    def describe(self, frame: str, variance: float) -> None:
+        """Set the frame in the header; an array has no variance."""
         self._joint.header.frame_id = frame
 
     def publish(self, stamp: int, reading: Reading, ambient: float) -> None:
@@ -85,9 +85,9 @@ class MuscleTelemetry:
         if self._have_loads:
             position, velocity = reading.position, reading.velocity
         rows = zip(
-            *(position.tolist(), velocity.tolist(), (reading.pressure + ambient).tolist()),
+            *(position.tolist(), velocity.tolist(), reading.pressure.tolist()),
             *(reading.force.tolist(), reading.stiffness.tolist(), reading.damping.tolist()),
             strict=True,
         )
         for telemetry, values in zip(self._each, rows, strict=True):
-            telemetry.publish(stamp, *values)
+            telemetry.publish(stamp, values, ambient)

@@ -17,7 +17,8 @@ from pam_ros.rig.rig import Rig
 from support.harness import Peer, Program, lose_nothing
 
 PERIOD = 2_000_000  # ns
-LOCKSTEP = {'time_mode': 'lockstep', 'command_timeout': 0.0, **lose_nothing()}
+MANY = {'time_mode': 'lockstep', 'command_timeout': 0.0}
+LOCKSTEP = {**MANY, **lose_nothing()}
 RELEASED = {'initial.at_rest': False, 'initial.position': 0.0}
 
 
@@ -154,7 +155,7 @@ def test_reset_repeats_the_run_and_time_goes_on(peer):
 
 def test_all_muscles_are_waited_for(peer):
     names = ['left', 'right']
-    given = {**LOCKSTEP, 'muscles': names, 'muscle_topics': True}
+    given = {**MANY, 'muscles': names, 'muscle_topics': True}
     with Program('pam_sim', parameters=given):
         states = peer.collect(JointState, 'joint_states')
         peer.more(states)
@@ -175,7 +176,7 @@ def test_all_muscles_are_waited_for(peer):
 @pytest.mark.parametrize('values', [[3e5], [3e5] * 3])
 def test_an_array_of_another_length_is_no_command(peer, values):
     diagnostics = peer.collect(DiagnosticArray, '/diagnostics')
-    given = {**LOCKSTEP, 'muscles': ['left', 'right']}
+    given = {**MANY, 'muscles': ['left', 'right']}
     with Program('pam_sim', parameters=given) as sim:
         states = peer.collect(JointState, 'joint_states')
         peer.more(states)
