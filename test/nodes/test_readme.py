@@ -28,15 +28,17 @@ def in_code(cell):
     return re.findall(r'`([^`]+)`', cell)
 
 
-@pytest.fixture(scope='module')
-def told():
-    """Return what the table of the interface says: name -> type, `/` for what is absolute."""
+def told(name):
+    """Return what a part of the page says: name -> type, `/` before what is absolute."""
     found = {}
-    for name_cell, type_cell, _ in rows(part(README, 'interface')):
+    for name_cell, type_cell, _ in rows(part(README, name)):
         (kind,) = in_code(type_cell)
-        for name in in_code(name_cell):
-            found[name] = kind
+        found.update(dict.fromkeys(in_code(name_cell.partition('(')[0]), kind))
     return found
+
+
+ONE, SEVERAL = told('interface'), told('several')
+OF_ALL = {name: kind for name, kind in ONE.items() if name.startswith(('/', '~'))}
 
 
 def seen(peer, get):
@@ -45,13 +47,18 @@ def seen(peer, get):
     for name, (kind, *_) in get('pam_sim', '/'):
         if not kind.startswith(OF_EVERY_NODE):
             short = name.replace('/pam_sim/', '~/')
-            own[short if name == '/diagnostics' else short.lstrip('/')] = re.sub(
+            own[short if name in ('/clock', '/diagnostics') else short.lstrip('/')] = re.sub(
                 '/(msg|srv)/', '/', kind
             )
     return own
 
 
-def test_the_interface_is_that_of_the_running_simulator(peer, told):
+@pytest.mark.parametrize(
+    ('parameters', 'expected'),
+    [({}, ONE), ({'muscles': '[left,right]', 'time_mode': 'scaled'}, SEVERAL | OF_ALL)],
+    ids=['one', 'several'],
+)
+def test_the_interface_is_that_of_the_running_simulator(peer, parameters, expected):
     node = peer.node
     getters = (
         node.get_publisher_names_and_types_by_node,
@@ -64,9 +71,9 @@ def test_the_interface_is_that_of_the_running_simulator(peer, told):
             return {}
         return {name: kind for get in getters for name, kind in seen(peer, get).items()}
 
-    with Program('pam_sim'):
-        peer.until(lambda: set(told) <= set(interface()), f'{", ".join(told)}')
-        assert interface() == told
+    with Program('pam_sim', parameters=parameters):
+        peer.until(lambda: set(expected) <= set(interface()), ', '.join(expected))
+        assert interface() == expected
 
 
 def test_parameters_exist_and_have_their_defaults(peer):
@@ -81,13 +88,12 @@ def test_parameters_exist_and_have_their_defaults(peer):
         for name_cell, default_cell, _ in rows(part(README, 'parameters')):
             of_row = [name for name in in_code(name_cell) if '<' not in name]
             assert set(of_row) <= set(known)
-            defaults = [one.strip(' `') for one in default_cell.split(',')]
-            if len(defaults) != len(of_row):
-                continue
-            for name, default in zip(of_row, defaults, strict=True):
-                value = peer.get('pam_sim', name)[0]
-                number = re.match(r'[\d.]+', default)
-                assert value == (float(number.group()) if number else default), name
+            for name, default in zip(of_row, default_cell.split(', '), strict=False):
+                (value,) = peer.get('pam_sim', name)
+                if re.match(r'\d', default):
+                    assert value == float(default.partition(' ')[0]), name
+                elif default.startswith('`'):
+                    assert value == default.strip('`'), name
 
 
 @pytest.mark.parametrize('arguments', STARTS, ids=' '.join)
