@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Tests that noise passes as rarely as they say, whatever its colour."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -11,13 +11,7 @@ from scipy.stats import f as f_distribution
 
 from pam_ros.effects import EFFECTS
 from pam_ros.identification import evidence
-from pam_ros.identification.candidate import Fit
-from pam_ros.identification.problem import Problem
-from pam_ros.identification.segment import segments_of
-from pam_ros.identification.solve import Solution
-from pam_ros.recording.recording import Recording
-from pam_ros.rig.layout import layout_of
-from support.equations import coloured, least_squares_fit
+from support.equations import coloured, least_squares_fit, missing
 
 N = 4000
 T = np.linspace(0.0, 1.0, N)
@@ -149,30 +143,15 @@ def test_only_the_newest_effect_counts():
     assert not evidence.strengths_clear(later)
 
 
-@dataclass(frozen=True, eq=False)
-class Predicted(Problem):
-    """A problem whose runs miss the measurement by u[0] in the part kept back."""
-
-    miss: np.ndarray = None
-
-    def predict(self, u, only=-1):
-        return [s.target + u[0] * self.miss for s in self.segments]
-
-
-def predicted(miss, scale):
-    t = np.arange(miss.size) / 100.0
-    recording = Recording('r', t, t, t, 0.0 * t, None, None, None, 'free')
-    segments = segments_of([recording], keep_back=True)
-    layout = layout_of(EFFECTS)
-    problem = Predicted(segments, layout, (), np.zeros(9), (), 1.0, miss=miss)
-    kept = np.concatenate([scale * miss[~s.fit] for s in segments])
-    solution = Solution(problem, np.array([scale]), miss, miss[:, None], 1)
-    return Fit((), solution, 0.0, float(np.sqrt(np.mean(kept**2)))), kept
+def kept_back(fit, miss):
+    (segment,) = fit.solution.problem.segments
+    return miss[~segment.fit]
 
 
 def test_difference_over_the_samples_kept_back():
     miss = coloured(np.random.default_rng(6), 20_000, 0.0)
-    (a, kept_a), (b, kept_b) = predicted(miss, 1.0), predicted(miss, 1.1)
+    a, b = missing(miss, 1.0), missing(miss, 1.1)
+    kept_a, kept_b = kept_back(a, miss), kept_back(b, 1.1 * miss)
     mean, error = evidence.held_difference(a, b)
     assert mean == pytest.approx(np.mean(kept_b**2 - kept_a**2), rel=1e-9)
     # Of white noise every sample counts.
@@ -184,7 +163,8 @@ def test_difference_over_the_samples_kept_back():
 
 def test_a_difference_of_coloured_residuals_is_less_certain():
     miss = coloured(np.random.default_rng(6), 20_000, 0.9)
-    (a, kept_a), (b, kept_b) = predicted(miss, 1.0), predicted(miss, 1.1)
+    a, b = missing(miss, 1.0), missing(miss, 1.1)
+    kept_a, kept_b = kept_back(a, miss), kept_back(b, 1.1 * miss)
     _, error = evidence.held_difference(a, b)
     plain = np.std(kept_b**2 - kept_a**2) / np.sqrt(kept_a.size)
     # The square of an AR(1) process at rho has a correlation of rho^2.

@@ -11,8 +11,10 @@ from scipy.signal import lfilter
 from pam_ros.effects import EFFECTS
 from pam_ros.identification.candidate import Fit
 from pam_ros.identification.problem import Problem
+from pam_ros.identification.segment import segments_of
 from pam_ros.identification.solve import Solution
 from pam_ros.identification.unknowns import Unknown
+from pam_ros.recording.recording import Recording
 from pam_ros.rig.layout import layout_of
 
 
@@ -50,6 +52,31 @@ def least_squares_fit(columns, values, names, independent, effects=()):
     r = columns @ u - values
     error = float(np.sqrt(np.mean(r**2)))
     return Fit(tuple(effects), Solution(problem, u, r, columns, 0), error, error)
+
+
+@dataclass(frozen=True, eq=False)
+class Missing(Problem):
+    """A problem of one run that misses the measurement by u[0] times ``miss`` (n,)."""
+
+    miss: np.ndarray = None
+
+    def predict(self, u, only=-1):
+        return [s.target + u[0] * self.miss for s in self.segments]
+
+
+def missing(miss, size, effects=()):
+    """Return the Fit of a run that misses what was measured by *size* times *miss* (n,)."""
+    t = np.arange(miss.size) / 100.0
+    recording = Recording('r', t, t, t, 0.0 * t, None, None, None, 'free')
+    segments = segments_of([recording], keep_back=True)
+    layout = layout_of(EFFECTS)
+    row = np.zeros(layout.parameters)
+    unknown = Unknown('size', -1, 0.0, 1.0)
+    problem = Missing(segments, layout, (), row, (unknown,), float(miss.size), miss=miss)
+    u = np.array([size])
+    r = problem.residuals(u)
+    solution = Solution(problem, u, r, r[:, None] / size, 1)
+    return Fit(tuple(effects), solution, *problem.errors(u))
 
 
 def coloured(rng, n, rho, sigma=1.0):

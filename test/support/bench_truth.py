@@ -1,0 +1,44 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Recordings of the truth plant as the package reads them, and what their user believes."""
+
+from pam_ros.muscle.muscle import Muscle
+from pam_ros.recording.recording import Recording
+from pam_ros.rig.model import GRAVITY, Load, RigModel
+from truth import held_record, record
+from truth.muscles import GRAVITY as TRUE_GRAVITY
+from truth.muscles import constants_si
+
+MASS = 20.0
+
+
+def recording_of(true, name='truth.csv'):
+    """Return a recording of the truth plant as the package holds it."""
+    t = true.t_s - true.t_s[0]
+    u = true.pressure_command_pa
+    if true.held:
+        return Recording(name, t, t, u, true.position_m, None, true.force_n, None, 'held')
+    return Recording(name, t, t, u, true.position_m, None, None, None, 'free')
+
+
+def free(*effects, name='truth.csv', **settings):
+    """Return the recording of a free load of 20 kg; see ``truth.record``."""
+    return recording_of(record(effects, **{'rate': 100.0, 'duration': 30.0, **settings}), name)
+
+
+def held(*effects, name='truth.csv', **settings):
+    """Return the recording of a muscle at prescribed lengths; see ``truth.held_record``."""
+    return recording_of(held_record(effects, **{'duration': 40.0, **settings}), name)
+
+
+def declared(mass=MASS, zeta=0.15, off=None):
+    """Return the model that is exactly the truth plant's, constants times 1 + *off* (6,).
+
+    The truth plant falls with 9.81 m/s^2; the difference to the standard value stands in a6.
+    """
+    constants = list(constants_si('dmsp_20_400n'))
+    constants[5] -= mass * (TRUE_GRAVITY - GRAVITY)
+    if off is not None:
+        constants = [a * (1.0 + share) for a, share in zip(constants, off, strict=True)]
+    muscle = Muscle(*constants, pressure_unit='Pa', contraction_unit='fraction', zeta=zeta)
+    return RigModel(muscle, Load(mass=mass))
