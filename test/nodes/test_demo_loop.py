@@ -9,6 +9,7 @@ import sys
 import pytest
 
 from pam_ros.demo.loop import HIDDEN, NOISE
+from pam_ros.nodes.chapters.loop import TOO_BUSY
 from pam_ros.recording.read import read_recording
 from pam_ros.report.write import FILES
 
@@ -39,6 +40,12 @@ def test_the_loop_closes_over_topics(tmp_path):
     assert recording.command.size > 0.9 * 45 * 100
 
     report = json.loads((folder / 'report' / 'report.json').read_text(encoding='utf-8'))
+    table = (folder / 'before_and_after.txt').read_text(encoding='utf-8')
+    assert table.strip() in done.stdout
+    if TOO_BUSY in done.stdout:
+        # Measured, not guessed: twice a simulator did not get the processor for 0.1 s.
+        pytest.skip(f'{TOO_BUSY}: what was recorded is not what the rig was told')
+
     assert report['verdict'] == 'effect_found'
     hidden = {name.split('.')[1] for name in HIDDEN if name.startswith('effects.')}
     found = [{effect['name'], *effect['alternatives']} for effect in report['effects']]
@@ -47,8 +54,6 @@ def test_the_loop_closes_over_topics(tmp_path):
     assert hidden <= set().union(*found)
     assert report['error']['noise_floor'] == pytest.approx(NOISE, rel=0.3)
 
-    table = (folder / 'before_and_after.txt').read_text(encoding='utf-8')
-    assert table.strip() in done.stdout
     rows = {line.split('  ')[0]: line.split() for line in table.splitlines()}
     before, after = float(rows['as declared'][2]), float(rows['identified'][1])
     assert before > 1.0

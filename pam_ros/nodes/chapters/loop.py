@@ -16,8 +16,10 @@ import sys
 from collections.abc import Mapping
 from contextlib import ExitStack
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
+from diagnostic_msgs.msg import DiagnosticArray
 from std_msgs.msg import Float64
 from tqdm import tqdm
 
@@ -35,19 +37,19 @@ EXCITATION = {
     'pressure_max': 400e3,
     'countdown': 2.0,
     'rate': 100.0,
+    'silence': 3.0,  # nobody stands beside this rig
 }
 RATE = 200.0  # states per second
+LATE = 0.1  # s by which a simulator may be late
+TOO_BUSY = 'this machine is too busy for real time'
 
 
 def play(stage: Stage) -> None:
     """Excite, record, identify, replay; leave the bags, the report, a plot and a table."""
     folder = stage.folder / 'loop'
-    for name in ('recording', 'replay'):
-        shutil.rmtree(folder / name, ignore_errors=True)
     folder.mkdir(parents=True, exist_ok=True)
     stage.say(f'Closing the loop: what does a rig have that {loop.MUSCLE} has not?')
-    record(stage, folder / 'recording', {'rig': loop.HIDDEN})
-    stage.wrote(folder / 'recording')
+    record_in_time(stage, folder / 'recording', {'rig': loop.HIDDEN})
     report = identify(stage, folder)
     stage.say('The rig once more, beside it pam_sim as declared and with identified.yaml')
     identified = {'muscle': str(folder / 'report' / 'identified.yaml')}
@@ -56,7 +58,7 @@ def play(stage: Stage) -> None:
         'declared': {'muscle': loop.MUSCLE},
         'identified': identified,
     }
-    record(stage, folder / 'replay', again)
+    record_in_time(stage, folder / 'replay', again)
     command, *spaces = (f'{stage.namespace}/{name}' for name in ('pressure_command', *again))
     replay = loop.read_replay(folder / 'replay', command, *spaces)
     from pam_ros.demo import figures
@@ -66,10 +68,35 @@ def play(stage: Stage) -> None:
     stage.text('loop/before_and_after.txt', loop.table(replay, report))
 
 
-def record(stage: Stage, bag: Path, rigs: Mapping[str, Mapping[str, Any]]) -> None:
+def record_in_time(stage: Stage, bag: Path, rigs: Mapping[str, Mapping[str, Any]]) -> None:
+    """Record as :func:`record` does, once more where the machine was too busy for real time.
+
+    A rig that takes its commands late is another rig than the one that was recorded. The better
+    of the two recordings is kept.
+    """
+    shutil.rmtree(bag, ignore_errors=True)
+    late = record(stage, bag, rigs)
+    if late > LATE:
+        stage.say(
+            f'  this machine is busy: a simulator stood still for {1e3 * late:.0f} ms; again'
+        )
+        with TemporaryDirectory(dir=bag.parent) as folder:
+            again = Path(folder) / bag.name
+            late_again = record(stage, again, rigs)
+            if late_again < late:
+                shutil.rmtree(bag)
+                again.rename(bag)
+                late = late_again
+        if late > LATE:
+            stage.say(f'  {TOO_BUSY}: the results will show it ({1e3 * late:.0f} ms)')
+    stage.wrote(bag)
+
+
+def record(stage: Stage, bag: Path, rigs: Mapping[str, Mapping[str, Any]]) -> float:
     """Record simulated *rigs* (name -> parameters), the first of them excited, to *bag*.
 
-    All hear the same commands. Raises PamError where the excitation stopped early.
+    All hear the same commands. Return the time in s by which one of them was late at worst.
+    Raises PamError where the excitation stopped early.
     """
     space = stage.namespace
     states = [f'{space}/{name}/joint_states' for name in rigs]
@@ -97,11 +124,26 @@ def record(stage: Stage, bag: Path, rigs: Mapping[str, Mapping[str, Any]]) -> No
         client.until(is_ready, 'the rigs and the recorder')
         client.node.destroy_publisher(publisher)
         watch = ('-r', f'__ns:={space}', '-r', f'joint_states:={states[0]}')
+        reports = client.collect(DiagnosticArray, '/diagnostics')
         with Program('pam_excite', *watch, parameters=EXCITATION) as excite:
             show(client, excite)
             if excite.wait():
                 raise PamError(f'pam_excite stopped: {excite.output.splitlines()[-1]}')
         recorder.stop()
+        return worst_lateness(reports, space)
+
+
+def worst_lateness(reports: list[DiagnosticArray], space: str) -> float:
+    """Return the worst lateness in s that simulators in a namespace have reported."""
+    values = [
+        float(item.value)
+        for report in reports
+        for status in report.status
+        if status.hardware_id.startswith(space.strip('/'))
+        for item in status.values
+        if item.key == 'worst lateness (s)'
+    ]
+    return max(values, default=0.0)
 
 
 def show(client: Client, excite: Program) -> None:
