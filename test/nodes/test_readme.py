@@ -3,16 +3,20 @@
 """README.md against running programs: topics, services, parameters, defaults, commands."""
 
 import re
+import subprocess
+import sys
 
+import numpy as np
 import pytest
 from rcl_interfaces.srv import ListParameters
 from sensor_msgs.msg import JointState
 
-from support.harness import Program
-from support.pages import README, commands, names, part, rows
+from support.harness import Program, lose_nothing
+from support.pages import README, blocks, commands, names, part, rows
 
 # What every node has: parameters, logging, its description.
 OF_EVERY_NODE = ('rcl_interfaces/', 'type_description_interfaces/')
+LENGTH = 2700  # states of 2 ms, so that the error decays to micrometres
 SETTINGS = ('effects.', 'initial.', 'sensor.')
 STARTS = [
     words[words.index('--ros-args') + 1 :]
@@ -39,6 +43,10 @@ def told(name):
 
 ONE, SEVERAL = told('interface'), told('several')
 OF_ALL = {name: kind for name, kind in ONE.items() if name.startswith(('/', '~'))}
+
+
+def stamp(message):
+    return message.header.stamp.sec * 10**9 + message.header.stamp.nanosec
 
 
 def seen(peer, get):
@@ -114,3 +122,26 @@ def test_the_excitation_plans_as_shown(arguments):
     with Program('pam_excite', *arguments, '--', '--dry-run') as excite:
         assert excite.wait() == 0, excite.output
         assert 'total' in excite.output
+
+
+def positions_under(peer, example):
+    """Return the first positions of a simulator in lockstep with a controller."""
+    states = peer.collect(JointState, 'joint_states')
+    parameters = {'muscle': 'dmsp_20_400n', 'time_mode': 'lockstep', **lose_nothing()}
+    with Program('pam_sim', parameters=parameters):
+        controller = subprocess.Popen([sys.executable, '-c', example])
+        try:
+            peer.until(lambda: len(states) > LENGTH + 50 or controller.poll(), 'the states')
+        finally:
+            controller.kill()
+            controller.wait()
+    told = {stamp(message): message.position[0] for message in states}  # one may be told twice
+    return [told[time] for time in sorted(told)][:LENGTH]
+
+
+def test_the_controller_reaches_its_goal_the_same_way_each_time(peer):
+    (example,) = (one for one in blocks(README, 'python') if 'rclpy' in one)
+    first, second = (positions_under(peer, example) for _ in range(2))
+    assert len(first) == LENGTH
+    np.testing.assert_allclose(first[-100:], 0.06, atol=5e-6)
+    assert first == second
