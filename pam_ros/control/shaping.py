@@ -14,7 +14,8 @@ from pam_ros.control.profile import Bounds, Rest
 from pam_ros.control.signals import Reference
 from pam_ros.parameters import check_all, parameter
 
-QUICK, PER_SAMPLE = 30.0, 1.5  # rad/s of the tracker, and rad a sample: the lower one counts
+QUICK, PER_SAMPLE = 80.0, 1.5  # rad/s of the tracker, and rad a sample: the lower one counts
+ROUGH = 4.0  # times the bound of acceleration that samples of a stream may be off by
 PAUSE = 0.5  # s without a sample after which the next one is a new target
 LEAST_INTERVAL = 1e-4  # s, for samples that come at once
 MISSED, LEAST = 4.0, 0.05  # intervals, and s, without a sample after which a stream has ended
@@ -54,13 +55,13 @@ class Tracker:
 
     An alpha-beta-gamma filter with three equal poles at QUICK rad/s: it follows a constant
     acceleration without error, a sine of amplitude A and w rad/s with one of A (w / QUICK)^3. A
-    sample that no acceleration within *most* m/s^2 explains is a jump: the target is there, at
-    rest, until there are more.
+    sample that no acceleration within *bounds* explains is a jump: the target is there, at rest.
+    A second one in a row, within the bound of velocity, is the second sample of a motion.
     """
 
-    def __init__(self, most: float) -> None:
+    def __init__(self, bounds: Bounds) -> None:
         """Make it for a target at rest at 0; see :meth:`start`."""
-        self.most = most
+        self.bounds = bounds
         self.start(0.0)
 
     def start(self, position: float) -> None:
@@ -68,6 +69,7 @@ class Tracker:
         self.state = (position, 0.0, 0.0)
         self._last = position
         self._age = self._interval = PAUSE
+        self._has_jumped = False
 
     def follow(self, dt: float) -> bool:
         """Go on by *dt* s; return whether the target jumped because its stream ended."""
@@ -84,14 +86,21 @@ class Tracker:
     def take(self, position: float, ago: float) -> bool:
         """Take in a sample in m that came *ago* s ago; return whether it is a jump."""
         interval = max(self._age - ago, LEAST_INTERVAL)
+        way = position - self._last
         self._interval, self._age, self._last = interval, ago, position
         x, v, a = self.state
         # Compared where both are now: the sample is taken along.
         surprise = position + ago * (v + 0.5 * ago * a) - x
         rate = min(QUICK, PER_SAMPLE / interval)
-        if interval > PAUSE or abs(surprise) * rate * rate > self.most:
-            self.state = (position, 0.0, 0.0)
+        if interval > PAUSE or abs(surprise) * rate * rate > ROUGH * self.bounds.acceleration:
+            speed = way / interval
+            is_second = self._has_jumped and abs(speed) <= self.bounds.velocity
+            self.state = (
+                (position + ago * speed, speed, 0.0) if is_second else (position, 0.0, 0.0)
+            )
+            self._has_jumped = True
             return True
+        self._has_jumped = False
         z = exp(-rate * interval)
         left = 1.0 - z
         self.state = (
@@ -109,7 +118,7 @@ class Shaper:
         """Make it at rest at 0; see :meth:`start`."""
         self.shape = shape
         self._offset = Rest()
-        self._tracker = Tracker(shape.max_acceleration)
+        self._tracker = Tracker(shape.bounds)
         self.start(0.0)
 
     def start(self, position: float) -> None:
@@ -121,7 +130,7 @@ class Shaper:
     def set_shape(self, shape: Shape) -> None:
         """Go on within other bounds, those of the present approach apart."""
         self.shape = shape
-        self._tracker.most = shape.max_acceleration
+        self._tracker.bounds = shape.bounds
 
     def take(self, position: float, ago: float = 0.0) -> None:
         """Take in a target in m that was told *ago* s ago."""

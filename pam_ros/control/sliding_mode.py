@@ -49,7 +49,7 @@ from pam_ros.rig.model import RigModel
 
 REST_SPEED, REST_ACCELERATION = 1e-4, 1e-3  # m/s, m/s^2 below which a reference rests
 QUICKEST = 2.0  # times its bandwidth that the velocity estimate grows to
-STICTION_TOLERANCE = 2.0  # rest tolerances that a load which sticks and slips may be off
+STICTION_TOLERANCE = 1.5  # rest tolerances that a load which sticks and slips may be off
 STUCK_RATE = 30.0  # N/s at most with which a contact is loaded
 
 
@@ -98,6 +98,7 @@ class SlidingMode:
         self._losses.start(position, chamber)
         self._standstill.start()
         self._stiction.start()
+        self._pushed: float | None = None
         self._twisting.w = 0.0
         self._integral = 0.0
         self._slope = 0.0  # bandwidth of the last step, 1/s
@@ -198,14 +199,18 @@ class SlidingMode:
         stiction, standstill = self._stiction, self._standstill
         if standstill.is_moving:
             stiction.start()
-            return force
-        error = reference.position - self._seen
-        pushed = stiction.follow(dt, error, force, standstill.stiffness)
-        if pushed is None:
-            return force
-        # The integral takes the force over, so that the law goes on from there.
-        self._integral += (pushed - force) / (self._rig.mass * self._bandwidth)
-        return pushed
+        pushed = None
+        if not standstill.is_moving:
+            error = reference.position - self._seen
+            pushed = stiction.follow(dt, error, force, standstill.stiffness)
+        if pushed is not None:
+            self._pushed = pushed
+            return pushed
+        if self._pushed is not None:
+            # The law goes on from the force that was pushed with last.
+            self._integral += (self._pushed - force) / (self._rig.mass * self._bandwidth)
+            force, self._pushed = self._pushed, None
+        return force
 
     def _switching(self, dt: float) -> float:
         """Return the switching force in N; sets the sliding variable."""
@@ -232,7 +237,8 @@ class SlidingMode:
             spring = min(max(spring * standstill.stiffness, -most), most)
         growth = (self._decay * self._error_rate + spring) * dt
         # Anti-windup: at a limit the integral may only lead away from it.
-        if command == wanted or growth * (wanted - command) < 0.0:
+        is_free = command == wanted or growth * (wanted - command) < 0.0
+        if is_free and self._pushed is None:
             self._integral += growth
         standstill.see_force(dt, force, self._seen, self._k)
         mean = self._path.follow(command, dt)

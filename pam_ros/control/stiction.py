@@ -3,8 +3,8 @@
 """Bring a load that sticks and slips to its goal by measured pushes.
 
 Friction that falls when the load begins to slide makes every integral hunt: the load sticks
-beside the goal, is pulled until it breaks loose, slips past and sticks on the other side. Two such
-breaks, one each way, tell what the hunt is about: the force in their middle, at which the load
+beside the goal, is pulled until it breaks loose, slips past and sticks on the other side. Such
+breaks, in turn each way, tell what the hunt is about: the force in their middle, at which the load
 would stay in peace, and the force that breaks it loose. From then on the load is pushed from the
 middle force until it breaks loose, and the push is taken back as soon as what the load will still
 slide brings it to the goal (after Popovic, Gorinevsky & Goldenberg 2000, who fix the pushes
@@ -16,12 +16,14 @@ from math import copysign, exp
 LOOSE_WAY, LOOSE_SPEED = 60e-6, 4e-3  # m and m/s that tell a slip from a bent contact
 SEE, SEE_SPEED = 0.008, 0.012  # s of the filters of place and speed
 ANCHOR, REST = 0.3, 0.06  # s of those of the sticking place and of the place at rest
+TURNS, LASTING = 3, 0.5  # breaks in turn, and how little they may decay, for it to be a hunt
 DWELL = 0.08  # s at rest before a slip, for it to be a break
 CALM = 0.25  # s after a push until the load is looked at again
 QUICK, CAREFUL = 2.0, 0.6  # loading, in breaking forces per second, up to and from NEAR of it
 NEAR, TOO_MUCH = 0.75, 2.0  # breaking forces
 REACTION = 0.03  # s between a speed and its end when the push is taken back, to begin with
 PATIENCE = 6  # pushes after which the tolerance doubles
+RELAPSE = 1.6  # tolerances that a load may drift once it was within one
 STUCK = 2.0  # stiffness, in muscles, that counts as sticking
 
 
@@ -40,7 +42,7 @@ class Stiction:
         self._is_new = True
         self._stuck = False
         self._dwelt = 0.0
-        self._breaks: dict[float, float] = {}
+        self._breaks: list[tuple[float, float, float]] = []  # side, force, place
         self._middle = self._breaking = 0.0
         self._force = 0.0
         self._side = 0.0  # direction of the push, 0 when there is none
@@ -50,6 +52,7 @@ class Stiction:
         self._expected = self._speed = 0.0
         self._pushes = 0
         self._wide = self.tolerance
+        self._is_content = False
 
     def follow(self, dt: float, error: float, force: float, stiffness: float) -> float | None:
         """Go on by *dt* s under a resting reference; return the force in N to apply, or None.
@@ -88,13 +91,18 @@ class Stiction:
         return abs(way) > LOOSE_WAY and abs(self._v) > LOOSE_SPEED and way * self._v > 0.0
 
     def _note_break(self, force: float) -> None:
-        """Take note of a break, and set to work once there was one each way."""
+        """Take note of a break, and set to work at the third in turn of a hunt that lasts."""
         side = copysign(1.0, self._v)
-        self._breaks[side] = force
         self._stuck = False
-        if len(self._breaks) == 2 and self._breaks[1.0] > self._breaks[-1.0]:
-            self._middle = 0.5 * (self._breaks[1.0] + self._breaks[-1.0])
-            self._breaking = 0.5 * (self._breaks[1.0] - self._breaks[-1.0])
+        if self._breaks and self._breaks[-1][0] == side:
+            self._breaks.clear()
+        self._breaks.append((side, force, abs(self._anchor)))
+        if len(self._breaks) < TURNS:
+            return
+        (_, _, first), (_, other, _), (_, _, last) = self._breaks[-TURNS:]
+        if last > LASTING * first and side * (force - other) > 0.0:
+            self._middle = 0.5 * (force + other)
+            self._breaking = 0.5 * abs(force - other)
             self._force, self._side, self._is_loose = force, side, True
             self.is_active = True
 
@@ -104,8 +112,7 @@ class Stiction:
             self._rest(dt)
             return
         ahead = self._side * (self._x + self._v * self._reaction)
-        if slipped:
-            self._is_loose = True
+        self._is_loose = self._is_loose or slipped
         if ahead >= 0.0 or (self._is_loose and self._v * self._side <= 0.0):
             self._expected, self._speed = self._x + self._v * self._reaction, self._v
             self._end_push()
@@ -139,5 +146,7 @@ class Stiction:
             self._speed = 0.0
         if self._pushes % PATIENCE == 0 and self._pushes:
             self._wide = self.tolerance * 2.0 ** (self._pushes // PATIENCE)
-        if abs(self._mean) > self._wide:
+        allowed = RELAPSE * self._wide if self._is_content else self._wide
+        self._is_content = abs(self._mean) <= allowed
+        if not self._is_content:
             self._side = copysign(1.0, -self._mean)
