@@ -158,8 +158,9 @@ class Scene:
         table = self.base()
         for name, given in own.items():
             known = self._own(name)
-            for stranger in refuse_mistyped(given, known):
-                raise ParameterError(f'{name}.{stranger}: {name} has no parameter {stranger}')
+            flat = {f'{name}.{rest}' for rest in known}
+            for stranger in refuse_mistyped((f'{name}.{rest}' for rest in given), flat):
+                raise ParameterError(f'{stranger}: {name} has no parameter of this name')
             preset = self._preset(given, known)
             known = with_defaults(known, preset)
             table |= {f'{name}.{rest}': known[rest] for rest in chain(preset, given)}

@@ -1,0 +1,144 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Time under control: how fast lockstep and scaled time are, and what 64 muscles cost.
+
+Claims: lockstep with a controller as its own process over DDS at 500 Hz at least 10 times real
+time; scaled as fast as possible with 100 Hz publishing at least 50 times; 64 muscles at 1 kHz
+physics and 500 Hz publishing in real time below 60 % of a core, at 499 Hz or more, without
+overrun in 30 s, and the cost of one muscle more.
+
+The machine's other load slows all but CPU times: it is printed, and CPU times stand beside.
+"""
+
+import itertools
+import json
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+from time import monotonic
+
+import numpy as np
+from diagnostic_msgs.msg import DiagnosticArray
+
+from benchmarks.node_rate import cpu_seconds
+from pam_ros.nodes.client import Client
+
+HERE = Path(__file__).parent
+CONTROLLER = HERE.parent / 'test' / 'support' / 'example_controller.py'
+NAMESPACE = f'/time_modes_{os.getpid()}'
+SECONDS = 30.0
+SIM = [sys.executable, '-m', 'pam_ros.nodes.pam_sim', '--ros-args', '-r', f'__ns:={NAMESPACE}']
+MUSCLES = (1, 8, 16, 32, 64)
+TURNS = 3
+
+
+def simulator(**parameters: object) -> subprocess.Popen[bytes]:
+    """Start a simulator in the namespace of the benchmark."""
+    given = itertools.chain.from_iterable(
+        ('-p', f'{k}:={json.dumps(v)}') for k, v in parameters.items()
+    )
+    return subprocess.Popen([*SIM, *given], start_new_session=True)
+
+
+def end(process: subprocess.Popen[bytes]) -> None:
+    """Stop it as Ctrl-C does."""
+    process.send_signal(signal.SIGINT)
+    process.wait()
+
+
+def values(diagnostics: list[DiagnosticArray], part: str = 'timing') -> dict[str, str]:
+    """Return the values that a part told last."""
+    ours = (m for m in reversed(diagnostics) if NAMESPACE[1:] in m.status[0].name)
+    status = next((s for m in ours for s in m.status if s.name.endswith(part)), None)
+    return {v.key: v.value for v in status.values} if status else {}
+
+
+def lockstep(seconds: float) -> None:
+    """Print how much faster than real time a closed loop in lockstep is."""
+    for turn in range(TURNS):
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder, 'run.npz')
+            remapped = ['--ros-args', '-r', f'__ns:={NAMESPACE}']
+            sim = simulator(time_mode='lockstep')
+            subprocess.run([sys.executable, CONTROLLER, str(seconds), file, *remapped], check=True)
+            used = cpu_seconds(sim.pid)
+            end(sim)
+            run = np.load(file)
+            took = float(run['took'])
+        periods = len(run['t'])
+        print(
+            f'lockstep, {seconds:g} s at 500 Hz, run {turn + 1}: {seconds / took:6.1f} times real '
+            f'time (at least 10), {took / periods * 1e6:.0f} us a period, of these '
+            f'{used / periods * 1e6:.0f} us CPU of the simulator with its start',
+            flush=True,
+        )
+
+
+def scaled(client: Client, diagnostics: list[DiagnosticArray]) -> None:
+    """Print how fast time passes where nothing holds it."""
+    for rate in (100.0, 500.0):
+        sim = simulator(time_mode='scaled', speed_factor=0.0, publish_rate=rate)
+
+        def simulated() -> float:
+            return float(values(diagnostics).get('simulated time (s)', 0.0))
+
+        client.until(lambda: simulated() > 0.0, 'the simulator')
+        begin = simulated(), cpu_seconds(sim.pid), monotonic()
+        client.work(SECONDS / 3)
+        now = simulated(), cpu_seconds(sim.pid), monotonic()
+        done, used, took = np.subtract(now, begin)
+        end(sim)
+        diagnostics.clear()
+        limit = ' (at least 50)' if rate == 100.0 else ''
+        print(
+            f'scaled, as fast as possible, publishing at {rate:g} Hz: {done / took:.0f} times '
+            f'real time{limit}, {done / used:.0f} times its CPU time',
+            flush=True,
+        )
+
+
+def many(client: Client, diagnostics: list[DiagnosticArray]) -> None:
+    """Print what muscles cost in real time."""
+    shares = []
+    for count in MUSCLES:
+        names = [f'm{i}' for i in range(count)]
+        sim = simulator(muscles=names)
+        client.until(lambda: values(diagnostics), 'the simulator')
+        client.work(2.0)
+        before, used, begin = values(diagnostics), cpu_seconds(sim.pid), monotonic()
+        rates = []
+        while monotonic() - begin < SECONDS:
+            client.work(1.0)
+            rates.append(float(values(diagnostics)['publish rate (Hz)']))
+        share = (cpu_seconds(sim.pid) - used) / (monotonic() - begin)
+        after = values(diagnostics)
+        end(sim)
+        diagnostics.clear()
+        overruns = int(after['overruns']) - int(before['overruns'])
+        shares.append(share)
+        print(
+            f'{count:3} muscles at 1 kHz, published at 500 Hz: {100 * share:5.1f} % of a core, '
+            f'{np.mean(rates):.1f} Hz, {overruns} overruns in {SECONDS:g} s, worst lateness '
+            f'{1e3 * float(after["worst lateness (s)"]):.1f} ms in the last second',
+            flush=True,
+        )
+    slope, base = np.polyfit(MUSCLES, shares, 1)
+    print(f'a muscle more: {100 * slope:.2f} % of a core (line from {100 * base:.1f} %)')
+    print(f'64 muscles: {100 * shares[-1]:.1f} % of a core (below 60)')
+
+
+def main() -> None:
+    """Measure all and print the numbers."""
+    print(f'load {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores before')
+    lockstep(20.0)
+    with Client() as client:
+        diagnostics = client.collect(DiagnosticArray, '/diagnostics')
+        scaled(client, diagnostics)
+        many(client, diagnostics)
+
+
+if __name__ == '__main__':
+    main()
