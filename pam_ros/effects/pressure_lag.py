@@ -41,7 +41,7 @@ def start(q: Row, j: int, p: float, kappa: float, y: float) -> tuple[float, ...]
 EFFECT = Effect(
     name='pressure_lag',
     text='first-order lag of the chamber behind the command, filling and venting apart',
-    source='Chamber behind an ISO 6358 orifice, linearised below choking; 20 to 130 ms with servo valves',
+    source='ISO 6358 orifice, linear below choking; 20 to 130 ms with servo valves',
     parameters=(
         EffectParameter(
             'fill',

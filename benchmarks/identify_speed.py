@@ -1,0 +1,117 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""How long a trace takes, and how a single fit compares with plain scipy.
+
+The trace tries every effect of the library. The fit is one candidate, a pressure lag: the
+declared parameters, the start and the lag's two times, once by the package and once by
+``scipy.integrate.solve_ivp`` inside ``scipy.optimize.least_squares``, as one would write it in
+an afternoon, on the same recording and from the same start.
+"""
+
+import os
+
+os.environ.setdefault('OPENBLAS_NUM_THREADS', '1')
+
+import time
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+from scipy.integrate import solve_ivp
+from scipy.optimize import least_squares
+
+from benchmarks.tracing import blind_trial, declared_model, recording_of
+from pam_ros.effects import pressure_lag
+from pam_ros.identification.candidate import extended
+from pam_ros.identification.finder import trace
+from pam_ros.identification.noise import noise_of
+from pam_ros.identification.search import problem_of
+from pam_ros.identification.segment import segments_of
+from pam_ros.identification.solve import solve
+from pam_ros.rig.warm import warm
+
+START = {'fill': 0.02, 'vent': 0.02}
+RUNS = ((60.0, 1000.0, 5.0), (80.0, 200.0, 3.0))  # s, Hz, s that it may take
+SCIPY_SECONDS = 10.0  # of the recording for scipy's fit: its time grows in proportion
+
+
+def main() -> None:
+    """Print the time of two traces, and of one fit both ways."""
+    warm()
+    for duration, rate, target in RUNS:
+        trial = blind_trial('pressure_lag', 3, rate=rate, duration=duration)
+        model, recording = declared_model(trial), recording_of(trial)
+        began = time.perf_counter()
+        found = trace(model, [recording])
+        took = time.perf_counter() - began
+        print(
+            f'{duration:g} s at {rate:g} Hz, all candidates: {took:5.1f} s (at most {target:g}), '
+            f'{found.verdict} {[e.name for e in found.effects]}'
+        )
+    compare()
+
+
+def compare() -> None:
+    """Print the time of one fit by the package and by plain scipy."""
+    trial = blind_trial('pressure_lag', 3, rate=200.0, duration=80.0)
+    model, recording = declared_model(trial), recording_of(trial)
+    segments = segments_of([recording], keep_back=False)
+    noise = noise_of([(s.t, s.target) for s in segments])
+    problem, added = extended(
+        problem_of(model, segments, noise, 1e-3), model, pressure_lag.EFFECT, START
+    )
+    u = np.concatenate([np.zeros(len(problem.unknowns) - len(added)), added])
+    began = time.perf_counter()
+    with ThreadPoolExecutor() as pool:
+        ours = solve(problem, u, pool=pool)
+    fast = time.perf_counter() - began
+
+    s = segments[0]
+    n = int(np.searchsorted(s.t, SCIPY_SECONDS))
+    t, target = s.t[:n], s.target[:n]
+    began = time.perf_counter()
+    theirs = plain_fit(model, t, target, s.drive_t, s.drive, (s.y0, s.v0))
+    slow = (time.perf_counter() - began) * s.t.size / n
+    print(
+        f'one candidate, 80 s at 200 Hz: {fast:.2f} s, plain scipy {slow:.0f} s '
+        f'(from {SCIPY_SECONDS:g} s of it): {slow / fast:.0f} times faster (at least 100)'
+    )
+    print(
+        f'  fill, vent: {ours.value("effects.pressure_lag.fill"):.4f}, '
+        f'{ours.value("effects.pressure_lag.vent"):.4f} s; scipy {theirs[-2]:.4f}, '
+        f'{theirs[-1]:.4f} s; truth {trial.effects[0].values}'
+    )
+
+
+def plain_fit(model, t, target, drive_t, drive, start):  # type: ignore[no-untyped-def]
+    """Return scipy's fit: factors of a1..a6 and zeta, start, lag times (11,)."""
+    a = np.array(model.muscle.si)
+    l0, mass, gravity = model.muscle.l0, model.load.mass, model.load.gravity
+
+    def simulated(x):  # type: ignore[no-untyped-def]
+        a1, a2, a3, a4, a5, a6 = a * x[:6]
+        zeta, fill, vent = model.muscle.zeta * x[6], x[9], x[10]
+
+        def rhs(now, state):  # type: ignore[no-untyped-def]
+            y, v, p = state
+            u = drive[np.searchsorted(drive_t, now, side='right') - 1]
+            kappa = y / l0
+            e = np.exp(a3 * kappa)
+            force = (a1 * p + a2) * e + a4 * kappa * p + a5 * p + a6
+            k = -((a1 * p + a2) * a3 * e + a4 * p) / l0
+            c = 2.0 * zeta * np.sqrt(mass * max(k, 0.0))
+            lag = fill if u > p else vent
+            return v, (force - c * v) / mass - gravity, (u - p) / max(lag, 1e-3)
+
+        run = solve_ivp(
+            rhs, (t[0], t[-1]), (x[7], x[8], drive[0]), t_eval=t, rtol=1e-6, max_step=0.01
+        )
+        return run.y[0]
+
+    first = np.array([1.0] * 7 + [*start, START['fill'], START['vent']])
+    scale = np.array([0.05] * 6 + [0.5, 1e-3, 1e-2, 0.02, 0.02])
+    found = least_squares(lambda x: simulated(x) - target, first, x_scale=scale, max_nfev=10)
+    return found.x
+
+
+if __name__ == '__main__':
+    main()
