@@ -96,7 +96,8 @@ def _segment(part: Recording, keep_back: bool) -> Segment:
     if pressure is None:
         assert part.command_t is not None
         assert part.command is not None
-        at = np.searchsorted(part.command_t, part.t, side='right') - 1
+        # A sample is the state before a command of the same stamp has acted.
+        at = np.searchsorted(part.command_t, part.t, side='left') - 1
         pressure = part.command[np.maximum(at, 0)]
     if part.force is None:
         raise RecordingError(f'{part.name}: a held recording needs the force')
