@@ -97,6 +97,10 @@ def test_structure_that_no_effect_explains():
     assert 'force and pressure' in found.next_experiment
 
 
+def test_a_residual_far_above_the_noise_is_no_noise_even_if_nothing_predicts_it():
+    assert judge(answer(300, 100, 100)).verdict == 'unexplained_structure'
+
+
 def test_structure_below_the_noise_is_none():
     assert judge(answer(1.0, 1.0, 1.0, 0.8, 0.05)).verdict == 'no_missing_effect'
 
@@ -133,9 +137,9 @@ def test_too_little_overrules_whatever_was_found():
 
 def test_errors_of_a_force_are_in_newtons():
     made = replace(answer(1.0, 1.0, 1.0), quantity='force', unit='N', noise=Noise(2.7, 0.0))
-    made = replace(made, stages=tuple(stage('x', e) for e in (310.0, 40.0, 40.0)))
+    made = replace(made, stages=tuple(stage('x', e) for e in (310.0, 3.0, 3.0)))
     found = judge(made)
-    assert 'from 310 N to 40 N' in found.sentence
+    assert 'from 310 N to 3 N' in found.sentence
     assert '2.7 N' in found.sentence
 
 
