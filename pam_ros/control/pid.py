@@ -20,13 +20,13 @@ from pam_ros.rig.model import RigModel
 class PidGains:
     """Gains of the PID law, tuned on the benchmark's plants (``benchmarks/control.py``)."""
 
-    proportional: float = parameter(0.6e6, 'pressure per error', 'Pa/m', low=0.0, high=1e9)
-    integral: float = parameter(20e6, 'rate of pressure per error', 'Pa/(m s)', low=0.0, high=1e10)
+    proportional: float = parameter(0.52e6, 'pressure per error', 'Pa/m', low=0.0, high=1e9)
+    integral: float = parameter(33e6, 'rate of pressure per error', 'Pa/(m s)', low=0.0, high=1e10)
     derivative: float = parameter(
-        60e3, 'pressure per rate of the error', 'Pa s/m', low=0.0, high=1e9
+        35e3, 'pressure per rate of the error', 'Pa s/m', low=0.0, high=1e9
     )
     filter_bandwidth: float = parameter(
-        120.0, 'bandwidth of the filter of the measured position', 'rad/s', low=1.0, high=1e4
+        370.0, 'bandwidth of the filter of the measured position', 'rad/s', low=1.0, high=1e4
     )
 
     def __post_init__(self) -> None:
@@ -92,14 +92,16 @@ class Pid:
         wanted = static + self._pid(-self._filtered, dt=dt)
         command = self._limiter.limit(wanted, dt)
         p, i, d = self._pid.components
+        gain = self._rig.gain(reference.position)
         self.terms = Terms(
             reference=reference.position,
+            speed=reference.velocity,
             position=self._seen,
             error=reference.position - self._seen,
-            equivalent=static,
-            switching=p + d,
-            observer=i,
+            equivalent=gain * static,
+            switching=gain * (p + d),
+            observer=gain * i,
             pressure=command,
-            saturated=command != wanted or not self._limiter.low < wanted < self._limiter.high,
+            cut=gain * (static + p + i + d - command),
         )
         return command

@@ -10,7 +10,7 @@ added to it is an offset that goes to zero within the bounds and is nothing once
 from dataclasses import dataclass
 from math import exp
 
-from pam_ros.control.profile import Bounds, Rest
+from pam_ros.control.profile import Bounds, Rest, advance, change
 from pam_ros.control.signals import Reference
 from pam_ros.parameters import check_all, parameter
 
@@ -168,7 +168,15 @@ class Shaper:
         )
         return self.reference
 
-    def rest_at(self, target: Reference) -> None:
-        """Let the target rest where *target* is: the end of a trajectory."""
-        self._tracker.start(target.position)
-        self._set_out(target.position, 0.0, 0.0)
+    def rest_at(self, position: float) -> None:
+        """Let the target rest at *position* m from now on."""
+        self._tracker.start(position)
+        self._set_out(position, 0.0, 0.0)
+
+    def stop(self) -> None:
+        """Let the target rest where the reference can stop soonest."""
+        _, velocity, acceleration, _ = self.reference
+        state: tuple[float, ...] = (self.reference.position, velocity, acceleration)
+        for jerk, duration in change(velocity, acceleration, 0.0, self.shape.bounds):
+            state = advance((state[0], state[1], state[2]), jerk, duration)
+        self.rest_at(state[0])

@@ -19,8 +19,10 @@ class Reference(NamedTuple):
 class Terms:
     """What a law found at its last step, for plots: SI, forces in N, contraction positive.
 
-    reference, position, velocity
-        where the load shall be and where it is estimated to be, m and m/s
+    reference, speed
+        where the load shall be and how fast it shall go, m and m/s
+    position, velocity
+        where it is estimated to be and how fast it goes, m and m/s
     error
         reference less position, m
     surface
@@ -32,11 +34,12 @@ class Terms:
         gauge Pa commanded
     bandwidth
         decay rate of the sliding variable in use, 1/s
-    saturated
-        whether a limit of pressure or of its rate holds
+    cut
+        force that is wanted and that a limit of pressure or of its rate cuts off
     """
 
     reference: float = 0.0
+    speed: float = 0.0
     position: float = 0.0
     velocity: float = 0.0
     error: float = 0.0
@@ -47,7 +50,12 @@ class Terms:
     learned: float = 0.0
     pressure: float = 0.0
     bandwidth: float = 0.0
-    saturated: bool = False
+    cut: float = 0.0
+
+    @property
+    def saturated(self) -> bool:
+        """Whether a limit of pressure or of its rate holds."""
+        return self.cut != 0.0
 
 
 class PositionLaw(Protocol):

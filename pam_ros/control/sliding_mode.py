@@ -130,7 +130,7 @@ class SlidingMode:
         gain = self._rig.gain(reference.position)
         wanted = self._path.command_for(pressure, rate / gain)
         command = self._limiter.limit(wanted, dt)
-        self.terms.pressure, self.terms.saturated = command, command != wanted
+        self.terms.pressure, self.terms.cut = command, gain * (wanted - command)
         self._go_on(dt, reference, force, command, wanted)
         return command
 
@@ -187,7 +187,8 @@ class SlidingMode:
 
         switching = self._switching(dt)
         taken = -observer.disturbance if gains.observer else -self._offset
-        terms.reference, terms.position, terms.velocity = y, observer.position, velocity
+        terms.reference, terms.speed = y, v
+        terms.position, terms.velocity = observer.position, velocity
         terms.error = self._error
         terms.equivalent = self._foreseen + lost + shaping
         terms.switching, terms.observer, terms.learned = switching, taken, learned

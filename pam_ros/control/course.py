@@ -1,0 +1,84 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Where the load shall go: held, told by positions, or on a trajectory, always without a jump."""
+
+from collections.abc import Sequence
+from math import isfinite
+
+from pam_ros.control.limits import refuse_unreachable
+from pam_ros.control.shaping import Shape, Shaper
+from pam_ros.control.signals import Reference
+from pam_ros.control.trajectory import Point, Trajectory
+from pam_ros.errors import RangeError
+
+
+class Course:
+    """Makes one reference of all that the load is told; the newest word counts."""
+
+    def __init__(self, shape: Shape, reach: tuple[float, float]) -> None:
+        """Make it for a load that can be held within *reach* (lowest, highest position in m)."""
+        self.reach = reach
+        self._shaper = Shaper(shape)
+        self._trajectory: Trajectory | None = None
+        self._since = 0.0
+
+    @property
+    def reference(self) -> Reference:
+        """Where the load shall be now."""
+        return self._shaper.reference
+
+    @property
+    def is_on_trajectory(self) -> bool:
+        """Whether a trajectory is played, or waits for its start."""
+        return self._trajectory is not None
+
+    def start(self, position: float) -> None:
+        """Hold the load at *position* m, whatever it was told before."""
+        self._trajectory = None
+        self._shaper.start(position)
+
+    def set_shape(self, shape: Shape) -> None:
+        """Go on within other bounds."""
+        self._shaper.set_shape(shape)
+
+    def tell(self, position: float, ago: float = 0.0) -> None:
+        """Take a position in m that was told *ago* s ago; raises RangeError out of reach."""
+        if not isfinite(position):
+            raise RangeError(f'reference {position} is no position')
+        refuse_unreachable(position, self.reach)
+        if self._trajectory is not None:
+            self._leave()
+        self._shaper.take(position, ago)
+
+    def play(self, points: Sequence[Point], wait: float = 0.0) -> None:
+        """Follow *points* from *wait* s from now on, in the midst of them where that is negative.
+
+        Without points, stop where it is. Raises RangeError for points that make no motion within
+        reach; then all stays as it was.
+        """
+        if not points:
+            self._leave()
+            return
+        trajectory = Trajectory(self.reference, points, self.reach)
+        self._trajectory, self._since = trajectory, -wait
+        self._shaper.join(trajectory.at(self._since))
+
+    def _leave(self) -> None:
+        """Come to rest as soon as the bounds allow."""
+        self._trajectory = None
+        self._shaper.stop()
+
+    def follow(self, dt: float) -> Reference:
+        """Return the reference *dt* s on."""
+        if self._trajectory is None:
+            return self._shaper.follow(dt)
+        before = self._since
+        self._since += dt
+        if before < 0.0 <= self._since:
+            # It may begin in motion.
+            self._shaper.join(self._trajectory.at(self._since))
+        self._shaper.along(dt, self._trajectory.at(self._since))
+        if self._since >= self._trajectory.duration:
+            self._shaper.rest_at(self._trajectory.at(self._since).position)
+            self._trajectory = None
+        return self.reference

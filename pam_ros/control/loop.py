@@ -1,0 +1,124 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""A law in service: it starts where the load is, and does what is safe when nothing is seen.
+
+All times are seconds of one clock that is told with each call; measurements carry the time at
+which they were taken. The law's own time runs smoothly along: a tick that comes early or late
+changes the length of the next step, not the instant for which the law computes.
+"""
+
+from dataclasses import dataclass
+
+from pam_ros.control.course import Course
+from pam_ros.control.signals import PositionLaw
+
+HOLD, VENT = 'hold', 'vent'
+WAITING, RUNNING, BLIND, DISABLED = 'waiting', 'running', 'blind', 'disabled'
+SHORT, LONG, LOST = 0.5, 2.0, 5.0  # periods: shortest and longest step, and a lost thread
+
+
+@dataclass(frozen=True)
+class Reading:
+    """A measurement: time taken in s, position in m, velocity in m/s where there is one."""
+
+    time: float
+    position: float
+    velocity: float | None = None
+
+
+class Loop:
+    """Runs a law at a period, on what is seen and told.
+
+    state
+        WAITING for a first measurement, RUNNING, BLIND without fresh measurements, DISABLED
+    pressure
+        the last command in Pa, None before there was one
+    """
+
+    def __init__(self, law: PositionLaw, course: Course, period: float) -> None:
+        """Make it wait for the first measurement; *period* in s."""
+        self.law, self.course, self.period = law, course, period
+        self.timeout, self.safe = 0.1, HOLD
+        self.state = WAITING
+        self.pressure: float | None = None
+        self.chamber: float | None = None  # measured gauge pressure in Pa, where there is one
+        self.starts = 0
+        self._seen: Reading | None = None
+        self._is_new = False
+        self._time = 0.0  # for which the law computes next
+
+    @property
+    def is_enabled(self) -> bool:
+        """Whether it commands, or will when it sees something."""
+        return self.state != DISABLED
+
+    def enable(self, is_enabled: bool) -> None:
+        """Begin anew from wherever the load is, or fall silent."""
+        if is_enabled != self.is_enabled:
+            self.state = WAITING if is_enabled else DISABLED
+            self._seen = None
+
+    def see(self, reading: Reading) -> None:
+        """Take in a measurement; one that is older than the last is left out."""
+        if self._seen is None or reading.time > self._seen.time:
+            self._seen, self._is_new = reading, True
+
+    def change(self, law: PositionLaw, course: Course) -> None:
+        """Go on with another law and course from where the load and the pressure are."""
+        if self.state == RUNNING:
+            law.start(self.law.terms.position, self.pressure)
+            course.start(self.course.reference.position)
+        self.law, self.course = law, course
+
+    def forget(self) -> None:
+        """Begin anew at the next measurement: the clock has jumped."""
+        self._seen = None
+        if self.is_enabled:
+            self.state = WAITING
+
+    def age(self, now: float) -> float | None:
+        """Return how old the newest measurement is, in s."""
+        return None if self._seen is None else now - self._seen.time
+
+    def tick(self, now: float) -> float | None:
+        """Return the gauge pressure in Pa to command from *now* on, None for no command."""
+        if self.state == DISABLED:
+            return None
+        reading = self._seen
+        if reading is None or now - reading.time > self.timeout:
+            return self._stay_safe()
+        if self.state != RUNNING:
+            self._start(reading, now)
+        dt = now + self.period - self._time
+        if dt > LOST * self.period:
+            self._time, dt = now, self.period
+        dt = min(max(dt, SHORT * self.period), LONG * self.period)
+        position, velocity = None, None
+        if self._is_new:
+            position, velocity = reading.position, reading.velocity
+            self._is_new = False
+        reference = self.course.reference
+        age = self._time - reading.time
+        self.pressure = self.law.update(dt, reference, position, velocity, age)
+        self.course.follow(dt)
+        self._time += dt
+        return self.pressure
+
+    def _start(self, reading: Reading, now: float) -> None:
+        """Begin anew where the load is, at the pressure that is there."""
+        known = self.chamber if self.pressure is None else self.pressure
+        self.law.start(reading.position, known)
+        self.course.start(reading.position)
+        self._time = now
+        self.state = RUNNING
+        self.starts += 1
+
+    def _stay_safe(self) -> float | None:
+        """Return what is commanded when nothing is seen: nothing before the first start."""
+        if self.state == RUNNING:
+            self.state = BLIND
+        if self.state != BLIND:
+            return None
+        if self.safe == VENT:
+            self.pressure = 0.0
+        return self.pressure
