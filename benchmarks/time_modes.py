@@ -17,11 +17,14 @@ import signal
 import subprocess
 import sys
 import tempfile
+from functools import partial
 from pathlib import Path
 from time import monotonic
 
 import numpy as np
 from diagnostic_msgs.msg import DiagnosticArray
+from sensor_msgs.msg import JointState
+from std_msgs.msg import Float64MultiArray
 
 from benchmarks.node_rate import cpu_seconds
 from pam_ros.nodes.client import Client
@@ -31,16 +34,17 @@ CONTROLLER = HERE.parent / 'test' / 'support' / 'example_controller.py'
 NAMESPACE = f'/time_modes_{os.getpid()}'
 SECONDS = 30.0
 SIM = [sys.executable, '-m', 'pam_ros.nodes.pam_sim', '--ros-args', '-r', f'__ns:={NAMESPACE}']
-MUSCLES = (1, 8, 16, 32, 64)
+MUSCLES = (2, 8, 16, 32, 64)
+ARRAYS = ('pressures', 'forces', 'stiffnesses', 'dampings')
 TURNS = 3
 
 
-def simulator(**parameters: object) -> subprocess.Popen[bytes]:
-    """Start a simulator in the namespace of the benchmark."""
+def simulator(name: str, **parameters: object) -> subprocess.Popen[bytes]:
+    """Start a simulator of this name in the namespace of the benchmark."""
     given = itertools.chain.from_iterable(
         ('-p', f'{k}:={json.dumps(v)}') for k, v in parameters.items()
     )
-    return subprocess.Popen([*SIM, *given], start_new_session=True)
+    return subprocess.Popen([*SIM, '-r', f'__node:={name}', *given], start_new_session=True)
 
 
 def end(process: subprocess.Popen[bytes]) -> None:
@@ -49,22 +53,26 @@ def end(process: subprocess.Popen[bytes]) -> None:
     process.wait()
 
 
-def values(diagnostics: list[DiagnosticArray], part: str = 'timing') -> dict[str, str]:
-    """Return the values that a part told last."""
-    ours = (m for m in reversed(diagnostics) if NAMESPACE[1:] in m.status[0].name)
-    status = next((s for m in ours for s in m.status if s.name.endswith(part)), None)
+def values(diagnostics: list[DiagnosticArray], name: str) -> dict[str, str]:
+    """Return what the simulator of this name told last of its timing."""
+    full = f'{NAMESPACE[1:]}/{name}: timing'
+    told = (s for m in reversed(diagnostics) for s in m.status if s.name == full)
+    status = next(told, None)
     return {v.key: v.value for v in status.values} if status else {}
 
 
-def lockstep(seconds: float) -> None:
+def lockstep(client: Client, diagnostics: list[DiagnosticArray], seconds: float) -> None:
     """Print how much faster than real time a closed loop in lockstep is."""
     for turn in range(TURNS):
         with tempfile.TemporaryDirectory() as folder:
             file = Path(folder, 'run.npz')
             remapped = ['--ros-args', '-r', f'__ns:={NAMESPACE}']
-            sim = simulator(time_mode='lockstep')
+            name = f'lockstep_{turn}'
+            sim = simulator(name, time_mode='lockstep')
+            client.until(partial(values, diagnostics, name), 'the simulator')
+            begin = cpu_seconds(sim.pid)
             subprocess.run([sys.executable, CONTROLLER, str(seconds), file, *remapped], check=True)
-            used = cpu_seconds(sim.pid)
+            used = cpu_seconds(sim.pid) - begin
             end(sim)
             run = np.load(file)
             took = float(run['took'])
@@ -72,7 +80,7 @@ def lockstep(seconds: float) -> None:
         print(
             f'lockstep, {seconds:g} s at 500 Hz, run {turn + 1}: {seconds / took:6.1f} times real '
             f'time (at least 10), {took / periods * 1e6:.0f} us a period, of these '
-            f'{used / periods * 1e6:.0f} us CPU of the simulator with its start',
+            f'{used / periods * 1e6:.0f} us CPU of the simulator',
             flush=True,
         )
 
@@ -80,12 +88,13 @@ def lockstep(seconds: float) -> None:
 def scaled(client: Client, diagnostics: list[DiagnosticArray]) -> None:
     """Print how fast time passes where nothing holds it."""
     for rate in (100.0, 500.0):
-        sim = simulator(time_mode='scaled', speed_factor=0.0, publish_rate=rate)
+        name = f'scaled_{rate:.0f}'
+        sim = simulator(name, time_mode='scaled', speed_factor=0.0, publish_rate=rate)
 
-        def simulated() -> float:
-            return float(values(diagnostics).get('simulated time (s)', 0.0))
+        def simulated(name: str = name) -> float:
+            return float(values(diagnostics, name).get('simulated time (s)', 0.0))
 
-        client.until(lambda: simulated() > 0.0, 'the simulator')
+        client.until(simulated, 'the simulator')
         begin = simulated(), cpu_seconds(sim.pid), monotonic()
         client.work(SECONDS / 3)
         now = simulated(), cpu_seconds(sim.pid), monotonic()
@@ -103,18 +112,25 @@ def scaled(client: Client, diagnostics: list[DiagnosticArray]) -> None:
 def many(client: Client, diagnostics: list[DiagnosticArray]) -> None:
     """Print what muscles cost in real time."""
     shares = []
+    for kind, topic in (
+        (JointState, 'joint_states'),
+        *((Float64MultiArray, name) for name in ARRAYS),
+    ):
+        # Somebody listens to each topic, so that messages are sent.
+        client.node.create_subscription(kind, topic, lambda message: None, 10, raw=True)
     for count in MUSCLES:
         names = [f'm{i}' for i in range(count)]
-        sim = simulator(muscles=names)
-        client.until(lambda: values(diagnostics), 'the simulator')
+        name = f'of_{count}'
+        sim = simulator(name, muscles=names)
+        client.until(partial(values, diagnostics, name), 'the simulator')
         client.work(2.0)
-        before, used, begin = values(diagnostics), cpu_seconds(sim.pid), monotonic()
+        before, used, begin = values(diagnostics, name), cpu_seconds(sim.pid), monotonic()
         rates = []
         while monotonic() - begin < SECONDS:
             client.work(1.0)
-            rates.append(float(values(diagnostics)['publish rate (Hz)']))
+            rates.append(float(values(diagnostics, name)['publish rate (Hz)']))
         share = (cpu_seconds(sim.pid) - used) / (monotonic() - begin)
-        after = values(diagnostics)
+        after = values(diagnostics, name)
         end(sim)
         diagnostics.clear()
         overruns = int(after['overruns']) - int(before['overruns'])
@@ -133,9 +149,9 @@ def many(client: Client, diagnostics: list[DiagnosticArray]) -> None:
 def main() -> None:
     """Measure all and print the numbers."""
     print(f'load {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores before')
-    lockstep(20.0)
-    with Client() as client:
+    with Client(NAMESPACE) as client:
         diagnostics = client.collect(DiagnosticArray, '/diagnostics')
+        lockstep(client, diagnostics, 20.0)
         scaled(client, diagnostics)
         many(client, diagnostics)
 

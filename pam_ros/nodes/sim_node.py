@@ -101,15 +101,21 @@ class PamSim(TickingNode):
     def start(self) -> None:
         """Let simulated time begin now."""
         super().start()
+        self._time.align(0)
         self._begin()
         if self._is_lockstep:
             self._run_to(0)
 
-    def _begin(self) -> None:
-        """Go to the initial state, now."""
+    def _begin_again(self) -> None:
+        """Go to the initial state, one period later."""
         self._time.restart(self._plant.step, round(SECOND / self._told.settings.publish_rate))
+        self._begin()
+
+    def _begin(self) -> None:
+        """Go to the initial state."""
         self._plant.begin()
         self._fault = ''
+        self._first = 0  # step that samples are counted from
         self._aim_at_sample(0)
         self._aim_at_clock(0)
         self._turns.begin()
@@ -188,8 +194,14 @@ class PamSim(TickingNode):
             self._stop_at_fault(error)
 
     def _aim_at_sample(self, sample: int) -> None:
-        """Let this sample, counted from the start, be the next one."""
-        self._sample, self._next = sample, self._grid(sample, self._told.settings.publish_rate)
+        """Let this sample, counted from the first one, be the next one."""
+        self._sample = sample
+        self._next = self._first + self._grid(sample, self._told.settings.publish_rate)
+
+    def _sample_from_here(self) -> None:
+        """Let the next sample come one period from now."""
+        self._first = self._plant.step
+        self._aim_at_sample(1)
 
     def _aim_at_clock(self, tick: int) -> None:
         """Let this message on ``/clock``, counted from the start, be the next one."""
@@ -219,7 +231,7 @@ class PamSim(TickingNode):
     def _stop_at_fault(self, error: Exception) -> None:
         """Stand still at the initial state: what the model says now is no motion."""
         time = self._plant.time
-        self._begin()
+        self._begin_again()
         self._set_paused(True)
         self._fault = f'the load is lost {time:.3f} s after the start, {error}: reset and paused'
         self.get_logger().error(self._fault)
@@ -266,22 +278,19 @@ class PamSim(TickingNode):
         self._plant.change(now)
         self._describe()
         settings = now.settings
-        if isinstance(self._time, OwnTime):
+        if isinstance(self._time, OwnTime) and self._time.factor != self._factor:
             self._time.factor = self._factor
-        if (settings.publish_rate, settings.clock_rate, settings.speed_factor) != (
-            *(before.publish_rate, before.clock_rate, before.speed_factor),
-        ):
-            if not self._is_followed:
-                self._time.align(self._plant.step)
+            self._time.align(self._plant.step)
+        if settings.publish_rate != before.publish_rate:
+            self._sample_from_here()
+        if settings.clock_rate != before.clock_rate:
+            self._aim_at_clock(math.floor(self._plant.time * settings.clock_rate + 1e-9) + 1)
+        if self._tick_rate != self.ticker.rate:
             self.ticker.start(self._tick_rate, monotonic_ns())
-            time, own = self._plant.time, not self._is_followed
-            # A time of one's own stands at a sample that was published already.
-            self._aim_at_sample(math.floor(time * settings.publish_rate + 1e-9) + 1)
-            self._aim_at_clock(math.floor(time * settings.clock_rate + 1e-9) + 1 if own else 0)
 
     def _reset(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
-        self._begin()
-        if self._is_lockstep or (self._is_paused and not self._is_followed):
+        self._begin_again()
+        if self._is_lockstep or self._is_paused:
             self._run_to(0)
         response.success, response.message = True, 'at the initial state'
         return response
@@ -292,6 +301,8 @@ class PamSim(TickingNode):
         if self._is_paused and not request.data:
             self._time.align(self._plant.step)
             self._fault = ''
+        if request.data and not (self._is_paused or self._is_followed or self._is_lockstep):
+            self._publish(self._time.stamp(self._plant.step))  # where it stands, to be repeated
         self._set_paused(request.data)
         if self._is_lockstep and not request.data and self._turns.is_complete:
             self._run_to(self._next)  # what was commanded meanwhile
@@ -309,6 +320,7 @@ class PamSim(TickingNode):
             response.message = 'time goes on: pause first'
             return response
         periods = self._told.settings.step_periods
+        self._sample_from_here()
         for _ in range(periods):
             if self._is_followed:
                 self._time.align(self._next)  # each is stamped with the time that it is told at
