@@ -9,7 +9,7 @@ from setuptools import find_packages, setup
 PACKAGE = 'pam_ros'
 
 # Each program is the module of its name in pam_ros/nodes/, with a function main().
-PROGRAMS = ['pam_demo', 'pam_excite', 'pam_identify', 'pam_record', 'pam_sim']
+PROGRAMS = ['pam_control', 'pam_demo', 'pam_excite', 'pam_identify', 'pam_record', 'pam_sim']
 
 
 def shared(folder: str, pattern: str = '**/*') -> list[tuple[str, list[str]]]:

@@ -1,15 +1,14 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What ``pam_control`` is told: the rig, the law's gains, limits, rates, names."""
+"""What ``pam_control`` is told: the declared rig, the law with its gains, rates and time-outs."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
-from pam_ros.config import Table, build, build_rig, rig_table, table_of, with_defaults
-from pam_ros.control.course import Course
+from pam_ros.config import Table, Values, build, build_rig, rig_table, table_of, with_defaults
 from pam_ros.control.gains import Gains
 from pam_ros.control.limits import Limits, reachable
-from pam_ros.control.loop import HOLD, VENT
 from pam_ros.control.pid import Pid, PidGains
 from pam_ros.control.shaping import Shape
 from pam_ros.control.signals import PositionLaw
@@ -19,43 +18,51 @@ from pam_ros.parameter_files import read_known
 from pam_ros.parameters import check_all, parameter
 from pam_ros.rig.model import RigModel
 
-SLIDING_MODE, PID = 'sliding_mode', 'pid'
+MEASURED = 'use_measured_velocity'  # a gain that velocity_source stands for
 
 
 @dataclass(frozen=True)
 class ControlSettings:
-    """Rates, safety and names of the controller node."""
+    """Law, rates, safety and names of the controller node."""
 
-    control_rate: float = parameter(
-        500.0, 'pressure commands per second', 'Hz', low=20.0, high=5000.0, live=False
+    controller: str = parameter(
+        'sliding_mode',
+        'law that controls: sliding_mode, or pid as a baseline (needs simple-pid)',
+        choices=('sliding_mode', 'pid'),
     )
-    law: str = parameter(SLIDING_MODE, 'position law', choices=(SLIDING_MODE, PID), live=False)
-    enabled: bool = parameter(True, 'whether it commands from the start', live=False)
-    joint_name: str = parameter(
-        '', 'joint in joint_states; empty: the only one there is', live=False
+    velocity_source: str = parameter(
+        'estimated',
+        'where the law has its velocity from: estimated from positions, or measured in '
+        'joint_states',
+        choices=('estimated', 'measured'),
+    )
+    rate: float = parameter(
+        500.0,
+        'commands per second; with use_sim_time each new joint state is answered instead',
+        'Hz',
+        low=10.0,
+        high=2000.0,
+    )
+    state_rate: float = parameter(
+        100.0, 'messages per second on ~/state; 0: none', 'Hz', low=0.0, high=2000.0
     )
     state_timeout: float = parameter(
         0.1,
-        'age of the newest joint state at which on_timeout acts',
+        'silence of joint_states after which on_timeout acts',
         's',
-        low=0.001,
-        high=60.0,
+        low=0.005,
+        high=3600.0,
     )
     on_timeout: str = parameter(
-        HOLD,
-        'what is commanded when joint states stay away: hold the last pressure, or vent to 0 Pa',
-        choices=(HOLD, VENT),
+        'vent',
+        'what is commanded when joint states stay away: vent for the lowest pressure, or hold '
+        'the last one',
+        choices=('vent', 'hold'),
     )
-    state_rate: float = parameter(
-        100.0, 'messages per second on ~/state', 'Hz', low=0.1, high=5000.0
+    start_enabled: bool = parameter(
+        True, 'whether it controls from the start; false: from ~/enable on', live=False
     )
-    ambient_pressure: float = parameter(
-        101325.0,
-        'absolute pressure around the muscle, taken off what comes on the topic pressure',
-        'Pa',
-        low=0.0,
-        high=1e6,
-    )
+    joint_name: str = parameter('pam', 'name of the joint in joint_states', live=False)
 
     def __post_init__(self) -> None:
         """Check every field."""
@@ -63,62 +70,62 @@ class ControlSettings:
 
 
 @dataclass(frozen=True)
-class Control:
-    """All that the node is told, checked together."""
+class Told:
+    """All that the node was told, checked against each other."""
 
     model: RigModel
+    settings: ControlSettings
     gains: Gains
     pid: PidGains
     limits: Limits
     shape: Shape
-    settings: ControlSettings
+    reach: tuple[float, float]
 
-    def __post_init__(self) -> None:
-        """Refuse gains that do not suit the rig, and a rig that cannot be held anywhere."""
-        self.gains.check(self.model, self.period)
-        reachable(self.model, self.limits)
+    @cached_property
+    def pressures(self) -> tuple[float, float]:
+        """Lowest and highest pressure in Pa that may be commanded."""
+        return self.limits.range_for(self.model)
 
-    @property
-    def period(self) -> float:
-        """Time in s from one command to the next."""
-        return 1.0 / self.settings.control_rate
-
-    def law(self) -> PositionLaw:
-        """Return a new law."""
-        if self.settings.law == PID:
+    def make_law(self) -> PositionLaw:
+        """Return a new law, that has to be started."""
+        if self.settings.controller == 'pid':
             return Pid(self.model, self.pid, self.limits)
         return SlidingMode(self.model, self.gains, self.limits)
 
-    def course(self) -> Course:
-        """Return a new course."""
-        return Course(self.shape, reachable(self.model, self.limits))
 
-    def needs_new_law(self, before: 'Control') -> bool:
-        """Say whether more than what a law can take while it runs differs from *before*."""
-        return (self.model, self.pid, self.limits) != (before.model, before.pid, before.limits)
-
-
-def table(muscle: Any = '') -> Table:
-    """Return the table of all parameters; their defaults come from *muscle* where it is given."""
+def table(given: Values) -> Table:
+    """Return the table of all parameters, those of the muscle that is *given* as its defaults."""
+    gains = table_of(Gains, 'gains.')
+    del gains[f'gains.{MEASURED}']
     plain: Table = {
         **MUSCLE,
         **rig_table(),
         **table_of(ControlSettings),
-        **table_of(Limits),
-        **table_of(Shape, 'reference.'),
-        **table_of(Gains, 'gains.'),
+        **gains,
         **table_of(PidGains, 'pid.'),
+        **table_of(Limits, 'limits.'),
+        **table_of(Shape, 'shape.'),
     }
-    return with_defaults(plain, read_known(str(muscle), plain)) if muscle else plain
+    name = given.get('muscle', '')
+    return with_defaults(plain, read_known(str(name), plain)) if name else plain
 
 
-def control(values: dict[str, Any]) -> Control:
-    """Make a controller's settings from flat values; raises ParameterError where they are none."""
-    return Control(
-        build_rig(values),
-        build(Gains, values, 'gains.'),
+def build_told(values: dict[str, Any]) -> Told:
+    """Make of flat *values* what the node works with; raises PamError where they do not fit."""
+    model = build_rig(values)
+    settings = build(ControlSettings, values)
+    gains = build(Gains, values, 'gains.')
+    gains = replace(gains, use_measured_velocity=settings.velocity_source == 'measured')
+    limits = build(Limits, values, 'limits.')
+    gains.check(model, 1.0 / settings.rate)
+    told = Told(
+        model,
+        settings,
+        gains,
         build(PidGains, values, 'pid.'),
-        build(Limits, values),
-        build(Shape, values, 'reference.'),
-        build(ControlSettings, values),
+        limits,
+        build(Shape, values, 'shape.'),
+        reachable(model, limits),
     )
+    told.make_law()  # which says what it lacks
+    return told

@@ -1,23 +1,22 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""``pam_control``: moves the load of a pneumatic muscle to where it shall be.
+"""``pam_control``: move the load of one muscle to a position, by commanding pressure.
 
 Subscribes
-    ``joint_states`` (sensor_msgs/JointState): contraction in m, and velocity where it is wanted
-    ``position_reference`` (std_msgs/Float64): m; a step is shaped, a stream is followed
-    ``joint_trajectory`` (trajectory_msgs/JointTrajectory): m, m/s, m/s^2; empty: stop
-    ``pressure`` (sensor_msgs/FluidPressure): absolute Pa, for a start without a bump; optional
+    ``joint_states`` (sensor_msgs/JointState): contraction in m, of the joint joint_name
+    ``position_reference`` (std_msgs/Float64): m; a step is approached smoothly
+    ``joint_trajectory`` (trajectory_msgs/JointTrajectory): m, m/s, m/s^2
 Publishes
-    ``pressure_command`` (std_msgs/Float64): Pa gauge
-    ``~/state`` (sensor_msgs/JointState): the terms of the law, by name
+    ``pressure_command`` (std_msgs/Float64): Pa gauge, at ``rate``
+    ``~/state`` (sensor_msgs/JointState): the terms of the law by name, their values as positions
     ``/diagnostics`` (diagnostic_msgs/DiagnosticArray), once a second
 Services
-    ``~/enable`` (std_srvs/SetBool): begin where the load is, or command nothing
+    ``~/enable`` (std_srvs/SetBool): control from where the joint is, or command nothing
 
-Contraction is positive: the load moves up. It starts where the load is and holds it there until
-a reference comes. A reference out of reach is refused, and the last one counts. When joint states
-stay away for state_timeout seconds the pressure is held or vented (on_timeout). The rig is
-declared as to pam_sim: parameters say what they are, ``ros2 param describe /pam_control <name>``.
+Contraction is positive: the load moves up. Parameters say what they are:
+``ros2 param describe /pam_control <name>``. It begins by holding the load where it is. A reference
+that is out of reach is refused and the last one holds; when joint_states stay away for
+state_timeout seconds the muscle vents, or its pressure is held (on_timeout).
 """
 
 from pam_ros.nodes.program import start_node
