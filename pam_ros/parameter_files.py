@@ -110,12 +110,13 @@ def read(path: Path, node: str = 'pam_sim') -> dict[str, Value]:
         )
     values: dict[str, Value] = {}
     for table in tables:
-        for name, value in _flat(table):
-            if isinstance(value, list) and all(isinstance(v, str) for v in value):
-                value = tuple(value)
-            if not isinstance(value, (bool, int, float, str, tuple)):
-                raise ParameterError(f'{path}: {name} = {value!r} is not a single value, nor a list of texts')
-            values[name] = value
+        for name, read in _flat(table):
+            is_list = isinstance(read, list) and all(isinstance(text, str) for text in read)
+            if not (is_list or isinstance(read, bool | int | float | str)):
+                raise ParameterError(
+                    f'{path}: {name} = {read!r} is not a single value, nor a list of texts'
+                )
+            values[name] = tuple(read) if is_list else read
     return values
 
 

@@ -59,11 +59,14 @@ class Parameter:
             raise ParameterError(f'{name} = {value!r} is not allowed: give {self.allowed(kind)}')
         return kind(value)
 
-    def _fits(self, value: Any, kind: type) -> bool:
-        if kind is str:
-            return isinstance(value, str) and (not self.choices or value in self.choices)
+    def _is_text(self, value: Any, kind: type) -> bool:
         if kind is tuple:
             return isinstance(value, list | tuple) and all(isinstance(v, str) for v in value)
+        return isinstance(value, str) and (not self.choices or value in self.choices)
+
+    def _fits(self, value: Any, kind: type) -> bool:
+        if kind in (str, tuple):
+            return self._is_text(value, kind)
         if kind is bool or isinstance(value, bool):
             return kind is bool and isinstance(value, bool)
         if not isinstance(value, numbers.Real):  # numpy's are among them

@@ -3,8 +3,10 @@
 """The node of ``pam_sim``: its topics and services are listed there."""
 
 import math
+import sys
 from functools import partial
 from time import monotonic_ns
+from typing import Any
 
 from rclpy.qos import QoSProfile
 from rclpy.time import Time
@@ -79,7 +81,8 @@ class PamSim(TickingNode):
             self._turns.watch(subscription)
 
         self._one = told.is_one
-        self._telemetry: list[Telemetry | ArrayTelemetry | MuscleTelemetry]
+        # Each takes what the plant reads: of one muscle alone, or of several.
+        self._telemetry: list[Any]
         if self._one:
             self._telemetry = [Telemetry(self, told.joint_names[0])]
             hear(Float64, 'pressure_command', partial(self._command, 0))
@@ -207,7 +210,7 @@ class PamSim(TickingNode):
         """Let this message on ``/clock``, counted from the start, be the next one."""
         rate = self._told.settings.clock_rate
         self._clock_tick = tick
-        self._next_clock = math.inf if self._is_followed else self._grid(tick, rate)
+        self._next_clock = sys.maxsize if self._is_followed else self._grid(tick, rate)
 
     def _grid(self, n: int, rate: float) -> int:
         return math.ceil(n * self._told.settings.physics_rate / rate - 1e-9)

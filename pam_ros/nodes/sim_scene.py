@@ -158,8 +158,8 @@ class Scene:
         table = self.base()
         for name, given in own.items():
             known = self._own(name)
-            flat = {f'{name}.{rest}' for rest in known}
-            for stranger in refuse_mistyped((f'{name}.{rest}' for rest in given), flat):
+            all_known = {f'{name}.{rest}' for rest in known}
+            for stranger in refuse_mistyped((f'{name}.{rest}' for rest in given), all_known):
                 raise ParameterError(f'{stranger}: {name} has no parameter of this name')
             preset = self._preset(given, known)
             known = with_defaults(known, preset)
@@ -247,9 +247,8 @@ class Simulation:
 
     def __post_init__(self) -> None:
         """Refuse a step that is too long, and a start that the muscles cannot have."""
-        for model in dict.fromkeys(map(id, self.models)):
-            one = next(m for m in self.models if id(m) == model)
-            one.check_step(1.0 / self.settings.physics_rate)
+        for model in {id(model): model for model in self.models}.values():
+            model.check_step(1.0 / self.settings.physics_rate)
         for muscle, pressure, name in zip(
             self.muscles, self.pressures, self.muscle_names, strict=True
         ):
@@ -316,7 +315,7 @@ class Simulation:
             if start.at_rest:
                 key = id(model), p
                 if key not in rests:
-                    rests[key] = model.rest(p if isinstance(model, JointModel) else p[0])
+                    rests[key] = _rest(model, p)
                 positions.append(rests[key])
                 velocities.append(0.0)
             else:
@@ -327,6 +326,10 @@ class Simulation:
 
 def _muscles_of(model: Model) -> Iterable[Muscle]:
     return model.muscles if isinstance(model, JointModel) else (model.muscle,)
+
+
+def _rest(model: Model, pressures: tuple[float, ...]) -> float:
+    return model.rest(pressures) if isinstance(model, JointModel) else model.rest(pressures[0])
 
 
 def table(**given: Any) -> Table:

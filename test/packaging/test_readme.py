@@ -13,6 +13,7 @@ import pytest
 
 from benchmarks.__main__ import names as benchmarks
 from pam_ros.nodes import pam_identify
+from pam_ros.nodes.sim_scene import table as sim_table
 from pam_ros.parameter_files import load_rig
 from support.pages import (
     PAGES,
@@ -106,9 +107,16 @@ def check(words):
         check_launch(words[3:])
     elif words[:3] == ['ros2', 'param', 'describe']:
         assert words[3].lstrip('/') in PROGRAMS
+    elif words[:3] == ['ros2', 'param', 'set']:
+        assert words[3] == '/pam_sim'
+        assert words[4] in sim_table()
+    elif words[:3] == ['ros2', 'service', 'call']:
+        services = {'pause': 'SetBool', 'step': 'Trigger', 'reset': 'Trigger'}
+        assert words[4] == f'std_srvs/srv/{services[words[3].removeprefix("/pam_sim/")]}'
     elif words[:3] == ['ros2', 'topic', 'pub']:
-        assert '/pressure_command' in words
-        assert 'std_msgs/msg/Float64' in words
+        topics = {'/pressure_command': 'Float64', '/pressure_commands': 'Float64MultiArray'}
+        (topic,) = set(words) & set(topics)
+        assert f'std_msgs/msg/{topics[topic]}' in words
     else:
         assert ' '.join(words).startswith(OF_OTHERS), words
 
