@@ -16,9 +16,10 @@ Array = NDArray[np.float64]
 
 SIGNIFICANCE = 0.01  # of the whole family of candidates
 GAIN = 0.03  # least relative fall of the RMSE kept back
-LATER_SHARE = 0.05  # a second or third effect must explain this share of what re-tuning left
+LATER_SHARE = 0.03  # a second or third effect must explain this share of what re-tuning left
 AMBIGUOUS = 6.0  # difference of scores that does not decide between two effects
-LATER_GAIN = 0.35  # or lower the RMSE kept back by this share
+LATER_GAIN = 0.25  # or lower the RMSE kept back by this share
+BEYOND_DOUBT = 1e-6  # p of the model without an effect that needs no interval
 SIGMAS = 2.6  # of a strength's distance from 0
 LEAST = 24.0
 LONGEST = 4000  # samples over which a residual's correlation is summed
@@ -67,10 +68,12 @@ def holm(p: Array) -> Array:
     return out
 
 
-def strengths_clear(fit: Fit) -> bool:
+def strengths_clear(fit: Fit, p: float) -> bool:
     """Say whether a strength of the newest effect is surely not 0 and has its physical sign.
 
-    The standard errors are those of as many samples as the residual is worth.
+    Either its standard error says so, with as many samples as the residual is worth, or the
+    model without the effect is as unlikely as *p*: a stop may be of any stiffness above some,
+    and its standard error is then no measure of the distance from none.
     """
     problem: Problem = fit.solution.problem
     worth = independent_samples(fit) / problem.independent
@@ -82,8 +85,8 @@ def strengths_clear(fit: Fit) -> bool:
         name = unknown.name.removeprefix(prefix)
         if unknown.name.startswith(prefix) and name in signs:
             value = fit.solution.u[k]
-            right = signs[name] == 0 or value * signs[name] > 0.0
-            if right and abs(value) > SIGMAS * error[k]:
+            right = value * signs[name] > 0.0 if signs[name] else value != 0.0
+            if right and (p < BEYOND_DOUBT or abs(value) > SIGMAS * error[k]):
                 return True
     return False
 

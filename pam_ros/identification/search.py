@@ -209,7 +209,7 @@ def _round(parent: Fit, declared: Fit, model: RigModel, pool: Executor) -> tuple
         found = evidence.Evidence(
             float(p_corrected),
             gain,
-            evidence.strengths_clear(fit),
+            evidence.strengths_clear(fit, float(p_corrected)),
             _absorbed(parent, fit, effect) and gain > -evidence.GAIN,
         )
         tried.append(Tried(effect, parent.effects, fit, found, _rank(fit)))

@@ -133,14 +133,23 @@ def strength_fit(effect, parameter, size):
 def test_a_strength_must_be_surely_there_and_of_its_sign(effect, parameter, size, clear):
     known = next(e for e in EFFECTS if e.name == effect)
     assert parameter in [p.name for p in known.parameters]
-    assert evidence.strengths_clear(strength_fit(effect, parameter, size)) is clear
+    assert evidence.strengths_clear(strength_fit(effect, parameter, size), 1.0) is clear
 
 
 def test_only_the_newest_effect_counts():
     fit = strength_fit('viscous_friction', 'coefficient', 8.0)
     later = replace(fit, effects=('viscous_friction', 'coulomb_friction'))
-    assert evidence.strengths_clear(fit)
-    assert not evidence.strengths_clear(later)
+    assert evidence.strengths_clear(fit, 1.0)
+    assert not evidence.strengths_clear(later, 1.0)
+
+
+def test_what_is_beyond_doubt_needs_no_interval_but_its_sign():
+    wide = strength_fit('viscous_friction', 'coefficient', 1.0)
+    assert not evidence.strengths_clear(wide, 0.5)
+    assert evidence.strengths_clear(wide, 1e-9)
+    assert not evidence.strengths_clear(
+        strength_fit('viscous_friction', 'coefficient', -1.0), 1e-9
+    )
 
 
 def kept_back(fit, miss):
