@@ -70,6 +70,7 @@ def look(browser, tmp_path_factory):
     return at_all_sizes
 
 
+@pytest.mark.needs_numba
 def test_nothing_is_missing_overlapping_or_sticking_out(html, look):
     for width, found in look(html).items():
         assert found['width'] in (width, width - 15)  # a scroll bar takes its place
@@ -83,6 +84,7 @@ def test_nothing_is_missing_overlapping_or_sticking_out(html, look):
         assert found['pieces'] > 250
 
 
+@pytest.mark.needs_numba
 def test_long_names_many_recordings_and_three_effects_find_their_room(look):
     trace, source = traces.crowded_trace()
     runs = runs_of(trace)
