@@ -49,16 +49,29 @@ def stamp(message):
     return message.header.stamp.sec * 10**9 + message.header.stamp.nanosec
 
 
-def seen(peer, get):
-    """Return the topics or services of a running pam_sim as the table names them."""
+def seen(program, get):
+    """Return the topics or services of a running program as the tables name them."""
     own = {}
-    for name, (kind, *_) in get('pam_sim', '/'):
+    for name, (kind, *_) in get(program, '/'):
         if not kind.startswith(OF_EVERY_NODE):
-            short = name.replace('/pam_sim/', '~/')
+            short = name.replace(f'/{program}/', '~/')
             own[short if name in ('/clock', '/diagnostics') else short.lstrip('/')] = re.sub(
                 '/(msg|srv)/', '/', kind
             )
     return own
+
+
+def interface(peer, program):
+    """Return all topics and services of a running program as the tables name them."""
+    node = peer.node
+    if (program, '/') not in node.get_node_names_and_namespaces():
+        return {}
+    getters = (
+        node.get_publisher_names_and_types_by_node,
+        node.get_subscriber_names_and_types_by_node,
+        node.get_service_names_and_types_by_node,
+    )
+    return {name: kind for get in getters for name, kind in seen(program, get).items()}
 
 
 @pytest.mark.parametrize(
@@ -67,21 +80,15 @@ def seen(peer, get):
     ids=['one', 'several'],
 )
 def test_the_interface_is_that_of_the_running_simulator(peer, parameters, expected):
-    node = peer.node
-    getters = (
-        node.get_publisher_names_and_types_by_node,
-        node.get_subscriber_names_and_types_by_node,
-        node.get_service_names_and_types_by_node,
-    )
-
-    def interface():
-        if ('pam_sim', '/') not in node.get_node_names_and_namespaces():
-            return {}
-        return {name: kind for get in getters for name, kind in seen(peer, get).items()}
-
     with Program('pam_sim', parameters=parameters):
-        peer.until(lambda: set(expected) <= set(interface()), ', '.join(expected))
-        assert interface() == expected
+        peer.until(lambda: set(expected) <= set(interface(peer, 'pam_sim')), ', '.join(expected))
+        assert interface(peer, 'pam_sim') == expected
+
+
+def test_the_interface_is_that_of_the_running_controller(peer):
+    expected = told('control')
+    with Program('pam_control'):
+        peer.until(lambda: expected.items() <= interface(peer, 'pam_control').items(), 'the table')
 
 
 def test_parameters_exist_and_have_their_defaults(peer):
