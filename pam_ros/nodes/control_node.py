@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The node of ``pam_control``: its topics and services are listed there."""
 
-from math import floor
+from math import isfinite
 from time import monotonic_ns
 
 from rclpy.qos import QoSProfile
@@ -11,10 +11,12 @@ from std_msgs.msg import Float64
 from std_srvs.srv import SetBool
 from trajectory_msgs.msg import JointTrajectory
 
+from pam_ros.control.loop import BLIND, DISABLED, RUNNING, WAITING, Loop, Reading
+from pam_ros.control.signals import PositionLaw, Reference
+from pam_ros.control.sliding_mode import SlidingMode
 from pam_ros.errors import RangeError
 from pam_ros.nodes import control_settings
-from pam_ros.nodes.control_inputs import Sight, points_of, sight_of, stamp_of
-from pam_ros.nodes.control_loop import CONTROLLING, DISABLED, FAULTY, LOST, WAITING, Loop
+from pam_ros.nodes.control_inputs import points_of, sight_of, stamp_of
 from pam_ros.nodes.control_settings import Told
 from pam_ros.nodes.control_state import StateTopic
 from pam_ros.nodes.diagnostics import ERROR, OK, WARN, Diagnostics, Health
@@ -42,21 +44,33 @@ class PamControl(TickingNode):
             self, control_settings.table(given(self)), control_settings.build_told, self._change
         )
         self._told = self._given.built
-        self._loop = Loop(self._told)
+        self._loop = self._make_loop()
         self._is_followed = bool(self.get_parameter('use_sim_time').value)
-        self._seen: int | None = None  # steady time of the newest usable state, ns
+        self._seen = monotonic_ns()  # steady time of the newest usable state, ns
         self._stamp: int | None = None  # and its stamp
+        self._ticked = self._seen  # steady time of the last tick, ns
+        self._has_waited = False
+        self._answered = 0  # steady time of the last command, ns
         self._blindness = ''  # why the last state was not usable
         self._refusal, self._refused, self._is_refusal_new = '', 0, False
-        self._until_state = 0.0  # s until the next message on ~/state
+        self._shown = 0  # ROS time of the last message on ~/state, ns
+        self._fault = ''
         self._commanded = 0
         self._command = Float64()
-        self._begin_grid()
         self._open_topics()
         self.create_service(SetBool, '~/enable', self._enable)
         self._diagnostics = Diagnostics(self, {'timing': self._timing, 'control': self._control})
         self._given.refuse_mistyped()
         self.ticker = Ticker(self._tick_rate)
+
+    def _make_loop(self) -> Loop:
+        told = self._told
+        law, period = told.make_law(), 1.0 / told.settings.rate
+        warm_up(law, told.reach, period)
+        loop = Loop(law, told.make_course(), period)
+        loop.timeout, loop.safe = told.settings.state_timeout, told.settings.on_timeout
+        loop.enable(told.settings.start_enabled)
+        return loop
 
     def _open_topics(self) -> None:
         def hear(kind: type, topic: str, callback) -> None:
@@ -79,52 +93,51 @@ class PamControl(TickingNode):
     def _tick_rate(self) -> float:
         return WATCH_RATE if self._is_followed else self._told.settings.rate
 
-    def _begin_grid(self) -> None:
-        self._zero, self._period = monotonic_ns(), 0
-
-    def start(self) -> None:
-        """Begin to command."""
-        super().start()
-        self._begin_grid()
-
     def tick(self) -> None:
         """Command; where the states make the time, only see whether they stay away."""
+        now = monotonic_ns()
         if self._is_followed:
-            self._watch()
+            self._watch(now)
             return
-        now, rate = monotonic_ns(), self._told.settings.rate
-        # Periods are counted, so that a late tick does not shift what is measured with the next.
-        period = floor((now - self._zero) * rate / SECOND + 1e-3)
-        dt = max(period - self._period, 1) / rate
-        self._period = period
-        age = 0.0 if self._seen is None else (now - self._seen) / SECOND
-        if dt > 0.5 * self._told.settings.state_timeout:
-            # This program was held up itself: what came meanwhile is still to be heard.
-            age = min(age, self._told.settings.state_timeout)
-        self._step(dt, age, self.get_clock().now().nanoseconds)
+        settings = self._told.settings
+        longest = max(0.5 * settings.state_timeout, 3.0 / settings.rate) * SECOND
+        was_held_up = now - self._ticked > longest and not self._has_waited
+        self._ticked, self._has_waited = now, was_held_up
+        if not was_held_up:  # else what came meanwhile is to be heard first
+            self._step(now / SECOND, self.get_clock().now().nanoseconds)
 
-    def _watch(self) -> None:
-        if self._seen is None or self._stamp is None:
+    def _watch(self, steady: int) -> None:
+        if self._stamp is None:
             return
         now = self.get_clock().now().nanoseconds
         # By both clocks: /clock may be heard before the states that belong to it.
-        age = min(now - self._stamp, monotonic_ns() - self._seen) / SECOND
+        age = min(now - self._stamp, steady - self._seen) / SECOND
         if age > self._told.settings.state_timeout:
-            self._step(1.0 / WATCH_RATE, age, now)
+            self._step(now / SECOND, now)
 
-    def _step(self, dt: float, age: float, stamp: int) -> None:
-        before = self._loop.condition
-        pressure = self._loop.step(dt, age)
+    def _step(self, time: float, stamp: int) -> None:
+        """Command at *time* in s, by the clock of the loop; *stamp* is ROS time in ns."""
+        loop, before = self._loop, self._loop.state
+        try:
+            pressure = loop.tick(time)
+        except ArithmeticError:
+            pressure = float('nan')
         if pressure is None:
             return
-        if self._loop.condition != before:
+        if not isfinite(pressure):
+            loop.enable(False)
+            loop.pressure = pressure = 0.0
+            self._fault = 'the law gave no number: vented and disabled'
+            self.get_logger().error(self._fault)
+        elif loop.state == BLIND != before:
             self.get_logger().error(self._trouble())
         self._publish(pressure)
-        self._until_state -= dt
         rate = self._told.settings.state_rate
-        if rate and self._until_state < 1e-9:
-            self._until_state = max(self._until_state + 1.0 / rate, 0.0)
-            self._states.publish(stamp, self._loop.law.terms)
+        # A little early is on time: stamps of a grid are rounded.
+        is_due = bool(rate) and not 0 <= stamp - self._shown < 0.99 * SECOND / rate
+        if loop.state == RUNNING and is_due:
+            self._shown = stamp
+            self._states.publish(stamp, loop.law.terms)
 
     def _publish(self, pressure: float) -> None:
         self._command.data = pressure
@@ -146,26 +159,22 @@ class PamControl(TickingNode):
         if sight.stamp and sight.stamp == self._stamp:
             self._see_again()
             return
-        passed = None if self._stamp is None else sight.stamp - self._stamp
-        self._seen, self._stamp = monotonic_ns(), sight.stamp
-        self._take_sight(sight, passed)
-
-    def _take_sight(self, sight: Sight, passed: int | None) -> None:
-        if self._is_followed and passed is not None and passed <= 0 and self._loop.is_controlling:
-            # Simulated time begins anew, and so does what happens in it.
-            self._loop.enable(False)
-            self._loop.enable(True)
-        self._loop.see(sight.position, sight.velocity)
-        if self._is_followed:
-            dt = 1.0 / self._told.settings.rate
-            if passed is not None and passed > 0:
-                dt = passed / SECOND
-            self._step(dt, 0.0, sight.stamp)
+        before, self._stamp = self._stamp, sight.stamp
+        self._seen = monotonic_ns()
+        if not self._is_followed:
+            self._loop.see(Reading(self._seen / SECOND, sight.position, sight.velocity))
+            return
+        if before is not None and sight.stamp < before:
+            self._loop.forget()  # simulated time begins anew, and so does what happens in it
+        time = sight.stamp / SECOND
+        self._loop.see(Reading(time, sight.position, sight.velocity))
+        self._step(time, sight.stamp)
 
     def _see_again(self) -> None:
         """Answer a state that is told again: in lockstep the answer was not heard."""
-        last = self._loop.last
-        if self._is_followed and last is not None and monotonic_ns() - self._answered > REPEAT:
+        last = self._loop.pressure
+        is_due = monotonic_ns() - self._answered > REPEAT
+        if self._is_followed and self._loop.state == RUNNING and last is not None and is_due:
             self._publish(last)
 
     def _take_reference(self, message: Float64) -> None:
@@ -187,9 +196,10 @@ class PamControl(TickingNode):
             self._refuse(str(error))
 
     def _is_ready(self, topic: str) -> bool:
-        if not self._loop.is_controlling:
+        is_ready = self._loop.state == RUNNING
+        if not is_ready:
             self._refuse(f'{topic} is not taken: {self._trouble()}')
-        return self._loop.is_controlling
+        return is_ready
 
     def _refuse(self, reason: str) -> None:
         self._refusal, self._is_refusal_new = reason, True
@@ -197,7 +207,11 @@ class PamControl(TickingNode):
         self.get_logger().warning(reason, throttle_duration_sec=1.0)
 
     def _enable(self, request: SetBool.Request, response: SetBool.Response) -> SetBool.Response:
+        if request.data:
+            self._fault = ''
         self._loop.enable(request.data)
+        if not request.data:
+            self._loop.pressure = None  # somebody else may command from now on
         response.success = True
         response.message = self._trouble() or 'controlling'
         return response
@@ -205,10 +219,19 @@ class PamControl(TickingNode):
     def _change(self, now: Told) -> None:
         """Go on with other parameters."""
         before, self._told = self._told, now
-        self._loop.change(now)
-        if before.settings.rate != now.settings.rate:
+        loop, settings = self._loop, now.settings
+        loop.timeout, loop.safe = settings.state_timeout, settings.on_timeout
+        loop.period = 1.0 / settings.rate
+        if now.needs_new_law(before):
+            law = now.make_law()
+            warm_up(law, now.reach, loop.period)
+            loop.change(law, now.make_course())
+        else:
+            if isinstance(loop.law, SlidingMode) and now.gains != before.gains:
+                loop.law.set_gains(now.gains)
+            loop.course.set_shape(now.shape)
+        if before.settings.rate != settings.rate:
             self.ticker.start(self._tick_rate, monotonic_ns())
-            self._begin_grid()
 
     # Health --------------------------------------------------------------------------------
 
@@ -217,39 +240,39 @@ class PamControl(TickingNode):
         did = {'vent': 'vents', 'hold': 'holds the pressure'}[self._told.settings.on_timeout]
         why = f': {self._blindness}' if self._blindness else ''
         return {
-            CONTROLLING: '',
+            RUNNING: '',
             WAITING: 'waits for joint_states' + why,
-            LOST: f'joint_states stay away: {did}' + why,
-            DISABLED: 'disabled: commands nothing',
-            FAULTY: 'the law gave no number: vents until ~/enable is called',
-        }[self._loop.condition]
+            BLIND: f'joint_states stay away: {did}' + why,
+            DISABLED: self._fault or 'disabled: commands nothing',
+        }[self._loop.state]
 
     def _control(self) -> Health:
         loop, terms, told = self._loop, self._loop.law.terms, self._told
-        condition = loop.condition
+        state, is_running = loop.state, loop.state == RUNNING
         values = {
-            'condition': condition,
+            'state': state,
             'controller': told.settings.controller,
-            'reference (m)': terms.reference if loop.is_controlling else None,
-            'error (m)': terms.error if loop.is_controlling else None,
-            'command (Pa)': loop.last,
-            'saturated': terms.saturated if loop.is_controlling else None,
+            'reference (m)': terms.reference if is_running else None,
+            'error (m)': terms.error if is_running else None,
+            'command (Pa)': loop.pressure,
+            'saturated': terms.saturated if is_running else None,
             'lowest reference (m)': told.reach[0],
             'highest reference (m)': told.reach[1],
             'age of joint_states (s)': (
-                None if self._seen is None else (monotonic_ns() - self._seen) / SECOND
+                None if self._stamp is None else (monotonic_ns() - self._seen) / SECOND
             ),
             'refused': self._refused,
             'last reason': self._refusal,
         }
         is_new, self._is_refusal_new = self._is_refusal_new, False
-        if condition in (LOST, FAULTY) or (condition == WAITING and self._blindness):
+        is_blind = state == BLIND or (state == WAITING and bool(self._blindness))
+        if is_blind or self._fault:
             return Health(ERROR, self._trouble(), values)
         if is_new:
             return Health(WARN, self._refusal, values)
-        if condition == WAITING:
+        if state == WAITING:
             return Health(WARN, self._trouble(), values)
-        if condition == CONTROLLING and self._blindness:
+        if is_running and self._blindness:
             return Health(WARN, self._blindness, values)
         return Health(OK, self._trouble() or 'controlling', values)
 
@@ -268,3 +291,11 @@ class PamControl(TickingNode):
         if kept.rate < 0.95 * wanted:
             return Health(WARN, f'runs at {kept.rate:.1f} Hz instead of {wanted:g}', values)
         return Health(OK, 'keeps its rate', values)
+
+
+def warm_up(law: PositionLaw, reach: tuple[float, float], period: float) -> None:
+    """Let *law* compile and load all that it needs, before time counts."""
+    middle = 0.5 * (reach[0] + reach[1]) if isfinite(reach[0]) else 0.0
+    law.start(middle)
+    for _ in range(3):
+        law.update(period, Reference(middle), middle)

@@ -3,12 +3,13 @@
 """What ``pam_control`` is told: the declared rig, the law with its gains, rates and time-outs."""
 
 from dataclasses import dataclass, replace
-from functools import cached_property
 from typing import Any
 
 from pam_ros.config import Table, Values, build, build_rig, rig_table, table_of, with_defaults
+from pam_ros.control.course import Course
 from pam_ros.control.gains import Gains
 from pam_ros.control.limits import Limits, reachable
+from pam_ros.control.loop import HOLD, VENT
 from pam_ros.control.pid import Pid, PidGains
 from pam_ros.control.shaping import Shape
 from pam_ros.control.signals import PositionLaw
@@ -54,10 +55,9 @@ class ControlSettings:
         high=3600.0,
     )
     on_timeout: str = parameter(
-        'vent',
-        'what is commanded when joint states stay away: vent for the lowest pressure, or hold '
-        'the last one',
-        choices=('vent', 'hold'),
+        VENT,
+        'what is commanded when joint states stay away: vent to 0 Pa, or hold the last pressure',
+        choices=(VENT, HOLD),
     )
     start_enabled: bool = parameter(
         True, 'whether it controls from the start; false: from ~/enable on', live=False
@@ -81,16 +81,21 @@ class Told:
     shape: Shape
     reach: tuple[float, float]
 
-    @cached_property
-    def pressures(self) -> tuple[float, float]:
-        """Lowest and highest pressure in Pa that may be commanded."""
-        return self.limits.range_for(self.model)
-
     def make_law(self) -> PositionLaw:
         """Return a new law, that has to be started."""
         if self.settings.controller == 'pid':
             return Pid(self.model, self.pid, self.limits)
         return SlidingMode(self.model, self.gains, self.limits)
+
+    def make_course(self) -> Course:
+        """Return a new course, that has to be started."""
+        return Course(self.shape, self.reach)
+
+    def needs_new_law(self, before: 'Told') -> bool:
+        """Say whether more than what a law can take while it runs differs from *before*."""
+        return (self.settings.controller, self.model, self.pid, self.limits) != (
+            *(before.settings.controller, before.model, before.pid, before.limits),
+        )
 
 
 def table(given: Values) -> Table:
