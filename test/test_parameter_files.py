@@ -170,3 +170,9 @@ def test_an_installed_package_finds_its_share_folder(tmp_path, folder):
     found = prefix / 'share' / 'pam_ros' / 'config' / 'muscles' / 'dmsp_20_400n.yaml'
     assert result.stdout.strip() == str(found)
     assert share() == ROOT
+
+
+def test_a_list_of_texts_is_read_as_a_tuple(tmp_path):
+    path = tmp_path / 'arm.yaml'
+    path.write_text('/**: {ros__parameters: {muscles: [left, right]}}\n')
+    assert read(path) == {'muscles': ('left', 'right')}

@@ -117,3 +117,12 @@ def test_described_lists_the_described_fields():
     kind, default, about = table['mount']
     assert (kind, default, about.live, about.choices) == (str, 'up', False, ('up', 'down'))
     assert table['mass'][2].unit == 'kg'
+
+
+def test_a_list_of_texts_is_a_tuple_of_them():
+    names = Parameter('names')
+    assert names.check('names', ['a', 'b'], tuple) == ('a', 'b')
+    assert names.check('names', [], tuple) == ()
+    for bad in ('ab', ['a', 1], None, 3.0):
+        with pytest.raises(ParameterError, match='give a list of texts'):
+            names.check('names', bad, tuple)

@@ -11,6 +11,7 @@ from pam_ros.nodes.pace import SECOND
 
 REPEAT = SECOND // 2  # ns after which the state is told again to a controller that was not heard
 PATIENCE = SECOND  # ns of waiting that is worth a word
+SETTLE = SECOND // 4  # ns in which answers to a state that was told more than once come in
 
 
 class Turns:
@@ -19,6 +20,9 @@ class Turns:
     A controller that comes late, or takes the place of one that died, has not heard the state
     that waits for an answer: it is to be told again, until something is heard of it. One that was
     heard is never told twice, however long it thinks.
+
+    Where a controller may have more than one command under way (it was just found, time goes on
+    after a pause, the rig was reset) all that comes within SETTLE is one answer: the last counts.
     """
 
     def __init__(self, node: Node, muscles: int) -> None:
@@ -28,6 +32,7 @@ class Turns:
         self._answered: set[int] = set()
         self._known: frozenset[bytes] = frozenset()
         self._is_heard = False
+        self._settled = 0  # steady time until which answers are gathered
         self.begin()
 
     def watch(self, subscription: Subscription) -> None:
@@ -41,16 +46,22 @@ class Turns:
 
     def take(self, muscle: int | None) -> None:
         """Note the command of one muscle, or of all."""
+        if not self._is_heard:
+            self.settle()
         self._is_heard = True
         if muscle is None:
             self._answered.update(range(self._muscles))
         else:
             self._answered.add(muscle)
 
+    def settle(self) -> None:
+        """Gather for a while what may be under way."""
+        self._settled = monotonic_ns() + SETTLE
+
     @property
     def is_complete(self) -> bool:
-        """Whether all muscles were commanded."""
-        return len(self._answered) == self._muscles
+        """Whether all muscles were commanded, and no command to the same state is under way."""
+        return len(self._answered) == self._muscles and monotonic_ns() >= self._settled
 
     @property
     def waited(self) -> float:

@@ -145,7 +145,9 @@ class PamSim(TickingNode):
         if self._is_paused:
             self._tell_again()
         elif self._is_lockstep:
-            if self._turns.must_repeat():
+            if self._turns.is_complete:
+                self._run_to(self._next)
+            elif self._turns.must_repeat():
                 self._tell_again()
         else:
             self._run_to_now()
@@ -293,6 +295,7 @@ class PamSim(TickingNode):
 
     def _reset(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         self._begin_again()
+        self._turns.settle()
         if self._is_lockstep or self._is_paused:
             self._run_to(0)
         response.success, response.message = True, 'at the initial state'
@@ -303,12 +306,11 @@ class PamSim(TickingNode):
             self._run_to_now()
         if self._is_paused and not request.data:
             self._time.align(self._plant.step)
+            self._turns.settle()
             self._fault = ''
         if request.data and not (self._is_paused or self._is_followed or self._is_lockstep):
             self._publish(self._time.stamp(self._plant.step))  # where it stands, to be repeated
         self._set_paused(request.data)
-        if self._is_lockstep and not request.data and self._turns.is_complete:
-            self._run_to(self._next)  # what was commanded meanwhile
         response.success, response.message = True, 'paused' if request.data else 'running'
         return response
 
