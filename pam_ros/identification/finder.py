@@ -175,11 +175,11 @@ def _reason(tried: Tried) -> str:
     if e.absorbed:
         return (
             'explains with its own parameter what re-tuning explains only by constants far from '
-            f'those declared (p = {e.p:.1g})'
+            f'those declared ({verdict.likelihood(e.p)})'
         )
     return (
         f'lowers the error of the samples kept back by {100 * e.gain:.0f} % '
-        f'(p = {e.p:.1g} after correction for the number of candidates)'
+        f'({verdict.likelihood(e.p)} after correction for the number of candidates)'
     )
 
 

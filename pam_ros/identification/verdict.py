@@ -14,6 +14,7 @@ from pam_ros.identification.result import Trace
 from pam_ros.identification.search import Search, Tried
 from pam_ros.identification.segment import Segment
 
+SMALLEST = 1e-12  # p value that is worth telling apart from smaller ones
 SHORTEST = 5.0  # s of recording
 VISIBLE = 10.0  # noise floors that the target must move
 CEILING = 0.12  # R^2 of the generic regressor from which a residual is structured
@@ -62,13 +63,18 @@ def alternatives(found: Search, winner: Tried) -> tuple[str, ...]:
     return tuple(rivals)
 
 
+def likelihood(p: float) -> str:
+    """Return a p value in words that does not pretend to be 0."""
+    return f'p = {p:.1g}' if p > SMALLEST else f'p < {SMALLEST:g}'
+
+
 def why_not(tried: Tried, winner: Tried | None) -> str:
     """Return the first reason for which a candidate was not chosen."""
     e = tried.evidence
     if not e.interval_clear:
         return 'the interval of its strength includes 0, or has the wrong sign'
     if e.p > evidence.SIGNIFICANCE:
-        return f'not significant (p = {e.p:.2g} after correction)'
+        return f'not significant ({likelihood(e.p)} after correction)'
     if e.gain < evidence.GAIN and not e.absorbed:
         return (
             f'changes the error of the samples kept back by {-100 * e.gain:+.1f} %, '
