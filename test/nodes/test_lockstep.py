@@ -186,3 +186,43 @@ def test_an_array_of_another_length_is_no_command(peer, values):
         seconds = len(diagnostics)
         peer.until(lambda: len(diagnostics) > seconds, 'a second')
         assert stamp(states[-1]) == begin
+
+
+class Naive:
+    """A controller that answers all it hears, also what it has answered before."""
+
+    def __init__(self, peer):
+        self.heard = []
+        publisher = peer.node.create_publisher(Float64, 'pressure_command', 10)
+
+        def answer(state):
+            self.heard.append((stamp(state), state.position[0], state.velocity[0]))
+            publisher.publish(Float64(data=self.law(state.position[0])))
+
+        peer.node.create_subscription(JointState, 'joint_states', answer, 10)
+
+    @staticmethod
+    def law(position):
+        return 3e5 + 2e6 * (0.05 - position)
+
+
+def test_a_controller_that_answers_too_often_gets_the_same_run(peer):
+    with Program('pam_sim', parameters={**LOCKSTEP, **RELEASED}):
+        naive = Naive(peer)
+        peer.until(lambda: len(naive.heard) > 300, 'some periods')
+        for _ in range(2):
+            assert peer.call(SetBool, 'pam_sim/pause', data=True).success
+            count = len(naive.heard)
+            peer.until(lambda n=count: len(naive.heard) > n + 4, 'the same state again')
+            assert peer.call(SetBool, 'pam_sim/pause', data=False).success
+            count = len(naive.heard)
+            peer.until(lambda n=count: len(naive.heard) > n + 300, 'more periods')
+    got = sorted(set(naive.heard))
+    rig = Rig([RigModel()], 1e-3)
+    rig.reset([0.0], [0.0], [0.0])
+    assert len(got) > 600
+    assert set(np.diff([time for time, *_ in got])) == {PERIOD}
+    for _, position, velocity in got:
+        assert (position, velocity) == (rig.position.item(), rig.velocity.item())
+        rig.command([Naive.law(position)])
+        rig.advance(2)
