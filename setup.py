@@ -54,6 +54,7 @@ setup(
     ],
     extras_require={
         'fast': ['numba'],
+        'baseline': ['simple-pid'],
         'test': ['pytest', 'hypothesis', 'jsonschema', 'urdf-parser-py'],
     },
     zip_safe=False,

@@ -138,8 +138,12 @@ class Shaper:
             self._set_out(*self._tracker.state)
 
     def join(self, target: Reference) -> None:
-        """Let the target go on from the motion *target*, as that of a trajectory."""
-        self._set_out(*target[:3])
+        """Let the target go on from the motion *target*, as that of a trajectory.
+
+        Its acceleration is taken at once, as at all of its points: what the bounds of jerk would
+        add to a quick beginning could lead out of reach.
+        """
+        self._set_out(target.position, target.velocity, self.reference.acceleration)
 
     def _set_out(self, position: float, velocity: float, acceleration: float) -> None:
         """Approach a target that is in another state than the reference."""

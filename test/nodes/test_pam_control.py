@@ -1,0 +1,297 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""``pam_control`` and its rig as processes: following, safety, refusals, exit codes."""
+
+import math
+import signal
+
+import numpy as np
+import pytest
+from builtin_interfaces.msg import Duration
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+from sensor_msgs.msg import JointState
+from std_msgs.msg import Float64
+from std_srvs.srv import SetBool
+from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
+
+from pam_ros.nodes.control_state import TERMS
+from support.harness import Program
+
+START = {'mass': 20.0, 'initial.pressure': 300e3}
+LOCKSTEP = {**START, 'time_mode': 'lockstep'}
+FOLLOWING = {'use_sim_time': True, 'state_rate': 500.0}
+ENABLE = 'pam_control/enable'
+
+
+class Watch:
+    """What a controller commands, its terms and its diagnostics."""
+
+    def __init__(self, peer):
+        self.peer = peer
+        self.terms = peer.collect(JointState, 'pam_control/state')
+        self.commands = peer.collect(Float64, 'pressure_command')
+        self.arrays = peer.collect(DiagnosticArray, '/diagnostics')
+
+    def latest(self, name):
+        return self.terms[-1].position[TERMS.index(name)]
+
+    def refer(self, position):
+        self.peer.publish(Float64(data=position), 'position_reference')
+
+    def status(self, condition, what):
+        """Wait for a status of the part control that fulfils *condition*."""
+
+        def find():
+            for array in reversed(self.arrays):
+                for status in array.status:
+                    if status.name == 'pam_control: control' and condition(status):
+                        return status
+            return None
+
+        return self.peer.until(find, what)
+
+    def begin(self):
+        """Wait until it controls; return where it holds the load."""
+        self.peer.more(self.terms, 3)
+        return self.latest('reference')
+
+
+class Rig:
+    """Joint states that the test publishes itself: of a load that does not move."""
+
+    def __init__(self, peer, name='pam'):
+        self.peer, self.name, self.count = peer, name, 0
+
+    def tell(self, position=0.06, **more):
+        self.count += 1
+        message = JointState(name=[self.name], position=[position], **more)
+        message.header.stamp.sec = 10 + self.count
+        self.peer.publish(message, 'joint_states')
+
+    def tell_until(self, condition, what, position=0.06):
+        def tell():
+            self.tell(position)
+            return condition()
+
+        return self.peer.until(tell, what)
+
+
+@pytest.fixture
+def watch(peer):
+    return Watch(peer)
+
+
+def columns(messages):
+    t = np.array([m.header.stamp.sec + 1e-9 * m.header.stamp.nanosec for m in messages])
+    values = np.array([m.position for m in messages])
+    return t - t[0], {name: values[:, i] for i, name in enumerate(TERMS)}
+
+
+def test_a_step_and_a_sine_are_followed_in_lockstep(watch):
+    with Program('pam_sim', parameters=LOCKSTEP), Program('pam_control', parameters=FOLLOWING):
+        begin = watch.begin()
+        assert list(watch.terms[0].name) == list(TERMS)
+        assert watch.latest('error') == pytest.approx(0.0, abs=1e-5)  # it begins without a bump
+        watch.refer(begin + 0.01)
+        watch.peer.more(watch.terms, 1000)
+        t, seen = columns(watch.terms[-100:])
+        np.testing.assert_allclose(np.diff(t), 2e-3, atol=1e-8)
+        assert seen['reference'][-1] == pytest.approx(begin + 0.01, abs=1e-9)
+        assert np.max(np.abs(seen['error'])) < 1e-5
+        assert np.ptp(seen['pressure']) < 1e3
+
+        # A sine of 5 mm at 0.5 Hz as a trajectory, as robot stacks send them.
+        middle, swing, turn = begin + 0.01, 0.005, math.pi
+        times = np.linspace(0.05, 4.0, 80)
+        points = [
+            JointTrajectoryPoint(
+                positions=[middle + swing * math.sin(turn * t)],
+                velocities=[swing * turn * math.cos(turn * t) * (t < 4.0)],
+                time_from_start=Duration(sec=int(t), nanosec=int(t % 1.0 * 1e9)),
+            )
+            for t in times
+        ]
+        sent = len(watch.terms)
+        watch.peer.publish(JointTrajectory(joint_names=['pam'], points=points), 'joint_trajectory')
+        watch.peer.more(watch.terms, 2200)
+        t, seen = columns(watch.terms[sent:])
+        moving = (t > 1.0) & (t < 3.0)
+        assert np.ptp(seen['reference'][moving]) == pytest.approx(2.0 * swing, rel=0.02)
+        assert np.sqrt(np.mean(seen['error'][moving] ** 2)) < 1e-4
+
+
+def test_a_set_point_is_reached_in_real_time(watch):
+    with Program('pam_sim', parameters=START), Program('pam_control') as control:
+        begin = watch.begin()
+        watch.refer(begin + 0.01)
+
+        def is_there():
+            return abs(watch.latest('position') - begin - 0.01) < 1e-4
+
+        watch.peer.until(is_there, 'the set-point')
+        control.interrupt(signal.SIGTERM)
+        assert control.wait() == 0
+        assert 'Traceback' not in control.output
+
+
+@pytest.mark.parametrize(('action', 'pressure'), [('vent', 0.0), ('hold', None)])
+def test_silence_of_the_joint_is_answered_safely(watch, action, pressure):
+    rig = Rig(watch.peer)
+    told = {'on_timeout': action, 'state_timeout': 0.2}
+    with Program('pam_control', parameters=told):
+        rig.tell_until(lambda: len(watch.terms) > 10, 'control')
+        status = watch.status(lambda s: 'stay away' in s.message, 'the time-out')
+        assert status.level == DiagnosticStatus.ERROR
+        assert {'vent': 'vents', 'hold': 'holds'}[action] in status.message
+        watch.peer.more(watch.commands, 20)
+        last = {message.data for message in watch.commands[-10:]}
+        assert len(last) == 1
+        (commanded,) = last
+        assert commanded == pytest.approx(pressure) if action == 'vent' else commanded > 1e5
+        # When the joint is seen again, it goes on from there.
+        before = len(watch.terms)
+        rig.tell_until(lambda: len(watch.terms) > before, 'control again', 0.05)
+        assert watch.terms[before].position[TERMS.index('reference')] == pytest.approx(0.05)
+
+
+def test_bad_references_are_refused_with_the_range(watch):
+    with Program('pam_sim', parameters=LOCKSTEP), Program('pam_control', parameters=FOLLOWING):
+        begin = watch.begin()
+        for bad, words in (
+            (0.3, ('reference 0.3 m', 'out of reach', ' to 0.09')),
+            (math.nan, ('reference nan',)),
+            (-math.inf, ('reference -inf',)),
+        ):
+            watch.refer(bad)
+            status = watch.status(
+                lambda s, words=words: all(word in s.message for word in words), str(words)
+            )
+            assert status.level == DiagnosticStatus.WARN
+        message = JointTrajectory(joint_names=['elbow'], points=[JointTrajectoryPoint()])
+        watch.peer.publish(message, 'joint_trajectory')
+        watch.status(lambda s: 'elbow' in s.message and 'pam' in s.message, 'the wrong name')
+        message = JointTrajectory(joint_names=['pam'], points=[JointTrajectoryPoint()])
+        watch.peer.publish(message, 'joint_trajectory')
+        watch.status(lambda s: 'point 0 of the trajectory' in s.message, 'the empty point')
+        assert watch.latest('reference') == begin
+        assert all(math.isfinite(message.data) for message in watch.commands)
+
+
+def test_a_wrong_joint_name_is_named_and_nothing_is_commanded(watch):
+    rig = Rig(watch.peer)
+    with Program('pam_control', parameters={'joint_name': 'elbow'}) as control:
+
+        def is_said():
+            return 'no joint elbow (joint_name), but pam' in control.output
+
+        rig.tell_until(is_said, 'the warning')
+        status = watch.status(lambda s: 'no joint elbow' in s.message, 'the diagnostics')
+        assert status.level == DiagnosticStatus.ERROR
+        assert not watch.commands
+
+
+def test_a_position_that_is_no_number_is_not_used(watch):
+    rig = Rig(watch.peer)
+    with Program('pam_control'):
+        rig.tell_until(lambda: watch.commands, 'control')
+        rig.tell_until(
+            lambda: any('position nan' in s.message for a in watch.arrays for s in a.status),
+            'the diagnostics',
+            math.nan,
+        )
+        assert all(math.isfinite(message.data) for message in watch.commands)
+
+
+def test_disabled_it_commands_nothing_and_enabled_it_holds_the_load_where_it_is(watch):
+    rig = Rig(watch.peer)
+    with Program('pam_control', parameters={'start_enabled': False}):
+        rig.tell_until(lambda: watch.arrays, 'the diagnostics')
+        assert not watch.commands
+        watch.refer(0.07)
+        watch.status(lambda s: 'not taken: disabled' in s.message, 'the refusal')
+        assert watch.peer.call(SetBool, ENABLE, data=True).success
+        rig.tell_until(lambda: watch.commands, 'commands', 0.055)
+        assert watch.begin() == pytest.approx(0.055)
+        answer = watch.peer.call(SetBool, ENABLE, data=False)
+        assert answer.success
+        assert 'disabled' in answer.message
+        watch.peer.work(0.0)
+        count = len(watch.commands)
+        rig.tell_until(
+            lambda: any('disabled' in s.message for s in watch.arrays[-1].status), 'its word'
+        )
+        assert len(watch.commands) <= count + 50  # what was on its way
+
+
+def test_the_baseline_and_measured_velocity_control_as_well(watch):
+    told = {**FOLLOWING, 'velocity_source': 'measured'}
+    with Program('pam_sim', parameters=LOCKSTEP), Program('pam_control', parameters=told):
+        begin = watch.begin()
+        watch.refer(begin + 0.005)
+        watch.peer.more(watch.terms, 800)
+        assert abs(watch.latest('error')) < 1e-5
+        pytest.importorskip('simple_pid', reason='the baseline needs simple-pid')
+        assert watch.peer.set_one('pam_control', controller='pid').successful
+        watch.peer.more(watch.terms, 300)
+        watch.refer(begin)
+        watch.peer.more(watch.terms, 2000)
+        assert abs(watch.latest('error')) < 5e-4  # of 5 mm: it settles slowly
+
+
+def test_parameters_are_described_and_changed_or_refused_as_a_whole(watch):
+    with Program('pam_sim', parameters=LOCKSTEP), Program('pam_control', parameters=FOLLOWING):
+        watch.begin()
+        (about,) = watch.peer.describe('pam_control', 'gains.bandwidth')
+        assert about.floating_point_range[0].from_value == 0.5
+        assert '1/s' in about.description
+        bad = watch.peer.set_one('pam_control', limits__pressure_high=-5.0)
+        assert not bad.successful
+        assert 'pressure_high' in bad.reason
+        bad = watch.peer.set_one('pam_control', gains__velocity_bandwidth=2000.0)
+        assert not bad.successful
+        assert 'too fast for a control rate of 500 Hz' in bad.reason
+        assert watch.peer.set_one('pam_control', gains__bandwidth=10.0).successful
+        assert watch.peer.set_one('pam_control', mass=21.0).successful
+        watch.peer.more(watch.terms, 1000)
+        assert abs(watch.latest('error')) < 1e-5
+
+
+@pytest.mark.parametrize(
+    ('arguments', 'named'),
+    [
+        (['-p', 'mass:=-3.0'], ['mass = -3.0', 'above 0']),
+        (['-p', 'rat:=100.0'], ['rat ', 'rate']),
+        (['-p', 'on_timeout:=explode'], ['on_timeout', 'vent', 'hold']),
+        (['-p', 'muscle:=dmsp_99'], ['dmsp_99', 'dmsp_20_400n']),
+        (['-p', 'gains.bandwidth:=100.0'], ['fast_bandwidth', 'bandwidth = 100']),
+        (['-p', 'rate:=20.0'], ['velocity_bandwidth', '20 Hz']),
+        (['-p', 'mass:=1e4'], ['mass']),
+        (['--nonsense'], ['nonsense']),
+    ],
+)
+def test_bad_arguments_end_it_with_a_sentence(arguments, named):
+    with Program('pam_control', *arguments) as control:
+        assert control.wait() == 2
+        sentence = control.output.splitlines()[-1]
+        assert sentence.startswith('pam_control: ')
+        for word in named:
+            assert word in sentence
+        assert 'Traceback' not in control.output
+
+
+def test_two_in_namespaces_do_not_disturb_each_other(peer):
+    left = peer.collect(JointState, '/left/pam_control/state')
+    right = peer.collect(JointState, '/right/pam_control/state')
+    spaces = [('-r', f'__ns:=/{name}') for name in ('left', 'right')]
+    programs = [
+        Program(name, *space, parameters=START if name == 'pam_sim' else None)
+        for space in spaces
+        for name in ('pam_sim', 'pam_control')
+    ]
+    with programs[0], programs[1], programs[2], programs[3]:
+        peer.more(left)
+        peer.more(right)
+        begin = right[-1].position[0]
+        peer.publish(Float64(data=begin + 0.005), '/left/position_reference')
+        peer.until(lambda: left[-1].position[0] > begin + 0.004, 'motion on the left')
+        assert right[-1].position[0] == pytest.approx(begin, abs=1e-9)
