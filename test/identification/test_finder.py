@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The whole trace, on the truth plant and on measured machines: what is there is named."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -15,6 +17,7 @@ from support import bench_truth
 from truth import effect
 
 pytestmark = pytest.mark.needs_numba
+ROOT = Path(__file__).parents[2]
 NOISE = 20e-6  # m
 OFF = [0.01, -0.015, 0.005, 0.01, -0.01, 0.015]
 
@@ -149,7 +152,7 @@ def test_recordings_of_two_kinds_are_refused():
 
 def test_the_measured_drive_has_two_frictions(shared_data):
     """A public benchmark, 25 s of closed loop: a mass moved by a motor of known force."""
-    model, _ = load_rig('config/rigs/emps.yaml')
+    model, _ = load_rig(str(ROOT / 'config' / 'rigs' / 'emps.yaml'))
     columns = read_mapping(['motor_voltage_V=pressure_command_Pa', 'reference_m=ignore'])
     file = shared_data / 'emps' / 'emps_estimation.csv'
     measured = read_recording(file, columns, None, model.muscle.l0, model.muscle.p_max)
