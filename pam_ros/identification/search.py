@@ -192,8 +192,10 @@ def _round(parent: Fit, declared: Fit, model: RigModel, pool: Executor) -> tuple
     for i in order:
         fits[absent[i].name] = refine(parent, absent[i], looks[i][:1], pool)
     for i in sorted(order, key=lambda i: fits[absent[i].name].score)[:DOUBTED]:
-        again = refine(parent, absent[i], looks[i][1:], pool)
-        fits[absent[i].name] = min(fits[absent[i].name], again, key=lambda fit: fit.score)
+        others = looks[i][1:]
+        if others:
+            again = refine(parent, absent[i], others, pool)
+            fits[absent[i].name] = min(fits[absent[i].name], again, key=lambda fit: fit.score)
     nearest = min(fits.values(), key=lambda fit: fit.score)
     if nearest.held_error > OBVIOUS * parent.held_error and not parent.effects:
         for effect in absent:
