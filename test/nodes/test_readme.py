@@ -136,6 +136,9 @@ def positions_under(peer, example):
     states = peer.collect(JointState, 'joint_states')
     parameters = {'muscle': 'dmsp_20_400n', 'time_mode': 'lockstep', **lose_nothing()}
     with Program('pam_sim', parameters=parameters):
+        peer.more(
+            states
+        )  # told again and again to a controller to come: all that follow are heard
         controller = subprocess.Popen([sys.executable, '-c', example])
         try:
             peer.until(lambda: len(states) > LENGTH + 50 or controller.poll(), 'the states')
