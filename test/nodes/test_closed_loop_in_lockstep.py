@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """A controller's test as a CI runs it: 20 s of a closed loop in lockstep, the same to the bit.
 
-``docs/ros2_control.md`` explains it; the controller is ``test/support/example_controller.py``.
+``docs/ros2_control.md`` explains it. Two controllers: ``test/support/example_controller.py``, and
+``pam_control`` with a trajectory that it is told while time stands still.
 """
 
 import os
@@ -13,21 +14,34 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from builtin_interfaces.msg import Duration
+from diagnostic_msgs.msg import DiagnosticArray
+from sensor_msgs.msg import JointState
+from std_msgs.msg import Float64
+from std_srvs.srv import SetBool
+from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
-from support.harness import Program
+from support.harness import Peer, Program, lose_nothing
 
 CONTROLLER = Path(__file__).parents[1] / 'support' / 'example_controller.py'
 SECONDS = 20.0
+# What pam_control is told: where to be at rest, every 2 s.
+PLACES = (0.05, 0.07, 0.03, 0.06, 0.045, 0.07, 0.04, 0.05, 0.065, 0.05)  # m
 BUSY = [sys.executable, '-c', 'while True: pass']
 RIG = {'time_mode': 'lockstep', 'sensor.position_noise': 5e-6}
+
+
+def keep_busy(stack, count):
+    """Let so many programs take all the time that they get, for the time of *stack*."""
+    for _ in range(count):
+        other = stack.enter_context(subprocess.Popen(BUSY))
+        stack.callback(other.kill)
 
 
 def run(file, busy=0):
     """Run the scenario with *busy* other programs on the machine, and return what was seen."""
     with ExitStack() as stack:
-        for _ in range(busy):
-            other = stack.enter_context(subprocess.Popen(BUSY))
-            stack.callback(other.kill)
+        keep_busy(stack, busy)
         stack.enter_context(Program('pam_sim', parameters=RIG))
         subprocess.run([sys.executable, CONTROLLER, str(SECONDS), file], check=True, timeout=300)
     return np.load(file)
@@ -54,3 +68,74 @@ def test_three_runs_are_the_same_to_the_bit_one_of_them_on_a_busy_machine(runs):
     for other in runs[1:]:
         for name in ('t', 'reference', 'position', 'pressure'):
             assert runs[0][name].tobytes() == other[name].tobytes(), name
+
+
+def seconds(message):
+    return message.header.stamp.sec + 1e-9 * message.header.stamp.nanosec
+
+
+def trajectory(begin):
+    """Return the way through PLACES, from *begin* s of simulated time."""
+    points = [
+        JointTrajectoryPoint(
+            positions=[place],
+            velocities=[0.0],
+            time_from_start=Duration(sec=2 * i + 2),
+        )
+        for i, place in enumerate(PLACES)
+    ]
+    message = JointTrajectory(joint_names=['pam'], points=points)
+    message.header.stamp.sec = begin
+    return message
+
+
+def run_pam_control(busy):
+    """Return the positions of a run by their stamps."""
+    given = {
+        'use_sim_time': True,
+        'qos_overrides./joint_states.subscription.reliability': 'reliable',
+    }
+    with ExitStack() as stack:
+        keep_busy(stack, busy)
+        peer = stack.enter_context(Peer())
+        # It begins where pam_control can hold the load: a trajectory starts from there.
+        rig = {**RIG, 'initial.pressure': 2e5, **lose_nothing()}
+        stack.enter_context(Program('pam_sim', parameters=rig))
+        states = peer.collect(JointState, 'joint_states')
+        diagnostics = peer.collect(DiagnosticArray, '/diagnostics')
+        peer.more(states)
+        assert peer.call(SetBool, 'pam_sim/pause', data=True).success
+        commands = peer.collect(Float64, 'pressure_command')
+        control = stack.enter_context(Program('pam_control', parameters=given))
+        peer.more(commands)  # it controls
+        peer.publish(trajectory(begin=2), 'joint_trajectory')
+        count = len(diagnostics)
+        peer.until(lambda: len(diagnostics) > count + 4, 'a second or two to be heard')
+        assert peer.call(SetBool, 'pam_sim/pause', data=False).success
+        end = 2.0 + SECONDS + 1.0
+        peer.until(lambda: seconds(states[-1]) >= end, f'{end} s')
+        assert not control.output
+    # A listener who is late on a busy machine misses states, but what it hears it hears right.
+    return {seconds(m): m.position[0] for m in states}
+
+
+@pytest.fixture(scope='module')
+def runs_of_pam_control():
+    return [run_pam_control(n) for n in (0, 0, 2 * (os.cpu_count() or 1))]
+
+
+def test_pam_control_is_where_it_is_told(runs_of_pam_control):
+    heard = runs_of_pam_control[0]
+    for i, place in enumerate(PLACES):
+        due = 4.0 + 2.0 * i
+        t = min(heard, key=lambda t: abs(t - due))
+        assert abs(t - due) < 0.1
+        assert abs(heard[t] - place) < 1e-3, f'at {t:.3f} s'
+
+
+def test_pam_control_runs_are_the_same_to_the_bit(runs_of_pam_control):
+    first, *others = runs_of_pam_control
+    for other in others:
+        both = first.keys() & other.keys()
+        assert len(both) > 2000
+        assert [first[t] for t in both] == [other[t] for t in both]
