@@ -94,7 +94,8 @@ class Tracker:
         rate = min(QUICK, PER_SAMPLE / interval)
         if interval > PAUSE or abs(surprise) * rate * rate > ROUGH * self.bounds.acceleration:
             speed = way / interval
-            is_second = self._has_jumped and abs(speed) <= self.bounds.velocity
+            is_stream = self._has_jumped and interval <= PAUSE
+            is_second = is_stream and abs(speed) <= self.bounds.velocity
             self.state = (
                 (position + ago * speed, speed, 0.0) if is_second else (position, 0.0, 0.0)
             )
