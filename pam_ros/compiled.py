@@ -55,6 +55,15 @@ def cached(function: F) -> F:
     return compiled
 
 
+def plain(function: F) -> F:
+    """Return the Python source of a :func:`scalar` that calls no other.
+
+    For callers that stay in Python: they would wait for the compiler and gain nothing by it.
+    """
+    source: F = getattr(function, 'py_func', function)
+    return source
+
+
 def broadcast(function: Callable[..., float]) -> Callable[..., Any]:
     """Return a scalar function as one that broadcasts over numpy arrays (and numpy scalars).
 

@@ -38,7 +38,8 @@ LAG_SPREAD, LAG_HIGH = 0.05, 0.2  # s
 JUDGE, CENTRE = 1.0, 2.0  # s over which prediction errors, and the mean force, are averaged
 CONVINCED = 1.5  # s of motion after which what is learned is trusted
 FLOOR = 1.0  # N^2 of missing force that is not worth a word
-BETTER, WORSE, LOST = 1.0, 0.7, 0.6  # ratios of errors that change, or restart, a hypothesis
+WORSE, LOST = 0.7, 0.6  # ratios of errors at which a lag is doubted, or sought anew
+DOUBT = 0.5  # s of motion for which it must be doubted to be dropped
 RESTART = 2.0  # s of motion
 BLEND, GROW = 0.2, 0.2  # s
 MARGIN = 3.0  # periods of a lag that make a decay time
@@ -115,6 +116,7 @@ class Learner:
         self._centre = -disturbance
         self._moved = self._restarted = self._waited = 0.0
         self._prefers_lag = False
+        self._doubt = 0.0
         self._share = 0.0
 
     @property
@@ -212,24 +214,23 @@ class Learner:
         self._lagged_miss += share * ((missing - self._filter[2, _N + 4]) ** 2 - self._lagged_miss)
         self._centre += min(span / CENTRE, 1.0) * (as_declared - self._centre)
         self._whole += share * ((as_declared - self._centre) ** 2 - self._whole)
-        self._choose()
+        self._choose(span)
         forgotten = FORGOTTEN * span
         self._plain.update(phi, plain, forgotten)
         self._lagged.update(phi, lagged, forgotten)
 
-    def _choose(self) -> None:
+    def _choose(self, span: float) -> None:
         """Prefer a hypothesis, restart one that is lost, and say how far to trust."""
-        if self._lag_is_declared:
+        is_worse = self._plain_error < WORSE * self._lagged_error
+        self._doubt = self._doubt + span if is_worse else 0.0
+        if self._lag_is_declared or self._doubt > DOUBT:
             self._prefers_lag = False
-        elif self._lagged_error * BETTER < self._plain_error:
+        elif self._lagged_error < self._plain_error:
             self._prefers_lag = True
-        elif self._plain_error < WORSE * self._lagged_error:
-            self._prefers_lag = False
-            if (
-                self._plain_error < LOST * self._lagged_error
-                and self._moved - self._restarted > RESTART
-            ):
-                self._restart_lagged()
+        is_used = self._prefers_lag or self._share > 0.05 or self._lag_is_declared
+        is_lost = self._plain_error < LOST * self._lagged_error
+        if is_lost and not is_used and self._moved - self._restarted > RESTART:
+            self._restart_lagged()
         error = self._lagged_miss if self._prefers_lag else self._plain_miss
         explained = 1.0 - (error + FLOOR) / (self._whole + 1e-9)
         practice = 1.0 - exp(-((self._moved / CONVINCED) ** 2))

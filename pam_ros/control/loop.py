@@ -3,8 +3,7 @@
 """A law in service: it starts where the load is, and does what is safe when nothing is seen.
 
 All times are seconds of one clock that is told with each call; measurements carry the time at
-which they were taken. The law's own time runs smoothly along: a tick that comes early or late
-changes the length of the next step, not the instant for which the law computes.
+which they were taken.
 """
 
 from dataclasses import dataclass
@@ -14,7 +13,7 @@ from pam_ros.control.signals import PositionLaw
 
 HOLD, VENT = 'hold', 'vent'
 WAITING, RUNNING, BLIND, DISABLED = 'waiting', 'running', 'blind', 'disabled'
-SHORT, LONG, LOST = 0.5, 2.0, 5.0  # periods: shortest and longest step, and a lost thread
+LEAST, MOST = 0.1, 0.1  # shortest step in periods, longest in s
 
 
 @dataclass(frozen=True)
@@ -45,7 +44,7 @@ class Loop:
         self.starts = 0
         self._seen: Reading | None = None
         self._is_new = False
-        self._time = 0.0  # for which the law computes next
+        self._time = 0.0  # of the last step
 
     @property
     def is_enabled(self) -> bool:
@@ -89,19 +88,14 @@ class Loop:
             return self._stay_safe()
         if self.state != RUNNING:
             self._start(reading, now)
-        dt = now + self.period - self._time
-        if dt > LOST * self.period:
-            self._time, dt = now, self.period
-        dt = min(max(dt, SHORT * self.period), LONG * self.period)
+        dt = min(max(now - self._time, LEAST * self.period), MOST)
+        self._time = now
         position, velocity = None, None
         if self._is_new:
             position, velocity = reading.position, reading.velocity
             self._is_new = False
-        reference = self.course.reference
-        age = self._time - reading.time
-        self.pressure = self.law.update(dt, reference, position, velocity, age)
-        self.course.follow(dt)
-        self._time += dt
+        reference = self.course.follow(dt)
+        self.pressure = self.law.update(dt, reference, position, velocity, now - reading.time)
         return self.pressure
 
     def _start(self, reading: Reading, now: float) -> None:
@@ -109,7 +103,7 @@ class Loop:
         known = self.chamber if self.pressure is None else self.pressure
         self.law.start(reading.position, known)
         self.course.start(reading.position)
-        self._time = now
+        self._time = now - self.period
         self.state = RUNNING
         self.starts += 1
 

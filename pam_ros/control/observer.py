@@ -7,11 +7,11 @@ disturbance rejection control"); what the model knows is fed through, so that on
 shows up there.
 """
 
-from math import exp
+from math import ceil, exp
 
 from pam_ros.control.inner_model import InnerModel
 
-SUBSTEPS = 2
+SUBSTEP = 1e-3  # s, longest
 
 
 class Observer:
@@ -53,12 +53,12 @@ class Observer:
     def predict(self, dt: float, pressure: float, known: float = 0.0) -> None:
         """Go on by *dt* s with a chamber at *pressure* Pa and a *known* force upwards in N."""
         model = self.model
-        h = dt / SUBSTEPS
+        steps = ceil(dt / SUBSTEP - 1e-6)
+        h = dt / max(steps, 1)
         y, v = self.position, self.velocity
         given = self.disturbance + known - model.weight
-        for _ in range(SUBSTEPS):
-            pull = model.force(pressure, y) - model.damping(pressure, y, v) * v
-            a = (pull + given) / model.mass
+        for _ in range(max(steps, 1)):
+            a = (model.pull(pressure, y, v) + given) / model.mass
             y += h * (v + 0.5 * h * a)
             v += h * a
         self.position, self.velocity = y, v

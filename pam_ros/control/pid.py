@@ -80,7 +80,7 @@ class Pid:
         velocity: float | None = None,
         age: float = 0.0,
     ) -> float:
-        """Return the gauge pressure in Pa to command for the next *dt* s."""
+        """Return the gauge pressure in Pa to command from now on, *dt* s after the last call."""
         if position is not None:
             self._seen = position
         static = self._static(reference.position)

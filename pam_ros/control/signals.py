@@ -77,8 +77,9 @@ class PositionLaw(Protocol):
         velocity: float | None = None,
         age: float = 0.0,
     ) -> float:
-        """Return the gauge pressure in Pa to command for the next *dt* s.
+        """Return the gauge pressure in Pa to command from now on, *dt* s after the last call.
 
-        *position* is the newest measurement in m, taken *age* s ago, None where there is no new
-        one; *velocity* is the measured one in m/s, where there is one.
+        *reference* is where the load shall be now. *position* is the newest measurement in m,
+        taken *age* s ago, None where there was none since the last call; *velocity* is the
+        measured one in m/s, where there is one.
         """

@@ -105,6 +105,7 @@ class SlidingMode:
         self._waited = 0.0  # since the last measurement, s
         self._offset = 0.0 if self.gains.observer else disturbance
         self._foreseen = rig.weight
+        self._lost, self._may_learn = 0.0, False
         self.terms = Terms(reference=position, position=position, pressure=pressure)
 
     def update(
@@ -115,11 +116,13 @@ class SlidingMode:
         velocity: float | None = None,
         age: float = 0.0,
     ) -> float:
-        """Return the gauge pressure in Pa to command for the next *dt* s.
+        """Return the gauge pressure in Pa to command from now on, *dt* s after the last call.
 
-        *position* is the newest measurement in m, taken *age* s ago, None where there is none
-        since the last step. *velocity*, measured in m/s, is used if the gains say so.
+        *reference* is where the load shall be now. *position* is the newest measurement in m,
+        taken *age* s ago, None where there was none since the last call. *velocity*, measured in
+        m/s, is used if the gains say so.
         """
+        self._go_on(dt)
         moves = (
             abs(reference.velocity) > REST_SPEED or abs(reference.acceleration) > REST_ACCELERATION
         )
@@ -131,7 +134,7 @@ class SlidingMode:
         wanted = self._path.command_for(pressure, rate / gain)
         command = self._limiter.limit(wanted, dt)
         self.terms.pressure, self.terms.cut = command, gain * (wanted - command)
-        self._go_on(dt, reference, force, command, wanted)
+        self._integrate(dt, force, command, wanted)
         return command
 
     def _take_in(
@@ -226,10 +229,8 @@ class SlidingMode:
         self.terms.surface = s = self._error_rate + self._integral
         return m * boundary_layer(s, bandwidth, gains.switching_gain(m))
 
-    def _go_on(
-        self, dt: float, reference: Reference, force: float, command: float, wanted: float
-    ) -> None:
-        """Integrate the surface, and let all estimates go on under the *command* in Pa."""
+    def _integrate(self, dt: float, force: float, command: float, wanted: float) -> None:
+        """Integrate the surface, and watch how the load answers to the wanted *force* in N."""
         standstill, m = self._standstill, self._rig.mass
         spring = self._square * self._error
         if standstill.stiffness > 1.0:
@@ -242,9 +243,12 @@ class SlidingMode:
         if is_free and self._pushed is None:
             self._integral += growth
         standstill.see_force(dt, force, self._seen, self._k)
-        mean = self._path.follow(command, dt)
+        self._may_learn = standstill.is_moving and command == wanted
+
+    def _go_on(self, dt: float) -> None:
+        """Let all estimates go on by *dt* s under the last command."""
+        path = self._path
+        mean = path.follow(self._limiter.last, dt)
         self._observer.predict(dt, mean, -self._lost)
         if self.gains.learning:
-            may_learn = standstill.is_moving and command == wanted
-            path = self._path
-            self._learner.go_on(dt, path.inflow, path.chamber.pressure, may_learn)
+            self._learner.go_on(dt, path.inflow, path.chamber.pressure, self._may_learn)

@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from math import isfinite
 
 import numpy as np
-from scipy.interpolate import BPoly, CubicSpline, PPoly
 
 from pam_ros.control.limits import refuse_unreachable
 from pam_ros.control.signals import Reference
@@ -94,6 +93,8 @@ def _refuse_bad(points: Sequence[Point]) -> None:
 
 def _pieces(points: Sequence[Point], cubic: bool, quintic: bool) -> list[list[float]]:
     """Return the coefficients between each two points, highest power first."""
+    from scipy.interpolate import BPoly, CubicSpline, PPoly
+
     t = np.array([p.time for p in points])
     y = np.array([p.position for p in points])
     if not cubic:
