@@ -57,14 +57,16 @@ class Search:
 
 
 def problem_of(
-    model: RigModel, segments: Sequence[Segment], noise: Noise, step: float, stride: int = 1
+    model: RigModel, segments: Sequence[Segment], noise: Noise, step: float, stride: int = 0
 ) -> Problem:
     """Return the problem of re-tuning *model* to the segments, at most *step* s a step.
 
-    *stride* says how many samples apart those of the segments were in the recording.
+    *stride* says how many samples apart those of thinned segments were in the recording; their
+    starts are free, those of segments that are not thinned (0) near to the measurement.
     """
-    unknowns: list[Unknown] = [*declared_unknowns(model), *run_unknowns(segments)]
-    rho = noise.rho**stride
+    sigma = np.inf if stride else noise.sigma
+    unknowns: list[Unknown] = [*declared_unknowns(model), *run_unknowns(segments, sigma)]
+    rho = noise.rho ** max(stride, 1)
     samples = sum(int(np.count_nonzero(s.fit)) for s in segments)
     return Problem(
         tuple(segments),

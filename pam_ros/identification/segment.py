@@ -86,7 +86,7 @@ def _segment(part: Recording, keep_back: bool) -> Segment:
         raise RecordingError(f'{part.name}: no position was recorded')
     if part.kind == 'free':
         drive_t, drive = part.drive(1e-3)
-        y0, v0 = _start(part.t, part.position)
+        y0, v0 = start_of(part.t, part.position)
         empty = np.empty(0)
         return Segment(
             part.name, part.kind, part.t, part.position, fit, drive_t, drive,
@@ -129,15 +129,15 @@ def windows(segment: Segment, length: float) -> list[Segment]:
         t, y = segment.t[rows], segment.target[rows]
         kept = _kept_back(k) and not segment.fit.all()
         fit = t < t[0] + ONSET if kept else np.ones(rows.size, dtype=bool)
-        y0, v0 = _start(t, y)
+        y0, v0 = start_of(t, y)
         found.append(replace(segment, t=t, target=y, fit=fit, y0=y0, v0=v0))
     return found
 
 
-def _start(t: Array, y: Array) -> tuple[float, float]:
-    """Fit a parabola to the first 60 ms, at least 5 samples: position and velocity at t[0]."""
-    n = min(t.size, max(5, int(np.searchsorted(t, t[0] + 0.06))))
-    curve = np.polynomial.Polynomial.fit(t[:n] - t[0], y[:n], min(2, n - 1))
+def start_of(t: Array, y: Array, degree: int = 2) -> tuple[float, float]:
+    """Fit a polynomial to the first 30 ms, at least 6 samples: position and velocity at t[0]."""
+    n = min(t.size, max(6, int(np.searchsorted(t, t[0] + 0.03))))
+    curve = np.polynomial.Polynomial.fit(t[:n] - t[0], y[:n], min(degree, n - 1))
     return float(curve(0.0)), float(curve.deriv()(0.0))
 
 

@@ -135,7 +135,7 @@ def _muscle(model: RigModel, q: Array, changes: dict[str, float]) -> Muscle:
 def stage(name: str, model: RigModel, fit: Fit, test: Sequence[Segment]) -> Stage:
     """Return the stage of a fit over all its segments and over *test*.
 
-    Test runs start from a parabola through the first 60 ms of their own measurement and are
+    Test runs start from a parabola through the first 30 ms of their own measurement and are
     free from there; their error replaces that of the samples kept back.
     """
     problem = fit.solution.problem

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pam_ros.effects.base import Effect
-from pam_ros.identification.segment import Segment
+from pam_ros.identification.segment import Segment, start_of
 from pam_ros.rig import layout as at
 from pam_ros.rig.model import RigModel
 
@@ -23,6 +23,9 @@ CONSTANTS = ('a1', 'a2', 'a3', 'a4', 'a5', 'a6')
 SPECIMEN = 0.03
 A1_OF_A5 = 0.01
 DAMPING = 0.5
+# Standard deviations of the state at a run's start, in those of the noise: 1 and 1/s. A
+# parabola through 30 ms knows the velocity to some 100 noises a second.
+START_Y_SPREAD, START_V_SPREAD = 2.0, 200.0
 # Indices of what a run has for itself, beside those of the parameter row.
 START_Y, START_V = -1, -2
 
@@ -87,13 +90,25 @@ def declared_unknowns(model: RigModel) -> list[Unknown]:
     return found
 
 
-def run_unknowns(segments: Sequence[Segment]) -> list[Unknown]:
-    """Return position and velocity at the start of each free run that is fitted at all."""
+def run_unknowns(segments: Sequence[Segment], sigma: float) -> list[Unknown]:
+    """Return position and velocity at the start of each free run that is fitted at all.
+
+    *sigma* is the noise of the position in m. A start that is free to move would hide an error
+    of the model, above all where no spring brings the load back: it stays as near to the
+    measurement as its noise and the curvature of the first samples allow. With an infinite
+    *sigma*, for thinned runs, it is free.
+    """
     found = []
     for k, s in enumerate(segments):
         if s.kind == 'free' and s.fit.any():
-            found.append(Unknown(f'y0[{k}]', START_Y, s.y0, 1e-3, segment=k))
-            found.append(Unknown(f'v0[{k}]', START_V, s.v0, 1e-2, segment=k))
+            y, v, prior = 1e-3, 1e-2, np.inf
+            if np.isfinite(sigma):
+                bent = start_of(s.t, s.target, 3)
+                y = START_Y_SPREAD * sigma + abs(bent[0] - s.y0) + 1e-9
+                v = START_V_SPREAD * sigma + abs(bent[1] - s.v0) + 1e-9
+                prior = 1.0
+            found.append(Unknown(f'y0[{k}]', START_Y, s.y0, y, prior=prior, segment=k))
+            found.append(Unknown(f'v0[{k}]', START_V, s.v0, v, prior=prior, segment=k))
     return found
 
 

@@ -31,7 +31,7 @@ PRESSURE = 100.0  # Pa: 0.2 m/s^2
 
 
 def problem_of(model, segments, outlier=np.inf):
-    unknowns = (*declared_unknowns(model), *run_unknowns(segments))
+    unknowns = (*declared_unknowns(model), *run_unknowns(segments, np.inf))
     samples = float(sum(s.fit.sum() for s in segments))
     return Problem(
         tuple(segments), model.layout, model.active, model.row(), unknowns, samples, 1e-3, outlier

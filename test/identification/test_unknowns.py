@@ -2,13 +2,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """Which numbers a fit moves, in what coordinates, between which bounds."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from pam_ros.effects import EFFECTS
-from pam_ros.identification.segment import segments_of
+from pam_ros.identification.segment import segments_of, start_of
 from pam_ros.identification.unknowns import (
     SPECIMEN,
     START_V,
@@ -84,7 +86,7 @@ def run(kind, keep=True):
 
 
 def test_each_free_run_has_its_own_start():
-    found = run_unknowns([run('free'), run('free')])
+    found = run_unknowns([run('free'), run('free')], np.inf)
     assert [(u.segment, u.index) for u in found] == [
         (0, START_Y),
         (0, START_V),
@@ -96,7 +98,20 @@ def test_each_free_run_has_its_own_start():
 
 
 def test_a_held_run_has_no_start_of_its_own():
-    assert run_unknowns([run('held')]) == []
+    assert run_unknowns([run('held')], 1e-5) == []
+
+
+def test_a_start_stays_as_near_as_noise_and_curvature_allow():
+    straight = run_unknowns([run('free')], 1e-5)
+    assert [u.scale for u in straight] == pytest.approx([2e-5, 2e-3], rel=1e-3)
+    assert all(u.prior == 1.0 for u in straight)
+    bent = run('free')
+    target = bent.target + 1e3 * bent.t**3
+    y0, v0 = start_of(bent.t, target)
+    bent = replace(bent, target=target, y0=y0, v0=v0)
+    wider = run_unknowns([bent], 1e-5)
+    assert wider[0].scale > 2.0 * straight[0].scale
+    assert wider[1].scale > 2.0 * straight[1].scale
 
 
 @pytest.mark.parametrize('effect', EFFECTS, ids=lambda effect: effect.name)
