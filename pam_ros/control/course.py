@@ -21,11 +21,17 @@ class Course:
         self._shaper = Shaper(shape)
         self._trajectory: Trajectory | None = None
         self._since = 0.0
+        self._start = 0.5 * (reach[0] + reach[1]) if isfinite(reach[0]) else 0.0
 
     @property
     def reference(self) -> Reference:
-        """Where the load shall be now."""
-        return self._shaper.reference
+        """Where the load shall be now; never out of reach but where it was started."""
+        reference = self._shaper.reference
+        low, high = min(self.reach[0], self._start), max(self.reach[1], self._start)
+        if low <= reference.position <= high:
+            return reference
+        # What a stream of positions seems to lead to is more than it has told.
+        return Reference(min(max(reference.position, low), high))
 
     @property
     def is_on_trajectory(self) -> bool:
@@ -35,6 +41,7 @@ class Course:
     def start(self, position: float) -> None:
         """Hold the load at *position* m, whatever it was told before."""
         self._trajectory = None
+        self._start = position
         self._shaper.start(position)
 
     def set_shape(self, shape: Shape) -> None:
@@ -71,7 +78,8 @@ class Course:
     def follow(self, dt: float) -> Reference:
         """Return the reference *dt* s on."""
         if self._trajectory is None:
-            return self._shaper.follow(dt)
+            self._shaper.follow(dt)
+            return self.reference
         before = self._since
         self._since += dt
         if before < 0.0 <= self._since:

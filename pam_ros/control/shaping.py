@@ -16,7 +16,7 @@ from pam_ros.parameters import check_all, parameter
 
 QUICK, PER_SAMPLE = 80.0, 1.5  # rad/s of the tracker, and rad a sample: the lower one counts
 ROUGH = 4.0  # times the bound of acceleration that samples of a stream may be off by
-PAUSE = 0.5  # s without a sample after which the next one is a new target
+PAUSE = 0.12  # s without a sample after which the next one is a new target
 LEAST_INTERVAL = 1e-4  # s, for samples that come at once
 MISSED, LEAST = 4.0, 0.05  # intervals, and s, without a sample after which a stream has ended
 
