@@ -52,7 +52,9 @@ class Arm:
         return found
 
     def last(self, name):
-        return list(self.arrays[name][-1].data)
+        messages = self.arrays[name]
+        self.peer.until(lambda: messages, f'{name}')
+        return list(messages[-1].data)
 
 
 def simulated(models, pressures, periods=PERIODS):
@@ -184,11 +186,14 @@ def test_topics_of_each_muscle_are_those_of_one_alone(peer):
     with Program('pam_sim', parameters=given):
         states = arm.run([1e5, 3e5], 20)
         peer.until(lambda: own and stamp(own[-1]) == stamp(states[-1]), 'its state')
-        peer.until(lambda: pressure[-1].fluid_pressure == 3e5 + AMBIENT, 'its pressure')
+        peer.until(
+            lambda: pressure and pressure[-1].fluid_pressure == 3e5 + AMBIENT, 'its pressure'
+        )
+        for messages in values.values():
+            peer.until(lambda m=messages: m, 'its floats')
     assert own[-1].name == ['right']
     assert own[-1].position[0] == states[-1].position[1]
     assert own[-1].effort[0] == states[-1].effort[1]
-    assert all(values.values())
 
 
 def test_bad_values_leave_their_muscle_as_it_is_and_are_named(peer):
@@ -213,8 +218,14 @@ def test_silence_of_one_vents_it_alone(peer):
     pressures = peer.collect(Float64MultiArray, 'pressures')
     diagnostics = peer.collect(DiagnosticArray, '/diagnostics')
     with Program('pam_sim', parameters=given):
-        peer.publish(Float64(data=2e5), 'a/pressure_command')
-        peer.publish(Float64(data=3e5), 'b/pressure_command')
+        peer.more(pressures)
+
+        def b_is_heard():
+            peer.publish(Float64(data=3e5), 'b/pressure_command')
+            peer.work(0.02)
+            return pressures[-1].data[1] == 3e5 + AMBIENT
+
+        peer.until(b_is_heard, 'b to be heard')
 
         def only_b_is_vented():
             peer.publish(Float64(data=2e5), 'a/pressure_command')
