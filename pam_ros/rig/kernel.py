@@ -211,6 +211,8 @@ def simulate_held(
     """
     for i in range(x.shape[0]):
         xn[i] = x[i]
+    delay = delay_chain(q)
+    late = 0
     for n in range(t.shape[0]):
         last = n - 1 if n else 0
         span = t[n] - t[last]
@@ -220,6 +222,13 @@ def simulate_held(
             share = s / steps
             now = t[last] + s * h
             p_in = p[last] + share * (p[n] - p[last])
+            if delay > 0.0 and t.shape[0] > 1:
+                # The pressure at the sensor, so long ago as it takes to the chamber.
+                then = max(now - delay, t[0])
+                while late + 2 < t.shape[0] and t[late + 1] <= then:
+                    late += 1
+                part = min((then - t[late]) / (t[late + 1] - t[late]), 1.0)
+                p_in = p[late] + part * (p[late + 1] - p[late])
             y_in = y[last] + share * (y[n] - y[last])
             v_in = v[last] + share * (v[n] - v[last])
             x[P] = pressure_chain(p_in, now, h, x, xn, q)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from pam_ros.rig.rig import Rig
-from pam_ros.rig.run import simulate
+from pam_ros.rig.run import simulate, simulate_held
 from support import bench
 
 COMMANDS = np.array([0.0, 0.3, 0.55, 0.9])
@@ -40,3 +40,14 @@ def test_a_stepped_rig_takes_the_command_at_the_first_step_after_the_delay():
         rig.advance()
         pressures.append(rig.pressure[0])
     assert pressures == [0.0] * 11 + [5.0] * 4
+
+
+def test_held_muscle_feels_the_pressure_of_some_time_ago():
+    t = np.linspace(0.0, 2.0, 401)
+    p = 2e5 + 1e5 * np.sin(6.0 * t)
+    run = simulate_held(
+        bench.hanging(dead_time={'delay': 0.0237}), t, p, np.full(t.size, 0.03), 0.0 * t
+    )
+    expected = np.interp(t - 0.0237, t, p)
+    np.testing.assert_allclose(run.pressure, expected, rtol=1e-12)
+    np.testing.assert_allclose(run.force, [bench.pull(a, 0.03) for a in expected], rtol=1e-12)
