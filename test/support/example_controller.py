@@ -35,6 +35,7 @@ class ExampleController(Node):
         self._muscle, self._seconds = Muscle(), seconds
         self._start = self._last = 0
         self._integral = 0.0  # m s
+        self._said = Float64()
         self.rows: list[tuple[float, float, float, float]] = []
         self.began = self.ended = 0.0
         self._command = self.create_publisher(Float64, 'pressure_command', 10)
@@ -42,8 +43,11 @@ class ExampleController(Node):
 
     def _answer(self, state: JointState) -> None:
         stamp = state.header.stamp.sec * 10**9 + state.header.stamp.nanosec
-        if stamp == self._last or self.ended:
-            return  # a state that was told again was answered already
+        if self.ended:
+            return
+        if stamp == self._last:  # told again, before it had heard the answer
+            self._command.publish(self._said)
+            return
         if len(self.rows) == 1:
             self.began = perf_counter()  # both programs are there
         self._start = self._start or stamp
@@ -64,7 +68,8 @@ class ExampleController(Node):
         if t >= self._seconds:
             self.ended = perf_counter()
         else:
-            self._command.publish(Float64(data=pressure))
+            self._said.data = pressure
+            self._command.publish(self._said)
 
     def _feed_forward(self, position: float, acceleration: float) -> float:
         """Return the pressure in Pa at which the model holds the load there, so accelerated."""
