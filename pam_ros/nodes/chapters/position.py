@@ -9,7 +9,7 @@ as ``joint_trajectory``. Both programs run in lockstep, so that a busy machine c
 import math
 
 import numpy as np
-from builtin_interfaces.msg import Duration
+from rclpy.duration import Duration
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
@@ -117,14 +117,13 @@ def sine(middle: float) -> JointTrajectory:
     message = JointTrajectory(joint_names=['pam'])
     for k in range(1, round(end / SPACING) + 1):
         t = k * SPACING
-        whole = int(t + 1e-9)
         # It swells over the first cycle and fades over the last.
         share = min(t * FREQUENCY, (end - t) * FREQUENCY, 1.0)
         swing = SWING * math.sin(0.5 * math.pi * max(share, 0.0)) ** 2
         message.points.append(
             JointTrajectoryPoint(
                 positions=[middle + swing * math.sin(turn * t)],
-                time_from_start=Duration(sec=whole, nanosec=max(round((t - whole) * 1e9), 0)),
+                time_from_start=Duration(seconds=t).to_msg(),
             )
         )
     return message
