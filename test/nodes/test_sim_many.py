@@ -32,20 +32,25 @@ class Arm:
     """Answers each new state with pressures for all muscles, and keeps what was said."""
 
     def __init__(self, peer):
-        self.peer = peer
+        self.peer, self.seen = peer, 0
         self.states = peer.collect(JointState, 'joint_states')
         names = ('pressures', 'forces', 'stiffnesses', 'dampings')
         self.arrays = {name: peer.collect(Float64MultiArray, name) for name in names}
+
+    def after(self, time, pressures):
+        """Return the state after *time*; where the one before is told again, answer it again."""
+        is_told_again = len(self.states) > self.seen and stamp(self.states[-1]) == time
+        self.seen = len(self.states)
+        if is_told_again:
+            self.peer.publish(Float64MultiArray(data=pressures), 'pressure_commands')
+        return next((m for m in self.states if stamp(m) > time), None)
 
     def run(self, pressures, periods=PERIODS):
         """Return the states of so many periods of constant pressures, and the one after."""
         heard, found = 0, []
         for _ in range(periods + 1):
-            state = self.peer.until(
-                lambda last=heard: next((m for m in self.states if stamp(m) > last), None),
-                'the next state',
-            )
-            heard = stamp(state)
+            state = self.peer.until(lambda t=heard: self.after(t, pressures), 'the next state')
+            heard, self.seen = stamp(state), len(self.states)
             found.append(state)
             if len(found) <= periods:
                 self.peer.publish(Float64MultiArray(data=pressures), 'pressure_commands')
