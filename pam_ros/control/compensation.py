@@ -38,17 +38,16 @@ class Losses:
             for effect in model.present
             if effect.name in FED_FORWARD
         ]
-        self._q = self._row.tolist()
-        self._x: list[float] = []
-        self._xn: list[float] = []
+        self._x = self._xn = np.zeros(layout.width)
         self.force = 0.0
         self.start(0.0, 0.0)
 
     def start(self, position: float, pressure: float) -> None:
         """Begin anew after a long rest at *position* m and *pressure* Pa."""
-        rows = start_row(self._model.layout, self._row, pressure, position, 0.0)
-        self._x = np.asarray(rows).tolist()
-        self._xn = list(self._x)
+        for _ in range(2):  # effects may be compiled when they are first called: not in flight
+            self._x = start_row(self._model.layout, self._row, pressure, position, 0.0)
+            self._xn = self._x.copy()
+            self.follow(1e-6, Reference(position), pressure, 0.0)
         self.force = 0.0
 
     def follow(self, dt: float, reference: Reference, pressure: float, pull: float) -> float:
@@ -59,7 +58,7 @@ class Losses:
         f, outside = pull, 0.0
         v = reference.velocity
         for effect, i, j in self._effects:
-            at = (v, 0.0, dt, self._x, i, self._xn, self._q, j)
+            at = (v, 0.0, dt, self._x, i, self._xn, self._row, j)
             if effect.force is not None:
                 f = effect.force(f, pressure, kappa, *at)
             if effect.outside is not None:

@@ -39,6 +39,7 @@ class Standstill:
         self.stiffness = 1.0
         self._error = 0.0
         self._since = AFTER
+        self._is_new = True
         self._reset_slopes(0.0, 0.0)
 
     @property
@@ -64,7 +65,8 @@ class Standstill:
 
     def see_force(self, dt: float, force: float, position: float, stiffness: float) -> None:
         """Take in the wanted *force* in N, the *position* in m and the muscle's k in N/m."""
-        if self.is_moving:
+        if self.is_moving or self._is_new:
+            self._is_new = False
             self._reset_slopes(force, position)
             self.stiffness = 1.0
             return

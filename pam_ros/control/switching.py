@@ -11,13 +11,13 @@ def boundary_layer(s: float, bandwidth: float, gain: float) -> float:
 
 
 class SuperTwisting:
-    """The super-twisting algorithm (Levant 1993), stepped implicitly.
+    """The super-twisting algorithm (Levant 1993), stepped without chatter.
 
         s' = -k1 sqrt|s| sign s + w + d,    w' = -k2 sign s
 
-    The term is found from the s that it leads to at the end of the step (implicit Euler:
-    Brogliato, Polyakov & Efimov 2020), for which there is a closed form: so it does not chatter in
-    discrete time, and is zero where s is.
+    The root is taken of the s that it leads to at the end of the step, and sign s is s itself
+    where a whole step of w would overshoot (after the implicit schemes of Brogliato, Polyakov &
+    Efimov 2020). At rest w is -d of the step before, and |s| is what d changed since, times dt.
     """
 
     def __init__(self) -> None:
@@ -26,12 +26,7 @@ class SuperTwisting:
 
     def step(self, s: float, dt: float, k1: float, k2: float) -> float:
         """Return the term in m/s^2 that acts against *s* m/s for the next *dt* s."""
-        b = s + dt * self.w
-        rest = abs(b) - dt * dt * k2
-        if rest <= 0.0:
-            self.w = -s / dt
-            return s / dt
-        sign = 1.0 if b > 0.0 else -1.0
-        root = 0.5 * (-dt * k1 + sqrt(dt * dt * k1 * k1 + 4.0 * rest))
-        self.w -= dt * k2 * sign
-        return k1 * root * sign - self.w
+        first = dt * k1
+        root = 0.5 * (sqrt(first * first + 4.0 * abs(s)) - first)
+        self.w -= min(max(s / dt, -dt * k2), dt * k2)
+        return (k1 * root if s > 0.0 else -k1 * root) - self.w

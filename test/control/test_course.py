@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""One reference of all that a load is told: set-points, streams, trajectories, reach."""
+"""The course: one smooth reference of all that is told."""
 
 import math
 
@@ -12,73 +12,85 @@ from pam_ros.control.shaping import Shape
 from pam_ros.control.trajectory import Point
 from pam_ros.errors import RangeError
 
-DT, REACH, REST = 0.002, (0.0, 0.09), 0.06
-TURN, SWING = math.pi, 0.005  # rad/s, m
+DT = 2e-3
+SHAPE = Shape()
 
 
-@pytest.fixture
-def course():
-    course = Course(Shape(), REACH)
-    course.start(REST)
-    follow(course, 1.0)
+def a_course():
+    course = Course(SHAPE, (-0.01, 0.1))
+    course.start(0.02)
     return course
 
 
 def follow(course, seconds):
-    return np.array([course.follow(DT).position for _ in range(round(seconds / DT))])
+    return np.array([course.follow(DT) for _ in range(round(seconds / DT))])
 
 
-@pytest.mark.parametrize('gap', [0.15, 0.3, 0.6, 2.5])
-@pytest.mark.parametrize('goal', [0.072, 0.085])
-def test_set_points_one_after_the_other_are_not_taken_for_a_motion(course, gap, goal):
-    course.tell(0.07)
-    follow(course, gap)
-    course.tell(goal)
-    way = follow(course, 4.0)
-    assert np.max(way) < goal + 1e-3
-    assert way[-1] == pytest.approx(goal, abs=1e-9)
+def is_smooth(path, most=20.0):
+    """Say whether velocity never jumps: by a few times the bound of acceleration at most."""
+    return np.max(np.abs(np.diff(path[:, 1]))) <= most * SHAPE.max_acceleration * DT
 
 
-@pytest.mark.parametrize('gap', [0.02, 0.05, 0.09])
-def test_what_seems_a_motion_does_not_lead_out_of_reach(course, gap):
+def test_it_holds_until_it_is_told():
+    assert np.all(follow(a_course(), 0.1) == [0.02, 0.0, 0.0, 0.0])
+
+
+def test_a_trajectory_interrupts_a_step_and_a_step_a_trajectory():
+    course = a_course()
     course.tell(0.08)
-    follow(course, gap)
-    course.tell(0.089)
-    way = follow(course, 4.0)
-    assert np.max(way) <= REACH[1]
-    assert way[-1] == pytest.approx(0.089, abs=1e-9)
+    first = follow(course, 0.2)
+    course.play([Point(1.0, 0.05), Point(2.0, 0.03)])
+    second = follow(course, 1.3)
+    assert course.is_on_trajectory
+    course.tell(0.06)
+    third = follow(course, 2.0)
+    assert not course.is_on_trajectory
+    assert is_smooth(np.vstack([first, second, third]))
+    assert third[-1].tolist() == [0.06, 0.0, 0.0, 0.0]
 
 
-def test_a_load_that_rests_out_of_reach_is_held_there(course):
-    course.start(-0.01)
-    np.testing.assert_array_equal(follow(course, 0.1), -0.01)
+def test_a_trajectory_is_passed_on_exactly_and_held_at_its_end():
+    course = a_course()
+    course.play([Point(2.0, 0.05, 0.0, 0.0)])
+    path = follow(course, 2.5)
+    s = np.clip((np.arange(len(path)) + 1) * DT / 2.0, 0.0, 1.0)
+    np.testing.assert_allclose(path[:, 0], 0.02 + 0.03 * (10 * s**3 - 15 * s**4 + 6 * s**5))
+    assert path[-1].tolist() == [pytest.approx(0.05), 0.0, 0.0, 0.0]
+    assert not course.is_on_trajectory
 
 
-@pytest.mark.parametrize(('rate', 'most'), [(100, 5e-6), (20, 0.2e-3)])
-def test_a_stream_is_followed_without_lag(course, rate, most):
-    way, told = [], []
-    for n in range(2000):
-        if n % (500 // rate) == 0:
-            course.tell(REST + SWING * math.sin(TURN * n * DT))
-        way.append(course.follow(DT).position)
-        told.append(REST + SWING * math.sin(TURN * (n + 1) * DT))
-    assert np.max(np.abs(np.subtract(way, told)[1000:])) < most
+def test_it_waits_for_a_start_to_come_and_joins_one_that_is_past():
+    late, early = a_course(), a_course()
+    points = [Point(0.0, 0.02), Point(1.0, 0.05)]
+    late.play(points, wait=0.5)
+    early.play(points, wait=-0.5)
+    assert follow(late, 0.5)[-1, 0] == pytest.approx(0.02)
+    assert follow(late, 1.0)[-1, 0] == pytest.approx(0.05)
+    path = follow(early, 1.5)
+    assert path[0, 0] == pytest.approx(0.02, abs=1e-3)
+    assert path[-1, 0] == pytest.approx(0.05)
+    assert is_smooth(path)
 
 
-def test_a_trajectory_that_begins_in_motion_is_followed_at_once(course):
-    times = np.linspace(0.05, 4.0, 80)
-    points = [
-        Point(t, REST + SWING * math.sin(TURN * t), SWING * TURN * math.cos(TURN * t))
-        for t in times
-    ]
-    course.play(points)
-    way = follow(course, 3.9)
-    told = REST + SWING * np.sin(TURN * DT * np.arange(1, way.size + 1))
-    assert np.max(np.abs(way - told)) < 0.3e-3
+def test_an_empty_trajectory_stops():
+    course = a_course()
+    course.play([Point(2.0, 0.08)])
+    follow(course, 1.0)
+    course.play([])
+    path = follow(course, 1.0)
+    assert path[-1, 1] == 0.0
+    assert path[-1, 0] < 0.07
+    assert is_smooth(path)
 
 
-def test_a_refused_position_changes_nothing(course):
-    for bad in (0.1, math.nan, math.inf):
+def test_what_cannot_be_is_refused_and_changes_nothing():
+    course = a_course()
+    course.play([Point(2.0, 0.05)])
+    for bad in (0.2, -0.5, math.nan, math.inf):
         with pytest.raises(RangeError):
             course.tell(bad)
-    np.testing.assert_array_equal(follow(course, 0.1), REST)
+    with pytest.raises(RangeError):
+        course.play([Point(1.0, 0.3)])
+    assert course.is_on_trajectory
+    follow(course, 2.5)
+    assert course.reference.position == pytest.approx(0.05)

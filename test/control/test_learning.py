@@ -1,0 +1,67 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""What is learned from motion: right on the truth plant, and nothing where nothing is missing."""
+
+import numpy as np
+import pytest
+
+from pam_ros.control.features import REACHES
+from pam_ros.control.gains import Gains
+from pam_ros.control.sliding_mode import SlidingMode
+from support.closed_loop import LAG, close_loop, declared, sine_target, truth
+
+pytestmark = pytest.mark.needs_numba
+
+
+def swung(plant, seconds=14.0, effects=None, gains=None):
+    law = SlidingMode(declared(effects=effects), gains or Gains())
+    return law, close_loop(law, truth(plant), sine_target(0.01, 0.5), seconds)
+
+
+def rms(run, seconds=4.0):
+    return np.sqrt(np.mean(run.error[run.last(seconds)] ** 2))
+
+
+def test_nothing_is_learned_where_nothing_is_missing():
+    law, run = swung('nominal', 8.0)
+    assert law._learner.trust == 0.0
+    assert np.all(run.terms['learned'] == 0.0)
+    assert rms(run) < 0.02e-3
+
+
+def test_hysteresis_is_learned_and_the_bandwidth_grows():
+    law, run = swung('hysteresis')
+    weights = law._learner._weights[: len(REACHES)]
+    assert weights.sum() == pytest.approx(40.0, rel=0.1)
+    assert max(law._learner.lag) < 5e-3
+    assert run.terms['bandwidth'][-1] > 30.0
+    without = swung('hysteresis', 8.0, gains=Gains(learning=False))[1]
+    assert rms(run) < 0.15e-3 < 0.2 * rms(without)
+
+
+def test_friction_is_learned():
+    law, run = swung('friction')
+    assert law._learner._weights[0] == pytest.approx(15.0, abs=4.0)
+    assert rms(run) < 0.15e-3
+
+
+def test_a_lag_is_learned_and_the_bandwidth_stays():
+    law, run = swung('lag')
+    fill, vent = law._learner.lag
+    assert 0.02 < 0.5 * (fill + vent) < 0.09
+    assert run.terms['bandwidth'][-1] < 20.0
+    assert rms(run) < 0.25e-3
+
+
+def test_a_declared_lag_leaves_nothing_to_learn():
+    law, run = swung('lag', 8.0, effects=LAG)
+    assert law._learner.lag == (0.0, 0.0)
+    assert np.max(np.abs(run.terms['learned'])) < 3.0
+    assert rms(run) < 0.05e-3
+
+
+def test_what_is_fed_forward_is_bounded():
+    from pam_ros.control import learning
+
+    _, run = swung('all', 10.0)
+    assert np.max(np.abs(run.terms['learned'])) <= learning.MOST

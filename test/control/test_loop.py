@@ -1,0 +1,124 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""A law in service: starts, time-outs, silence, clocks."""
+
+import pytest
+
+from pam_ros.control.course import Course
+from pam_ros.control.loop import BLIND, DISABLED, RUNNING, VENT, WAITING, Loop, Reading
+from pam_ros.control.shaping import Shape
+from pam_ros.control.signals import Terms
+
+PERIOD = 0.002
+
+
+class Recorder:
+    """A law that writes down what it is told."""
+
+    def __init__(self):
+        self.starts, self.calls = [], []
+        self.terms = Terms()
+
+    def start(self, position, pressure=None):
+        self.starts.append((position, pressure))
+
+    def update(self, dt, reference, position, velocity=None, age=0.0):
+        self.calls.append((dt, reference.position, position, velocity, age))
+        self.terms = Terms(position=reference.position)
+        return 100e3 + len(self.calls)
+
+
+@pytest.fixture
+def loop():
+    return Loop(Recorder(), Course(Shape(), (-1.0, 1.0)), PERIOD)
+
+
+def test_it_commands_nothing_before_it_sees(loop):
+    assert loop.tick(0.0) is None
+    assert loop.state == WAITING
+    assert loop.age(0.0) is None
+
+
+def test_it_starts_where_the_load_is_at_the_pressure_that_is_there(loop):
+    loop.chamber = 123e3
+    loop.see(Reading(1.0, 0.05, 0.001))
+    assert loop.tick(1.001) == 100e3 + 1
+    assert loop.law.starts == [(0.05, 123e3)]
+    (call,) = loop.law.calls
+    assert call == (pytest.approx(PERIOD), 0.05, 0.05, 0.001, pytest.approx(0.001))
+    assert loop.state == RUNNING
+
+
+def test_a_measurement_is_used_once_and_an_old_one_never(loop):
+    loop.see(Reading(1.0, 0.05))
+    loop.tick(1.0)
+    loop.tick(1.002)
+    loop.see(Reading(0.999, 0.07))
+    loop.tick(1.004)
+    loop.see(Reading(1.005, 0.06))
+    loop.tick(1.006)
+    assert [call[2] for call in loop.law.calls] == [0.05, None, None, 0.06]
+
+
+def test_steps_are_as_long_as_they_were(loop):
+    for t in (1.0, 1.002, 1.0035, 1.03, 1.03):
+        loop.see(Reading(t, 0.05))
+        loop.tick(t)
+    lengths = [call[0] for call in loop.law.calls]
+    assert lengths == pytest.approx([0.002, 0.002, 0.0015, 0.0265, 0.0002])
+
+
+def test_without_states_the_pressure_is_held_and_then_begun_anew(loop):
+    loop.see(Reading(1.0, 0.05))
+    first = loop.tick(1.0)
+    assert loop.tick(1.09) == first + 1
+    assert loop.tick(1.11) == first + 1
+    assert loop.state == BLIND
+    loop.see(Reading(2.0, 0.03))
+    loop.tick(2.0)
+    assert loop.law.starts[-1] == (0.03, first + 1)
+    assert (loop.state, loop.starts) == (RUNNING, 2)
+
+
+def test_without_states_it_vents_where_that_is_wished(loop):
+    loop.safe = VENT
+    loop.see(Reading(1.0, 0.05))
+    loop.tick(1.0)
+    assert loop.tick(1.2) == 0.0
+    loop.see(Reading(1.3, 0.01))
+    loop.tick(1.3)
+    assert loop.law.starts[-1] == (0.01, 0.0)
+
+
+def test_disabled_it_is_silent_and_enabled_it_begins_anew(loop):
+    loop.see(Reading(1.0, 0.05))
+    loop.tick(1.0)
+    loop.enable(False)
+    assert loop.tick(1.002) is None
+    assert loop.state == DISABLED
+    loop.enable(False)
+    loop.enable(True)
+    assert loop.tick(1.004) is None  # it has not seen anything since
+    loop.see(Reading(1.006, 0.04))
+    loop.tick(1.006)
+    assert [position for position, _ in loop.law.starts] == [0.05, 0.04]
+
+
+def test_a_clock_that_jumped_back_is_a_new_beginning(loop):
+    loop.see(Reading(100.0, 0.05))
+    loop.tick(100.0)
+    loop.forget()
+    loop.see(Reading(1.0, 0.06))
+    loop.tick(1.0)
+    assert loop.state == RUNNING
+    assert loop.law.starts[-1][0] == 0.06
+    assert loop.law.calls[-1][0] == pytest.approx(PERIOD)
+
+
+def test_another_law_takes_over_in_flight(loop):
+    loop.see(Reading(1.0, 0.05))
+    last = loop.tick(1.0)
+    other = Recorder()
+    loop.change(other, Course(Shape(), (-1.0, 1.0)))
+    assert other.starts == [(0.05, last)]
+    assert loop.course.reference.position == 0.05

@@ -1,0 +1,66 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The way of the pressure against the rig's, and its inverse against the wish."""
+
+import math
+
+import numpy as np
+import pytest
+
+from pam_ros.control.pressure_path import PressurePath
+from pam_ros.rig.model import RigModel
+from pam_ros.rig.rig import Rig
+
+DT = 2e-3
+EFFECTS = {
+    'dead_time': {'delay': 0.01},
+    'pressure_offset': {'offset': 5e3, 'gain': 0.02},
+    'pressure_lag': {'fill': 0.05, 'vent': 0.07},
+}
+
+
+def test_it_knows_the_chamber_of_the_rig():
+    model = RigModel(effects=EFFECTS)
+    rig, path = Rig([model]), PressurePath(model, 0.02)
+    rig.reset([300e3], [0.06], [0.0])
+    path.start(300e3)
+    assert path.chamber.pressure == pytest.approx(rig.pressure[0])
+    for n in range(500):
+        command = 300e3 + 80e3 * math.sin(0.02 * n) + (40e3 if n > 250 else 0.0)
+        rig.command([command])
+        rig.advance(2)
+        path.follow(command, DT)
+        assert path.chamber.pressure == pytest.approx(rig.pressure[0], abs=1.0)
+
+
+@pytest.mark.parametrize('effects', [{}, EFFECTS])
+def test_a_foreseen_pressure_arrives_without_lag(effects):
+    path = PressurePath(RigModel(effects=effects), 0.02)
+    start = path.command_at_rest(300e3)
+    path.start(start)
+    error = []
+    for n in range(2000):
+        t = n * DT
+        wanted = 300e3 + 40e3 * (1.0 - math.cos(2.0 * t))
+        rate = 80e3 * math.sin(2.0 * t)
+        path.follow(path.command_for(wanted, rate), DT)
+        error.append(path.chamber.pressure - (300e3 + 40e3 * (1.0 - math.cos(2.0 * (t + DT)))))
+    # 80 kPa/s behind by the lag and the dead time would be 4 to 6 kPa.
+    assert np.max(np.abs(error)) < 0.6e3
+
+
+def test_at_rest_the_chamber_has_the_wanted_pressure():
+    path = PressurePath(RigModel(effects=EFFECTS), 0.02)
+    path.start(0.0)
+    for _ in range(1000):
+        path.follow(path.command_for(250e3, 0.0), DT)
+    assert path.chamber.pressure == pytest.approx(250e3, abs=1e-3)
+
+
+def test_the_lag_of_what_is_not_foreseen_shrinks_to_the_quickest():
+    path = PressurePath(RigModel(effects={'pressure_lag': {'fill': 0.06, 'vent': 0.06}}), 0.02)
+    path.start(100e3)
+    for n in range(100):
+        path.follow(path.command_for(200e3, 0.0), 1e-4)
+        left = 200e3 - path.chamber.pressure
+        assert left == pytest.approx(100e3 * math.exp(-(n + 1) * 1e-4 / 0.02), rel=2e-3)

@@ -1,0 +1,39 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Recursive least squares against the batch solution."""
+
+import numpy as np
+import pytest
+
+from pam_ros.control.regression import Regression
+
+
+def test_it_is_the_regularised_batch_solution():
+    rng = np.random.default_rng(1)
+    spread, noise = np.array([2.0, 0.5, 5.0]), 0.3
+    far = np.full(3, 1e9)
+    found = Regression(spread, -far, far, noise)
+    phi = rng.normal(size=(200, 3))
+    y = phi @ [1.0, -0.3, 4.0] + rng.normal(size=200) * noise**0.5
+    for row, value in zip(phi, y, strict=True):
+        found.update(row, value - row @ found.theta, 0.0)
+    information = phi.T @ phi / noise + np.diag(spread**-2.0)
+    np.testing.assert_allclose(found.theta, np.linalg.solve(information, phi.T @ y / noise))
+    np.testing.assert_allclose(found.covariance, np.linalg.inv(information), atol=1e-12)
+
+
+def test_bounds_hold_and_no_spread_keeps_a_parameter():
+    found = Regression(np.array([1.0, 0.0]), np.zeros(2), np.ones(2), 0.1)
+    for _ in range(100):
+        found.update(np.array([1.0, 1.0]), 5.0 - found.theta.sum(), 0.0)
+    assert found.theta.tolist() == [1.0, 0.0]
+
+
+def test_what_is_forgotten_can_be_learned_anew():
+    found = Regression(np.array([10.0]), np.array([-99.0]), np.array([99.0]), 1.0)
+    for _ in range(2000):
+        found.update(np.array([1.0]), 3.0 - found.theta[0], 1e-4)
+    for _ in range(400):
+        found.update(np.array([1.0]), -3.0 - found.theta[0], 1e-4)
+    assert found.theta[0] == pytest.approx(-3.0, abs=0.05)
+    assert found.covariance[0, 0] <= 100.0

@@ -1,0 +1,78 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Switching terms against their closed forms, on s' = d - term."""
+
+import math
+
+import pytest
+
+from pam_ros.control.gains import Gains
+from pam_ros.control.switching import SuperTwisting, boundary_layer
+
+MASS = 20.0
+DT = 1e-4
+
+
+def reached(s, gains, disturbance):
+    """Return the time at which s comes into the boundary layer under a constant force in N."""
+    k, width = gains.switching_gain(MASS), gains.boundary_width(MASS)
+    t = 0.0
+    while abs(s) > width:
+        s += DT * (disturbance / MASS - boundary_layer(s, gains.bandwidth, k))
+        t += DT
+    return t
+
+
+@pytest.mark.parametrize('disturbance', [0.0, 60.0, -60.0])
+@pytest.mark.parametrize('start', [2.0, -2.0])
+def test_the_layer_is_reached_in_the_time_of_the_reaching_condition(start, disturbance):
+    gains = Gains(disturbance_bound=200.0)
+    way = abs(start) - gains.boundary_width(MASS)
+    helps = -math.copysign(1.0, start) * disturbance
+    expected = way * MASS / (gains.disturbance_bound + helps)
+    assert reached(start, gains, disturbance) == pytest.approx(expected, abs=2 * DT)
+    worst = abs(start) * MASS / (gains.disturbance_bound - abs(disturbance))
+    assert reached(start, gains, disturbance) <= worst
+
+
+def test_within_the_layer_the_variable_decays_at_the_bandwidth():
+    gains = Gains(bandwidth=14.0)
+    s, t = 0.5 * gains.boundary_width(MASS), 0.0
+    first = s
+    while t < 0.2:
+        s -= DT * boundary_layer(s, gains.bandwidth, gains.switching_gain(MASS))
+        t += DT
+    assert s == pytest.approx(first * math.exp(-14.0 * t), rel=2e-3)
+
+
+def test_the_layer_is_never_left_under_the_largest_disturbance():
+    gains = Gains(disturbance_bound=100.0)
+    s, largest = 0.0, 0.0
+    for n in range(40_000):
+        d = math.copysign(gains.disturbance_bound, math.sin(2.0 * math.pi * 0.7 * n * DT))
+        s += DT * (d / MASS - boundary_layer(s, gains.bandwidth, gains.switching_gain(MASS)))
+        largest = max(largest, abs(s))
+    assert largest <= gains.boundary_width(MASS) * (1.0 + 1e-9)
+    assert largest > 0.9 * gains.boundary_width(MASS)
+
+
+def test_super_twisting_converges_in_finite_time_and_finds_a_disturbance_that_moves():
+    gains = Gains(switching='super_twisting', disturbance_rate=100.0)
+    twisting, s, late = SuperTwisting(), 0.3, []
+    dt = 2e-3
+    for n in range(4000):
+        t = n * dt
+        d = 1.5 + 4.0 * math.sin(1.1 * t)  # m/s^2; its rate stays below 100 N/s / 20 kg = 5 m/s^3
+        term = twisting.step(s, dt, *gains.super_twisting(MASS))
+        s += dt * (d - term)
+        if t > 4.0:
+            late.append((abs(s), abs(term - d)))
+    worst_s, worst_d = (max(column) for column in zip(*late, strict=True))
+    # What the disturbance changes within one period is left, and no chatter.
+    assert worst_s < 2.0 * 5.0 * dt * dt
+    assert worst_d < 2.0 * 5.0 * dt
+
+
+def test_super_twisting_is_zero_at_rest():
+    twisting = SuperTwisting()
+    assert [twisting.step(0.0, 2e-3, 3.0, 5.0) for _ in range(5)] == [0.0] * 5

@@ -1,0 +1,76 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Trajectories against the polynomials that they stand for."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.interpolate import CubicSpline
+
+from pam_ros.control.signals import Reference
+from pam_ros.control.trajectory import Point, Trajectory
+from pam_ros.errors import RangeError
+
+REACH = (-0.01, 0.1)
+HERE = Reference(0.02)
+
+
+def test_positions_alone_make_the_spline_that_rests_at_both_ends():
+    points = [Point(1.0, 0.04), Point(2.5, 0.03), Point(3.0, 0.05)]
+    spline = CubicSpline([0, 1, 2.5, 3], [0.02, 0.04, 0.03, 0.05], bc_type='clamped')
+    trajectory = Trajectory(HERE, points, REACH)
+    for t in np.linspace(0.0, 2.999, 50):
+        found = trajectory.at(t)
+        assert found.position == pytest.approx(spline(t), abs=1e-14)
+        assert found.velocity == pytest.approx(spline(t, 1), abs=1e-12)
+        assert found.acceleration == pytest.approx(spline(t, 2), abs=1e-11)
+        assert found.jerk == pytest.approx(spline(t, 3), abs=1e-10)
+
+
+def test_velocities_make_cubics_and_accelerations_quintics():
+    points = [Point(1.0, 0.04, 0.01), Point(2.0, 0.05, 0.0)]
+    cubic = Trajectory(HERE, points, REACH)
+    assert cubic.at(1.0 - 1e-12).velocity == pytest.approx(0.01)
+    # Hermite's cubic on the first second, from rest: y = h00 y0 + h01 y1 + h11 v1.
+    s = 0.3
+    expected = (2 * s**3 - 3 * s**2 + 1) * 0.02 + (-2 * s**3 + 3 * s**2) * 0.04
+    assert cubic.at(s).position == pytest.approx(expected + (s**3 - s**2) * 0.01)
+    whole = [Point(2.0, 0.05, 0.0, 0.0)]
+    quintic = Trajectory(HERE, whole, REACH)
+    s = 0.35
+    share = 10 * s**3 - 15 * s**4 + 6 * s**5
+    assert quintic.at(0.7).position == pytest.approx(0.02 + 0.03 * share)
+    assert quintic.at(0.7).acceleration == pytest.approx(
+        0.03 / 4.0 * (60 * s - 180 * s**2 + 120 * s**3)
+    )
+
+
+def test_it_begins_in_the_motion_that_there_is_and_rests_at_its_end():
+    moving = Reference(0.02, 0.03, 0.0)
+    trajectory = Trajectory(moving, [Point(1.0, 0.05)], REACH)
+    assert trajectory.at(0.0).velocity == pytest.approx(0.03)
+    assert trajectory.at(1.0) == (pytest.approx(0.05), 0.0, 0.0, 0.0)
+    assert trajectory.at(-3.0) == (pytest.approx(0.02), 0.0, 0.0, 0.0)
+
+
+def test_a_point_at_the_start_takes_its_place():
+    trajectory = Trajectory(HERE, [Point(0.0, 0.03), Point(1.0, 0.05)], REACH)
+    assert trajectory.at(0.0).position == pytest.approx(0.03)
+    assert Trajectory(HERE, [Point(0.0, 0.03)], REACH).at(1.0).position == pytest.approx(0.03)
+
+
+@pytest.mark.parametrize(
+    ('points', 'named'),
+    [
+        ([], 'without points'),
+        ([Point(1.0, math.nan)], 'not finite'),
+        ([Point(1.0, 0.03), Point(1.0, 0.04)], 'point 1 of the trajectory is at 1 s'),
+        ([Point(-1.0, 0.03)], 'point 0 of the trajectory is at -1 s'),
+        ([Point(1.0, 0.2)], 'out of reach: this rig holds its load at -0.01 to 0.1 m'),
+        ([Point(1.0, 0.09, 0.3), Point(2.0, 0.02, 0.0)], 'out of reach'),
+    ],
+)
+def test_points_that_make_no_motion_are_refused(points, named):
+    with pytest.raises(RangeError, match=named.replace('.', r'\.')):
+        Trajectory(HERE, points, REACH)
