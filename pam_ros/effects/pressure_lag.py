@@ -82,6 +82,7 @@ EFFECT = Effect(
         {'fill': 0.1, 'vent': 0.1},
         {'fill': 0.5, 'vent': 0.5},
         {'fill': 0.05, 'vent': 0.05, 'fastest': 5e5},
+        {'fill': 0.1, 'vent': 0.01, 'fastest': 5e5},
     ),
     states=('pressure',),
     start=start,

@@ -12,8 +12,9 @@ from scipy.optimize import brentq
 
 Array = NDArray[np.float64]
 
-WINDOW = 0.25  # s: shorter than one period of a muscle's own oscillation
-SAMPLES = (24, 200)  # fewest and most samples in a window
+WINDOWS = (0.25, 0.1)  # s: shorter than one period of a muscle's own oscillation
+QUICK = 0.4  # ratio of what the windows show from which the motion is quick
+SAMPLES = (12, 200)  # fewest and most samples in a window
 DEGREE = 4  # of the polynomial that follows the motion within a window
 
 
@@ -36,14 +37,21 @@ def noise_of(signals: Sequence[tuple[Array, Array]]) -> Noise:
     Quartics are fitted to short windows; the quietest quarter tells what the rest of the noise
     looks like where the motion is smooth, and windows within 1.8 times its variance count.
     What a quartic takes away of AR(1) noise is known exactly, so its two moments are corrected
-    for it. Slow drifts (beyond the window) are taken for motion, not for noise.
+    for it. Slow drifts (beyond the window) are taken for motion, not for noise. Where shorter
+    windows show far less, it is the motion that was too quick for the longer ones.
     """
+    long, short = (_in_windows(signals, window) for window in WINDOWS)
+    return short if short.sigma < QUICK * long.sigma else long
+
+
+def _in_windows(signals: Sequence[tuple[Array, Array]], window: float) -> Noise:
+    """Return the noise that windows of *window* s show."""
     zero: list[Array] = []
     one: list[Array] = []
     size = 0
     for t, values in signals:
         period = float(np.median(np.diff(t)))
-        size = int(np.clip(round(WINDOW / period), *SAMPLES))
+        size = int(np.clip(round(window / period), *SAMPLES))
         size = min(size, values.size)
         if size < 2 * (DEGREE + 1):
             continue
