@@ -65,22 +65,28 @@ def extended(
 def look(parents: Sequence[Fit], model: RigModel, effect: Effect) -> list[Solution]:
     """Return the best cheap fits of *effect* on top of one of *parents*, the best first.
 
-    One simulation at each starting value tells in which direction it moves the residual; from
-    the most promising, steps are taken in which the columns of what a parent already has are
+    One simulation at each known starting value tells in which direction it moves the residual;
+    from the most promising, steps are taken in which the columns of what a parent already has are
     taken from it, and only the effect's own are computed. Parents are the same model at
     different places: where it was re-tuned, its parameters may have gone astray to make up for
     what is missing; where it was declared, they have not.
     """
+    read = _guessed(parents[0], effect)
     guesses = []
-    starts = (*effect.fit_starts, *_guessed(parents[0], effect))
     for parent in parents:
         known = parent.solution
-        for start in starts:
+        for start in effect.fit_starts:
             problem, added = extended(known.problem, model, effect, start)
             r = problem.residuals(np.concatenate([known.u, added]))
             guesses.append((amplified_cost(known, r), known, problem, added))
     guesses.sort(key=lambda guess: guess[0])
     solutions = [_stepped(known, problem, added) for _, known, problem, added in guesses[:TRIED]]
+    # What the effect itself read from the residual needs no ranking, nor could it have one:
+    # a phase that is not fitted yet may point the wrong way.
+    known = parents[0].solution
+    solutions += [
+        _stepped(known, *extended(known.problem, model, effect, start)) for start in read
+    ]
     return sorted(solutions, key=lambda solution: solution.cost)
 
 
