@@ -13,18 +13,17 @@ def pressure(p: float, t: float, h: float, x: Row, i: int, xn: Row, q: Row, j: i
     """Return the chamber pressure of dp/dt = (p_in - p)/tau, exact for p_in constant over h.
 
     tau is q[j] while the chamber fills and q[j + 1] while it vents; x[i] is its pressure. It
-    never crosses p_in, so that tau is one or the other for all of h. Filling is not faster than
-    q[j + 2] in Pa/s: a choked valve lets a constant flow in, but out in proportion to p.
+    never crosses p_in, so that tau is one or the other for all of h. Neither is faster than
+    q[j + 2] and q[j + 3] in Pa/s: a valve that is fully open, or choked, lets no more through.
     """
     if q[j] == 0.0 and q[j + 1] == 0.0:
         return p
+    way = 0 if p > x[i] else 1
+    tau = q[j + way]
+    fastest = q[j + 2 + way]
     left = abs(p - x[i])
-    choked = 0.0
-    tau = q[j + 1]
-    if p > x[i]:
-        tau = q[j]
-        choked = min(h, max(left - q[j + 2] * tau, 0.0) / q[j + 2])
-        left -= choked * q[j + 2]
+    choked = min(h, max(left - fastest * tau, 0.0) / fastest)
+    left -= choked * fastest
     if tau > SHORTEST:
         left *= exp(-(h - choked) / tau)
     elif choked < h:
@@ -68,7 +67,16 @@ EFFECT = Effect(
         EffectParameter(
             'fastest',
             1e9,
-            'fastest rise of pressure, where the flow in is choked',
+            'fastest rise of pressure, where the valve is fully open or choked',
+            'Pa/s',
+            1e3,
+            1e9,
+            scale=1e6,
+        ),
+        EffectParameter(
+            'fastest_vent',
+            1e9,
+            'fastest fall of pressure, likewise',
             'Pa/s',
             1e3,
             1e9,
@@ -82,7 +90,7 @@ EFFECT = Effect(
         {'fill': 0.1, 'vent': 0.1},
         {'fill': 0.5, 'vent': 0.5},
         {'fill': 0.05, 'vent': 0.05, 'fastest': 5e5},
-        {'fill': 0.1, 'vent': 0.01, 'fastest': 5e5},
+        {'fill': 0.05, 'vent': 0.05, 'fastest': 5e5, 'fastest_vent': 5e5},
     ),
     states=('pressure',),
     start=start,

@@ -68,3 +68,21 @@ def test_a_refill_faster_than_any_leaves_no_loss_and_no_nan(refill):
     model = bench.cart(mass=1e4, leak={'rate': 0.5, 'refill': refill})
     run = simulate(model, t, [0.0, 0.5], [100.0, 200.0], position=0.0)
     np.testing.assert_allclose(run.pressure, [100.0, 100.0, 200.0], rtol=1e-6)
+
+
+@pytest.mark.parametrize('step', [1e-3, 1e-2])
+def test_a_valve_fully_open_against_an_adaptive_solver(step):
+    rate, refill, supply = 0.8, 0.08, 4e5
+    effect = {'rate': rate, 'refill': refill, 'supply': supply}
+    t = np.linspace(0.0, 2.0, 201)
+    commands = ((0.0, 1e5), (0.2, 4e5), (1.2, 0.5e5))
+    model = bench.cart(mass=1e4, leak=effect)
+    run = simulate(model, t, *zip(*commands, strict=True), position=0.0, step=step)
+
+    def rhs(_, state, u):
+        p = state[0]
+        return (np.clip((u - p) / refill, -supply, supply) - rate * p,)
+
+    (p,) = bench.solved(rhs, t, (1e5 / (1.0 + rate * refill),), commands)
+    np.testing.assert_allclose(run.pressure, p, rtol=1e-6)
+    assert np.max(np.diff(run.pressure)) < 0.01 * supply

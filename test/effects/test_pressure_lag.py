@@ -70,3 +70,11 @@ def test_choked_flow_limits_the_slope(tau):
     np.testing.assert_allclose(run.pressure, expected, rtol=1e-9)
     vented = simulate(model, t, [0.0, 0.1], [3e5, 1e5], position=0.0).pressure
     np.testing.assert_allclose(vented, 1e5 + 2e5 * np.exp(-np.maximum(after, 0.0) / 0.05))
+    limits = {'fill': 0.01, 'vent': 0.05, 'fastest_vent': 1e6}
+    slower = simulate(
+        bench.cart(mass=1e4, pressure_lag=limits), t, [0.0, 0.1], [3e5, 1e5], position=0.0
+    ).pressure
+    # 150 kPa straight at 1e6 Pa/s, the last 50 kPa exponentially.
+    straight = np.clip(3e5 - 1e6 * np.maximum(after, 0.0), 1.5e5, 3e5)
+    tail = 1e5 + 5e4 * np.exp(-np.maximum(after - 0.15, 0.0) / 0.05)
+    np.testing.assert_allclose(slower, np.where(after < 0.15, straight, tail), rtol=1e-9)
