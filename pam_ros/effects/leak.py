@@ -16,7 +16,8 @@ def pressure(p: float, t: float, h: float, x: Row, i: int, xn: Row, q: Row, j: i
     dp/dt = (p_in - p) / T - r p, the first term between -R and R with R = q[j + 3], what the
     valve lets through when it is fully open. With T = 0 it is closed between changes of p_in:
     the chamber follows p_in less what it has lost, dp/dt = -r p, and every change of p_in by
-    q[j + 2] gives back all but 1/e of the loss. x[i] is the chamber pressure, x[i + 1] the p_in before.
+    q[j + 2] gives back all but 1/e of the loss. x[i] is the chamber pressure, x[i + 1] the p_in
+    before.
     """
     r = q[j]
     if r == 0.0:
