@@ -13,7 +13,7 @@ from scipy.optimize import brentq
 Array = NDArray[np.float64]
 
 WINDOWS = (0.25, 0.1)  # s: shorter than one period of a muscle's own oscillation
-QUICK = 0.4  # ratio of what the windows show from which the motion is quick
+QUICK = 0.15  # ratio of what the windows show from which the motion is quick
 SAMPLES = (12, 200)  # fewest and most samples in a window
 DEGREE = 4  # of the polynomial that follows the motion within a window
 
