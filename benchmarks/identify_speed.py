@@ -22,6 +22,7 @@ from scipy.optimize import least_squares
 from benchmarks.tracing import blind_trial, declared_model, recording_of
 from pam_ros.effects import pressure_lag
 from pam_ros.identification.candidate import extended
+from pam_ros.identification.coarse import coarse_step
 from pam_ros.identification.finder import trace
 from pam_ros.identification.noise import noise_of
 from pam_ros.identification.search import problem_of
@@ -57,7 +58,7 @@ def compare() -> None:
     segments = segments_of([recording], keep_back=False)
     noise = noise_of([(s.t, s.target) for s in segments])
     problem, added = extended(
-        problem_of(model, segments, noise, 1e-3), model, pressure_lag.EFFECT, START
+        problem_of(model, segments, noise, coarse_step(model)), model, pressure_lag.EFFECT, START
     )
     u = np.concatenate([np.zeros(len(problem.unknowns) - len(added)), added])
     began = time.perf_counter()
