@@ -19,6 +19,7 @@ GAIN = 0.03  # least relative fall of the RMSE kept back
 LATER_SHARE = 0.03  # a second or third effect must explain this share of what re-tuning left
 AMBIGUOUS = 6.0  # difference of scores that does not decide between two effects
 LATER_GAIN = 0.25  # or lower the RMSE kept back by this share
+AT_ALL = 0.25  # of them that it must be from 0 in any case
 BEYOND_DOUBT = 1e-6  # p of the model without an effect that needs no interval
 SIGMAS = 2.6  # of a strength's distance from 0
 LEAST = 24.0
@@ -73,7 +74,8 @@ def strengths_clear(fit: Fit, p: float) -> bool:
 
     Either its standard error says so, with as many samples as the residual is worth, or the
     model without the effect is as unlikely as *p*: a stop may be of any stiffness above some,
-    and its standard error is then no measure of the distance from none.
+    and its standard error is then no measure of the distance from none. A strength that has
+    gone to 0 while the effect's other parameters do the work is not clear at all.
     """
     problem: Problem = fit.solution.problem
     worth = independent_samples(fit) / problem.independent
@@ -86,7 +88,8 @@ def strengths_clear(fit: Fit, p: float) -> bool:
         if unknown.name.startswith(prefix) and name in signs:
             value = fit.solution.u[k]
             right = value * signs[name] > 0.0 if signs[name] else value != 0.0
-            if right and (p < BEYOND_DOUBT or abs(value) > SIGMAS * error[k]):
+            distance = abs(value) / error[k] if error[k] > 0.0 else np.inf
+            if right and distance > (AT_ALL if p < BEYOND_DOUBT else SIGMAS):
                 return True
     return False
 

@@ -25,6 +25,7 @@ from pam_ros.identification.segment import Segment, segments_of
 from pam_ros.identification.solve import solve
 from pam_ros.identification.stages import estimates, stage
 from pam_ros.identification.structure import Structure, structure_of
+from pam_ros.identification.unknowns import Unknown
 from pam_ros.recording.recording import Recording
 from pam_ros.rig import layout as at
 from pam_ros.rig.model import RigModel
@@ -107,7 +108,7 @@ def _polished(
                 unknowns=unknowns,
                 outlier=thin.outlier,
             )
-            u = np.concatenate([fit.solution.u[kept], np.zeros(len(starts))])
+            u = np.concatenate([fit.solution.u[kept], _same_starts(fit, starts)])
             if fit is found.declared:
                 solution = only_starts(full, u, pool)
             else:
@@ -118,6 +119,22 @@ def _polished(
         # A nested model is never worse: what the thinned runs saw is not in the full ones.
         augmented = retuned
     return declared, retuned, augmented
+
+
+def _same_starts(fit: Fit, starts: Sequence[Unknown]) -> Array:
+    """Return *starts* at the values that *fit* gave them, as far as the measurement allows.
+
+    Runs that were cut into windows have starts of their own: then the measured ones.
+    """
+    thin = fit.solution.problem
+    values = {
+        x.name: x.value(u)
+        for x, u in zip(thin.unknowns, fit.solution.u, strict=True)
+        if x.segment >= 0
+    }
+    if len(values) != len(starts):
+        return np.zeros(len(starts))
+    return np.array([np.clip(x.coordinate(values[x.name]), -2.0, 2.0) for x in starts])
 
 
 def _least(noise: Noise, fits: Sequence[Fit], segments: Sequence[Segment]) -> Noise:
