@@ -19,7 +19,7 @@ from pam_ros.rig.model import RigModel
 Array = NDArray[np.float64]
 LOOKS = 2  # steps of the cheap look, with the parent's columns kept
 EARNED = 10.0  # fall of the score that pays for an effect's finer parameters
-TRIED = 2  # starting values per effect from which it is taken
+TRIED = 4  # starting values per effect from which it is taken
 
 
 @dataclass(frozen=True, eq=False)
