@@ -15,9 +15,9 @@ from pam_ros.errors import RangeError
 class Course:
     """Makes one reference of all that the load is told; the newest word counts."""
 
-    def __init__(self, shape: Shape, reach: tuple[float, float]) -> None:
-        """Make it for a load that can be held within *reach* (lowest, highest position in m)."""
-        self.reach = reach
+    def __init__(self, shape: Shape, reach: tuple[float, float], unit: str = 'm') -> None:
+        """Make it for a load that can be held within *reach* (lowest, highest), in *unit*."""
+        self.reach, self.unit = reach, unit
         self._shaper = Shaper(shape)
         self._trajectory: Trajectory | None = None
         self._since = 0.0
@@ -52,7 +52,7 @@ class Course:
         """Take a position in m that was told *ago* s ago; raises RangeError out of reach."""
         if not isfinite(position):
             raise RangeError(f'reference {position} is no position')
-        refuse_unreachable(position, self.reach)
+        refuse_unreachable(position, self.reach, self.unit)
         if self._trajectory is not None:
             self._leave()
         self._shaper.take(position, ago)
@@ -66,7 +66,7 @@ class Course:
         if not points:
             self._leave()
             return
-        trajectory = Trajectory(self.reference, points, self.reach)
+        trajectory = Trajectory(self.reference, points, self.reach, self.unit)
         self._trajectory, self._since = trajectory, -wait
         self._shaper.join(trajectory.at(self._since))
 

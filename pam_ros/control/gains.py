@@ -4,6 +4,7 @@
 
 from dataclasses import dataclass
 from math import acos, exp, log, pi, sqrt
+from typing import Protocol
 
 from pam_ros.errors import ParameterError
 from pam_ros.parameters import check_all, parameter
@@ -134,26 +135,11 @@ class Gains:
                 f'fast_bandwidth = {self.fast_bandwidth:g} 1/s is below bandwidth = '
                 f'{self.bandwidth:g} 1/s: it is what that grows to'
             )
-        if self.velocity_bandwidth < SPREAD * self.bandwidth:
-            raise ParameterError(
-                f'velocity_bandwidth = {self.velocity_bandwidth:g} rad/s is too slow for '
-                f'bandwidth = {self.bandwidth:g} 1/s: give at least {SPREAD:g} times as much, or '
-                'the boundary layer is not kept'
-            )
-        if self.observer and self.observer_bandwidth > self.bandwidth:
-            raise ParameterError(
-                f'observer_bandwidth = {self.observer_bandwidth:g} rad/s is above bandwidth = '
-                f'{self.bandwidth:g} 1/s: the observer takes what the switching term leaves over '
-                'and must be slower'
-            )
+        refuse_disorder(self)
 
     def check(self, model: RigModel, period: float) -> None:
         """Raise ParameterError where these gains do not suit a rig, sampled each *period* s."""
-        if self.velocity_bandwidth * period > SAMPLES:
-            raise ParameterError(
-                f'velocity_bandwidth = {self.velocity_bandwidth:g} rad/s is too fast for a '
-                f'control rate of {1.0 / period:g} Hz: give at most {SAMPLES / period:g}'
-            )
+        refuse_fast_estimate(self, period)
         muscle = model.muscle
         contraction = 0.0 if muscle.is_load_only else 0.5 * muscle.kappa_max
         available = muscle.gain(contraction).item() * (muscle.p_max - max(muscle.p_min, 0.0))
@@ -191,6 +177,51 @@ class Gains:
         else:
             area = 2.0 * _overdamped_peak(z) / w
         return disturbance / (mass * self.bandwidth) * area
+
+
+class Bandwidths(Protocol):
+    """The bandwidths that gains of any load have."""
+
+    @property
+    def bandwidth(self) -> float:
+        """Decay rate of the sliding variable, 1/s."""
+
+    @property
+    def velocity_bandwidth(self) -> float:
+        """Bandwidth of the velocity estimate, rad/s."""
+
+    @property
+    def observer(self) -> bool:
+        """Whether the disturbance observer acts."""
+
+    @property
+    def observer_bandwidth(self) -> float:
+        """Bandwidth of the disturbance observer, rad/s."""
+
+
+def refuse_disorder(gains: Bandwidths) -> None:
+    """Raise ParameterError where bandwidths are not in the order that the law needs."""
+    if gains.velocity_bandwidth < SPREAD * gains.bandwidth:
+        raise ParameterError(
+            f'velocity_bandwidth = {gains.velocity_bandwidth:g} rad/s is too slow for '
+            f'bandwidth = {gains.bandwidth:g} 1/s: give at least {SPREAD:g} times as much, or '
+            'the boundary layer is not kept'
+        )
+    if gains.observer and gains.observer_bandwidth > gains.bandwidth:
+        raise ParameterError(
+            f'observer_bandwidth = {gains.observer_bandwidth:g} rad/s is above bandwidth = '
+            f'{gains.bandwidth:g} 1/s: the observer takes what the switching term leaves over '
+            'and must be slower'
+        )
+
+
+def refuse_fast_estimate(gains: Bandwidths, period: float) -> None:
+    """Raise ParameterError where the velocity estimate is too fast for a *period* in s."""
+    if gains.velocity_bandwidth * period > SAMPLES:
+        raise ParameterError(
+            f'velocity_bandwidth = {gains.velocity_bandwidth:g} rad/s is too fast for a '
+            f'control rate of {1.0 / period:g} Hz: give at most {SAMPLES / period:g}'
+        )
 
 
 def _overdamped_peak(z: float) -> float:

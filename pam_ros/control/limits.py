@@ -94,11 +94,11 @@ def reachable(model: RigModel, limits: Limits) -> tuple[float, float]:
     return found
 
 
-def refuse_unreachable(position: float, reach: tuple[float, float]) -> None:
+def refuse_unreachable(position: float, reach: tuple[float, float], unit: str = 'm') -> None:
     """Raise RangeError, with the range, for a reference at which the load cannot be held."""
     low, high = reach
     if not low <= position <= high:
         raise RangeError(
-            f'reference {position:.6g} m is out of reach: this rig holds its load at '
-            f'{low:.4g} to {high:.4g} m'
+            f'reference {position:.6g} {unit} is out of reach: this rig holds its load at '
+            f'{low:.4g} to {high:.4g} {unit}'
         )

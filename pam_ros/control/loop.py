@@ -7,9 +7,10 @@ which they were taken.
 """
 
 from dataclasses import dataclass
+from typing import Generic
 
 from pam_ros.control.course import Course
-from pam_ros.control.signals import PositionLaw
+from pam_ros.control.signals import PositionLaw, Pressure
 
 HOLD, VENT = 'hold', 'vent'
 WAITING, RUNNING, BLIND, DISABLED = 'waiting', 'running', 'blind', 'disabled'
@@ -25,22 +26,23 @@ class Reading:
     velocity: float | None = None
 
 
-class Loop:
+class Loop(Generic[Pressure]):
     """Runs a law at a period, on what is seen and told.
 
     state
         WAITING for a first measurement, RUNNING, BLIND without fresh measurements, DISABLED
     pressure
-        the last command in Pa, None before there was one
+        the last command in Pa, one of each muscle, None before there was one
     """
 
-    def __init__(self, law: PositionLaw, course: Course, period: float) -> None:
+    def __init__(self, law: PositionLaw[Pressure], course: Course, period: float) -> None:
         """Make it wait for the first measurement; *period* in s."""
-        self.law, self.course, self.period = law, course, period
+        self.law: PositionLaw[Pressure] = law
+        self.course, self.period = course, period
         self.timeout, self.safe = 0.1, HOLD
         self.state = WAITING
-        self.pressure: float | None = None
-        self.chamber: float | None = None  # measured gauge pressure in Pa, where there is one
+        self.pressure: Pressure | None = None
+        self.chamber: Pressure | None = None  # measured gauge pressure in Pa, where there is one
         self.starts = 0
         self._seen: Reading | None = None
         self._is_new = False
@@ -62,7 +64,7 @@ class Loop:
         if self._seen is None or reading.time > self._seen.time:
             self._seen, self._is_new = reading, True
 
-    def change(self, law: PositionLaw, course: Course) -> None:
+    def change(self, law: PositionLaw[Pressure], course: Course) -> None:
         """Go on with another law and course from where the load and the pressure are."""
         if self.state == RUNNING:
             law.start(self.law.terms.position, self.pressure)
@@ -79,7 +81,7 @@ class Loop:
         """Return how old the newest measurement is, in s."""
         return None if self._seen is None else now - self._seen.time
 
-    def tick(self, now: float) -> float | None:
+    def tick(self, now: float) -> Pressure | None:
         """Return the gauge pressure in Pa to command from *now* on, None for no command."""
         if self.state == DISABLED:
             return None
@@ -107,12 +109,17 @@ class Loop:
         self.state = RUNNING
         self.starts += 1
 
-    def _stay_safe(self) -> float | None:
+    def _stay_safe(self) -> Pressure | None:
         """Return what is commanded when nothing is seen: nothing before the first start."""
         if self.state == RUNNING:
             self.state = BLIND
         if self.state != BLIND:
             return None
-        if self.safe == VENT:
-            self.pressure = 0.0
+        if self.safe == VENT and self.pressure is not None:
+            self.pressure = vented(self.pressure)
         return self.pressure
+
+
+def vented(pressure: Pressure) -> Pressure:
+    """Return 0 Pa for as many muscles."""
+    return (0.0, 0.0) if isinstance(pressure, tuple) else 0.0

@@ -8,10 +8,19 @@ shows up there.
 """
 
 from math import ceil, exp
-
-from pam_ros.control.inner_model import InnerModel
+from typing import Any, Protocol
 
 SUBSTEP = 1e-3  # s, longest
+
+
+class Body(Protocol):
+    """A rig with one coordinate: what the observer asks of it."""
+
+    mass: float  # kg, or kg m^2
+    weight: float  # N, or N m
+
+    def pull(self, p: Any, y: float, v: float) -> float:
+        """Return the force at *p* Pa in the chamber or chambers, place and speed."""
 
 
 class Observer:
@@ -23,7 +32,7 @@ class Observer:
     disturbance by 1/disturbance + 2/velocity s; a motion that it foresees, not at all.
     """
 
-    def __init__(self, model: InnerModel) -> None:
+    def __init__(self, model: Body) -> None:
         """Make it at rest at 0; see :meth:`start`."""
         self.model = model
         self.start(0.0, 0.0)
@@ -50,8 +59,8 @@ class Observer:
         self.velocity += l2 * surprise
         self.disturbance += l3 * surprise * self.model.mass
 
-    def predict(self, dt: float, pressure: float, known: float = 0.0) -> None:
-        """Go on by *dt* s with a chamber at *pressure* Pa and a *known* force upwards in N."""
+    def predict(self, dt: float, pressure: Any, known: float = 0.0) -> None:
+        """Go on by *dt* s with chambers at *pressure* Pa and a *known* force upwards in N."""
         model = self.model
         steps = ceil(dt / SUBSTEP - 1e-6)
         h = dt / max(steps, 1)

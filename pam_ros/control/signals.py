@@ -3,7 +3,10 @@
 """What goes into a position law and what can be read out of it."""
 
 from dataclasses import dataclass
-from typing import NamedTuple, Protocol
+from typing import NamedTuple, Protocol, TypeVar
+
+# Gauge Pa: of one muscle, or of the two of a pair.
+Pressure = TypeVar('Pressure', float, tuple[float, float])
 
 
 class Reference(NamedTuple):
@@ -58,13 +61,31 @@ class Terms:
         return self.cut != 0.0
 
 
-class PositionLaw(Protocol):
-    """A law that turns positions into pressures; it has no clock and knows no ROS."""
+@dataclass
+class PairTerms(Terms):
+    """The same of a law for two muscles against each other: rad for m, N m for N.
+
+    pressures
+        gauge Pa commanded of both muscles; ``pressure`` is their mean
+    co_contraction, stiffness
+        stiffness that the muscles shall give the joint, and do as modelled, N m/rad
+    """
+
+    pressures: tuple[float, float] = (0.0, 0.0)
+    co_contraction: float = 0.0
+    stiffness: float = 0.0
+
+
+class PositionLaw(Protocol[Pressure]):
+    """A law that turns positions into pressures; it has no clock and knows no ROS.
+
+    For a joint that turns, read rad for m, and N m for N.
+    """
 
     terms: Terms
 
-    def start(self, position: float, pressure: float | None = None) -> None:
-        """Begin anew with the load at *position* m, its chamber at *pressure* gauge Pa if known.
+    def start(self, position: float, pressure: Pressure | None = None) -> None:
+        """Begin anew with the load at *position* m, chambers at *pressure* gauge Pa if known.
 
         The first pressure that is commanded then is that pressure.
         """
@@ -76,7 +97,7 @@ class PositionLaw(Protocol):
         position: float | None,
         velocity: float | None = None,
         age: float = 0.0,
-    ) -> float:
+    ) -> Pressure:
         """Return the gauge pressure in Pa to command from now on, *dt* s after the last call.
 
         *reference* is where the load shall be now. *position* is the newest measurement in m,

@@ -32,11 +32,15 @@ class Trajectory:
     With velocities and accelerations at all points it is of fifth order between them, with
     velocities alone of third; with positions alone it is the cubic spline that is smooth in
     acceleration and at rest at both ends. Raises RangeError for points that make no motion, or
-    one that leaves the *reach* (lowest, highest position in m).
+    one that leaves the *reach* (lowest, highest position in *unit*).
     """
 
     def __init__(
-        self, start: Reference, points: Sequence[Point], reach: tuple[float, float]
+        self,
+        start: Reference,
+        points: Sequence[Point],
+        reach: tuple[float, float],
+        unit: str = 'm',
     ) -> None:
         """Lead through *points*, in order; one at time 0 takes the place of *start*."""
         _refuse_bad(points)
@@ -53,7 +57,7 @@ class Trajectory:
         for n, begin in enumerate(self._times[:-1]):
             for share in range(CHECKS + 1):
                 t = begin + (self._times[n + 1] - begin) * share / CHECKS
-                refuse_unreachable(self.at(t).position, reach)
+                refuse_unreachable(self.at(t).position, reach, unit)
 
     def at(self, t: float) -> Reference:
         """Return the reference *t* s after the start; before and after the ends, at rest."""

@@ -25,6 +25,7 @@ from numpy.typing import ArrayLike
 from pam_ros.compiled import broadcast
 from pam_ros.errors import RangeError
 from pam_ros.muscle import law
+from pam_ros.rig import pair
 
 if TYPE_CHECKING:
     from pam_ros.rig.joint_model import JointModel
@@ -127,12 +128,8 @@ def pressures(
             f'a stiffness of {stiffness:.6g} {model.joint.effort_unit}/{model.joint.unit} at '
             f'{s:.4g} {model.joint.unit} is out of reach: {low:.6g} to {high:.6g} can be had there'
         )
-    (a1, b1), (a2, b2) = _effort(model, 0, s), _effort(model, 1, s)
-    (c1, d1), (c2, d2) = _stiffness(model, 0, s), _stiffness(model, 1, s)
-    tau = (weight(model, s) if effort is None else effort) - a1 - a2
-    k = stiffness - c1 - c2
-    scale = b1 * d2 - b2 * d1
-    return float((tau * d2 - k * b2) / scale), float((k * b1 - tau * d1) / scale)
+    tau = float(weight(model, s)) if effort is None else effort
+    return pair.pressures(_line(model, 0, s), _line(model, 1, s), tau, stiffness)
 
 
 def stiffness_range(
@@ -145,24 +142,19 @@ def stiffness_range(
     such pair of pressures, and for two muscles that pull the same way with the same gains,
     whose effort settles their stiffness.
     """
-    (a1, b1), (a2, b2) = _effort(model, 0, s), _effort(model, 1, s)
-    (c1, d1), (c2, d2) = _stiffness(model, 0, s), _stiffness(model, 1, s)
-    tau = float(weight(model, s) if effort is None else effort)
+    one, two = _line(model, 0, s), _line(model, 1, s)
+    tau = float(weight(model, s)) if effort is None else effort
     unit = f'{tau:.4g} {model.joint.effort_unit} at {s:.4g} {model.joint.unit}'
-    if abs(b1 * d2 - b2 * d1) < 1e-9 * (abs(b1 * d2) + abs(b2 * d1)):
+    if pair.is_settled(one, two):
         raise RangeError(f'the muscles have one stiffness for {unit}: there is none to choose')
-    # Pressures that give the effort are on a line; the limits cut a piece out of it.
-    low, high = _limits(model, 0, s)
-    ends = sorted((tau - a1 - a2 - b2 * p) / b1 for p in _limits(model, 1, s))
-    low, high = max(low, ends[0]), min(high, ends[1])
+    within = _limits(model, 0, one), _limits(model, 1, two)
+    low, high = pair.piece(one, two, tau, within)
     if low > high:
         raise RangeError(
             f'an effort of {unit} is out of reach: there are no pressures within p_min and '
             'p_max that give it and leave no muscle pushing'
         )
-    k1, k2 = sorted(
-        float(c1 + d1 * p + c2 + d2 * (tau - a1 - a2 - b1 * p) / b2) for p in (low, high)
-    )
+    k1, k2 = sorted(pair.stiffness_at(one, two, tau, p) for p in (low, high))
     return k1, k2
 
 
@@ -199,11 +191,15 @@ def _stiffness(model: JointModel, i: int, s: ArrayLike) -> tuple[Any, Any]:
     return at_0, (at_1 - at_0) / BAR
 
 
-def _limits(model: JointModel, i: int, s: float) -> tuple[float, float]:
+def _line(model: JointModel, i: int, s: float) -> pair.Line:
+    """Return a, b, c, d of muscle i at s."""
+    return pair.Line(*(float(x) for x in (*_effort(model, i, s), *_stiffness(model, i, s))))
+
+
+def _limits(model: JointModel, i: int, line: pair.Line) -> pair.Limits:
     """Return the pressures of muscle i from where it begins to pull to its greatest."""
     m = model.muscles[i]
-    a, b = _effort(model, i, s)
-    return max(m.p_min, float(-a / b)), m.p_max
+    return max(m.p_min, line.slack), m.p_max
 
 
 def _array(s: ArrayLike) -> Any:

@@ -1,0 +1,83 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""How stiff two muscles make their joint by pulling against each other: told, and approached."""
+
+from dataclasses import dataclass
+
+from pam_ros.control.pair_model import PairModel
+from pam_ros.control.profile import Bounds, Rest
+from pam_ros.parameters import check_all, parameter
+
+SWIFT = 0.05  # s in which the rate is reached, and in which its change is
+
+
+@dataclass(frozen=True)
+class CoContraction:
+    """The stiffness that a joint shall have, and how fast it may change."""
+
+    co_contraction: float = parameter(
+        0.0,
+        'stiffness that the muscles shall give the joint, until co_contraction_reference says '
+        'otherwise; 0: in the middle of what can be had at the middle of the reach',
+        'N m/rad',
+        low=0.0,
+        high=1e6,
+    )
+    co_contraction_rate: float = parameter(
+        100.0,
+        'rate at which another stiffness is approached',
+        'N m/(rad s)',
+        low=0.0,
+        high=1e6,
+        above_low=True,
+    )
+
+    def __post_init__(self) -> None:
+        """Check every field."""
+        check_all(self)
+
+    def wanted(self, rig: PairModel) -> float:
+        """Return the stiffness in N m/rad for this joint; raises RangeError where it has none."""
+        middle = 0.5 * (rig.reach[0] + rig.reach[1])
+        if self.co_contraction == 0.0:
+            low, high = rig.stiffness_range(middle)
+            return 0.5 * (low + high)
+        rig.refuse_stiffness(self.co_contraction, middle)
+        return self.co_contraction
+
+
+class StiffnessCourse:
+    """Leads the stiffness to what it was told last, within bounds; N m/rad."""
+
+    def __init__(self, goal: float, rate: float) -> None:
+        """Rest at *goal*; approach others at *rate* in N m/(rad s)."""
+        self.goal, self.rate = goal, rate
+        self._offset = Rest()
+        self._is_new = False
+
+    @property
+    def stiffness(self) -> float:
+        """The stiffness that the joint shall have now."""
+        return self.goal + self._offset.state[0]
+
+    def start(self, stiffness: float) -> None:
+        """Begin anew, at rest at *stiffness*, on the way to the goal."""
+        self._offset.state = (stiffness - self.goal, 0.0, 0.0)
+        self._is_new = True
+
+    def tell(self, goal: float) -> None:
+        """Go to another *goal*."""
+        x, v, a = self._offset.state
+        self._offset.state = (x + self.goal - goal, v, a)
+        self.goal = goal
+        self._is_new = True
+
+    def follow(self, dt: float) -> float:
+        """Return the stiffness *dt* s on."""
+        if self._is_new:
+            # However often it is told, the way is sought once a step.
+            slope = self.rate / SWIFT
+            self._offset.begin(self._offset.state, Bounds(self.rate, slope, slope / SWIFT))
+            self._is_new = False
+        self._offset.follow(dt)
+        return self.stiffness
