@@ -50,6 +50,26 @@ class Shape:
         return Bounds(self.max_velocity, self.max_acceleration, self.max_jerk)
 
 
+@dataclass(frozen=True)
+class Turn(Shape):
+    """The same of a joint that turns."""
+
+    max_velocity: float = parameter(
+        2.0, 'velocity of the reference after a step', 'rad/s', low=0.0, high=100.0, above_low=True
+    )
+    max_acceleration: float = parameter(
+        15.0,
+        'acceleration of the reference after a step',
+        'rad/s^2',
+        low=0.0,
+        high=1e4,
+        above_low=True,
+    )
+    max_jerk: float = parameter(
+        300.0, 'jerk of the reference after a step', 'rad/s^3', low=0.0, high=1e7, above_low=True
+    )
+
+
 class Tracker:
     """Velocity and acceleration of a target that is only told as positions, sample by sample.
 

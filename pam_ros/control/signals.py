@@ -75,6 +75,16 @@ class PairTerms(Terms):
     co_contraction: float = 0.0
     stiffness: float = 0.0
 
+    @property
+    def pressure_1(self) -> float:
+        """Pressure of the first muscle, which a positive angle shortens."""
+        return self.pressures[0]
+
+    @property
+    def pressure_2(self) -> float:
+        """Pressure of the second muscle."""
+        return self.pressures[1]
+
 
 class PositionLaw(Protocol[Pressure]):
     """A law that turns positions into pressures; it has no clock and knows no ROS.
@@ -82,7 +92,9 @@ class PositionLaw(Protocol[Pressure]):
     For a joint that turns, read rad for m, and N m for N.
     """
 
-    terms: Terms
+    @property
+    def terms(self) -> Terms:
+        """What the last step found."""
 
     def start(self, position: float, pressure: Pressure | None = None) -> None:
         """Begin anew with the load at *position* m, chambers at *pressure* gauge Pa if known.

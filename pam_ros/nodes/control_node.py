@@ -4,23 +4,25 @@
 
 from math import isfinite
 from time import monotonic_ns
+from typing import Any
 
-from rclpy.qos import QoSProfile
+from rclpy.qos import QoSProfile, ReliabilityPolicy
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64
 from std_srvs.srv import SetBool
 from trajectory_msgs.msg import JointTrajectory
 
 from pam_ros.control.loop import BLIND, DISABLED, RUNNING, WAITING, Loop, Reading
+from pam_ros.control.pair_law import PairLaw
 from pam_ros.control.signals import PositionLaw, Reference
-from pam_ros.control.sliding_mode import SlidingMode
 from pam_ros.errors import RangeError
-from pam_ros.nodes import control_settings
+from pam_ros.nodes import control_health
 from pam_ros.nodes.control_inputs import points_of, sight_of, stamp_of
-from pam_ros.nodes.control_settings import Told
-from pam_ros.nodes.control_state import StateTopic
+from pam_ros.nodes.control_output import ArrayCommand, EachCommand, OneCommand
+from pam_ros.nodes.control_state import PAIR_TERMS, TERMS, StateTopic
 from pam_ros.nodes.diagnostics import ERROR, OK, WARN, Diagnostics, Health
 from pam_ros.nodes.pace import SECOND
+from pam_ros.nodes.pair_settings import ToldPair, settings_of
 from pam_ros.nodes.parameters import NodeParameters, given
 from pam_ros.nodes.spin import TickingNode
 from pam_ros.nodes.telemetry import DEPTH, open_qos
@@ -40,8 +42,8 @@ class PamControl(TickingNode):
     def __init__(self) -> None:
         """Make the controller that the parameters describe."""
         super().__init__('pam_control')
-        self._given: NodeParameters[Told] = NodeParameters(
-            self, control_settings.table(given(self)), control_settings.build_told, self._change
+        self._given: NodeParameters[Any] = NodeParameters(
+            self, *settings_of(given(self)), self._change
         )
         self._told = self._given.built
         self._loop = self._make_loop()
@@ -56,7 +58,6 @@ class PamControl(TickingNode):
         self._shown = 0  # ROS time of the last message on ~/state, ns
         self._fault = ''
         self._commanded = 0
-        self._command = Float64()
         self._open_topics()
         self.create_service(SetBool, '~/enable', self._enable)
         self._diagnostics = Diagnostics(self, {'timing': self._timing, 'control': self._control})
@@ -73,19 +74,29 @@ class PamControl(TickingNode):
         return loop
 
     def _open_topics(self) -> None:
-        def hear(kind: type, topic: str, callback) -> None:
-            quality = QoSProfile(depth=DEPTH)
+        def hear(kind: type, topic: str, callback, reliability=ReliabilityPolicy.RELIABLE) -> None:
+            quality = QoSProfile(depth=DEPTH, reliability=reliability)
             self.create_subscription(
                 kind, topic, callback, quality, qos_overriding_options=open_qos()
             )
 
-        self._commands = self.create_publisher(
-            Float64, 'pressure_command', QoSProfile(depth=DEPTH), qos_overriding_options=open_qos()
-        )
-        self._states = StateTopic(self)
-        hear(JointState, 'joint_states', self._see)
+        # Where states make the time, one that is lost is one that is waited for. A rig in real
+        # time tells the next one soon, and may publish either way: best effort hears both.
+        followed = ReliabilityPolicy.RELIABLE
+        states = followed if self._is_followed else ReliabilityPolicy.BEST_EFFORT
+        hear(JointState, 'joint_states', self._see, states)
         hear(Float64, 'position_reference', self._take_reference)
         hear(JointTrajectory, 'joint_trajectory', self._take_trajectory)
+        told = self._told
+        self._commands: OneCommand | ArrayCommand | EachCommand
+        if isinstance(told, ToldPair):
+            hear(Float64, 'co_contraction_reference', self._take_co_contraction)
+            self._states = StateTopic(self, PAIR_TERMS)
+            make = EachCommand if told.muscle_topics else ArrayCommand
+            self._commands = make(self, told.muscles)
+        else:
+            self._states = StateTopic(self, TERMS)
+            self._commands = OneCommand(self)
 
     # Time ----------------------------------------------------------------------------------
 
@@ -124,9 +135,9 @@ class PamControl(TickingNode):
             pressure = float('nan')
         if pressure is None:
             return
-        if not isfinite(pressure):
+        if not is_finite(pressure):
             loop.enable(False)
-            loop.pressure = pressure = 0.0
+            loop.pressure = pressure = self._told.vented
             self._fault = 'the law gave no number: vented and disabled'
             self.get_logger().error(self._fault)
         elif loop.state == BLIND != before:
@@ -139,9 +150,8 @@ class PamControl(TickingNode):
             self._shown = stamp
             self._states.publish(stamp, loop.law.terms)
 
-    def _publish(self, pressure: float) -> None:
-        self._command.data = pressure
-        self._commands.publish(self._command)
+    def _publish(self, pressure: Any) -> None:
+        self._commands.publish(pressure)
         self._answered = monotonic_ns()
         self._commanded += 1
 
@@ -184,6 +194,14 @@ class PamControl(TickingNode):
             except RangeError as error:
                 self._refuse(str(error))
 
+    def _take_co_contraction(self, message: Float64) -> None:
+        law = self._loop.law
+        if self._is_ready('co_contraction_reference') and isinstance(law, PairLaw):
+            try:
+                law.stiffen(message.data)
+            except RangeError as error:
+                self._refuse(str(error))
+
     def _take_trajectory(self, message: JointTrajectory) -> None:
         if not self._is_ready('joint_trajectory'):
             return
@@ -216,7 +234,7 @@ class PamControl(TickingNode):
         response.message = self._trouble() or 'controlling'
         return response
 
-    def _change(self, now: Told) -> None:
+    def _change(self, now: Any) -> None:
         """Go on with other parameters."""
         before, self._told = self._told, now
         loop, settings = self._loop, now.settings
@@ -227,8 +245,7 @@ class PamControl(TickingNode):
             warm_up(law, now.reach, loop.period)
             loop.change(law, now.make_course())
         else:
-            if isinstance(loop.law, SlidingMode) and now.gains != before.gains:
-                loop.law.set_gains(now.gains)
+            now.take_over(loop.law, before)
             loop.course.set_shape(now.shape)
         if before.settings.rate != settings.rate:
             self.ticker.start(self._tick_rate, monotonic_ns())
@@ -247,23 +264,10 @@ class PamControl(TickingNode):
         }[self._loop.state]
 
     def _control(self) -> Health:
-        loop, terms, told = self._loop, self._loop.law.terms, self._told
-        state, is_running = loop.state, loop.state == RUNNING
-        values = {
-            'state': state,
-            'controller': told.settings.controller,
-            'reference (m)': terms.reference if is_running else None,
-            'error (m)': terms.error if is_running else None,
-            'command (Pa)': loop.pressure,
-            'saturated': terms.saturated if is_running else None,
-            'lowest reference (m)': told.reach[0],
-            'highest reference (m)': told.reach[1],
-            'age of joint_states (s)': (
-                None if self._stamp is None else (monotonic_ns() - self._seen) / SECOND
-            ),
-            'refused': self._refused,
-            'last reason': self._refusal,
-        }
+        state, is_running = self._loop.state, self._loop.state == RUNNING
+        age = None if self._stamp is None else (monotonic_ns() - self._seen) / SECOND
+        values = control_health.values_of(self._loop, self._told, age)
+        values |= {'refused': self._refused, 'last reason': self._refusal}
         is_new, self._is_refusal_new = self._is_refusal_new, False
         is_blind = state == BLIND or (state == WAITING and bool(self._blindness))
         if is_blind or self._fault:
@@ -277,20 +281,14 @@ class PamControl(TickingNode):
         return Health(OK, self._trouble() or 'controlling', values)
 
     def _timing(self) -> Health:
-        kept = self.ticker.report(monotonic_ns())
-        rate, self._commanded = self._commanded / kept.span, 0
-        wanted = self._told.settings.rate
-        values = {
-            'command rate (Hz)': rate,
-            'wanted rate (Hz)': None if self._is_followed else wanted,
-            'overruns': kept.overruns,
-            'worst lateness (s)': kept.worst,
-        }
-        if self._is_followed:
-            return Health(OK, 'answers each joint state (use_sim_time is set)', values)
-        if kept.rate < 0.95 * wanted:
-            return Health(WARN, f'runs at {kept.rate:.1f} Hz instead of {wanted:g}', values)
-        return Health(OK, 'keeps its rate', values)
+        commanded, self._commanded = self._commanded, 0
+        wanted = None if self._is_followed else self._told.settings.rate
+        return control_health.timing(self.ticker.report(monotonic_ns()), commanded, wanted)
+
+
+def is_finite(pressure: Any) -> bool:
+    """Say whether a pressure, or each of several, is a number."""
+    return all(map(isfinite, pressure)) if isinstance(pressure, tuple) else isfinite(pressure)
 
 
 def warm_up(law: PositionLaw, reach: tuple[float, float], period: float) -> None:

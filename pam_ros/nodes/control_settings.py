@@ -1,9 +1,9 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What ``pam_control`` is told: the declared rig, the law with its gains, rates and time-outs."""
+"""What ``pam_control`` is told for one muscle: rig, law with its gains, rates and time-outs."""
 
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, ClassVar
 
 from pam_ros.config import Table, Values, build, build_rig, rig_table, table_of, with_defaults
 from pam_ros.control.course import Course
@@ -62,6 +62,13 @@ class ControlSettings:
     start_enabled: bool = parameter(
         True, 'whether it controls from the start; false: from ~/enable on', live=False
     )
+    joint: str = parameter(
+        'load',
+        'load: one muscle moves a load; antagonistic: two muscles turn a pulley against each '
+        'other, and the angle is controlled',
+        choices=('load', 'antagonistic'),
+        live=False,
+    )
     joint_name: str = parameter('pam', 'name of the joint in joint_states', live=False)
 
     def __post_init__(self) -> None:
@@ -80,8 +87,10 @@ class Told:
     limits: Limits
     shape: Shape
     reach: tuple[float, float]
+    unit: ClassVar[str] = 'm'
+    vented: ClassVar[float] = 0.0  # Pa
 
-    def make_law(self) -> PositionLaw:
+    def make_law(self) -> PositionLaw[float]:
         """Return a new law, that has to be started."""
         if self.settings.controller == 'pid':
             return Pid(self.model, self.pid, self.limits)
@@ -90,6 +99,11 @@ class Told:
     def make_course(self) -> Course:
         """Return a new course, that has to be started."""
         return Course(self.shape, self.reach)
+
+    def take_over(self, law: PositionLaw[float], before: 'Told') -> None:
+        """Let *law*, which was made as told *before*, go on with other gains."""
+        if isinstance(law, SlidingMode) and self.gains != before.gains:
+            law.set_gains(self.gains)
 
     def needs_new_law(self, before: 'Told') -> bool:
         """Say whether more than what a law can take while it runs differs from *before*."""

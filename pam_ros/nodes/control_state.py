@@ -25,6 +25,14 @@ TERMS = (
     'bandwidth',
     'saturated',
 )
+# Of a pair: rad, rad/s, N m, N m/rad, Pa (the mean first).
+PAIR_TERMS = (
+    *(name for name in TERMS if name != 'learned'),
+    'pressure_1',
+    'pressure_2',
+    'co_contraction',
+    'stiffness',
+)
 
 
 class StateTopic:
@@ -33,9 +41,10 @@ class StateTopic:
     It has a stamp, and PlotJuggler draws each number under its name.
     """
 
-    def __init__(self, node: Node) -> None:
-        """Create the publisher on *node*."""
-        self._message = JointState(name=TERMS, position=[0.0] * len(TERMS))
+    def __init__(self, node: Node, names: tuple[str, ...]) -> None:
+        """Create the publisher of the terms of these *names* on *node*."""
+        self._names = names
+        self._message = JointState(name=names, position=[0.0] * len(names))
         self._publisher = node.create_publisher(
             JointState, '~/state', QoSProfile(depth=DEPTH), qos_overriding_options=open_qos()
         )
@@ -44,5 +53,5 @@ class StateTopic:
         """Publish the terms of the ROS time *stamp* in ns."""
         message = self._message
         message.header.stamp.sec, message.header.stamp.nanosec = divmod(stamp, SECOND)
-        message.position = [float(getattr(terms, name)) for name in TERMS]
+        message.position = [float(getattr(terms, name)) for name in self._names]
         self._publisher.publish(message)
