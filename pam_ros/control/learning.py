@@ -113,7 +113,7 @@ class Learner:
         self._input = np.zeros(_N + 5)
         self._plain_error = self._lagged_error = self._whole = 1.0
         self._plain_miss = self._lagged_miss = 1.0
-        self._centre = -disturbance
+        self._centre, self._has_learned = 0.0, False
         self._moved = self._restarted = self._waited = 0.0
         self._prefers_lag = False
         self._doubt = 0.0
@@ -212,6 +212,9 @@ class Learner:
             (as_declared - self._filter[2, _N + 3]) ** 2 - self._plain_miss
         )
         self._lagged_miss += share * ((missing - self._filter[2, _N + 4]) ** 2 - self._lagged_miss)
+        if not self._has_learned:
+            # A load that nobody declared is no evidence of anything else.
+            self._centre, self._has_learned = as_declared, True
         self._centre += min(span / CENTRE, 1.0) * (as_declared - self._centre)
         self._whole += share * ((as_declared - self._centre) ** 2 - self._whole)
         self._choose(span)

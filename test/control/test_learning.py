@@ -8,7 +8,7 @@ import pytest
 from pam_ros.control.features import REACHES
 from pam_ros.control.gains import Gains
 from pam_ros.control.sliding_mode import SlidingMode
-from support.closed_loop import LAG, close_loop, declared, sine_target, truth
+from support.closed_loop import LAG, close_loop, declared, sine_target, step_target, truth
 
 pytestmark = pytest.mark.needs_numba
 
@@ -27,6 +27,16 @@ def test_nothing_is_learned_where_nothing_is_missing():
     assert law._learner.trust == 0.0
     assert np.all(run.terms['learned'] == 0.0)
     assert rms(run) < 0.02e-3
+
+
+@pytest.mark.parametrize('rest', [0.3, 1.0, 2.8, 3.4, 4.0])
+def test_a_load_that_nobody_declared_is_not_taken_for_anything_else(rest):
+    # Nor is the pressure known at the start, so that the load jumps before it is moved.
+    law, plant = SlidingMode(declared(), Gains()), truth('payload', noise=0.0)
+    moves = step_target(0.02, at=rest)
+    run = close_loop(law, plant, moves, rest + 2.5, is_pressure_known=False)
+    assert np.max(np.abs(run.terms['learned'])) < 1e-3
+    assert np.max(np.abs(run.error[run.last(0.5)])) < 0.02e-3
 
 
 def test_hysteresis_is_learned_and_the_bandwidth_grows():

@@ -60,7 +60,7 @@ def sine_target(amplitude, frequency):
     return lambda t: amplitude * sin(2.0 * pi * frequency * t)
 
 
-def close_loop(law, plant, target, duration, rate=500.0, shape=None):
+def close_loop(law, plant, target, duration, rate=500.0, shape=None, is_pressure_known=True):
     """Run *law* on *plant*; *target* (s -> m) is relative to where the load rests at first.
 
     The law gets the target as samples every STREAM s, as from a topic, and measured positions of
@@ -69,7 +69,7 @@ def close_loop(law, plant, target, duration, rate=500.0, shape=None):
     dt = 1.0 / rate
     count = round(duration * rate)
     origin = plant.y
-    law.start(origin, plant.state.u)
+    law.start(origin, plant.state.u if is_pressure_known else None)
     shaper = Shaper(shape or Shape())
     shaper.start(origin)
     measured = plant.measure()
