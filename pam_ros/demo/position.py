@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from pam_ros.errors import PamError
 from pam_ros.report.style import COLOURS, FAINT, INK, stacked, styled
 
 Array = NDArray[np.float64]
@@ -35,6 +36,20 @@ class Course:
         """Return the part from *begin* up to *end* s."""
         inside = (self.t >= begin) & (self.t < end)
         return Course(*(getattr(self, item.name)[inside] for item in fields(self)))
+
+    def departure(self, begin: float, least: float) -> float:
+        """Return the time in s at which the reference is *least* m from where it was at *begin*.
+
+        Raises PamError where it stays, and where samples are missing.
+        """
+        gaps = np.diff(self.t)
+        if np.any(gaps > 1.5 * np.median(gaps)):
+            raise PamError('messages of the controller were lost: is the machine overloaded?')
+        rest = self.reference[self.t <= begin][-1]
+        gone = (self.t > begin) & (np.abs(self.reference - rest) > least)
+        if not np.any(gone):
+            raise PamError(f'the reference stays at {rest:.6g} m from {begin:.3f} s on')
+        return float(self.t[np.argmax(gone)])
 
 
 def settling(step: Course, goal: float) -> float:

@@ -12,6 +12,7 @@ import numpy as np
 from rclpy.duration import Duration
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64
+from std_srvs.srv import SetBool
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
 from pam_ros.demo import position
@@ -21,7 +22,7 @@ from pam_ros.nodes.chapters.stage import Stage
 from pam_ros.nodes.children import Program
 from pam_ros.nodes.client import Client
 from pam_ros.nodes.control_state import TERMS
-from pam_ros.nodes.rig_log import lose_nothing, seconds
+from pam_ros.nodes.rig_log import seconds
 
 MUSCLE = 'dmsp_20_400n'
 DECLARED, TRUE = 20.0, 25.0  # kg
@@ -30,6 +31,8 @@ HOLD = 2.5  # s for each of them
 SWING, FREQUENCY, CYCLES = 0.010, 0.5, 5  # m, Hz: the sine, from the last of the goals
 STILL = 1e-6  # m that a reference at rest moves less than
 SPACING = 0.05  # s between the points of its trajectory
+HISTORY = 30_000  # messages kept for a listener who is late: a minute at 500 Hz
+PATIENCE = 600.0  # s that a busy machine may take for one of the moves
 
 
 def play(stage: Stage) -> None:
@@ -56,24 +59,23 @@ def play(stage: Stage) -> None:
 
 
 def record(stage: Stage) -> tuple[Course, list[float]]:
-    """Return what happened, and the times in s of each goal and of the sine."""
+    """Return what happened, and the times in s at which it set out to each goal and the sine.
+
+    Simulated time stands still while something is told, and until all that was before is heard:
+    it does not run ahead of a listener who is late.
+    """
     space = stage.namespace
     remap = ('-r', f'__ns:={space}')
-    rig = {
-        'muscle': MUSCLE,
-        'mass': TRUE,
-        'initial.pressure': 300e3,
-        'time_mode': 'lockstep',
-        **lose_nothing(space),
-    }
+    rig = {'muscle': MUSCLE, 'mass': TRUE, 'initial.pressure': 300e3, 'time_mode': 'lockstep'}
+    rig[f'qos_overrides.{space}/joint_states.publisher.depth'] = HISTORY
     told = {'muscle': MUSCLE, 'mass': DECLARED, 'use_sim_time': True}
-    told[f'qos_overrides.{space}/pam_control/state.publisher.depth'] = 5000
+    told[f'qos_overrides.{space}/pam_control/state.publisher.depth'] = HISTORY
     # Its /clock is nobody else's business.
     clock = ('-r', f'/clock:={space}/clock')
     with (
         Program('pam_sim', *remap, *clock, parameters=rig) as sim,
         Program('pam_control', *remap, *clock, parameters=told) as control,
-        Client(space) as client,
+        Client(space, PATIENCE) as client,
     ):
         states = client.collect(JointState, 'joint_states')
         terms = client.collect(JointState, 'pam_control/state')
@@ -84,31 +86,33 @@ def record(stage: Stage) -> tuple[Course, list[float]]:
                     raise PamError(f'{program.name} ended: {program.output.strip()}')
             return bool(terms and states) and min(seconds(terms[-1]), seconds(states[-1])) > end
 
-        def departure() -> float:
-            """Return the time at which the reference leaves where it is: it is told ahead."""
+        def stop_after(duration: float) -> float:
+            """Let so many seconds pass from now on, then let time stand still; return when."""
+            begin = seconds(states[-1])
+            client.until(lambda: passed(begin + duration), f'{duration:g} s to pass')
+            client.call(SetBool, 'pam_sim/pause', data=True)
+            # Where time stands still, the state is told again and again: then all is heard.
+            client.until(lambda: states[-1].header.stamp == states[-2].header.stamp, 'a stop')
+            return seconds(states[-1])
+
+        def tell(message: Float64 | JointTrajectory, topic: str) -> None:
+            """Tell what sets the reference in motion, and let time go on."""
             rest = terms[-1].position[0]
-            heard = len(terms)
-
-            def leaves() -> float:
-                passed(0.0)
-                moved = (m for m in terms[heard:] if abs(m.position[0] - rest) > STILL)
-                return next((seconds(m) for m in moved), 0.0)
-
-            return client.until(leaves, 'a motion')
+            client.publish(message, topic)
+            client.call(SetBool, 'pam_sim/pause', data=False)
+            client.until(lambda: abs(terms[-1].position[0] - rest) > STILL, 'a motion')
 
         client.until(lambda: passed(0.0), 'the first command')
-        client.until(lambda: passed(seconds(terms[0]) + 1.5), 'a rest')
-        marks = []
+        stops = [stop_after(1.5)]
         for goal in GOALS:
             stage.say(f'  to {1e3 * goal:.0f} mm')
-            client.publish(Float64(data=goal), 'position_reference')
-            marks.append(departure())
-            client.until(lambda: passed(marks[-1] + HOLD), 'the step')
+            tell(Float64(data=goal), 'position_reference')
+            stops.append(stop_after(HOLD))
         stage.say(f'  a sine of {1e3 * SWING:.0f} mm at {FREQUENCY:g} Hz')
-        client.publish(sine(GOALS[-1]), 'joint_trajectory')
-        marks.append(departure())
-        client.until(lambda: passed(marks[-1] + CYCLES / FREQUENCY + 0.5), 'the sine')
-    return put_together(states, terms), marks
+        tell(sine(GOALS[-1]), 'joint_trajectory')
+        stop_after(CYCLES / FREQUENCY + 0.5)
+    course = put_together(states, terms)
+    return course, [course.departure(stop, STILL) for stop in stops]
 
 
 def sine(middle: float) -> JointTrajectory:
