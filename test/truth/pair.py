@@ -15,7 +15,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from .compiled import blank, element, jit
-from .effects import Effect
+from .effects import Effect, effect
 from .forces import bend_bristle, damping, friction, law, memory, tendon
 from .layout import ELEMENTS, new_parameters, new_state
 from .muscles import GRAVITY, constants_si
@@ -194,3 +194,34 @@ def _give(P: Any, effects: Sequence[Effect]) -> None:
     for one in effects:
         for name, value in one.values.items():
             setattr(P, name, value)
+
+
+FEEDBACK_NOISE = math.radians(0.02)  # of an encoder with some 10 000 steps a turn
+_FRICTION = effect(
+    'coulomb_friction', coulomb_n=0.15, static_n=0.22, stribeck_m_s=0.05, bristle_n_m=150.0
+)
+_LAG = effect('pressure_lag', 'two_times', fill_s=0.050, vent_s=0.070)
+_QUICK = effect('pressure_lag', 'two_times', fill_s=0.020, vent_s=0.030)
+_HYSTERESIS = effect('hysteresis', 'slip', hyst_n=15.0, hyst_reach_m=4e-3)
+_DEAD = effect('dead_time', dead_time_s=0.010)
+
+# What is there and nobody declares: 0.3 kg more on 1 kg, N m at the pivot, N in each muscle.
+PAIR_PLANTS: dict[str, dict[str, Any]] = {
+    'nominal': {},
+    'payload': {'payload': 0.3},
+    'friction': {'at_pivot': (_FRICTION,)},
+    'payload and friction': {'payload': 0.3, 'at_pivot': (_FRICTION,)},
+    'quick lag': {'in_muscles': (_QUICK,)},
+    'lag': {'in_muscles': (_LAG,)},
+    'hysteresis': {'in_muscles': (_HYSTERESIS,)},
+    'all': {
+        'payload': 0.3,
+        'at_pivot': (_FRICTION,),
+        'in_muscles': (_LAG, _HYSTERESIS, _DEAD),
+    },
+}
+
+
+def pair_plant(name: str, *, noise: float = FEEDBACK_NOISE, seed: int = 0) -> TruthPair:
+    """Return a benchmark plant by name: muscles of 400 mm, a load of 1 kg on an arm of 250 mm."""
+    return TruthPair(**PAIR_PLANTS[name], sensor=Sensor(noise=noise), seed=seed)

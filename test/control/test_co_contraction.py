@@ -1,0 +1,52 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The told stiffness, and the way to it."""
+
+import numpy as np
+import pytest
+
+from pam_ros.control.co_contraction import SWIFT, CoContraction, StiffnessCourse
+from pam_ros.control.pair_model import PairModel
+from pam_ros.errors import ParameterError, RangeError
+from pam_ros.rig.joint_model import JointModel
+
+RIG = PairModel(JointModel())
+DT = 2e-3
+
+
+def test_without_a_word_it_is_in_the_middle_of_what_can_be_had():
+    assert CoContraction().wanted(RIG) == pytest.approx(0.5 * sum(RIG.stiffness_range(0.0)))
+    assert CoContraction(30.0).wanted(RIG) == 30.0
+
+
+def test_one_that_cannot_be_had_is_refused():
+    with pytest.raises(RangeError, match='co-contraction 90 N m/rad is out of reach'):
+        CoContraction(90.0).wanted(RIG)
+    with pytest.raises(ParameterError, match='co_contraction_rate'):
+        CoContraction(co_contraction_rate=0.0)
+
+
+def test_another_is_approached_at_the_rate_and_without_a_jump():
+    course = StiffnessCourse(20.0, 100.0)
+    course.start(20.0)
+    course.tell(40.0)
+    way = np.array([course.follow(DT) for _ in range(300)])
+    slope = np.diff(way, prepend=20.0) / DT
+    assert np.max(slope) == pytest.approx(100.0, rel=1e-6)
+    assert np.min(slope) >= -1e-9
+    assert np.max(np.abs(np.diff(slope, prepend=0.0))) / DT <= 1.001 * 100.0 / SWIFT
+    # Two ramps of jerk and the way at the rate between them.
+    assert np.argmax(way >= 40.0 - 1e-9) * DT == pytest.approx(20.0 / 100.0 + 2 * SWIFT, abs=0.01)
+    assert way[-1] == 40.0
+
+
+def test_a_new_goal_on_the_way_makes_no_jump():
+    course = StiffnessCourse(20.0, 100.0)
+    course.start(30.0)
+    before = course.follow(DT)
+    for n in range(200):
+        if n % 7 == 0:
+            course.tell(20.0 + n % 3)
+        now = course.follow(DT)
+        assert abs(now - before) <= 1.01 * 100.0 * DT
+        before = now

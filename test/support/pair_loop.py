@@ -1,0 +1,74 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The law for an antagonistic pair in simulated time on the truth plant, without ROS."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from pam_ros.control.shaping import Shaper, Turn
+from pam_ros.rig.joint_model import Actuator, JointModel
+from support.closed_loop import STREAM
+
+LAG = {'pressure_lag': {'fill': 0.050, 'vent': 0.070}}
+
+
+@dataclass
+class PairRun:
+    """What a run left: s, target and true angle rad, true stiffness N m/rad, commands Pa (2, n).
+
+    ``told`` is the stiffness that the law wanted.
+    """
+
+    t: np.ndarray
+    target: np.ndarray
+    angle: np.ndarray
+    stiffness: np.ndarray
+    told: np.ndarray
+    pressure: np.ndarray
+
+    @property
+    def error(self):
+        """Target less true angle, rad."""
+        return self.target - self.angle
+
+    def last(self, seconds):
+        """Return which samples are in the last *seconds*."""
+        return self.t > self.t[-1] - seconds
+
+
+def declared(effects=None, load=None):
+    """Return the joint as it is declared to the controller; *effects* of both muscles."""
+    actuator = Actuator(effects=effects or {})
+    return JointModel(actuators=(actuator, actuator), effects=load or {})
+
+
+def close_pair(law, plant, target, duration, stiffness=None, rate=500.0, begin=0.0, stream=STREAM):
+    """Run *law* on *plant*; *target* (s -> rad) and *stiffness* (s -> N m/rad) are told it.
+
+    Both come as samples every *stream* s, as from topics; the angle is measured at *rate*.
+    """
+    dt, count = 1.0 / rate, round(duration * rate)
+    law.start(begin)
+    plant.reset(begin, law.terms.pressures)
+    shaper = Shaper(Turn())
+    shaper.start(begin)
+    measured, told, wanted = plant.measure(), None, None
+    rows = np.zeros((count, 7))
+    for n in range(count):
+        t = n * dt
+        sample = int(t / stream + 1e-9)
+        if sample != told:
+            told = sample
+            shaper.take(target(sample * stream), t - sample * stream)
+            if stiffness and stiffness(t) != wanted:
+                wanted = stiffness(t)
+                law.stiffen(wanted)
+        pressures = law.update(dt, shaper.reference, measured)
+        measured = plant.step(pressures, dt)
+        shaper.follow(dt)
+        end = (n + 1) * dt
+        true = plant.stiffness()
+        rows[n] = end, target(end), plant.angle, true, law.terms.co_contraction, *pressures
+    t, goal, angle, found, wish, *commands = rows.T
+    return PairRun(t, goal, angle, found, wish, np.array(commands))
