@@ -7,10 +7,11 @@ which they were taken.
 """
 
 from dataclasses import dataclass
+from math import isfinite
 from typing import Generic
 
 from pam_ros.control.course import Course
-from pam_ros.control.signals import PositionLaw, Pressure
+from pam_ros.control.signals import PositionLaw, Pressure, Reference
 
 HOLD, VENT = 'hold', 'vent'
 WAITING, RUNNING, BLIND, DISABLED = 'waiting', 'running', 'blind', 'disabled'
@@ -42,7 +43,8 @@ class Loop(Generic[Pressure]):
         self.timeout, self.safe = 0.1, HOLD
         self.state = WAITING
         self.pressure: Pressure | None = None
-        self.chamber: Pressure | None = None  # measured gauge pressure in Pa, where there is one
+        self.chamber: Pressure | None = None  # command in Pa that would hold what is measured
+        self.awaits_chamber = False  # whether such a measurement is worth waiting for
         self.starts = 0
         self._seen: Reading | None = None
         self._is_new = False
@@ -89,6 +91,8 @@ class Loop(Generic[Pressure]):
         if reading is None or now - reading.time > self.timeout:
             return self._stay_safe()
         if self.state != RUNNING:
+            if self.awaits_chamber and self.chamber is None:
+                return self._stay_safe()
             self._start(reading, now)
         dt = min(max(now - self._time, LEAST * self.period), MOST)
         self._time = now
@@ -102,7 +106,7 @@ class Loop(Generic[Pressure]):
 
     def _start(self, reading: Reading, now: float) -> None:
         """Begin anew where the load is, at the pressure that is there."""
-        known = self.chamber if self.pressure is None else self.pressure
+        known = self.pressure if self.chamber is None else self.chamber
         self.law.start(reading.position, known)
         self.course.start(reading.position)
         self._time = now - self.period
@@ -123,3 +127,11 @@ class Loop(Generic[Pressure]):
 def vented(pressure: Pressure) -> Pressure:
     """Return 0 Pa for as many muscles."""
     return (0.0, 0.0) if isinstance(pressure, tuple) else 0.0
+
+
+def warm_up(law: PositionLaw[Pressure], reach: tuple[float, float], period: float) -> None:
+    """Let *law* compile and load all that it needs, before time counts."""
+    middle = 0.5 * (reach[0] + reach[1]) if isfinite(reach[0]) else 0.0
+    law.start(middle)
+    for _ in range(3):
+        law.update(period, Reference(middle), middle)

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The node of ``pam_control``: its topics and services are listed there."""
 
-from math import isfinite
+from functools import partial
 from time import monotonic_ns
 from typing import Any
 
@@ -12,13 +12,13 @@ from std_msgs.msg import Float64
 from std_srvs.srv import SetBool
 from trajectory_msgs.msg import JointTrajectory
 
-from pam_ros.control.loop import BLIND, DISABLED, RUNNING, WAITING, Loop, Reading
+from pam_ros.control.loop import BLIND, DISABLED, RUNNING, WAITING, Loop, Reading, warm_up
 from pam_ros.control.pair_law import PairLaw
-from pam_ros.control.signals import PositionLaw, Reference
 from pam_ros.errors import RangeError
 from pam_ros.nodes import control_health
+from pam_ros.nodes.chamber_input import ChamberInput
 from pam_ros.nodes.control_inputs import points_of, sight_of, stamp_of
-from pam_ros.nodes.control_output import ArrayCommand, EachCommand, OneCommand
+from pam_ros.nodes.control_output import ArrayCommand, EachCommand, OneCommand, is_finite
 from pam_ros.nodes.control_state import PAIR_TERMS, TERMS, StateTopic
 from pam_ros.nodes.diagnostics import ERROR, OK, WARN, Diagnostics, Health
 from pam_ros.nodes.pace import SECOND
@@ -50,6 +50,7 @@ class PamControl(TickingNode):
         self._is_followed = bool(self.get_parameter('use_sim_time').value)
         self._seen = monotonic_ns()  # steady time of the newest usable state, ns
         self._stamp: int | None = None  # and its stamp
+        self._last: Reading | None = None  # and what it was, where states make the time
         self._ticked = self._seen  # steady time of the last tick, ns
         self._has_waited = False
         self._answered = 0  # steady time of the last command, ns
@@ -88,6 +89,7 @@ class PamControl(TickingNode):
         hear(Float64, 'position_reference', self._take_reference)
         hear(JointTrajectory, 'joint_trajectory', self._take_trajectory)
         told = self._told
+        self._chambers = ChamberInput(told, partial(hear, reliability=states), self._begin)
         self._commands: OneCommand | ArrayCommand | EachCommand
         if isinstance(told, ToldPair):
             hear(Float64, 'co_contraction_reference', self._take_co_contraction)
@@ -107,6 +109,7 @@ class PamControl(TickingNode):
     def tick(self) -> None:
         """Command; where the states make the time, only see whether they stay away."""
         now = monotonic_ns()
+        self._chambers.prepare(self._loop, self._stamp, self._told)
         if self._is_followed:
             self._watch(now)
             return
@@ -125,6 +128,14 @@ class PamControl(TickingNode):
         age = min(now - self._stamp, steady - self._seen) / SECOND
         if age > self._told.settings.state_timeout:
             self._step(now / SECOND, now)
+        else:
+            self._begin()
+
+    def _begin(self) -> None:
+        """Where states make the time, answer the one that control has waited at."""
+        if self._is_followed and self._stamp is not None and self._loop.state == WAITING:
+            self._chambers.prepare(self._loop, self._stamp, self._told)
+            self._step(self._stamp / SECOND, self._stamp)
 
     def _step(self, time: float, stamp: int) -> None:
         """Command at *time* in s, by the clock of the loop; *stamp* is ROS time in ns."""
@@ -176,9 +187,11 @@ class PamControl(TickingNode):
             return
         if before is not None and sight.stamp < before:
             self._loop.forget()  # simulated time begins anew, and so does what happens in it
-        time = sight.stamp / SECOND
-        self._loop.see(Reading(time, sight.position, sight.velocity))
-        self._step(time, sight.stamp)
+            self._chambers.forget()
+        self._last = Reading(sight.stamp / SECOND, sight.position, sight.velocity)
+        self._loop.see(self._last)
+        self._chambers.prepare(self._loop, self._stamp, self._told)
+        self._step(self._last.time, sight.stamp)
 
     def _see_again(self) -> None:
         """Answer a state that is told again: in lockstep the answer was not heard."""
@@ -225,10 +238,12 @@ class PamControl(TickingNode):
         self.get_logger().warning(reason, throttle_duration_sec=1.0)
 
     def _enable(self, request: SetBool.Request, response: SetBool.Response) -> SetBool.Response:
+        self._loop.enable(request.data)
         if request.data:
             self._fault = ''
-        self._loop.enable(request.data)
-        if not request.data:
+            if self._is_followed and self._last:
+                self._loop.see(self._last)  # which may wait for an answer: no other would come
+        else:
             self._loop.pressure = None  # somebody else may command from now on
         response.success = True
         response.message = self._trouble() or 'controlling'
@@ -256,9 +271,10 @@ class PamControl(TickingNode):
         """Say why it does not control, '' where it does."""
         did = {'vent': 'vents', 'hold': 'holds the pressure'}[self._told.settings.on_timeout]
         why = f': {self._blindness}' if self._blindness else ''
+        missing = 'a measured pressure' if self._loop.awaits_chamber else 'joint_states'
         return {
             RUNNING: '',
-            WAITING: 'waits for joint_states' + why,
+            WAITING: f'waits for {missing}' + why,
             BLIND: f'joint_states stay away: {did}' + why,
             DISABLED: self._fault or 'disabled: commands nothing',
         }[self._loop.state]
@@ -284,16 +300,3 @@ class PamControl(TickingNode):
         commanded, self._commanded = self._commanded, 0
         wanted = None if self._is_followed else self._told.settings.rate
         return control_health.timing(self.ticker.report(monotonic_ns()), commanded, wanted)
-
-
-def is_finite(pressure: Any) -> bool:
-    """Say whether a pressure, or each of several, is a number."""
-    return all(map(isfinite, pressure)) if isinstance(pressure, tuple) else isfinite(pressure)
-
-
-def warm_up(law: PositionLaw, reach: tuple[float, float], period: float) -> None:
-    """Let *law* compile and load all that it needs, before time counts."""
-    middle = 0.5 * (reach[0] + reach[1]) if isfinite(reach[0]) else 0.0
-    law.start(middle)
-    for _ in range(3):
-        law.update(period, Reference(middle), middle)

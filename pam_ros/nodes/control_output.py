@@ -4,6 +4,7 @@
 
 from array import array
 from collections.abc import Sequence
+from math import isfinite
 from typing import Any
 
 from rclpy.node import Node
@@ -62,3 +63,8 @@ class EachCommand:
         """Command *pressures* in Pa, muscles in order."""
         for command, pressure in zip(self._each, pressures, strict=True):
             command.publish(pressure)
+
+
+def is_finite(pressure: Any) -> bool:
+    """Say whether a pressure, or each of several, is a number."""
+    return all(map(isfinite, pressure)) if isinstance(pressure, tuple) else isfinite(pressure)

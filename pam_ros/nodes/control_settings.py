@@ -11,6 +11,7 @@ from pam_ros.control.gains import Gains
 from pam_ros.control.limits import Limits, reachable
 from pam_ros.control.loop import HOLD, VENT
 from pam_ros.control.pid import Pid, PidGains
+from pam_ros.control.pressure_path import PressurePath
 from pam_ros.control.shaping import Shape
 from pam_ros.control.signals import PositionLaw
 from pam_ros.control.sliding_mode import SlidingMode
@@ -59,6 +60,22 @@ class ControlSettings:
         'what is commanded when joint states stay away: vent to 0 Pa, or hold the last pressure',
         choices=(VENT, HOLD),
     )
+    pressure_wait: float = parameter(
+        0.5,
+        'longest wait for a measured pressure before control begins, so that it begins at that '
+        'pressure; 0: none is asked for',
+        's',
+        low=0.0,
+        high=60.0,
+        live=False,
+    )
+    ambient_pressure: float = parameter(
+        101325.0,
+        'pressure around the muscle, which measured ones include',
+        'Pa',
+        low=0.0,
+        high=2e5,
+    )
     start_enabled: bool = parameter(
         True, 'whether it controls from the start; false: from ~/enable on', live=False
     )
@@ -89,6 +106,7 @@ class Told:
     reach: tuple[float, float]
     unit: ClassVar[str] = 'm'
     vented: ClassVar[float] = 0.0  # Pa
+    pressure_topics: ClassVar[tuple[str, ...]] = ('pressure',)
 
     def make_law(self) -> PositionLaw[float]:
         """Return a new law, that has to be started."""
@@ -99,6 +117,10 @@ class Told:
     def make_course(self) -> Course:
         """Return a new course, that has to be started."""
         return Course(self.shape, self.reach)
+
+    def command_at(self, chambers: list[float]) -> float:
+        """Return the command in Pa under which the chamber rests at a gauge pressure in Pa."""
+        return PressurePath(self.model, 1.0).command_at_rest(chambers[0])
 
     def take_over(self, law: PositionLaw[float], before: 'Told') -> None:
         """Let *law*, which was made as told *before*, go on with other gains."""

@@ -16,6 +16,7 @@ from pam_ros.control.limits import Limits
 from pam_ros.control.pair_gains import PairGains
 from pam_ros.control.pair_law import PairLaw
 from pam_ros.control.pair_model import PairModel
+from pam_ros.control.pressure_path import PressurePath
 from pam_ros.control.shaping import Turn
 from pam_ros.errors import ParameterError
 from pam_ros.nodes.control_settings import MEASURED, ControlSettings, Told, build_told, table
@@ -118,6 +119,20 @@ class ToldPair:
     def make_course(self) -> Course:
         """Return a new course, that has to be started."""
         return Course(self.shape, self.reach, self.unit)
+
+    @property
+    def pressure_topics(self) -> tuple[str, ...]:
+        """Topics on which the pressure of each muscle is told, the same for all of an array."""
+        return tuple(f'{m}/pressure' if self.muscle_topics else 'pressures' for m in self.muscles)
+
+    def command_at(self, chambers: list[float]) -> tuple[float, float]:
+        """Return the commands in Pa under which chambers rest at gauge pressures in Pa."""
+        muscles = PairModel(self.model, self.limits).muscles
+        one, two = (
+            PressurePath(muscle, 1.0).command_at_rest(chamber)
+            for muscle, chamber in zip(muscles, chambers, strict=True)
+        )
+        return one, two
 
     def take_over(self, law: PairLaw, before: 'ToldPair') -> None:
         """Let *law*, which was made as told *before*, go on with other gains and stiffness."""
