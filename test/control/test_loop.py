@@ -49,6 +49,27 @@ def test_it_starts_where_the_load_is_at_the_pressure_that_is_there(loop):
     assert loop.state == RUNNING
 
 
+def test_it_waits_for_the_pressure_that_is_there(loop):
+    loop.awaits_chamber = True
+    loop.see(Reading(1.0, 0.05))
+    assert loop.tick(1.0) is None
+    assert loop.state == WAITING
+    loop.chamber = 123e3
+    assert loop.tick(1.002) == 100e3 + 1
+    assert loop.law.starts == [(0.05, 123e3)]
+
+
+def test_seen_again_it_begins_at_what_is_measured_not_at_what_was_commanded(loop):
+    loop.safe = VENT
+    loop.see(Reading(1.0, 0.05))
+    loop.tick(1.0)
+    assert loop.tick(1.2) == 0.0
+    loop.see(Reading(1.3, 0.01))
+    loop.chamber = 40e3  # it has not vented yet
+    loop.tick(1.3)
+    assert loop.law.starts[-1] == (0.01, 40e3)
+
+
 def test_a_measurement_is_used_once_and_an_old_one_never(loop):
     loop.see(Reading(1.0, 0.05))
     loop.tick(1.0)
