@@ -27,7 +27,11 @@ class PairGains:
     """
 
     bandwidth: float = parameter(
-        25.0, 'decay rate of the sliding variable in the boundary layer', '1/s', low=0.5, high=200
+        25.0,
+        'decay rate of the sliding variable in the boundary layer',
+        '1/s',
+        low=0.5,
+        high=200.0,
     )
     surface_bandwidth: float = parameter(
         8.0,

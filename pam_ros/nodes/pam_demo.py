@@ -13,7 +13,7 @@ from pam_ros.errors import PamError
 
 BAD_INPUT, INTERRUPTED = 2, 130
 # Each is a module of pam_ros.nodes.chapters with a function play(stage).
-CHAPTERS = ('paper', 'position', 'loop')
+CHAPTERS = ('paper', 'position', 'joint', 'loop')
 
 
 def main() -> None:

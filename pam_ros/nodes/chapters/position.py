@@ -12,15 +12,12 @@ import numpy as np
 from rclpy.duration import Duration
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64
-from std_srvs.srv import SetBool
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
 from pam_ros.demo import position
 from pam_ros.demo.position import Course
-from pam_ros.errors import PamError
+from pam_ros.nodes.chapters.duet import STILL, Duet
 from pam_ros.nodes.chapters.stage import Stage
-from pam_ros.nodes.children import Program
-from pam_ros.nodes.client import Client
 from pam_ros.nodes.control_state import TERMS
 from pam_ros.nodes.rig_log import seconds
 
@@ -29,10 +26,7 @@ DECLARED, TRUE = 20.0, 25.0  # kg
 GOALS = (0.070, 0.050, 0.060)  # m
 HOLD = 2.5  # s for each of them
 SWING, FREQUENCY, CYCLES = 0.010, 0.5, 5  # m, Hz: the sine, from the last of the goals
-STILL = 1e-6  # m that a reference at rest moves less than
 SPACING = 0.05  # s between the points of its trajectory
-HISTORY = 30_000  # messages kept for a listener who is late: a minute at 500 Hz
-PATIENCE = 600.0  # s that a busy machine may take for one of the moves
 
 
 def play(stage: Stage) -> None:
@@ -59,59 +53,20 @@ def play(stage: Stage) -> None:
 
 
 def record(stage: Stage) -> tuple[Course, list[float]]:
-    """Return what happened, and the times in s at which it set out to each goal and the sine.
-
-    Simulated time stands still while something is told, and until all that was before is heard:
-    it does not run ahead of a listener who is late.
-    """
-    space = stage.namespace
-    remap = ('-r', f'__ns:={space}')
-    rig = {'muscle': MUSCLE, 'mass': TRUE, 'initial.pressure': 300e3, 'time_mode': 'lockstep'}
-    rig[f'qos_overrides.{space}/joint_states.publisher.depth'] = HISTORY
-    told = {'muscle': MUSCLE, 'mass': DECLARED, 'use_sim_time': True}
-    told[f'qos_overrides.{space}/pam_control/state.publisher.depth'] = HISTORY
-    # Its /clock is nobody else's business.
-    clock = ('-r', f'/clock:={space}/clock')
-    with (
-        Program('pam_sim', *remap, *clock, parameters=rig) as sim,
-        Program('pam_control', *remap, *clock, parameters=told) as control,
-        Client(space, PATIENCE) as client,
-    ):
-        states = client.collect(JointState, 'joint_states')
-        terms = client.collect(JointState, 'pam_control/state')
-
-        def passed(end: float) -> bool:
-            for program in (sim, control):
-                if not program.is_running:
-                    raise PamError(f'{program.name} ended: {program.output.strip()}')
-            return bool(terms and states) and min(seconds(terms[-1]), seconds(states[-1])) > end
-
-        def stop_after(duration: float) -> float:
-            """Let so many seconds pass from now on, then let time stand still; return when."""
-            begin = seconds(states[-1])
-            client.until(lambda: passed(begin + duration), f'{duration:g} s to pass')
-            client.call(SetBool, 'pam_sim/pause', data=True)
-            # Where time stands still, the state is told again and again: then all is heard.
-            client.until(lambda: states[-1].header.stamp == states[-2].header.stamp, 'a stop')
-            return seconds(states[-1])
-
-        def tell(message: Float64 | JointTrajectory, topic: str) -> None:
-            """Tell what sets the reference in motion, and let time go on."""
-            rest = terms[-1].position[0]
-            client.publish(message, topic)
-            client.call(SetBool, 'pam_sim/pause', data=False)
-            client.until(lambda: abs(terms[-1].position[0] - rest) > STILL, 'a motion')
-
-        client.until(lambda: passed(0.0), 'the first command')
-        stops = [stop_after(1.5)]
+    """Return what happened, and the times in s at which it set out to each goal and the sine."""
+    rig = {'muscle': MUSCLE, 'mass': TRUE, 'initial.pressure': 300e3}
+    told = {'muscle': MUSCLE, 'mass': DECLARED}
+    with Duet(stage, rig, told) as duet:
+        duet.begin()
+        stops = [duet.stop_after(1.5)]
         for goal in GOALS:
             stage.say(f'  to {1e3 * goal:.0f} mm')
-            tell(Float64(data=goal), 'position_reference')
-            stops.append(stop_after(HOLD))
+            duet.tell(Float64(data=goal), 'position_reference')
+            stops.append(duet.stop_after(HOLD))
         stage.say(f'  a sine of {1e3 * SWING:.0f} mm at {FREQUENCY:g} Hz')
-        tell(sine(GOALS[-1]), 'joint_trajectory')
-        stop_after(CYCLES / FREQUENCY + 0.5)
-    course = put_together(states, terms)
+        duet.tell(sine(GOALS[-1]), 'joint_trajectory')
+        duet.stop_after(CYCLES / FREQUENCY + 0.5)
+        course = put_together(duet.states, duet.terms)
     return course, [course.departure(stop, STILL) for stop in stops]
 
 
