@@ -81,8 +81,10 @@ class Effect:
     cannot foresee, a frequency or the place of a stop, comes from ``guess(t, p, kappa,
     residual)``: further starts from a recording, arrays (n,) in SI, the residual being measured
     less simulated position or force. ``signature`` says in words what the residual looks like,
-    ``experiment`` what to record to tell it from its nearest rivals. ``needs_muscle`` says that a
-    load moved by some other force cannot have it: it has no braid, no bladder, no chamber.
+    ``experiment`` what to record to tell it from its nearest ``rivals``. ``contains`` names those
+    that it becomes as its strength vanishes while its other parameters stay. ``needs_muscle``
+    says that a load moved by some other force cannot have it: it has no braid, no bladder, no
+    chamber.
     """
 
     name: str
@@ -103,6 +105,7 @@ class Effect:
     damping: Callable[..., float] | None = None
     outside: Callable[..., float] | None = None
     rivals: tuple[str, ...] = field(default=())
+    contains: tuple[str, ...] = field(default=())
     needs_muscle: bool = False
 
     def __post_init__(self) -> None:

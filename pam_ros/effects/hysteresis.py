@@ -226,6 +226,7 @@ EFFECT = Effect(
     ),
     start=start,
     rivals=('coulomb_friction', 'creep'),
+    contains=('coulomb_friction',),
     force=force,
     needs_muscle=True,
 )

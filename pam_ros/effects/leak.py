@@ -103,6 +103,7 @@ EFFECT = Effect(
     states=('pressure', 'upstream pressure'),
     start=start,
     rivals=('pressure_lag', 'pressure_offset', 'creep', 'softening'),
+    contains=('pressure_lag',),
     pressure=pressure,
     needs_muscle=True,
 )

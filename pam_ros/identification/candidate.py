@@ -19,7 +19,7 @@ from pam_ros.rig.model import RigModel
 Array = NDArray[np.float64]
 LOOKS = 2  # steps of the cheap look, with the parent's columns kept
 EARNED = 10.0  # fall of the score that pays for an effect's finer parameters
-TRIED = 4  # starting values per effect from which it is taken
+TRIED = 2  # starting values per effect and parent from which it is taken
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,31 +62,27 @@ def extended(
     return new, np.array(u)
 
 
-def look(parents: Sequence[Fit], model: RigModel, effect: Effect) -> list[Solution]:
-    """Return the best cheap fits of *effect* on top of one of *parents*, the best first.
+def look(
+    parent: Fit, model: RigModel, effect: Effect, read: Sequence[dict[str, float]] = ()
+) -> list[Solution]:
+    """Return the best cheap fits of *effect* on top of *parent*, the best first.
 
     One simulation at each known starting value tells in which direction it moves the residual;
-    from the most promising, steps are taken in which the columns of what a parent already has are
-    taken from it, and only the effect's own are computed. Parents are the same model at
-    different places: where it was re-tuned, its parameters may have gone astray to make up for
-    what is missing; where it was declared, they have not.
+    from the most promising, steps are taken in which the columns of what the parent already has
+    are taken from it, and only the effect's own are computed. Of the starts that were *read* from
+    the residual, see :func:`guessed`, a look is taken in any case: they need no ranking, nor
+    could they have one, since a phase that is not fitted yet may point the wrong way.
     """
-    read = _guessed(parents[0], effect)
+    known = parent.solution
     guesses = []
-    for parent in parents:
-        known = parent.solution
-        for start in effect.fit_starts:
-            problem, added = extended(known.problem, model, effect, start)
-            r = problem.residuals(np.concatenate([known.u, added]))
-            guesses.append((amplified_cost(known, r), known, problem, added))
+    for start in effect.fit_starts:
+        problem, added = extended(known.problem, model, effect, start)
+        r = problem.residuals(np.concatenate([known.u, added]))
+        guesses.append((amplified_cost(known, r), problem, added))
     guesses.sort(key=lambda guess: guess[0])
-    solutions = [_stepped(known, problem, added) for _, known, problem, added in guesses[:TRIED]]
-    # What the effect itself read from the residual needs no ranking, nor could it have one:
-    # a phase that is not fitted yet may point the wrong way.
-    known = parents[0].solution
-    solutions += [
-        _stepped(known, *extended(known.problem, model, effect, start)) for start in read
-    ]
+    starts = [(problem, added) for _, problem, added in guesses[:TRIED]]
+    starts += [extended(known.problem, model, effect, start) for start in read]
+    solutions = [_stepped(known, problem, added) for problem, added in starts]
     return sorted(solutions, key=lambda solution: solution.cost)
 
 
@@ -128,7 +124,7 @@ def _stepped(known: Solution, problem: Problem, added: Array) -> Solution:
     return solve(problem, u, LOOKS, jacobian=jacobian, frozen=count)
 
 
-def _guessed(parent: Fit, effect: Effect) -> tuple[dict[str, float], ...]:
+def guessed(parent: Fit, effect: Effect) -> tuple[dict[str, float], ...]:
     """Return the starts that *effect* reads from what *parent* leaves of the longest run.
 
     Samples that are kept back stay unseen: their residual is given as 0.

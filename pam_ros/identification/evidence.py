@@ -19,7 +19,7 @@ GAIN = 0.03  # least relative fall of the RMSE kept back
 LATER_SHARE = 0.03  # a second or third effect must explain this share of what re-tuning left
 AMBIGUOUS = 6.0  # difference of scores that does not decide between two effects
 LATER_GAIN = 0.25  # or lower the RMSE kept back by this share
-AT_ALL = 0.25  # of them that it must be from 0 in any case
+HARDLY = 1e-3  # share of a strength that is as good as none of it
 BEYOND_DOUBT = 1e-6  # p of the model without an effect that needs no interval
 SIGMAS = 2.6  # of a strength's distance from 0
 LEAST = 24.0
@@ -72,24 +72,32 @@ def holm(p: Array) -> Array:
 def strengths_clear(fit: Fit, p: float) -> bool:
     """Say whether a strength of the newest effect is surely not 0 and has its physical sign.
 
-    Either its standard error says so, with as many samples as the residual is worth, or the
-    model without the effect is as unlikely as *p*: a stop may be of any stiffness above some,
-    and its standard error is then no measure of the distance from none. A strength that has
-    gone to 0 while the effect's other parameters do the work is not clear at all.
+    Either its standard error says so, or the model without the effect is as unlikely as *p* and
+    taking the strength away, all else kept, leaves an unlikely one, too: a stop may be of any
+    stiffness above some, and its standard error is then no measure of the distance from none. A
+    strength that does nothing while the effect's other parameters do the work is not clear.
     """
-    problem: Problem = fit.solution.problem
-    worth = independent_samples(fit) / problem.independent
-    error = np.sqrt(np.diag(fit.solution.covariance()) / max(worth, 1e-6))
+    solution = fit.solution
+    problem: Problem = solution.problem
+    worth = max(independent_samples(fit) / problem.independent, 1e-6)
+    error = np.sqrt(np.diag(solution.covariance()) / worth)
     prefix = f'effects.{fit.effects[-1]}.'
     effect = next(e for e in problem.layout.effects if e.name == fit.effects[-1])
     signs = {p.name: p.sign for p in effect.parameters if p.strength}
     for k, unknown in enumerate(problem.unknowns):
         name = unknown.name.removeprefix(prefix)
-        if unknown.name.startswith(prefix) and name in signs:
-            value = fit.solution.u[k]
-            right = value * signs[name] > 0.0 if signs[name] else value != 0.0
-            distance = abs(value) / error[k] if error[k] > 0.0 else np.inf
-            if right and distance > (AT_ALL if p < BEYOND_DOUBT else SIGMAS):
+        if not unknown.name.startswith(prefix) or name not in signs:
+            continue
+        value = solution.u[k]
+        if not (value * signs[name] > 0.0 if signs[name] else value != 0.0):
+            continue
+        if abs(value) > SIGMAS * error[k]:
+            return True
+        if p < BEYOND_DOUBT:
+            without = solution.u.copy()
+            without[k] *= HARDLY
+            rise = problem.cost(without, problem.residuals(without)) - solution.cost
+            if rise * worth > SIGMAS**2:
                 return True
     return False
 

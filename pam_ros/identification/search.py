@@ -11,7 +11,16 @@ from numpy.typing import NDArray
 
 from pam_ros.effects.base import Effect
 from pam_ros.identification import evidence
-from pam_ros.identification.candidate import Fit, extended, fitted, look, refine, released
+from pam_ros.identification.candidate import (
+    EARNED,
+    Fit,
+    extended,
+    fitted,
+    guessed,
+    look,
+    refine,
+    released,
+)
 from pam_ros.identification.coarse import coarse_step, thinned
 from pam_ros.identification.noise import Noise
 from pam_ros.identification.problem import Problem
@@ -27,10 +36,11 @@ EFFECTS_AT_MOST = 3
 REFINED = 4  # candidates of a round that get a full fit
 WINDOW = 2.0  # s of a run of a load without a muscle
 OUTLIER = 1.48  # median residuals beyond which one is an outlier
-DOUBTED = 4  # of these that are fitted from further starting values, too
 COMPARABLE = 0.15  # and its share of the best fall
 OBVIOUS = 0.8  # ratio of errors kept back below which no odd parameter needs a reason
 PROMISING = 4.0  # fall of the cost in a cheap look that earns a full fit
+AS_GOOD = 0.03  # share of the RMSE kept back by which two candidates may differ
+AS_MUCH = 0.03  # and of the fall that the better one brings
 IMPLAUSIBLE = 12.0  # chi square of re-tuned parameters under their prior that asks for a reason
 
 
@@ -64,7 +74,7 @@ def problem_of(
     *stride* says how many samples apart those of thinned segments were in the recording; their
     starts are free, those of segments that are not thinned (0) near to the measurement.
     """
-    sigma = np.inf if stride else noise.sigma
+    sigma = noise.sigma
     unknowns: list[Unknown] = [*declared_unknowns(model), *run_unknowns(segments, sigma)]
     rho = noise.rho ** max(stride, 1)
     samples = sum(int(np.count_nonzero(s.fit)) for s in segments)
@@ -115,10 +125,11 @@ def search(
         for k in range(EFFECTS_AT_MOST):
             progress(0.1 + 0.25 * k, f'trying effects, round {k + 1}')
             tried = _round(parent, declared, model, pool)
-            first = next((t for t in tried if admitted(t, parent, retuned, noise)), None)
-            if first is None:
+            able = [t for t in tried if admitted(t, parent, retuned, noise)]
+            if not able:
                 rounds.append(tried)
                 break
+            first = plainest(able)
             chosen = replace(first, chosen=True)
             rounds.append(tuple(chosen if t is first else t for t in tried))
             parent = released(chosen.fit, model, chosen.effect, pool)
@@ -126,6 +137,7 @@ def search(
                 parent = _robust(parent, pool)
         progress(0.85, 'leaving out what is not needed')
         parent = _without_needless(parent, retuned, model, noise, pool)
+        parent = _plain(parent, model, pool)
     return Search(declared, retuned, parent, tuple(rounds))
 
 
@@ -147,6 +159,28 @@ def _robust(fit: Fit, pool: Executor) -> Fit:
         limited = replace(solution.problem, outlier=OUTLIER * float(np.median(np.abs(e))))
         fit = fitted(fit.effects, solve(limited, solution.u, pool=pool))
     return fit
+
+
+def plainest(able: Sequence[Tried]) -> Tried:
+    """Return the candidate with the fewest parameters that explains as much as the first.
+
+    One that becomes another of them as its strength vanishes is not the plainest: a leak so
+    small that only its refill shows is a lag.
+    """
+    equal = [t for t in able if explains_as_much(t, able[0])]
+    names = {t.effect.name for t in equal}
+    return min(equal, key=lambda t: (bool(names & set(t.effect.contains)), len(t.fit.solution.u)))
+
+
+def explains_as_much(tried: Tried, best: Tried) -> bool:
+    """Say whether a candidate leaves as little of the samples kept back as the *best*, in use.
+
+    Statistics alone would tell apart what two models miss by the last bit of their numerics.
+    """
+    least = best.fit.held_error
+    without = least / (1.0 - best.evidence.gain)
+    tolerance = min(AS_GOOD * least, AS_MUCH * max(without - least, 0.0))
+    return tried.fit.held_error <= least + tolerance
 
 
 def admitted(tried: Tried, parent: Fit, retuned: Fit, noise: Noise) -> bool:
@@ -182,22 +216,16 @@ def _round(parent: Fit, declared: Fit, model: RigModel, pool: Executor) -> tuple
         if e.name not in (*parent.effects, *model.effects)
         and not (e.needs_muscle and model.muscle.is_load_only)
     ]
-    parents = [parent] if parent.effects else [parent, declared]
-    looks = list(pool.map(lambda e: look(parents, model, e), absent))
+    parents = (parent, _as_declared(parent, pool) if parent.effects else declared)
+    looks = list(pool.map(lambda e: _looks(parents, model, e), absent))
     fits = {
         e.name: fitted((*parent.effects, e.name), found[0])
         for e, found in zip(absent, looks, strict=True)
     }
     falls = np.array([parent.solution.cost - found[0].cost for found in looks])
     worth = falls > max(PROMISING, COMPARABLE * falls.max())
-    order = [i for i in np.argsort(-falls)[:REFINED] if worth[i]]
-    for i in order:
-        fits[absent[i].name] = refine(parent, absent[i], looks[i][:1], pool)
-    for i in sorted(order, key=lambda i: fits[absent[i].name].score)[:DOUBTED]:
-        others = looks[i][1:]
-        if others:
-            again = refine(parent, absent[i], others, pool)
-            fits[absent[i].name] = min(fits[absent[i].name], again, key=lambda fit: fit.score)
+    for i in [i for i in np.argsort(-falls)[:REFINED] if worth[i]]:
+        fits[absent[i].name] = refine(parent, absent[i], looks[i], pool)
     nearest = min(fits.values(), key=lambda fit: fit.score)
     if nearest.held_error > OBVIOUS * parent.held_error and not parent.effects:
         for effect in absent:
@@ -218,6 +246,26 @@ def _round(parent: Fit, declared: Fit, model: RigModel, pool: Executor) -> tuple
         )
         tried.append(Tried(effect, parent.effects, fit, found, _rank(fit)))
     return tuple(sorted(tried, key=lambda t: t.rank))
+
+
+def _as_declared(fit: Fit, pool: Executor) -> Fit:
+    """Return *fit* with its re-tuned constants taken back to those declared.
+
+    Where something is missing they have gone astray to make up for it, and so far at times that
+    no fit with what was missing finds the way back.
+    """
+    u = fit.solution.u.copy()
+    for k, unknown in enumerate(fit.solution.problem.unknowns):
+        if unknown.segment < 0 and unknown.prior < np.inf:
+            u[k] = 0.0
+    return fitted(fit.effects, only_starts(fit.solution.problem, u, pool))
+
+
+def _looks(parents: Sequence[Fit], model: RigModel, effect: Effect) -> list[Solution]:
+    """Return the best cheap fit of *effect* on top of each parent, the best first."""
+    read = guessed(parents[0], effect)
+    best = [look(parent, model, effect, read)[0] for parent in parents]
+    return sorted(best, key=lambda solution: solution.cost)
 
 
 def _absorbed(parent: Fit, fit: Fit, effect: Effect) -> bool:
@@ -292,14 +340,44 @@ def _without_needless(
 
 def _dropped(fit: Fit, name: str, model: RigModel, pool: Executor) -> Fit:
     """Return the fit without effect *name*, fitted anew."""
+    names = [p.name for p in _effect(model, name).parameters]
+    smaller = _reduced(fit, name, names, model, pool)
+    return replace(smaller, effects=tuple(e for e in fit.effects if e != name))
+
+
+def _plain(fit: Fit, model: RigModel, pool: Executor) -> Fit:
+    """Return *fit* with the fewest parameters per effect that do as well.
+
+    Finer ones may have been freed when another effect was still missing, to make up for it.
+    """
+    for name in fit.effects:
+        prefix = f'effects.{name}.'
+        there = {u.name.removeprefix(prefix) for u in fit.solution.problem.unknowns}
+        for start in sorted(_effect(model, name).fit_starts, key=len):
+            finer = [p.name for p in _effect(model, name).parameters if p.name not in start]
+            if there >= set(start) and there & set(finer):
+                smaller = _reduced(fit, name, finer, model, pool)
+                if smaller.score < fit.score + EARNED:
+                    fit = smaller
+                    break
+    return fit
+
+
+def _reduced(
+    fit: Fit, name: str, parameters: Sequence[str], model: RigModel, pool: Executor
+) -> Fit:
+    """Return the fit with *parameters* of effect *name* at their defaults, fitted anew."""
     problem = fit.solution.problem
-    prefix = f'effects.{name}.'
-    keep = [k for k, u in enumerate(problem.unknowns) if not u.name.startswith(prefix)]
+    gone = {f'effects.{name}.{p}' for p in parameters}
+    keep = [k for k, u in enumerate(problem.unknowns) if u.name not in gone]
     row = problem.row.copy()
     j = model.layout.parameter_at[name]
-    effect = next(e for e in model.library if e.name == name)
-    for k, p in enumerate(effect.parameters):
-        row[j + k] = p.default
+    for k, p in enumerate(_effect(model, name).parameters):
+        if p.name in parameters:
+            row[j + k] = p.default
     smaller = replace(problem, row=row, unknowns=tuple(problem.unknowns[k] for k in keep))
-    solution = solve(smaller, fit.solution.u[keep], pool=pool)
-    return fitted(tuple(e for e in fit.effects if e != name), solution)
+    return fitted(fit.effects, solve(smaller, fit.solution.u[keep], pool=pool))
+
+
+def _effect(model: RigModel, name: str) -> Effect:
+    return next(e for e in model.library if e.name == name)

@@ -17,6 +17,7 @@ from pam_ros.identification.problem import Problem
 
 Array = NDArray[np.float64]
 LEAST_DAMPING = 1e-9
+DAMPING = 1e-3  # of a first step that failed undamped, relative to the normal matrix's diagonal
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,7 +85,7 @@ def solve(
         gradient = weight * (j.T @ r) + u / prior**2.0
         free = ~(((u <= low) & (gradient > 0.0)) | ((u >= high) & (gradient < 0.0)))
         before, hoped = cost, np.inf
-        for _ in range(3 if stale else 8):
+        for _ in range(3 if stale else 6):
             trial = np.clip(u + _step(normal, gradient, free, damping), low, high)
             r_trial = problem.residuals(trial)
             cost_trial = problem.cost(trial, r_trial)
@@ -92,9 +93,9 @@ def solve(
                 hoped = cost - problem.cost(trial, r + j @ (trial - u))
                 j = _broyden(j, trial - u, r_trial - r)
                 u, r, cost = trial, r_trial, cost_trial
-                damping = max(0.03 * damping, LEAST_DAMPING)
+                damping = 0.03 * damping if 0.03 * damping > DAMPING else LEAST_DAMPING
                 break
-            damping *= 30.0
+            damping = max(30.0 * damping, DAMPING)
         gain = before - cost
         if frozen:
             if gain < 0.1:

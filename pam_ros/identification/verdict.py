@@ -11,7 +11,7 @@ from pam_ros.effects.base import Effect
 from pam_ros.identification import evidence
 from pam_ros.identification.noise import Noise
 from pam_ros.identification.result import Trace
-from pam_ros.identification.search import Search, Tried
+from pam_ros.identification.search import Search, Tried, explains_as_much
 from pam_ros.identification.segment import Segment
 
 SMALLEST = 1e-12  # p value that is worth telling apart from smaller ones
@@ -41,7 +41,8 @@ def too_little(segments: Sequence[Segment], noise: Noise) -> str:
 def alternatives(found: Search, winner: Tried) -> tuple[str, ...]:
     """Return the effects that explain the samples kept back as well as *winner* does.
 
-    Those whose squared error is higher by less than one standard error of the difference.
+    Those whose squared error is higher by less than one standard error of the difference, or
+    by so little that it makes no difference.
     """
     rivals = []
     for tried in found.rounds:
@@ -58,7 +59,7 @@ def alternatives(found: Search, winner: Tried) -> tuple[str, ...]:
             close = t.fit.held_error < CLOSE * winner.fit.held_error
             if winner.evidence.absorbed:
                 close = close and t.fit.score - winner.fit.score < evidence.AMBIGUOUS
-            if close and mean < error:
+            if explains_as_much(t, winner) or (close and mean < error):
                 rivals.append(t.effect.name)
     return tuple(rivals)
 

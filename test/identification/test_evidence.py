@@ -11,7 +11,10 @@ from scipy.stats import f as f_distribution
 
 from pam_ros.effects import EFFECTS
 from pam_ros.identification import evidence
-from support.equations import coloured, least_squares_fit, missing
+from pam_ros.identification.candidate import Fit
+from pam_ros.identification.solve import Solution
+from pam_ros.identification.unknowns import Unknown
+from support.equations import coloured, equation, least_squares_fit, missing
 
 N = 4000
 T = np.linspace(0.0, 1.0, N)
@@ -143,13 +146,30 @@ def test_only_the_newest_effect_counts():
     assert not evidence.strengths_clear(later, 1.0)
 
 
-def test_what_is_beyond_doubt_needs_no_interval_but_its_sign():
-    wide = strength_fit('viscous_friction', 'coefficient', 1.0)
-    assert not evidence.strengths_clear(wide, 0.5)
-    assert evidence.strengths_clear(wide, 1e-9)
-    assert not evidence.strengths_clear(
-        strength_fit('viscous_friction', 'coefficient', -1.0), 1e-9
-    )
+def stop_fit(size):
+    """Return a fit of a strength that only has to be large, like a stop's: at 0 it does much."""
+    name = 'effects.end_stop.stiffness'
+    noise = coloured(np.random.default_rng(5), N, 0.0)
+    miss = np.sin(14.0 * T)
+
+    def residuals(u):
+        return noise + miss * np.exp(-(u[0] / 2.0))
+
+    problem = equation(residuals, [Unknown(name, 0, 0.0, 1.0)], float(N))
+    u = np.array([size])
+    r = residuals(u)
+    columns = ((residuals(u + 1e-3) - r) / 1e-3)[:, None]
+    return Fit(('end_stop',), Solution(problem, u, r, columns, 1), 1.0, 1.0)
+
+
+def test_what_is_beyond_doubt_needs_no_interval_but_its_sign_and_its_use():
+    stiff = stop_fit(30.0)  # flat there: its standard error is without end
+    assert not evidence.strengths_clear(stiff, 0.5)
+    assert evidence.strengths_clear(stiff, 1e-9)
+    assert not evidence.strengths_clear(stop_fit(-1e-3), 1e-9)
+    # One that does nothing is not clear, however good the rest of its effect is.
+    idle = strength_fit('viscous_friction', 'coefficient', 1.0)
+    assert not evidence.strengths_clear(idle, 1e-9)
 
 
 def kept_back(fit, miss):

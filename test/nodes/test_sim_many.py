@@ -238,9 +238,14 @@ def test_silence_of_one_vents_it_alone(peer):
             return list(pressures[-1].data) == [2e5 + AMBIENT, AMBIENT]
 
         peer.until(only_b_is_vented, 'b to vent')
-        peer.until(
-            lambda: any('for b ' in s.message for m in diagnostics for s in m.status), 'its name'
-        )
+
+        def b_is_named():
+            # While a is still heard: were both silent, both would be named.
+            peer.publish(Float64(data=2e5), 'a/pressure_command')
+            peer.work(0.02)
+            return any('for b ' in s.message for m in diagnostics for s in m.status)
+
+        peer.until(b_is_named, 'its name')
 
 
 def test_pause_step_and_reset_are_for_all_of_them(peer):
