@@ -8,13 +8,14 @@ import signal
 import numpy as np
 import pytest
 from builtin_interfaces.msg import Duration
-from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+from diagnostic_msgs.msg import DiagnosticStatus
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64
 from std_srvs.srv import SetBool
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
 from pam_ros.nodes.control_state import TERMS
+from support.control_watch import Rig, Watch, columns
 from support.harness import Program
 
 START = {'mass': 20.0, 'initial.pressure': 300e3}
@@ -23,68 +24,9 @@ FOLLOWING = {'use_sim_time': True, 'state_rate': 500.0}
 ENABLE = 'pam_control/enable'
 
 
-class Watch:
-    """What a controller commands, its terms and its diagnostics."""
-
-    def __init__(self, peer):
-        self.peer = peer
-        self.terms = peer.collect(JointState, 'pam_control/state')
-        self.commands = peer.collect(Float64, 'pressure_command')
-        self.arrays = peer.collect(DiagnosticArray, '/diagnostics')
-
-    def latest(self, name):
-        return self.terms[-1].position[TERMS.index(name)]
-
-    def refer(self, position):
-        self.peer.publish(Float64(data=position), 'position_reference')
-
-    def status(self, condition, what):
-        """Wait for a status of the part control that fulfils *condition*."""
-
-        def find():
-            for array in reversed(self.arrays):
-                for status in array.status:
-                    if status.name == 'pam_control: control' and condition(status):
-                        return status
-            return None
-
-        return self.peer.until(find, what)
-
-    def begin(self):
-        """Wait until it controls; return where it holds the load."""
-        self.peer.more(self.terms, 3)
-        return self.latest('reference')
-
-
-class Rig:
-    """Joint states that the test publishes itself: of a load that does not move."""
-
-    def __init__(self, peer, name='pam'):
-        self.peer, self.name, self.count = peer, name, 0
-
-    def tell(self, position=0.06, **more):
-        self.count += 1
-        message = JointState(name=[self.name], position=[position], **more)
-        message.header.stamp.sec = 10 + self.count
-        self.peer.publish(message, 'joint_states')
-
-    def tell_until(self, condition, what, position=0.06):
-        def tell():
-            self.tell(position)
-            return condition()
-
-        return self.peer.until(tell, what)
-
-
 @pytest.fixture
 def watch(peer):
     return Watch(peer)
-
-
-def columns(messages):
-    t = np.array([m.header.stamp.sec + 1e-9 * m.header.stamp.nanosec for m in messages])
-    values = np.array([m.position for m in messages])
-    return t - t[0], {name: values[:, i] for i, name in enumerate(TERMS)}
 
 
 def test_a_step_and_a_sine_are_followed_in_lockstep(watch):

@@ -1,0 +1,70 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""A test that watches a controller over DDS, and one that stands in for its rig."""
+
+import numpy as np
+from diagnostic_msgs.msg import DiagnosticArray
+from sensor_msgs.msg import JointState
+from std_msgs.msg import Float64
+
+from pam_ros.nodes.control_state import TERMS
+
+
+class Watch:
+    """What a controller commands, its terms and its diagnostics."""
+
+    def __init__(self, peer, names=TERMS, kind=Float64, topic='pressure_command'):
+        self.peer, self.names = peer, names
+        self.terms = peer.collect(JointState, 'pam_control/state')
+        self.commands = peer.collect(kind, topic)
+        self.arrays = peer.collect(DiagnosticArray, '/diagnostics')
+
+    def latest(self, name):
+        return self.terms[-1].position[self.names.index(name)]
+
+    def refer(self, position):
+        self.peer.publish(Float64(data=position), 'position_reference')
+
+    def status(self, condition, what):
+        """Wait for a status of the part control that fulfils *condition*."""
+
+        def find():
+            for array in reversed(self.arrays):
+                for status in array.status:
+                    if status.name == 'pam_control: control' and condition(status):
+                        return status
+            return None
+
+        return self.peer.until(find, what)
+
+    def begin(self):
+        """Wait until it controls; return where it holds the load."""
+        self.peer.more(self.terms, 3)
+        return self.latest('reference')
+
+
+class Rig:
+    """Joint states that the test publishes itself: of a load that does not move."""
+
+    def __init__(self, peer, name='pam'):
+        self.peer, self.name, self.count = peer, name, 0
+
+    def tell(self, position=0.06, **more):
+        self.count += 1
+        message = JointState(name=[self.name], position=[position], **more)
+        message.header.stamp.sec = 10 + self.count
+        self.peer.publish(message, 'joint_states')
+
+    def tell_until(self, condition, what, position=0.06):
+        def tell():
+            self.tell(position)
+            return condition()
+
+        return self.peer.until(tell, what)
+
+
+def columns(messages, names=TERMS):
+    """Return the times in s since the first of *messages*, and each term by its name."""
+    t = np.array([m.header.stamp.sec + 1e-9 * m.header.stamp.nanosec for m in messages])
+    values = np.array([m.position for m in messages])
+    return t - t[0], {name: values[:, i] for i, name in enumerate(names)}
