@@ -35,7 +35,9 @@ class Duet:
         self._rig = {**rig, 'time_mode': 'lockstep'}
         for topic in ('joint_states', *topics):
             self._rig[f'qos_overrides.{self._space}/{topic}.publisher.depth'] = HISTORY
-        self._told = {**told, 'use_sim_time': True}
+        # The pressure is told, and control begins once both are listened to.
+        follows = {'use_sim_time': True, 'start_enabled': False, 'pressure_wait': PATIENCE / 10}
+        self._told = {**told, **follows}
         self._told[f'qos_overrides.{self._space}/pam_control/state.publisher.depth'] = HISTORY
         self._stack = ExitStack()
 
@@ -44,13 +46,13 @@ class Duet:
         # Their /clock is nobody else's business.
         space = self._space
         where = ('-r', f'__ns:={space}', '-r', f'/clock:={space}/clock')
-        sim = Program('pam_sim', *where, parameters=self._rig)
-        control = Program('pam_control', *where, parameters=self._told)
-        self._programs = [self._stack.enter_context(one) for one in (sim, control)]
         self.client = self._stack.enter_context(Client(space, PATIENCE))
         self._service = self.client.node.create_client(SetBool, 'pam_sim/pause')
         self.states = self.client.collect(JointState, 'joint_states')
         self.terms = self.client.collect(JointState, 'pam_control/state')
+        sim = Program('pam_sim', *where, parameters=self._rig)
+        control = Program('pam_control', *where, parameters=self._told)
+        self._programs = [self._stack.enter_context(one) for one in (sim, control)]
         return self
 
     def __exit__(
@@ -71,7 +73,9 @@ class Duet:
         return is_heard and min(seconds(self.terms[-1]), seconds(self.states[-1])) > end
 
     def begin(self) -> None:
-        """Wait for the first command."""
+        """Let control begin."""
+        self.client.until(lambda: self.passed(0.0) or self.states, 'the first state')
+        self.client.call(SetBool, 'pam_control/enable', data=True)
         self.client.until(lambda: self.passed(0.0), 'the first command')
 
     def stop_after(self, duration: float) -> float:
