@@ -2,10 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """The demonstration's position control: numbers of courses that are known."""
 
+from dataclasses import fields
+
 import numpy as np
 import pytest
 
 from pam_ros.demo.position import Course, figure, settling, table
+from pam_ros.errors import PamError
 
 TIME = np.arange(0.0, 4.0, 0.01)
 
@@ -21,6 +24,17 @@ def test_settling_is_when_an_exponential_has_come_near():
     # 0.01 exp(-t / T) = 0.1e-3 at t = T ln 100.
     assert settling(approach(0.06, 0.2), 0.06) == pytest.approx(0.2 * np.log(100.0), abs=0.011)
     assert settling(approach(0.06, 10.0), 0.06) == np.inf
+
+
+def test_a_departure_is_when_the_reference_has_left():
+    course = approach(0.06, 0.2)
+    course.reference[TIME >= 2.5] = 0.07
+    assert course.departure(1.0, 1e-6) == pytest.approx(2.5)
+    with pytest.raises(PamError, match='stays at 0.07 m from 3'):
+        course.departure(3.0, 1e-6)
+    lossy = Course(*(getattr(course, f.name)[(TIME < 1.0) | (TIME > 1.5)] for f in fields(Course)))
+    with pytest.raises(PamError, match='were lost'):
+        lossy.departure(0.5, 1e-6)
 
 
 def test_the_table_has_the_error_at_rest_and_that_of_the_sine():
