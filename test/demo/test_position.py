@@ -30,7 +30,7 @@ def test_a_departure_is_when_the_reference_has_left():
     course = approach(0.06, 0.2)
     course.reference[TIME >= 2.5] = 0.07
     assert course.departure(1.0, 1e-6) == pytest.approx(2.5)
-    with pytest.raises(PamError, match='stays at 0.07 m from 3'):
+    with pytest.raises(PamError, match=r'stays at 0\.07 m from 3'):
         course.departure(3.0, 1e-6)
     lossy = Course(*(getattr(course, f.name)[(TIME < 1.0) | (TIME > 1.5)] for f in fields(Course)))
     with pytest.raises(PamError, match='were lost'):
