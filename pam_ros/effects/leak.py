@@ -12,27 +12,37 @@ SHORTEST = 1e-6  # s; a faster refill than any rig's is as good as immediate
 def pressure(p: float, t: float, h: float, x: Row, i: int, xn: Row, q: Row, j: int) -> float:
     """Return the pressure of a leaking chamber, exact for p_in constant over h.
 
-    With the rate r = q[j] and the refill time T = q[j + 1] > 0 the valve stays open:
-    dp/dt = (p_in - p) / T - r p, the first term between -R and R with R = q[j + 3], what the
-    valve lets through when it is fully open. With T = 0 it is closed between changes of p_in:
-    the chamber follows p_in less what it has lost, dp/dt = -r p, and every change of p_in by
-    q[j + 2] gives back all but 1/e of the loss. x[i] is the chamber pressure, x[i + 1] the p_in
-    before.
+    With the rate r = q[j] and the refill time T = q[j + 1] > 0 the valve stays open. Below p_in
+    dp/dt = (p_in - p) / T - r p, the first term at most R = q[j + 3], what the valve lets
+    through when it is fully open; above it dp/dt = (p_in - p) / V - r p with V = q[j + 4], or at
+    once with V = 0, since an exhaust needs no supply. With T = 0 the valve is closed between
+    changes of p_in: the chamber follows p_in less what it has lost, dp/dt = -r p, and every
+    change of p_in by q[j + 2] gives back all but 1/e of the loss. x[i] is the chamber pressure,
+    x[i + 1] the p_in before.
     """
     r = q[j]
     if r == 0.0:
         return p
     if q[j + 1] > 0.0:
+        now, left = x[i], h
+        if now > p:
+            # It vents until it meets p_in, or for all of h.
+            if q[j + 4] > SHORTEST:
+                out = 1.0 / q[j + 4] + r
+                rest = p / q[j + 4] / out
+                spent = h if p <= rest else min(h, -log((p - rest) / (now - rest)) / out)
+                now = rest + (now - rest) * exp(-spent * out)
+                left -= spent
+            else:
+                now = p
         fill = 1.0 / max(q[j + 1], SHORTEST)
-        now = x[i]
-        left = h
-        if abs(p - now) * fill > q[j + 3]:
-            # Fully open until the valve begins to close, or for all of h.
-            supply = q[j + 3] if p > now else -q[j + 3]
-            ratio = (p - supply / fill - supply / r) / (now - supply / r)
-            open_for = min(h, -log(ratio) / r) if 0.0 < ratio < 1.0 else h
-            now = supply / r + (now - supply / r) * exp(-r * open_for)
-            left -= open_for
+        if left > 0.0 and (p - now) * fill > q[j + 3]:
+            # Fully open until the valve begins to close, or for all of the rest.
+            most = q[j + 3] / r
+            ratio = (p - q[j + 3] / fill - most) / (now - most) if now != most else 2.0
+            spent = min(left, -log(ratio) / r) if 0.0 < ratio < 1.0 else left
+            now = most + (now - most) * exp(-r * spent)
+            left -= spent
         rest = p * fill / (fill + r)
         xn[i] = rest + (now - rest) * exp(-left * (fill + r)) if left > 0.0 else now
     else:
@@ -90,6 +100,15 @@ EFFECT = Effect(
             1e9,
             scale=1e6,
         ),
+        EffectParameter(
+            'vent',
+            0.0,
+            'time constant of venting beside an open valve; 0: at once',
+            's',
+            0.0,
+            10.0,
+            scale=0.05,
+        ),
     ),
     signature='pressure that sinks while the command rests, and is back after its next change',
     experiment='long holds at a high pressure with the pressure measured',
@@ -97,7 +116,8 @@ EFFECT = Effect(
         {'rate': 0.003},
         {'rate': 0.03},
         {'rate': 0.3, 'refill': 0.1},
-        {'rate': 0.3, 'refill': 0.7},
+        {'rate': 0.3, 'refill': 0.1, 'vent': 0.05},
+        {'rate': 0.3, 'refill': 0.7, 'vent': 0.05},
         {'rate': 0.3, 'refill': 0.1, 'supply': 5e5},
     ),
     states=('pressure', 'upstream pressure'),

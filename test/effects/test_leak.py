@@ -71,9 +71,10 @@ def test_a_refill_faster_than_any_leaves_no_loss_and_no_nan(refill):
 
 
 @pytest.mark.parametrize('step', [1e-3, 1e-2])
-def test_a_valve_fully_open_against_an_adaptive_solver(step):
+@pytest.mark.parametrize('vent', [0.0, 0.03, 0.3])
+def test_a_valve_fully_open_against_an_adaptive_solver(step, vent):
     rate, refill, supply = 0.8, 0.08, 4e5
-    effect = {'rate': rate, 'refill': refill, 'supply': supply}
+    effect = {'rate': rate, 'refill': refill, 'supply': supply, 'vent': vent}
     t = np.linspace(0.0, 2.0, 201)
     commands = ((0.0, 1e5), (0.2, 4e5), (1.2, 0.5e5))
     model = bench.cart(mass=1e4, leak=effect)
@@ -81,8 +82,10 @@ def test_a_valve_fully_open_against_an_adaptive_solver(step):
 
     def rhs(_, state, u):
         p = state[0]
-        return (np.clip((u - p) / refill, -supply, supply) - rate * p,)
+        out = (u - p) / max(vent, 1e-6)
+        return ((min((u - p) / refill, supply) if p < u else out) - rate * p,)
 
     (p,) = bench.solved(rhs, t, (1e5 / (1.0 + rate * refill),), commands)
-    np.testing.assert_allclose(run.pressure, p, rtol=1e-6)
+    # The solver's exhaust takes a microsecond where ours opens at once.
+    np.testing.assert_allclose(run.pressure, p, rtol=1e-6 if vent else 2e-5)
     assert np.max(np.diff(run.pressure)) < 0.01 * supply

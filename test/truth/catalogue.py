@@ -171,6 +171,7 @@ _FORMS = (
         {
             'leak_per_s': R(0.6, 0.3, 1.5),
             'fill_s': R(0.08, 0.05, 0.15),
+            'vent_s': R(0.05, 0.03, 0.1),
             'refill_pa_s': R(6e5, 4e5, 9e5),
         },
         held=True,

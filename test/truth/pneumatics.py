@@ -86,7 +86,8 @@ def chamber(P, S, t, d):
         mid = S.p + 0.5 * d * (valve_rate(P, S.p, target) - leak * S.p)
         S.p += d * (valve_rate(P, mid, target) - leak * mid)
     else:
-        tau = P.fill_s if target > S.p else P.vent_s
+        # At the very target the valve holds it against the leak, as it does while it fills.
+        tau = P.fill_s if target >= S.p else P.vent_s
         if tau <= 0.0:
             S.p = regulated(P, S, t + d)
         elif P.refill_pa_s > 0.0 and abs(target - S.p) > P.refill_pa_s * tau:

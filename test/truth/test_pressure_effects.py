@@ -94,6 +94,12 @@ def test_leak_against_a_limited_refill():
     assert got.pressure[-1] == pytest.approx(500e3 / 1.05, rel=1e-6)
 
 
+def test_a_leak_is_there_after_a_fall_of_the_command_too():
+    leak = effect('leak', 'refill', leak_per_s=0.5, fill_s=0.1, vent_s=0.02, refill_pa_s=8e5)
+    got = held([leak], T, np.where(T < 0.5, 500e3, 300e3), p0=500e3)
+    assert got.pressure[-1] == pytest.approx(300e3 / 1.05, rel=1e-4)
+
+
 def test_supply_ripple_is_in_the_pressure():
     ripple = effect('periodic_disturbance', 'supply', ripple_pa=3e3, ripple_hz=2.5, ripple_rad=0.4)
     got = held([ripple], T, np.full(T.size, 300e3))
