@@ -16,19 +16,31 @@ from pam_ros.effects.base import Effect, EffectParameter, Row
 from pam_ros.muscle.law import gain
 from pam_ros.rig.layout import A1, A3, A4, A5
 
-ELEMENTS = 6
+ELEMENTS = 10
 P_REFERENCE = 3e5  # Pa, where the amplitude is as given, whatever its growth
 
 
 @scalar
-def slipped(ds: float, width: float, onset: float, x: Row, i: int, xn: Row) -> float:
+def threshold(n: int, onset: float, crowding: float) -> float:
+    """Return the threshold of Maxwell element n as a share of the last one's.
+
+    From onset to 1, evenly with crowding 0; the nearer to 1 it is, the more of them are small.
+    """
+    s = (n + 0.5) / ELEMENTS
+    return onset + (1.0 - onset) * s * (1.0 - crowding) / (1.0 - crowding * s)
+
+
+@scalar
+def slipped(
+    ds: float, width: float, onset: float, crowding: float, x: Row, i: int, xn: Row
+) -> float:
     """Return the mean of Maxwell elements after a way ds, in -1..1; x[i] and on are strains.
 
-    They stick up to thresholds from onset width to width and slip there.
+    They stick up to their thresholds, the last one's being *width*, and slip there.
     """
     mean = 0.0
     for n in range(ELEMENTS):
-        d = width * (onset + (1.0 - onset) * (n + 0.5) / ELEMENTS)
+        d = width * threshold(n, onset, crowding)
         strain = min(max(x[i + n] + ds, -d), d)
         xn[i + n] = strain
         mean += strain / d
@@ -54,8 +66,8 @@ def force(
     and 1 - a u on unloading, u < 0. A = q[j], W = q[j + 1], a = q[j + 2]: 1 is Dahl's law, 0
     has elastic unloading. x[i] is z, x[i + 1] kappa, x[i + 2] the pressure before.
 
-    Maxwell slip m over contraction: B = q[j + 3], width q[j + 4], onset q[j + 5]; n over
-    pressure: P = q[j + 7], width q[j + 8], onset q[j + 9].
+    Maxwell slip m over contraction: B = q[j + 3], width q[j + 4], onset q[j + 5], crowding
+    q[j + 11]; n over pressure: P = q[j + 7], width q[j + 8], onset q[j + 9], crowding q[j + 12].
 
     g = 1 + G (p / 300 kPa - 1), G = q[j + 6], not negative.
     """
@@ -80,19 +92,19 @@ def force(
         xn[i] = u * side
         rub = q[j] * xn[i]
     if q[j + 3] != 0.0:
-        rub += q[j + 3] * slipped(ds, q[j + 4], q[j + 5], x, i + 3, xn)
+        rub += q[j + 3] * slipped(ds, q[j + 4], q[j + 5], q[j + 11], x, i + 3, xn)
     f -= max(1.0 + q[j + 6] * (p / P_REFERENCE - 1.0), 0.0) * rub
     if q[j + 7] != 0.0:
-        late = q[j + 7] * slipped(dp, q[j + 8], q[j + 9], x, i + 3 + ELEMENTS, xn)
+        late = q[j + 7] * slipped(dp, q[j + 8], q[j + 9], q[j + 12], x, i + 3 + ELEMENTS, xn)
         f -= late * gain(kappa, q[A1], q[A3], q[A4], q[A5])
     return f
 
 
 def start(q: Row, j: int, p: float, kappa: float, y: float) -> tuple[float, ...]:
     """Return all loops at the share q[j + 10] of their height: from -1 to 1, 0 in the middle."""
-    inner = [(n + 0.5) / ELEMENTS for n in range(ELEMENTS)]
-    slip = [q[j + 10] * q[j + 4] * (q[j + 5] + (1.0 - q[j + 5]) * a) for a in inner]
-    over_p = [q[j + 10] * q[j + 8] * (q[j + 9] + (1.0 - q[j + 9]) * a) for a in inner]
+    every = range(ELEMENTS)
+    slip = [q[j + 10] * q[j + 4] * threshold(n, q[j + 5], q[j + 11]) for n in every]
+    over_p = [q[j + 10] * q[j + 8] * threshold(n, q[j + 9], q[j + 12]) for n in every]
     return (q[j + 10], kappa, p, *slip, *over_p)
 
 
@@ -206,6 +218,24 @@ EFFECT = Effect(
             1.0,
             scale=0.5,
         ),
+        EffectParameter(
+            'slip_crowding',
+            0.0,
+            'how far the thresholds crowd at small ways; 0: evenly spread',
+            '',
+            0.0,
+            0.98,
+            scale=0.3,
+        ),
+        EffectParameter(
+            'pressure_crowding',
+            0.0,
+            'how far the thresholds crowd at small ways; 0: evenly spread',
+            '',
+            0.0,
+            0.98,
+            scale=0.3,
+        ),
     ),
     signature='loops over contraction or pressure whose area does not depend on the speed',
     experiment='slow triangles at two rates with minor loops',
@@ -214,8 +244,22 @@ EFFECT = Effect(
         {'amplitude': 10.0, 'width': 0.03, 'unloading': 0.5, 'initial': 0.0},
         {'slip': 5.0, 'slip_width': 0.01, 'initial': 0.0},
         {'slip': 10.0, 'slip_width': 0.05, 'initial': 0.0},
+        {
+            'slip': 8.0,
+            'slip_width': 0.03,
+            'slip_onset': 0.05,
+            'slip_crowding': 0.5,
+            'initial': 0.0,
+        },
         {'pressure': 3e3, 'pressure_width': 1e4, 'initial': 0.0},
         {'pressure': 1e4, 'pressure_width': 5e4, 'initial': 0.0},
+        {
+            'pressure': 6e3,
+            'pressure_width': 5e4,
+            'pressure_onset': 0.05,
+            'pressure_crowding': 0.5,
+            'initial': 0.0,
+        },
     ),
     states=(
         'loop',

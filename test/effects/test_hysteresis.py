@@ -49,29 +49,40 @@ def test_bouc_wen_loops_against_their_differential_equation(unloading):
     np.testing.assert_allclose(force[::50], expected, atol=1e-7)
 
 
-@pytest.mark.parametrize('onset', [0.0, 0.3, 1.0])
-def test_maxwell_slip_is_the_complement_of_prandtls_plays(onset):
+def thresholds(width, onset, crowding):
+    """Return Prandtl's radii: quantiles of (1 - c) s / (1 - c s) between the onset and 1."""
+    s = (np.arange(ELEMENTS) + 0.5) / ELEMENTS
+    return width * (onset + (1 - onset) * (1 - crowding) / (1 / s - crowding))
+
+
+@pytest.mark.parametrize(('onset', 'crowding'), [(0.0, 0.0), (0.3, 0.0), (1.0, 0.5), (0.1, 0.8)])
+def test_maxwell_slip_is_the_complement_of_prandtls_plays(onset, crowding):
     kappa = path()
-    radii = SLIP['slip_width'] * (onset + (1 - onset) * (np.arange(ELEMENTS) + 0.5) / ELEMENTS)
+    radii = thresholds(SLIP['slip_width'], onset, crowding)
     play, expected = np.full(ELEMENTS, kappa[0]), []
     for k in kappa:
         play = np.maximum(k - radii, np.minimum(k + radii, play))
         expected.append(-SLIP['slip'] * np.mean((k - play) / radii))
-    force = loop({**SLIP, 'slip_onset': onset}, kappa)
+    force = loop({**SLIP, 'slip_onset': onset, 'slip_crowding': crowding}, kappa)
     np.testing.assert_allclose(force, expected, atol=1e-9)
 
 
-@pytest.mark.parametrize('onset', [0.0, 0.4])
-def test_slip_over_pressure_against_prandtls_plays(onset):
+@pytest.mark.parametrize(('onset', 'crowding'), [(0.0, 0.0), (0.4, 0.0), (0.1, 0.7)])
+def test_slip_over_pressure_against_prandtls_plays(onset, crowding):
     turns = 1e5 * np.array([0.0, 3.0, 2.0, 5.0, 4.5, 4.8, 1.0])
     p, y, width, half = path(turns), 0.03, 6e4, 8e3
-    radii = width * (onset + (1 - onset) * (np.arange(ELEMENTS) + 0.5) / ELEMENTS)
+    radii = thresholds(width, onset, crowding)
     slope = (bench.pull(2e5, y) - bench.pull(1e5, y)) / 1e5
     play, expected = np.full(ELEMENTS, p[0]), []
     for a in p:
         play = np.maximum(a - radii, np.minimum(a + radii, play))
         expected.append(-half * slope * np.mean((a - play) / radii))
-    effect = {'pressure': half, 'pressure_width': width, 'pressure_onset': onset}
+    effect = {
+        'pressure': half,
+        'pressure_width': width,
+        'pressure_onset': onset,
+        'pressure_crowding': crowding,
+    }
     force = loop(effect, np.full(p.size, y / bench.L0), p)
     np.testing.assert_allclose(force, expected, atol=1e-7)
 
