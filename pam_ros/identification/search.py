@@ -71,10 +71,11 @@ def problem_of(
 ) -> Problem:
     """Return the problem of re-tuning *model* to the segments, at most *step* s a step.
 
-    *stride* says how many samples apart those of thinned segments were in the recording; their
-    starts are free, those of segments that are not thinned (0) near to the measurement.
+    *stride* says how many samples apart those of thinned segments were in the recording, 0 where
+    they are not thinned. Starts stay near to the measurement, but for those of the windows that
+    a load without a muscle is cut into: there the rest of a wrong model must find room.
     """
-    sigma = noise.sigma
+    sigma = np.inf if stride and model.muscle.is_load_only else noise.sigma
     unknowns: list[Unknown] = [*declared_unknowns(model), *run_unknowns(segments, sigma)]
     rho = noise.rho ** max(stride, 1)
     samples = sum(int(np.count_nonzero(s.fit)) for s in segments)
