@@ -75,18 +75,23 @@ class Course:
         self._trajectory = None
         self._shaper.stop()
 
-    def follow(self, dt: float) -> Reference:
-        """Return the reference *dt* s on."""
+    def follow(self, dt: float, late: float = 0.0) -> Reference:
+        """Return the reference *dt* s on.
+
+        Where *late* s more have passed unseen, a trajectory has gone on all the same, as others
+        that move with it; what was missed is made up for within the bounds.
+        """
         if self._trajectory is None:
             self._shaper.follow(dt)
             return self.reference
         before = self._since
-        self._since += dt
-        if before < 0.0 <= self._since:
+        self._since += dt + late
+        now = self._trajectory.at(self._since)
+        if late > 0.0 or before < 0.0 <= self._since:
             # It may begin in motion.
-            self._shaper.join(self._trajectory.at(self._since))
-        self._shaper.along(dt, self._trajectory.at(self._since))
+            self._shaper.join(now)
+        self._shaper.along(dt, now)
         if self._since >= self._trajectory.duration:
-            self._shaper.rest_at(self._trajectory.at(self._since).position)
+            self._shaper.rest_at(now.position)
             self._trajectory = None
         return self.reference

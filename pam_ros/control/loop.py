@@ -12,6 +12,7 @@ from typing import Generic
 
 from pam_ros.control.course import Course
 from pam_ros.control.signals import PositionLaw, Pressure, Reference
+from pam_ros.control.trajectory import Point, Trajectory
 
 HOLD, VENT = 'hold', 'vent'
 WAITING, RUNNING, BLIND, DISABLED = 'waiting', 'running', 'blind', 'disabled'
@@ -34,6 +35,8 @@ class Loop(Generic[Pressure]):
         WAITING for a first measurement, RUNNING, BLIND without fresh measurements, DISABLED
     pressure
         the last command in Pa, one of each muscle, None before there was one
+    time
+        of the last step, s
     """
 
     def __init__(self, law: PositionLaw[Pressure], course: Course, period: float) -> None:
@@ -48,7 +51,7 @@ class Loop(Generic[Pressure]):
         self.starts = 0
         self._seen: Reading | None = None
         self._is_new = False
-        self._time = 0.0  # of the last step
+        self.time = 0.0
 
     @property
     def is_enabled(self) -> bool:
@@ -94,13 +97,14 @@ class Loop(Generic[Pressure]):
             if self.awaits_chamber and self.chamber is None:
                 return self._stay_safe()
             self._start(reading, now)
-        dt = min(max(now - self._time, LEAST * self.period), MOST)
-        self._time = now
+        passed = max(now - self.time, LEAST * self.period)
+        dt = min(passed, MOST)
+        self.time = now
         position, velocity = None, None
         if self._is_new:
             position, velocity = reading.position, reading.velocity
             self._is_new = False
-        reference = self.course.follow(dt)
+        reference = self.course.follow(dt, passed - dt)
         self.pressure = self.law.update(dt, reference, position, velocity, now - reading.time)
         return self.pressure
 
@@ -109,7 +113,7 @@ class Loop(Generic[Pressure]):
         known = self.pressure if self.chamber is None else self.chamber
         self.law.start(reading.position, known)
         self.course.start(reading.position)
-        self._time = now - self.period
+        self.time = now - self.period
         self.state = RUNNING
         self.starts += 1
 
@@ -130,8 +134,10 @@ def vented(pressure: Pressure) -> Pressure:
 
 
 def warm_up(law: PositionLaw[Pressure], reach: tuple[float, float], period: float) -> None:
-    """Let *law* compile and load all that it needs, before time counts."""
+    """Let *law* and trajectories compile and load all that they need, before time counts."""
     middle = 0.5 * (reach[0] + reach[1]) if isfinite(reach[0]) else 0.0
+    for rest in ((), (0.0,), (0.0, 0.0)):  # each kind of interpolation
+        Trajectory(Reference(middle), [Point(1.0, middle, *rest)], reach)
     law.start(middle)
     for _ in range(3):
         law.update(period, Reference(middle), middle)

@@ -219,12 +219,18 @@ class PamControl(TickingNode):
         if not self._is_ready('joint_trajectory'):
             return
         begin = stamp_of(message)
-        wait = (begin - self.get_clock().now().nanoseconds) / SECOND if begin else 0.0
         try:
             points = points_of(message, self._told.settings.joint_name)
-            self._loop.course.play(points, wait)
+            self._loop.course.play(points, self._wait_for(begin) if begin else 0.0)
         except RangeError as error:
             self._refuse(str(error))
+
+    def _wait_for(self, begin: int) -> float:
+        """Return how long after the loop's last step in s the ROS time *begin* in ns is."""
+        if self._is_followed and self._stamp is not None:
+            return (begin - self._stamp) / SECOND
+        since = monotonic_ns() / SECOND - self._loop.time
+        return (begin - self.get_clock().now().nanoseconds) / SECOND + since
 
     def _is_ready(self, topic: str) -> bool:
         is_ready = self._loop.state == RUNNING

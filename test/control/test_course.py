@@ -72,6 +72,27 @@ def test_it_waits_for_a_start_to_come_and_joins_one_that_is_past():
     assert is_smooth(path)
 
 
+def test_a_trajectory_goes_on_while_nobody_looks():
+    course, other = a_course(), a_course()
+    for one in (course, other):
+        one.play([Point(3.0, 0.08)])
+    first = follow(course, 1.0)
+    missed = course.follow(0.1, 0.3)  # which is 0.4 s in all
+    last = follow(course, 1.6)
+    assert abs(missed.position - first[-1, 0]) < 0.1 * SHAPE.max_velocity
+    assert abs(missed.velocity - first[-1, 1]) < 2.0 * 0.1 * SHAPE.max_acceleration
+    assert is_smooth(np.vstack([missed, last]))
+    np.testing.assert_allclose(last[-1], follow(other, 3.0)[-1], atol=1e-9)
+
+
+def test_a_step_waits_while_nobody_looks():
+    course, other = a_course(), a_course()
+    for one in (course, other):
+        one.tell(0.05)
+    course.follow(DT, 0.3)
+    assert course.reference == other.follow(DT)
+
+
 def test_an_empty_trajectory_stops():
     course = a_course()
     course.play([Point(2.0, 0.08)])
