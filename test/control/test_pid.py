@@ -17,8 +17,17 @@ DT = 2e-3
 
 def test_it_reaches_a_step_and_rests():
     run = close_loop(Pid(declared(), PidGains()), truth('nominal'), step_target(0.02), 4.0)
-    assert np.max(np.abs(run.error[run.last(1.0)])) < 30e-6
+    assert np.max(np.abs(run.error[run.last(1.0)])) < 10e-6
     assert np.ptp(run.pressure[run.last(1.0)]) < 3e3
+    settled = np.abs(run.error) < 0.02 * 0.02
+    assert np.all(settled[run.t > 1.0 + 0.6])  # of a step that takes 0.4 s
+
+
+@pytest.mark.parametrize('goal', [0.045, 0.055, 0.075])
+def test_it_settles_at_all_places(goal):
+    plant = truth('nominal', noise=0.0)
+    run = close_loop(Pid(declared(), PidGains()), plant, step_target(goal - plant.y), 4.0)
+    assert np.max(np.abs(run.error[run.t > 3.0])) < 20e-6
 
 
 def test_it_starts_at_the_pressure_that_is_there():

@@ -177,7 +177,7 @@ def test_the_baseline_and_measured_velocity_control_as_well(watch):
         watch.peer.more(watch.terms, 300)
         watch.refer(begin)
         watch.peer.more(watch.terms, 2000)
-        assert abs(watch.latest('error')) < 5e-4  # of 5 mm: it settles slowly
+        assert abs(watch.latest('error')) < 2e-5
 
 
 def test_parameters_are_described_and_changed_or_refused_as_a_whole(watch):
