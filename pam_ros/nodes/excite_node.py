@@ -6,9 +6,7 @@ import argparse
 import sys
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
 
 from rclpy.duration import Duration
 from rclpy.qos import QoSProfile, ReliabilityPolicy
@@ -16,78 +14,29 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64
 from tqdm import tqdm
 
-from pam_ros.config import Table, build, build_rig, rig_table, table_of, with_defaults
 from pam_ros.excitation.guard import Guard
-from pam_ros.excitation.programme import Programme, plan, programme, write_csv
-from pam_ros.excitation.settings import Excitation
+from pam_ros.excitation.programme import write_csv
+from pam_ros.nodes.control_inputs import stamp_of
+from pam_ros.nodes.excite_settings import Experiment, experiment, table
+from pam_ros.nodes.pace import SECOND
 from pam_ros.nodes.parameters import NodeParameters, given
-from pam_ros.nodes.sim_settings import MUSCLE
 from pam_ros.nodes.spin import TickingNode
 from pam_ros.nodes.telemetry import DEPTH, open_qos
 from pam_ros.nodes.ticker import Ticker
-from pam_ros.parameter_files import read_known
-from pam_ros.rig.model import RigModel
-from pam_ros.rig.run import simulate
 
 STOPPED = 1  # exit code
 UNNAMED = '_NODE_NAME_UNKNOWN_'  # what a node is called until it is discovered whole
 LONGEST = 0.1  # s without a command for which the pressure may change at once
 LAST = 0.2  # s for which 0 Pa is commanded after an emergency
-
-
-@dataclass(frozen=True)
-class Experiment:
-    """All that the node is told, and the programme that it makes."""
-
-    model: RigModel
-    settings: Excitation
-    programme: Programme
-
-    @property
-    def window(self) -> tuple[float, float]:
-        """Lowest and highest allowed position in m."""
-        l0 = self.model.muscle.l0
-        return self.settings.contraction_min * l0, self.settings.contraction_max * l0
-
-    def plan(self) -> str:
-        """Return what the user should read before it starts."""
-        low, high = (1e3 * x for x in self.window)
-        commands = self.programme
-        path = simulate(self.model, commands.t, commands.t, commands.pressure).position
-        lines = [
-            plan(commands, self.settings),
-            f'stops and vents outside {low:.1f} to {high:.1f} mm, and after '
-            f'{self.settings.silence:g} s without joint_states',
-            f'the declared model would move from {1e3 * path.min():.1f} to '
-            f'{1e3 * path.max():.1f} mm',
-        ]
-        if path.min() < self.window[0] or path.max() > self.window[1]:
-            lines.append('CAUTION: that leaves the window; narrow pressure_min..pressure_max')
-        return '\n'.join(lines)
-
-
-def table(muscle: Any = '') -> Table:
-    """Return the table of all parameters; their defaults come from *muscle* where it is given.
-
-    None of them can change while the programme is played.
-    """
-    live = {**MUSCLE, **rig_table(), **table_of(Excitation)}
-    plain: Table = {
-        name: (kind, default, replace(about, live=False))
-        for name, (kind, default, about) in live.items()
-    }
-    return with_defaults(plain, read_known(str(muscle), plain)) if muscle else plain
-
-
-def experiment(values: dict[str, Any]) -> Experiment:
-    """Make an experiment from flat values; raises ParameterError where they make none."""
-    model = build_rig(values)
-    settings = build(Excitation, values).within(model.muscle)
-    return Experiment(model, settings, programme(settings))
+REPEAT = 0.05  # s after which a state that comes again asks for its answer again
 
 
 class PamExcite(TickingNode):
-    """Plays a programme: waits, counts down, plays, vents."""
+    """Plays a programme: waits, counts down, plays, vents.
+
+    As ROS time goes by the system's clock, it commands at its own rate. With use_sim_time, time
+    passes as the stamps of the joint states say: each new one is answered with one command.
+    """
 
     def __init__(self, csv: Path | None, is_dry: bool) -> None:
         """Make the programme that the parameters describe."""
@@ -102,7 +51,9 @@ class PamExcite(TickingNode):
         self._is_dry = is_dry
         self._pressure = 0.0  # last command
         self._rest = round(LAST * self._now.settings.rate)  # commands of 0 Pa still to come
-        self._ros_clock = self.get_clock()
+        self._is_followed = bool(self.get_parameter('use_sim_time').value)
+        self._stamp = 0.0  # ROS time of the newest joint state, s
+        self._answered = 0.0  # steady time of the last command, s
         self._segment = ''
         self._bar = tqdm(disable=True)
         self._do = self._wait
@@ -131,7 +82,9 @@ class PamExcite(TickingNode):
             self.exit_code = 0
             return
         self._begun = time.monotonic()
-        self._guard = Guard(*self._now.window, self._now.settings.silence, self._begun)
+        self._heard = self._begun  # steady time of the newest joint state, s
+        self._seen = self._ros_time()  # and its time by the clock of the programme, s
+        self._guard = Guard(*self._now.window, self._now.settings.silence, self._seen)
         self._misread = ''
         self._publisher = self.create_publisher(
             Float64,
@@ -139,11 +92,13 @@ class PamExcite(TickingNode):
             QoSProfile(depth=DEPTH),
             qos_overriding_options=open_qos(),
         )
+        # Where states make the time, one that is lost is one that is waited for.
+        followed, free = ReliabilityPolicy.RELIABLE, ReliabilityPolicy.BEST_EFFORT
         self.create_subscription(
             JointState,
             'joint_states',
             self._see,
-            QoSProfile(depth=DEPTH, reliability=ReliabilityPolicy.BEST_EFFORT),
+            QoSProfile(depth=DEPTH, reliability=followed if self._is_followed else free),
             qos_overriding_options=open_qos(),
         )
 
@@ -163,7 +118,19 @@ class PamExcite(TickingNode):
             self._misread = 'joint_states carries no positions'
         else:
             at = names.index(wanted) if wanted else 0
-            self._guard.see(message.position[at], time.monotonic())
+            before, self._heard = self._stamp, time.monotonic()
+            self._stamp = stamp_of(message) / SECOND if self._is_followed else 0.0
+            self._seen = now = self._stamp or self._ros_time()
+            self._guard.see(message.position[at], now)
+            if self._is_followed and self._do == self._play:
+                self._answer(now, is_again=bool(before) and self._stamp == before)
+
+    def _answer(self, now: float, *, is_again: bool) -> None:
+        """Command at *now* s; one that is told again asks for its answer, that may be lost."""
+        if not is_again:
+            self._play_at(now)
+        elif time.monotonic() - self._answered > REPEAT:
+            self._command(self._pressure)
 
     # Before --------------------------------------------------------------------------------
 
@@ -201,11 +168,11 @@ class PamExcite(TickingNode):
         return [UNNAMED if UNNAMED in name else name for name in names]
 
     def _count_down(self) -> None:
-        problem = self._misread or self._guard.problem(time.monotonic())
+        problem = self._problem()
         if problem:
             self._refuse(problem)
         elif time.monotonic() >= self._play_from:
-            self._origin = self._last = self._ros_time()
+            self._origin = self._last = self._stamp or self._ros_time()
             self._bar = tqdm(
                 total=round(self._now.programme.duration, 1),
                 unit='s',
@@ -213,6 +180,18 @@ class PamExcite(TickingNode):
                 disable=not sys.stderr.isatty(),
             )
             self._do = self._play
+            self._play_at(self._origin)  # also the state that waits for an answer
+
+    def _problem(self) -> str:
+        """Return why to stop, or ''."""
+        now = self._ros_time()
+        if self._is_followed:
+            silent = time.monotonic() - self._heard
+            if silent > self._now.settings.patience:
+                return f'joint_states has been silent for {silent:.1f} s, whatever /clock says'
+            # By both clocks: time may stand still, and /clock be heard before its states.
+            now = min(now, self._seen + silent)
+        return self._misread or self._guard.problem(now)
 
     def _refuse(self, why: str) -> None:
         print(f'pam_excite: {why}', file=sys.stderr, flush=True)
@@ -221,15 +200,19 @@ class PamExcite(TickingNode):
     # While it plays ------------------------------------------------------------------------
 
     def _ros_time(self) -> float:
-        if self._ros_clock.ros_time_is_active:
-            return float(self._ros_clock.now().nanoseconds) * 1e-9
+        if self._is_followed:
+            return float(self.get_clock().now().nanoseconds) / SECOND
         return time.monotonic()
 
     def _play(self) -> None:
-        now = self._ros_time()
+        """Play on; where states make the time, only see whether they stay away."""
+        if not self._is_followed or self._problem():
+            self._play_at(self._ros_time())
+
+    def _play_at(self, now: float) -> None:
         elapsed, since = now - self._origin, now - self._last
         self._last = now
-        problem = self._misread or self._guard.problem(time.monotonic())
+        problem = self._problem()
         if since < 0.0:
             problem = 'the clock went back'
         if problem:
@@ -254,6 +237,7 @@ class PamExcite(TickingNode):
 
     def _command(self, pressure: float) -> None:
         self._pressure = pressure
+        self._answered = time.monotonic()
         self._publisher.publish(Float64(data=pressure))
 
     def _show(self, elapsed: float) -> None:

@@ -6,7 +6,8 @@ import argparse
 import os
 import sys
 import threading
-from collections.abc import Sequence
+from collections import deque
+from collections.abc import Iterator, Sequence
 from datetime import datetime
 from importlib import import_module
 from pathlib import Path
@@ -14,22 +15,23 @@ from time import monotonic_ns
 from typing import Any
 
 from rclpy.callback_groups import CallbackGroup
-from rclpy.duration import Duration
 from rclpy.executors import Executor, SingleThreadedExecutor
-from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.subscription import Subscription
+from rosgraph_msgs.msg import Clock
 
 from pam_ros.errors import RecordingError
 from pam_ros.nodes.message_text import message_text
+from pam_ros.nodes.pace import SECOND
+from pam_ros.nodes.record_qos import matching, metadata
 from pam_ros.nodes.spin import TickingNode
 from pam_ros.nodes.ticker import Ticker
 from pam_ros.recording.bag_writer import BagTopic, BagWriter
+from pam_ros.recording.simulated_time import SimulatedTime
 
 TOPICS = ('joint_states', 'pressure_command', 'force', 'stiffness', 'damping', 'pressure')
-DEPTH = 20_000  # messages of a topic that the middleware keeps while the disk is busy
 LOOK = 5.0  # Hz, for new topics
 TAKE = 0.01  # s between two rounds of taking messages
-TAKE_SIMULATED = 0.001  # s, where the time of taking is what is recorded
+UNTOLD = SECOND // 2  # ns that a message waits for /clock to go on beyond it
 SEAL = 0.5  # s between two seals: what a kill can lose
 REPORT, REPORT_LOGGED = 1.0, 10.0  # s between lines of progress, on a terminal and in a log
 
@@ -59,6 +61,8 @@ class _Recorded:
         self.subscription, self.channel = subscription, channel
         self.last_number: int | None = None
         self.lost = 0
+        # Taken, and not yet told when they were sent: data, system time of that, time taken, ns.
+        self.waiting: deque[tuple[bytes, int, int]] = deque()
 
     def count_lost(self, number: int | None, is_sole: bool) -> None:
         """Count the messages between the last number of its one publisher and *number*."""
@@ -83,6 +87,9 @@ class PamRecord(TickingNode):
         self._refused: set[str] = set()
         self._sole: set[str] = set()
         self._group = _Taken()
+        self._time = SimulatedTime()
+        self._is_simulated = bool(self.get_parameter('use_sim_time').value)
+        self._clock_told: Subscription | None = None
         self._lock = threading.Lock()  # of the writer and of what is recorded
         self._is_closing = threading.Event()
         self._problem = ''
@@ -131,6 +138,11 @@ class PamRecord(TickingNode):
             self.exit_code = 1
             return
         kinds = dict(self.get_topic_names_and_types())
+        clocks = self.get_publishers_info_by_topic('/clock') if self._is_simulated else []
+        if clocks and self._clock_told is None:
+            told = self._subscribe(Clock, '/clock', clocks, raw=False)
+            with self._lock:
+                self._clock_told = told
         for topic in self._wanted:
             publishers = self.get_publishers_info_by_topic(topic)
             if publishers and topic not in self._recorded and topic not in self._refused:
@@ -161,18 +173,24 @@ class PamRecord(TickingNode):
             kind,
             message_text(kind),
             type_hash=str(publishers[0].topic_type_hash),
-            qos=[_qos(info.qos_profile) for info in publishers],
+            qos=[metadata(info.qos_profile) for info in publishers],
         )
-        subscription = self.create_subscription(
-            message_type,
-            topic,
-            _never,
-            _matching([info.qos_profile for info in publishers]),
-            callback_group=self._group,
-            raw=True,
-        )
+        subscription = self._subscribe(message_type, topic, publishers)
         with self._lock:
             self._recorded[topic] = _Recorded(subscription, self._writer.add_topic(described))
+
+    def _subscribe(
+        self, kind: Any, topic: str, publishers: list[Any], *, raw: bool = True
+    ) -> Subscription:
+        """Subscribe as well as these publishers can be heard."""
+        return self.create_subscription(
+            kind,
+            topic,
+            _never,
+            matching([info.qos_profile for info in publishers]),
+            callback_group=self._group,
+            raw=raw,
+        )
 
     # Taking and writing --------------------------------------------------------------------
 
@@ -181,32 +199,50 @@ class PamRecord(TickingNode):
         sealed = monotonic_ns()
         try:
             while not self._is_closing.is_set():
-                is_simulated = self.get_clock().ros_time_is_active
-                self._is_closing.wait(TAKE_SIMULATED if is_simulated else TAKE)
+                self._is_closing.wait(TAKE)
                 with self._lock:
-                    self._take(is_simulated)
+                    self._take()
                     if monotonic_ns() - sealed > SEAL * 1e9:
                         self._writer.seal()
                         sealed = monotonic_ns()
         except Exception as error:  # whatever it is, nothing is recorded any more: say so
             self._problem = str(error) or type(error).__name__
 
-    def _take(self, is_simulated: bool) -> None:
-        """Write all messages that have come."""
+    def _take(self, *, is_last: bool = False) -> None:
+        """Take all messages that have come, and write those whose time is known: *is_last*, all.
+
+        Simulated time is that of sending, as ``/clock`` had it then: not that of taking, which is
+        late, and the later the faster time is simulated.
+        """
         for topic, recorded in self._recorded.items():
-            handle = recorded.subscription.handle
-            is_sole = topic in self._sole
-            with handle:
-                while True:
-                    taken = handle.take_message(recorded.subscription.msg_type, True)
-                    if taken is None:
-                        break
-                    data, info = taken
-                    received, sent = info['received_timestamp'], info['source_timestamp']
-                    if is_simulated or not received:
+            for data, info in _all_of(recorded.subscription):
+                received, sent = info['received_timestamp'], info['source_timestamp']
+                if self._is_simulated and sent:
+                    recorded.waiting.append((data, sent, monotonic_ns()))
+                else:
+                    if self._is_simulated or not received:
                         received = sent = self.get_clock().now().nanoseconds
                     self._writer.write(recorded.channel, received, sent, data)
-                    recorded.count_lost(info['publication_sequence_number'], is_sole)
+                recorded.count_lost(info['publication_sequence_number'], topic in self._sole)
+        if self._clock_told:
+            for message, info in _all_of(self._clock_told):
+                now = message.clock.sec * SECOND + message.clock.nanosec
+                self._time.tell(info['source_timestamp'], now)
+        for recorded in self._recorded.values():
+            self._write_waiting(recorded, is_last)
+
+    def _write_waiting(self, recorded: _Recorded, is_last: bool) -> None:
+        """Write the messages of a topic until one whose time may still be told."""
+        now, waiting = monotonic_ns(), recorded.waiting
+        while waiting:
+            data, sent, taken = waiting[0]
+            time = self._time.at(sent)
+            if time is None:
+                if not is_last and now - taken < UNTOLD:
+                    return
+                time = self._time.before(sent)
+            self._writer.write(recorded.channel, time, time, data)
+            waiting.popleft()
 
     # Saying how it is ----------------------------------------------------------------------
 
@@ -229,7 +265,7 @@ class PamRecord(TickingNode):
             self._thread.join()
         try:
             if not self._problem:
-                self._take(self.get_clock().ros_time_is_active)
+                self._take(is_last=True)
             self._writer.close()
         except RecordingError as error:
             print(f'pam_record: {error}', file=sys.stderr)
@@ -253,6 +289,14 @@ class PamRecord(TickingNode):
         print('\n'.join(lines), flush=True)
 
 
+def _all_of(subscription: Subscription) -> Iterator[tuple[Any, dict[str, Any]]]:
+    """Yield all messages that have come, and what the middleware knows of each."""
+    handle = subscription.handle
+    with handle:
+        while taken := handle.take_message(subscription.msg_type, subscription.raw):
+            yield taken
+
+
 def _never(message: bytes) -> None:
     """Stand in for the callback: messages are taken, not called back with."""
 
@@ -263,34 +307,3 @@ def _message_type(kind: str) -> Any:
         return getattr(import_module(f'{package}.msg'), name)
     except (ImportError, AttributeError):
         return None
-
-
-def _matching(offered: list[QoSProfile]) -> QoSProfile:
-    """Return a profile that hears all publishers, as well as they can be heard."""
-    reliable = all(q.reliability == ReliabilityPolicy.RELIABLE for q in offered)
-    lasting = all(q.durability == DurabilityPolicy.TRANSIENT_LOCAL for q in offered)
-    return QoSProfile(
-        depth=DEPTH,
-        reliability=ReliabilityPolicy.RELIABLE if reliable else ReliabilityPolicy.BEST_EFFORT,
-        durability=DurabilityPolicy.TRANSIENT_LOCAL if lasting else DurabilityPolicy.VOLATILE,
-    )
-
-
-def _qos(profile: QoSProfile) -> dict[str, Any]:
-    """Return a publisher's profile as rosbag2's metadata has it."""
-    return {
-        'history': profile.history.name.lower(),
-        'depth': profile.depth,
-        'reliability': profile.reliability.name.lower(),
-        'durability': profile.durability.name.lower(),
-        'deadline': _time(profile.deadline),
-        'lifespan': _time(profile.lifespan),
-        'liveliness': profile.liveliness.name.lower(),
-        'liveliness_lease_duration': _time(profile.liveliness_lease_duration),
-        'avoid_ros_namespace_conventions': profile.avoid_ros_namespace_conventions,
-    }
-
-
-def _time(duration: Duration) -> dict[str, int]:
-    seconds, nanoseconds = divmod(duration.nanoseconds, 10**9)
-    return {'sec': seconds, 'nsec': nanoseconds}

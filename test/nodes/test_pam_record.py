@@ -14,6 +14,7 @@ from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import FluidPressure, JointState
 from std_msgs.msg import Float64, String
 
+from support.bags import contents
 from support.harness import DEADLINE, Program
 
 DEEP = QoSProfile(depth=20_000)  # so that the publisher of the test drops nothing either
@@ -33,18 +34,6 @@ def heard(peer, kind, topic, qos=DEEP):
 def delivered(*publishers):
     for publisher in publishers:
         assert publisher.wait_for_all_acked(Duration(seconds=DEADLINE))
-
-
-def contents(bag):
-    """Return topic -> [(stamp in ns, message), ...] as another library reads the bag."""
-    found = {}
-    with AnyReader([bag]) as reader:
-        for connection in reader.connections:
-            found[connection.topic] = []
-        for connection, stamp, data in reader.messages():
-            message = reader.deserialize(data, connection.msgtype)
-            found[connection.topic].append((stamp, message))
-    return found
 
 
 def written(bag):

@@ -5,6 +5,7 @@
 from pathlib import Path
 
 import numpy as np
+from rosbags.highlevel import AnyReader
 from rosbags.rosbag2 import StoragePlugin, Writer
 from rosbags.typesys import Stores, get_typestore
 
@@ -104,3 +105,15 @@ def rig_topics(prefix: str = '', duration: float = 4.0, late: float = 2e-4):
         'command': (t_command, command),
     }
     return topics, truth
+
+
+def contents(bag):
+    """Return topic -> [(stamp in ns, message), ...] as another library reads the bag."""
+    found = {}
+    with AnyReader([bag]) as reader:
+        for connection in reader.connections:
+            found[connection.topic] = []
+        for connection, stamp, data in reader.messages():
+            message = reader.deserialize(data, connection.msgtype)
+            found[connection.topic].append((stamp, message))
+    return found

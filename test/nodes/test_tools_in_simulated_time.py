@@ -1,0 +1,79 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""``pam_excite`` and ``pam_record`` beside a simulator that makes the time."""
+
+import numpy as np
+import pytest
+
+from pam_ros.excitation.programme import programme
+from pam_ros.excitation.settings import Excitation
+from support.bags import contents
+from support.harness import DEADLINE, Peer, Program, lose_nothing
+
+RATE, CLOCK_RATE = 200.0, 100.0  # Hz of states and of /clock
+PLAN = {'duration': 30.0, 'pressure_min': 150e3, 'pressure_max': 400e3}
+DURATION = PLAN['duration']  # s
+EXCITATION = {**PLAN, 'use_sim_time': True, 'countdown': 0.5}
+FASTER = {
+    'scaled': {'time_mode': 'scaled', 'speed_factor': 5.0},
+    'lockstep': {'time_mode': 'lockstep'},
+}
+
+
+def stamp(message):
+    return message.header.stamp.sec * 10**9 + message.header.stamp.nanosec
+
+
+def play(peer, bag, mode):
+    """Excite and record a simulated rig; return what is in the bag, by topic."""
+    rig = {**FASTER[mode], 'publish_rate': RATE, 'clock_rate': CLOCK_RATE, **lose_nothing()}
+    recorder = ('-p', 'use_sim_time:=true', '--', '-o', str(bag))
+    with Program('pam_sim', parameters=rig), Program('pam_record', *recorder) as record:
+        peer.until(lambda: peer.node.count_subscribers('joint_states'), 'the recorder')
+        with Program('pam_excite', parameters=EXCITATION) as excite:
+            assert excite.process.wait(2.0 * DEADLINE) == 0, excite.output
+            assert f'played {DURATION:.1f} s, vented' in excite.output
+        record.stop()
+    return contents(bag)
+
+
+@pytest.fixture(scope='module', params=FASTER)
+def played(request, tmp_path_factory):
+    with Peer() as peer:
+        yield request.param, play(peer, tmp_path_factory.mktemp('bags') / 'rig', request.param)
+
+
+def test_what_is_recorded_has_the_time_of_its_sending(played):
+    _, bag = played
+    late = np.array([time - stamp(message) for time, message in bag['/joint_states']]) * 1e-9
+    assert len(late) > 0.9 * DURATION * RATE
+    periods = np.abs(late) * CLOCK_RATE
+    # It lies between two messages of /clock, unless a busy machine has lost one of these.
+    assert np.quantile(periods, 0.95) <= 1.001, np.quantile(periods, (0.9, 0.95, 0.99, 1.0))
+
+
+def test_each_state_is_answered_and_the_programme_is_played_in_its_time(played):
+    mode, bag = played
+    times = np.array([time for time, _ in bag['/pressure_command']]) * 1e-9
+    values = np.array([message.data for _, message in bag['/pressure_command']])
+    assert len(times) / np.ptp(times) == pytest.approx(RATE, rel=0.05)
+    # Lockstep waits for the first command, at 1 s; else the last one tells when it began.
+    begin = 1.0 if mode == 'lockstep' else times[-1] - DURATION
+    plan = programme(Excitation(**PLAN))
+    expected = np.interp(times - begin, plan.t, plan.pressure)
+    off = np.abs(values - expected)
+    slack = 3.0 / CLOCK_RATE * Excitation().pressure_rate  # Pa
+    # In lockstep always; else commands are as late as the machine is, and the faster time goes.
+    assert (np.max(off) if mode == 'lockstep' else np.median(off)) < slack
+    assert values.max() == pytest.approx(plan.pressure.max(), rel=0.02)
+
+
+def test_in_lockstep_the_rig_moves_the_same_each_time(peer, tmp_path):
+    runs = []
+    for k in range(2):
+        bag = play(peer, tmp_path / f'run_{k}', 'lockstep')
+        runs.append({stamp(m): m.position[0] for _, m in bag['/joint_states']})
+    both = runs[0].keys() & runs[1].keys()
+    assert len(both) > 0.9 * DURATION * RATE
+    assert [runs[0][t] for t in both] == [runs[1][t] for t in both]
+    assert np.ptp(list(runs[0].values())) > 0.02
