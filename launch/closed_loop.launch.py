@@ -1,6 +1,9 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Close the loop: ``ros2 launch pam_ros closed_loop.launch.py mass:=10.0``."""
+"""Close the loop: ``ros2 launch pam_ros closed_loop.launch.py mass:=10.0``.
+
+With ``joint:=antagonistic`` it is that of two muscles that turn a pulley against each other.
+"""
 
 from pathlib import Path
 
@@ -15,6 +18,16 @@ ARGUMENTS = (
         'muscle',
         default_value='dmsp_20_400n',
         description='muscle of config/muscles, or a parameter file of one, for both programs',
+    ),
+    DeclareLaunchArgument(
+        'joint',
+        default_value='load',
+        description='load: one muscle; antagonistic: two on a pulley, as joint_params declares',
+    ),
+    DeclareLaunchArgument(
+        'joint_params',
+        default_value=str(CONFIG / 'antagonistic.yaml'),
+        description='ROS parameter file of both programs where joint is antagonistic',
     ),
     DeclareLaunchArgument(
         'mass', default_value='', description="kg of the load, for both; none: the muscle's"
@@ -48,7 +61,9 @@ def start(context: LaunchContext) -> list[Node]:
         argument.name: LaunchConfiguration(argument.name).perform(context)
         for argument in ARGUMENTS
     }
-    both: dict[str, object] = {'muscle': given['muscle']}
+    both: dict[str, object] = {'muscle': given['muscle'], 'joint': given['joint']}
+    # What the joint is comes after each program's own file.
+    joint = [given['joint_params']] if given['joint'] != 'load' else []
     if given['mass']:
         both['mass'] = float(given['mass'])
     sim, control = dict(both), dict(both)
@@ -64,7 +79,7 @@ def start(context: LaunchContext) -> list[Node]:
             package='pam_ros',
             executable='pam_sim',
             namespace=given['namespace'],
-            parameters=[given['sim_params'], sim],
+            parameters=[given['sim_params'], *joint, sim],
             output='screen',
             emulate_tty=True,
         ),
@@ -72,7 +87,7 @@ def start(context: LaunchContext) -> list[Node]:
             package='pam_ros',
             executable='pam_control',
             namespace=given['namespace'],
-            parameters=[given['control_params'], control],
+            parameters=[given['control_params'], *joint, control],
             output='screen',
             emulate_tty=True,
         ),
