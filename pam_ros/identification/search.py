@@ -37,6 +37,7 @@ REFINED = 4  # candidates of a round that get a full fit
 WINDOW = 2.0  # s of a run of a load without a muscle
 OUTLIER = 1.48  # median residuals beyond which one is an outlier
 COMPARABLE = 0.15  # and its share of the best fall
+SURELY = 0.9  # share of the noise floor below which no model can come
 OBVIOUS = 0.8  # ratio of errors kept back below which no odd parameter needs a reason
 PROMISING = 4.0  # fall of the cost in a cheap look that earns a full fit
 AS_GOOD = 0.03  # share of the RMSE kept back by which two candidates may differ
@@ -124,6 +125,8 @@ def search(
             declared = fitted((), only_starts(same, np.zeros(len(same.unknowns)), pool))
         parent, rounds = retuned, []
         for k in range(EFFECTS_AT_MOST):
+            if parent.effects and not _could_matter(parent, retuned, noise):
+                break
             progress(0.1 + 0.25 * k, f'trying effects, round {k + 1}')
             tried = _round(parent, declared, model, pool)
             able = [t for t in tried if admitted(t, parent, retuned, noise)]
@@ -202,7 +205,15 @@ def _matters(without: Fit, fit: Fit, retuned: Fit, noise: Noise) -> bool:
     No effect of the library is quite the one of nature, and the rest that it leaves invites
     others: so a further one must explain a share of what re-tuning left, or much of the rest.
     """
-    fall = without.held_error - fit.held_error
+    return _is_much(without.held_error - fit.held_error, without, retuned, noise)
+
+
+def _could_matter(fit: Fit, retuned: Fit, noise: Noise) -> bool:
+    """Say whether *fit* leaves so much above the noise that one more effect could matter."""
+    return _is_much(fit.held_error - SURELY * noise.sigma, fit, retuned, noise)
+
+
+def _is_much(fall: float, without: Fit, retuned: Fit, noise: Noise) -> bool:
     excess = max(retuned.held_error - noise.sigma, 0.0)
     return (
         fall >= evidence.LATER_SHARE * excess or fall >= evidence.LATER_GAIN * without.held_error

@@ -78,3 +78,41 @@ def test_choked_flow_limits_the_slope(tau):
     straight = np.clip(3e5 - 1e6 * np.maximum(after, 0.0), 1.5e5, 3e5)
     tail = 1e5 + 5e4 * np.exp(-np.maximum(after - 0.15, 0.0) / 0.05)
     np.testing.assert_allclose(slower, np.where(after < 0.15, straight, tail), rtol=1e-9)
+
+
+def iso_6358(up, down):
+    """Return the mass flow, relative, through an orifice of critical ratio 0.35; absolute Pa."""
+    ratio = (down / up - 0.35) / 0.65
+    return up * np.sqrt(1.0 - np.clip(ratio, 0.0, 1.0) ** 2)
+
+
+def test_orifices_choke_as_iso_6358_says():
+    given = {'fill': 0.06, 'vent': 0.09, 'fastest': 1.5e6, 'choking': 1.0, 'supply': 7e5}
+    t = np.linspace(0.0, 1.5, 301)
+    commands = ((0.0, 1e5), (0.1, 6.5e5), (0.7, 0.2e5))
+    air, at = 1.013e5, 3e5 + 1.013e5
+
+    def rhs(_, state, u):
+        p = state[0]
+        if u > p:
+            g = iso_6358(7e5 + air, p + air) / iso_6358(7e5 + air, at)
+            return (g * min((u - p) / 0.06, 1.5e6),)
+        return (iso_6358(p + air, air) / iso_6358(at, air) * (u - p) / 0.09,)
+
+    (p,) = bench.solved(rhs, t, (1e5,), commands)
+    errors = []
+    for step in (4e-3, 2e-3, 1e-3):
+        model = bench.cart(mass=1e4, pressure_lag=given)
+        run = simulate(model, t, *zip(*commands, strict=True), position=0.0, step=step)
+        errors.append(np.max(np.abs(run.pressure - p)))
+    # Of second order but in the step in which the valve begins to close.
+    assert errors[0] < 20.0
+    assert errors[0] > 2.0 * errors[1] > 4.0 * errors[2]
+    # An orifice that does not care about the pressures is the plain lag.
+    plain = simulate(bench.cart(mass=1e4, pressure_lag={**given, 'choking': 0.0}), t, [0.0, 0.1],
+                     [1e5, 2e5], position=0.0).pressure  # fmt: skip
+    after = np.maximum(t - 0.1, 0.0)
+    straight = (1e5 - 1.5e6 * 0.06) / 1.5e6
+    slow = 1e5 + 1.5e6 * after
+    tail = 2e5 - 0.9e5 * np.exp(-np.maximum(after - straight, 0.0) / 0.06)
+    np.testing.assert_allclose(plain, np.where(after < straight, slow, tail), rtol=1e-9)
