@@ -4,10 +4,13 @@
 
 Both laws have one set of gains for all plants. Feedback is noisy (20 um) at 500 Hz; the target is
 told as samples at 100 Hz. The plants are those of ``test/truth``: own equations, own integrator.
-Options: ``--seeds N`` (default 3, the worst of them counts), ``--picture FILE``.
+Then the same over DDS in real time, ``pam_sim`` and ``pam_control`` as processes, beside a
+simulated run as noiseless: the difference is what real time and the messages cost.
+Options: ``--seeds N`` (default 3, the worst of them counts), ``--picture FILE``, ``--no-dds``.
 """
 
 import argparse
+import os
 import sys
 from pathlib import Path
 
@@ -20,6 +23,8 @@ from pam_ros.control.gains import Gains
 from pam_ros.control.pid import Pid, PidGains
 from pam_ros.control.sliding_mode import SlidingMode
 from support.closed_loop import LAG, Run, close_loop, declared, sine_target, step_target, truth
+from truth import TruthPlant
+from truth.control_plants import FEEDBACK_NOISE as NOISE
 
 # Plant, what is declared of it; largest error at rest and RMS of the sine, mm.
 ROWS = {
@@ -35,26 +40,77 @@ LAWS = {
     'sliding mode': lambda model: SlidingMode(model, Gains()),
     'PID': lambda model: Pid(model, PidGains()),
 }
+OVER_DDS = {'nominal': 0.0, 'payload +5 kg': 5.0}  # kg that are not declared
+CONTROLLERS = {'sliding mode': 'sliding_mode', 'PID': 'pid'}
 STEP, SWING = 12.0, 20.0  # s
+HEIGHT, SWAY, FREQUENCY = 0.02, 0.01, 0.5  # m, m, Hz
+SETTLED = 0.02 * HEIGHT  # m
 REST, JUDGED = 2.0, 4.0  # s at the end over which they are judged
 CALM = 3.0  # kPa
 
 
-def trial(law: str, row: str, seed: int) -> tuple[tuple[float, ...], Run, Run]:
-    """Return error at rest and of the sine in mm, pressure moved in kPa, settling in s; runs."""
+Figures = tuple[float, float, float, float]
+
+
+def figures(
+    t: np.ndarray, step_error: np.ndarray, rest_pressure: np.ndarray, sine_error: np.ndarray
+) -> Figures:
+    """Return error at rest and of the sine in mm, pressure moved in kPa, settling in s.
+
+    *t* is counted from the step; *rest_pressure* and *sine_error* are what is judged of them.
+    """
+    off = np.flatnonzero((np.abs(step_error) > SETTLED) & (t > 0.0))
+    return (
+        1e3 * float(np.max(np.abs(step_error[t > t[-1] - REST]))),
+        1e3 * float(np.sqrt(np.mean(sine_error**2))),
+        1e-3 * float(np.ptp(rest_pressure)),
+        float(t[off[-1]]) if off.size else 0.0,
+    )
+
+
+def trial(law: str, row: str, seed: int, noise: float = NOISE) -> tuple[Figures, Run, Run]:
+    """Return what was reached in simulated time, and both runs."""
     name, effects, _, _ = ROWS[row]
     make, model = LAWS[law], declared(effects=effects)
-    step = close_loop(make(model), truth(name, seed=seed), step_target(0.02), STEP)
-    sine = close_loop(make(model), truth(name, seed=seed), sine_target(0.01, 0.5), SWING)
-    end = step.last(REST)
-    off = np.flatnonzero((np.abs(step.error) > 0.02 * 0.02) & (step.t > 1.0))
-    figures = (
-        1e3 * float(np.max(np.abs(step.error[end]))),
-        1e3 * float(np.sqrt(np.mean(sine.error[sine.last(JUDGED)] ** 2))),
-        1e-3 * float(np.ptp(step.pressure[end])),
-        float(step.t[off[-1]] - 1.0) if off.size else 0.0,
+
+    def plant() -> TruthPlant:
+        return truth(name, seed=seed, noise=noise)
+
+    step = close_loop(make(model), plant(), step_target(HEIGHT), STEP)
+    sine = close_loop(make(model), plant(), sine_target(SWAY, FREQUENCY), SWING)
+    pressure, error = step.pressure[step.last(REST)], sine.error[sine.last(JUDGED)]
+    return figures(step.t - 1.0, step.error, pressure, error), step, sine
+
+
+def over_dds(law: str, payload: float) -> Figures:
+    """Return what was reached over DDS in real time."""
+    from benchmarks._control_over_dds import step_and_sine
+
+    step, sine = step_and_sine(
+        CONTROLLERS[law], payload, (HEIGHT, STEP - 1.0), (SWAY, FREQUENCY, SWING)
     )
-    return figures, step, sine
+    pressure = step.pressure[step.pressure_t > step.t[-1] - REST]
+    return figures(step.t, step.error, pressure, sine.error[sine.t > sine.t[-1] - JUDGED])
+
+
+def print_over_dds() -> None:
+    """Print both laws over DDS, each row beside the same in simulated time."""
+    load = os.getloadavg()[0]
+    print(f'over DDS in real time, no noise; load {load:.1f} on {os.cpu_count()} cores before')
+    print(f'{"law, plant":<40}{"at rest mm":>12}{"sine mm RMS":>13}{"kPa":>8}{"settles":>10}')
+    for law in LAWS:
+        for row, payload in OVER_DDS.items():
+            ways = {
+                'simulated': lambda law=law, row=row: trial(law, row, 0, 0.0)[0],
+                'over DDS': lambda law=law, payload=payload: over_dds(law, payload),
+            }
+            for way, measure in ways.items():
+                rest, sine, moved, settles = measure()
+                print(
+                    f'{f"{law}, {row}, {way}":<40}{rest:>12.4f}{sine:>13.4f}{moved:>8.2f}'
+                    f'{settles:>8.2f} s',
+                    flush=True,
+                )
 
 
 def draw(runs: dict[str, list[tuple[Run, Run]]], path: Path) -> None:
@@ -78,6 +134,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument('--seeds', type=int, default=3)
     parser.add_argument('--picture', type=Path, default=Path('build/control.png'))
+    parser.add_argument('--no-dds', action='store_true', help='simulated time only')
     given = parser.parse_args(sys.argv[2:] if sys.argv[0] == '-c' else None)
     runs: dict[str, list[tuple[Run, Run]]] = {}
     for law in LAWS:
@@ -86,7 +143,7 @@ def main() -> None:
         runs[law] = []
         for row, (_, _, rest, sine) in ROWS.items():
             trials = [trial(law, row, seed) for seed in range(given.seeds)]
-            worst = np.max([figures for figures, _, _ in trials], axis=0)
+            worst = np.max([reached for reached, _, _ in trials], axis=0)
             runs[law].append(trials[0][1:])
             ok = worst[0] <= rest and worst[1] <= sine and worst[2] <= CALM
             print(
@@ -98,6 +155,9 @@ def main() -> None:
     given.picture.parent.mkdir(parents=True, exist_ok=True)
     draw(runs, given.picture)
     print(f'wrote {given.picture}')
+    if not given.no_dds:
+        print()
+        print_over_dds()
 
 
 if __name__ == '__main__':

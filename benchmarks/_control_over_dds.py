@@ -1,0 +1,122 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""A step and a sine over DDS in real time: ``pam_sim`` and ``pam_control`` as processes.
+
+Without sensor noise, since what ``pam_sim`` publishes then is where the load is. The step is one
+message on ``position_reference``; the sine is a stamped trajectory, so that it is known where the
+load is to be at the stamp of each joint state.
+"""
+
+import math
+import os
+from dataclasses import dataclass
+
+import numpy as np
+from rclpy.duration import Duration
+from rclpy.time import Time
+from sensor_msgs.msg import JointState
+from std_msgs.msg import Float64
+from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
+
+from pam_ros.nodes.children import Program
+from pam_ros.nodes.client import Client
+from pam_ros.nodes.control_state import TERMS
+from pam_ros.nodes.rig_log import seconds
+
+MASS, PRESSURE = 20.0, 300e3  # declared kg, Pa at the start
+BEFORE = 1.0  # s at rest before the step, and from one motion to the other
+SPACING = 0.05  # s between the points of the sine
+
+
+@dataclass(frozen=True)
+class Series:
+    """Since a motion was told: t s and error m (n,), pressure_t s and pressure Pa (k,)."""
+
+    t: np.ndarray
+    error: np.ndarray
+    pressure_t: np.ndarray
+    pressure: np.ndarray
+
+
+class Pair:
+    """Both programs in a namespace of this process, and a client that has heard what they say."""
+
+    def __init__(self, client: Client) -> None:
+        """Listen."""
+        self.client = client
+        self.states = client.collect(JointState, 'joint_states')
+        self.terms = client.collect(JointState, 'pam_control/state')
+
+    def wait(self, end: float) -> None:
+        """Wait until both have told of a time after *end* s."""
+        self.client.until(
+            lambda: min(seconds(self.states[-1]), seconds(self.terms[-1])) > end, 'the motion'
+        )
+
+    def series(self, begin: float, duration: float, target) -> Series:
+        """Return what was from *begin* s on; *target* (s -> m) says where it was to be."""
+        t = np.array([seconds(m) for m in self.states]) - begin
+        y = np.array([m.position[0] for m in self.states])
+        inside = (t > 0.0) & (t < duration)
+        told = np.array([seconds(m) for m in self.terms]) - begin
+        pressure = np.array([m.position[TERMS.index('pressure')] for m in self.terms])
+        within = (told > 0.0) & (told < duration)
+        error = np.array([target(now) for now in t[inside]]) - y[inside]
+        return Series(t[inside], error, told[within], pressure[within])
+
+
+def sine_points(middle: float, swing: float, frequency: float, end: float) -> JointTrajectory:
+    """Return a sine of *swing* m at *frequency* Hz around *middle* m until *end* s."""
+    turn = 2.0 * math.pi * frequency
+    message = JointTrajectory(joint_names=['pam'])
+    for k in range(1, round(end / SPACING) + 1):
+        t = k * SPACING
+        wave = swing * math.sin(turn * t)
+        point = JointTrajectoryPoint(time_from_start=Duration(seconds=t).to_msg())
+        point.positions, point.accelerations = [middle + wave], [-turn * turn * wave]
+        point.velocities = [swing * turn * math.cos(turn * t)]
+        message.points.append(point)
+    return message
+
+
+def step_and_sine(
+    controller: str,
+    payload: float,
+    step: tuple[float, float],
+    sine: tuple[float, float, float],
+) -> tuple[Series, Series]:
+    """Return what came of a *step* (m, s) and of a *sine* (m, Hz, s), by a law of pam_control."""
+    space = f'/control_{os.getpid()}'
+    where = ('-r', f'__ns:={space}')
+    rig = {'mass': MASS + payload, 'initial.pressure': PRESSURE}
+    told = {'mass': MASS, 'controller': controller}
+    # Nobody else's nodes are to be heard.
+    os.environ.setdefault('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
+    with (
+        Client(space) as client,
+        Program('pam_sim', *where, parameters=rig),
+        Program('pam_control', *where, parameters=told),
+    ):
+        pair = Pair(client)
+        client.until(lambda: len(pair.terms) > 1 and len(pair.states) > 1, 'control')
+        pair.wait(seconds(pair.terms[0]) + BEFORE)
+        origin = pair.terms[-1].position[TERMS.index('reference')]
+        height, rest = step
+        begin = client.node.get_clock().now().nanoseconds * 1e-9
+        client.publish(Float64(data=origin + height), 'position_reference')
+        pair.wait(begin + rest)
+        stepped = pair.series(begin, rest, lambda t: origin + height)
+
+        swing, frequency, end = sine
+        back = client.node.get_clock().now().nanoseconds * 1e-9
+        client.publish(Float64(data=origin), 'position_reference')
+        pair.wait(back + BEFORE + rest / 2.0)
+        at = client.node.get_clock().now() + Duration(seconds=BEFORE)
+        message = sine_points(origin, swing, frequency, end)
+        message.header.stamp = Time(nanoseconds=at.nanoseconds).to_msg()
+        client.publish(message, 'joint_trajectory')
+        begin = at.nanoseconds * 1e-9
+        pair.wait(begin + end)
+        turn = 2.0 * math.pi * frequency
+        swung = pair.series(begin, end, lambda t: origin + swing * math.sin(turn * t))
+    return stepped, swung
