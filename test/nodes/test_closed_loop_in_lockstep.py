@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """A controller's test as a CI runs it: 20 s of a closed loop in lockstep, the same to the bit.
 
-``docs/ros2_control.md`` explains it. Two controllers: ``test/support/example_controller.py``, and
-``pam_control`` with a trajectory that it is told while time stands still.
+``docs/ros2_control.md`` explains it. Three controllers: ``test/support/example_controller.py``,
+and ``pam_control`` of one muscle and of a pair, with a trajectory that it is told while time
+stands still.
 """
 
 import os
@@ -17,7 +18,7 @@ import pytest
 from builtin_interfaces.msg import Duration
 from diagnostic_msgs.msg import DiagnosticArray
 from sensor_msgs.msg import JointState
-from std_msgs.msg import Float64
+from std_msgs.msg import Float64, Float64MultiArray
 from std_srvs.srv import SetBool
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
@@ -25,6 +26,7 @@ from support.harness import Peer, Program, lose_nothing
 
 CONTROLLER = Path(__file__).parents[1] / 'support' / 'example_controller.py'
 SECONDS = 20.0
+BEGIN = 2  # s, simulated time at which a trajectory begins
 # What pam_control is told: where to be at rest, every 2 s.
 PLACES = (0.05, 0.07, 0.03, 0.06, 0.045, 0.07, 0.04, 0.05, 0.065, 0.05)  # m
 BUSY = [sys.executable, '-c', 'while True: pass']
@@ -74,9 +76,16 @@ def seconds(message):
     return message.header.stamp.sec + 1e-9 * message.header.stamp.nanosec
 
 
-def trajectory(begin):
-    """Return the way through PLACES, from *begin* s of simulated time."""
-    points = [
+def trajectory(points, begin=BEGIN):
+    """Return the motion through *points*, from *begin* s of simulated time."""
+    message = JointTrajectory(joint_names=['pam'], points=points)
+    message.header.stamp.sec = begin
+    return message
+
+
+def places():
+    """Return the way through PLACES."""
+    return [
         JointTrajectoryPoint(
             positions=[place],
             velocities=[0.0],
@@ -84,44 +93,69 @@ def trajectory(begin):
         )
         for i, place in enumerate(PLACES)
     ]
-    message = JointTrajectory(joint_names=['pam'], points=points)
-    message.header.stamp.sec = begin
-    return message
 
 
-def run_pam_control(busy):
+def swing(t):
+    """Return the angle in rad of a 0.5 Hz sine of 15 degrees, *t* s after its soft beginning."""
+    share = np.clip(np.minimum(t, SECONDS - t) / 2.0, 0.0, 1.0)
+    return np.radians(15.0) * np.sin(0.5 * np.pi * share) ** 2 * np.sin(np.pi * t)
+
+
+def sine():
+    """Return it as points, 20 ms apart."""
+    return [
+        JointTrajectoryPoint(
+            positions=[float(swing(k / 50))],
+            time_from_start=Duration(sec=k // 50, nanosec=k % 50 * 20_000_000),
+        )
+        for k in range(1, round(50 * SECONDS) + 1)
+    ]
+
+
+def run_pam_control(busy, rig, told, points, commands_on):
     """Return the positions of a run by their stamps."""
-    given = {
-        'use_sim_time': True,
-        'qos_overrides./joint_states.subscription.reliability': 'reliable',
-    }
+    # Control begins at the pressure that is there, however late that is heard.
+    told = {**told, 'use_sim_time': True, 'pressure_wait': 60.0}
     with ExitStack() as stack:
         keep_busy(stack, busy)
         peer = stack.enter_context(Peer())
         # It begins where pam_control can hold the load: a trajectory starts from there.
-        rig = {**RIG, 'initial.pressure': 2e5, **lose_nothing()}
+        rig = {**RIG, **rig, 'initial.pressure': 2e5}
         stack.enter_context(Program('pam_sim', parameters=rig))
         states = peer.collect(JointState, 'joint_states')
         diagnostics = peer.collect(DiagnosticArray, '/diagnostics')
         peer.more(states)
         assert peer.call(SetBool, 'pam_sim/pause', data=True).success
-        commands = peer.collect(Float64, 'pressure_command')
-        control = stack.enter_context(Program('pam_control', parameters=given))
+        commands = peer.collect(*commands_on)
+        control = stack.enter_context(Program('pam_control', parameters=told))
         peer.more(commands)  # it controls
-        peer.publish(trajectory(begin=2), 'joint_trajectory')
+        peer.publish(trajectory(points), 'joint_trajectory')
         count = len(diagnostics)
         peer.until(lambda: len(diagnostics) > count + 4, 'a second or two to be heard')
         assert peer.call(SetBool, 'pam_sim/pause', data=False).success
-        end = 2.0 + SECONDS + 1.0
+        end = BEGIN + SECONDS + 1.0
         peer.until(lambda: seconds(states[-1]) >= end, f'{end} s')
         assert not control.output
     # A listener who is late on a busy machine misses states, but what it hears it hears right.
     return {seconds(m): m.position[0] for m in states}
 
 
+def three_runs(*scenario):
+    return [run_pam_control(n, *scenario) for n in (0, 0, 2 * (os.cpu_count() or 1))]
+
+
 @pytest.fixture(scope='module')
 def runs_of_pam_control():
-    return [run_pam_control(n) for n in (0, 0, 2 * (os.cpu_count() or 1))]
+    return three_runs(lose_nothing(), {}, places(), (Float64, 'pressure_command'))
+
+
+@pytest.fixture(scope='module')
+def runs_of_a_pair():
+    both = {'joint': 'antagonistic'}
+    # An arm that is heavier than the controller is told, and a sensor with noise.
+    rig = {**both, 'mass': 1.3, 'sensor.position_noise': float(np.radians(0.02))}
+    rig['qos_overrides./joint_states.publisher.depth'] = 5000
+    return three_runs(rig, both, sine(), (Float64MultiArray, 'pressure_commands'))
 
 
 def test_pam_control_is_where_it_is_told(runs_of_pam_control):
@@ -133,8 +167,18 @@ def test_pam_control_is_where_it_is_told(runs_of_pam_control):
         assert abs(heard[t] - place) < 1e-3, f'at {t:.3f} s'
 
 
-def test_pam_control_runs_are_the_same_to_the_bit(runs_of_pam_control):
-    first, *others = runs_of_pam_control
+def test_pam_control_tracks_the_angle_of_a_pair(runs_of_a_pair):
+    t, angle = (np.array(each) for each in zip(*runs_of_a_pair[0].items(), strict=True))
+    swung = (t > BEGIN + 4.0) & (t < BEGIN + SECONDS - 4.0)
+    assert np.sum(swung) > 1000
+    error = angle[swung] - swing(t[swung] - BEGIN)
+    assert np.ptp(angle[swung]) > np.radians(29.0)
+    assert np.sqrt(np.mean(error**2)) < np.radians(0.2)
+
+
+@pytest.mark.parametrize('scenario', ['runs_of_pam_control', 'runs_of_a_pair'])
+def test_pam_control_runs_are_the_same_to_the_bit(scenario, request):
+    first, *others = request.getfixturevalue(scenario)
     for other in others:
         both = first.keys() & other.keys()
         assert len(both) > 2000
