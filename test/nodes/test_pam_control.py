@@ -15,12 +15,12 @@ from std_srvs.srv import SetBool
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
 from pam_ros.nodes.control_state import TERMS
-from support.control_watch import Rig, Watch, columns
+from support.control_watch import LOSE_NO_TERMS, Rig, Watch, columns
 from support.harness import Program
 
 START = {'mass': 20.0, 'initial.pressure': 300e3}
 LOCKSTEP = {**START, 'time_mode': 'lockstep'}
-FOLLOWING = {'use_sim_time': True, 'state_rate': 500.0}
+FOLLOWING = {'use_sim_time': True, 'state_rate': 500.0, **LOSE_NO_TERMS}
 ENABLE = 'pam_control/enable'
 
 
@@ -34,9 +34,8 @@ def test_a_step_and_a_sine_are_followed_in_lockstep(watch):
         begin = watch.begin()
         assert list(watch.terms[0].name) == list(TERMS)
         assert watch.latest('error') == pytest.approx(0.0, abs=1e-5)  # it begins without a bump
-        watch.refer(begin + 0.01)
-        watch.peer.more(watch.terms, 1000)
-        t, seen = columns(watch.terms[-100:])
+        heard = watch.lead(lambda: watch.refer(begin + 0.01), 2.0)
+        t, seen = columns(heard[-100:])
         np.testing.assert_allclose(np.diff(t), 2e-3, atol=1e-8)
         assert seen['reference'][-1] == pytest.approx(begin + 0.01, abs=1e-9)
         assert np.max(np.abs(seen['error'])) < 1e-5
@@ -53,10 +52,9 @@ def test_a_step_and_a_sine_are_followed_in_lockstep(watch):
             )
             for t in times
         ]
-        sent = len(watch.terms)
-        watch.peer.publish(JointTrajectory(joint_names=['pam'], points=points), 'joint_trajectory')
-        watch.peer.more(watch.terms, 2200)
-        t, seen = columns(watch.terms[sent:])
+        sine = JointTrajectory(joint_names=['pam'], points=points)
+        heard = watch.lead(lambda: watch.peer.publish(sine, 'joint_trajectory'), 4.2)
+        t, seen = columns(heard)
         moving = (t > 1.0) & (t < 3.0)
         assert np.ptp(seen['reference'][moving]) == pytest.approx(2.0 * swing, rel=0.02)
         assert np.sqrt(np.mean(seen['error'][moving] ** 2)) < 1e-4
@@ -85,10 +83,7 @@ def test_silence_of_the_joint_is_answered_safely(watch, action, pressure):
         status = watch.status(lambda s: 'stay away' in s.message, 'the time-out')
         assert status.level == DiagnosticStatus.ERROR
         assert {'vent': 'vents', 'hold': 'holds'}[action] in status.message
-        watch.peer.more(watch.commands, 20)
-        last = {message.data for message in watch.commands[-10:]}
-        assert len(last) == 1
-        (commanded,) = last
+        commanded = watch.steady_command()
         assert commanded == pytest.approx(pressure) if action == 'vent' else commanded > 1e5
         # When the joint is seen again, it goes on from there.
         before = len(watch.terms)
@@ -157,26 +152,22 @@ def test_disabled_it_commands_nothing_and_enabled_it_holds_the_load_where_it_is(
         answer = watch.peer.call(SetBool, ENABLE, data=False)
         assert answer.success
         assert 'disabled' in answer.message
-        watch.peer.work(0.0)
-        count = len(watch.commands)
-        rig.tell_until(
-            lambda: any('disabled' in s.message for s in watch.arrays[-1].status), 'its word'
-        )
-        assert len(watch.commands) <= count + 50  # what was on its way
+        watch.falls_silent()
+        rig.tell(0.055)
+        watch.status(lambda s: 'disabled' in s.message, 'its word')
+        watch.falls_silent()
 
 
 def test_the_baseline_and_measured_velocity_control_as_well(watch):
     told = {**FOLLOWING, 'velocity_source': 'measured'}
     with Program('pam_sim', parameters=LOCKSTEP), Program('pam_control', parameters=told):
         begin = watch.begin()
-        watch.refer(begin + 0.005)
-        watch.peer.more(watch.terms, 800)
+        watch.lead(lambda: watch.refer(begin + 0.005), 1.6)
         assert abs(watch.latest('error')) < 1e-5
         pytest.importorskip('simple_pid', reason='the baseline needs simple-pid')
         assert watch.peer.set_one('pam_control', controller='pid').successful
         watch.peer.more(watch.terms, 300)
-        watch.refer(begin)
-        watch.peer.more(watch.terms, 2000)
+        watch.lead(lambda: watch.refer(begin), 4.0)
         assert abs(watch.latest('error')) < 2e-5
 
 

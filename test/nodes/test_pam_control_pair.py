@@ -17,12 +17,12 @@ from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 from pam_ros.nodes.control_state import PAIR_TERMS
 from pam_ros.rig import statics
 from pam_ros.rig.joint_model import JointModel
-from support.control_watch import Rig, Watch, columns
+from support.control_watch import LOSE_NO_TERMS, Rig, Watch, columns
 from support.harness import Program
 
 PAIR = {'joint': 'antagonistic'}
 RIG = {**PAIR, 'time_mode': 'lockstep', 'initial.pressure': 250e3}
-FOLLOWING = {**PAIR, 'use_sim_time': True, 'state_rate': 500.0}
+FOLLOWING = {**PAIR, 'use_sim_time': True, 'state_rate': 500.0, **LOSE_NO_TERMS}
 DEGREE = math.radians(1.0)
 
 
@@ -54,23 +54,19 @@ def test_angle_and_stiffness_are_led_in_lockstep(watch):
         assert list(watch.terms[0].name) == list(PAIR_TERMS)
         assert watch.latest('error') == pytest.approx(0.0, abs=0.1 * DEGREE)
         assert begin == pytest.approx(0.0, abs=0.1 * DEGREE)
-        sent = len(watch.terms)
-        watch.peer.publish(sine('pam', 15.0 * DEGREE), 'joint_trajectory')
-        watch.peer.more(watch.terms, 4500)
-        t, seen = columns(watch.terms[sent:], PAIR_TERMS)
+        wave = sine('pam', 15.0 * DEGREE)
+        heard = watch.lead(lambda: watch.peer.publish(wave, 'joint_trajectory'), 8.2)
+        t, seen = columns(heard, PAIR_TERMS)
         np.testing.assert_allclose(np.diff(t), 2e-3, atol=1e-8)
         begun = t[np.argmax(np.abs(seen['reference']) > 1.0 * DEGREE)]
         swung = (t > begun + 2.0) & (t < begun + 6.0)
         assert np.ptp(seen['reference'][swung]) == pytest.approx(30.0 * DEGREE, rel=0.01)
         assert np.sqrt(np.mean(seen['error'][swung] ** 2)) < 0.2 * DEGREE
 
-        watch.refer(10.0 * DEGREE)
-        watch.peer.more(watch.terms, 1000)
+        watch.lead(lambda: watch.refer(10.0 * DEGREE), 2.0)
         for told in (18.0, 38.0):
-            stiffen(watch, told)
-            sent = len(watch.terms)
-            watch.peer.more(watch.terms, 1000)
-            _, seen = columns(watch.terms[sent:], PAIR_TERMS)
+            heard = watch.lead(lambda told=told: stiffen(watch, told), 2.0, 'co_contraction')
+            _, seen = columns(heard, PAIR_TERMS)
             assert np.max(np.abs(seen['error'])) < 0.1 * DEGREE  # the angle holds meanwhile
             assert seen['co_contraction'][-1] == pytest.approx(told)
             # By the closed form, at the pressures that are commanded.
@@ -110,10 +106,7 @@ def test_silence_of_the_joint_is_answered_safely(watch, action):
         rig.tell_until(lambda: len(watch.terms) > 10, 'control', 0.1)
         status = watch.status(lambda s: 'stay away' in s.message, 'the time-out')
         assert status.level == DiagnosticStatus.ERROR
-        watch.peer.more(watch.commands, 20)
-        last = {tuple(message.data) for message in watch.commands[-10:]}
-        assert len(last) == 1
-        (commanded,) = last
+        commanded = tuple(watch.steady_command())
         assert commanded == (0.0, 0.0) if action == 'vent' else min(commanded) > 1e5
         # When the joint is seen again, it goes on from there.
         before = len(watch.terms)
@@ -178,9 +171,10 @@ def test_parameters_change_while_it_runs_or_are_refused_as_a_whole(watch):
         bad = watch.peer.set_one('pam_control', controller='pid')
         assert not bad.successful
         assert 'one muscle' in bad.reason
-        assert watch.peer.set_one('pam_control', co_contraction=33.0).successful
         assert watch.peer.set_one('pam_control', gains__bandwidth=20.0).successful
-        watch.peer.more(watch.terms, 800)
+        watch.lead(
+            lambda: watch.peer.set_one('pam_control', co_contraction=33.0), 1.6, 'co_contraction'
+        )
         assert watch.latest('stiffness') == pytest.approx(33.0, rel=1e-3)
         sent = len(watch.terms)
         assert watch.peer.set_one('pam_control', mass=1.2).successful  # another model: a new law
@@ -213,8 +207,7 @@ def test_one_file_is_for_both_programs(watch, tmp_path):
     given = ('--params-file', str(file))
     with Program('pam_sim', *given) as sim, Program('pam_control', *given) as control:
         begin = watch.begin()
-        watch.refer(begin + 0.1)
-        watch.peer.more(watch.terms, 800)
+        watch.lead(lambda: watch.refer(begin + 0.1), 1.6)
         assert watch.latest('position') == pytest.approx(begin + 0.1, abs=0.01 * DEGREE)
         (dim,) = watch.commands[-1].layout.dim
         assert dim.label == 'flexor,extensor'

@@ -9,6 +9,9 @@ from std_msgs.msg import Float64
 
 from pam_ros.nodes.control_state import TERMS
 
+# For a controller in lockstep whose terms are all to be heard, however late.
+LOSE_NO_TERMS = {'qos_overrides./pam_control/state.publisher.depth': 20_000}
+
 
 class Watch:
     """What a controller commands, its terms and its diagnostics."""
@@ -25,6 +28,26 @@ class Watch:
     def refer(self, position):
         self.peer.publish(Float64(data=position), 'position_reference')
 
+    def lead(self, tell, seconds, term='reference'):
+        """Do *tell*(); return the terms of some *seconds* from when *term* has left its value.
+
+        In lockstep time may have run ahead of what was heard: it is not counted from here.
+        """
+        i, k = self.names.index(term), len(self.terms) - 1
+        rest = self.terms[k].position[i]
+        tell()
+
+        def has_left():
+            nonlocal k
+            while k < len(self.terms) - 1 and self.terms[k].position[i] == rest:
+                k += 1
+            return self.terms[k].position[i] != rest
+
+        self.peer.until(has_left, f'{term} to change')
+        end = stamp(self.terms[k]) + seconds
+        self.peer.until(lambda: stamp(self.terms[-1]) >= end, f'{seconds} s')
+        return self.terms[k:]
+
     def status(self, condition, what):
         """Wait for a status of the part control that fulfils *condition*."""
 
@@ -36,6 +59,22 @@ class Watch:
             return None
 
         return self.peer.until(find, what)
+
+    def falls_silent(self):
+        """Wait until no command comes from one word of the diagnostics to the next but one."""
+        count = -1
+        while count != (count := len(self.commands)):
+            self.peer.more(self.arrays, 2)
+
+    def steady_command(self):
+        """Wait until what is commanded does not change any more, and return it."""
+
+        def last():
+            return {str(message.data) for message in self.commands[-20:]}
+
+        self.peer.more(self.commands, 20)
+        self.peer.until(lambda: len(last()) == 1, 'a steady command')
+        return self.commands[-1].data
 
     def begin(self):
         """Wait until it controls; return where it holds the load."""
@@ -63,8 +102,12 @@ class Rig:
         return self.peer.until(tell, what)
 
 
+def stamp(message):
+    return message.header.stamp.sec + 1e-9 * message.header.stamp.nanosec
+
+
 def columns(messages, names=TERMS):
     """Return the times in s since the first of *messages*, and each term by its name."""
-    t = np.array([m.header.stamp.sec + 1e-9 * m.header.stamp.nanosec for m in messages])
+    t = np.array([stamp(m) for m in messages])
     values = np.array([m.position for m in messages])
     return t - t[0], {name: values[:, i] for i, name in enumerate(names)}
