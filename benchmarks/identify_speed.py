@@ -25,7 +25,7 @@ from pam_ros.identification.candidate import extended
 from pam_ros.identification.coarse import coarse_step
 from pam_ros.identification.finder import trace
 from pam_ros.identification.noise import noise_of
-from pam_ros.identification.search import problem_of
+from pam_ros.identification.retuning import problem_of
 from pam_ros.identification.segment import segments_of
 from pam_ros.identification.solve import solve
 from pam_ros.rig.warm import warm

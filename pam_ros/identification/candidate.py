@@ -18,6 +18,8 @@ from pam_ros.rig.model import RigModel
 
 Array = NDArray[np.float64]
 LOOKS = 2  # steps of the cheap look, with the parent's columns kept
+LITTLE = 0.05  # share of a start's strength that is nearly none
+WHISPERS = 4  # steps from there
 EARNED = 10.0  # fall of the score that pays for an effect's finer parameters
 TRIED = 2  # starting values per effect and parent from which it is taken
 
@@ -84,6 +86,24 @@ def look(
     starts += [extended(known.problem, model, effect, start) for start in read]
     solutions = [_stepped(known, problem, added) for problem, added in starts]
     return sorted(solutions, key=lambda solution: solution.cost)
+
+
+def whisper(parent: Fit, model: RigModel, effect: Effect) -> Solution:
+    """Return a short fit of *effect* that begins on top of *parent* with hardly any of it.
+
+    For where no look from a known start came down to the parent: a nested model can always.
+    """
+    strengths = {p.name for p in effect.parameters if p.strength}
+    start = {
+        name: LITTLE * value if name in strengths else value
+        for name, value in effect.fit_starts[0].items()
+    }
+    known = parent.solution
+    problem, added = extended(known.problem, model, effect, start)
+    u = np.concatenate([known.u, added])
+    r = problem.residuals(u)
+    own = problem.jacobian(u, r, only=range(len(known.u), len(u)))
+    return solve(problem, u, WHISPERS, jacobian=np.hstack([known.jacobian, own]))
 
 
 def released(fit: Fit, model: RigModel, effect: Effect, pool: Executor | None) -> Fit:

@@ -10,17 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pam_ros.identification import verdict
+from pam_ros.identification.admission import Tried
 from pam_ros.identification.candidate import Fit, fitted
 from pam_ros.identification.noise import Noise, noise_of
 from pam_ros.identification.result import Candidate, Finding, Trace
-from pam_ros.identification.search import (
-    Progress,
-    Search,
-    Tried,
-    only_starts,
-    problem_of,
-    search,
-)
+from pam_ros.identification.retuning import only_starts, problem_of
+from pam_ros.identification.search import Progress, Search, search
 from pam_ros.identification.segment import Segment, segments_of
 from pam_ros.identification.solve import solve
 from pam_ros.identification.stages import estimates, stage

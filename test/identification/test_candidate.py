@@ -18,7 +18,7 @@ from pam_ros.identification.candidate import (
     released,
 )
 from pam_ros.identification.noise import noise_of
-from pam_ros.identification.search import problem_of
+from pam_ros.identification.retuning import problem_of
 from pam_ros.identification.segment import segments_of
 from pam_ros.identification.solve import solve
 from pam_ros.identification.unknowns import Unknown

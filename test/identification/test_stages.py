@@ -9,7 +9,7 @@ import pytest
 
 from pam_ros.identification.candidate import extended, fitted
 from pam_ros.identification.noise import Noise, noise_of
-from pam_ros.identification.search import problem_of
+from pam_ros.identification.retuning import problem_of
 from pam_ros.identification.segment import segments_of
 from pam_ros.identification.solve import Solution, solve
 from pam_ros.identification.stages import estimates, model_of, stage

@@ -1,0 +1,79 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Backward elimination: effects, and parameters of theirs, that are not needed after all."""
+
+from collections.abc import Sequence
+from concurrent.futures import Executor
+from dataclasses import replace
+
+from pam_ros.effects.base import Effect
+from pam_ros.identification import evidence
+from pam_ros.identification.admission import IMPLAUSIBLE, matters, strain
+from pam_ros.identification.candidate import EARNED, Fit, fitted
+from pam_ros.identification.noise import Noise
+from pam_ros.identification.solve import solve
+from pam_ros.rig.model import RigModel
+
+
+def without_needless(fit: Fit, retuned: Fit, model: RigModel, noise: Noise, pool: Executor) -> Fit:
+    """Return *fit* without the effects that it no longer needs, one after another.
+
+    One without which the declared parameters would have to be odd ones is needed.
+    """
+    while len(fit.effects) > 1:
+        for name in fit.effects[:-1]:
+            smaller = _dropped(fit, name, model, pool)
+            gain = 1.0 - fit.held_error / smaller.held_error
+            if strain(smaller) - strain(fit) > IMPLAUSIBLE:
+                continue
+            if gain < evidence.GAIN or not matters(smaller, fit, retuned, noise):
+                fit = smaller
+                break
+        else:
+            return fit
+    return fit
+
+
+def _dropped(fit: Fit, name: str, model: RigModel, pool: Executor) -> Fit:
+    """Return the fit without effect *name*, fitted anew."""
+    names = [p.name for p in _effect(model, name).parameters]
+    smaller = _reduced(fit, name, names, model, pool)
+    return replace(smaller, effects=tuple(e for e in fit.effects if e != name))
+
+
+def plain(fit: Fit, model: RigModel, pool: Executor) -> Fit:
+    """Return *fit* with the fewest parameters per effect that do as well.
+
+    Finer ones may have been freed when another effect was still missing, to make up for it.
+    """
+    for name in fit.effects:
+        prefix = f'effects.{name}.'
+        there = {u.name.removeprefix(prefix) for u in fit.solution.problem.unknowns}
+        for start in sorted(_effect(model, name).fit_starts, key=len):
+            finer = [p.name for p in _effect(model, name).parameters if p.name not in start]
+            if there >= set(start) and there & set(finer):
+                smaller = _reduced(fit, name, finer, model, pool)
+                if smaller.score < fit.score + EARNED:
+                    fit = smaller
+                    break
+    return fit
+
+
+def _reduced(
+    fit: Fit, name: str, parameters: Sequence[str], model: RigModel, pool: Executor
+) -> Fit:
+    """Return the fit with *parameters* of effect *name* at their defaults, fitted anew."""
+    problem = fit.solution.problem
+    gone = {f'effects.{name}.{p}' for p in parameters}
+    keep = [k for k, u in enumerate(problem.unknowns) if u.name not in gone]
+    row = problem.row.copy()
+    j = model.layout.parameter_at[name]
+    for k, p in enumerate(_effect(model, name).parameters):
+        if p.name in parameters:
+            row[j + k] = p.default
+    smaller = replace(problem, row=row, unknowns=tuple(problem.unknowns[k] for k in keep))
+    return fitted(fit.effects, solve(smaller, fit.solution.u[keep], pool=pool))
+
+
+def _effect(model: RigModel, name: str) -> Effect:
+    return next(e for e in model.library if e.name == name)
