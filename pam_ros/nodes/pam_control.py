@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""``pam_control``: move the load of one muscle to a position, by commanding pressure.
+"""``pam_control``: move the load of one muscle to a position, or a pair to an angle.
 
 Subscribes
     ``joint_states`` (sensor_msgs/JointState): contraction in m, of the joint joint_name
@@ -12,6 +12,10 @@ Publishes
     ``/diagnostics`` (diagnostic_msgs/DiagnosticArray), once a second
 Services
     ``~/enable`` (std_srvs/SetBool): control from where the joint is, or command nothing
+
+With ``joint`` antagonistic two muscles turn a pulley: rad for m; it subscribes
+``co_contraction_reference`` (Float64, the stiffness of the joint in N m/rad) as well, and publishes
+``pressure_commands`` (std_msgs/Float64MultiArray), or ``<muscle>/pressure_command`` of each.
 
 Contraction is positive: the load moves up. Parameters say what they are:
 ``ros2 param describe /pam_control <name>``. It begins by holding the load where it is. A reference

@@ -91,6 +91,15 @@ def test_the_interface_is_that_of_the_running_controller(peer):
         peer.until(lambda: expected.items() <= interface(peer, 'pam_control').items(), 'the table')
 
 
+def test_the_interface_is_that_of_the_running_controller_of_a_pair(peer):
+    expected = {**told('control'), **told('pair')}
+    for of_one in ('pressure', 'pressure_command'):
+        del expected[of_one]
+    with Program('pam_control', parameters={'joint': 'antagonistic'}):
+        peer.until(lambda: expected.items() <= interface(peer, 'pam_control').items(), 'the table')
+        assert 'pressure_command' not in interface(peer, 'pam_control')
+
+
 def test_parameters_exist_and_have_their_defaults(peer):
     named = [name for name in names(README) if name.startswith(SETTINGS)]
     with Program('pam_sim'):

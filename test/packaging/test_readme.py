@@ -114,7 +114,9 @@ def check(words):
         services = {'pause': 'SetBool', 'step': 'Trigger', 'reset': 'Trigger'}
         assert words[4] == f'std_srvs/srv/{services[words[3].removeprefix("/pam_sim/")]}'
     elif words[:3] == ['ros2', 'topic', 'pub']:
-        topics = dict.fromkeys(('/pressure_command', '/position_reference'), 'Float64')
+        topics = dict.fromkeys(
+            ('/pressure_command', '/position_reference', '/co_contraction_reference'), 'Float64'
+        )
         topics['/pressure_commands'] = 'Float64MultiArray'
         (topic,) = set(words) & set(topics)
         assert f'std_msgs/msg/{topics[topic]}' in words
