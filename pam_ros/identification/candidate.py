@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from pam_ros.effects.base import Effect
 from pam_ros.identification.problem import Problem
-from pam_ros.identification.solve import Solution, amplified_cost, solve
+from pam_ros.identification.solve import Solution, amplified_cost, predicted_cost, solve
 from pam_ros.identification.unknowns import effect_unknowns
 from pam_ros.rig import layout as at
 from pam_ros.rig.model import RigModel
@@ -21,7 +21,7 @@ LOOKS = 2  # steps of the cheap look, with the parent's columns kept
 LITTLE = 0.05  # share of a start's strength that is nearly none
 WHISPERS = 4  # steps from there
 EARNED = 10.0  # fall of the score that pays for an effect's finer parameters
-TRIED = 2  # starting values per effect and parent from which it is taken
+PROMISING = 4.0  # fall of the cost that earns a closer look
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,15 +65,19 @@ def extended(
 
 
 def look(
-    parent: Fit, model: RigModel, effect: Effect, read: Sequence[dict[str, float]] = ()
+    parent: Fit,
+    model: RigModel,
+    effect: Effect,
+    tried: int,
+    read: Sequence[dict[str, float]] = (),
 ) -> list[Solution]:
     """Return the best cheap fits of *effect* on top of *parent*, the best first.
 
     One simulation at each known starting value tells in which direction it moves the residual;
-    from the most promising, steps are taken in which the columns of what the parent already has
-    are taken from it, and only the effect's own are computed. Of the starts that were *read* from
-    the residual, see :func:`guessed`, a look is taken in any case: they need no ranking, nor
-    could they have one, since a phase that is not fitted yet may point the wrong way.
+    from the *tried* most promising, steps are taken in which the columns of what the parent
+    already has are taken from it, and only the effect's own are computed. Of the starts that
+    were *read* from the residual, see :func:`guessed`, a look is taken in any case: they need no
+    ranking, nor could they have one, since a phase that is not fitted yet may point the wrong way.
     """
     known = parent.solution
     guesses = []
@@ -82,7 +86,7 @@ def look(
         r = problem.residuals(np.concatenate([known.u, added]))
         guesses.append((amplified_cost(known, r), problem, added))
     guesses.sort(key=lambda guess: guess[0])
-    starts = [(problem, added) for _, problem, added in guesses[:TRIED]]
+    starts = [(problem, added) for _, problem, added in guesses[:tried]]
     starts += [extended(known.problem, model, effect, start) for start in read]
     solutions = [_stepped(known, problem, added) for problem, added in starts]
     return sorted(solutions, key=lambda solution: solution.cost)
@@ -91,7 +95,8 @@ def look(
 def whisper(parent: Fit, model: RigModel, effect: Effect) -> Solution:
     """Return a short fit of *effect* that begins on top of *parent* with hardly any of it.
 
-    For where no look from a known start came down to the parent: a nested model can always.
+    For where no look from a known start came down to the parent: a nested model can always. No
+    step is taken where the derivatives there promise nothing.
     """
     strengths = {p.name for p in effect.parameters if p.strength}
     start = {
@@ -103,7 +108,10 @@ def whisper(parent: Fit, model: RigModel, effect: Effect) -> Solution:
     u = np.concatenate([known.u, added])
     r = problem.residuals(u)
     own = problem.jacobian(u, r, only=range(len(known.u), len(u)))
-    return solve(problem, u, WHISPERS, jacobian=np.hstack([known.jacobian, own]))
+    jacobian = np.hstack([known.jacobian, own])
+    if predicted_cost(problem, u, r, jacobian) > known.cost - PROMISING:
+        return Solution(problem, u, r, jacobian, 0)
+    return solve(problem, u, WHISPERS, jacobian=jacobian)
 
 
 def released(fit: Fit, model: RigModel, effect: Effect, pool: Executor | None) -> Fit:

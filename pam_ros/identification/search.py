@@ -23,6 +23,7 @@ from pam_ros.identification.admission import (
     strain,
 )
 from pam_ros.identification.candidate import (
+    PROMISING,
     Fit,
     extended,
     fitted,
@@ -48,7 +49,7 @@ REFINED = 4  # candidates of a round that get a full fit
 WINDOW = 2.0  # s of a run of a load without a muscle
 COMPARABLE = 0.15  # and its share of the best fall
 OBVIOUS = 0.8  # ratio of errors kept back below which no odd parameter needs a reason
-PROMISING = 4.0  # fall of the cost in a cheap look that earns a full fit
+TRIED = (2, 1)  # starts of an effect from which looks are taken: re-tuned, as declared
 
 
 @dataclass(frozen=True, eq=False)
@@ -160,7 +161,10 @@ def _as_declared(fit: Fit, pool: Executor) -> Fit:
 def _looks(parents: Sequence[Fit], model: RigModel, effect: Effect) -> list[Solution]:
     """Return the best cheap fit of *effect* on top of each parent, the best first."""
     read = guessed(parents[0], effect)
-    best = [look(parent, model, effect, read)[0] for parent in parents]
+    best = [
+        look(parent, model, effect, tried, read)[0]
+        for parent, tried in zip(parents, TRIED, strict=True)
+    ]
     if min(solution.cost for solution in best) > parents[0].solution.cost:
         best.append(whisper(parents[0], model, effect))
     return sorted(best, key=lambda solution: solution.cost)

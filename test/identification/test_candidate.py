@@ -55,7 +55,7 @@ def test_an_absent_effect_changes_nothing_and_a_fit_from_there_ends_no_higher(pa
 
 @pytest.mark.parametrize('name', KNOWN)
 def test_a_full_fit_ends_no_higher_than_the_look_it_starts_from(parent, name):
-    looks = look(parent, MODEL, KNOWN[name], guessed(parent, KNOWN[name]))
+    looks = look(parent, MODEL, KNOWN[name], 2, guessed(parent, KNOWN[name]))
     costs = [solution.cost for solution in looks]
     assert costs == sorted(costs)
     fit = refine(parent, KNOWN[name], looks[:1], None)
@@ -66,7 +66,7 @@ def test_a_full_fit_ends_no_higher_than_the_look_it_starts_from(parent, name):
 def test_the_right_effect_explains_the_rest(parent):
     fits = {}
     for name in ('viscous_friction', 'coulomb_friction', 'pressure_dependent_damping', 'creep'):
-        fits[name] = refine(parent, KNOWN[name], look(parent, MODEL, KNOWN[name]), None)
+        fits[name] = refine(parent, KNOWN[name], look(parent, MODEL, KNOWN[name], 2), None)
     fit = min(fits.values(), key=lambda fit: fit.score)
     assert fit.effects == ('viscous_friction',)
     found = fit.solution.value('effects.viscous_friction.coefficient')
@@ -92,7 +92,7 @@ def test_an_effect_has_the_values_of_its_start_and_else_its_defaults(parent):
 
 def test_nothing_is_released_where_everything_moves_already(parent):
     viscous = KNOWN['viscous_friction']
-    fit = refine(parent, viscous, look(parent, MODEL, viscous), None)
+    fit = refine(parent, viscous, look(parent, MODEL, viscous, 2), None)
     assert released(fit, MODEL, viscous, None) is fit
 
 
