@@ -125,6 +125,8 @@ def draw(runs: dict[str, list[tuple[Run, Run]]], path: Path) -> None:
         axes[n, 0].set_title(f'{row}: error after a step of 20 mm [mm]', fontsize=9)
         axes[n, 1].set_title('error of a sine of 10 mm [mm]', fontsize=9)
         axes[n, 0].set_ylim(-1.0, 1.0)
+    for ax in axes[-1]:
+        ax.set_xlabel('time [s]')
     axes[0, 0].legend(frameon=False)
     figure.savefig(path, dpi=100)
 

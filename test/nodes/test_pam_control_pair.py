@@ -117,7 +117,7 @@ def test_silence_of_the_joint_is_answered_safely(watch, action):
 def test_what_is_out_of_reach_is_refused_with_the_range(watch):
     with Program('pam_sim', parameters=RIG), Program('pam_control', parameters=FOLLOWING):
         begin = watch.begin()
-        stiffness = watch.latest('co_contraction')
+        stiffness = watch.rests('co_contraction')
         for tell, bad, words in (
             (watch.refer, 2.0, ('reference 2 rad', 'out of reach', '-1.169 to 1.169 rad')),
             (watch.refer, math.nan, ('reference nan',)),

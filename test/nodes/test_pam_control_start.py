@@ -35,8 +35,10 @@ def states_of(position, stamp):
 def test_a_load_that_nobody_declared_stays_where_it_is(peer, mode):
     states = peer.collect(JointState, 'joint_states')
     terms = peer.collect(JointState, 'pam_control/state')
-    told = {**FOLLOWING, 'use_sim_time': mode == 'lockstep'}
-    with Program('pam_sim', parameters={**HEAVY, 'time_mode': mode}):
+    # However long a busy machine holds them up.
+    told = {**FOLLOWING, 'use_sim_time': mode == 'lockstep', 'state_timeout': 60.0}
+    rig = {**HEAVY, 'time_mode': mode, 'command_timeout': 0.0}
+    with Program('pam_sim', parameters=rig):
         peer.more(states)
         with Program('pam_control', parameters=told):
             peer.more(terms, 500)

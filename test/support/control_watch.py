@@ -6,11 +6,15 @@ import numpy as np
 from diagnostic_msgs.msg import DiagnosticArray
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64
+from std_srvs.srv import SetBool
 
 from pam_ros.nodes.control_state import TERMS
 
 # For a controller in lockstep whose terms are all to be heard, however late.
 LOSE_NO_TERMS = {'qos_overrides./pam_control/state.publisher.depth': 20_000}
+SLICE = 1.0  # s of simulated time that may pass before all is heard
+LONGEST = 10.0  # s of it that something told may take to show
+QUIET = 0.2  # s without a message after which none is under way any more
 
 
 class Watch:
@@ -31,22 +35,48 @@ class Watch:
     def lead(self, tell, seconds, term='reference'):
         """Do *tell*(); return the terms of some *seconds* from when *term* has left its value.
 
-        In lockstep time may have run ahead of what was heard: it is not counted from here.
+        In lockstep. Time stands still while something is told, and again and again until all that
+        was before is heard: it does not run away from a listener who is late.
         """
+        self._stop()
         i, k = self.names.index(term), len(self.terms) - 1
         rest = self.terms[k].position[i]
         tell()
-
-        def has_left():
-            nonlocal k
+        begin = stamp(self.terms[k])
+        while self.terms[k].position[i] == rest:
+            assert stamp(self.terms[k]) < begin + LONGEST, f'{term} stays at {rest}'
+            self._pass(SLICE)
             while k < len(self.terms) - 1 and self.terms[k].position[i] == rest:
                 k += 1
-            return self.terms[k].position[i] != rest
-
-        self.peer.until(has_left, f'{term} to change')
-        end = stamp(self.terms[k]) + seconds
-        self.peer.until(lambda: stamp(self.terms[-1]) >= end, f'{seconds} s')
+        while stamp(self.terms[-1]) < stamp(self.terms[k]) + seconds:
+            self._pass(SLICE)
+        self.peer.call(SetBool, 'pam_sim/pause', data=False)
         return self.terms[k:]
+
+    def _pass(self, seconds):
+        """Let so much time pass, at least, and stop."""
+        end = stamp(self.terms[-1]) + seconds
+        self.peer.call(SetBool, 'pam_sim/pause', data=False)
+        self.peer.until(lambda: stamp(self.terms[-1]) >= end, f'{seconds} s')
+        self._stop()
+
+    def _stop(self):
+        """Let time stand still, and hear all that was before."""
+        self.peer.call(SetBool, 'pam_sim/pause', data=True)
+        count = -1
+        while count != (count := len(self.terms)):
+            self.peer.work(QUIET)
+
+    def rests(self, term, count=100):
+        """Wait until a term has not changed for so many messages; return it."""
+        i = self.names.index(term)
+
+        def found():
+            last = self.terms[-count:]
+            return len(last) == count and last[0].position[i] == last[-1].position[i]
+
+        self.peer.until(found, f'{term} to rest')
+        return self.latest(term)
 
     def status(self, condition, what):
         """Wait for a status of the part control that fulfils *condition*."""
