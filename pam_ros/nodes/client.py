@@ -12,6 +12,7 @@ from typing import Any, TypeVar
 import rclpy
 from rcl_interfaces.msg import Parameter as ParameterMessage
 from rcl_interfaces.srv import SetParametersAtomically
+from rclpy.duration import Duration
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.parameter import Parameter
 from rclpy.qos import QoSProfile
@@ -88,6 +89,11 @@ class Client:
             self._publishers[topic] = self.node.create_publisher(type(message), topic, 10)
             self.until(self._publishers[topic].get_subscription_count, f'a subscriber of {topic}')
         self._publishers[topic].publish(message)
+
+    def delivered(self, topic: str, patience: Duration) -> None:
+        """Wait until all that was published on *topic* has arrived."""
+        if not self._publishers[topic].wait_for_all_acked(patience):
+            raise PamError(f'what was told on {topic} has not arrived')
 
     def call(self, kind: Any, service: str, **request: Any) -> Any:
         """Call a service and return its response."""

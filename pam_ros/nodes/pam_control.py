@@ -14,7 +14,7 @@ Services
     ``~/enable`` (std_srvs/SetBool): control from where the joint is, or command nothing
 
 With ``joint`` antagonistic two muscles turn a pulley: rad for m; it subscribes
-``co_contraction_reference`` (Float64, the stiffness of the joint in N m/rad) as well, and publishes
+``co_contraction_reference`` (Float64, stiffness of the joint in N m/rad) as well, and publishes
 ``pressure_commands`` (std_msgs/Float64MultiArray), or ``<muscle>/pressure_command`` of each.
 
 Contraction is positive: the load moves up. Parameters say what they are:

@@ -46,8 +46,6 @@ def play(stage: Stage) -> None:
         (f'sine, {STIFF:g} N m/rad', whole.with_stiffness(STIFF)),
         (f'at rest, to {SOFT:g} N m/rad', still),
     ]
-    # A listener who was very late has told the stiffness when the sine was over.
-    parts = [(name, part) for name, part in parts if part.t.size]
     from pam_ros.demo import figures
 
     path = stage.folder / 'joint.png'
@@ -62,9 +60,11 @@ def record(stage: Stage) -> JointCourse:
     both = {'joint': 'antagonistic', 'muscle': MUSCLE, 'radius': RADIUS}
     rig = {**both, 'mass': TRUE, 'initial.pressure': 250e3, 'sensor.position_noise': NOISE}
     told = {**both, 'mass': DECLARED, 'co_contraction': SOFT}
-    with Duet(stage, rig, told, ('stiffnesses',)) as duet:
+    commands = (Float64MultiArray, 'pressure_commands')
+    with Duet(stage, rig, told, commands, ('stiffnesses',)) as duet:
         arrays = duet.client.collect(Float64MultiArray, 'stiffnesses')
-        duet.begin()
+        duet.begin(arrays)
+        before = len(arrays)
         duet.stop_after(REST)
         stage.say(f'  a sine of {math.degrees(SWING):.0f} degrees at {FREQUENCY:g} Hz')
         duet.tell(sine(), 'joint_trajectory')
@@ -75,10 +75,10 @@ def record(stage: Stage) -> JointCourse:
         duet.stop_after(begin + CYCLES / FREQUENCY + REST - seconds(duet.states[-1]))
         stage.say(f'  and back to {SOFT:g} N m/rad')
         duet.tell(Float64(data=SOFT), 'co_contraction_reference', 'co_contraction')
-        end = duet.stop_after(REST)
-        # The last state is told again and again meanwhile, and its array with it.
-        duet.client.more(arrays)
-        return put_together(duet.states, duet.terms, arrays).between(0.0, end)
+        duet.stop_after(REST)
+        periods = len({seconds(state) for state in duet.states}) - 1
+        duet.client.until(lambda: len(arrays) >= before + periods, 'an array for each state')
+        return put_together(duet.states, duet.terms, arrays)
 
 
 def sine() -> JointTrajectory:

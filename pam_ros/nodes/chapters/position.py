@@ -56,7 +56,7 @@ def record(stage: Stage) -> tuple[Course, list[float]]:
     """Return what happened, and the times in s at which it set out to each goal and the sine."""
     rig = {'muscle': MUSCLE, 'mass': TRUE, 'initial.pressure': 300e3}
     told = {'muscle': MUSCLE, 'mass': DECLARED}
-    with Duet(stage, rig, told) as duet:
+    with Duet(stage, rig, told, (Float64, 'pressure_command')) as duet:
         duet.begin()
         stops = [duet.stop_after(1.5)]
         for goal in GOALS:
