@@ -26,8 +26,9 @@ class PairModel:
     """The declared joint without memory: what holds at one instant.
 
     s is the angle in rad, p the gauge pressures in Pa in both chambers, v in rad/s. The muscles'
-    damping, the load's viscous friction and payload are in; effects with a memory are fed forward
-    elsewhere. ``muscles`` are the rigs of each muscle alone, with its share of the inertia.
+    damping and slack, the load's viscous friction and payload are in; effects with a memory are
+    fed forward elsewhere. ``muscles`` are the rigs of each muscle alone, with its share of the
+    inertia.
 
     ``reach`` are the angles at which the load can be held, with a MARGIN of the range of pressure
     left at both ends of both muscles and none pushing. Raises ParameterError where there is none.
@@ -54,6 +55,7 @@ class PairModel:
             (low + MARGIN * (high - low), high - MARGIN * (high - low))
             for low, high in self.ranges
         )
+        self._slack = [a.effects.get('slack', {}).get('share', 0.0) for a in model.actuators]
         self._viscous = model.effects.get('viscous_friction', {}).get('coefficient', 0.0)
         self.reach = self._reach()
 
@@ -90,13 +92,13 @@ class PairModel:
         )
 
     def force(self, p: float, s: float, i: int) -> float:
-        """Return what muscle i pulls at rest, N."""
-        return self._inner[i].force(p, self.position(s, i))
+        """Return what muscle i pulls at rest in N; where it is declared slack, no push."""
+        force = self._inner[i].force(p, self.position(s, i))
+        return force if force > 0.0 else (1.0 - self._slack[i]) * force
 
     def effort(self, p: tuple[float, float], s: float) -> float:
         """Return what the muscles pull the joint with at rest, N m."""
-        one, two = self.lines(s)
-        return one.a + one.b * p[0] + two.a + two.b * p[1]
+        return sum(self.arm(s, i) * self.force(each, s, i) for i, each in enumerate(p))
 
     def stiffness(self, p: tuple[float, float], s: float) -> float:
         """Return the stiffness in N m/rad that the muscles give the joint."""
@@ -116,7 +118,8 @@ class PairModel:
         total = -self.gravity(s) - self._viscous * v
         for i, inner in enumerate(self._inner):
             r = self.arm(s, i)
-            total += r * inner.pull(p[i], self.position(s, i), r * v)
+            y, w = self.position(s, i), r * v
+            total += r * (self.force(p[i], s, i) - inner.damping(p[i], y, w) * w)
         return total
 
     # The inverse -----------------------------------------------------------------------------

@@ -14,7 +14,8 @@ from pam_ros.control.pair_law import PairLaw
 from pam_ros.control.signals import Reference
 from pam_ros.errors import RangeError
 from pam_ros.rig import statics
-from pam_ros.rig.joint_model import JointModel
+from pam_ros.rig.joint_model import Actuator, JointModel
+from pam_ros.rig.joints.antagonistic_pair import PulleyArm
 from pam_ros.rig.rig import Rig
 from support.joint_models import pair
 from support.pair_loop import LAG, close_pair, declared
@@ -162,6 +163,25 @@ def test_the_first_commands_are_the_pressures_that_are_there(observer):
     law.start(0.05)
     found = law.update(DT, Reference(0.05), 0.05)
     assert law.rig.effort(found, 0.05) == pytest.approx(law.rig.gravity(0.05), abs=1e-6)
+
+
+@pytest.mark.parametrize('hanging_at', [-0.8, 0.0, 0.6])
+def test_an_arm_that_hangs_on_vented_muscles_stays_where_it_is(hanging_at):
+    # Slack muscles hold nothing, where the bare law would let them push.
+    slack = Actuator(effects={'slack': {'share': 1.0}})
+    model = JointModel(PulleyArm(hanging_at=hanging_at), (slack, slack))
+    begin = model.rest([0.0, 0.0])
+    assert begin == pytest.approx(hanging_at, abs=0.01)
+    law, rig = PairLaw(model, PairGains()), Rig([model])
+    law.start(begin, (0.0, 0.0))
+    rig.reset([0.0, 0.0], [begin], [0.0])
+    errors = []
+    for _ in range(1000):
+        rig.command(law.update(DT, Reference(begin), float(rig.position[0])))
+        rig.advance(2)
+        errors.append(begin - rig.position[0])
+    assert np.max(np.abs(errors)) < 0.1 * DEGREE
+    assert law.terms.stiffness == pytest.approx(law.terms.co_contraction, rel=1e-3)
 
 
 def test_commands_stay_within_limits_of_pressure_and_rate():
