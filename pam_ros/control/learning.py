@@ -163,8 +163,13 @@ class Learner:
         observer = self._observer
         self._input[:_N] = self._actual.follow(dt, observer.position, observer.velocity)
 
-    def go_on(self, dt: float, inflow: float, declared: float, may_learn: bool) -> None:
-        """Go on by *dt* s with *inflow* Pa at the chamber, in it *declared* Pa as declared."""
+    def go_on(
+        self, dt: float, inflow: float, declared: float, losses: float, may_learn: bool
+    ) -> None:
+        """Go on by *dt* s with *inflow* Pa at the chamber, in it *declared* Pa as declared.
+
+        *losses* are those in N that declared effects have along the reference: not to be learned.
+        """
         share = 1.0 - exp(-FAST * dt)
         stages = self._filter
         stages[0] += share * (self._input - stages[0])
@@ -176,15 +181,15 @@ class Learner:
             if self._waited >= EVERY - 1e-9:
                 self._learn(self._waited)
                 self._waited = 0.0
-        self._advance(dt, inflow, declared)
+        self._advance(dt, inflow, declared, losses)
 
-    def _advance(self, dt: float, inflow: float, declared: float) -> None:
+    def _advance(self, dt: float, inflow: float, declared: float, losses: float) -> None:
         """Let the observer and the learned chamber go on, and see how they depend on the lag."""
         observer, gain = self._observer, self._model.gain(self._observer.position)
         mean = 0.5 * (self._declared + declared)
         self._declared = declared
         if self._lag_is_declared:
-            observer.predict(dt, mean)
+            observer.predict(dt, mean, -losses)
             return
         chamber = self._chamber
         chamber.fill, chamber.vent = self._lagged.theta[_N:].tolist()
@@ -196,7 +201,7 @@ class Learner:
         self._input[_N] = -gain * self._sensitivity.fill
         self._input[_N + 1] = -gain * self._sensitivity.vent
         self._input[_N + 2] = gain * (pressure - mean)
-        observer.predict(dt, pressure)
+        observer.predict(dt, pressure, -losses)
 
     def _learn(self, span: float) -> None:
         """Let both hypotheses take in the force that is missing now, *span* s after the last."""

@@ -251,4 +251,5 @@ class SlidingMode:
         mean = path.follow(self._limiter.last, dt)
         self._observer.predict(dt, mean, -self._lost)
         if self.gains.learning:
-            self._learner.go_on(dt, path.inflow, path.chamber.pressure, self._may_learn)
+            pressure, losses = path.chamber.pressure, self._losses.force
+            self._learner.go_on(dt, path.inflow, pressure, losses, self._may_learn)

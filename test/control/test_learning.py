@@ -70,6 +70,13 @@ def test_a_declared_lag_leaves_nothing_to_learn():
     assert rms(run) < 0.05e-3
 
 
+def test_declared_friction_is_not_learned_again():
+    friction = {'coulomb_friction': {'level': 15.0, 'breakaway': 25.0, 'stribeck_speed': 0.01}}
+    _, run = swung('friction', effects=friction)
+    assert np.max(np.abs(run.terms['learned'][run.last(6.0)])) < 5.0
+    assert rms(run) < 0.55e-3
+
+
 def test_what_is_fed_forward_is_bounded():
     from pam_ros.control import learning
 
