@@ -48,6 +48,7 @@ class PamControl(TickingNode):
         self._told = self._given.built
         self._loop = self._make_loop()
         self._is_followed = bool(self.get_parameter('use_sim_time').value)
+        self.keeps_wall_time = not self._is_followed
         self._seen = monotonic_ns()  # steady time of the newest usable state, ns
         self._stamp: int | None = None  # and its stamp
         self._last: Reading | None = None  # and what it was, where states make the time

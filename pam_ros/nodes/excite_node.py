@@ -52,6 +52,7 @@ class PamExcite(TickingNode):
         self._pressure = 0.0  # last command
         self._rest = round(LAST * self._now.settings.rate)  # commands of 0 Pa still to come
         self._is_followed = bool(self.get_parameter('use_sim_time').value)
+        self.keeps_wall_time = not self._is_followed
         self._stamp = 0.0  # ROS time of the newest joint state, s
         self._answered = 0.0  # steady time of the last command, s
         self._segment = ''

@@ -53,6 +53,7 @@ class PamSim(TickingNode):
             self._time = OwnTime(settings.physics_rate, self._factor)
             self._clock_message = Clock()
             self._clock_publisher = self.create_publisher(Clock, '/clock', DEPTH)
+        self.keeps_wall_time = self._is_followed and not self._time.follows_clock
         self._is_paused = False
         self._published = self._bad = 0
         self._said: tuple[int, Reading | OneReading] | None = None
@@ -354,6 +355,7 @@ class PamSim(TickingNode):
             'clock jumps': self._time.jumps,
             'paused': self._is_paused,
             'time mode': settings.time_mode,
+            'scheduling': self.scheduling,
         }
         if not self._is_followed:
             values['speed (simulated s / s)'] = rate / settings.publish_rate

@@ -23,6 +23,7 @@ from rclpy.signals import SignalHandlerOptions
 from rclpy.utilities import remove_ros_args
 
 from pam_ros.errors import PamError
+from pam_ros.nodes.priority import NORMAL, prefer_real_time
 from pam_ros.nodes.program import StopRequest
 from pam_ros.nodes.ticker import Ticker
 
@@ -43,10 +44,13 @@ class TickingNode(Node, ABC):
     """A node that does its work in :meth:`tick`, at the rate of its ``ticker``.
 
     A node whose work comes to an end sets ``exit_code``; the others run until they are stopped.
+    One that ``keeps_wall_time`` runs before other programs where the system permits it.
     """
 
     ticker: Ticker
     exit_code: int | None = None
+    keeps_wall_time = False
+    scheduling = NORMAL
 
     @classmethod
     def of_arguments(cls, parser: argparse.ArgumentParser, given: Sequence[str]) -> 'TickingNode':
@@ -92,6 +96,8 @@ def run(kind: type[TickingNode], stop: StopRequest, about: str) -> int:
         # What is there now stays: a collection over it would cost the loop some 20 ms.
         gc.freeze()
         gc.enable()
+        if node.keeps_wall_time:
+            node.scheduling = prefer_real_time()
         node.start()
         spin(node, executor, stop)
     finally:

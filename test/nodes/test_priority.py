@@ -1,0 +1,43 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Loops that keep wall time run before other programs, where the system permits it."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from diagnostic_msgs.msg import DiagnosticArray
+
+from support.harness import Program
+
+PERMITTED = 'import os; os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(10))'
+
+
+def is_permitted():
+    """Say whether a child of ours may take a real-time priority: else the nodes may not."""
+    return subprocess.run([sys.executable, '-c', PERMITTED], stderr=subprocess.DEVNULL,
+                          check=False).returncode == 0  # fmt: skip
+
+
+def policies(pid):
+    """Return the policies by which the kernel schedules the threads of a process."""
+    threads = [int(task.name) for task in Path(f'/proc/{pid}/task').iterdir()]
+    return {os.sched_getscheduler(thread) for thread in threads}
+
+
+@pytest.mark.parametrize('mode', ['real_time', 'scaled', 'lockstep'])
+def test_only_a_node_in_real_time_goes_first_and_says_so(peer, mode):
+    reports = peer.collect(DiagnosticArray, '/diagnostics')
+    with Program('pam_sim', parameters={'time_mode': mode}) as sim:
+
+        def scheduling():
+            values = {v.key: v.value for m in reports for s in m.status for v in s.values}
+            return values.get('scheduling')
+
+        said = peer.until(scheduling, 'how it is scheduled')
+        found = policies(sim.process.pid)
+    goes_first = mode == 'real_time' and is_permitted()
+    assert said == ('SCHED_FIFO 10' if goes_first else 'normal')
+    assert found == {os.SCHED_FIFO if goes_first else os.SCHED_OTHER}
