@@ -16,7 +16,7 @@ export PYTHON
 .PHONY: help environment warm demo test lint bench clean
 
 help:
-	@echo 'make demo   the experiment of the paper and the closed loop, over ROS topics: see demo/'
+	@echo 'make demo   the experiment of the paper, controllers and the closed loop, over ROS topics: see demo/'
 	@echo 'make test   all tests (make test ARGS="test/muscle -x" for some)'
 	@echo 'make lint   style and types'
 	@echo 'make bench  the speed claims, measured on this machine (ARGS=plant for one)'

@@ -57,6 +57,7 @@ class PairModel:
         )
         self._slack = [a.effects.get('slack', {}).get('share', 0.0) for a in model.actuators]
         self._viscous = model.effects.get('viscous_friction', {}).get('coefficient', 0.0)
+        self._place, self._lines = 0.0, (self._line(0.0, 0), self._line(0.0, 1))
         self.reach = self._reach()
 
     def position(self, s: float, i: int) -> float:
@@ -77,7 +78,9 @@ class PairModel:
 
     def lines(self, s: float) -> tuple[Line, Line]:
         """Return effort and stiffness over pressure of both muscles."""
-        return self._line(s, 0), self._line(s, 1)
+        if s != self._place:  # a step asks for them at its reference several times
+            self._place, self._lines = s, (self._line(s, 0), self._line(s, 1))
+        return self._lines
 
     def _line(self, s: float, i: int) -> Line:
         inner, r, y = self._inner[i], self.arm(s, i), self.position(s, i)
