@@ -49,7 +49,7 @@ REFINED = 4  # candidates of a round that get a full fit
 WINDOW = 2.0  # s of a run of a load without a muscle
 COMPARABLE = 0.15  # and its share of the best fall
 OBVIOUS = 0.8  # ratio of errors kept back below which no odd parameter needs a reason
-TRIED = (2, 1)  # starts of an effect from which looks are taken: re-tuned, as declared
+TRIED = (3, 2)  # starts of an effect from which looks are taken: re-tuned, as declared
 
 
 @dataclass(frozen=True, eq=False)
