@@ -3,6 +3,7 @@
 """Real-time scheduling for a node that keeps wall time, where the system permits it."""
 
 import os
+from pathlib import Path
 
 PRIORITY = 10  # above all programs of normal scheduling, below the kernel's own threads
 NORMAL = 'normal'
@@ -16,8 +17,8 @@ def prefer_real_time() -> str:
     is not permitted (``ulimit -r`` is 0), or no such thing exists, nothing changes.
     """
     try:
-        for thread in os.listdir('/proc/self/task'):
-            os.sched_setscheduler(int(thread), os.SCHED_FIFO, os.sched_param(PRIORITY))
+        for task in Path('/proc/self/task').iterdir():
+            os.sched_setscheduler(int(task.name), os.SCHED_FIFO, os.sched_param(PRIORITY))
     except (AttributeError, OSError):
         return NORMAL
     return f'SCHED_FIFO {PRIORITY}'
