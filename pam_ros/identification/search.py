@@ -121,14 +121,16 @@ def _round(
     }
     falls = np.array([parent.solution.cost - found[0].cost for found in looks])
     worth = falls > max(PROMISING, COMPARABLE * falls.max())
-    for i in [i for i in np.argsort(-falls)[:REFINED] if worth[i]]:
-        fits[absent[i].name] = refine(parent, absent[i], looks[i], pool)
+    chosen = [i for i in np.argsort(-falls)[:REFINED] if worth[i]]
+    # Side by side: a fit by itself is one simulation after the other.
+    for fit in pool.map(lambda i: refine(parent, absent[i], looks[i], None), chosen):
+        fits[fit.effects[-1]] = fit
     nearest = min(fits.values(), key=lambda fit: fit.score)
     if nearest.held_error > OBVIOUS * parent.held_error:
-        for effect in absent:
-            if is_static(effect) and strain(parent) > IMPLAUSIBLE:
-                straight = _from_declared(parents[1], model, effect, pool)
-                fits[effect.name] = min(fits[effect.name], straight, key=lambda fit: fit.score)
+        static = [e for e in absent if is_static(e) and strain(parent) > IMPLAUSIBLE]
+        for fit in pool.map(lambda e: _from_declared(parents[1], model, e), static):
+            name = fit.effects[-1]
+            fits[name] = min(fits[name], fit, key=lambda fit: fit.score)
     known = {e.name: e for e in absent}
     p = evidence.holm(np.array([p_of(parent, fits[name], noise) for name in known]))
     tried = []
@@ -180,7 +182,7 @@ def _rank(fit: Fit) -> float:
     return fit.score + kept * share * float(np.log(fit.held_error**2))
 
 
-def _from_declared(declared: Fit, model: RigModel, effect: Effect, pool: Executor) -> Fit:
+def _from_declared(declared: Fit, model: RigModel, effect: Effect) -> Fit:
     """Return the fit of *effect* that begins at the declared parameters, not the re-tuned."""
     known = declared.solution
     guesses = []
@@ -188,10 +190,8 @@ def _from_declared(declared: Fit, model: RigModel, effect: Effect, pool: Executo
         problem, added = extended(known.problem, model, effect, start)
         u = np.concatenate([known.u, added])
         r = problem.residuals(u)
-        own = problem.jacobian(u, r, pool, range(len(known.u), len(u)))
+        own = problem.jacobian(u, r, only=range(len(known.u), len(u)))
         jacobian = np.hstack([known.jacobian, own])
         guesses.append((predicted_cost(problem, u, r, jacobian), problem, u, jacobian))
     _, problem, u, jacobian = min(guesses, key=lambda guess: guess[0])
-    return fitted(
-        (*declared.effects, effect.name), solve(problem, u, pool=pool, jacobian=jacobian)
-    )
+    return fitted((*declared.effects, effect.name), solve(problem, u, jacobian=jacobian))
