@@ -33,8 +33,16 @@ warm: environment
 demo: warm
 	$(VENV)/bin/pam_demo
 
+# Pure tests may share the machine; those that keep a rate have it to themselves.
+ALONE := test/nodes test/packaging
+
 test: warm
+ifdef ARGS
 	$(PY) -m pytest $(ARGS)
+else
+	$(PY) -m pytest -n auto --dist loadfile $(ALONE:%=--ignore=%)
+	$(PY) -m pytest $(ALONE)
+endif
 
 lint: environment
 	$(PY) -m ruff check .

@@ -55,7 +55,7 @@ setup(
     extras_require={
         'fast': ['numba'],
         'baseline': ['simple-pid'],
-        'test': ['pytest', 'hypothesis', 'jsonschema', 'urdf-parser-py'],
+        'test': ['pytest', 'pytest-xdist', 'hypothesis', 'jsonschema', 'urdf-parser-py'],
     },
     zip_safe=False,
     entry_points={
