@@ -4,7 +4,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
 from pam_ros.effects import EFFECTS
@@ -185,8 +185,21 @@ def subsets(draw):
     return effects
 
 
+LIGHT_BETWEEN_PADS = {
+    'payload': {'mass': -8.0},
+    'end_stop': {
+        'upper': 0.0,
+        'stiffness': 450138.0,
+        'lower': 0.0,
+        'lower_stiffness': 293795.0,
+        'damping': 42.0,
+    },
+}
+
+
 @settings(max_examples=150)
 @given(effects=subsets())
+@example(effects=LIGHT_BETWEEN_PADS)
 def test_any_subset_works_together(effects):
     assume(bench.hanging(**effects).longest_step >= 1e-3)
     first, second = free(effects), free(effects)
