@@ -39,7 +39,7 @@ from pam_ros.control.pair_model import PairModel
 from pam_ros.control.pressure_path import PressurePath
 from pam_ros.control.signals import PairTerms, Reference
 from pam_ros.control.standstill import Standstill
-from pam_ros.control.switching import SuperTwisting, boundary_layer
+from pam_ros.control.switching import Surface
 from pam_ros.rig.joint_model import JointModel
 
 REST_SPEED, REST_ACCELERATION = 1e-3, 1e-2  # rad/s, rad/s^2 below which a reference rests
@@ -73,7 +73,7 @@ class PairLaw:
         self._losses = PairLosses(rig)
         self._observer = Observer(rig)
         self._standstill = Standstill(gains.rest_tolerance)
-        self._twisting = SuperTwisting()
+        self._surface = Surface()
         self._stiffness = StiffnessCourse(told.wanted(rig), told.co_contraction_rate)
         self.start(0.5 * (rig.reach[0] + rig.reach[1]))
 
@@ -119,9 +119,7 @@ class PairLaw:
         self._observer.start(position, disturbance)
         self._losses.start(position, chambers)
         self._standstill.start()
-        self._twisting.w = 0.0
-        self._integral = 0.0
-        self._slope = 0.0  # bandwidth of the last step, 1/s
+        self._surface.start()
         self._waited = 0.0  # since the last measurement, s
         self._offset = 0.0 if self.gains.observer else disturbance
         self._lost = 0.0
@@ -237,19 +235,16 @@ class PairLaw:
 
     def _switching(self, dt: float) -> float:
         """Return the switching torque in N m; sets the sliding variable."""
-        gains, inertia, bandwidth = self.gains, self.rig.mass, self._bandwidth
+        gains, inertia, surface = self.gains, self.rig.mass, self._surface
         if gains.switching == SUPER_TWISTING:
-            self.terms.surface = s = self._error_rate + self._integral
-            return inertia * self._twisting.step(s, dt, *gains.super_twisting(inertia))
-        if self._slope:
-            # The integral stands for a torque, which must not jump with the bandwidth.
-            self._integral *= self._slope / bandwidth
-        self._slope = bandwidth
-        self.terms.surface = s = self._error_rate + self._integral
-        return inertia * boundary_layer(s, bandwidth, gains.switching_gain(inertia))
+            term = surface.twist(self._error_rate, dt, *gains.super_twisting(inertia))
+        else:
+            term = surface.drive(self._error_rate, self._bandwidth, gains.switching_gain(inertia))
+        self.terms.surface = surface.value
+        return inertia * term
 
     def _integrate(self, dt: float, cut: float) -> None:
         """Integrate the surface; at a limit, only away from it (anti-windup)."""
         growth = (self._decay * self._error_rate + self._square * self._error) * dt
         if growth * cut <= 0.0:
-            self._integral += growth
+            self._surface.integral += growth

@@ -44,7 +44,7 @@ from pam_ros.control.pressure_path import PressurePath
 from pam_ros.control.signals import Reference, Terms
 from pam_ros.control.standstill import Standstill
 from pam_ros.control.stiction import Stiction
-from pam_ros.control.switching import SuperTwisting, boundary_layer
+from pam_ros.control.switching import Surface
 from pam_ros.rig.model import RigModel
 
 REST_SPEED, REST_ACCELERATION = 1e-4, 1e-3  # m/s, m/s^2 below which a reference rests
@@ -69,7 +69,7 @@ class SlidingMode:
         self._learner = Learner(rig, gains, self._path.is_lag_declared)
         self._standstill = Standstill(gains.rest_tolerance)
         self._stiction = Stiction(STICTION_TOLERANCE * gains.rest_tolerance)
-        self._twisting = SuperTwisting()
+        self._surface = Surface()
         self.start(0.0)
 
     def set_gains(self, gains: Gains) -> None:
@@ -99,9 +99,7 @@ class SlidingMode:
         self._standstill.start()
         self._stiction.start()
         self._pushed: float | None = None
-        self._twisting.w = 0.0
-        self._integral = 0.0
-        self._slope = 0.0  # bandwidth of the last step, 1/s
+        self._surface.start()
         self._waited = 0.0  # since the last measurement, s
         self._offset = 0.0 if self.gains.observer else disturbance
         self._foreseen = rig.weight
@@ -212,22 +210,19 @@ class SlidingMode:
             return pushed
         if self._pushed is not None:
             # The law goes on from the force that was pushed with last.
-            self._integral += (self._pushed - force) / (self._rig.mass * self._bandwidth)
+            self._surface.integral += (self._pushed - force) / (self._rig.mass * self._bandwidth)
             force, self._pushed = self._pushed, None
         return force
 
     def _switching(self, dt: float) -> float:
         """Return the switching force in N; sets the sliding variable."""
-        gains, m, bandwidth = self.gains, self._rig.mass, self._bandwidth
+        gains, m, surface = self.gains, self._rig.mass, self._surface
         if gains.switching == SUPER_TWISTING:
-            self.terms.surface = s = self._error_rate + self._integral
-            return m * self._twisting.step(s, dt, *gains.super_twisting(m))
-        if self._slope:
-            # The integral stands for a force, which must not jump with the bandwidth.
-            self._integral *= self._slope / bandwidth
-        self._slope = bandwidth
-        self.terms.surface = s = self._error_rate + self._integral
-        return m * boundary_layer(s, bandwidth, gains.switching_gain(m))
+            term = surface.twist(self._error_rate, dt, *gains.super_twisting(m))
+        else:
+            term = surface.drive(self._error_rate, self._bandwidth, gains.switching_gain(m))
+        self.terms.surface = surface.value
+        return m * term
 
     def _integrate(self, dt: float, force: float, command: float, wanted: float) -> None:
         """Integrate the surface, and watch how the load answers to the wanted *force* in N."""
@@ -241,7 +236,7 @@ class SlidingMode:
         # Anti-windup: at a limit the integral may only lead away from it.
         is_free = command == wanted or growth * (wanted - command) < 0.0
         if is_free and self._pushed is None:
-            self._integral += growth
+            self._surface.integral += growth
         standstill.see_force(dt, force, self._seen, self._k)
         self._may_learn = standstill.is_moving and command == wanted
 

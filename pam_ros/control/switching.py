@@ -30,3 +30,36 @@ class SuperTwisting:
         root = 0.5 * (sqrt(first * first + 4.0 * abs(s)) - first)
         self.w -= min(max(s / dt, -dt * k2), dt * k2)
         return (k1 * root if s > 0.0 else -k1 * root) - self.w
+
+
+class Surface:
+    """The sliding variable s = e' + z with its integral part z, and what drives it to zero.
+
+    ``value`` is s of the last step, ``integral`` z, which the law integrates; both in m/s, or in
+    rad/s of a joint.
+    """
+
+    def __init__(self) -> None:
+        """Begin on the surface."""
+        self._twisting = SuperTwisting()
+        self.start()
+
+    def start(self) -> None:
+        """Begin anew, with nothing integrated."""
+        self._twisting.w = 0.0
+        self._bandwidth = 0.0  # of the last step, 1/s
+        self.integral = self.value = 0.0
+
+    def drive(self, error_rate: float, bandwidth: float, gain: float) -> float:
+        """Return the acceleration of the boundary layer; the *bandwidth* in 1/s may change."""
+        if self._bandwidth:
+            # The integral stands for a force, which must not jump with the bandwidth.
+            self.integral *= self._bandwidth / bandwidth
+        self._bandwidth = bandwidth
+        self.value = error_rate + self.integral
+        return boundary_layer(self.value, bandwidth, gain)
+
+    def twist(self, error_rate: float, dt: float, k1: float, k2: float) -> float:
+        """Return the acceleration of super-twisting for the next *dt* s."""
+        self.value = error_rate + self.integral
+        return self._twisting.step(self.value, dt, k1, k2)

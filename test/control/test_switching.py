@@ -7,7 +7,7 @@ import math
 import pytest
 
 from pam_ros.control.gains import Gains
-from pam_ros.control.switching import SuperTwisting, boundary_layer
+from pam_ros.control.switching import SuperTwisting, Surface, boundary_layer
 
 MASS = 20.0
 DT = 1e-4
@@ -76,3 +76,23 @@ def test_super_twisting_converges_in_finite_time_and_finds_a_disturbance_that_mo
 def test_super_twisting_is_zero_at_rest():
     twisting = SuperTwisting()
     assert [twisting.step(0.0, 2e-3, 3.0, 5.0) for _ in range(5)] == [0.0] * 5
+
+
+def test_a_change_of_bandwidth_leaves_what_the_integral_stands_for():
+    surface = Surface()
+    surface.integral = 0.03
+    assert surface.drive(0.0, 10.0, 50.0) == pytest.approx(10.0 * 0.03)
+    assert surface.drive(0.0, 4.0, 50.0) == pytest.approx(10.0 * 0.03)
+    assert surface.value == pytest.approx(0.075)
+    assert surface.drive(0.01, 4.0, 50.0) == pytest.approx(4.0 * 0.085)
+    surface.start()
+    assert surface.drive(0.01, 4.0, 50.0) == pytest.approx(0.04)
+
+
+def test_a_surface_twists_as_the_algorithm_does_and_forgets_with_it():
+    surface, alone = Surface(), SuperTwisting()
+    surface.integral = 0.02
+    for rate in (0.1, 0.05, -0.01):
+        assert surface.twist(rate, 2e-3, 3.0, 5.0) == alone.step(rate + 0.02, 2e-3, 3.0, 5.0)
+    surface.start()
+    assert surface.twist(0.1, 2e-3, 3.0, 5.0) == SuperTwisting().step(0.1, 2e-3, 3.0, 5.0)
