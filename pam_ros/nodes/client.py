@@ -18,6 +18,7 @@ from rclpy.parameter import Parameter
 from rclpy.qos import QoSProfile
 
 from pam_ros.errors import PamError
+from pam_ros.nodes.interrupts import held_back
 
 DEPTH = 20_000  # messages that may wait for their turn: none is dropped
 TURN = 0.05  # s in which a condition is looked at again when nothing comes in
@@ -63,14 +64,18 @@ class Client:
         while not (result := condition()):
             if monotonic() > end:
                 raise PamError(f'waited {self._patience:g} s in vain for {what}')
-            self._executor.spin_once(timeout_sec=TURN)
+            self._turn(TURN)
         return result
 
     def work(self, seconds: float) -> None:
         """Take in what comes for a while."""
         end = monotonic() + seconds
         while (rest := end - monotonic()) > 0.0:
-            self._executor.spin_once(timeout_sec=rest)
+            self._turn(min(rest, TURN))
+
+    def _turn(self, seconds: float) -> None:
+        with held_back():
+            self._executor.spin_once(timeout_sec=seconds)
 
     def collect(self, kind: type, topic: str) -> list[Any]:
         """Subscribe, and return the list that the messages will come into."""

@@ -4,12 +4,12 @@
 
 import argparse
 import os
-import signal
 import sys
 from importlib import import_module
 from pathlib import Path
 
 from pam_ros.errors import PamError
+from pam_ros.nodes.interrupts import heed
 
 BAD_INPUT, INTERRUPTED = 2, 130
 # Each is a module of pam_ros.nodes.chapters with a function play(stage).
@@ -28,7 +28,7 @@ def main() -> None:
         if name not in CHAPTERS:
             parser.error(f'there is no chapter {name}: give one of ' + ', '.join(CHAPTERS))
     # A polite kill stops the programs that a chapter has started, as Ctrl-C does.
-    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    heed()
     # Nothing of the demonstration needs another machine, and none should hear it.
     os.environ.setdefault('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
     try:

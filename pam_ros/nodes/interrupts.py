@@ -1,0 +1,47 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Ctrl-C and SIGTERM as KeyboardInterrupt, but never in the middle of rclpy's own work.
+
+Raised while rclpy handles a message, it is lost in a destructor or comes out as another error.
+"""
+
+import signal
+from collections.abc import Iterator
+from contextlib import contextmanager
+from types import FrameType
+
+# Of the process, as its signal handlers are.
+_is_made = _is_held = False
+
+
+def heed() -> None:
+    """Let the first Ctrl-C or SIGTERM raise KeyboardInterrupt; later ones do no harm."""
+    global _is_made
+    _is_made = False
+    for kind in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(kind, _note)
+
+
+@contextmanager
+def held_back() -> Iterator[None]:
+    """Raise KeyboardInterrupt at the end of the context for what came before or during it.
+
+    Before it, too: one that was raised in a destructor has been lost.
+    """
+    global _is_held
+    _is_held = True
+    try:
+        yield
+    finally:
+        _is_held = False
+    if _is_made:
+        raise KeyboardInterrupt
+
+
+def _note(kind: int, frame: FrameType | None) -> None:
+    global _is_made
+    if _is_made:
+        return
+    _is_made = True
+    if not _is_held:
+        raise KeyboardInterrupt
