@@ -11,13 +11,19 @@ from numpy.typing import NDArray
 
 from pam_ros.effects.base import Effect
 from pam_ros.identification.problem import Problem
-from pam_ros.identification.solve import Solution, amplified_cost, predicted_cost, solve
+from pam_ros.identification.solve import (
+    Solution,
+    amplified_cost,
+    improved,
+    predicted_cost,
+    solve,
+)
 from pam_ros.identification.unknowns import effect_unknowns
 from pam_ros.rig import layout as at
 from pam_ros.rig.model import RigModel
 
 Array = NDArray[np.float64]
-LOOKS = 2  # steps of the cheap look, with the parent's columns kept
+FURTHER = 2  # starts from which a look takes a second step
 LITTLE = 0.05  # share of a start's strength that is nearly none
 WHISPERS = 4  # steps from there
 EARNED = 10.0  # fall of the score that pays for an effect's finer parameters
@@ -89,7 +95,9 @@ def look(
     starts = [(problem, added) for _, problem, added in guesses[:tried]]
     starts += [extended(known.problem, model, effect, start) for start in read]
     solutions = [_stepped(known, problem, added) for problem, added in starts]
-    return sorted(solutions, key=lambda solution: solution.cost)
+    solutions.sort(key=lambda solution: solution.cost)
+    further = [_again(known, solution) for solution in solutions[:FURTHER]]
+    return sorted([*further, *solutions[FURTHER:]], key=lambda solution: solution.cost)
 
 
 def whisper(parent: Fit, model: RigModel, effect: Effect) -> Solution:
@@ -136,20 +144,23 @@ def released(fit: Fit, model: RigModel, effect: Effect, pool: Executor | None) -
         some = {name: value for name, value in start.items() if name in rest}
         if some and some not in options:
             options.append(some)
-    looks = [_stepped(fit.solution, *extended(problem, model, effect, o)) for o in options]
+    firsts = [_stepped(fit.solution, *extended(problem, model, effect, o)) for o in options]
+    looks = [_again(fit.solution, first) for first in firsts]
     best = min(looks, key=lambda solution: solution.cost)
-    wide = fitted(fit.effects, solve(best.problem, best.u, pool=pool, jacobian=best.jacobian))
+    wide = fitted(fit.effects, improved(best, pool=pool))
     return wide if wide.score < fit.score - EARNED else fit
 
 
 def _stepped(known: Solution, problem: Problem, added: Array) -> Solution:
-    """Return a few steps from the *added* unknowns on top of *known*, whose columns are kept."""
-    count = len(known.u)
+    """Return a step from the *added* unknowns on top of *known*, whose columns are kept."""
     u = np.concatenate([known.u, added])
-    r = problem.residuals(u)
-    own = problem.jacobian(u, r, only=range(count, len(u)))
-    jacobian = np.hstack([known.jacobian, own])
-    return solve(problem, u, LOOKS, jacobian=jacobian, frozen=count)
+    jacobian = np.hstack([known.jacobian, np.empty((known.r.size, added.size))])
+    return _again(known, Solution(problem, u, problem.residuals(u), jacobian, 0))
+
+
+def _again(known: Solution, solution: Solution) -> Solution:
+    """Return one more step of a *solution* that keeps the columns of *known*."""
+    return improved(solution, 1, frozen=len(known.u))
 
 
 def guessed(parent: Fit, effect: Effect) -> tuple[dict[str, float], ...]:
@@ -174,11 +185,6 @@ def refine(parent: Fit, effect: Effect, looks: Sequence[Solution], pool: Executo
     Friction and stops make a fit stop in the wrong place now and then, so that the better look
     is not always the better fit.
     """
-    fits = [
-        fitted(
-            (*parent.effects, effect.name),
-            solve(start.problem, start.u, pool=pool, jacobian=start.jacobian),
-        )
-        for start in looks
-    ]
+    effects = (*parent.effects, effect.name)
+    fits = [fitted(effects, improved(start, pool=pool)) for start in looks]
     return min(fits, key=lambda fit: fit.score)

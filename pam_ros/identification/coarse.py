@@ -17,8 +17,8 @@ from pam_ros.rig.model import RigModel
 
 Array = NDArray[np.float64]
 
-PHASE = 0.3  # rad of the rig's fastest oscillation in one step
-STEPS = (1e-3, 6e-3)  # s, shortest and longest step
+PHASE = 0.5  # rad of the rig's fastest oscillation in one step
+STEPS = (1e-3, 10e-3)  # s, shortest and longest step
 JUMP = 0.01  # share of the command's range within a stride that makes a jump
 SAMPLES = 20_000  # most samples of a held run, whose steps cost nothing but themselves
 

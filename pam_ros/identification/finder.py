@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from pam_ros.identification import verdict
 from pam_ros.identification.admission import Tried
 from pam_ros.identification.candidate import Fit, fitted
+from pam_ros.identification.coarse import coarse_step
 from pam_ros.identification.noise import Noise, noise_of
 from pam_ros.identification.result import Candidate, Finding, Trace
 from pam_ros.identification.retuning import only_starts, problem_of
@@ -88,7 +89,7 @@ def _polished(
 
     Effects that do not lower the score there are dropped.
     """
-    plain = problem_of(model, segments, noise, STEP)
+    plain = replace(problem_of(model, segments, noise, STEP), slope_step=coarse_step(model))
     starts = [k for k in plain.unknowns if k.segment >= 0]
     fits = []
     with ThreadPoolExecutor() as pool:
@@ -199,8 +200,8 @@ def _candidates(found: Search, model: RigModel) -> tuple[Candidate, ...]:
     rows = []
     for tried in found.rounds:
         winner = next((t for t in tried if t.chosen), None)
+        rivals = verdict.alternatives(found, winner) if winner else ()
         for t in tried:
-            rivals = verdict.alternatives(found, winner) if winner else ()
             decision = (
                 'chosen' if t.chosen else 'ambiguous' if t.effect.name in rivals else 'rejected'
             )

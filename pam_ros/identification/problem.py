@@ -4,7 +4,7 @@
 
 from collections.abc import Callable, Sequence
 from concurrent.futures import Executor
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,7 +26,9 @@ DIFFERENCE = 1e-3  # step of u for a derivative; a thousandth of a parameter's t
 class Problem:
     """Runs to be explained by a parameter row of which some entries are unknown.
 
-    ``row`` holds the values of what is not unknown; ``step`` is the longest step in s.
+    ``row`` holds the values of what is not unknown; ``step`` is the longest step in s, and
+    ``slope_step`` that of the runs from which derivatives come, where it is longer: they need
+    not be as exact as what they correct.
     ``independent`` is how many independent samples the fitted ones are worth. Residuals
     beyond ``outlier`` (in the target's unit) count by their size, not its square (pseudo-Huber).
     """
@@ -39,6 +41,7 @@ class Problem:
     independent: float
     step: float = 1e-3
     outlier: float = np.inf
+    slope_step: float = 0.0
     fit_rows: tuple[NDArray[np.intp], ...] = field(init=False)
 
     def __post_init__(self) -> None:
@@ -123,6 +126,9 @@ class Problem:
         *r* are the residuals at u; *only* restricts the columns; *pool* runs them side by side.
         A column steps to the side that its bounds leave open.
         """
+        if self.slope_step > self.step:
+            coarse = replace(self, step=self.slope_step, slope_step=0.0)
+            return coarse.jacobian(u, coarse.residuals(u), pool, only)
         columns = range(len(u)) if only is None else only
 
         def column(k: int) -> Array:

@@ -59,27 +59,42 @@ def solve(
     iterations: int = 20,
     pool: Executor | None = None,
     jacobian: Array | None = None,
-    frozen: int = 0,
 ) -> Solution:
     """Minimise the problem's cost from u; never ends higher than it began.
 
-    The noise variance is that of the residuals at each step. A Jacobian that is handed in is
-    used as it is and, like any other, kept up to date by Broyden's rule; it is computed anew
-    when steps stop to lower the cost, a -2 log likelihood, by a tenth or by half of what they
-    promise. With *frozen* its first columns never are, and the others at every step: a cheap
-    look, not a converged fit.
+    A Jacobian that is handed in is used as it is, see :func:`improved`.
     """
     low, high = np.array([k.bounds for k in problem.unknowns]).reshape(-1, 2).T
-    prior = np.array([k.prior for k in problem.unknowns])
     u = np.clip(u, low, high)
     r = problem.residuals(u)
-    cost = problem.cost(u, r)
-    j = problem.jacobian(u, r, pool) if jacobian is None else jacobian.copy()
-    stale = jacobian is not None
-    own = range(frozen, len(u))
+    j = problem.jacobian(u, r, pool) if jacobian is None else jacobian
+    return improved(Solution(problem, u, r, j, 0), iterations, pool, jacobian is not None)
+
+
+def improved(
+    known: Solution,
+    iterations: int = 20,
+    pool: Executor | None = None,
+    stale: bool = True,
+    frozen: int = 0,
+) -> Solution:
+    """Minimise the cost of the problem of *known* from there; never ends higher.
+
+    The noise variance is that of the residuals at each step. A *stale* Jacobian, not of this
+    place, is used as it is and, like any other, kept up to date by Broyden's rule; it is computed
+    anew when steps stop to lower the cost, a -2 log likelihood, by a tenth or by half of what
+    they promise. With *frozen* its first columns never are, and the others before every step: a
+    cheap look, not a converged fit.
+    """
+    problem, u, r, cost = known.problem, known.u, known.r, known.cost
+    low, high = np.array([k.bounds for k in problem.unknowns]).reshape(-1, 2).T
+    prior = np.array([k.prior for k in problem.unknowns])
+    j = known.jacobian.copy()
     damping, done = LEAST_DAMPING, 0
     while done < iterations:
         done += 1
+        if frozen:
+            j[:, frozen:] = problem.jacobian(u, r, pool, range(frozen, len(u)))
         weight = problem.independent / float(r @ r)
         normal = weight * (j.T @ j) + np.diag(prior**-2.0)
         gradient = weight * (j.T @ r) + u / prior**2.0
@@ -100,7 +115,6 @@ def solve(
         if frozen:
             if gain < 0.1:
                 break
-            j[:, frozen:] = problem.jacobian(u, r, pool, own)
         elif gain < max(0.1, 0.5 * hoped) if np.isfinite(hoped) else True:
             if gain < 0.1 and not stale:
                 break
@@ -108,7 +122,7 @@ def solve(
             j, stale, damping = problem.jacobian(u, r, pool), False, LEAST_DAMPING
         else:
             stale = True
-    return Solution(problem, u, r, j, done)
+    return Solution(problem, u, r, j, known.iterations + done)
 
 
 def _broyden(j: Array, du: Array, dr: Array) -> Array:

@@ -88,6 +88,18 @@ def _dampings(inner: Function, f: Function, j: int) -> Function:
     return chain
 
 
+def _or_present(inner: Function, strengths: tuple[int, ...]) -> Function:
+    """Chain the question whether any of these parameters differs from 0."""
+    if not strengths:
+        return inner
+    first, rest = strengths[0], strengths[1:]
+
+    def chain(q):  # type: ignore[no-untyped-def]
+        return inner(q) or q[first] != 0.0
+
+    return _or_present(compiled.scalar(chain), rest)
+
+
 def _chains(layout: Layout, active: tuple[Effect, ...]) -> dict[str, Function]:
     """Return the compiled chain of every place, by the name that the templates call."""
     chains = {
@@ -171,10 +183,17 @@ def bind_joints(layout: Layout, active: tuple[Effect, ...]) -> JointKernel:
 
 def _inner(layout: Layout, active: tuple[Effect, ...]) -> dict[str, Any]:
     """Return the names of the templates, chains and inner functions bound and compiled."""
-    remembers = any(e.states and e.pressure is None for e in active)
+    memories = [e for e in active if e.states and e.pressure is None]
+    strengths = tuple(
+        layout.parameter_at[e.name] + k
+        for e in memories
+        for k, p in enumerate(e.parameters)
+        if p.strength
+    )
     names: dict[str, Any] = dict(vars(templates))
     names.update(_chains(layout, active))
-    names['MEMORY_FROM'] = layout.memory_from if remembers else layout.width
+    names['remembers'] = _or_present(compiled.scalar(templates.remembers), strengths)
+    names['MEMORY_FROM'] = layout.memory_from if memories else layout.width
     for name in _INNER:
         names[name] = compiled.scalar(_rebound(getattr(templates, name), names, name))
     return names

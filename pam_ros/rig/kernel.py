@@ -6,8 +6,8 @@ The ODE is equation (3) of Sárosi (2015) with contraction positive (the load mo
 
     m y'' = F(p, kappa) - c y' + f_outside - m g,    kappa = y / l0
 
-These functions are plain scalar Python and run as they stand. The names ``*_chain`` are bound to
-the effects in use by :mod:`pam_ros.rig.bind`, which also compiles them; called unbound, the
+These functions are plain scalar Python and run as they stand. The names ``*_chain`` and
+``remembers`` are bound to the effects in use by :mod:`pam_ros.rig.bind`, which also compiles them; called unbound, the
 rig is the paper's, without effects. x is a state row, q a parameter row (see ``layout``), xn a
 scratch row of the same width as x. Written ``* (1.0 / m)``, a division is done once a step and
 not at every stage.
@@ -68,6 +68,11 @@ def outside_chain(
     return f
 
 
+def remembers(q: Row) -> bool:
+    """Return whether an effect that is present has a memory that is no pressure."""
+    return False
+
+
 MEMORY_FROM = 3  # bound with the chains
 
 
@@ -113,7 +118,7 @@ def step(x: Row, xn: Row, q: Row, u: float, t: float, h: float) -> None:
     x[Y] = y + h * v + h * sixth * (a1 + a2 + a3)
     x[V] = v + sixth * (a1 + 2.0 * a2 + 2.0 * a3 + a4)
     x[P] = p2
-    if x.shape[0] > MEMORY_FROM:
+    if remembers(q):
         # Once more at the end that was reached: what the memories have become there.
         acceleration(x[Y], x[V], p2, t + h, h, m, x, xn, q)
         for i in range(MEMORY_FROM, x.shape[0]):
