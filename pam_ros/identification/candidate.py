@@ -127,35 +127,64 @@ def released(fit: Fit, model: RigModel, effect: Effect, pool: Executor | None) -
 
     The plainer fit is kept where the others do not earn their cost.
     """
-    problem = fit.solution.problem
+    wide = freed(fit.solution, model, effect, pool)
+    if wide is fit.solution:
+        return fit
+    found = fitted(fit.effects, wide)
+    return found if found.score < fit.score - EARNED else fit
+
+
+def freed(
+    known: Solution, model: RigModel, effect: Effect, pool: Executor | None = None
+) -> Solution:
+    """Return the best fit with some or all of the parameters of *effect* freed that are fixed."""
+    problem = known.problem
+    options = _finer(problem, known.u, model, effect)
+    if not options:
+        return known
+    firsts = [_stepped(known, *extended(problem, model, effect, o)) for o in options]
+    looks = [_again(known, first) for first in firsts]
+    best = min(looks, key=lambda solution: solution.cost)
+    return improved(best, pool=pool)
+
+
+def _finer(problem: Problem, u: Array, model: RigModel, effect: Effect) -> list[dict[str, float]]:
+    """Return values from which to free the parameters of *effect* that are fixed in *problem*.
+
+    All of them from where they are absent, or some from where a start has them; strengths in
+    the proportion to one that is fitted already in which that start has both.
+    """
     there = {unknown.name for unknown in problem.unknowns}
     j = model.layout.parameter_at[effect.name]
-    row = problem.row_at(fit.solution.u)
-    rest = {
-        p.name: float(row[j + k])
-        for k, p in enumerate(effect.parameters)
-        if f'effects.{effect.name}.{p.name}' not in there
-    }
-    if not rest:
-        return fit
-    # All of the others from where they are absent, or some from where a start has them.
-    options = [rest]
+    row = problem.row_at(u)
+    values = {p.name: float(row[j + k]) for k, p in enumerate(effect.parameters)}
+    rest = {n: v for n, v in values.items() if f'effects.{effect.name}.{n}' not in there}
+    units = {p.name: p.unit for p in effect.parameters if p.strength}
+    options = [rest] if rest else []
     for start in effect.fit_starts:
         some = {name: value for name, value in start.items() if name in rest}
+        for name in some:
+            shared = [n for n in start if n not in rest and units.get(n) == units.get(name, '')]
+            if shared and start[shared[0]] * values[shared[0]] > 0.0:
+                some[name] *= values[shared[0]] / start[shared[0]]
         if some and some not in options:
             options.append(some)
-    firsts = [_stepped(fit.solution, *extended(problem, model, effect, o)) for o in options]
-    looks = [_again(fit.solution, first) for first in firsts]
-    best = min(looks, key=lambda solution: solution.cost)
-    wide = fitted(fit.effects, improved(best, pool=pool))
-    return wide if wide.score < fit.score - EARNED else fit
+    return options
 
 
 def _stepped(known: Solution, problem: Problem, added: Array) -> Solution:
     """Return a step from the *added* unknowns on top of *known*, whose columns are kept."""
-    u = np.concatenate([known.u, added])
-    jacobian = np.hstack([known.jacobian, np.empty((known.r.size, added.size))])
-    return _again(known, Solution(problem, u, problem.residuals(u), jacobian, 0))
+    return _again(known, _begun(known, problem, np.concatenate([known.u, added])))
+
+
+def began(parent: Fit, problem: Problem, u: Array) -> Solution:
+    """Return a step from u, which begins with all unknowns of *parent* at values of their own."""
+    return _again(parent.solution, _begun(parent.solution, problem, u))
+
+
+def _begun(known: Solution, problem: Problem, u: Array) -> Solution:
+    jacobian = np.hstack([known.jacobian, np.empty((known.r.size, u.size - known.u.size))])
+    return Solution(problem, u, problem.residuals(u), jacobian, 0)
 
 
 def _again(known: Solution, solution: Solution) -> Solution:

@@ -21,8 +21,8 @@ def without_needless(fit: Fit, retuned: Fit, model: RigModel, noise: Noise, pool
     One without which the declared parameters would have to be odd ones is needed.
     """
     while len(fit.effects) > 1:
-        for name in fit.effects[:-1]:
-            smaller = _dropped(fit, name, model, pool)
+        for name in fit.effects:
+            smaller = dropped(fit, name, model, pool)
             gain = 1.0 - fit.held_error / smaller.held_error
             if strain(smaller) - strain(fit) > IMPLAUSIBLE:
                 continue
@@ -34,7 +34,7 @@ def without_needless(fit: Fit, retuned: Fit, model: RigModel, noise: Noise, pool
     return fit
 
 
-def _dropped(fit: Fit, name: str, model: RigModel, pool: Executor) -> Fit:
+def dropped(fit: Fit, name: str, model: RigModel, pool: Executor) -> Fit:
     """Return the fit without effect *name*, fitted anew."""
     names = [p.name for p in _effect(model, name).parameters]
     smaller = _reduced(fit, name, names, model, pool)

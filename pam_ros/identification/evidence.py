@@ -16,6 +16,7 @@ Array = NDArray[np.float64]
 
 SIGNIFICANCE = 0.01  # of the whole family of candidates
 GAIN = 0.03  # least relative fall of the RMSE kept back
+LOSS = 0.15  # relative rise of it that parameters near to those declared may cost
 LATER_SHARE = 0.03  # a second or third effect must explain this share of what re-tuning left
 AMBIGUOUS = 6.0  # difference of scores that does not decide between two effects
 LATER_GAIN = 0.5  # or lower the RMSE kept back by this share

@@ -100,7 +100,7 @@ class Problem:
             p[rows] - s.target[rows]
             for p, s, rows in zip(self.predict(u), self.segments, self.fit_rows, strict=True)
         ]
-        return self._compressed(_finite(np.concatenate(parts)))
+        return self._compressed(finite(np.concatenate(parts)))
 
     def _compressed(self, e: Array) -> Array:
         """Return e so that its square is pseudo-Huber's loss."""
@@ -150,7 +150,7 @@ class Problem:
         first = sum(rows.size for rows in self.fit_rows[:segment])
         rows = self.fit_rows[segment]
         s = self.segments[segment]
-        new = self._compressed(_finite(self.predict(moved, segment)[0][rows] - s.target[rows]))
+        new = self._compressed(finite(self.predict(moved, segment)[0][rows] - s.target[rows]))
         out[first : first + rows.size] = (new - r[first : first + rows.size]) / h
         return out
 
@@ -164,7 +164,8 @@ class Problem:
         return _rms(np.concatenate(fit)), _rms(np.concatenate(held))
 
 
-def _finite(e: Array) -> Array:
+def finite(e: Array) -> Array:
+    """Return *e* with what is no number, or beyond all reason, as large numbers."""
     return np.clip(np.nan_to_num(e, nan=1e6), -1e6, 1e6)
 
 

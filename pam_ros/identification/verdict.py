@@ -21,7 +21,7 @@ VISIBLE = 10.0  # noise floors that the target must move
 CEILING = 0.12  # R^2 of the generic regressor from which a residual is structured
 ABOVE = 0.4  # share of the residual's variance above the noise floor that then matters
 FAR_ABOVE = 2.5  # noise floors from which a residual is no noise, predictable or not
-UNEXPLAINED = 0.6  # share of what re-tuning left that found effects may leave unexplained
+UNEXPLAINED = 0.4  # share of what re-tuning left that found effects may leave unexplained
 CLOSE = 1.05  # ratio of errors that are the same for a user
 
 

@@ -243,3 +243,53 @@ def simulate_held(
         x[Y], x[V] = y[n], v[n]
         out[n, Y], out[n, V], out[n, P] = x[Y], x[V], x[P]
         out[n, 3] -= coefficient(x[Y], x[V], x[P], mass_chain(q[MASS], q), q) * x[V]
+
+
+def simulate_along(
+    x: Row, xn: Row, q: Row, t: Row, y: Row, v: Row, at: Row, u: Row, out: Row
+) -> None:
+    """Integrate the acceleration of equation (3) along a motion that is given.
+
+    t, y, v (n,): stamps, position in m, velocity in m/s, linear between stamps. at, u (m,):
+    commands as for ``simulate``. out (n - 1, 2) receives, for each interval between two stamps,
+    the integral of the acceleration in m/s and its moment about the interval's middle in m, by
+    the midpoint rule between commands.
+    """
+    for j in range(x.shape[0]):
+        xn[j] = x[j]
+    m = mass_chain(q[MASS], q)
+    delay = delay_chain(q)
+    i = 0
+    while i + 1 < at.shape[0] and at[i + 1] + delay < t[0]:
+        i += 1
+    now = t[0]
+    before = t[0]
+    for n in range(1, t.shape[0]):
+        out[n - 1, 0] = 0.0
+        out[n - 1, 1] = 0.0
+        while now < t[n]:
+            end = t[n]
+            while i + 1 < at.shape[0] and at[i + 1] + delay <= now + 1e-9:
+                i += 1
+            if i + 1 < at.shape[0] and at[i + 1] + delay < end - 1e-9:
+                end = at[i + 1] + delay
+            half = 0.5 * (end - now)
+            middle = now + half
+            share = (middle - t[n - 1]) / (t[n] - t[n - 1])
+            x[Y] = y[n - 1] + share * (y[n] - y[n - 1])
+            x[V] = v[n - 1] + share * (v[n] - v[n - 1])
+            x[P] = pressure_chain(u[i], middle, half, x, xn, q)
+            h = middle - before
+            for j in range(HIDDEN, MEMORY_FROM):
+                x[j] = xn[j]
+            a = acceleration(x[Y], x[V], x[P], middle, h, m, x, xn, q)
+            x[P] = pressure_chain(u[i], end, half, x, xn, q)
+            for j in range(HIDDEN, MEMORY_FROM):
+                x[j] = xn[j]
+            if remembers(q):
+                for j in range(MEMORY_FROM, x.shape[0]):
+                    x[j] = xn[j]
+            out[n - 1, 0] += 2.0 * half * a
+            out[n - 1, 1] += 2.0 * half * a * (middle - 0.5 * (t[n - 1] + t[n]))
+            before = middle
+            now = end

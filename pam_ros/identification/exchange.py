@@ -1,0 +1,41 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Effects that were chosen when others were still missing, each against its rivals once more."""
+
+from dataclasses import replace
+
+from pam_ros.identification.admission import AS_GOOD, Tried
+from pam_ros.identification.candidate import EARNED, Fit, released
+from pam_ros.identification.elimination import dropped
+from pam_ros.identification.evidence import SIGNIFICANCE
+from pam_ros.identification.round import NEAR, Setting, try_effects
+
+
+def exchanged(fit: Fit, setting: Setting) -> tuple[Fit, tuple[tuple[Tried, ...], ...]]:
+    """Return *fit* with each effect but the last exchanged for a rival that explains more.
+
+    Or for one that it contains and that explains as much. And the candidates of each exchange.
+    """
+    model, rounds = setting.model, []
+    for name in fit.effects[:-1]:
+        effect = next(e for e in model.library if e.name == name)
+        is_near = fit.fit_error < NEAR * setting.noise.sigma
+        others = effect.contains if is_near else (*effect.contains, *effect.rivals)
+        there = (*fit.effects, *model.effects)
+        rivals = [e for e in model.library if e.name in others and e.name not in there]
+        if not rivals:
+            continue
+        base = dropped(fit, name, model, setting.pool)
+        _, tried = try_effects(base, rivals, setting)
+        for one in sorted(tried, key=lambda t: t.fit.score):
+            is_plainer = one.effect.name in effect.contains
+            explains = one.fit.score < fit.score - EARNED or (
+                is_plainer and one.fit.held_error < (1.0 + AS_GOOD) * fit.held_error
+            )
+            clear = one.evidence.interval_clear and one.evidence.p < SIGNIFICANCE
+            if explains and clear:
+                chosen = replace(one, chosen=True)
+                rounds.append(tuple(chosen if t is one else t for t in tried))
+                fit = released(one.fit, model, one.effect, setting.pool)
+                break
+    return fit, tuple(rounds)

@@ -1,0 +1,248 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The equation of motion in weak form, along the measured motion: no free run, no derivative.
+
+    integral phi a dt = integral phi'' y dt
+
+for every bump phi that vanishes with its slope at its ends (Shinbrot's modulating functions,
+1957), a being the acceleration of equation (3) where the rig was measured to be. What a free
+run makes of an error by and by, this says at once: a fit finds from afar where friction, stops
+or a leak make the sum of squares of a free run rugged. Noise in the position, which enters the
+forces, biases it a little, so it finds starts, not results.
+"""
+
+from collections.abc import Sequence
+from concurrent.futures import Executor
+from dataclasses import dataclass, replace
+from functools import partial
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.signal import savgol_filter
+
+from pam_ros.effects.base import Effect
+from pam_ros.identification.candidate import EARNED, Fit, extended, fitted, freed
+from pam_ros.identification.problem import Problem, finite
+from pam_ros.identification.segment import Segment
+from pam_ros.identification.solve import Solution, amplified_cost, improved, solve
+from pam_ros.rig.bind import bind
+from pam_ros.rig.model import RigModel, start_row
+
+Array = NDArray[np.float64]
+WIDTH = 0.15  # s of a bump
+SMOOTHED = 0.05  # s over which a quartic follows the motion
+VISIBLE = 8.0  # noises by which a moving rig moves under a bump
+MANY = 5  # bumps per unknown, at least
+STEPS = 8  # iterations of a weak fit
+LEADING = 0.1  # share of the best fall from which an effect is followed
+TRIED = 2  # starts of an effect that are fitted
+MOMENTS = 5  # the two integrals agree for polynomials of y up to this degree less one
+
+
+@dataclass(frozen=True, eq=False)
+class Motion:
+    """A run as the weak form needs it.
+
+    t, y, v (n,): s, m, m/s, the smoothed motion at the thinned stamps. rows (k, m): the
+    intervals under each bump; weights (k, m, 2): what the integral of a over each, and its
+    moment, count there; wanted (k,): what comes of it, in m, scaled so that each has the
+    noise of the position. moving (k,) marks those under which the rig goes one way all the time.
+    """
+
+    segment: Segment
+    t: Array
+    y: Array
+    v: Array
+    rows: NDArray[np.intp]
+    weights: Array
+    wanted: Array
+    moving: NDArray[np.bool_]
+
+
+def motion_of(full: Segment, thin: Segment, sigma: float) -> Motion:
+    """Return the motion of a free run, its measurement from *full*, its stamps from *thin*.
+
+    sigma is the noise of the position in m.
+
+    Bumps lie wholly in what may be fitted.
+    """
+    y, v = _smoothed(full.t, full.target, SMOOTHED)
+    half = 0.5 * WIDTH
+    centres = np.arange(full.t[0] + half, full.t[-1] - half, half)
+    middles = 0.5 * (thin.t[1:] + thin.t[:-1])
+    rows = _under(thin.t, centres, thin.t.size - 1)
+    many = _under(full.t, centres, full.t.size)
+    inside = full.fit[many].all(axis=1)
+    rows, many, centres = rows[inside], many[inside], centres[inside]
+    s = (middles[rows] - centres[:, None]) / half
+    z = (full.t[many] - centres[:, None]) / half
+    weights = np.stack([_bump(s), _bump_slope(s) / half], axis=2)
+    slopes = _bump_curvature(z) * np.gradient(full.t)[many] / half**2
+    slopes = _matched(slopes, _bump(z), z, _bump(s) * np.diff(thin.t)[rows], s, half)
+    size = np.linalg.norm(slopes, axis=1)
+    centred = full.target[many] - full.target[many].mean(axis=1, keepdims=True)
+    return Motion(
+        thin,
+        thin.t,
+        np.interp(thin.t, full.t, y),
+        np.interp(thin.t, full.t, v),
+        rows,
+        weights / size[:, None, None],
+        np.sum(slopes * centred, axis=1) / size,
+        _moving(full, many, sigma),
+    )
+
+
+def _moving(full: Segment, many: NDArray[np.intp], sigma: float) -> NDArray[np.bool_]:
+    y, v = _smoothed(full.t, full.target, WIDTH)
+    one_way = np.abs(np.sign(v[many]).sum(axis=1)) == many.shape[1]
+    return np.asarray(one_way & (np.abs(y[many[:, -1]] - y[many[:, 0]]) > VISIBLE * sigma))
+
+
+def _under(t: Array, centres: Array, end: int) -> NDArray[np.intp]:
+    """Return the indices below *end*, of samples or intervals, under a bump at each centre."""
+    count = int(np.ceil(WIDTH / float(np.median(np.diff(t))))) + 1
+    first = np.searchsorted(t, centres - 0.5 * WIDTH, side='right') - 1
+    return np.asarray(np.clip(first, 0, end - count)[:, None] + np.arange(count))
+
+
+def _bump(s: Array) -> Array:
+    return np.where(np.abs(s) < 1.0, (1.0 - s * s) ** 3, 0.0)
+
+
+def _bump_slope(s: Array) -> Array:
+    return np.where(np.abs(s) < 1.0, -6.0 * s * (1.0 - s * s) ** 2, 0.0)
+
+
+def _bump_curvature(s: Array) -> Array:
+    return np.where(np.abs(s) < 1.0, -6.0 * (1.0 - s * s) * (1.0 - 5.0 * s * s), 0.0)
+
+
+def _matched(slopes: Array, bump: Array, z: Array, weights: Array, s: Array, half: float) -> Array:
+    """Return *slopes* corrected so that sampled integrals agree as the true ones do.
+
+    For y = s^j: the sum of slopes times z^j must be that of weights times (s^j)''.
+    """
+    powers = z[:, :, None] ** np.arange(MOMENTS)
+    asked = np.zeros((z.shape[0], MOMENTS))
+    for j in range(2, MOMENTS):
+        asked[:, j] = np.sum(weights * j * (j - 1) * s ** (j - 2), axis=1) / half**2
+    missing = asked - np.einsum('kn,knj->kj', slopes, powers)
+    spread = bump[:, :, None] * powers
+    c = np.linalg.solve(np.einsum('kni,knj->kij', powers, spread), missing[:, :, None])
+    return np.asarray(slopes + np.einsum('knj,kj->kn', spread, c[:, :, 0]))
+
+
+def _smoothed(t: Array, y: Array, span: float) -> tuple[Array, Array]:
+    """Return position and velocity of the quartic that follows the motion over *span* s."""
+    period = float(np.median(np.diff(t)))
+    even = np.arange(t[0], t[-1] + 0.5 * period, period)
+    n = max(7, int(span / period)) | 1
+    values = np.interp(even, t, y)
+    curve = savgol_filter(values, n, 4)
+    slope = savgol_filter(values, n, 4, deriv=1, delta=period)
+    return np.interp(t, even, curve), np.interp(t, even, slope)
+
+
+@dataclass(frozen=True, eq=False)
+class WeakProblem(Problem):
+    """A problem whose residuals are those of the equation of motion, in units of the position."""
+
+    motions: tuple[Motion, ...] = ()
+    moving: bool = False
+
+    def residuals(self, u: Array) -> Array:
+        """Return simulated - measured integrals over every bump, in m."""
+        q = self.row_at(u)
+        kernel = bind(self.layout, self.active)
+        parts = []
+        for m in self.motions:
+            s = m.segment
+            x = start_row(self.layout, q, s.first_pressure, s.y0, s.v0)
+            a = np.empty((m.t.size - 1, 2))
+            kernel.simulate_along(x, np.empty_like(x), q, m.t, m.y, m.v, s.drive_t, s.drive, a)
+            e = np.einsum('knj,knj->k', a[m.rows], m.weights) - m.wanted
+            parts.append(e[m.moving] if self.moving else e)
+        return finite(np.concatenate(parts))
+
+
+def weak_fits(parent: Fit, motions: Sequence[Motion]) -> list[Solution]:
+    """Return the weak fits of the parameters of *parent*: to all bumps, and to moving ones.
+
+    At rest friction may have any value, and so may the force of a hard stop: what such an effect
+    is when it acts shows where the rig moves.
+    """
+    problem = parent.solution.problem
+    kept = [k for k, x in enumerate(problem.unknowns) if x.segment < 0]
+    unknowns = tuple(problem.unknowns[k] for k in kept)
+    found = []
+    for moving in (False, True):
+        count = sum(np.count_nonzero(m.moving) if moving else m.wanted.size for m in motions)
+        if count > MANY * (len(kept) + 1):
+            weak = WeakProblem(
+                problem.segments, problem.layout, problem.active, problem.row, unknowns,
+                float(count), problem.step, motions=tuple(motions), moving=moving,
+            )  # fmt: skip
+            found.append(solve(weak, parent.solution.u[kept], STEPS))
+    return found
+
+
+def at_weak(parent: Fit, weak: Solution) -> Fit:
+    """Return *parent* fitted anew from where its *weak* fit has ended."""
+    free = parent.solution
+    u = free.u.copy()
+    u[[k for k, x in enumerate(free.problem.unknowns) if x.segment < 0]] = weak.u
+    start = Solution(free.problem, u, free.problem.residuals(u), free.jacobian, 0)
+    return fitted(parent.effects, improved(start))
+
+
+def weak_starts(
+    parent: Fit,
+    model: RigModel,
+    effects: Sequence[Effect],
+    known: Sequence[Solution],
+    pool: Executor,
+) -> dict[str, list[tuple[Problem, Array]]]:
+    """Return where the free run of *parent* may start with each of *effects*.
+
+    Each is fitted on top of the weak fits *known* from its most promising starts; what brings
+    next to nothing there leads nowhere.
+    """
+    free = parent.solution
+    kept = [k for k, x in enumerate(free.problem.unknowns) if x.segment < 0]
+    found: dict[str, list[tuple[Problem, Array]]] = {effect.name: [] for effect in effects}
+    for base in known:
+        fits = list(pool.map(partial(_fitted_to, base, model), effects))
+        falls = np.array([base.cost - fit.cost for fit in fits])
+        worth = [k for k in np.argsort(-falls) if falls[k] > max(EARNED, LEADING * falls.max())]
+
+        def finer(k: int, base: Solution = base, fits: Sequence[Solution] = fits) -> Solution:
+            wide = freed(fits[k], model, effects[k])
+            price = (wide.u.size - fits[k].u.size) * np.log(base.problem.independent)
+            return wide if wide.cost + price < fits[k].cost - EARNED else fits[k]
+
+        for k, best in zip(worth, pool.map(finer, worth), strict=True):
+            unknowns = (*free.problem.unknowns, *best.problem.unknowns[base.u.size :])
+            row, active = best.problem.row, best.problem.active
+            u = np.concatenate([free.u, best.u[base.u.size :]])
+            u[kept] = best.u[: base.u.size]
+            problem = replace(free.problem, row=row, active=active, unknowns=unknowns)
+            found[effects[k].name].append((problem, u))
+    return found
+
+
+def _fitted_to(base: Solution, model: RigModel, effect: Effect) -> Solution:
+    """Return the best of the weak fits of *effect* on top of *base*."""
+    guesses = []
+    for start in effect.fit_starts:
+        problem, added = extended(base.problem, model, effect, start)
+        u = np.concatenate([base.u, added])
+        r = problem.residuals(u)
+        guesses.append((amplified_cost(base, r), Solution(problem, u, r, r, 0)))
+    guesses.sort(key=lambda guess: guess[0])
+    fits = []
+    for _, begun in guesses[:TRIED]:
+        own = range(base.u.size, begun.u.size)
+        j = np.hstack([base.jacobian, begun.problem.jacobian(begun.u, begun.r, only=own)])
+        fits.append(improved(replace(begun, jacobian=j), STEPS))
+    return min(fits, key=lambda fit: fit.cost)
