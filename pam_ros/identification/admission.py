@@ -12,6 +12,7 @@ from pam_ros.identification.noise import Noise
 
 SURELY = 0.9  # share of the noise floor below which no model can come
 AS_GOOD = 0.03  # share of the RMSE kept back by which two candidates may differ
+ABOUT = 0.15  # and an effect from one that it is contained in
 AS_MUCH = 0.03  # and of the fall that the better one brings
 NEARLY = 1.5  # noise floors up to which nothing else is left to explain
 IMPLAUSIBLE = 12.0  # chi square of re-tuned parameters under their prior that asks for a reason
@@ -33,9 +34,11 @@ def plainest(able: Sequence[Tried]) -> Tried:
     """Return the candidate with the fewest parameters that explains as much as the first.
 
     One that becomes another of them as its strength vanishes is not the plainest: a leak so
-    small that only its refill shows is a lag.
+    small that only its refill shows is a lag. It is not even the better one by a little less of
+    the samples kept back, where that other one fits better.
     """
-    equal = [t for t in able if explains_as_much(t, able[0])]
+    best = able[0]
+    equal = [t for t in able if explains_as_much(t, best) or _is_contained(t, best)]
     names = {t.effect.name for t in equal}
     return min(equal, key=lambda t: (bool(names & set(t.effect.contains)), len(t.fit.solution.u)))
 
@@ -49,6 +52,14 @@ def explains_as_much(tried: Tried, best: Tried) -> bool:
     without = least / (1.0 - best.evidence.gain)
     tolerance = min(AS_GOOD * least, AS_MUCH * max(without - least, 0.0))
     return tried.fit.held_error <= least + tolerance
+
+
+def _is_contained(tried: Tried, best: Tried) -> bool:
+    return (
+        tried.effect.name in best.effect.contains
+        and tried.fit.score < best.fit.score
+        and tried.fit.held_error < (1.0 + ABOUT) * best.fit.held_error
+    )
 
 
 def admitted(tried: Tried, parent: Fit, retuned: Fit, noise: Noise) -> bool:
@@ -67,7 +78,8 @@ def matters(without: Fit, fit: Fit, retuned: Fit, noise: Noise) -> bool:
     """Say whether a further effect explains more than the form of those before it could miss.
 
     No effect of the library is quite the one of nature, and the rest that it leaves invites
-    others: so a further one must explain a share of what re-tuning left, or much of the rest.
+    others: so a further one must explain a share of what re-tuning left, or much of the rest,
+    and the more so the more are there.
     """
     return _is_much(without.held_error - fit.held_error, without, retuned, noise)
 
@@ -84,9 +96,9 @@ def could_matter(fit: Fit, retuned: Fit, noise: Noise) -> bool:
 
 def _is_much(fall: float, without: Fit, retuned: Fit, noise: Noise) -> bool:
     excess = max(retuned.held_error - noise.sigma, 0.0)
-    return (
-        fall >= evidence.LATER_SHARE * excess or fall >= evidence.LATER_GAIN * without.held_error
-    )
+    there = max(len(without.effects), 1)
+    gain = 1.0 - (1.0 - evidence.LATER_GAIN) ** there
+    return fall >= there * evidence.LATER_SHARE * excess or fall >= gain * without.held_error
 
 
 def absorbed(parent: Fit, fit: Fit, effect: Effect, noise: Noise) -> bool:

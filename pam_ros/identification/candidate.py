@@ -127,7 +127,7 @@ def released(fit: Fit, model: RigModel, effect: Effect, pool: Executor | None) -
 
     The plainer fit is kept where the others do not earn their cost.
     """
-    wide = freed(fit.solution, model, effect, pool)
+    wide = freed(fit.solution, model, effect, pool=pool)
     if wide is fit.solution:
         return fit
     found = fitted(fit.effects, wide)
@@ -135,7 +135,11 @@ def released(fit: Fit, model: RigModel, effect: Effect, pool: Executor | None) -
 
 
 def freed(
-    known: Solution, model: RigModel, effect: Effect, pool: Executor | None = None
+    known: Solution,
+    model: RigModel,
+    effect: Effect,
+    iterations: int = 20,
+    pool: Executor | None = None,
 ) -> Solution:
     """Return the best fit with some or all of the parameters of *effect* freed that are fixed."""
     problem = known.problem
@@ -145,7 +149,7 @@ def freed(
     firsts = [_stepped(known, *extended(problem, model, effect, o)) for o in options]
     looks = [_again(known, first) for first in firsts]
     best = min(looks, key=lambda solution: solution.cost)
-    return improved(best, pool=pool)
+    return improved(best, iterations, pool)
 
 
 def _finer(problem: Problem, u: Array, model: RigModel, effect: Effect) -> list[dict[str, float]]:

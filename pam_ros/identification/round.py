@@ -46,7 +46,7 @@ COMPARABLE = 0.15  # share of the best fall from which they do
 OBVIOUS = 0.8  # ratio of errors kept back below which no odd parameter needs a reason
 CREDITED = 2  # best candidates of a round from which its parent is fitted anew
 NEAR = 1.2  # noise floors at which nothing is left to refine
-TRIED = (3, 2)  # starts of an effect from which looks are taken: re-tuned, as declared
+TRIED = (2, 1)  # starts of an effect from which looks are taken: re-tuned, as declared
 
 
 @dataclass(frozen=True, eq=False)

@@ -217,7 +217,7 @@ def weak_starts(
         worth = [k for k in np.argsort(-falls) if falls[k] > max(EARNED, LEADING * falls.max())]
 
         def finer(k: int, base: Solution = base, fits: Sequence[Solution] = fits) -> Solution:
-            wide = freed(fits[k], model, effects[k])
+            wide = freed(fits[k], model, effects[k], STEPS)
             price = (wide.u.size - fits[k].u.size) * np.log(base.problem.independent)
             return wide if wide.cost + price < fits[k].cost - EARNED else fits[k]
 
@@ -242,7 +242,7 @@ def _fitted_to(base: Solution, model: RigModel, effect: Effect) -> Solution:
     guesses.sort(key=lambda guess: guess[0])
     fits = []
     for _, begun in guesses[:TRIED]:
-        own = range(base.u.size, begun.u.size)
-        j = np.hstack([base.jacobian, begun.problem.jacobian(begun.u, begun.r, only=own)])
-        fits.append(improved(replace(begun, jacobian=j), STEPS))
+        columns = np.empty((begun.r.size, begun.u.size - base.u.size))
+        start = replace(begun, jacobian=np.hstack([base.jacobian, columns]))
+        fits.append(improved(start, STEPS, frozen=base.u.size))
     return min(fits, key=lambda fit: fit.cost)

@@ -10,14 +10,17 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from types import FrameType
 
-# Of the process, as its signal handlers are.
-_is_made = _is_held = False
+
+class _Interrupt:
+    """What is known of it; there is one a process, as there is of signal handlers."""
+
+    is_made = False
+    is_held = False
 
 
 def heed() -> None:
     """Let the first Ctrl-C or SIGTERM raise KeyboardInterrupt; later ones do no harm."""
-    global _is_made
-    _is_made = False
+    _Interrupt.is_made = False
     for kind in (signal.SIGINT, signal.SIGTERM):
         signal.signal(kind, _note)
 
@@ -28,20 +31,18 @@ def held_back() -> Iterator[None]:
 
     Before it, too: one that was raised in a destructor has been lost.
     """
-    global _is_held
-    _is_held = True
+    _Interrupt.is_held = True
     try:
         yield
     finally:
-        _is_held = False
-    if _is_made:
+        _Interrupt.is_held = False
+    if _Interrupt.is_made:
         raise KeyboardInterrupt
 
 
 def _note(kind: int, frame: FrameType | None) -> None:
-    global _is_made
-    if _is_made:
+    if _Interrupt.is_made:
         return
-    _is_made = True
-    if not _is_held:
+    _Interrupt.is_made = True
+    if not _Interrupt.is_held:
         raise KeyboardInterrupt

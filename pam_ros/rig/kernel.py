@@ -7,10 +7,10 @@ The ODE is equation (3) of Sárosi (2015) with contraction positive (the load mo
     m y'' = F(p, kappa) - c y' + f_outside - m g,    kappa = y / l0
 
 These functions are plain scalar Python and run as they stand. The names ``*_chain`` and
-``remembers`` are bound to the effects in use by :mod:`pam_ros.rig.bind`, which also compiles them; called unbound, the
-rig is the paper's, without effects. x is a state row, q a parameter row (see ``layout``), xn a
-scratch row of the same width as x. Written ``* (1.0 / m)``, a division is done once a step and
-not at every stage.
+``remembers`` are bound to the effects in use by :mod:`pam_ros.rig.bind`, which also compiles
+them; called unbound, the rig is the paper's, without effects. x is a state row, q a parameter row
+(see ``layout``), xn a scratch row of the same width as x. Written ``* (1.0 / m)``, a division is
+done once a step and not at every stage.
 
 Integrator: Nyström's fourth-order scheme for second-order equations with a fixed step (Hairer,
 Nørsett & Wanner, Solving Ordinary Differential Equations I, section II.14). It is the classical
