@@ -121,6 +121,7 @@ EFFECT = Effect(
         {'level': 3.0},
         {'level': 15.0, 'asymmetry': 0.0},
         {'level': 5.0, 'breakaway': 8.0, 'stribeck_speed': 0.01},
+        {'level': 10.0, 'breakaway': 13.0, 'stribeck_speed': 0.02},
     ),
     states=('contact force', 'position', 'step'),
     start=start,

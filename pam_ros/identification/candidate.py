@@ -122,34 +122,31 @@ def whisper(parent: Fit, model: RigModel, effect: Effect) -> Solution:
     return solve(problem, u, WHISPERS, jacobian=jacobian)
 
 
-def released(fit: Fit, model: RigModel, effect: Effect, pool: Executor | None) -> Fit:
+def released(fit: Fit, model: RigModel, effect: Effect, pool: Executor) -> Fit:
     """Return *fit* with the parameters of *effect* freed that its start left at their defaults.
 
-    The plainer fit is kept where the others do not earn their cost.
+    The plainer fit is kept where the others do not earn their cost. From each of the options a
+    fit goes to its end: how well it begins says little where friction sticks.
     """
-    wide = freed(fit.solution, model, effect, pool=pool)
-    if wide is fit.solution:
-        return fit
-    found = fitted(fit.effects, wide)
-    return found if found.score < fit.score - EARNED else fit
+    known = fit.solution
+    firsts = _freed(known, model, effect)
+    wide = [fitted(fit.effects, s) for s in pool.map(improved, firsts)]
+    best = min(wide, key=lambda one: one.score, default=fit)
+    return best if best.score < fit.score - EARNED else fit
 
 
-def freed(
-    known: Solution,
-    model: RigModel,
-    effect: Effect,
-    iterations: int = 20,
-    pool: Executor | None = None,
-) -> Solution:
-    """Return the best fit with some or all of the parameters of *effect* freed that are fixed."""
+def freed(known: Solution, model: RigModel, effect: Effect, iterations: int) -> Solution:
+    """Return a short fit with some or all of the parameters of *effect* freed that are fixed."""
+    looks = [_again(known, first) for first in _freed(known, model, effect)]
+    if not looks:
+        return known
+    return improved(min(looks, key=lambda solution: solution.cost), iterations)
+
+
+def _freed(known: Solution, model: RigModel, effect: Effect) -> list[Solution]:
     problem = known.problem
     options = _finer(problem, known.u, model, effect)
-    if not options:
-        return known
-    firsts = [_stepped(known, *extended(problem, model, effect, o)) for o in options]
-    looks = [_again(known, first) for first in firsts]
-    best = min(looks, key=lambda solution: solution.cost)
-    return improved(best, iterations, pool)
+    return [_stepped(known, *extended(problem, model, effect, o)) for o in options]
 
 
 def _finer(problem: Problem, u: Array, model: RigModel, effect: Effect) -> list[dict[str, float]]:

@@ -18,10 +18,11 @@ from pam_ros.rig.model import RigModel
 def without_needless(fit: Fit, retuned: Fit, model: RigModel, noise: Noise, pool: Executor) -> Fit:
     """Return *fit* without the effects that it no longer needs, one after another.
 
-    One without which the declared parameters would have to be odd ones is needed.
+    One without which the declared parameters would have to be odd ones is needed, and so is
+    the last one, which was just weighed against the others alone.
     """
     while len(fit.effects) > 1:
-        for name in fit.effects:
+        for name in fit.effects[:-1]:
             smaller = dropped(fit, name, model, pool)
             gain = 1.0 - fit.held_error / smaller.held_error
             if strain(smaller) - strain(fit) > IMPLAUSIBLE:

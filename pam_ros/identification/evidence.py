@@ -24,6 +24,7 @@ HARDLY = 1e-3  # share of a strength that is as good as none of it
 BEYOND_DOUBT = 1e-6  # p of the model without an effect that needs no interval
 SIGMAS = 2.6  # of a strength's distance from 0
 LEAST = 24.0
+FEWEST = 12.0  # degrees of freedom of a residual that drifts
 LONGEST = 4000  # samples over which a residual's correlation is summed
 
 
@@ -53,8 +54,8 @@ def f_test(parent: Fit, child: Fit) -> float:
     k = len(child.solution.u) - len(parent.solution.u)
     left = float(child.solution.r @ child.solution.r)
     fall = float(parent.solution.r @ parent.solution.r) - left
-    freedom = independent_samples(child) - len(child.solution.u)
-    if fall <= 0.0 or freedom < 1.0:
+    freedom = max(independent_samples(child) - len(child.solution.u), FEWEST)
+    if fall <= 0.0:
         return 1.0
     # Sums of squares are scaled alike by samples per independent sample, so the ratio stands.
     return float(f_distribution.sf((fall / k) / (left / freedom), k, freedom))

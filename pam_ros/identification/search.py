@@ -103,8 +103,9 @@ def _finer(chosen: Tried, setting: Setting) -> Fit:
     Of those before it, too, as far as something is left: they were fitted without it.
     """
     model, pool = setting.model, setting.pool
-    fit = released(chosen.fit, model, chosen.effect, pool)
-    for effect in model.library:
-        if effect.name in chosen.parents and fit.fit_error > NEAR * setting.noise.sigma:
+    fit = plain(chosen.fit, model, pool)
+    for name in (chosen.effect.name, *chosen.parents):
+        if fit.fit_error > NEAR * setting.noise.sigma:
+            effect = next(e for e in model.library if e.name == name)
             fit = released(fit, model, effect, pool)
-    return fit
+    return min(fit, chosen.fit, key=lambda one: one.score)

@@ -234,8 +234,8 @@ def weak_starts(
 def _fitted_to(base: Solution, model: RigModel, effect: Effect) -> Solution:
     """Return the best of the weak fits of *effect* on top of *base*."""
     guesses = []
-    for start in effect.fit_starts:
-        problem, added = extended(base.problem, model, effect, start)
+    for values in effect.fit_starts:
+        problem, added = extended(base.problem, model, effect, values)
         u = np.concatenate([base.u, added])
         r = problem.residuals(u)
         guesses.append((amplified_cost(base, r), Solution(problem, u, r, r, 0)))
@@ -243,6 +243,6 @@ def _fitted_to(base: Solution, model: RigModel, effect: Effect) -> Solution:
     fits = []
     for _, begun in guesses[:TRIED]:
         columns = np.empty((begun.r.size, begun.u.size - base.u.size))
-        start = replace(begun, jacobian=np.hstack([base.jacobian, columns]))
-        fits.append(improved(start, STEPS, frozen=base.u.size))
+        start = np.hstack([base.jacobian, columns])
+        fits.append(improved(replace(begun, jacobian=start), STEPS, frozen=base.u.size))
     return min(fits, key=lambda fit: fit.cost)
