@@ -63,19 +63,26 @@ def _merged(at: Array, u: Array, t: Array) -> tuple[Array, Array]:
     """Return commands with one mean a sample interval where they vary little within it."""
     if at.size < 2 or at.size <= t.size:
         return at, u
-    # Time-weighted mean of the held command over each interval, by its integral.
+    # Time-weighted mean of the held command over each interval, by its integral, and its moment
+    # about the interval's middle.
+    i = np.clip(np.searchsorted(at, t, side='right') - 1, 0, at.size - 1)
     integral = np.concatenate([[0.0], np.cumsum(u[:-1] * np.diff(at))])
-
-    def integrate(x: Array) -> Array:
-        i = np.clip(np.searchsorted(at, x, side='right') - 1, 0, at.size - 1)
-        return integral[i] + u[i] * (x - at[i])
-
-    mean = np.diff(integrate(t)) / np.diff(t)
+    first = np.concatenate([[0.0], np.cumsum(u[:-1] * np.diff(0.5 * (at - t[0]) ** 2))])
+    impulse = np.diff(integral[i] + u[i] * (t - at[i]))
+    middle = 0.5 * (t[1:] + t[:-1]) - t[0]
+    arms = np.diff(first[i] + 0.5 * u[i] * ((t - t[0]) ** 2 - (at[i] - t[0]) ** 2))
+    span = np.diff(t)
+    mean, moment = impulse / span, arms - middle * impulse
     cell = np.searchsorted(t, at, side='right') - 1
     inside = (cell >= 0) & (cell < mean.size)
     jump = np.zeros(mean.size, dtype=bool)
     large = np.flatnonzero(np.abs(np.diff(u)) > JUMP * np.ptp(u)) + 1
     jump[cell[large][inside[large]]] = True
+    # A mean that is held has no moment: its neighbours are given it, as a pair that pushes and
+    # pulls, or quick waves would come out too small.
+    moment[jump] = 0.0
+    mean[1:] += 0.5 * moment[:-1] / span[1:] ** 2
+    mean[:-1] -= 0.5 * moment[1:] / span[:-1] ** 2
     keep = ~inside | jump[np.clip(cell, 0, mean.size - 1)]
     # A cell that keeps its own commands starts with the one that holds at its first stamp.
     cells = np.flatnonzero(~jump)

@@ -65,6 +65,19 @@ def test_a_further_effect_must_explain_a_share_of_what_was_left(left, counts):
     assert admitted(one, parent, fit_of(10.0), NOISE) is counts
 
 
+def test_a_third_effect_must_explain_more_than_a_second_one():
+    # 0.033 of what re-tuning left would do for a second, and 0.51 of the rest.
+    for left, beside, counts in ((2.17, 1, True), (2.17, 2, False), (1.07, 2, False)):
+        parents = ('leak', 'payload')[:beside]
+        one = tried(left, CLEAR, parents)
+        assert admitted(one, fit_of(2.5, *parents), fit_of(10.0), NOISE) is counts or left < 2.0
+    parents = ('leak', 'payload')
+    small = fit_of(0.2, *parents)
+    gain = 1.0 - (1.0 - evidence.LATER_GAIN) ** 2
+    for left, counts in ((0.98 * 0.2 * (1.0 - gain), True), (1.05 * 0.2 * (1.0 - gain), False)):
+        assert admitted(tried(left, CLEAR, parents), small, fit_of(10.0), NOISE) is counts
+
+
 def rival(name, size, count, gain=0.9):
     """Return a candidate that leaves *size* and took *count* parameters for it."""
     fit = fit_of(size, name)

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A model with one effect more explains at least as much as the one without it."""
 
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 
 import numpy as np
@@ -93,7 +94,8 @@ def test_an_effect_has_the_values_of_its_start_and_else_its_defaults(parent):
 def test_nothing_is_released_where_everything_moves_already(parent):
     viscous = KNOWN['viscous_friction']
     fit = refine(parent, viscous, look(parent, MODEL, viscous, 2), None)
-    assert released(fit, MODEL, viscous, None) is fit
+    with ThreadPoolExecutor() as pool:
+        assert released(fit, MODEL, viscous, pool) is fit
 
 
 def test_finer_parameters_must_earn_their_cost(parent):
@@ -102,7 +104,8 @@ def test_finer_parameters_must_earn_their_cost(parent):
     plain = fitted(
         ('coulomb_friction',), solve(problem, np.concatenate([parent.solution.u, added]))
     )
-    wide = released(plain, MODEL, friction, None)
+    with ThreadPoolExecutor() as pool:
+        wide = released(plain, MODEL, friction, pool)
     assert wide is plain or wide.score < plain.score
     assert wide.solution.cost <= plain.solution.cost
 

@@ -2,15 +2,18 @@
 # SPDX-License-Identifier: Apache-2.0
 """Thinned runs push the load as hard and as early as the full ones."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from pam_ros.identification.coarse import PHASE, SAMPLES, STEPS, coarse_step, thinned
+from pam_ros.identification.noise import Noise
+from pam_ros.identification.retuning import problem_of
 from pam_ros.identification.segment import segments_of
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.recording.recording import Recording
 from pam_ros.rig.model import Load, RigModel
-from pam_ros.rig.run import simulate
 
 STEP = 6e-3
 
@@ -35,6 +38,14 @@ def impulse(stamps, values, start, end):
     return float(np.sum(np.array(held) * np.diff(edges)))
 
 
+def moment(stamps, values, start, end):
+    """Return the moment of a held command about the middle between start and end."""
+    inside = stamps[(stamps > start) & (stamps < end)]
+    edges = np.concatenate([[start], inside, [end]])
+    held = [values[max(np.flatnonzero(stamps <= e)[-1:], default=0)] for e in edges[:-1]]
+    return float(np.sum(np.array(held) * np.diff((edges - 0.5 * (start + end)) ** 2)) / 2.0)
+
+
 def uneven(rng, n):
     """Return n stamps at about 1 kHz that jitter."""
     return np.concatenate([[0.0], np.cumsum(1e-3 * rng.uniform(0.5, 1.5, n - 1))])
@@ -52,9 +63,32 @@ def test_impulse_over_every_stride_is_kept(kind, seed):
         'noise': 3e5 + 1e4 * rng.standard_normal(stamps.size),
     }[kind]
     thin = thinned(recorded(t, stamps, command), STEP)
-    for start, end in zip(thin.t[:-1], thin.t[1:], strict=True):
-        full = impulse(stamps, command, start, end)
-        assert impulse(thin.drive_t, thin.drive, start, end) == pytest.approx(full, rel=1e-9)
+    spans = list(zip(thin.t[:-1], thin.t[1:], strict=True))
+    full = np.array([impulse(stamps, command, *span) for span in spans])
+    kept = np.array([impulse(thin.drive_t, thin.drive, *span) for span in spans])
+    arms = np.array([moment(stamps, command, *span) for span in spans])
+    # What a held mean cannot have is lent to the strides beside it, and no more than that.
+    lent = np.abs(np.concatenate([[0.0], arms])[:-1]) + np.abs(np.append(arms[1:], 0.0))
+    assert np.all(np.abs(kept - full) <= 0.5 * lent / STEP + 1e-9 * full)
+    if kind == 'noise':  # every stride has a jump: the commands are as they were
+        np.testing.assert_allclose(kept, full, rtol=1e-9)
+    assert kept.sum() == pytest.approx(full.sum(), rel=1e-6)
+
+
+def test_a_free_mass_goes_where_the_full_command_would_have_sent_it():
+    stamps = np.arange(20_000) * 1e-3
+    command = np.sin(2.0 * np.pi * 2.0 * stamps)
+    thin = thinned(recorded(stamps, stamps, command), 10e-3)
+    held = thin.drive[np.searchsorted(thin.drive_t, stamps + 1e-9) - 1]
+    means = command.reshape(-1, 10).mean(axis=1).repeat(10)
+
+    def away(u):
+        """Return how far it strays, but for a steady drift."""
+        way = (np.cumsum(np.cumsum(u - command)) * 1e-6)[9::10]
+        return np.std(way - np.polyval(np.polyfit(stamps[9::10], way, 1), stamps[9::10]))
+
+    assert away(means) > 1e-6
+    assert away(held) < 0.1 * away(means)
 
 
 def test_samples_are_every_nth_and_commands_fewer():
@@ -138,20 +172,21 @@ def test_a_thinned_run_moves_like_the_full_one():
     rng = np.random.default_rng(0)
     t = np.arange(20_000) * 1e-3
     command = wave(t) + 1e4 * np.sin(2 * np.pi * 4.0 * t) + 4e4 * (uneven(rng, t.size) // 1.7 % 2)
-    segment = recorded(t, t, command)
+    segment = recorded(t, t, command, np.full(t.size, model.rest(command[0])))
     thin = thinned(segment, coarse_step(model))
     stride = round(thin.t[1] / t[1])
     assert stride >= 5
 
-    def run(at, drive_t, drive, step):
-        rest = model.rest(command[0])
-        return simulate(model, at, drive_t, drive, rest, step=step).position
+    def run(one, step):
+        problem = problem_of(model, [one], Noise(1e-5, 0.0), step)
+        return problem.predict(np.zeros(len(problem.unknowns)))[0]
 
-    full = run(t, t, command, 1e-3)[::stride]
+    full = run(segment, 1e-3)[::stride]
     assert np.ptp(full) > 5e-3
-    coarse = run(thin.t, thin.drive_t, thin.drive, coarse_step(model))
-    # Below the quietest sensor's noise; every sixth command alone comes half a stride late.
+    coarse = run(thin, coarse_step(model))
+    # Below the quietest sensor's noise; every tenth command alone comes half a stride late.
     error = np.sqrt(np.mean((coarse - full) ** 2))
-    plain = run(thin.t, t[::stride], command[::stride], coarse_step(model))
+    late = replace(thin, drive_t=t[::stride], drive=command[::stride])
+    plain = run(late, coarse_step(model))
     assert error < 5e-6
     assert error < 0.05 * np.sqrt(np.mean((plain - full) ** 2))

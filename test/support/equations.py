@@ -36,8 +36,8 @@ def equation(function, unknowns, independent):
     """Return the problem of *unknowns*: Unknowns, or names of ones that nothing is known of."""
     made = tuple(Unknown(one, 0, 0.0, 1.0) if isinstance(one, str) else one for one in unknowns)
     layout = layout_of(EFFECTS)
-    return Equation((), layout, (), np.zeros(layout.parameters), made, independent, 1e-3, np.inf,
-                    function)  # fmt: skip
+    row = np.zeros(layout.parameters)
+    return Equation((), layout, (), row, made, independent, function=function)
 
 
 def linear(columns, values, unknowns, independent):
