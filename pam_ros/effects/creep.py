@@ -103,7 +103,7 @@ EFFECT = Effect(
             scale=0.02,
             strength=True,
         ),
-        EffectParameter('time', 5.0, 'mean time constant', 's', 1e-3, 1e4, scale=5.0),
+        EffectParameter('time', 5.0, 'mean time constant', 's', 0.1, 1e4, scale=5.0),
         EffectParameter(
             'spread',
             1.0,

@@ -14,7 +14,6 @@ SURELY = 0.9  # share of the noise floor below which no model can come
 AS_GOOD = 0.03  # share of the RMSE kept back by which two candidates may differ
 ABOUT = 0.15  # and an effect from one that it is contained in
 AS_MUCH = 0.03  # and of the fall that the better one brings
-NEARLY = 1.5  # noise floors up to which nothing else is left to explain
 IMPLAUSIBLE = 12.0  # chi square of re-tuned parameters under their prior that asks for a reason
 
 
@@ -89,7 +88,7 @@ def could_matter(fit: Fit, retuned: Fit, noise: Noise) -> bool:
 
     That is above the noise, or by parameters that are far from those declared.
     """
-    return strain(fit) > IMPLAUSIBLE or _is_much(
+    return strain(fit) > IMPLAUSIBLE * leeway(fit, noise) or _is_much(
         fit.held_error - SURELY * noise.sigma, fit, retuned, noise
     )
 
@@ -104,23 +103,25 @@ def _is_much(fall: float, without: Fit, retuned: Fit, noise: Noise) -> bool:
 def absorbed(parent: Fit, fit: Fit, effect: Effect, noise: Noise) -> bool:
     """Say whether *effect* explains what re-tuning explains, too, but only by odd parameters."""
     relief = strain(parent) - strain(fit)
-    return strain_speaks(parent, noise) and is_static(effect) and relief > IMPLAUSIBLE
+    return is_static(effect) and relief > IMPLAUSIBLE * leeway(parent, noise)
 
 
 def p_of(parent: Fit, fit: Fit, noise: Noise) -> float:
     """Return the p value of a fit: of its residuals, or of its less strained parameters."""
     from scipy.stats import chi2
 
-    p = evidence.f_test(parent, fit)
-    if strain_speaks(parent, noise):
-        count = len(fit.solution.u) - len(parent.solution.u)
-        p = min(p, float(chi2.sf(max(strain(parent) - strain(fit), 0.0), count)))
-    return p
+    count = len(fit.solution.u) - len(parent.solution.u)
+    relief = max(strain(parent) - strain(fit), 0.0) / leeway(parent, noise)
+    return min(evidence.f_test(parent, fit), float(chi2.sf(relief, count)))
 
 
-def strain_speaks(parent: Fit, noise: Noise) -> bool:
-    """Say whether odd parameters mean something: behind other effects, if little else is left."""
-    return not parent.effects or parent.held_error < NEARLY * noise.sigma
+def leeway(fit: Fit, noise: Noise) -> float:
+    """Return by how much the parameters of *fit* may be odder than its declared ones.
+
+    Behind other effects they make up for what these miss by their form, the more, the more is
+    left above the noise.
+    """
+    return max(1.0, (fit.held_error / noise.sigma) ** 2) if fit.effects else 1.0
 
 
 def strain(fit: Fit) -> float:

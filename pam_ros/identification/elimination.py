@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from pam_ros.effects.base import Effect
 from pam_ros.identification import evidence
-from pam_ros.identification.admission import IMPLAUSIBLE, matters, strain
+from pam_ros.identification.admission import IMPLAUSIBLE, leeway, matters, strain
 from pam_ros.identification.candidate import EARNED, Fit, fitted
 from pam_ros.identification.noise import Noise
 from pam_ros.identification.solve import solve
@@ -25,7 +25,7 @@ def without_needless(fit: Fit, retuned: Fit, model: RigModel, noise: Noise, pool
         for name in fit.effects[:-1]:
             smaller = dropped(fit, name, model, pool)
             gain = 1.0 - fit.held_error / smaller.held_error
-            if strain(smaller) - strain(fit) > IMPLAUSIBLE:
+            if strain(smaller) - strain(fit) > IMPLAUSIBLE * leeway(fit, noise):
                 continue
             if gain < evidence.GAIN or not matters(smaller, fit, retuned, noise):
                 fit = smaller

@@ -14,14 +14,15 @@ from pam_ros.identification.round import NEAR, Setting, try_effects
 def exchanged(fit: Fit, setting: Setting) -> tuple[Fit, tuple[tuple[Tried, ...], ...]]:
     """Return *fit* with each effect but the last exchanged for a rival that explains more.
 
-    Or for one that it contains and that explains as much. And the candidates of each exchange.
+    Or for one that it contains and that explains as much; or begun anew, where that leads to a
+    better place. And the candidates of each exchange.
     """
     model, rounds = setting.model, []
     for name in fit.effects[:-1]:
         effect = next(e for e in model.library if e.name == name)
         is_near = fit.fit_error < NEAR * setting.noise.sigma
-        others = effect.contains if is_near else (*effect.contains, *effect.rivals)
-        there = (*fit.effects, *model.effects)
+        others = effect.contains if is_near else (name, *effect.contains, *effect.rivals)
+        there = {*fit.effects, *model.effects} - {name}
         rivals = [e for e in model.library if e.name in others and e.name not in there]
         if not rivals:
             continue
@@ -34,8 +35,9 @@ def exchanged(fit: Fit, setting: Setting) -> tuple[Fit, tuple[tuple[Tried, ...],
             )
             clear = one.evidence.interval_clear and one.evidence.p < SIGNIFICANCE
             if explains and clear:
-                chosen = replace(one, chosen=True)
-                rounds.append(tuple(chosen if t is one else t for t in tried))
+                if one.effect is not effect:
+                    chosen = replace(one, chosen=True)
+                    rounds.append(tuple(chosen if t is one else t for t in tried))
                 fit = released(one.fit, model, one.effect, setting.pool)
                 break
     return fit, tuple(rounds)
