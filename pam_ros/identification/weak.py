@@ -29,7 +29,9 @@ from pam_ros.rig.bind import bind
 from pam_ros.rig.model import RigModel, start_row
 
 Array = NDArray[np.float64]
-WIDTH = 0.15  # s of a bump
+WIDTH = 0.15  # s of a bump, at least
+SAMPLES = 14  # and that many
+HOLE = 4.0  # periods between two samples of it, at most
 SMOOTHED = 0.05  # s over which a quartic follows the motion
 VISIBLE = 8.0  # noises by which a moving rig moves under a bump
 MANY = 5  # bumps per unknown, at least
@@ -62,20 +64,22 @@ class Motion:
 def motion_of(full: Segment, thin: Segment, sigma: float) -> Motion:
     """Return the motion of a free run, its measurement from *full*, its stamps from *thin*.
 
-    sigma is the noise of the position in m.
-
-    Bumps lie wholly in what may be fitted.
+    sigma is the noise of the position in m. Bumps are as wide as SAMPLES of a slow recording, and
+    lie wholly in what may be fitted and is sampled densely enough; a short run has none.
     """
     y, v = _smoothed(full.t, full.target, SMOOTHED)
-    half = 0.5 * WIDTH
+    period = float(np.median(np.diff(full.t)))
+    half = 0.5 * max(WIDTH, SAMPLES * period)
     centres = np.arange(full.t[0] + half, full.t[-1] - half, half)
     middles = 0.5 * (thin.t[1:] + thin.t[:-1])
-    rows = _under(thin.t, centres, thin.t.size - 1)
-    many = _under(full.t, centres, full.t.size)
-    inside = full.fit[many].all(axis=1)
-    rows, many, centres = rows[inside], many[inside], centres[inside]
-    s = (middles[rows] - centres[:, None]) / half
+    rows = _under(thin.t, centres, half, thin.t.size - 1)
+    many = _under(full.t, centres, half, full.t.size)
     z = (full.t[many] - centres[:, None]) / half
+    dense = np.count_nonzero(np.abs(z) < 1.0, axis=1) > SAMPLES // 2
+    dense &= np.diff(full.t[many], axis=1).max(axis=1, initial=0.0) < HOLE * period
+    inside = full.fit[many].all(axis=1) & dense
+    rows, many, centres, z = rows[inside], many[inside], centres[inside], z[inside]
+    s = (middles[rows] - centres[:, None]) / half
     weights = np.stack([_bump(s), _bump_slope(s) / half], axis=2)
     slopes = _bump_curvature(z) * np.gradient(full.t)[many] / half**2
     slopes = _matched(slopes, _bump(z), z, _bump(s) * np.diff(thin.t)[rows], s, half)
@@ -99,10 +103,10 @@ def _moving(full: Segment, many: NDArray[np.intp], sigma: float) -> NDArray[np.b
     return np.asarray(one_way & (np.abs(y[many[:, -1]] - y[many[:, 0]]) > VISIBLE * sigma))
 
 
-def _under(t: Array, centres: Array, end: int) -> NDArray[np.intp]:
+def _under(t: Array, centres: Array, half: float, end: int) -> NDArray[np.intp]:
     """Return the indices below *end*, of samples or intervals, under a bump at each centre."""
-    count = int(np.ceil(WIDTH / float(np.median(np.diff(t))))) + 1
-    first = np.searchsorted(t, centres - 0.5 * WIDTH, side='right') - 1
+    count = min(int(np.ceil(2.0 * half / float(np.median(np.diff(t))))) + 1, end)
+    first = np.searchsorted(t, centres - half, side='right') - 1
     return np.asarray(np.clip(first, 0, end - count)[:, None] + np.arange(count))
 
 
@@ -139,6 +143,8 @@ def _smoothed(t: Array, y: Array, span: float) -> tuple[Array, Array]:
     even = np.arange(t[0], t[-1] + 0.5 * period, period)
     n = max(7, int(span / period)) | 1
     values = np.interp(even, t, y)
+    if n > even.size:
+        return y, np.gradient(y, t)
     curve = savgol_filter(values, n, 4)
     slope = savgol_filter(values, n, 4, deriv=1, delta=period)
     return np.interp(t, even, curve), np.interp(t, even, slope)

@@ -53,6 +53,36 @@ def test_integrals_of_polynomials_are_exact(degree, jitter):
     np.testing.assert_allclose(found, motion.wanted, atol=1e-9 * np.ptp(y) + 1e-12)
 
 
+@pytest.mark.parametrize('rate', [10.0, 50.0, 100.0])
+def test_bumps_are_wider_where_samples_are_few(rate):
+    t = np.arange(0.0, 120.0, 1.0 / rate)
+    noise = 2e-5 * np.random.default_rng(1).standard_normal(t.size)
+    (full,) = segments_of([Recording('r', t, t, t, noise, None, None, None, 'free')], True)
+    motion = motion_of(full, thinned(full, 10e-3), 2e-5)
+    assert np.std(motion.wanted) == pytest.approx(2e-5, rel=0.2)
+    assert motion.wanted.size > 20
+
+
+@pytest.mark.parametrize('samples', [4, 6, 15, 40])
+def test_a_short_run_has_no_bumps_or_few(samples):
+    t = np.arange(samples) * 1e-2
+    full, _ = measured(t, np.sin(t))
+    motion = motion_of(full, full, 1e-6)
+    assert motion.wanted.size <= samples // 7
+    assert np.all(np.isfinite(motion.wanted))
+
+
+def test_no_bump_reaches_over_a_hole():
+    t = np.arange(0.0, 20.0, 5e-3)
+    t = t[(t < 10.0) | (t > 10.12)]
+    y = 1e-3 * np.sin(3.0 * t)
+    (full,) = segments_of([Recording('r', t, t, t, y, None, None, None, 'free')], False)
+    motion = motion_of(full, full, 1e-6)
+    covered = t[np.clip(motion.rows, 0, t.size - 1)]
+    assert not np.any((covered.min(axis=1) < 9.97) & (covered.max(axis=1) > 10.15))
+    assert np.abs(motion.wanted).max() < 1e-2
+
+
 def test_the_noise_of_each_integral_is_that_of_the_position():
     t = np.arange(0.0, 60.0, 5e-3)
     noise = 2e-5 * np.random.default_rng(1).standard_normal(t.size)
