@@ -4,7 +4,7 @@
 
 from dataclasses import replace
 
-from pam_ros.identification.admission import AS_GOOD, Tried
+from pam_ros.identification.admission import ABOUT, Tried
 from pam_ros.identification.candidate import EARNED, Fit, released
 from pam_ros.identification.elimination import dropped
 from pam_ros.identification.evidence import SIGNIFICANCE
@@ -14,14 +14,15 @@ from pam_ros.identification.round import NEAR, Setting, try_effects
 def exchanged(fit: Fit, setting: Setting) -> tuple[Fit, tuple[tuple[Tried, ...], ...]]:
     """Return *fit* with each effect but the last exchanged for a rival that explains more.
 
-    Or for one that it contains and that explains as much; or begun anew, where that leads to a
-    better place. And the candidates of each exchange.
+    Or begun anew, where that leads to a better place; or, the last one too, exchanged for one that
+    it contains and that explains about as much. And the candidates of each exchange.
     """
     model, rounds = setting.model, []
-    for name in fit.effects[:-1]:
+    for name in fit.effects if len(fit.effects) > 1 else ():
         effect = next(e for e in model.library if e.name == name)
         is_near = fit.fit_error < NEAR * setting.noise.sigma
-        others = effect.contains if is_near else (name, *effect.contains, *effect.rivals)
+        is_settled = is_near or name == fit.effects[-1]
+        others = effect.contains if is_settled else (name, *effect.contains, *effect.rivals)
         there = {*fit.effects, *model.effects} - {name}
         rivals = [e for e in model.library if e.name in others and e.name not in there]
         if not rivals:
@@ -31,7 +32,7 @@ def exchanged(fit: Fit, setting: Setting) -> tuple[Fit, tuple[tuple[Tried, ...],
         for one in sorted(tried, key=lambda t: t.fit.score):
             is_plainer = one.effect.name in effect.contains
             explains = one.fit.score < fit.score - EARNED or (
-                is_plainer and one.fit.held_error < (1.0 + AS_GOOD) * fit.held_error
+                is_plainer and one.fit.held_error < (1.0 + ABOUT) * fit.held_error
             )
             clear = one.evidence.interval_clear and one.evidence.p < SIGNIFICANCE
             if explains and clear:
