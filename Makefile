@@ -33,8 +33,8 @@ warm: environment
 demo: warm
 	$(VENV)/bin/pam_demo
 
-# Pure tests may share the machine; those that keep a rate have it to themselves.
-ALONE := test/nodes test/packaging
+# Tests may share the machine, but those that keep a rate have it to themselves.
+ALONE := test/nodes
 
 test: warm
 ifdef ARGS

@@ -17,7 +17,7 @@ PRESSURE = 600e3  # Pa gauge
 MASS = 20.0  # kg
 SPRING_FORCE = 198.0  # N, section 3: what the paper's simulation gives
 STATIC_FORCE = 196.2  # N: m g with the paper's 9.81 m/s^2
-SETTLED = 0.5  # s at the end of a run over which its resting values are averaged
+SETTLED = 0.25  # s at the end of a run over which its resting values are averaged
 
 
 @dataclass(frozen=True)

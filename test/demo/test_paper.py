@@ -30,10 +30,10 @@ def test_frequency_is_that_of_the_swing(hertz, decay):
     assert paper.frequency(swing(hertz, decay, 0.09)) == pytest.approx(hertz, rel=2e-3)
 
 
-def test_resting_values_are_those_of_the_last_half_second():
+def test_resting_values_are_those_of_the_last_quarter_of_a_second():
     run = swing(4.0, 6.0, 0.09)
     end = paper.resting(run)
-    assert end.t[0] == pytest.approx(run.t[-1] - 0.5, abs=0.003)
+    assert end.t[0] == pytest.approx(run.t[-1] - paper.SETTLED, abs=0.003)
     assert end.position.mean() == pytest.approx(0.09, abs=1e-7)
 
 
