@@ -25,7 +25,7 @@ from pam_ros.rig.layout import Layout
 
 Function = Callable[..., Any]
 # Inner templates in the order in which they call each other, then the loops, which are cached.
-_INNER = ('pull', 'coefficient', 'acceleration', 'step')
+_INNER = ('in_force', 'held_until', 'pull', 'coefficient', 'acceleration', 'step')
 _LOOPS = ('advance', 'outputs', 'simulate', 'simulate_held', 'simulate_along')
 _INNER_OF_JOINTS = ('share', 'joint_acceleration', 'joint_step')
 _LOOPS_OF_JOINTS = ('advance_joints', 'outputs_of_joints')

@@ -76,6 +76,21 @@ def remembers(q: Row) -> bool:
 MEMORY_FROM = 3  # bound with the chains
 
 
+def in_force(at: Row, delay: float, i: int, now: float) -> int:
+    """Return the index of the command that acts at *now*, i or a later one: at are its stamps."""
+    while i + 1 < at.shape[0] and at[i + 1] + delay <= now + 1e-9:
+        i += 1
+    return i
+
+
+def held_until(at: Row, delay: float, i: int, end: float) -> float:
+    """Return when command i ceases to act, *end* at the latest."""
+    if i + 1 < at.shape[0] and at[i + 1] + delay < end - 1e-9:
+        held: float = at[i + 1] + delay
+        return held
+    return end
+
+
 def pull(y: float, v: float, p: float, t: float, h: float, x: Row, xn: Row, q: Row) -> float:
     """Return the muscle's force in N, effects included, h seconds after the state x."""
     kappa = contraction_chain(y * (1.0 / q[L0]), q)
@@ -188,11 +203,8 @@ def simulate(
     now = t[0]
     for n in range(t.shape[0]):
         while now < t[n]:
-            end = t[n]
-            while i + 1 < at.shape[0] and at[i + 1] + delay <= now + 1e-9:
-                i += 1
-            if i + 1 < at.shape[0] and at[i + 1] + delay < end - 1e-9:
-                end = at[i + 1] + delay
+            i = in_force(at, delay, i, now)
+            end = held_until(at, delay, i, t[n])
             steps = max(1, ceil((end - now) / longest - 1e-6))
             h = (end - now) / steps
             for s in range(steps):
@@ -268,11 +280,8 @@ def simulate_along(
         out[n - 1, 0] = 0.0
         out[n - 1, 1] = 0.0
         while now < t[n]:
-            end = t[n]
-            while i + 1 < at.shape[0] and at[i + 1] + delay <= now + 1e-9:
-                i += 1
-            if i + 1 < at.shape[0] and at[i + 1] + delay < end - 1e-9:
-                end = at[i + 1] + delay
+            i = in_force(at, delay, i, now)
+            end = held_until(at, delay, i, t[n])
             half = 0.5 * (end - now)
             middle = now + half
             share = (middle - t[n - 1]) / (t[n] - t[n - 1])

@@ -34,6 +34,7 @@ def warm() -> None:
         t = np.array([0.0, 1e-3])
         kernel.simulate(x, x.copy(), q, t, t, t, 1e-3, np.zeros((2, 4)), True)
         kernel.simulate_held(x, x.copy(), q, t, t, t, t, 1e-3, np.zeros((2, 4)))
+        kernel.simulate_along(x, x.copy(), q, t, t, t, t, t, np.zeros((1, 2)))
 
 
 if __name__ == '__main__':
