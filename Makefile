@@ -33,15 +33,12 @@ warm: environment
 demo: warm
 	$(VENV)/bin/pam_demo
 
-# Tests may share the machine, but those that keep a rate have it to themselves.
-ALONE := test/nodes
-
 test: warm
 ifdef ARGS
 	$(PY) -m pytest $(ARGS)
 else
-	$(PY) -m pytest -n auto --dist loadfile $(ALONE:%=--ignore=%)
-	$(PY) -m pytest $(ALONE)
+	$(PY) -m pytest -n auto --dist loadfile -m 'not keeps_rate'
+	$(PY) -m pytest -m keeps_rate test/nodes
 endif
 
 lint: environment

@@ -14,6 +14,8 @@ from pam_ros.compiled import HAVE_NUMBA
 from support.domain import claim_domain
 
 DOMAIN = pytest.StashKey()
+NODES = Path(__file__).parent / 'nodes'
+DISCOVERY = Path(__file__).parent / 'support' / 'discovery.xml'
 
 
 def pytest_configure(config):
@@ -22,6 +24,7 @@ def pytest_configure(config):
     os.environ['ROS_DOMAIN_ID'] = str(domain)
     os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'] = 'LOCALHOST'
     os.environ.pop('ROS_STATIC_PEERS', None)
+    os.environ['FASTRTPS_DEFAULT_PROFILES_FILE'] = str(DISCOVERY)
     os.environ['ROS_PYTHON_CHECK_FIELDS'] = '1'
     os.environ['MPLBACKEND'] = 'Agg'
     # A slow machine is no failure; and what passes once in CI passes each time.
@@ -40,7 +43,11 @@ def pytest_report_header():
     )
 
 
+@pytest.hookimpl(tryfirst=True)  # before markers select
 def pytest_collection_modifyitems(items):
+    for item in items:
+        if item.path.is_relative_to(NODES) and not item.get_closest_marker('at_any_pace'):
+            item.add_marker(pytest.mark.keeps_rate)
     if not HAVE_NUMBA:
         skip = pytest.mark.skip(reason='needs numba: takes too long as plain Python')
         for item in items:

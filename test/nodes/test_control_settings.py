@@ -13,6 +13,8 @@ from pam_ros.errors import ParameterError
 from pam_ros.nodes.control_settings import build_told, table
 from pam_ros.parameter_files import read
 
+pytestmark = pytest.mark.at_any_pace
+
 CONFIG = Path(__file__).parents[2] / 'config'
 MUSCLES = sorted(path.stem for path in (CONFIG / 'muscles').glob('*.yaml'))
 

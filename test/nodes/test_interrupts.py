@@ -13,6 +13,8 @@ from std_msgs.msg import Float64
 from pam_ros.nodes.client import Client
 from pam_ros.nodes.interrupts import heed
 
+pytestmark = pytest.mark.at_any_pace
+
 class Lost:
     def __del__(self):
         for _ in range(2):

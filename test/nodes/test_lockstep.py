@@ -16,6 +16,8 @@ from pam_ros.rig.model import RigModel
 from pam_ros.rig.rig import Rig
 from support.harness import Peer, Program, lose_nothing
 
+pytestmark = pytest.mark.at_any_pace
+
 PERIOD = 2_000_000  # ns
 MANY = {'time_mode': 'lockstep', 'command_timeout': 0.0}
 LOCKSTEP = {**MANY, **lose_nothing()}

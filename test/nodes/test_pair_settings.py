@@ -16,6 +16,8 @@ from pam_ros.nodes.sim_scene import Scene
 from pam_ros.parameter_files import read
 from pam_ros.rig.joints.antagonistic_pair import PulleyArm
 
+pytestmark = pytest.mark.at_any_pace
+
 CONFIG = Path(__file__).parents[2] / 'config'
 MUSCLES = sorted(path.stem for path in (CONFIG / 'muscles').glob('*.yaml'))
 FOUR = {'muscles': ('a', 'b', 'c', 'd'), 'joint_names': ('shoulder', 'elbow')}

@@ -21,6 +21,8 @@ from pam_ros.report.write import FILES
 from pam_ros.rig.run import simulate
 from support import traces
 
+pytestmark = pytest.mark.at_any_pace
+
 ROOT = Path(__file__).parents[2]
 DECLARED = ('--params', 'dmsp_20_400n', '--set', 'mass=20')
 FRICTION = 14.0  # N

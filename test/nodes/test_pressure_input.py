@@ -11,6 +11,8 @@ from hypothesis import strategies as st
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.nodes.pressure_input import PressureInput
 
+pytestmark = pytest.mark.at_any_pace
+
 MUSCLE = Muscle()
 
 

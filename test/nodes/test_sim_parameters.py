@@ -10,6 +10,8 @@ from std_msgs.msg import Float64
 from pam_ros.nodes.sim_scene import table
 from support.harness import Peer, Program
 
+pytestmark = pytest.mark.at_any_pace
+
 NODE = '/pam_sim'
 
 

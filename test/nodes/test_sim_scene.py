@@ -11,6 +11,8 @@ from pam_ros.nodes.sim_scene import Scene
 from pam_ros.rig.joint_model import JointModel
 from pam_ros.rig.model import RigModel
 
+pytestmark = pytest.mark.at_any_pace
+
 
 def of(given):
     scene = Scene(given)

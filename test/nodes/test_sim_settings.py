@@ -11,6 +11,8 @@ from pam_ros.errors import ParameterError
 from pam_ros.nodes.sim_scene import simulation, table
 from pam_ros.parameter_files import read
 
+pytestmark = pytest.mark.at_any_pace
+
 CONFIG = Path(__file__).parents[2] / 'config'
 MUSCLES = sorted(path.stem for path in (CONFIG / 'muscles').glob('*.yaml'))
 
