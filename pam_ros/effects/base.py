@@ -31,7 +31,7 @@ be exact or implicit, and a stiff law stays stable. Parameters are q[j], q[j + 1
 the muscle's own are at the indices of ``pam_ros.rig.layout``.
 """
 
-from collections.abc import Callable, MutableSequence
+from collections.abc import Callable, Mapping, MutableSequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -82,9 +82,9 @@ class Effect:
     residual)``: further starts from a recording, arrays (n,) in SI, the residual being measured
     less simulated position or force. ``signature`` says in words what the residual looks like,
     ``experiment`` what to record to tell it from its nearest ``rivals``. ``contains`` names those
-    that it becomes as its strength vanishes while its other parameters stay. ``needs_muscle``
-    says that a load moved by some other force cannot have it: it has no braid, no bladder, no
-    chamber.
+    that it becomes as one of its parameters vanishes, with the parameters of theirs that others
+    of its own then are. ``needs_muscle`` says that a load moved by some other force cannot have
+    it: it has no braid, no bladder, no chamber.
     """
 
     name: str
@@ -105,7 +105,7 @@ class Effect:
     damping: Callable[..., float] | None = None
     outside: Callable[..., float] | None = None
     rivals: tuple[str, ...] = field(default=())
-    contains: tuple[str, ...] = field(default=())
+    contains: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
     needs_muscle: bool = False
 
     def __post_init__(self) -> None:

@@ -270,7 +270,7 @@ EFFECT = Effect(
     ),
     start=start,
     rivals=('coulomb_friction', 'creep'),
-    contains=('coulomb_friction',),
+    contains={'coulomb_friction': {'level': 'amplitude'}},
     force=force,
     needs_muscle=True,
 )

@@ -2,11 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Leak: the chamber loses pressure in proportion to it, and the valve gives it back, or not."""
 
-from math import exp, log
+from math import exp, expm1, log, log1p
 
 from pam_ros.effects.base import Effect, EffectParameter, Row
 
 SHORTEST = 1e-6  # s; a faster refill than any rig's is as good as immediate
+LEAST = 1e-12  # 1/s; a leak that takes thousands of years is none
 
 
 def pressure(p: float, t: float, h: float, x: Row, i: int, xn: Row, q: Row, j: int) -> float:
@@ -21,7 +22,7 @@ def pressure(p: float, t: float, h: float, x: Row, i: int, xn: Row, q: Row, j: i
     x[i + 1] the p_in before.
     """
     r = q[j]
-    if r == 0.0:
+    if r < LEAST:
         return p
     if q[j + 1] > 0.0:
         now, left = x[i], h
@@ -38,10 +39,11 @@ def pressure(p: float, t: float, h: float, x: Row, i: int, xn: Row, q: Row, j: i
         fill = 1.0 / max(q[j + 1], SHORTEST)
         if left > 0.0 and (p - now) * fill > q[j + 3]:
             # Fully open until the valve begins to close, or for all of the rest.
-            most = q[j + 3] / r
-            ratio = (p - q[j + 3] / fill - most) / (now - most) if now != most else 2.0
-            spent = min(left, -log(ratio) / r) if 0.0 < ratio < 1.0 else left
-            now = most + (now - most) * exp(-r * spent)
+            slope = q[j + 3] - r * now
+            closing = p - q[j + 3] / fill - now
+            is_reached = slope > r * closing
+            spent = min(left, -log1p(-r * closing / slope) / r) if is_reached else left
+            now -= slope * expm1(-r * spent) / r
             left -= spent
         rest = p * fill / (fill + r)
         xn[i] = rest + (now - rest) * exp(-left * (fill + r)) if left > 0.0 else now
@@ -123,7 +125,7 @@ EFFECT = Effect(
     states=('pressure', 'upstream pressure'),
     start=start,
     rivals=('pressure_lag', 'pressure_offset', 'creep', 'softening'),
-    contains=('pressure_lag',),
+    contains={'pressure_lag': {'fill': 'refill', 'vent': 'vent', 'fastest': 'supply'}},
     pressure=pressure,
     needs_muscle=True,
 )

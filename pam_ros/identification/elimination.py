@@ -6,11 +6,14 @@ from collections.abc import Sequence
 from concurrent.futures import Executor
 from dataclasses import replace
 
+import numpy as np
+
 from pam_ros.effects.base import Effect
 from pam_ros.identification import evidence
 from pam_ros.identification.admission import IMPLAUSIBLE, leeway, matters, strain
-from pam_ros.identification.candidate import EARNED, Fit, fitted
+from pam_ros.identification.candidate import EARNED, Fit, extended, fitted
 from pam_ros.identification.noise import Noise
+from pam_ros.identification.problem import Problem
 from pam_ros.identification.solve import solve
 from pam_ros.rig.model import RigModel
 
@@ -60,11 +63,43 @@ def plain(fit: Fit, model: RigModel, pool: Executor) -> Fit:
     return fit
 
 
+def became(fit: Fit, name: str, other: Effect, model: RigModel, pool: Executor) -> Fit:
+    """Return the fit with *other* in the place of effect *name*, which contains it, fitted anew.
+
+    It begins where the two are the same: with the parameters that they share.
+    """
+    effect, known = _effect(model, name), fit.solution
+    names = [p.name for p in effect.parameters]
+    j = model.layout.parameter_at[name]
+    values = dict(zip(names, known.problem.row_at(known.u)[j : j + len(names)], strict=True))
+    there = {u.name for u in known.problem.unknowns}
+    strengths = {p.name for p in other.parameters if p.strength}
+    start = {
+        theirs: float(values[own])
+        for theirs, own in effect.contains[other.name].items()
+        if theirs in strengths or f'effects.{name}.{own}' in there
+    }
+    smaller, keep = _without(known.problem, name, names, model)
+    problem, added = extended(smaller, model, other, start)
+    solution = solve(problem, np.concatenate([known.u[keep], added]), pool=pool)
+    return fitted((*(e for e in fit.effects if e != name), other.name), solution)
+
+
 def _reduced(
     fit: Fit, name: str, parameters: Sequence[str], model: RigModel, pool: Executor
 ) -> Fit:
     """Return the fit with *parameters* of effect *name* at their defaults, fitted anew."""
-    problem = fit.solution.problem
+    smaller, keep = _without(fit.solution.problem, name, parameters, model)
+    return fitted(fit.effects, solve(smaller, fit.solution.u[keep], pool=pool))
+
+
+def _without(
+    problem: Problem, name: str, parameters: Sequence[str], model: RigModel
+) -> tuple[Problem, list[int]]:
+    """Return the problem with *parameters* of effect *name* at their defaults.
+
+    And the numbers of the unknowns that are left.
+    """
     gone = {f'effects.{name}.{p}' for p in parameters}
     keep = [k for k, u in enumerate(problem.unknowns) if u.name not in gone]
     row = problem.row.copy()
@@ -72,8 +107,8 @@ def _reduced(
     for k, p in enumerate(_effect(model, name).parameters):
         if p.name in parameters:
             row[j + k] = p.default
-    smaller = replace(problem, row=row, unknowns=tuple(problem.unknowns[k] for k in keep))
-    return fitted(fit.effects, solve(smaller, fit.solution.u[keep], pool=pool))
+    unknowns = tuple(problem.unknowns[k] for k in keep)
+    return replace(problem, row=row, unknowns=unknowns), keep
 
 
 def _effect(model: RigModel, name: str) -> Effect:

@@ -4,11 +4,12 @@
 
 from dataclasses import replace
 
+from pam_ros.effects.base import Effect
 from pam_ros.identification.admission import ABOUT, Tried
 from pam_ros.identification.candidate import EARNED, Fit, released
-from pam_ros.identification.elimination import dropped
+from pam_ros.identification.elimination import became, dropped
 from pam_ros.identification.evidence import SIGNIFICANCE
-from pam_ros.identification.round import NEAR, Setting, try_effects
+from pam_ros.identification.round import NEAR, Setting, try_effects, weighed
 
 
 def exchanged(fit: Fit, setting: Setting) -> tuple[Fit, tuple[tuple[Tried, ...], ...]]:
@@ -29,6 +30,7 @@ def exchanged(fit: Fit, setting: Setting) -> tuple[Fit, tuple[tuple[Tried, ...],
             continue
         base = dropped(fit, name, model, setting.pool)
         _, tried = try_effects(base, rivals, setting)
+        tried = tuple(_from_container(t, fit, base, effect, setting) for t in tried)
         for one in sorted(tried, key=lambda t: t.fit.score):
             is_plainer = one.effect.name in effect.contains
             explains = one.fit.score < fit.score - EARNED or (
@@ -42,3 +44,13 @@ def exchanged(fit: Fit, setting: Setting) -> tuple[Fit, tuple[tuple[Tried, ...],
                 fit = released(one.fit, model, one.effect, setting.pool)
                 break
     return fit, tuple(rounds)
+
+
+def _from_container(tried: Tried, fit: Fit, base: Fit, effect: Effect, setting: Setting) -> Tried:
+    """Return *tried* as it is, or as it is where *fit* has it in *effect*, if that is better."""
+    if tried.effect.name not in effect.contains:
+        return tried
+    same = became(fit, effect.name, tried.effect, setting.model, setting.pool)
+    if same.score > tried.fit.score:
+        return tried
+    return replace(weighed(base, same, tried.effect.name, setting), chosen=False)

@@ -13,6 +13,7 @@ from pam_ros.identification import verdict
 from pam_ros.identification.admission import Tried
 from pam_ros.identification.candidate import Fit, fitted
 from pam_ros.identification.coarse import coarse_step
+from pam_ros.identification.elimination import plain
 from pam_ros.identification.noise import Noise, noise_of
 from pam_ros.identification.result import Candidate, Finding, Trace
 from pam_ros.identification.retuning import only_starts, problem_of
@@ -89,8 +90,8 @@ def _polished(
 
     Effects that do not lower the score there are dropped.
     """
-    plain = replace(problem_of(model, segments, noise, STEP), slope_step=coarse_step(model))
-    starts = [k for k in plain.unknowns if k.segment >= 0]
+    whole = replace(problem_of(model, segments, noise, STEP), slope_step=coarse_step(model))
+    starts = [k for k in whole.unknowns if k.segment >= 0]
     fits = []
     with ThreadPoolExecutor() as pool:
         for fit in (found.declared, found.retuned, found.augmented):
@@ -98,7 +99,7 @@ def _polished(
             kept = [k for k, x in enumerate(thin.unknowns) if x.segment < 0]
             unknowns = (*(thin.unknowns[k] for k in kept), *starts)
             full = replace(
-                plain,
+                whole,
                 row=thin.row,
                 active=thin.active,
                 unknowns=unknowns,
@@ -110,7 +111,9 @@ def _polished(
             else:
                 solution = solve(full, u, POLISH, pool)
             fits.append(fitted(fit.effects, solution))
-    declared, retuned, augmented = fits
+        declared, retuned, augmented = fits
+        # What finer parameters made up for may be the longer steps of the thinned runs.
+        augmented = plain(augmented, model, pool)
     if augmented.score > retuned.score:
         # A nested model is never worse: what the thinned runs saw is not in the full ones.
         augmented = retuned

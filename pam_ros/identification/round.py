@@ -4,7 +4,7 @@
 
 from collections.abc import Sequence
 from concurrent.futures import Executor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -116,6 +116,23 @@ def _weighed(
         )
         tried.append(Tried(effect, parent.effects, fit, found, _rank(fit)))
     return tuple(sorted(tried, key=lambda t: t.rank))
+
+
+def weighed(parent: Fit, fit: Fit, name: str, setting: Setting, count: int = 1) -> Tried:
+    """Return a chosen *fit* with what speaks for its effect *name* on top of *parent*.
+
+    It is one of *count* that were tried.
+    """
+    effect = next(e for e in setting.model.library if e.name == name)
+    fit = replace(fit, effects=(*parent.effects, name))
+    p = min(1.0, count * p_of(parent, fit, setting.noise))
+    found = evidence.Evidence(
+        p,
+        1.0 - fit.held_error / parent.held_error,
+        evidence.strengths_clear(fit, p),
+        absorbed(parent, fit, effect, setting.noise),
+    )
+    return Tried(effect, parent.effects, fit, found, _rank(fit), chosen=True)
 
 
 def _as_declared(fit: Fit, pool: Executor) -> Fit:

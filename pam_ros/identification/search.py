@@ -15,6 +15,7 @@ from pam_ros.identification.coarse import coarse_step, thinned
 from pam_ros.identification.elimination import plain, without_needless
 from pam_ros.identification.exchange import exchanged
 from pam_ros.identification.noise import Noise
+from pam_ros.identification.pairs import paired
 from pam_ros.identification.retuning import only_starts, problem_of, robust
 from pam_ros.identification.round import NEAR, Setting, try_effects
 from pam_ros.identification.segment import Segment, windows
@@ -83,8 +84,15 @@ def search(
         progress(0.85, 'leaving out what is not needed')
         parent = without_needless(parent, retuned, model, noise, pool)
         parent, exchanges = exchanged(parent, setting)
+        rounds += exchanges
+        parent, pair = paired(parent, retuned, _absent(retuned, model), setting)
+        if pair:
+            rounds = [tuple(replace(t, chosen=False) for t in tried) for tried in rounds]
+            rounds += pair
+            parent, exchanges = exchanged(parent, setting)
+            rounds += exchanges
         parent = plain(parent, model, pool)
-    return Search(declared, retuned, parent, (*rounds, *exchanges))
+    return Search(declared, retuned, parent, tuple(rounds))
 
 
 def _absent(parent: Fit, model: RigModel) -> list[Effect]:

@@ -214,31 +214,39 @@ def weak_starts(
     Each is fitted on top of the weak fits *known* from its most promising starts; what brings
     next to nothing there leads nowhere.
     """
-    free = parent.solution
-    kept = [k for k, x in enumerate(free.problem.unknowns) if x.segment < 0]
     found: dict[str, list[tuple[Problem, Array]]] = {effect.name: [] for effect in effects}
     for base in known:
-        fits = list(pool.map(partial(_fitted_to, base, model), effects))
+        fits = list(pool.map(partial(fitted_to, base, model), effects))
         falls = np.array([base.cost - fit.cost for fit in fits])
         worth = [k for k in np.argsort(-falls) if falls[k] > max(EARNED, LEADING * falls.max())]
-
-        def finer(k: int, base: Solution = base, fits: Sequence[Solution] = fits) -> Solution:
-            wide = freed(fits[k], model, effects[k], STEPS)
-            price = (wide.u.size - fits[k].u.size) * np.log(base.problem.independent)
-            return wide if wide.cost + price < fits[k].cost - EARNED else fits[k]
-
-        for k, best in zip(worth, pool.map(finer, worth), strict=True):
-            unknowns = (*free.problem.unknowns, *best.problem.unknowns[base.u.size :])
-            row, active = best.problem.row, best.problem.active
-            u = np.concatenate([free.u, best.u[base.u.size :]])
-            u[kept] = best.u[: base.u.size]
-            problem = replace(free.problem, row=row, active=active, unknowns=unknowns)
-            found[effects[k].name].append((problem, u))
+        finest = pool.map(lambda k, f=fits: finer(f[k], model, effects[k]), worth)
+        for k, best in zip(worth, finest, strict=True):
+            found[effects[k].name].append(as_free(parent.solution, base, best))
     return found
 
 
-def _fitted_to(base: Solution, model: RigModel, effect: Effect) -> Solution:
-    """Return the best of the weak fits of *effect* on top of *base*."""
+def finer(fit: Solution, model: RigModel, effect: Effect) -> Solution:
+    """Return a weak fit with finer parameters of *effect* freed where they earn their cost."""
+    wide = freed(fit, model, effect, STEPS)
+    price = (wide.u.size - fit.u.size) * np.log(fit.problem.independent)
+    return wide if wide.cost + price < fit.cost - EARNED else fit
+
+
+def as_free(free: Solution, base: Solution, fit: Solution) -> tuple[Problem, Array]:
+    """Return where the free run starts with what a weak *fit* has beyond its *base*.
+
+    *base* has the unknowns of the fit *free* but for those of single runs.
+    """
+    kept = [k for k, x in enumerate(free.problem.unknowns) if x.segment < 0]
+    unknowns = (*free.problem.unknowns, *fit.problem.unknowns[base.u.size :])
+    u = np.concatenate([free.u, fit.u[base.u.size :]])
+    u[kept] = fit.u[: base.u.size]
+    row, active = fit.problem.row, fit.problem.active
+    return replace(free.problem, row=row, active=active, unknowns=unknowns), u
+
+
+def fitted_to(base: Solution, model: RigModel, effect: Effect) -> Solution:
+    """Return the best of the weak fits of *effect* on top of the weak fit *base*."""
     guesses = []
     for values in effect.fit_starts:
         problem, added = extended(base.problem, model, effect, values)

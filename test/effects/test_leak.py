@@ -89,3 +89,19 @@ def test_a_valve_fully_open_against_an_adaptive_solver(step, vent):
     # The solver's exhaust takes a microsecond where ours opens at once.
     np.testing.assert_allclose(run.pressure, p, rtol=1e-6 if vent else 2e-5)
     assert np.max(np.diff(run.pressure)) < 0.01 * supply
+
+
+@pytest.mark.parametrize('rate', [1e-4, 1e-8, 1e-12])
+def test_a_valve_fully_open_fills_hardly_slower_for_a_hair_of_a_leak(rate):
+    t = np.array([0.0, 0.1, 0.2, 0.3])
+    leak = {'rate': rate, 'refill': 1e-6, 'supply': 1e6}
+    run = simulate(bench.cart(mass=1e4, leak=leak), t, [0.0, 0.1], [1e5, 9e5], position=0.0)
+    np.testing.assert_allclose(run.pressure, [1e5, 1e5, 2e5, 3e5], rtol=rate + 1e-12)
+
+
+@pytest.mark.parametrize('rate', [5e-324, 1e-300, 1e-13])
+def test_a_leak_of_ages_is_none(rate):
+    t = np.array([0.0, 0.1, 0.2])
+    leak = {'rate': rate, 'refill': 1e-3, 'supply': 1e9, 'vent': 0.1}
+    run = simulate(bench.cart(mass=1e4, leak=leak), t, [0.0, 0.1], [1e5, 9e5], position=0.0)
+    np.testing.assert_array_equal(run.pressure, [1e5, 1e5, 9e5])
