@@ -54,7 +54,7 @@ def trace(
     found = search(model, blocks, noise, tell)
     tell(0.9, 'fitting the chosen models in full')
     final = segments_of(recordings, keep_back=not test)
-    fits = _polished(found, model, final, noise)
+    fits = polished(found, model, final, noise)
     noise = _least(noise, fits, final)
     stages = tuple(
         stage(name, model, fit, tests)
@@ -83,12 +83,12 @@ def trace(
     return verdict.judged(answer, lacking, model.library)
 
 
-def _polished(
+def polished(
     found: Search, model: RigModel, segments: Sequence[Segment], noise: Noise
 ) -> tuple[Fit, Fit, Fit]:
     """Return the declared, re-tuned and augmented models fitted to every sample.
 
-    Effects that do not lower the score there are dropped.
+    Effects that do not lower the score there are dropped, and finer parameters of theirs.
     """
     whole = replace(problem_of(model, segments, noise, STEP), slope_step=coarse_step(model))
     starts = [k for k in whole.unknowns if k.segment >= 0]

@@ -2,13 +2,18 @@
 # SPDX-License-Identifier: Apache-2.0
 """The whole trace, on the truth plant and on measured machines: what is there is named."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from pam_ros.errors import RecordingError
-from pam_ros.identification.finder import trace
+from pam_ros.identification.candidate import fitted, freed
+from pam_ros.identification.finder import polished, trace
+from pam_ros.identification.noise import noise_of
+from pam_ros.identification.search import search
+from pam_ros.identification.segment import segments_of
 from pam_ros.parameter_files import load_rig
 from pam_ros.recording.mapping import read_mapping
 from pam_ros.recording.read import read_recording
@@ -132,6 +137,20 @@ def test_a_held_muscle(there):
 def test_a_held_muscle_that_lacks_nothing():
     found = trace(bench_truth.declared(), [bench_truth.held(seed=2)])
     assert found.verdict == 'no_missing_effect'
+
+
+def test_finer_parameters_that_earn_nothing_in_full_are_dropped():
+    there = effect('coulomb_friction', coulomb_n=8.0, static_n=8.0, stribeck_m_s=5e-3)
+    model = bench_truth.declared(off=OFF)
+    friction = next(e for e in model.library if e.name == there.kind)
+    segments = segments_of([bench_truth.free(there, seed=4)], keep_back=True)
+    noise = noise_of([(s.t, s.target) for s in segments])
+    found = search(model, segments, noise, lambda fraction, text: None)
+    wide = fitted((there.kind,), freed(found.augmented.solution, model, friction, 4))
+    assert wide.solution.u.size > found.augmented.solution.u.size
+    *_, augmented = polished(replace(found, augmented=wide), model, segments, noise)
+    freed_ones = [u.name for u in augmented.solution.problem.unknowns if 'effects' in u.name]
+    assert freed_ones == ['effects.coulomb_friction.level']
 
 
 def test_every_candidate_is_listed_with_a_reason():

@@ -2,51 +2,27 @@
 # SPDX-License-Identifier: Apache-2.0
 """A round of candidates, and the exchange of one for another that explains more."""
 
-from concurrent.futures import ThreadPoolExecutor
-
 import numpy as np
 import pytest
 
-from pam_ros.effects import EFFECTS
-from pam_ros.identification.candidate import extended, fitted
-from pam_ros.identification.coarse import coarse_step, thinned
+from pam_ros.identification.candidate import fitted
+from pam_ros.identification.elimination import became
 from pam_ros.identification.exchange import exchanged
-from pam_ros.identification.noise import noise_of
-from pam_ros.identification.retuning import only_starts, problem_of
-from pam_ros.identification.round import Setting, try_effects
-from pam_ros.identification.segment import segments_of
+from pam_ros.identification.round import try_effects
 from pam_ros.identification.solve import solve
-from pam_ros.identification.weak import motion_of
 from support import bench_truth
+from support.rounds import KNOWN, setting_of, with_effect_starts, with_effects
 from truth import effect
 
 pytestmark = pytest.mark.needs_numba
-KNOWN = {e.name: e for e in EFFECTS}
 MODEL = bench_truth.declared(off=[0.01, -0.01, 0.0, 0.01, 0.0, 0.01])
 
 
 @pytest.fixture(scope='module')
 def setting():
-    """Return the setting of a rig with friction and a lag, and the problem of re-tuning it."""
-    effects = (effect('viscous_friction'), effect('pressure_lag'))
-    full = segments_of([bench_truth.free(*effects, seed=3, rate=200.0)], keep_back=True)
-    noise = noise_of([(s.t, s.target) for s in full])
-    thin = [thinned(s, coarse_step(MODEL)) for s in full]
-    problem = problem_of(MODEL, thin, noise, coarse_step(MODEL), 1)
-    motions = [motion_of(f, s, noise.sigma) for f, s in zip(full, thin, strict=True)]
-    with ThreadPoolExecutor() as pool:
-        declared = fitted((), only_starts(problem, np.zeros(len(problem.unknowns)), pool))
-        yield Setting(MODEL, declared, noise, motions, pool)
-
-
-def with_effects(setting, *names):
-    """Return the fit of these effects, each from the first of its starts."""
-    fit = setting.declared
-    for name in names:
-        known = fit.solution
-        problem, added = extended(known.problem, MODEL, KNOWN[name], KNOWN[name].fit_starts[0])
-        fit = fitted((*fit.effects, name), solve(problem, np.concatenate([known.u, added])))
-    return fit
+    """Return the setting of a rig with friction and a lag."""
+    with setting_of(MODEL, effect('viscous_friction'), effect('pressure_lag')) as found:
+        yield found
 
 
 def test_no_candidate_has_the_credit_for_what_its_parent_missed(setting):
@@ -76,15 +52,28 @@ def test_an_effect_that_was_taken_for_another_is_exchanged(setting):
 
 
 def test_one_that_contains_another_gives_way_where_that_explains_as_much(setting):
-    taken = with_effects(setting, 'viscous_friction')
-    leak = KNOWN['leak']
-    known = taken.solution
-    start = {'rate': 0.02, 'refill': 0.03, 'vent': 0.05}
-    problem, added = extended(known.problem, MODEL, leak, start)
-    both = fitted(('leak', 'viscous_friction'), solve(problem, np.r_[known.u, added]))
+    leak = {'rate': 0.02, 'refill': 0.03, 'vent': 0.05}
+    friction = KNOWN['viscous_friction'].fit_starts[0]
+    both = with_effect_starts(setting, {'leak': leak, 'viscous_friction': friction})
     fit, rounds = exchanged(both, setting)
     assert fit.effects == ('viscous_friction', 'pressure_lag')
     assert len(rounds) == 1
+
+
+def test_what_is_contained_begins_where_the_other_has_it(setting):
+    leak = {'rate': 0.02, 'refill': 0.03, 'vent': 0.05}
+    friction = KNOWN['viscous_friction'].fit_starts[0]
+    both = with_effect_starts(setting, {'leak': leak, 'viscous_friction': friction})
+    fit = became(both, 'leak', KNOWN['pressure_lag'], MODEL, setting.pool)
+    assert fit.effects == ('viscous_friction', 'pressure_lag')
+    assert fit.held_error < 1.02 * both.held_error
+    row = fit.solution.problem.row_at(fit.solution.u)
+    assert row[MODEL.layout.parameter_at['leak']] == 0.0
+    at_lag = MODEL.layout.parameter_at['pressure_lag']
+    there = effect('pressure_lag').values
+    np.testing.assert_allclose(
+        row[at_lag : at_lag + 2], [there['fill_s'], there['vent_s']], rtol=0.05
+    )
 
 
 def test_what_is_right_stays(setting):
