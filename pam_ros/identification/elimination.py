@@ -45,17 +45,19 @@ def dropped(fit: Fit, name: str, model: RigModel, pool: Executor) -> Fit:
     return replace(smaller, effects=tuple(e for e in fit.effects if e != name))
 
 
-def plain(fit: Fit, model: RigModel, pool: Executor) -> Fit:
+def plain(fit: Fit, model: RigModel, pool: Executor, hope: float = np.inf) -> Fit:
     """Return *fit* with the fewest parameters per effect that do as well.
 
-    Finer ones may have been freed when another effect was still missing, to make up for it.
+    Finer ones may have been freed when another effect was still missing, to make up for it. Only
+    those are tried without which the cost rises by less than *hope*, by the derivatives.
     """
     for name in fit.effects:
         prefix = f'effects.{name}.'
         there = {u.name.removeprefix(prefix) for u in fit.solution.problem.unknowns}
         for start in sorted(_effect(model, name).fit_starts, key=len):
             finer = [p.name for p in _effect(model, name).parameters if p.name not in start]
-            if there >= set(start) and there & set(finer):
+            is_wider = there >= set(start) and there & set(finer)
+            if is_wider and (hope == np.inf or _promised_rise(fit, name, finer, model) < hope):
                 smaller = _reduced(fit, name, finer, model, pool)
                 if smaller.score < fit.score + EARNED:
                     fit = smaller
@@ -83,6 +85,32 @@ def became(fit: Fit, name: str, other: Effect, model: RigModel, pool: Executor) 
     problem, added = extended(smaller, model, other, start)
     solution = solve(problem, np.concatenate([known.u[keep], added]), pool=pool)
     return fitted((*(e for e in fit.effects if e != name), other.name), solution)
+
+
+def _promised_rise(fit: Fit, name: str, parameters: Sequence[str], model: RigModel) -> float:
+    """Return by how much the cost rises with *parameters* at their defaults, all else refitted.
+
+    By the derivatives alone: infinite where a default is beyond what they reach.
+    """
+    solution, problem = fit.solution, fit.solution.problem
+    defaults = {f'effects.{name}.{p.name}': p.default for p in _effect(model, name).parameters}
+    gone = {f'effects.{name}.{p}' for p in parameters}
+    is_gone = np.array([u.name in gone for u in problem.unknowns])
+    move = np.array(
+        [
+            unknown.coordinate(defaults[unknown.name]) - u
+            for unknown, u in zip(problem.unknowns, solution.u, strict=True)
+            if unknown.name in gone
+        ]
+    )
+    if not np.all(np.isfinite(move)):
+        return float(np.inf)
+    weight = problem.independent / float(solution.r @ solution.r)
+    prior = np.array([k.prior for k in problem.unknowns])
+    normal = weight * solution.jacobian.T @ solution.jacobian + np.diag(prior**-2.0)
+    pulled = normal[:, is_gone] @ move
+    answer = np.linalg.lstsq(normal[np.ix_(~is_gone, ~is_gone)], pulled[~is_gone])[0]
+    return float(move @ pulled[is_gone] - pulled[~is_gone] @ answer)
 
 
 def _reduced(

@@ -29,6 +29,7 @@ from pam_ros.rig.model import RigModel
 
 Array = NDArray[np.float64]
 STEP = 1e-3  # s, longest step of the final fits
+HOPE = 100.0  # rise of the cost that a plainer fit of all samples may promise to be tried
 POLISH = 10  # iterations of a final fit, which starts where the thinned one ended
 
 
@@ -113,7 +114,7 @@ def polished(
             fits.append(fitted(fit.effects, solution))
         declared, retuned, augmented = fits
         # What finer parameters made up for may be the longer steps of the thinned runs.
-        augmented = plain(augmented, model, pool)
+        augmented = plain(augmented, model, pool, HOPE)
     if augmented.score > retuned.score:
         # A nested model is never worse: what the thinned runs saw is not in the full ones.
         augmented = retuned
