@@ -7,13 +7,13 @@ import sys
 
 import pytest
 
+pytestmark = pytest.mark.at_any_pace
+
 CLIENT = """
 import os, signal, sys
 from std_msgs.msg import Float64
 from pam_ros.nodes.client import Client
 from pam_ros.nodes.interrupts import heed
-
-pytestmark = pytest.mark.at_any_pace
 
 class Lost:
     def __del__(self):
