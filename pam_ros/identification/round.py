@@ -107,13 +107,7 @@ def _weighed(
     tried = []
     for effect, p_corrected in zip(effects, p, strict=True):
         fit = fits[effect.name]
-        gain = 1.0 - fit.held_error / parent.held_error
-        found = evidence.Evidence(
-            float(p_corrected),
-            gain,
-            evidence.strengths_clear(fit, float(p_corrected)),
-            absorbed(parent, fit, effect, noise) and gain > -evidence.LOSS,
-        )
+        found = _evidence(parent, fit, effect, float(p_corrected), noise)
         tried.append(Tried(effect, parent.effects, fit, found, _rank(fit)))
     return tuple(sorted(tried, key=lambda t: t.rank))
 
@@ -126,13 +120,19 @@ def weighed(parent: Fit, fit: Fit, name: str, setting: Setting, count: int = 1) 
     effect = next(e for e in setting.model.library if e.name == name)
     fit = replace(fit, effects=(*parent.effects, name))
     p = min(1.0, count * p_of(parent, fit, setting.noise))
-    found = evidence.Evidence(
-        p,
-        1.0 - fit.held_error / parent.held_error,
-        evidence.strengths_clear(fit, p),
-        absorbed(parent, fit, effect, setting.noise),
-    )
+    found = _evidence(parent, fit, effect, p, setting.noise)
     return Tried(effect, parent.effects, fit, found, _rank(fit), chosen=True)
+
+
+def _evidence(parent: Fit, fit: Fit, effect: Effect, p: float, noise: Noise) -> evidence.Evidence:
+    """Return what speaks for *fit* on top of *parent*; p is corrected for the candidates."""
+    gain = 1.0 - fit.held_error / parent.held_error
+    return evidence.Evidence(
+        p,
+        gain,
+        evidence.strengths_clear(fit, p),
+        absorbed(parent, fit, effect, noise) and gain > -evidence.LOSS,
+    )
 
 
 def _as_declared(fit: Fit, pool: Executor) -> Fit:
