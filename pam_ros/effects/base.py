@@ -80,10 +80,11 @@ class Effect:
     makes the effect clearly present and names what a fit from there may change. What constants
     cannot foresee, a frequency or the place of a stop, comes from ``guess(t, p, kappa,
     residual)``: further starts from a recording, arrays (n,) in SI, the residual being measured
-    less simulated position or force. ``signature`` says in words what the residual looks like,
-    ``experiment`` what to record to tell it from its nearest ``rivals``. ``contains`` names those
-    that it becomes as one of its parameters vanishes, with the parameters of theirs that others
-    of its own then are. ``needs_muscle`` says that a load moved by some other force cannot have
+    less simulated position or force, kappa as measured and NaN where it is not known.
+    ``signature`` says in words what the residual looks like, ``experiment`` what to record to
+    tell it from its nearest ``rivals``. ``contains`` names those that it becomes as one of its
+    parameters vanishes, with the parameters of theirs that others of its own then are.
+    ``needs_muscle`` says that a load moved by some other force cannot have
     it: it has no braid, no bladder, no chamber.
     """
 

@@ -57,7 +57,7 @@ def start(q: Row, j: int, p: float, kappa: float, y: float) -> tuple[float, ...]
 
 def guess(t: Array, p: Array, kappa: Array, residual: Array) -> tuple[dict[str, float], ...]:
     """Return starts with a pad just within the travel that was recorded, at either end."""
-    low, high = np.quantile(kappa, [0.02, 0.98])
+    low, high = np.nanquantile(kappa, [0.02, 0.98])
     inside = 0.02 * (high - low)
     return (
         {'upper': float(high - inside), 'stiffness': 3e4},

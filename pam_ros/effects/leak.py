@@ -55,8 +55,8 @@ def pressure(p: float, t: float, h: float, x: Row, i: int, xn: Row, q: Row, j: i
 
 
 def start(q: Row, j: int, p: float, kappa: float, y: float) -> tuple[float, ...]:
-    """Return the balance of leak and refill, or a chamber freshly filled if the valve closes."""
-    return (p / (1.0 + q[j] * q[j + 1]), p)
+    """Return the balance of leak and refill, or of a valve that closes what is not lost yet."""
+    return ((1.0 - q[j + 5]) * p / (1.0 + q[j] * q[j + 1]), p)
 
 
 EFFECT = Effect(
@@ -111,12 +111,22 @@ EFFECT = Effect(
             10.0,
             scale=0.05,
         ),
+        EffectParameter(
+            'lost',
+            0.0,
+            'share of the pressure that is lost already when a run begins',
+            '',
+            0.0,
+            1.0,
+            scale=0.05,
+        ),
     ),
     signature='pressure that sinks while the command rests, and is back after its next change',
     experiment='long holds at a high pressure with the pressure measured',
     fit_starts=(
         {'rate': 0.003},
         {'rate': 0.03},
+        {'rate': 0.03, 'lost': 0.05},
         {'rate': 0.3, 'refill': 0.1},
         {'rate': 0.3, 'refill': 0.1, 'vent': 0.05},
         {'rate': 0.3, 'refill': 0.7, 'vent': 0.05},

@@ -196,7 +196,8 @@ def _again(known: Solution, solution: Solution) -> Solution:
 def guessed(parent: Fit, effect: Effect) -> tuple[dict[str, float], ...]:
     """Return the starts that *effect* reads from what *parent* leaves of the longest run.
 
-    Samples that are kept back stay unseen: their residual is given as 0.
+    Samples that are kept back stay unseen: their residual is given as 0, and their contraction,
+    where it is what is to be explained, as NaN.
     """
     if effect.guess is None:
         return ()
@@ -204,9 +205,10 @@ def guessed(parent: Fit, effect: Effect) -> tuple[dict[str, float], ...]:
     longest = max(range(len(problem.segments)), key=lambda k: problem.segments[k].t.size)
     s = problem.segments[longest]
     out = problem.runs(parent.solution.u, longest)[0]
-    column = at.Y if s.kind == 'free' else 3
-    residual = np.where(s.fit, s.target - out[:, column], 0.0)
-    return effect.guess(s.t, out[:, at.P], out[:, at.Y] / problem.row[at.L0], residual)
+    is_free = s.kind == 'free'
+    residual = np.where(s.fit, s.target - out[:, at.Y if is_free else 3], 0.0)
+    position = np.where(s.fit, s.target, np.nan) if is_free else out[:, at.Y]
+    return effect.guess(s.t, out[:, at.P], position / problem.row[at.L0], residual)
 
 
 def refine(parent: Fit, effect: Effect, looks: Sequence[Solution], pool: Executor | None) -> Fit:

@@ -18,14 +18,21 @@ from pam_ros.identification.solve import solve
 from pam_ros.rig.model import RigModel
 
 
-def without_needless(fit: Fit, retuned: Fit, model: RigModel, noise: Noise, pool: Executor) -> Fit:
-    """Return *fit* without the effects that it no longer needs, one after another.
+def without_needless(
+    fit: Fit,
+    doubted: Sequence[str],
+    retuned: Fit,
+    model: RigModel,
+    noise: Noise,
+    pool: Executor,
+) -> Fit:
+    """Return *fit* without those of the effects *doubted* that it does not need, one by one.
 
-    One without which the declared parameters would have to be odd ones is needed, and so is
-    the last one, which was just weighed against the others alone.
+    One without which the declared parameters would have to be odd ones is needed, and so is the
+    last that is left.
     """
     while len(fit.effects) > 1:
-        for name in fit.effects[:-1]:
+        for name in (name for name in fit.effects if name in doubted):
             smaller = dropped(fit, name, model, pool)
             gain = 1.0 - fit.held_error / smaller.held_error
             if strain(smaller) - strain(fit) > IMPLAUSIBLE * leeway(fit, noise):
@@ -36,6 +43,12 @@ def without_needless(fit: Fit, retuned: Fit, model: RigModel, noise: Noise, pool
         else:
             return fit
     return fit
+
+
+def promises_little(fit: Fit, name: str, hope: float, model: RigModel) -> bool:
+    """Say whether the cost rises by less than *hope* without effect *name*, by the derivatives."""
+    names = [p.name for p in _effect(model, name).parameters]
+    return _promised_rise(fit, name, names, model) < hope
 
 
 def dropped(fit: Fit, name: str, model: RigModel, pool: Executor) -> Fit:

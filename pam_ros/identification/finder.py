@@ -3,7 +3,7 @@
 """The trace: how wrong is the declared model, what does it lack, how wrong is it with that."""
 
 from collections.abc import Sequence
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Executor, ThreadPoolExecutor
 from dataclasses import replace
 
 import numpy as np
@@ -13,13 +13,15 @@ from pam_ros.identification import verdict
 from pam_ros.identification.admission import Tried
 from pam_ros.identification.candidate import Fit, fitted
 from pam_ros.identification.coarse import coarse_step
-from pam_ros.identification.elimination import plain
+from pam_ros.identification.elimination import plain, promises_little, without_needless
 from pam_ros.identification.noise import Noise, noise_of
+from pam_ros.identification.problem import Problem
 from pam_ros.identification.result import Candidate, Finding, Trace
 from pam_ros.identification.retuning import only_starts, problem_of
+from pam_ros.identification.round import NEAR
 from pam_ros.identification.search import Progress, Search, search
 from pam_ros.identification.segment import Segment, segments_of
-from pam_ros.identification.solve import solve
+from pam_ros.identification.solve import Solution, solve
 from pam_ros.identification.stages import estimates, stage
 from pam_ros.identification.structure import Structure, structure_of
 from pam_ros.identification.unknowns import Unknown
@@ -30,6 +32,9 @@ from pam_ros.rig.model import RigModel
 Array = NDArray[np.float64]
 STEP = 1e-3  # s, longest step of the final fits
 HOPE = 100.0  # rise of the cost that a plainer fit of all samples may promise to be tried
+NEEDLESS = 'chosen at first, and not needed beside what was found later'
+FAR_FROM_THIN = 1.5  # errors of the thinned runs at which a final fit has not arrived
+SHORTER = (4e-3, 2e-3, STEP)  # s, the steps by which it is led there
 POLISH = 10  # iterations of a final fit, which starts where the thinned one ended
 
 
@@ -54,8 +59,12 @@ def trace(
     lacking = verdict.too_little(blocks, noise)
     found = search(model, blocks, noise, tell)
     tell(0.9, 'fitting the chosen models in full')
-    final = segments_of(recordings, keep_back=not test)
-    fits = polished(found, model, final, noise)
+    final, fits = blocks, polished(found, model, blocks, noise)
+    if test:
+        final = segments_of(recordings, keep_back=False)
+        declared, retuned, augmented = fits
+        found = replace(found, declared=declared, retuned=retuned, augmented=augmented)
+        fits = polished(found, model, final, noise)
     noise = _least(noise, fits, final)
     stages = tuple(
         stage(name, model, fit, tests)
@@ -73,7 +82,7 @@ def trace(
         noise=noise,
         stages=(stages[0], stages[1], stages[2]),
         effects=effects,
-        candidates=_candidates(found, model),
+        candidates=_candidates(found, fits[2], model),
         structure=structure,
         segments=tuple(final),
         test=tuple(tests),
@@ -89,7 +98,7 @@ def polished(
 ) -> tuple[Fit, Fit, Fit]:
     """Return the declared, re-tuned and augmented models fitted to every sample.
 
-    Effects that do not lower the score there are dropped, and finer parameters of theirs.
+    Effects that are not needed there are dropped, and finer parameters of theirs.
     """
     whole = replace(problem_of(model, segments, noise, STEP), slope_step=coarse_step(model))
     starts = [k for k in whole.unknowns if k.segment >= 0]
@@ -110,15 +119,68 @@ def polished(
             if fit is found.declared:
                 solution = only_starts(full, u, pool)
             else:
-                solution = solve(full, u, POLISH, pool)
+                solution = _settled(full, u, fit.fit_error, pool)
             fits.append(fitted(fit.effects, solution))
         declared, retuned, augmented = fits
         # What finer parameters made up for may be the longer steps of the thinned runs.
         augmented = plain(augmented, model, pool, HOPE)
+        augmented = without_needless(
+            augmented, _doubted(augmented, model, noise), retuned, model, noise, pool
+        )
     if augmented.score > retuned.score:
         # A nested model is never worse: what the thinned runs saw is not in the full ones.
         augmented = retuned
     return declared, retuned, augmented
+
+
+def _settled(full: Problem, u: Array, thin_error: float, pool: Executor) -> Solution:
+    """Return the fit to every sample that begins at u, where thinned runs leave *thin_error*.
+
+    A load that sticks slips elsewhere with other steps, and then u says little: if the fit does
+    not come near to what the long steps left, it goes there by shorter and shorter ones.
+    """
+    exact = replace(full, slope_step=0.0)
+    ends = [solve(full, u, POLISH, pool)]
+    inside = _off_bounds(full, u)
+    if inside is not None:
+        ends.append(solve(exact, inside, 2 * POLISH, pool))
+    if min(float(np.sqrt(np.mean(end.r**2))) for end in ends) > FAR_FROM_THIN * thin_error:
+        for step in SHORTER:
+            end = solve(replace(exact, step=step), u, 2 * POLISH, pool)
+            u = end.u
+        ends.append(end)
+    best = min(ends, key=lambda one: one.cost)
+    return replace(best, problem=full)
+
+
+def _off_bounds(problem: Problem, u: Array) -> Array | None:
+    """Return u with strengths that are at their upper bound where an effect's start has them.
+
+    Or None where none is. Long steps soften a stiff stop: there no stiffness is high enough.
+    """
+    starts = {
+        f'effects.{effect.name}.{name}': value
+        for effect in problem.active
+        for start in effect.fit_starts
+        for name, value in start.items()
+    }
+    moved = u.copy()
+    for k, unknown in enumerate(problem.unknowns):
+        if unknown.name in starts and u[k] >= unknown.bounds[1] - 1e-6 and not unknown.logarithmic:
+            moved[k] = unknown.coordinate(starts[unknown.name])
+    return None if np.array_equal(moved, u) else moved
+
+
+def _doubted(fit: Fit, model: RigModel, noise: Noise) -> list[str]:
+    """Return the effects of *fit* that the fit to every sample may not need.
+
+    All of them where it is far from the noise: thinned runs may have stopped at a place where
+    one of them made up for another. None of them where no sample is kept back to say so.
+    """
+    if np.isnan(fit.held_error):
+        return []
+    is_near = fit.fit_error < NEAR * noise.sigma
+    return [n for n in fit.effects if not is_near or promises_little(fit, n, HOPE, model)]
 
 
 def _same_starts(fit: Fit, starts: Sequence[Unknown]) -> Array:
@@ -200,15 +262,19 @@ def _reason(tried: Tried) -> str:
     )
 
 
-def _candidates(found: Search, model: RigModel) -> tuple[Candidate, ...]:
+def _candidates(found: Search, fit: Fit, model: RigModel) -> tuple[Candidate, ...]:
     rows = []
     for tried in found.rounds:
         winner = next((t for t in tried if t.chosen), None)
         rivals = verdict.alternatives(found, winner) if winner else ()
         for t in tried:
-            decision = (
-                'chosen' if t.chosen else 'ambiguous' if t.effect.name in rivals else 'rejected'
-            )
+            if t.chosen and t.effect.name not in fit.effects:
+                decision, reason = 'rejected', NEEDLESS
+            elif t.chosen:
+                decision, reason = 'chosen', _reason(t)
+            else:
+                decision = 'ambiguous' if t.effect.name in rivals else 'rejected'
+                reason = verdict.why_not(t, winner)
             prefix = f'effects.{t.effect.name}.'
             values = estimates(t.fit, model)
             rows.append(
@@ -222,7 +288,7 @@ def _candidates(found: Search, model: RigModel) -> tuple[Candidate, ...]:
                     t.evidence.interval_clear,
                     {k.removeprefix(prefix): v for k, v in values.items() if prefix in k},
                     decision,
-                    _reason(t) if t.chosen else verdict.why_not(t, winner),
+                    reason,
                 )
             )
     return tuple(rows)

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 
 from pam_ros.effects.base import Effect
 from pam_ros.identification.admission import Tried, admitted
-from pam_ros.identification.candidate import EARNED, Fit, fitted
+from pam_ros.identification.candidate import EARNED, Fit, fitted, guessed
 from pam_ros.identification.elimination import dropped, plain
 from pam_ros.identification.round import Setting, weighed
 from pam_ros.identification.solve import Solution, solve
@@ -42,8 +42,9 @@ def paired(
         return fit, ()
     ends: list[Fit] = []
     count = 0
+    read = {effect.name: guessed(retuned, effect) for effect in effects}
     for base in weak_fits(retuned, setting.motions):
-        pairs = _pairs(base, effects, setting)
+        pairs = _pairs(base, effects, read, setting)
         count += len(pairs)
         best = list(setting.pool.map(lambda p: _in_full(p, setting), pairs[:REFINED]))
         best.sort(key=lambda pair: pair.weak.cost)
@@ -65,10 +66,15 @@ def paired(
     return fit, ()
 
 
-def _pairs(base: Solution, effects: Sequence[Effect], setting: Setting) -> list[_Pair]:
+def _pairs(
+    base: Solution,
+    effects: Sequence[Effect],
+    read: dict[str, tuple[dict[str, float], ...]],
+    setting: Setting,
+) -> list[_Pair]:
     """Return weak fits of two effects on top of *base*, the best first."""
     model, pool = setting.model, setting.pool
-    single = list(pool.map(lambda e: fitted_to(base, model, e), effects))
+    single = list(pool.map(lambda e: fitted_to(base, model, e, read[e.name]), effects))
     order = sorted(range(len(effects)), key=lambda k: single[k].cost)[:FIRST]
     single = list(pool.map(lambda k: finer(single[k], model, effects[k]), order))
     jobs = [
@@ -77,7 +83,9 @@ def _pairs(base: Solution, effects: Sequence[Effect], setting: Setting) -> list[
         for other in effects
         if other is not effects[k]
     ]
-    found = pool.map(lambda j: _Pair((j[1], j[2]), fitted_to(j[0], model, j[2])), jobs)
+    found = pool.map(
+        lambda j: _Pair((j[1], j[2]), fitted_to(j[0], model, j[2], read[j[2].name])), jobs
+    )
     return sorted(found, key=lambda pair: pair.weak.cost)
 
 

@@ -72,8 +72,9 @@ def try_effects(
     if parent.effects and parent.fit_error > NEAR * setting.noise.sigma:
         parent = min([parent, *(at_weak(parent, one) for one in weak)], key=lambda f: f.score)
     parents = (parent, _as_declared(parent, pool) if parent.effects else setting.declared)
-    led = weak_starts(parent, model, effects, weak, pool)
-    looks = list(pool.map(lambda e: _looks(parents, model, e, led[e.name]), effects))
+    read = {e.name: guessed(parent, e) for e in effects}
+    led = weak_starts(parent, model, effects, read, weak, pool)
+    looks = list(pool.map(lambda e: _looks(parents, model, e, read[e.name], led[e.name]), effects))
     fits = {
         e.name: fitted((*parent.effects, e.name), found[0])
         for e, found in zip(effects, looks, strict=True)
@@ -152,13 +153,13 @@ def _looks(
     parents: Sequence[Fit],
     model: RigModel,
     effect: Effect,
+    read: Sequence[dict[str, float]],
     led: Sequence[tuple[Problem, Array]],
 ) -> list[Solution]:
     """Return the best cheap fit of *effect* on top of each parent, the best first.
 
     And the better one of those that begin where weak fits have *led*.
     """
-    read = guessed(parents[0], effect)
     best = [
         look(parent, model, effect, tried, read)[0]
         for parent, tried in zip(parents, TRIED, strict=True)

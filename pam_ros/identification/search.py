@@ -82,15 +82,14 @@ def search(
             if thin[0].kind == 'held':
                 parent = robust(parent, pool)
         progress(0.85, 'leaving out what is not needed')
-        parent = without_needless(parent, retuned, model, noise, pool)
-        parent, exchanges = exchanged(parent, setting)
-        rounds += exchanges
+        # The last one was just weighed on top of the others.
+        doubted = parent.effects[:-1]
+        parent = without_needless(parent, doubted, retuned, model, noise, pool)
+        parent, rounds = exchanged(parent, rounds, setting)
         parent, pair = paired(parent, retuned, _absent(retuned, model), setting)
         if pair:
             rounds = [tuple(replace(t, chosen=False) for t in tried) for tried in rounds]
-            rounds += pair
-            parent, exchanges = exchanged(parent, setting)
-            rounds += exchanges
+            parent, rounds = exchanged(parent, [*rounds, *pair], setting)
         parent = plain(parent, model, pool)
     return Search(declared, retuned, parent, tuple(rounds))
 

@@ -11,17 +11,16 @@ or a leak make the sum of squares of a free run rugged. Noise in the position, w
 forces, biases it a little, so it finds starts, not results.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
-from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.signal import savgol_filter
 
 from pam_ros.effects.base import Effect
-from pam_ros.identification.candidate import EARNED, Fit, extended, fitted, freed
+from pam_ros.identification.candidate import EARNED, PROMISING, Fit, extended, fitted, freed
 from pam_ros.identification.problem import Problem, finite
 from pam_ros.identification.segment import Segment
 from pam_ros.identification.solve import Solution, amplified_cost, improved, solve
@@ -206,17 +205,19 @@ def weak_starts(
     parent: Fit,
     model: RigModel,
     effects: Sequence[Effect],
+    read: Mapping[str, Sequence[dict[str, float]]],
     known: Sequence[Solution],
     pool: Executor,
 ) -> dict[str, list[tuple[Problem, Array]]]:
     """Return where the free run of *parent* may start with each of *effects*.
 
-    Each is fitted on top of the weak fits *known* from its most promising starts; what brings
-    next to nothing there leads nowhere.
+    Each is fitted on top of the weak fits *known* from its most promising starts, those that were
+    *read* from the recording among them; what brings next to nothing there leads nowhere.
     """
     found: dict[str, list[tuple[Problem, Array]]] = {effect.name: [] for effect in effects}
     for base in known:
-        fits = list(pool.map(partial(fitted_to, base, model), effects))
+        jobs = [(base, model, e, read[e.name]) for e in effects]
+        fits = list(pool.map(fitted_to, *zip(*jobs, strict=True)))
         falls = np.array([base.cost - fit.cost for fit in fits])
         worth = [k for k in np.argsort(-falls) if falls[k] > max(EARNED, LEADING * falls.max())]
         finest = pool.map(lambda k, f=fits: finer(f[k], model, effects[k]), worth)
@@ -245,17 +246,25 @@ def as_free(free: Solution, base: Solution, fit: Solution) -> tuple[Problem, Arr
     return replace(free.problem, row=row, active=active, unknowns=unknowns), u
 
 
-def fitted_to(base: Solution, model: RigModel, effect: Effect) -> Solution:
-    """Return the best of the weak fits of *effect* on top of the weak fit *base*."""
+def fitted_to(
+    base: Solution, model: RigModel, effect: Effect, read: Sequence[dict[str, float]] = ()
+) -> Solution:
+    """Return the best of the weak fits of *effect* on top of the weak fit *base*.
+
+    From its known starts, and from those that were *read* from the recording.
+    """
     guesses = []
-    for values in effect.fit_starts:
+    for values in (*effect.fit_starts, *read):
         problem, added = extended(base.problem, model, effect, values)
         u = np.concatenate([base.u, added])
         r = problem.residuals(u)
         guesses.append((amplified_cost(base, r), Solution(problem, u, r, r, 0)))
     guesses.sort(key=lambda guess: guess[0])
+    tried = [begun for cost, begun in guesses[:TRIED] if cost < base.cost - PROMISING]
     fits = []
-    for _, begun in guesses[:TRIED]:
+    if not tried:
+        return guesses[0][1]
+    for begun in tried:
         columns = np.empty((begun.r.size, begun.u.size - base.u.size))
         start = np.hstack([base.jacobian, columns])
         fits.append(improved(replace(begun, jacobian=start), STEPS, frozen=base.u.size))

@@ -9,16 +9,18 @@ import numpy as np
 import pytest
 
 from pam_ros.errors import RecordingError
+from pam_ros.identification import finder
 from pam_ros.identification.candidate import fitted, freed
 from pam_ros.identification.finder import polished, trace
 from pam_ros.identification.noise import noise_of
-from pam_ros.identification.search import search
+from pam_ros.identification.search import Search, search
 from pam_ros.identification.segment import segments_of
 from pam_ros.parameter_files import load_rig
 from pam_ros.recording.mapping import read_mapping
 from pam_ros.recording.read import read_recording
 from pam_ros.rig.run import simulate
 from support import bench_truth
+from support.rounds import retuned, setting_of, with_effect_starts
 from truth import effect
 
 pytestmark = pytest.mark.needs_numba
@@ -151,6 +153,36 @@ def test_finer_parameters_that_earn_nothing_in_full_are_dropped():
     *_, augmented = polished(replace(found, augmented=wide), model, segments, noise)
     freed_ones = [u.name for u in augmented.solution.problem.unknowns if 'effects' in u.name]
     assert freed_ones == ['effects.coulomb_friction.level']
+
+
+def test_an_effect_that_the_fit_to_every_sample_does_not_need_is_dropped():
+    model = bench_truth.declared(off=OFF)
+    with setting_of(model, effect('viscous_friction'), effect('pressure_lag')) as setting:
+        starts = {
+            'pressure_lag': {'fill': 0.03, 'vent': 0.03},
+            'dead_time': {'delay': 2e-3},
+            'viscous_friction': {'coefficient': 50.0},
+        }
+        thin = with_effect_starts(setting, starts)
+        kept = [bench_truth.free(effect('viscous_friction'), effect('pressure_lag'), seed=3)]
+        found = Search(setting.declared, retuned(setting), thin, ())
+        segments = segments_of(kept, keep_back=True)
+        *_, augmented = polished(found, model, segments, setting.noise)
+    assert augmented.effects == ('pressure_lag', 'viscous_friction')
+    assert augmented.held_error < 1.1 * setting.noise.sigma
+
+
+def test_an_effect_that_was_chosen_and_not_needed_is_listed_as_such(monkeypatch):
+    recording = bench_truth.free(effect('viscous_friction'), seed=8, duration=15.0)
+    model = bench_truth.declared()
+
+    def without_any(found, *rest):
+        declared, retuned, _ = polished(found, *rest)
+        return declared, retuned, retuned
+
+    monkeypatch.setattr(finder, 'polished', without_any)
+    (row,) = [c for c in trace(model, [recording]).candidates if 'at first' in c.reason]
+    assert (row.effect, row.decision) == ('viscous_friction', 'rejected')
 
 
 def test_every_candidate_is_listed_with_a_reason():

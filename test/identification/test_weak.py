@@ -150,7 +150,8 @@ def test_where_friction_sticks_a_start_is_found_that_no_constant_start_comes_nea
     friction = KNOWN['coulomb_friction']
     known = weak_fits(parent, motions)
     assert [weak.problem.moving for weak in known] == [False, True]
-    starts = weak_starts(parent, MODEL, [friction, KNOWN['payload']], known, pool)
+    both = [friction, KNOWN['payload']]
+    starts = weak_starts(parent, MODEL, both, {e.name: () for e in both}, known, pool)
     led = starts['coulomb_friction']
     assert led
     off = min(np.sqrt(np.mean(problem.residuals(u) ** 2)) for problem, u in led)

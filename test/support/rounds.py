@@ -34,6 +34,12 @@ def setting_of(model, *effects, rate=200.0):
         yield Setting(model, declared, noise, motions, pool)
 
 
+def retuned(setting):
+    """Return the fit of the declared parameters alone."""
+    known = setting.declared.solution
+    return fitted((), solve(known.problem, known.u))
+
+
 def with_effects(setting, *names):
     """Return the fit of these effects, each from the first of its starts."""
     return with_effect_starts(setting, {name: KNOWN[name].fit_starts[0] for name in names})
