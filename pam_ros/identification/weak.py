@@ -260,12 +260,11 @@ def fitted_to(
         r = problem.residuals(u)
         guesses.append((amplified_cost(base, r), Solution(problem, u, r, r, 0)))
     guesses.sort(key=lambda guess: guess[0])
-    tried = [begun for cost, begun in guesses[:TRIED] if cost < base.cost - PROMISING]
+    promising = [begun for cost, begun in guesses[:TRIED] if cost < base.cost - PROMISING]
     fits = []
-    if not tried:
-        return guesses[0][1]
-    for begun in tried:
+    for begun in promising or [guesses[0][1]]:
         columns = np.empty((begun.r.size, begun.u.size - base.u.size))
-        start = np.hstack([base.jacobian, columns])
-        fits.append(improved(replace(begun, jacobian=start), STEPS, frozen=base.u.size))
+        start = replace(begun, jacobian=np.hstack([base.jacobian, columns]))
+        # Of what promises nothing, a step says whether that is so.
+        fits.append(improved(start, STEPS if promising else 1, frozen=base.u.size))
     return min(fits, key=lambda fit: fit.cost)
