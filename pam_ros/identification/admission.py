@@ -66,6 +66,8 @@ def admitted(tried: Tried, parent: Fit, retuned: Fit, noise: Noise) -> bool:
     e = tried.evidence
     if not e.interval_clear or e.p > evidence.SIGNIFICANCE:
         return False
+    if is_odd(tried.effect, parent, tried.fit):
+        return False
     if e.absorbed:
         return True
     if e.gain < evidence.GAIN:
@@ -104,6 +106,15 @@ def absorbed(parent: Fit, fit: Fit, effect: Effect, noise: Noise) -> bool:
     """Say whether *effect* explains what re-tuning explains, too, but only by odd parameters."""
     relief = strain(parent) - strain(fit)
     return is_static(effect) and relief > IMPLAUSIBLE * leeway(parent, noise)
+
+
+def is_odd(effect: Effect, without: Fit, fit: Fit) -> bool:
+    """Say whether *effect* explains only what odd declared parameters let it.
+
+    Half the mass with half of every force moves as the whole does: where a model misses something
+    else, a payload may win a little by constants that no specimen has.
+    """
+    return is_static(effect) and strain(fit) - strain(without) > IMPLAUSIBLE
 
 
 def p_of(parent: Fit, fit: Fit, noise: Noise) -> float:

@@ -10,7 +10,7 @@ import numpy as np
 
 from pam_ros.effects.base import Effect
 from pam_ros.identification import evidence
-from pam_ros.identification.admission import IMPLAUSIBLE, leeway, matters, strain
+from pam_ros.identification.admission import IMPLAUSIBLE, is_odd, leeway, matters, strain
 from pam_ros.identification.candidate import EARNED, Fit, extended, fitted
 from pam_ros.identification.noise import Noise
 from pam_ros.identification.problem import Problem
@@ -37,7 +37,8 @@ def without_needless(
             gain = 1.0 - fit.held_error / smaller.held_error
             if strain(smaller) - strain(fit) > IMPLAUSIBLE * leeway(fit, noise):
                 continue
-            if gain < evidence.GAIN or not matters(smaller, fit, retuned, noise):
+            is_needless = gain < evidence.GAIN or not matters(smaller, fit, retuned, noise)
+            if is_needless or is_odd(_effect(model, name), smaller, fit):
                 fit = smaller
                 break
         else:

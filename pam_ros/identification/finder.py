@@ -34,6 +34,7 @@ STEP = 1e-3  # s, longest step of the final fits
 HOPE = 100.0  # rise of the cost that a plainer fit of all samples may promise to be tried
 NEEDLESS = 'chosen at first, and not needed beside what was found later'
 FAR_FROM_THIN = 1.5  # errors of the thinned runs at which a final fit has not arrived
+SHARES = (0.3, 0.1, 0.03, 0.01, 3e-3, 1e-3)  # of a strength, at which a final fit may begin
 SHORTER = (4e-3, 2e-3, STEP)  # s, the steps by which it is led there
 POLISH = 10  # iterations of a final fit, which starts where the thinned one ended
 
@@ -119,7 +120,7 @@ def polished(
             if fit is found.declared:
                 solution = only_starts(full, u, pool)
             else:
-                solution = _settled(full, u, fit.fit_error, pool)
+                solution = _settled(full, u, fit.fit_error, noise, pool)
             fits.append(fitted(fit.effects, solution))
         declared, retuned, augmented = fits
         # What finer parameters made up for may be the longer steps of the thinned runs.
@@ -133,18 +134,20 @@ def polished(
     return declared, retuned, augmented
 
 
-def _settled(full: Problem, u: Array, thin_error: float, pool: Executor) -> Solution:
+def _settled(full: Problem, u: Array, thin_error: float, noise: Noise, pool: Executor) -> Solution:
     """Return the fit to every sample that begins at u, where thinned runs leave *thin_error*.
 
-    A load that sticks slips elsewhere with other steps, and then u says little: if the fit does
-    not come near to what the long steps left, it goes there by shorter and shorter ones.
+    One that does not come near the noise begins anew from strengths that do better than those of
+    the thinned runs. And since a load that sticks slips elsewhere with other steps, so that u says
+    little, one that is far from what long steps left goes there by shorter and shorter ones.
     """
-    exact = replace(full, slope_step=0.0)
     ends = [solve(full, u, POLISH, pool)]
-    inside = _off_bounds(full, u)
-    if inside is not None:
-        ends.append(solve(exact, inside, 2 * POLISH, pool))
-    if min(float(np.sqrt(np.mean(end.r**2))) for end in ends) > FAR_FROM_THIN * thin_error:
+    exact = replace(full, slope_step=0.0)
+    if _rms(ends[0]) > NEAR * noise.sigma:
+        weaker = _scanned(exact, u)
+        if weaker is not None:
+            ends.append(solve(exact, weaker, 2 * POLISH, pool))
+    if min(map(_rms, ends)) > FAR_FROM_THIN * thin_error:
         for step in SHORTER:
             end = solve(replace(exact, step=step), u, 2 * POLISH, pool)
             u = end.u
@@ -153,22 +156,27 @@ def _settled(full: Problem, u: Array, thin_error: float, pool: Executor) -> Solu
     return replace(best, problem=full)
 
 
-def _off_bounds(problem: Problem, u: Array) -> Array | None:
-    """Return u with strengths that are at their upper bound where an effect's start has them.
+def _rms(solution: Solution) -> float:
+    return float(np.sqrt(np.mean(solution.r**2)))
 
-    Or None where none is. Long steps soften a stiff stop: there no stiffness is high enough.
+
+def _scanned(problem: Problem, u: Array) -> Array | None:
+    """Return u with strengths of effects at a share of theirs that leaves less; None without any.
+
+    Long steps soften a stiff stop: there no stiffness is too high, and a derivative at one that
+    is far too high does not say so.
     """
-    starts = {
-        f'effects.{effect.name}.{name}': value
-        for effect in problem.active
-        for start in effect.fit_starts
-        for name, value in start.items()
-    }
-    moved = u.copy()
+    every = ((e, p) for e in problem.active for p in e.parameters)
+    strengths = {f'effects.{e.name}.{p.name}' for e, p in every if p.strength}
+    found, cost = u, problem.cost(u, problem.residuals(u))
     for k, unknown in enumerate(problem.unknowns):
-        if unknown.name in starts and u[k] >= unknown.bounds[1] - 1e-6 and not unknown.logarithmic:
-            moved[k] = unknown.coordinate(starts[unknown.name])
-    return None if np.array_equal(moved, u) else moved
+        for share in SHARES if unknown.name in strengths else ():
+            moved = u.copy()
+            moved[k] *= share
+            other = problem.cost(moved, problem.residuals(moved))
+            if other < cost:
+                found, cost = moved, other
+    return None if found is u else found
 
 
 def _doubted(fit: Fit, model: RigModel, noise: Noise) -> list[str]:

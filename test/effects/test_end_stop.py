@@ -81,6 +81,7 @@ def test_hardest_pad_neither_explodes_nor_adds_energy(mass, step):
 
 def test_guess_lies_within_the_travel():
     kappa = np.sin(np.linspace(0.0, 20.0, 500)) * 0.1 + 0.1
+    kappa[100:200] = np.nan
     for start in EFFECT.guess(kappa, kappa, kappa, kappa):
         EFFECT.values(start)
         where = start.get('upper', start.get('lower'))

@@ -123,3 +123,20 @@ def test_a_score_is_schwarzs():
     fit = Fit((), solution, 0.0, 0.0)
     assert fit.score == pytest.approx(50.0 * np.log(3.0) + 4.0 + 2.0 * np.log(50.0))
     assert replace(fit, effects=('creep',)).score == fit.score
+
+
+def test_a_start_is_read_from_what_was_measured_and_may_be_seen(parent):
+    """What a model without the effect does says nothing of where a stop is."""
+    told = {}
+
+    def guess(t, p, kappa, residual):
+        told.update(kappa=kappa, residual=residual)
+        return ({'upper': 0.1, 'stiffness': 1e4},)
+
+    found = guessed(parent, replace(KNOWN['end_stop'], guess=guess))
+    assert found == ({'upper': 0.1, 'stiffness': 1e4},)
+    (s,) = parent.solution.problem.segments
+    assert np.array_equal(np.isnan(told['kappa']), ~s.fit)
+    np.testing.assert_allclose(told['kappa'][s.fit], s.target[s.fit] / MODEL.muscle.l0)
+    assert np.all(told['residual'][~s.fit] == 0.0)
+    assert np.any(told['residual'][s.fit] != 0.0)

@@ -141,6 +141,18 @@ def test_a_held_muscle_that_lacks_nothing():
     assert found.verdict == 'no_missing_effect'
 
 
+def test_a_stop_that_long_steps_softened_is_as_stiff_as_it_is_in_the_end():
+    """Thinned runs know no difference between stiff pads, and leave them at their bound."""
+    stop = effect('end_stop', stop_m=0.065, stop_n_m15=1e7, stop_s_m=1.0)
+    found = trace(bench_truth.declared(off=OFF), [bench_truth.free(stop, seed=4)])
+    assert names(found) == ['end_stop']
+    stiffness = found.effects[0].parameters['stiffness']
+    assert not stiffness.at_bound
+    # Half a millimetre deep the truth pushes back with 1e7 d^1.5 = 112 N.
+    assert 5e4 < stiffness.value < 1e6
+    assert found.stages[2].held_error < 4.0 * NOISE < 0.1 * found.stages[1].held_error
+
+
 def test_finer_parameters_that_earn_nothing_in_full_are_dropped():
     there = effect('coulomb_friction', coulomb_n=8.0, static_n=8.0, stribeck_m_s=5e-3)
     model = bench_truth.declared(off=OFF)
