@@ -130,3 +130,15 @@ def test_strain_is_that_of_the_declared_parameters_alone():
     ]
     fit = least_squares_fit(columns, np.array([1.5, 7.0, 2.0]), unknowns, 3.0)
     assert strain(fit) == pytest.approx(9.0)
+
+
+@pytest.mark.parametrize(('name', 'counts'), [('payload', False), ('creep', True)])
+def test_a_payload_that_needs_odd_parameters_does_not_count(name, counts):
+    prior = (Unknown('a1', 0, 0.0, 1.0, prior=1.0),)
+    parent, fit = fit_of(1.0, 'leak'), fit_of(0.1, 'leak', name)
+    odd = replace(fit.solution, u=np.array([4.0]))
+    odd = replace(odd, problem=replace(odd.problem, unknowns=prior))
+    one = Tried(KNOWN[name], ('leak',), replace(fit, solution=odd), CLEAR, 0.0)
+    assert strain(one.fit) - strain(parent) > 12.0
+    assert admitted(one, parent, fit_of(10.0), NOISE) is counts
+    assert admitted(replace(one, fit=fit), parent, fit_of(10.0), NOISE)
