@@ -119,9 +119,7 @@ def _promised_rise(fit: Fit, name: str, parameters: Sequence[str], model: RigMod
     )
     if not np.all(np.isfinite(move)):
         return float(np.inf)
-    weight = problem.independent / float(solution.r @ solution.r)
-    prior = np.array([k.prior for k in problem.unknowns])
-    normal = weight * solution.jacobian.T @ solution.jacobian + np.diag(prior**-2.0)
+    normal = solution.normal
     pulled = normal[:, is_gone] @ move
     answer = np.linalg.lstsq(normal[np.ix_(~is_gone, ~is_gone)], pulled[~is_gone])[0]
     return float(move @ pulled[is_gone] - pulled[~is_gone] @ answer)

@@ -42,12 +42,16 @@ class Solution:
                 return unknown.value(u)
         raise KeyError(name)
 
+    @property
+    def normal(self) -> Array:
+        """Second derivatives of half the cost over u (k, k), of the linearised problem."""
+        weight = self.problem.independent / float(self.r @ self.r)
+        prior = np.array([k.prior for k in self.problem.unknowns])
+        return np.asarray(weight * self.jacobian.T @ self.jacobian + np.diag(prior**-2.0))
+
     def covariance(self) -> Array:
         """Return the posterior covariance of u (k, k), of the linearised problem."""
-        problem = self.problem
-        weight = problem.independent / float(self.r @ self.r)
-        prior = np.array([k.prior for k in problem.unknowns])
-        normal = weight * self.jacobian.T @ self.jacobian + np.diag(prior**-2.0)
+        normal = self.normal
         scale = np.sqrt(np.maximum(np.diag(normal), 1e-30))
         inverse = np.linalg.pinv(normal / np.outer(scale, scale), rcond=1e-13, hermitian=True)
         return np.asarray(inverse / np.outer(scale, scale))
