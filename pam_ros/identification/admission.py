@@ -109,12 +109,12 @@ def absorbed(parent: Fit, fit: Fit, effect: Effect, noise: Noise) -> bool:
 
 
 def is_odd(effect: Effect, without: Fit, fit: Fit) -> bool:
-    """Say whether *effect* explains only what odd declared parameters let it.
+    """Say whether *effect* changes the mass, and explains only what odd parameters let it.
 
     Half the mass with half of every force moves as the whole does: where a model misses something
     else, a payload may win a little by constants that no specimen has.
     """
-    return is_static(effect) and strain(fit) - strain(without) > IMPLAUSIBLE
+    return effect.mass is not None and strain(fit) - strain(without) > IMPLAUSIBLE
 
 
 def p_of(parent: Fit, fit: Fit, noise: Noise) -> float:

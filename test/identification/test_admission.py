@@ -132,7 +132,9 @@ def test_strain_is_that_of_the_declared_parameters_alone():
     assert strain(fit) == pytest.approx(9.0)
 
 
-@pytest.mark.parametrize(('name', 'counts'), [('payload', False), ('creep', True)])
+@pytest.mark.parametrize(
+    ('name', 'counts'), [('payload', False), ('creep', True), ('periodic_disturbance', True)]
+)
 def test_a_payload_that_needs_odd_parameters_does_not_count(name, counts):
     prior = (Unknown('a1', 0, 0.0, 1.0, prior=1.0),)
     parent, fit = fit_of(1.0, 'leak'), fit_of(0.1, 'leak', name)
