@@ -202,7 +202,8 @@ def guessed(parent: Fit, effect: Effect) -> tuple[dict[str, float], ...]:
     if effect.guess is None:
         return ()
     problem = parent.solution.problem
-    longest = max(range(len(problem.segments)), key=lambda k: problem.segments[k].t.size)
+    # A window that is kept back as a whole has nothing to read.
+    longest = max(range(len(problem.segments)), key=lambda k: problem.fit_rows[k].size)
     s = problem.segments[longest]
     out = problem.runs(parent.solution.u, longest)[0]
     is_free = s.kind == 'free'
