@@ -14,7 +14,8 @@ import pytest
 SHELL_TOOLS = ('cat', 'cut', 'dirname', 'env', 'flock', 'mkdir', 'rm', 'sed', 'sh', 'sha256sum')
 SHELL_TOOLS += ('cp', 'sleep', 'touch')
 # In a folder of its own it is `python3`; the environment it makes has a copy of it. Its version,
-# and what it cannot do, are in files beside the checkout.
+# and what it cannot do, are in files beside the checkout. It hangs without starting a program:
+# dash loses a signal that comes to its child between `vfork` and `exec`.
 STAND_IN = """#!/bin/sh
 case "$*" in
     -V) echo "Python $(cat "$NOTES/version")" ;;
@@ -24,7 +25,7 @@ case "$*" in
     *'install --upgrade pip'*) ;;
     *' install '*)
         echo "install ${*##*install }" >>"$NOTES/asked"
-        if [ -e "$NOTES/hang" ]; then touch "$NOTES/hanging"; sleep 600; fi
+        if [ -e "$NOTES/hang" ]; then : >"$NOTES/hanging"; exec sleep 600; fi
         exit "$(cat "$NOTES/no_network")" ;;
     *) echo "unexpected: $*" >&2; exit 99 ;;
 esac
