@@ -43,7 +43,7 @@ def paired(
     ends: list[Fit] = []
     count = 0
     read = {effect.name: guessed(retuned, effect) for effect in effects}
-    for base in weak_fits(retuned, setting.motions):
+    for base in weak_fits(retuned, setting.motions, setting.pool):
         pairs = _pairs(base, effects, read, setting)
         count += len(pairs)
         best = list(setting.pool.map(lambda p: _in_full(p, setting), pairs[:REFINED]))

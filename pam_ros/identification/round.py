@@ -68,9 +68,10 @@ def try_effects(
     And the parent, which may have come down itself from where a candidate has led.
     """
     model, pool = setting.model, setting.pool
-    weak = weak_fits(parent, setting.motions)
+    weak = weak_fits(parent, setting.motions, pool)
     if parent.effects and parent.fit_error > NEAR * setting.noise.sigma:
-        parent = min([parent, *(at_weak(parent, one) for one in weak)], key=lambda f: f.score)
+        anew = pool.map(lambda one, fit=parent: at_weak(fit, one), weak)
+        parent = min([parent, *anew], key=lambda fit: fit.score)
     parents = (parent, _as_declared(parent, pool) if parent.effects else setting.declared)
     read = {e.name: guessed(parent, e) for e in effects}
     led = weak_starts(parent, model, effects, read, weak, pool)

@@ -65,7 +65,7 @@ def search(
             same = retuned.solution.problem
             declared = fitted((), only_starts(same, np.zeros(len(same.unknowns)), pool))
         setting = Setting(model, declared, noise, motions, pool)
-        parent, rounds = retuned, []
+        parent, plainer, rounds = retuned, retuned, []
         for k in range(EFFECTS_AT_MOST):
             if parent.effects and not could_matter(parent, retuned, noise):
                 break
@@ -78,7 +78,8 @@ def search(
             first = plainest(able)
             chosen = replace(first, chosen=True)
             rounds.append(tuple(chosen if t is first else t for t in tried))
-            parent = _finer(chosen, setting)
+            plainer = plain(chosen.fit, model, pool)
+            parent = _finer(plainer, chosen, setting)
             if thin[0].kind == 'held':
                 parent = robust(parent, pool)
         progress(0.85, 'leaving out what is not needed')
@@ -90,7 +91,8 @@ def search(
         if pair:
             rounds = [tuple(replace(t, chosen=False) for t in tried) for tried in rounds]
             parent, rounds = exchanged(parent, [*rounds, *pair], setting)
-        parent = plain(parent, model, pool)
+        if parent is not plainer:
+            parent = plain(parent, model, pool)
     return Search(declared, retuned, parent, tuple(rounds))
 
 
@@ -104,13 +106,12 @@ def _absent(parent: Fit, model: RigModel) -> list[Effect]:
     ]
 
 
-def _finer(chosen: Tried, setting: Setting) -> Fit:
-    """Return the chosen fit with finer parameters of its effects where they earn their cost.
+def _finer(fit: Fit, chosen: Tried, setting: Setting) -> Fit:
+    """Return the plain *fit* of what was chosen with finer parameters that earn their cost.
 
-    Of those before it, too, as far as something is left: they were fitted without it.
+    Of the effects before it, too, as far as something is left: they were fitted without it.
     """
     model, pool = setting.model, setting.pool
-    fit = plain(chosen.fit, model, pool)
     for name in (chosen.effect.name, *chosen.parents):
         if fit.fit_error > NEAR * setting.noise.sigma:
             effect = next(e for e in model.library if e.name == name)

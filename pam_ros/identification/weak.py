@@ -171,7 +171,7 @@ class WeakProblem(Problem):
         return finite(np.concatenate(parts))
 
 
-def weak_fits(parent: Fit, motions: Sequence[Motion]) -> list[Solution]:
+def weak_fits(parent: Fit, motions: Sequence[Motion], pool: Executor) -> list[Solution]:
     """Return the weak fits of the parameters of *parent*: to all bumps, and to moving ones.
 
     At rest friction may have any value, and so may the force of a hard stop: what such an effect
@@ -180,16 +180,15 @@ def weak_fits(parent: Fit, motions: Sequence[Motion]) -> list[Solution]:
     problem = parent.solution.problem
     kept = [k for k, x in enumerate(problem.unknowns) if x.segment < 0]
     unknowns = tuple(problem.unknowns[k] for k in kept)
-    found = []
+    weak = []
     for moving in (False, True):
         count = sum(np.count_nonzero(m.moving) if moving else m.wanted.size for m in motions)
         if count > MANY * (len(kept) + 1):
-            weak = WeakProblem(
+            weak.append(WeakProblem(
                 problem.segments, problem.layout, problem.active, problem.row, unknowns,
                 float(count), problem.step, motions=tuple(motions), moving=moving,
-            )  # fmt: skip
-            found.append(solve(weak, parent.solution.u[kept], STEPS))
-    return found
+            ))  # fmt: skip
+    return list(pool.map(lambda one: solve(one, parent.solution.u[kept], STEPS), weak))
 
 
 def at_weak(parent: Fit, weak: Solution) -> Fit:

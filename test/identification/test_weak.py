@@ -138,9 +138,9 @@ def rms(solution):
 
 
 @pytest.mark.needs_numba
-def test_a_right_model_leaves_the_sensors_noise():
+def test_a_right_model_leaves_the_sensors_noise(pool):
     parent, motions, noise = prepared(rate=250.0)
-    for weak in weak_fits(parent, motions):
+    for weak in weak_fits(parent, motions, pool):
         assert 0.5 * noise.sigma < rms(weak) < 1.5 * noise.sigma
 
 
@@ -148,7 +148,7 @@ def test_a_right_model_leaves_the_sensors_noise():
 def test_where_friction_sticks_a_start_is_found_that_no_constant_start_comes_near(pool):
     parent, motions, _ = prepared(effect('coulomb_friction'), rate=250.0)
     friction = KNOWN['coulomb_friction']
-    known = weak_fits(parent, motions)
+    known = weak_fits(parent, motions, pool)
     assert [weak.problem.moving for weak in known] == [False, True]
     both = [friction, KNOWN['payload']]
     starts = weak_starts(parent, MODEL, both, {e.name: () for e in both}, known, pool)
@@ -164,12 +164,12 @@ def test_where_friction_sticks_a_start_is_found_that_no_constant_start_comes_nea
 
 
 @pytest.mark.needs_numba
-def test_a_fit_that_went_astray_comes_back():
+def test_a_fit_that_went_astray_comes_back(pool):
     parent, motions, noise = prepared(rate=250.0)
     u = parent.solution.u.copy()
     u[: len(u) - 2] += 1.5
     problem = parent.solution.problem
     astray = fitted((), solve(problem, u, 0))
     assert astray.fit_error > 20.0 * noise.sigma
-    back = [at_weak(astray, weak) for weak in weak_fits(astray, motions)]
+    back = [at_weak(astray, weak) for weak in weak_fits(astray, motions, pool)]
     assert min(fit.fit_error for fit in back) < 1.1 * parent.fit_error
