@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from pam_ros.identification.candidate import Fit, fitted
 from pam_ros.identification.coarse import coarse_step
+from pam_ros.identification.drift import shares
 from pam_ros.identification.elimination import plain, promises_little, without_needless
 from pam_ros.identification.noise import Noise
 from pam_ros.identification.problem import Problem
@@ -40,6 +41,7 @@ def polished(
     """
     whole = replace(problem_of(model, segments, noise, STEP), slope_step=coarse_step(model))
     starts = [k for k in whole.unknowns if k.segment >= 0]
+    weights = tuple(np.sqrt(shares(found.augmented, noise.sigma)))
     fits = []
     with ThreadPoolExecutor() as pool:
         for fit in (found.declared, found.retuned, found.augmented):
@@ -52,6 +54,7 @@ def polished(
                 active=thin.active,
                 unknowns=unknowns,
                 outlier=thin.outlier,
+                weights=weights,
             )
             u = np.concatenate([fit.solution.u[kept], _same_starts(fit, starts)])
             if fit is found.declared:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from pam_ros.identification import verdict
 from pam_ros.identification.admission import Tried
 from pam_ros.identification.candidate import Fit
+from pam_ros.identification.drift import drifts
 from pam_ros.identification.final import polished
 from pam_ros.identification.noise import Noise, noise_of
 from pam_ros.identification.result import Candidate, Finding, Trace
@@ -74,7 +75,10 @@ def trace(
         structure=structure,
         segments=tuple(final),
         test=tuple(tests),
-        warnings=tuple(w for r in (*recordings, *test) for w in r.warnings),
+        warnings=(
+            *(w for r in (*recordings, *test) for w in r.warnings),
+            *map(str, drifts(fits[2], noise.sigma)),
+        ),
         next_experiment='',
     )
     tell(1.0, 'done')

@@ -30,7 +30,8 @@ class Problem:
     ``slope_step`` that of the runs from which derivatives come, where it is longer: they need
     not be as exact as what they correct.
     ``independent`` is how many independent samples the fitted ones are worth. Residuals
-    beyond ``outlier`` (in the target's unit) count by their size, not its square (pseudo-Huber).
+    beyond ``outlier`` (in the target's unit) count by their size, not its square (pseudo-Huber);
+    those of run k are multiplied by ``weights[k]``, if there are any weights.
     """
 
     segments: Sequence[Segment]
@@ -42,6 +43,7 @@ class Problem:
     step: float = 1e-3
     outlier: float = np.inf
     slope_step: float = 0.0
+    weights: tuple[float, ...] = ()
     fit_rows: tuple[NDArray[np.intp], ...] = field(init=False)
 
     def __post_init__(self) -> None:
@@ -96,18 +98,16 @@ class Problem:
 
         A simulation that diverges gives large finite residuals, so that a fit steps back.
         """
-        parts = [
-            p[rows] - s.target[rows]
-            for p, s, rows in zip(self.predict(u), self.segments, self.fit_rows, strict=True)
-        ]
-        return self._compressed(finite(np.concatenate(parts)))
+        return np.concatenate([self._left(k, p) for k, p in enumerate(self.predict(u))])
 
-    def _compressed(self, e: Array) -> Array:
-        """Return e so that its square is pseudo-Huber's loss."""
-        if self.outlier == np.inf:
-            return e
+    def _left(self, k: int, simulated: Array) -> Array:
+        """Return the residuals of run k: their squares are pseudo-Huber's loss."""
+        rows = self.fit_rows[k]
+        e = finite(simulated[rows] - self.segments[k].target[rows])
         d = self.outlier
-        return np.sign(e) * d * np.sqrt(2.0 * (np.sqrt(1.0 + (e / d) ** 2) - 1.0))
+        if d < np.inf:
+            e = np.sign(e) * d * np.sqrt(2.0 * (np.sqrt(1.0 + (e / d) ** 2) - 1.0))
+        return self.weights[k] * e if self.weights else e
 
     def priors(self, u: Array) -> Array:
         """Return the distance of every unknown from what is expected, in standard deviations."""
@@ -148,10 +148,8 @@ class Problem:
         out = np.zeros_like(r)
         segment = self.unknowns[k].segment
         first = sum(rows.size for rows in self.fit_rows[:segment])
-        rows = self.fit_rows[segment]
-        s = self.segments[segment]
-        new = self._compressed(finite(self.predict(moved, segment)[0][rows] - s.target[rows]))
-        out[first : first + rows.size] = (new - r[first : first + rows.size]) / h
+        own = slice(first, first + self.fit_rows[segment].size)
+        out[own] = (self._left(segment, self.predict(moved, segment)[0]) - r[own]) / h
         return out
 
     def errors(self, u: Array) -> tuple[float, float]:

@@ -145,7 +145,10 @@ def stage(name: str, model: RigModel, fit: Fit, test: Sequence[Segment]) -> Stag
     if test:
         known = [k for k, unknown in enumerate(problem.unknowns) if unknown.segment < 0]
         again = replace(
-            problem, segments=tuple(test), unknowns=tuple(problem.unknowns[k] for k in known)
+            problem,
+            segments=tuple(test),
+            unknowns=tuple(problem.unknowns[k] for k in known),
+            weights=(),
         )
         tested = tuple(again.predict(fit.solution.u[known]))
         e = np.concatenate([p - s.target for p, s in zip(tested, test, strict=True)])

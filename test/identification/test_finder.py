@@ -206,4 +206,6 @@ def test_the_measured_muscle_goes_slack(shared_data):
     declared, retuned, augmented = (s.held_error for s in found.stages)
     assert declared > 200.0
     assert retuned > 30.0
-    assert augmented <= 10.0
+    assert augmented <= 8.0
+    # The muscle settles at every length, from repeat to repeat.
+    assert sum('counts most' in warning for warning in found.warnings) == 4

@@ -77,6 +77,19 @@ def test_a_run_is_the_parabola_of_a_constant_force(two_runs):
     np.testing.assert_allclose(two_runs.predict(u, 0)[0] - s.target, moved, atol=1e-9)
 
 
+def test_a_run_counts_by_its_weight(two_runs):
+    u = np.array([2.0, 1.0, -3.0, 0.5, 0.2])
+    weighted = replace(two_runs, weights=(0.5, 3.0))
+    times = np.repeat([0.5, 3.0], [rows.size for rows in two_runs.fit_rows])
+    r = two_runs.residuals(u)
+    np.testing.assert_allclose(weighted.residuals(u), times * r, rtol=1e-12)
+    # The columns of a run's own start, too.
+    np.testing.assert_allclose(
+        weighted.jacobian(u, times * r), times[:, None] * two_runs.jacobian(u, r), rtol=1e-9
+    )
+    assert weighted.errors(u) == two_runs.errors(u)
+
+
 def test_jacobian_of_parabolas_in_closed_form(two_runs):
     u = np.array([0.3, 0.2, -0.1, 0.4, 0.0])
     found = two_runs.jacobian(u, two_runs.residuals(u))
