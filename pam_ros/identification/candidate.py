@@ -41,10 +41,14 @@ class Fit:
 
     @property
     def score(self) -> float:
-        """Cost plus what its number of parameters costs (Schwarz): lower is better."""
-        problem = self.solution.problem
-        count = sum(k.prior == np.inf and k.segment < 0 for k in problem.unknowns)
-        return self.solution.cost + count * float(np.log(problem.independent))
+        """Cost plus what its number of parameters costs: lower is better."""
+        return self.solution.cost + price_of(self.solution.problem)
+
+
+def price_of(problem: Problem) -> float:
+    """Return what the number of parameters costs that nothing was declared of (Schwarz)."""
+    count = sum(k.prior == np.inf and k.segment < 0 for k in problem.unknowns)
+    return count * float(np.log(problem.independent))
 
 
 def fitted(effects: tuple[str, ...], solution: Solution) -> Fit:
@@ -130,7 +134,8 @@ def released(fit: Fit, model: RigModel, effect: Effect, pool: Executor) -> Fit:
     """
     known = fit.solution
     firsts = _freed(known, model, effect)
-    wide = [fitted(fit.effects, s) for s in pool.map(improved, firsts)]
+    ends = pool.map(lambda s: improved(s, goal=fit.score - EARNED - price_of(s.problem)), firsts)
+    wide = [fitted(fit.effects, s) for s in ends]
     best = min(wide, key=lambda one: one.score, default=fit)
     return best if best.score < fit.score - EARNED else fit
 
@@ -219,5 +224,9 @@ def refine(parent: Fit, effect: Effect, looks: Sequence[Solution], pool: Executo
     is not always the better fit.
     """
     effects = (*parent.effects, effect.name)
-    fits = [fitted(effects, improved(start, pool=pool)) for start in looks]
-    return min(fits, key=lambda fit: fit.score)
+    best = fitted(effects, improved(looks[0], pool=pool))
+    for start in looks[1:]:
+        goal = best.score - price_of(start.problem)
+        other = fitted(effects, improved(start, pool=pool, goal=goal))
+        best = min(best, other, key=lambda fit: fit.score)
+    return best

@@ -11,7 +11,7 @@ import numpy as np
 from pam_ros.effects.base import Effect
 from pam_ros.identification import evidence
 from pam_ros.identification.admission import IMPLAUSIBLE, is_odd, leeway, matters, strain
-from pam_ros.identification.candidate import EARNED, Fit, extended, fitted
+from pam_ros.identification.candidate import EARNED, Fit, extended, fitted, price_of
 from pam_ros.identification.noise import Noise
 from pam_ros.identification.problem import Problem
 from pam_ros.identification.solve import solve
@@ -68,11 +68,14 @@ def plain(fit: Fit, model: RigModel, pool: Executor, hope: float = np.inf) -> Fi
     for name in fit.effects:
         prefix = f'effects.{name}.'
         there = {u.name.removeprefix(prefix) for u in fit.solution.problem.unknowns}
-        for start in sorted(_effect(model, name).fit_starts, key=len):
-            finer = [p.name for p in _effect(model, name).parameters if p.name not in start]
-            is_wider = there >= set(start) and there & set(finer)
+        # Many starts are of the same parameters: the plainest first, each set once.
+        for kept in dict.fromkeys(
+            map(frozenset, sorted(_effect(model, name).fit_starts, key=len))
+        ):
+            finer = [p.name for p in _effect(model, name).parameters if p.name not in kept]
+            is_wider = there >= kept and there & set(finer)
             if is_wider and (hope == np.inf or _promised_rise(fit, name, finer, model) < hope):
-                smaller = _reduced(fit, name, finer, model, pool)
+                smaller = _reduced(fit, name, finer, model, pool, fit.score + EARNED)
                 if smaller.score < fit.score + EARNED:
                     fit = smaller
                     break
@@ -126,11 +129,20 @@ def _promised_rise(fit: Fit, name: str, parameters: Sequence[str], model: RigMod
 
 
 def _reduced(
-    fit: Fit, name: str, parameters: Sequence[str], model: RigModel, pool: Executor
+    fit: Fit,
+    name: str,
+    parameters: Sequence[str],
+    model: RigModel,
+    pool: Executor,
+    goal: float = np.inf,
 ) -> Fit:
-    """Return the fit with *parameters* of effect *name* at their defaults, fitted anew."""
+    """Return the fit with *parameters* of effect *name* at their defaults, fitted anew.
+
+    As far as it may reach a score of *goal*.
+    """
     smaller, keep = _without(fit.solution.problem, name, parameters, model)
-    return fitted(fit.effects, solve(smaller, fit.solution.u[keep], pool=pool))
+    least = goal - price_of(smaller)
+    return fitted(fit.effects, solve(smaller, fit.solution.u[keep], pool=pool, goal=least))
 
 
 def _without(

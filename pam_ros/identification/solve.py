@@ -18,6 +18,7 @@ from pam_ros.identification.problem import Problem
 Array = NDArray[np.float64]
 LEAST_DAMPING = 1e-9
 DAMPING = 1e-3  # of a first step that failed undamped, relative to the normal matrix's diagonal
+FASTER = 10.0  # times what the last step brought that steps to come may bring
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,16 +64,19 @@ def solve(
     iterations: int = 20,
     pool: Executor | None = None,
     jacobian: Array | None = None,
+    goal: float = np.inf,
 ) -> Solution:
     """Minimise the problem's cost from u; never ends higher than it began.
 
-    A Jacobian that is handed in is used as it is, see :func:`improved`.
+    A Jacobian that is handed in is used as it is, and a *goal* that cannot be reached is given
+    up, see :func:`improved`.
     """
     low, high = np.array([k.bounds for k in problem.unknowns]).reshape(-1, 2).T
     u = np.clip(u, low, high)
     r = problem.residuals(u)
     j = problem.jacobian(u, r, pool) if jacobian is None else jacobian
-    return improved(Solution(problem, u, r, j, 0), iterations, pool, jacobian is not None)
+    known = Solution(problem, u, r, j, 0)
+    return improved(known, iterations, pool, jacobian is not None, goal=goal)
 
 
 def improved(
@@ -81,6 +85,7 @@ def improved(
     pool: Executor | None = None,
     stale: bool = True,
     frozen: int = 0,
+    goal: float = np.inf,
 ) -> Solution:
     """Minimise the cost of the problem of *known* from there; never ends higher.
 
@@ -88,7 +93,8 @@ def improved(
     place, is used as it is and, like any other, kept up to date by Broyden's rule; it is computed
     anew when steps stop to lower the cost, a -2 log likelihood, by a tenth or by half of what
     they promise. With *frozen* its first columns never are, and the others before every step: a
-    cheap look, not a converged fit.
+    cheap look, not a converged fit. A fit that counts only below a *goal* of the cost ends where
+    a step along a Jacobian of its place brings far too little to arrive there.
     """
     problem, u, r, cost = known.problem, known.u, known.r, known.cost
     low, high = np.array([k.bounds for k in problem.unknowns]).reshape(-1, 2).T
@@ -97,6 +103,7 @@ def improved(
     damping, done = LEAST_DAMPING, 0
     while done < iterations:
         done += 1
+        is_fresh = not stale
         if frozen:
             j[:, frozen:] = problem.jacobian(u, r, pool, range(frozen, len(u)))
         weight = problem.independent / float(r @ r)
@@ -116,6 +123,8 @@ def improved(
                 break
             damping = max(30.0 * damping, DAMPING)
         gain = before - cost
+        if is_fresh and cost - FASTER * gain * (iterations - done) > goal:
+            break
         if frozen:
             if gain < 0.1:
                 break

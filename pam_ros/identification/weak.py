@@ -192,12 +192,12 @@ def weak_fits(parent: Fit, motions: Sequence[Motion], pool: Executor) -> list[So
 
 
 def at_weak(parent: Fit, weak: Solution) -> Fit:
-    """Return *parent* fitted anew from where its *weak* fit has ended."""
+    """Return *parent* fitted anew from where its *weak* fit has ended, if it comes down there."""
     free = parent.solution
     u = free.u.copy()
     u[[k for k, x in enumerate(free.problem.unknowns) if x.segment < 0]] = weak.u
     start = Solution(free.problem, u, free.problem.residuals(u), free.jacobian, 0)
-    return fitted(parent.effects, improved(start))
+    return fitted(parent.effects, improved(start, goal=free.cost))
 
 
 def weak_starts(
