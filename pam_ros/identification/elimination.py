@@ -68,10 +68,9 @@ def plain(fit: Fit, model: RigModel, pool: Executor, hope: float = np.inf) -> Fi
     for name in fit.effects:
         prefix = f'effects.{name}.'
         there = {u.name.removeprefix(prefix) for u in fit.solution.problem.unknowns}
-        # Many starts are of the same parameters: the plainest first, each set once.
-        for kept in dict.fromkeys(
-            map(frozenset, sorted(_effect(model, name).fit_starts, key=len))
-        ):
+        starts = sorted(_effect(model, name).fit_starts, key=len)
+        # Several starts are of the same parameters.
+        for kept in dict.fromkeys(frozenset(start) for start in starts):
             finer = [p.name for p in _effect(model, name).parameters if p.name not in kept]
             is_wider = there >= kept and there & set(finer)
             if is_wider and (hope == np.inf or _promised_rise(fit, name, finer, model) < hope):

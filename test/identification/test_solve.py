@@ -131,6 +131,28 @@ def test_a_good_jacobian_spares_computing_others():
     assert few < len(calls)
 
 
+@pytest.mark.parametrize('start', [(1.0, 1.0, 0.0), (1.0, 1.5, 0.0), (3.0, 0.4, 1.0)])
+def test_a_goal_in_reach_is_reached_and_one_that_is_not_given_up(start):
+    calls = []
+
+    def function(u):
+        calls.append(1)
+        return decay(u) - MEASURED
+
+    problem = equation(function, ('a', 'b', 'c'), float(T.size))
+    start = np.array(start)
+    free = solve(problem, start, 60)
+    near = solve(problem, start, 60, goal=free.cost + 0.1)
+    np.testing.assert_array_equal(near.u, free.u)
+    calls.clear()
+    solve(problem, start, 60)
+    needed = len(calls)
+    calls.clear()
+    far = solve(problem, start, 60, goal=free.cost - 1e6)
+    assert len(calls) < 0.7 * needed
+    assert far.cost >= free.cost
+
+
 def test_frozen_columns_are_not_computed_and_the_others_are():
     moved = []
 
