@@ -44,6 +44,16 @@ class Fit:
         """Cost plus what its number of parameters costs: lower is better."""
         return self.solution.cost + price_of(self.solution.problem)
 
+    @property
+    def rank(self) -> float:
+        """Score with what it says of the samples kept back: lower is better."""
+        problem = self.solution.problem
+        kept = sum(int(np.count_nonzero(~s.fit)) for s in problem.segments)
+        if kept == 0:
+            return self.score
+        share = problem.independent / self.solution.r.size
+        return self.score + kept * share * float(np.log(self.held_error**2))
+
 
 def price_of(problem: Problem) -> float:
     """Return what the number of parameters costs that nothing was declared of (Schwarz)."""

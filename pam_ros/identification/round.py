@@ -110,7 +110,7 @@ def _weighed(
     for effect, p_corrected in zip(effects, p, strict=True):
         fit = fits[effect.name]
         found = _evidence(parent, fit, effect, float(p_corrected), noise)
-        tried.append(Tried(effect, parent.effects, fit, found, _rank(fit)))
+        tried.append(Tried(effect, parent.effects, fit, found, fit.rank))
     return tuple(sorted(tried, key=lambda t: t.rank))
 
 
@@ -123,7 +123,7 @@ def weighed(parent: Fit, fit: Fit, name: str, setting: Setting, count: int = 1) 
     fit = replace(fit, effects=(*parent.effects, name))
     p = min(1.0, count * p_of(parent, fit, setting.noise))
     found = _evidence(parent, fit, effect, p, setting.noise)
-    return Tried(effect, parent.effects, fit, found, _rank(fit), chosen=True)
+    return Tried(effect, parent.effects, fit, found, fit.rank, chosen=True)
 
 
 def _evidence(parent: Fit, fit: Fit, effect: Effect, p: float, noise: Noise) -> evidence.Evidence:
@@ -171,16 +171,6 @@ def _looks(
     if min(solution.cost for solution in best) > parents[0].solution.cost:
         best.append(whisper(parents[0], model, effect))
     return sorted(best, key=lambda solution: solution.cost)
-
-
-def _rank(fit: Fit) -> float:
-    """Return the score of a fit with what it says of the samples kept back: low is good."""
-    problem = fit.solution.problem
-    kept = sum(int(np.count_nonzero(~s.fit)) for s in problem.segments)
-    if kept == 0:
-        return fit.score
-    share = problem.independent / fit.solution.r.size
-    return fit.score + kept * share * float(np.log(fit.held_error**2))
 
 
 def _from_declared(declared: Fit, model: RigModel, effect: Effect) -> Fit:

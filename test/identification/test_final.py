@@ -86,6 +86,30 @@ def test_a_final_fit_begins_where_a_strength_still_matters():
 
 
 @dataclass(frozen=True, eq=False)
+class TwoValleys(Equation):
+    """The lower valley, at 0.1, is that of the fitted samples alone; the other one is at 1."""
+
+    def residuals(self, u):
+        lower, other = 50.0 * (u[0] - 0.1) ** 2 + 0.4, (u[0] - 1.0) ** 2 + 0.5
+        return RAMP * min(lower, other) + FLAW
+
+    def errors(self, u):
+        return float(np.sqrt(np.mean(self.residuals(u) ** 2))), 2.0 if u[0] < 0.5 else 0.8
+
+
+@pytest.mark.parametrize(('keep_back', 'valley'), [(True, 1.0), (False, 0.1)])
+def test_of_two_ends_the_one_is_taken_that_carries_over(keep_back, valley):
+    strength = Unknown('effects.end_stop.stiffness', 0, 0.0, 1.0, 0.0, 1e4)
+    plain = equation(None, [strength], 50.0)
+    values = {f.name: getattr(plain, f.name) for f in fields(plain) if f.init}
+    segments = segments_of([bench_truth.free(duration=10.0)], keep_back=keep_back)
+    values |= {'segments': segments, 'active': (end_stop.EFFECT,)}
+    with ThreadPoolExecutor(1) as pool:
+        found = final._settled(TwoValleys(**values), np.array([1.2]), 1.0, Noise(1e-6, 0.0), pool)
+    assert found.u[0] == pytest.approx(valley, abs=0.05)
+
+
+@dataclass(frozen=True, eq=False)
 class Rugged(Equation):
     """A valley about 1 that has more and more ditches as steps become shorter."""
 
