@@ -8,19 +8,10 @@ import pytest
 
 from pam_ros.identification.exchange import exchanged
 from pam_ros.identification.round import try_effects
-from support import bench_truth
-from support.rounds import KNOWN, retuned, setting_of, with_effect_starts, with_effects
+from support.rounds import KNOWN, MODEL, retuned, setting_of, with_effect_starts, with_effects
 from truth import effect
 
 pytestmark = pytest.mark.needs_numba
-MODEL = bench_truth.declared(off=[0.01, -0.01, 0.0, 0.01, 0.0, 0.01])
-
-
-@pytest.fixture(scope='module')
-def setting():
-    """Return the setting of a rig with friction and a lag."""
-    with setting_of(MODEL, effect('viscous_friction'), effect('pressure_lag')) as found:
-        yield found
 
 
 def test_an_effect_that_was_taken_for_another_is_exchanged(setting):

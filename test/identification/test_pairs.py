@@ -9,12 +9,10 @@ import pytest
 from pam_ros.identification.candidate import fitted
 from pam_ros.identification.pairs import FAR, paired
 from pam_ros.identification.solve import solve
-from support import bench_truth
-from support.rounds import KNOWN, setting_of
+from support.rounds import KNOWN, MODEL, setting_of
 from truth import effect
 
 pytestmark = pytest.mark.needs_numba
-MODEL = bench_truth.declared(off=[0.01, -0.01, 0.0, 0.01, 0.0, 0.01])
 EFFECTS = tuple(KNOWN[n] for n in ('coulomb_friction', 'creep', 'viscous_friction', 'payload'))
 
 

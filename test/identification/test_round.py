@@ -7,19 +7,9 @@ import pytest
 from pam_ros.identification.candidate import fitted
 from pam_ros.identification.round import try_effects
 from pam_ros.identification.solve import solve
-from support import bench_truth
-from support.rounds import KNOWN, setting_of, with_effects
-from truth import effect
+from support.rounds import KNOWN, with_effects
 
 pytestmark = pytest.mark.needs_numba
-MODEL = bench_truth.declared(off=[0.01, -0.01, 0.0, 0.01, 0.0, 0.01])
-
-
-@pytest.fixture(scope='module')
-def setting():
-    """Return the setting of a rig with friction and a lag."""
-    with setting_of(MODEL, effect('viscous_friction'), effect('pressure_lag')) as found:
-        yield found
 
 
 def test_no_candidate_has_the_credit_for_what_its_parent_missed(setting):

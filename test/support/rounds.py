@@ -19,6 +19,7 @@ from pam_ros.identification.weak import motion_of
 from support import bench_truth
 
 KNOWN = {e.name: e for e in EFFECTS}
+MODEL = bench_truth.declared(off=[0.01, -0.01, 0.0, 0.01, 0.0, 0.01])
 
 
 @contextmanager
