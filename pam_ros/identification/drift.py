@@ -83,12 +83,12 @@ def drifts(fit: Fit, sigma: float) -> list[Drift]:
     return found
 
 
-def shares(fit: Fit, sigma: float) -> Array:
-    """Return how much each run (n,) of *fit* counts in the final fit; 1 where none drifts."""
-    found = np.ones(len(fit.solution.problem.segments))
-    for drift in drifts(fit, sigma):
+def shares(drifting: Sequence[Drift], count: int) -> tuple[float, ...]:
+    """Return how much each of *count* runs counts in the final fits; none where nothing drifts."""
+    found = np.ones(count)
+    for drift in drifting:
         found[list(drift.runs)] = drift.shares
-    return found
+    return tuple(found) if drifting else ()
 
 
 def _of_one_length(segments: Sequence[Segment], same: float) -> list[list[int]]:

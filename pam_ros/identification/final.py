@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from pam_ros.identification.candidate import Fit, fitted
 from pam_ros.identification.coarse import coarse_step
-from pam_ros.identification.drift import shares
+from pam_ros.identification.drift import Drift, shares
 from pam_ros.identification.elimination import plain, promises_little, without_needless
 from pam_ros.identification.noise import Noise
 from pam_ros.identification.problem import Problem
@@ -33,15 +33,20 @@ POLISH = 10  # iterations of a final fit, which starts where the thinned one end
 
 
 def polished(
-    found: Search, model: RigModel, segments: Sequence[Segment], noise: Noise
+    found: Search,
+    model: RigModel,
+    segments: Sequence[Segment],
+    noise: Noise,
+    drifting: Sequence[Drift] = (),
 ) -> tuple[Fit, Fit, Fit]:
     """Return the declared, re-tuned and augmented models fitted to every sample.
 
-    Effects that are not needed there are dropped, and finer parameters of theirs.
+    Effects that are not needed there are dropped, and finer parameters of theirs. Runs that are
+    *drifting* count by how late they are.
     """
     whole = replace(problem_of(model, segments, noise, STEP), slope_step=coarse_step(model))
     starts = [k for k in whole.unknowns if k.segment >= 0]
-    weights = tuple(np.sqrt(shares(found.augmented, noise.sigma)))
+    weights = tuple(np.sqrt(shares(drifting, len(segments))))
     fits = []
     with ThreadPoolExecutor() as pool:
         for fit in (found.declared, found.retuned, found.augmented):

@@ -48,12 +48,13 @@ def trace(
     lacking = verdict.too_little(blocks, noise)
     found = search(model, blocks, noise, tell)
     tell(0.9, 'fitting the chosen models in full')
-    final, fits = blocks, polished(found, model, blocks, noise)
+    drifting = drifts(found.augmented, noise.sigma)
+    final, fits = blocks, polished(found, model, blocks, noise, drifting)
     if test:
         final = segments_of(recordings, keep_back=False)
         declared, retuned, augmented = fits
         found = replace(found, declared=declared, retuned=retuned, augmented=augmented)
-        fits = polished(found, model, final, noise)
+        fits = polished(found, model, final, noise, drifting)
     noise = _least(noise, fits, final)
     stages = tuple(
         stage(name, model, fit, tests)
@@ -77,7 +78,7 @@ def trace(
         test=tuple(tests),
         warnings=(
             *(w for r in (*recordings, *test) for w in r.warnings),
-            *map(str, drifts(fits[2], noise.sigma)),
+            *map(str, drifting),
         ),
         next_experiment='',
     )
