@@ -4,8 +4,8 @@
 
 from math import exp, hypot, sqrt
 
-from pam_ros.effects.base import Effect, EffectParameter, Row
-from pam_ros.rig.layout import MASS
+from pam_ros.effects.base import Compensation, Effect, EffectParameter, HiddenState, Row
+from pam_ros.effects.rows import INERTIA
 
 
 def outside(
@@ -36,12 +36,12 @@ def outside(
     if q[j + 1] > q[j]:
         level += (q[j + 1] - q[j]) * exp(-(v / q[j + 2]) * (v / q[j + 2]))
     up, down = (1.0 + q[j + 4]) * level, (1.0 - q[j + 4]) * level
-    k = level / hypot(q[j + 5], level * x[i + 2] * x[i + 2] / q[MASS])
+    k = level / hypot(q[j + 5], level * x[i + 2] * x[i + 2] / q[INERTIA])
     spring = min(max(x[i] + k * (y - x[i + 1]), -down), up)
     xn[i] = spring
     xn[i + 1] = y
     xn[i + 2] = h
-    return f - min(max(spring + sqrt(k * q[MASS]) * v, -down), up)
+    return f - min(max(spring + sqrt(k * q[INERTIA]) * v, -down), up)
 
 
 def start(q: Row, j: int, p: float, kappa: float, y: float) -> tuple[float, ...]:
@@ -123,7 +123,13 @@ EFFECT = Effect(
         {'level': 5.0, 'breakaway': 8.0, 'stribeck_speed': 0.01},
         {'level': 10.0, 'breakaway': 13.0, 'stribeck_speed': 0.02},
     ),
-    states=('contact force', 'position', 'step'),
+    example={'level': 4.0, 'breakaway': 5.0},
+    compensation=Compensation.FEED_FORWARD,
+    states=(
+        HiddenState('contact force', 'N', 5.0),
+        HiddenState('position', 'm'),
+        HiddenState('step', 's'),
+    ),
     start=start,
     rivals=('hysteresis', 'viscous_friction'),
     outside=outside,

@@ -5,10 +5,10 @@
 from math import expm1
 
 from pam_ros.compiled import scalar
-from pam_ros.effects.base import Effect, EffectParameter, Row
+from pam_ros.effects.base import Compensation, Effect, EffectParameter, HiddenState, Row
+from pam_ros.effects.rows import A1, A2, A3, A4, A5, A6
 from pam_ros.muscle import law
 from pam_ros.muscle.law import gain
-from pam_ros.rig.layout import A1, A2, A3, A4, A5, A6
 
 
 @scalar
@@ -126,9 +126,15 @@ EFFECT = Effect(
         {'force': 0.03, 'time': 1.0},
         {'force': -0.03, 'time': 10.0},
     ),
+    example={'force': -0.03, 'stiffness': 600.0, 'time': 0.8, 'spread': 2.0},
+    compensation=Compensation.FEED_FORWARD,
     states=tuple(
-        f'{which} {of}'
-        for of in ('force', 'contraction', 'pressure')
+        HiddenState(f'{which} {of}', unit, 0.0 if which == 'last' else spread)
+        for of, unit, spread in (
+            ('force', 'N', 50.0),
+            ('contraction', 'fraction', 0.02),
+            ('pressure', 'Pa', 5e4),
+        )
         for which in ('fast', 'slow', 'last')
     ),
     start=start,

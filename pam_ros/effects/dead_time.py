@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Dead time: the pressure answers a command only after a while."""
 
-from pam_ros.effects.base import Effect, EffectParameter, Row
+from pam_ros.effects.base import Compensation, Effect, EffectParameter, Row
 
 
 def delay(q: Row, j: int) -> float:
@@ -30,6 +30,8 @@ EFFECT = Effect(
     signature='phase that falls in proportion to frequency; nothing moves after a step for a time',
     experiment='steps recorded at 500 Hz or more, or a chirp up to the corner of the lag',
     fit_starts=({'delay': 0.005}, {'delay': 0.02}, {'delay': 0.05}),
+    example={'delay': 0.0153},
+    compensation=Compensation.PATH,
     rivals=('pressure_lag',),
     delay=delay,
 )

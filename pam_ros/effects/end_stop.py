@@ -6,8 +6,8 @@ from math import hypot
 
 import numpy as np
 
-from pam_ros.effects.base import Array, Effect, EffectParameter, Row
-from pam_ros.rig.layout import L0, MASS
+from pam_ros.effects.base import Array, Compensation, Effect, EffectParameter, HiddenState, Row
+from pam_ros.effects.rows import INERTIA, LENGTH
 
 
 def outside(
@@ -33,15 +33,15 @@ def outside(
     if q[j + 1] == 0.0 and q[j + 3] == 0.0:
         return f
     xn[i] = h
-    most_k = q[MASS] / (x[i] * x[i])
-    most_c = 0.25 * q[MASS] / x[i]
-    d = y - q[j] * q[L0]
+    most_k = q[INERTIA] / (x[i] * x[i])
+    most_c = 0.25 * q[INERTIA] / x[i]
+    d = y - q[j] * q[LENGTH]
     if d > 0.0 and q[j + 1] > 0.0:
         spring = d * q[j + 1] / hypot(1.0, q[j + 1] / most_k)
         c = q[j + 4] * spring
         push = spring + min(c, most_c) * v
         f -= max(push, 0.0)
-    d = q[j + 2] * q[L0] - y
+    d = q[j + 2] * q[LENGTH] - y
     if d > 0.0 and q[j + 3] > 0.0:
         spring = d * q[j + 3] / hypot(1.0, q[j + 3] / most_k)
         c = q[j + 4] * spring
@@ -122,7 +122,9 @@ EFFECT = Effect(
         {'upper': 0.12, 'stiffness': 3e4},
         {'lower': 0.02, 'lower_stiffness': 3e4},
     ),
-    states=('step',),
+    example={'upper': 0.2, 'stiffness': 3e4},
+    compensation=Compensation.FEEDBACK,
+    states=(HiddenState('step', 's'),),
     start=start,
     rivals=('slack', 'length_offset'),
     outside=outside,

@@ -12,9 +12,9 @@ vented, whether its ends move or not, and the loop is so many Pa wide (Hunt et a
 from math import exp, expm1, log1p
 
 from pam_ros.compiled import scalar
-from pam_ros.effects.base import Effect, EffectParameter, Row
+from pam_ros.effects.base import Compensation, Effect, EffectParameter, HiddenState, Row
+from pam_ros.effects.rows import A1, A3, A4, A5
 from pam_ros.muscle.law import gain
-from pam_ros.rig.layout import A1, A3, A4, A5
 
 ELEMENTS = 10
 P_REFERENCE = 3e5  # Pa, where the amplitude is as given, whatever its growth
@@ -261,12 +261,14 @@ EFFECT = Effect(
             'initial': 0.0,
         },
     ),
+    example={'amplitude': 9.0, 'slip': 5.0, 'pressure': 4e3},
+    compensation=Compensation.FEED_FORWARD,
     states=(
-        'loop',
-        'contraction',
-        'pressure',
-        *(f'strain {n + 1}' for n in range(ELEMENTS)),
-        *(f'strain over pressure {n + 1}' for n in range(ELEMENTS)),
+        HiddenState('loop', '', 0.5),
+        HiddenState('contraction', 'fraction'),
+        HiddenState('pressure', 'Pa'),
+        *(HiddenState(f'strain {n + 1}', 'fraction', 5e-3) for n in range(ELEMENTS)),
+        *(HiddenState(f'strain over pressure {n + 1}', 'Pa', 1e4) for n in range(ELEMENTS)),
     ),
     start=start,
     rivals=('coulomb_friction', 'creep'),

@@ -4,7 +4,7 @@
 
 from math import exp, expm1, log, log1p
 
-from pam_ros.effects.base import Effect, EffectParameter, Row
+from pam_ros.effects.base import Compensation, Effect, EffectParameter, HiddenState, Row
 
 SHORTEST = 1e-6  # s; a faster refill than any rig's is as good as immediate
 LEAST = 1e-12  # 1/s; a leak that takes thousands of years is none
@@ -132,7 +132,9 @@ EFFECT = Effect(
         {'rate': 0.3, 'refill': 0.7, 'vent': 0.05},
         {'rate': 0.3, 'refill': 0.1, 'supply': 5e5},
     ),
-    states=('pressure', 'upstream pressure'),
+    example={'rate': 0.1, 'refill': 0.2},
+    compensation=Compensation.FEEDBACK,
+    states=(HiddenState('pressure', 'Pa', 2e4), HiddenState('upstream pressure', 'Pa')),
     start=start,
     rivals=('pressure_lag', 'pressure_offset', 'creep', 'softening'),
     contains={'pressure_lag': {'fill': 'refill', 'vent': 'vent', 'fastest': 'supply'}},

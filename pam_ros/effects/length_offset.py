@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Length offset: the muscle's rest length is not the declared one."""
 
-from pam_ros.effects.base import Effect, EffectParameter, Row
+from pam_ros.effects.base import Compensation, Effect, EffectParameter, Row
 
 
 def contraction(kappa: float, q: Row, j: int) -> float:
@@ -29,6 +29,8 @@ EFFECT = Effect(
     signature='residual proportional to the stiffness: the whole curve moved along contraction',
     experiment='static points over the whole range at two pressures, or the rest length measured',
     fit_starts=({'offset': 0.02}, {'offset': -0.02}),
+    example={'offset': 0.015},
+    compensation=Compensation.MODEL,
     rivals=('pressure_offset', 'payload'),
     contraction=contraction,
     needs_muscle=True,

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Payload: the moved mass is not the declared one."""
 
-from pam_ros.effects.base import Effect, EffectParameter, Row
+from pam_ros.effects.base import Compensation, Effect, EffectParameter, Row
 
 # A load can be overestimated, but never be nothing: other effects rely on the declared mass.
 LEAST_SHARE = 0.2
@@ -32,6 +32,8 @@ EFFECT = Effect(
     signature='constant residual force, and inertia: a slower oscillation',
     experiment='steps that make the load swing, or a force cell, or the load on a balance',
     fit_starts=({'mass': 1.0}, {'mass': -1.0}),
+    example={'mass': 1.5},
+    compensation=Compensation.MODEL,
     rivals=('pressure_offset', 'length_offset'),
     mass=mass,
 )

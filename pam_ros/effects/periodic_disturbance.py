@@ -6,7 +6,7 @@ from math import cos, pi, sin
 
 import numpy as np
 
-from pam_ros.effects.base import Array, Effect, EffectParameter, Row
+from pam_ros.effects.base import Array, Compensation, Effect, EffectParameter, Row
 
 
 def force(
@@ -121,7 +121,10 @@ EFFECT = Effect(
         {'force_sin': 2.0, 'force_cos': 2.0, 'frequency': 1.0},
         {'pressure_sin': 1e3, 'pressure_cos': 1e3, 'frequency': 1.0},
     ),
+    example={'force_sin': 3.0, 'pressure_cos': 2e3, 'frequency': 2.3},
+    compensation=Compensation.FEEDBACK,
     force=force,
     pressure=pressure,
     guess=guess,
+    moves_by_itself=True,
 )

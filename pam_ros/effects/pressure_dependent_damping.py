@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Damping that grows with pressure, inflating and deflating apart."""
 
-from pam_ros.effects.base import Effect, EffectParameter, Row
+from pam_ros.effects.base import Compensation, Effect, EffectParameter, Row
 
 
 def damping(c: float, p: float, kappa: float, v: float, q: Row, j: int) -> float:
@@ -49,6 +49,8 @@ EFFECT = Effect(
         {'inflating': 1e-4, 'deflating': 1e-4},
         {'inflating': 6e-4, 'deflating': 6e-4},
     ),
+    example={'inflating': 3e-4, 'deflating': 1e-4},
+    compensation=Compensation.MODEL,
     rivals=('viscous_friction', 'creep'),
     damping=damping,
     needs_muscle=True,

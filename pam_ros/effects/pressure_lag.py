@@ -5,7 +5,7 @@
 from math import exp, sqrt
 
 from pam_ros.compiled import scalar
-from pam_ros.effects.base import Effect, EffectParameter, Row
+from pam_ros.effects.base import Compensation, Effect, EffectParameter, HiddenState, Row
 
 SHORTEST = 1e-6  # s; a faster chamber than any rig's is immediate
 ATMOSPHERE = 1.013e5  # Pa
@@ -77,6 +77,11 @@ def pressure(p: float, t: float, h: float, x: Row, i: int, xn: Row, q: Row, j: i
 def start(q: Row, j: int, p: float, kappa: float, y: float) -> tuple[float, ...]:
     """Return the pressure that came in long enough."""
     return (p,)
+
+
+def lag(q: Row, j: int) -> tuple[float, float]:
+    """Return the time constants of filling and venting in s, which a controller inverts."""
+    return q[j], q[j + 1]
 
 
 EFFECT = Effect(
@@ -152,8 +157,11 @@ EFFECT = Effect(
         {'fill': 0.05, 'vent': 0.05, 'fastest': 5e5},
         {'fill': 0.05, 'vent': 0.05, 'fastest': 5e5, 'fastest_vent': 5e5, 'choking': 0.5},
     ),
-    states=('pressure',),
+    example={'fill': 0.05, 'vent': 0.09},
+    compensation=Compensation.PATH,
+    states=(HiddenState('pressure', 'Pa', 2e4),),
     start=start,
     rivals=('dead_time', 'leak'),
     pressure=pressure,
+    lag=lag,
 )

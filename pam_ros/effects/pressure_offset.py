@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Pressure offset: regulator or sensor reads wrong by an offset and a gain."""
 
-from pam_ros.effects.base import Effect, EffectParameter, Row
+from pam_ros.effects.base import Compensation, Effect, EffectParameter, Row
 
 
 def pressure(p: float, t: float, h: float, x: Row, i: int, xn: Row, q: Row, j: int) -> float:
@@ -39,6 +39,8 @@ EFFECT = Effect(
     signature='residual proportional to dF/dp, to p dF/dp for the gain',
     experiment='a second pressure sensor at the muscle, or its force over pressure at two lengths',
     fit_starts=({'offset': 5e3}, {'offset': -5e3}, {'offset': 1e3, 'gain': 0.03}),
+    example={'offset': 6e3, 'gain': -0.03},
+    compensation=Compensation.PATH,
     rivals=('payload', 'length_offset', 'leak'),
     pressure=pressure,
 )

@@ -3,9 +3,9 @@
 """Slack: a muscle pulls, but cannot push, or only until it buckles."""
 
 from pam_ros.compiled import scalar
-from pam_ros.effects.base import Effect, EffectParameter, Row
+from pam_ros.effects.base import Compensation, Effect, EffectParameter, Row
+from pam_ros.effects.rows import A1, A2, A3, A4, A5, A6
 from pam_ros.muscle.law import force as law_force
-from pam_ros.rig.layout import A1, A2, A3, A4, A5, A6
 
 
 @scalar
@@ -96,6 +96,8 @@ EFFECT = Effect(
         {'share': 1.0, 'toe': 30.0},
         {'share': 1.0, 'toe': 30.0, 'push': 10.0},
     ),
+    example={'share': 1.0, 'toe': 20.0},
+    compensation=Compensation.FEEDBACK,
     rivals=('end_stop',),
     force=force,
     damping=damping,

@@ -4,7 +4,7 @@
 
 from math import exp
 
-from pam_ros.effects.base import Effect, EffectParameter, Row
+from pam_ros.effects.base import Compensation, Effect, EffectParameter, HiddenState, Row
 
 # Moves within these bands, either way, are noise of a sensor and no part of a cycle.
 BAND = 5e3  # Pa
@@ -91,7 +91,13 @@ EFFECT = Effect(
         {'limit': 0.03, 'per_second': 0.1},
         {'limit': 0.03, 'per_second': 0.01},
     ),
-    states=('damage', 'pressure with play', 'contraction with play'),
+    example={'limit': 0.06, 'per_pressure': 5e-7},
+    compensation=Compensation.FEEDBACK,
+    states=(
+        HiddenState('damage', '', 0.5),
+        HiddenState('pressure with play', 'Pa'),
+        HiddenState('contraction with play', 'fraction'),
+    ),
     start=start,
     rivals=('creep', 'leak'),
     force=force,

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Viscous friction of the guide: a force against the velocity of the load."""
 
-from pam_ros.effects.base import Effect, EffectParameter, Row
+from pam_ros.effects.base import Compensation, Effect, EffectParameter, Row
 
 
 def outside(
@@ -42,6 +42,8 @@ EFFECT = Effect(
     signature='residual force proportional to velocity at every pressure and contraction',
     experiment='a chirp at two pressures: the decay is the same at both',
     fit_starts=({'coefficient': 30.0},),
+    example={'coefficient': 30.0},
+    compensation=Compensation.MODEL,
     rivals=('pressure_dependent_damping',),
     outside=outside,
 )

@@ -139,7 +139,7 @@ def strain(fit: Fit) -> float:
     """Return how far the declared parameters were moved, as a chi square."""
     problem = fit.solution.problem
     z = problem.priors(fit.solution.u)
-    return float(sum(a * a for a, k in zip(z, problem.unknowns, strict=True) if k.segment < 0))
+    return float(sum(a * a for a, k in zip(z, problem.unknowns, strict=True) if k.is_parameter))
 
 
 def is_static(effect: Effect) -> bool:

@@ -18,9 +18,9 @@ from pam_ros.identification.solve import (
     predicted_cost,
     solve,
 )
-from pam_ros.identification.unknowns import effect_unknowns
+from pam_ros.identification.unknowns import OfEffect, effect_unknowns, parameters_of
 from pam_ros.rig import layout as at
-from pam_ros.rig.model import RigModel
+from pam_ros.rig.joint import Joint
 
 Array = NDArray[np.float64]
 FURTHER = 2  # starts from which a look takes a second step
@@ -57,7 +57,7 @@ class Fit:
 
 def price_of(problem: Problem) -> float:
     """Return what the number of parameters costs that nothing was declared of (Schwarz)."""
-    count = sum(k.prior == np.inf and k.segment < 0 for k in problem.unknowns)
+    count = sum(k.prior == np.inf and k.is_parameter for k in problem.unknowns)
     return count * float(np.log(problem.independent))
 
 
@@ -68,7 +68,7 @@ def fitted(effects: tuple[str, ...], solution: Solution) -> Fit:
 
 
 def extended(
-    problem: Problem, model: RigModel, effect: Effect, start: dict[str, float]
+    problem: Problem, model: Joint, effect: Effect, start: dict[str, float]
 ) -> tuple[Problem, Array]:
     """Return the problem with *effect* added, and the coordinates at which it starts.
 
@@ -76,17 +76,16 @@ def extended(
     """
     added = effect_unknowns(model, effect, start)
     row = problem.row.copy()
-    j = model.layout.parameter_at[effect.name]
     for k, p in enumerate(effect.parameters):
-        row[j + k] = start.get(p.name, p.default)
-    u = [k.coordinate(start[k.name.rsplit('.', 1)[1]]) for k in added]
+        row[model.layout.index(effect, k)] = start.get(p.name, p.default)
+    u = [k.coordinate(start[k.of.which.parameter]) for k in added if isinstance(k.of, OfEffect)]
     new = replace(problem, row=row, active=model.library, unknowns=(*problem.unknowns, *added))
     return new, np.array(u)
 
 
 def look(
     parent: Fit,
-    model: RigModel,
+    model: Joint,
     effect: Effect,
     tried: int,
     read: Sequence[dict[str, float]] = (),
@@ -114,7 +113,7 @@ def look(
     return sorted([*further, *solutions[FURTHER:]], key=lambda solution: solution.cost)
 
 
-def whisper(parent: Fit, model: RigModel, effect: Effect) -> Solution:
+def whisper(parent: Fit, model: Joint, effect: Effect) -> Solution:
     """Return a short fit of *effect* that begins on top of *parent* with hardly any of it.
 
     For where no look from a known start came down to the parent: a nested model can always. No
@@ -136,7 +135,7 @@ def whisper(parent: Fit, model: RigModel, effect: Effect) -> Solution:
     return solve(problem, u, WHISPERS, jacobian=jacobian)
 
 
-def released(fit: Fit, model: RigModel, effect: Effect, pool: Executor) -> Fit:
+def released(fit: Fit, model: Joint, effect: Effect, pool: Executor) -> Fit:
     """Return *fit* with the parameters of *effect* freed that its start left at their defaults.
 
     The plainer fit is kept where the others do not earn their cost. From each of the options a
@@ -150,7 +149,7 @@ def released(fit: Fit, model: RigModel, effect: Effect, pool: Executor) -> Fit:
     return best if best.score < fit.score - EARNED else fit
 
 
-def freed(known: Solution, model: RigModel, effect: Effect, iterations: int) -> Solution:
+def freed(known: Solution, model: Joint, effect: Effect, iterations: int) -> Solution:
     """Return a short fit with some or all of the parameters of *effect* freed that are fixed."""
     looks = [_again(known, first) for first in _freed(known, model, effect)]
     if not looks:
@@ -158,23 +157,24 @@ def freed(known: Solution, model: RigModel, effect: Effect, iterations: int) -> 
     return improved(min(looks, key=lambda solution: solution.cost), iterations)
 
 
-def _freed(known: Solution, model: RigModel, effect: Effect) -> list[Solution]:
+def _freed(known: Solution, model: Joint, effect: Effect) -> list[Solution]:
     problem = known.problem
     options = _finer(problem, known.u, model, effect)
     return [_stepped(known, *extended(problem, model, effect, o)) for o in options]
 
 
-def _finer(problem: Problem, u: Array, model: RigModel, effect: Effect) -> list[dict[str, float]]:
+def _finer(problem: Problem, u: Array, model: Joint, effect: Effect) -> list[dict[str, float]]:
     """Return values from which to free the parameters of *effect* that are fixed in *problem*.
 
     All of them from where they are absent, or some from where a start has them; strengths in
     the proportion to one that is fitted already in which that start has both.
     """
-    there = {unknown.name for unknown in problem.unknowns}
-    j = model.layout.parameter_at[effect.name]
+    there = parameters_of(problem.unknowns, effect.name)
     row = problem.row_at(u)
-    values = {p.name: float(row[j + k]) for k, p in enumerate(effect.parameters)}
-    rest = {n: v for n, v in values.items() if f'effects.{effect.name}.{n}' not in there}
+    values = {
+        p.name: float(row[model.layout.index(effect, k)]) for k, p in enumerate(effect.parameters)
+    }
+    rest = {name: value for name, value in values.items() if name not in there}
     units = {p.name: p.unit for p in effect.parameters if p.strength}
     options = [rest] if rest else []
     for start in effect.fit_starts:
@@ -222,9 +222,10 @@ def guessed(parent: Fit, effect: Effect) -> tuple[dict[str, float], ...]:
     s = problem.segments[longest]
     out = problem.runs(parent.solution.u, longest)[0]
     is_free = s.kind == 'free'
-    residual = np.where(s.fit, s.target - out[:, at.Y if is_free else 3], 0.0)
-    position = np.where(s.fit, s.target, np.nan) if is_free else out[:, at.Y]
-    return effect.guess(s.t, out[:, at.P], position / problem.row[at.L0], residual)
+    residual = np.where(s.fit, s.target - out[:, at.RUN_S if is_free else at.RUN_F], 0.0)
+    position = np.where(s.fit, s.target, np.nan) if is_free else out[:, at.RUN_S]
+    l0 = problem.row[problem.layout.constant(at.L0)]
+    return effect.guess(s.t, out[:, at.RUN_P], position / l0, residual)
 
 
 def refine(parent: Fit, effect: Effect, looks: Sequence[Solution], pool: Executor | None) -> Fit:

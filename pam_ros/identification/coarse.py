@@ -13,7 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pam_ros.identification.segment import Segment
-from pam_ros.rig.model import RigModel
+from pam_ros.rig.joint import Joint
+from pam_ros.rig.rest import rest
 
 Array = NDArray[np.float64]
 
@@ -23,13 +24,13 @@ JUMP = 0.01  # share of the command's range within a stride that makes a jump
 SAMPLES = 20_000  # most samples of a held run, whose steps cost nothing but themselves
 
 
-def coarse_step(model: RigModel) -> float:
+def coarse_step(model: Joint) -> float:
     """Return a step in s that resolves the oscillation of the rig at rest, stiffest 20-fold."""
-    muscle = model.muscle
-    if muscle.is_load_only:
+    if model.is_driven:
         return STEPS[1]
+    muscle = model.muscle
     ends = (0.0, muscle.p_max)
-    k = max(float(muscle.stiffness(p, model.rest(p) / muscle.l0)) for p in ends)
+    k = max(float(muscle.stiffness(p, rest(model, p) / muscle.l0)) for p in ends)
     return float(np.clip(PHASE / np.sqrt(k / model.load.mass), *STEPS))
 
 

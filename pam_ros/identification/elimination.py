@@ -9,20 +9,22 @@ from dataclasses import replace
 import numpy as np
 
 from pam_ros.effects.base import Effect
+from pam_ros.effects.names import EffectName
 from pam_ros.identification import evidence
 from pam_ros.identification.admission import IMPLAUSIBLE, is_odd, leeway, matters, strain
 from pam_ros.identification.candidate import EARNED, Fit, extended, fitted, price_of
 from pam_ros.identification.noise import Noise
 from pam_ros.identification.problem import Problem
 from pam_ros.identification.solve import solve
-from pam_ros.rig.model import RigModel
+from pam_ros.identification.unknowns import parameters_of
+from pam_ros.rig.joint import Joint
 
 
 def without_needless(
     fit: Fit,
     doubted: Sequence[str],
     retuned: Fit,
-    model: RigModel,
+    model: Joint,
     noise: Noise,
     pool: Executor,
 ) -> Fit:
@@ -46,28 +48,27 @@ def without_needless(
     return fit
 
 
-def promises_little(fit: Fit, name: str, hope: float, model: RigModel) -> bool:
+def promises_little(fit: Fit, name: str, hope: float, model: Joint) -> bool:
     """Say whether the cost rises by less than *hope* without effect *name*, by the derivatives."""
     names = [p.name for p in _effect(model, name).parameters]
     return _promised_rise(fit, name, names, model) < hope
 
 
-def dropped(fit: Fit, name: str, model: RigModel, pool: Executor) -> Fit:
+def dropped(fit: Fit, name: str, model: Joint, pool: Executor) -> Fit:
     """Return the fit without effect *name*, fitted anew."""
     names = [p.name for p in _effect(model, name).parameters]
     smaller = _reduced(fit, name, names, model, pool)
     return replace(smaller, effects=tuple(e for e in fit.effects if e != name))
 
 
-def plain(fit: Fit, model: RigModel, pool: Executor, hope: float = np.inf) -> Fit:
+def plain(fit: Fit, model: Joint, pool: Executor, hope: float = np.inf) -> Fit:
     """Return *fit* with the fewest parameters per effect that do as well.
 
     Finer ones may have been freed when another effect was still missing, to make up for it. Only
     those are tried without which the cost rises by less than *hope*, by the derivatives.
     """
     for name in fit.effects:
-        prefix = f'effects.{name}.'
-        there = {u.name.removeprefix(prefix) for u in fit.solution.problem.unknowns}
+        there = parameters_of(fit.solution.problem.unknowns, name)
         starts = sorted(_effect(model, name).fit_starts, key=len)
         # Several starts are of the same parameters.
         for kept in dict.fromkeys(frozenset(start) for start in starts):
@@ -81,21 +82,21 @@ def plain(fit: Fit, model: RigModel, pool: Executor, hope: float = np.inf) -> Fi
     return fit
 
 
-def became(fit: Fit, name: str, other: Effect, model: RigModel, pool: Executor) -> Fit:
+def became(fit: Fit, name: str, other: Effect, model: Joint, pool: Executor) -> Fit:
     """Return the fit with *other* in the place of effect *name*, which contains it, fitted anew.
 
     It begins where the two are the same: with the parameters that they share.
     """
     effect, known = _effect(model, name), fit.solution
     names = [p.name for p in effect.parameters]
-    j = model.layout.parameter_at[name]
-    values = dict(zip(names, known.problem.row_at(known.u)[j : j + len(names)], strict=True))
-    there = {u.name for u in known.problem.unknowns}
+    row = known.problem.row_at(known.u)
+    values = {n: row[model.layout.index(effect, k)] for k, n in enumerate(names)}
+    there = parameters_of(known.problem.unknowns, name)
     strengths = {p.name for p in other.parameters if p.strength}
     start = {
         theirs: float(values[own])
         for theirs, own in effect.contains[other.name].items()
-        if theirs in strengths or f'effects.{name}.{own}' in there
+        if theirs in strengths or own in there
     }
     smaller, keep = _without(known.problem, name, names, model)
     problem, added = extended(smaller, model, other, start)
@@ -103,14 +104,14 @@ def became(fit: Fit, name: str, other: Effect, model: RigModel, pool: Executor) 
     return fitted((*(e for e in fit.effects if e != name), other.name), solution)
 
 
-def _promised_rise(fit: Fit, name: str, parameters: Sequence[str], model: RigModel) -> float:
+def _promised_rise(fit: Fit, name: str, parameters: Sequence[str], model: Joint) -> float:
     """Return by how much the cost rises with *parameters* at their defaults, all else refitted.
 
     By the derivatives alone: infinite where a default is beyond what they reach.
     """
     solution, problem = fit.solution, fit.solution.problem
-    defaults = {f'effects.{name}.{p.name}': p.default for p in _effect(model, name).parameters}
-    gone = {f'effects.{name}.{p}' for p in parameters}
+    defaults = {EffectName(name, p.name).flat: p.default for p in _effect(model, name).parameters}
+    gone = {EffectName(name, p).flat for p in parameters}
     is_gone = np.array([u.name in gone for u in problem.unknowns])
     move = np.array(
         [
@@ -131,7 +132,7 @@ def _reduced(
     fit: Fit,
     name: str,
     parameters: Sequence[str],
-    model: RigModel,
+    model: Joint,
     pool: Executor,
     goal: float = np.inf,
 ) -> Fit:
@@ -145,22 +146,21 @@ def _reduced(
 
 
 def _without(
-    problem: Problem, name: str, parameters: Sequence[str], model: RigModel
+    problem: Problem, name: str, parameters: Sequence[str], model: Joint
 ) -> tuple[Problem, list[int]]:
     """Return the problem with *parameters* of effect *name* at their defaults.
 
     And the numbers of the unknowns that are left.
     """
-    gone = {f'effects.{name}.{p}' for p in parameters}
+    gone = {EffectName(name, p).flat for p in parameters}
     keep = [k for k, u in enumerate(problem.unknowns) if u.name not in gone]
-    row = problem.row.copy()
-    j = model.layout.parameter_at[name]
-    for k, p in enumerate(_effect(model, name).parameters):
+    row, effect = problem.row.copy(), _effect(model, name)
+    for k, p in enumerate(effect.parameters):
         if p.name in parameters:
-            row[j + k] = p.default
+            row[model.layout.index(effect, k)] = p.default
     unknowns = tuple(problem.unknowns[k] for k in keep)
     return replace(problem, row=row, unknowns=unknowns), keep
 
 
-def _effect(model: RigModel, name: str) -> Effect:
+def _effect(model: Joint, name: str) -> Effect:
     return next(e for e in model.library if e.name == name)

@@ -11,6 +11,7 @@ from scipy.stats import f as f_distribution
 from pam_ros.identification.candidate import Fit
 from pam_ros.identification.noise import independent_share
 from pam_ros.identification.problem import Problem
+from pam_ros.identification.unknowns import OfEffect
 
 Array = NDArray[np.float64]
 
@@ -83,12 +84,14 @@ def strengths_clear(fit: Fit, p: float) -> bool:
     problem: Problem = solution.problem
     worth = max(independent_samples(fit) / problem.independent, 1e-6)
     error = np.sqrt(np.diag(solution.covariance()) / worth)
-    prefix = f'effects.{fit.effects[-1]}.'
-    effect = next(e for e in problem.layout.effects if e.name == fit.effects[-1])
+    effect = next(e for e in problem.layout.library if e.name == fit.effects[-1])
     signs = {p.name: p.sign for p in effect.parameters if p.strength}
     for k, unknown in enumerate(problem.unknowns):
-        name = unknown.name.removeprefix(prefix)
-        if not unknown.name.startswith(prefix) or name not in signs:
+        of = unknown.of
+        if not isinstance(of, OfEffect) or of.which.effect != effect.name:
+            continue
+        name = of.which.parameter
+        if name not in signs:
             continue
         value = solution.u[k]
         if not (value * signs[name] > 0.0 if signs[name] else value != 0.0):

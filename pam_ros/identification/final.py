@@ -9,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from pam_ros.effects.names import EffectName
 from pam_ros.identification.candidate import Fit, fitted
 from pam_ros.identification.coarse import coarse_step
 from pam_ros.identification.drift import Drift, shares
@@ -21,7 +22,7 @@ from pam_ros.identification.search import Search
 from pam_ros.identification.segment import Segment
 from pam_ros.identification.solve import Solution, solve
 from pam_ros.identification.unknowns import Unknown
-from pam_ros.rig.model import RigModel
+from pam_ros.rig.joint import Joint
 
 Array = NDArray[np.float64]
 STEP = 1e-3  # s, longest step of the final fits
@@ -34,7 +35,7 @@ POLISH = 10  # iterations of a final fit, which starts where the thinned one end
 
 def polished(
     found: Search,
-    model: RigModel,
+    model: Joint,
     segments: Sequence[Segment],
     noise: Noise,
     drifting: Sequence[Drift] = (),
@@ -45,13 +46,13 @@ def polished(
     *drifting* count by how late they are.
     """
     whole = replace(problem_of(model, segments, noise, STEP), slope_step=coarse_step(model))
-    starts = [k for k in whole.unknowns if k.segment >= 0]
+    starts = [k for k in whole.unknowns if not k.is_parameter]
     weights = tuple(np.sqrt(shares(drifting, len(segments))))
     fits = []
     with ThreadPoolExecutor() as pool:
         for fit in (found.declared, found.retuned, found.augmented):
             thin = fit.solution.problem
-            kept = [k for k, x in enumerate(thin.unknowns) if x.segment < 0]
+            kept = [k for k, x in enumerate(thin.unknowns) if x.is_parameter]
             unknowns = (*(thin.unknowns[k] for k in kept), *starts)
             full = replace(
                 whole,
@@ -114,7 +115,7 @@ def _scanned(problem: Problem, u: Array) -> Array | None:
     is far too high does not say so.
     """
     every = ((e, p) for e in problem.active for p in e.parameters)
-    strengths = {f'effects.{e.name}.{p.name}' for e, p in every if p.strength}
+    strengths = {EffectName(e.name, p.name).flat for e, p in every if p.strength}
     found, cost = u, problem.cost(u, problem.residuals(u))
     for k, unknown in enumerate(problem.unknowns):
         for share in SHARES if unknown.name in strengths else ():
@@ -126,7 +127,7 @@ def _scanned(problem: Problem, u: Array) -> Array | None:
     return None if found is u else found
 
 
-def _doubted(fit: Fit, model: RigModel, noise: Noise) -> list[str]:
+def _doubted(fit: Fit, model: Joint, noise: Noise) -> list[str]:
     """Return the effects of *fit* that the fit to every sample may not need.
 
     All of them where it is far from the noise: thinned runs may have stopped at a place where
@@ -147,7 +148,7 @@ def _same_starts(fit: Fit, starts: Sequence[Unknown]) -> Array:
     values = {
         x.name: x.value(u)
         for x, u in zip(thin.unknowns, fit.solution.u, strict=True)
-        if x.segment >= 0
+        if not x.is_parameter
     }
     if len(values) != len(starts):
         return np.zeros(len(starts))

@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from pam_ros.effects.names import by_effect
 from pam_ros.identification import verdict
 from pam_ros.identification.admission import Tried
 from pam_ros.identification.candidate import Fit
@@ -21,14 +22,14 @@ from pam_ros.identification.stages import estimates, stage
 from pam_ros.identification.structure import Structure, structure_of
 from pam_ros.recording.recording import Recording
 from pam_ros.rig import layout as at
-from pam_ros.rig.model import RigModel
+from pam_ros.rig.joint import Joint
 
 Array = NDArray[np.float64]
 NEEDLESS = 'chosen at first, and not needed beside what was found later'
 
 
 def trace(
-    model: RigModel,
+    model: Joint,
     recordings: Sequence[Recording],
     test: Sequence[Recording] = (),
     progress: Progress | None = None,
@@ -107,22 +108,20 @@ def _structure(fit: Fit, noise: Noise) -> Structure:
     longest = max(range(len(problem.segments)), key=lambda k: problem.segments[k].t.size)
     s = problem.segments[longest]
     out = problem.runs(fit.solution.u, longest)[0]
-    column = at.Y if s.kind == 'free' else 3
-    inputs = (out[:, at.P], out[:, at.Y], out[:, at.V])
+    column = at.RUN_S if s.kind == 'free' else at.RUN_F
+    inputs = (out[:, at.RUN_P], out[:, at.RUN_S], out[:, at.RUN_V])
     return structure_of(s.t, s.target - out[:, column], inputs, noise.sigma)
 
 
-def _findings(found: Search, fit: Fit, model: RigModel) -> tuple[Finding, ...]:
-    values = estimates(fit, model)
+def _findings(found: Search, fit: Fit, model: Joint) -> tuple[Finding, ...]:
+    values = by_effect(estimates(fit, model))
     findings = []
     for tried in _chosen(found):
         name = tried.effect.name
         if name not in fit.effects:
             continue
-        prefix = f'effects.{name}.'
-        parameters = {k.removeprefix(prefix): v for k, v in values.items() if prefix in k}
         findings.append(
-            Finding(name, parameters, verdict.alternatives(found, tried), _reason(tried))
+            Finding(name, values.get(name, {}), verdict.alternatives(found, tried), _reason(tried))
         )
     return tuple(findings)
 
@@ -149,7 +148,7 @@ def _reason(tried: Tried) -> str:
     )
 
 
-def _candidates(found: Search, fit: Fit, model: RigModel) -> tuple[Candidate, ...]:
+def _candidates(found: Search, fit: Fit, model: Joint) -> tuple[Candidate, ...]:
     rows = []
     for tried in found.rounds:
         winner = next((t for t in tried if t.chosen), None)
@@ -162,8 +161,7 @@ def _candidates(found: Search, fit: Fit, model: RigModel) -> tuple[Candidate, ..
             else:
                 decision = 'ambiguous' if t.effect.name in rivals else 'rejected'
                 reason = verdict.why_not(t, winner)
-            prefix = f'effects.{t.effect.name}.'
-            values = estimates(t.fit, model)
+            values = by_effect(estimates(t.fit, model))
             rows.append(
                 Candidate(
                     t.effect.name,
@@ -173,7 +171,7 @@ def _candidates(found: Search, fit: Fit, model: RigModel) -> tuple[Candidate, ..
                     t.evidence.p,
                     t.evidence.gain,
                     t.evidence.interval_clear,
-                    {k.removeprefix(prefix): v for k, v in values.items() if prefix in k},
+                    values.get(t.effect.name, {}),
                     decision,
                     reason,
                 )

@@ -11,11 +11,12 @@ from numpy.typing import NDArray
 
 from pam_ros.effects.base import Effect
 from pam_ros.identification.segment import Segment
-from pam_ros.identification.unknowns import START_V, START_Y, Unknown
+from pam_ros.identification.unknowns import RunStart, Unknown
 from pam_ros.rig import layout as at
 from pam_ros.rig.bind import bind
 from pam_ros.rig.layout import Layout
-from pam_ros.rig.model import start_row
+from pam_ros.rig.run import acting_commands, delays_of
+from pam_ros.rig.start import start_state
 
 Array = NDArray[np.float64]
 HELD_STEP = 0.02  # s; a held run has no dynamics of its own to resolve, only memories
@@ -24,9 +25,10 @@ DIFFERENCE = 1e-3  # step of u for a derivative; a thousandth of a parameter's t
 
 @dataclass(frozen=True, eq=False)
 class Problem:
-    """Runs to be explained by a parameter row of which some entries are unknown.
+    """Runs to be explained by parameters of which some are unknown.
 
-    ``row`` holds the values of what is not unknown; ``step`` is the longest step in s, and
+    ``row`` holds the values of what is not unknown, all rows of the kernel's q one after the
+    other; ``step`` is the longest step in s, and
     ``slope_step`` that of the runs from which derivatives come, where it is longer: they need
     not be as exact as what they correct.
     ``independent`` is how many independent samples the fitted ones are worth. Residuals
@@ -55,42 +57,50 @@ class Problem:
         """Return the parameter row at the unknowns u."""
         q: Array = self.row.copy()
         for unknown, value in zip(self.unknowns, u, strict=True):
-            if unknown.index >= 0:
-                q[unknown.index] = unknown.value(value)
+            if not isinstance(unknown.of, RunStart):
+                q[unknown.of.index] = unknown.value(value)
         return q
 
-    def runs(self, u: Array, only: int = -1) -> list[Array]:
+    def matrix_at(self, u: Array) -> Array:
+        """Return the kernel's parameters q at the unknowns u."""
+        return self.row_at(u).reshape(self.layout.rows, self.layout.parameters)
+
+    def runs(self, u: Array, only: int | None = None) -> list[Array]:
         """Return the free run of every segment, or of segment *only*, at u.
 
         Each is (n, 4): position m, velocity m/s, chamber pressure Pa, and for held segments
         the force N.
         """
-        q = self.row_at(u)
-        kernel = bind(self.layout, self.active)
+        q = self.matrix_at(u)
+        kernel, scratch = bind(self.layout, self.active), self.layout.scratch()
+        delays = delays_of(self.layout, q)
         found = []
         for k, s in enumerate(self.segments):
-            if only not in (-1, k):
+            if only not in (None, k):
                 continue
-            own = {START_Y: s.y0, START_V: s.v0}
+            y0, v0 = s.y0, s.v0
             for unknown, value in zip(self.unknowns, u, strict=True):
-                if unknown.segment == k:
-                    own[unknown.index] = unknown.value(value)
-            out = np.empty((s.t.size, 4))
-            p0 = s.first_pressure
-            x = start_row(self.layout, q, p0, own[START_Y], own[START_V])
-            scratch = np.empty_like(x)
+                if isinstance(unknown.of, RunStart) and unknown.of.run == k:
+                    if unknown.of.is_velocity:
+                        v0 = unknown.value(value)
+                    else:
+                        y0 = unknown.value(value)
+            out = np.empty((s.t.size, self.layout.run_columns))
+            x = start_state(self.layout, q, (s.first_pressure,), y0, v0)
             if s.kind == 'free':
-                kernel.simulate(x, scratch, q, s.t, s.drive_t, s.drive, self.step, out, False)
+                act_t, acting = acting_commands(s.drive_t, s.drive[:, None], delays)
+                kernel.simulate(x, scratch, q, s.t, act_t, acting, self.step, out, False)
             else:
+                pressure = s.pressure[:, None]
                 kernel.simulate_held(
-                    x, scratch, q, s.t, s.pressure, s.position, s.velocity, HELD_STEP, out
+                    x, scratch, q, s.t, pressure, s.position, s.velocity, HELD_STEP, out
                 )
             found.append(out)
         return found
 
-    def predict(self, u: Array, only: int = -1) -> list[Array]:
+    def predict(self, u: Array, only: int | None = None) -> list[Array]:
         """Return the simulated target of every segment, or of segment *only*, at u."""
-        column = at.Y if self.segments[0].kind == 'free' else 3
+        column = at.RUN_S if self.segments[0].kind == 'free' else at.RUN_F
         return [out[:, column] for out in self.runs(u, only)]
 
     def residuals(self, u: Array) -> Array:
@@ -136,20 +146,19 @@ class Problem:
             h = DIFFERENCE if u[k] + DIFFERENCE <= unknown.bounds[1] else -DIFFERENCE
             moved = u.copy()
             moved[k] += h
-            if unknown.segment >= 0:
-                return self._column_of_run(u, moved, r, k, h)
+            if isinstance(unknown.of, RunStart):
+                return self._column_of_run(moved, r, h, unknown.of.run)
             return (self.residuals(moved) - r) / h
 
         run: Callable[..., object] = map if pool is None else pool.map
         return np.stack(list(run(column, columns)), axis=1)  # type: ignore[call-overload]
 
-    def _column_of_run(self, u: Array, moved: Array, r: Array, k: int, h: float) -> Array:
+    def _column_of_run(self, moved: Array, r: Array, h: float, run: int) -> Array:
         """Return the column of what a run has for itself: only that run changes."""
         out = np.zeros_like(r)
-        segment = self.unknowns[k].segment
-        first = sum(rows.size for rows in self.fit_rows[:segment])
-        own = slice(first, first + self.fit_rows[segment].size)
-        out[own] = (self._left(segment, self.predict(moved, segment)[0]) - r[own]) / h
+        first = sum(rows.size for rows in self.fit_rows[:run])
+        own = slice(first, first + self.fit_rows[run].size)
+        out[own] = (self._left(run, self.predict(moved, run)[0]) - r[own]) / h
         return out
 
     def errors(self, u: Array) -> tuple[float, float]:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from pam_ros.identification.noise import Noise
 from pam_ros.identification.segment import Segment
 from pam_ros.identification.structure import Structure
-from pam_ros.rig.model import RigModel
+from pam_ros.rig.joint import Joint
 
 Array = NDArray[np.float64]
 
@@ -44,7 +44,7 @@ class Stage:
     """
 
     name: str
-    model: RigModel
+    model: Joint
     parameters: dict[str, Estimate]
     fit_error: float
     held_error: float

@@ -15,14 +15,14 @@ from pam_ros.identification.problem import Problem
 from pam_ros.identification.segment import Segment
 from pam_ros.identification.solve import Solution, solve
 from pam_ros.identification.unknowns import Unknown, declared_unknowns, run_unknowns
-from pam_ros.rig.model import RigModel
+from pam_ros.rig.joint import Joint
 
 Array = NDArray[np.float64]
 OUTLIER = 1.48  # median residuals beyond which one is an outlier
 
 
 def problem_of(
-    model: RigModel, segments: Sequence[Segment], noise: Noise, step: float, stride: int = 0
+    model: Joint, segments: Sequence[Segment], noise: Noise, step: float, stride: int = 0
 ) -> Problem:
     """Return the problem of re-tuning *model* to the segments, at most *step* s a step.
 
@@ -30,7 +30,7 @@ def problem_of(
     they are not thinned. Starts stay near to the measurement, but for those of the windows that
     a load without a muscle is cut into: there the rest of a wrong model must find room.
     """
-    sigma = np.inf if stride and model.muscle.is_load_only else noise.sigma
+    sigma = np.inf if stride and model.is_driven else noise.sigma
     unknowns: list[Unknown] = [*declared_unknowns(model), *run_unknowns(segments, sigma)]
     rho = noise.rho ** max(stride, 1)
     samples = sum(int(np.count_nonzero(s.fit)) for s in segments)
@@ -38,7 +38,7 @@ def problem_of(
         tuple(segments),
         model.layout,
         model.active,
-        model.row(),
+        model.parameters().ravel(),
         tuple(unknowns),
         samples * (1.0 - rho) / (1.0 + rho),
         step,
@@ -47,7 +47,7 @@ def problem_of(
 
 def only_starts(problem: Problem, u: Array, pool: Executor) -> Solution:
     """Return u with its start states fitted and the rest as it is, all columns computed."""
-    starts = [k for k, unknown in enumerate(problem.unknowns) if unknown.segment >= 0]
+    starts = [k for k, unknown in enumerate(problem.unknowns) if not unknown.is_parameter]
     if starts:
         rest = [k for k in range(len(u)) if k not in starts]
         row = replace(problem, unknowns=tuple(problem.unknowns[k] for k in rest)).row_at(u[rest])

@@ -37,7 +37,7 @@ from pam_ros.identification.problem import Problem
 from pam_ros.identification.retuning import only_starts
 from pam_ros.identification.solve import Solution, predicted_cost, solve
 from pam_ros.identification.weak import Motion, at_weak, weak_fits, weak_starts
-from pam_ros.rig.model import RigModel
+from pam_ros.rig.joint import Joint
 
 Array = NDArray[np.float64]
 
@@ -53,7 +53,7 @@ TRIED = (2, 1)  # starts of an effect from which looks are taken: re-tuned, as d
 class Setting:
     """What every round is given: the model, its fit as declared, the data's noise and motion."""
 
-    model: RigModel
+    model: Joint
     declared: Fit
     noise: Noise
     motions: Sequence[Motion]
@@ -145,14 +145,14 @@ def _as_declared(fit: Fit, pool: Executor) -> Fit:
     """
     u = fit.solution.u.copy()
     for k, unknown in enumerate(fit.solution.problem.unknowns):
-        if unknown.segment < 0 and unknown.prior < np.inf:
+        if unknown.is_parameter and unknown.prior < np.inf:
             u[k] = 0.0
     return fitted(fit.effects, only_starts(fit.solution.problem, u, pool))
 
 
 def _looks(
     parents: Sequence[Fit],
-    model: RigModel,
+    model: Joint,
     effect: Effect,
     read: Sequence[dict[str, float]],
     led: Sequence[tuple[Problem, Array]],
@@ -173,7 +173,7 @@ def _looks(
     return sorted(best, key=lambda solution: solution.cost)
 
 
-def _from_declared(declared: Fit, model: RigModel, effect: Effect) -> Fit:
+def _from_declared(declared: Fit, model: Joint, effect: Effect) -> Fit:
     """Return the fit of *effect* that begins at the declared parameters, not the re-tuned."""
     known = declared.solution
     guesses = []

@@ -21,7 +21,7 @@ from pam_ros.identification.round import NEAR, Setting, try_effects
 from pam_ros.identification.segment import Segment, windows
 from pam_ros.identification.solve import solve
 from pam_ros.identification.weak import motion_of
-from pam_ros.rig.model import RigModel
+from pam_ros.rig.joint import Joint
 
 Progress = Callable[[float, str], None]
 
@@ -39,17 +39,15 @@ class Search:
     rounds: tuple[tuple[Tried, ...], ...]
 
 
-def search(
-    model: RigModel, segments: Sequence[Segment], noise: Noise, progress: Progress
-) -> Search:
+def search(model: Joint, segments: Sequence[Segment], noise: Noise, progress: Progress) -> Search:
     """Find the effects that *model* lacks, on thinned runs: forward, then backward."""
     step = coarse_step(model)
     thin = [thinned(s, step) for s in segments]
     stride = max(1, round(segments[0].t.size / thin[0].t.size))
-    if model.muscle.is_load_only:
+    if model.is_driven:
         thin = [part for s in thin for part in windows(s, WINDOW)]
     problem = problem_of(model, thin, noise, step, stride)
-    is_free_rig = thin[0].kind == 'free' and not model.muscle.is_load_only
+    is_free_rig = thin[0].kind == 'free' and not model.is_driven
     motions = (
         [motion_of(s, t, noise.sigma) for s, t in zip(segments, thin, strict=True)]
         if is_free_rig
@@ -96,13 +94,13 @@ def search(
     return Search(declared, retuned, parent, tuple(rounds))
 
 
-def _absent(parent: Fit, model: RigModel) -> list[Effect]:
+def _absent(parent: Fit, model: Joint) -> list[Effect]:
     """Return the effects that *parent* lacks and its rig could have."""
     return [
         e
         for e in model.library
-        if e.name not in (*parent.effects, *model.effects)
-        and not (e.needs_muscle and model.muscle.is_load_only)
+        if e.name not in (*parent.effects, *model.all_effects)
+        and not (e.needs_muscle and model.is_driven)
     ]
 
 

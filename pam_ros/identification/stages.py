@@ -9,23 +9,24 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from pam_ros.effects.names import EffectName
 from pam_ros.errors import ParameterError
 from pam_ros.identification.candidate import Fit
 from pam_ros.identification.evidence import independent_samples
 from pam_ros.identification.problem import Problem
 from pam_ros.identification.result import Estimate, Stage
 from pam_ros.identification.segment import Segment
-from pam_ros.identification.unknowns import CONSTANTS, Unknown
+from pam_ros.identification.unknowns import CONSTANTS, OfEffect, Unknown
 from pam_ros.muscle.constants import Constants, from_si
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig import layout as at
-from pam_ros.rig.model import RigModel
+from pam_ros.rig.joint import Joint, changed
 
 Array = NDArray[np.float64]
 INTERVAL = 1.96  # standard errors to each side
 
 
-def estimates(fit: Fit, model: RigModel) -> dict[str, Estimate]:
+def estimates(fit: Fit, model: Joint) -> dict[str, Estimate]:
     """Return every unknown of *fit* but the start states, with its 95 % interval.
 
     Intervals are as wide as the residual's independent samples demand.
@@ -35,7 +36,7 @@ def estimates(fit: Fit, model: RigModel) -> dict[str, Estimate]:
     error = np.sqrt(np.diag(solution.covariance()) / max(worth, 1e-6))
     found = {}
     for k, unknown in enumerate(solution.problem.unknowns):
-        if unknown.segment >= 0:
+        if not unknown.is_parameter:
             continue
         low, high = unknown.bounds
         u = solution.u[k]
@@ -49,19 +50,19 @@ def estimates(fit: Fit, model: RigModel) -> dict[str, Estimate]:
 
 
 def _in_source_units(
-    unknown: Unknown, sides: list[float], model: RigModel, at_bound: bool
+    unknown: Unknown, sides: list[float], model: Joint, at_bound: bool
 ) -> Estimate:
-    if unknown.name in CONSTANTS:
+    if isinstance(unknown.of, OfEffect):
+        unit = _effect_unit(model, unknown.of.which)
+    elif unknown.name in CONSTANTS:
         k = CONSTANTS.index(unknown.name)
         muscle = model.muscle
         sides = [
             from_si(_only(k, x), muscle.pressure_unit, muscle.contraction_unit)[k] for x in sides
         ]
         unit = _constant_unit(model, unknown.name)
-    elif unknown.name == 'zeta':
-        unit = ''
     else:
-        unit = _effect_unit(model, unknown.name)
+        unit = ''  # zeta
     return Estimate(sides[1], min(sides), max(sides), unit, at_bound)
 
 
@@ -72,7 +73,7 @@ def _only(k: int, value: float) -> Constants:
     return a1, a2, a3, a4, a5, a6
 
 
-def _constant_unit(model: RigModel, name: str) -> str:
+def _constant_unit(model: Joint, name: str) -> str:
     p, kappa = model.muscle.pressure_unit, model.muscle.contraction_unit
     return {
         'a1': f'N/{p}',
@@ -84,13 +85,12 @@ def _constant_unit(model: RigModel, name: str) -> str:
     }[name]
 
 
-def _effect_unit(model: RigModel, name: str) -> str:
-    _, effect_name, parameter_name = name.split('.')
-    effect = next(e for e in model.library if e.name == effect_name)
-    return next(p.unit for p in effect.parameters if p.name == parameter_name)
+def _effect_unit(model: Joint, name: EffectName) -> str:
+    effect = next(e for e in model.library if e.name == name.effect)
+    return next(p.unit for p in effect.parameters if p.name == name.parameter)
 
 
-def model_of(model: RigModel, problem: Problem, u: Array, effects: Sequence[str]) -> RigModel:
+def model_of(model: Joint, problem: Problem, u: Array, effects: Sequence[str]) -> Joint:
     """Return *model* with the parameters at u: constants in the units in which it gives them.
 
     *effects* are the names of those that the fit added to the declared ones. Constants that
@@ -99,40 +99,40 @@ def model_of(model: RigModel, problem: Problem, u: Array, effects: Sequence[str]
     declared until they make a muscle.
     """
     q = problem.row_at(u)
-    values = {name: dict(given) for name, given in model.effects.items()}
+    values = {name: dict(given) for name, given in model.all_effects.items()}
     for effect in model.library:
         if effect.name in effects:
-            j = model.layout.parameter_at[effect.name]
             values[effect.name] = {
-                p.name: float(q[j + k]) for k, p in enumerate(effect.parameters)
+                p.name: float(q[model.layout.index(effect, k)])
+                for k, p in enumerate(effect.parameters)
             }
     went = np.concatenate([s.target if s.kind == 'free' else s.position for s in problem.segments])
     limits = {
-        'kappa_min': min(0.0, float(went.min()) / q[at.L0]),
-        'kappa_max': max(0.01, float(went.max()) / q[at.L0]),
+        'kappa_min': min(0.0, float(went.min()) / model.muscle.l0),
+        'kappa_max': max(0.01, float(went.max()) / model.muscle.l0),
     }
-    declared = model.row()
+    declared = model.parameters().ravel()
     for back, changes in ((0.0, {}), *((a, limits) for a in np.linspace(0.0, 1.0, 11))):
         row = q + back * (declared - q)
         try:
-            return replace(model, muscle=_muscle(model, row, changes), effects=values)
+            return changed(model, _muscle(model, row, changes), values)
         except ParameterError:
             continue
-    return replace(model, effects=values)
+    return changed(model, model.muscle, values)
 
 
-def _muscle(model: RigModel, q: Array, changes: dict[str, float]) -> Muscle:
-    si = tuple(float(a) for a in q[at.A1 : at.A6 + 1])
+def _muscle(model: Joint, q: Array, changes: dict[str, float]) -> Muscle:
+    si = tuple(float(q[model.layout.constant(a)]) for a in range(at.A1, at.A6 + 1))
     source = from_si(
         (si[0], si[1], si[2], si[3], si[4], si[5]),
         model.muscle.pressure_unit,
         model.muscle.contraction_unit,
     )
     values: dict[str, Any] = {**dict(zip(CONSTANTS, source, strict=True)), **changes}
-    return replace(model.muscle, **values, zeta=float(q[at.ZETA]))
+    return replace(model.muscle, **values, zeta=float(q[model.layout.constant(at.ZETA)]))
 
 
-def stage(name: str, model: RigModel, fit: Fit, test: Sequence[Segment]) -> Stage:
+def stage(name: str, model: Joint, fit: Fit, test: Sequence[Segment]) -> Stage:
     """Return the stage of a fit over all its segments and over *test*.
 
     Test runs start from a parabola through the first 30 ms of their own measurement and are
@@ -143,7 +143,7 @@ def stage(name: str, model: RigModel, fit: Fit, test: Sequence[Segment]) -> Stag
     held_error = fit.held_error
     tested: tuple[Array, ...] = ()
     if test:
-        known = [k for k, unknown in enumerate(problem.unknowns) if unknown.segment < 0]
+        known = [k for k, unknown in enumerate(problem.unknowns) if unknown.is_parameter]
         again = replace(
             problem,
             segments=tuple(test),

@@ -10,9 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pam_ros.effects.base import Effect
+from pam_ros.effects.names import EffectName
 from pam_ros.identification.segment import Segment, start_of
 from pam_ros.rig import layout as at
-from pam_ros.rig.model import RigModel
+from pam_ros.rig.joint import Joint
 
 Array = NDArray[np.float64]
 
@@ -26,28 +27,71 @@ DAMPING = 0.5
 # Standard deviations of the state at a run's start, in those of the noise: 1 and 1/s. A
 # parabola through 30 ms knows the velocity to some 100 noises a second.
 START_Y_SPREAD, START_V_SPREAD = 2.0, 200.0
-# Indices of what a run has for itself, beside those of the parameter row.
-START_Y, START_V = -1, -2
+
+
+@dataclass(frozen=True)
+class Constant:
+    """A constant of the muscle, a1 to a6 or zeta; *index* is its place among the parameters."""
+
+    name: str
+    index: int
+
+
+@dataclass(frozen=True)
+class OfEffect:
+    """A parameter of an effect; *index* is its place among the parameters."""
+
+    which: EffectName
+    index: int
+
+    @property
+    def name(self) -> str:
+        """Its flat name."""
+        return self.which.flat
+
+
+@dataclass(frozen=True)
+class RunStart:
+    """The position or the velocity at the start of the run with this number."""
+
+    run: int
+    is_velocity: bool
+
+    @property
+    def name(self) -> str:
+        """Its name in tables."""
+        return f'{"v" if self.is_velocity else "y"}0[{self.run}]'
 
 
 @dataclass(frozen=True)
 class Unknown:
     """One number to be fitted, without unit: value = base + scale u, or base exp(scale u).
 
-    ``index`` is the entry of the parameter row, or one of START_Y, START_V of the run
-    ``segment``. ``prior`` is the standard deviation of u around 0 that is expected
+    ``of`` says what it is. ``prior`` is the standard deviation of u around 0 that is expected
     beforehand, infinite where nothing is known. ``low``, ``high`` bound the value.
     """
 
-    name: str
-    index: int
+    of: Constant | OfEffect | RunStart
     base: float
     scale: float
     low: float = -np.inf
     high: float = np.inf
     prior: float = np.inf
     logarithmic: bool = False
-    segment: int = -1
+
+    @property
+    def name(self) -> str:
+        """Its name in tables."""
+        return self.of.name
+
+    @property
+    def is_parameter(self) -> bool:
+        """Whether it is a parameter of the model, which all runs share."""
+        return not isinstance(self.of, RunStart)
+
+    def is_of_run(self, run: int) -> bool:
+        """Whether it is of the start of the run with this number."""
+        return isinstance(self.of, RunStart) and self.of.run == run
 
     def value(self, u: float) -> float:
         """Return the physical value at u, which rounding does not carry past its bounds."""
@@ -69,24 +113,25 @@ class Unknown:
         return self.coordinate(self.low), self.coordinate(self.high)
 
 
-def declared_unknowns(model: RigModel) -> list[Unknown]:
+def declared_unknowns(model: Joint) -> list[Unknown]:
     """Return the declared parameters that re-tuning may change: a1..a6 and zeta where not 0.
 
     The mass, the length and the limits are measured with a scale and a rule: a residual that
     they explain is an effect (payload, length offset).
     """
-    q = model.row()
+    q = model.parameters().ravel()
     found = []
-    for name, index in zip(CONSTANTS, range(at.A1, at.A6 + 1), strict=True):
+    for name, which in zip(CONSTANTS, range(at.A1, at.A6 + 1), strict=True):
+        index = model.layout.constant(which)
         if q[index] != 0.0:
             scale = SPECIMEN * abs(q[index])
-            if index == at.A1:
-                scale += A1_OF_A5 * abs(q[at.A5])
-            found.append(Unknown(name, index, q[index], scale, prior=1.0))
-    if q[at.ZETA] != 0.0:
-        found.append(
-            Unknown('zeta', at.ZETA, q[at.ZETA], DAMPING, 0.0, 5.0, 1.0, logarithmic=True)
-        )
+            if which == at.A1:
+                scale += A1_OF_A5 * abs(q[model.layout.constant(at.A5)])
+            found.append(Unknown(Constant(name, index), q[index], scale, prior=1.0))
+    index = model.layout.constant(at.ZETA)
+    if q[index] != 0.0:
+        zeta = Constant('zeta', index)
+        found.append(Unknown(zeta, q[index], DAMPING, 0.0, 5.0, 1.0, logarithmic=True))
     return found
 
 
@@ -107,29 +152,37 @@ def run_unknowns(segments: Sequence[Segment], sigma: float) -> list[Unknown]:
                 y = START_Y_SPREAD * sigma + abs(bent[0] - s.y0) + 1e-9
                 v = START_V_SPREAD * sigma + abs(bent[1] - s.v0) + 1e-9
                 prior = 1.0
-            found.append(Unknown(f'y0[{k}]', START_Y, s.y0, y, prior=prior, segment=k))
-            found.append(Unknown(f'v0[{k}]', START_V, s.v0, v, prior=prior, segment=k))
+            for is_velocity, first, scale in ((False, s.y0, y), (True, s.v0, v)):
+                found.append(Unknown(RunStart(k, is_velocity), first, scale, prior=prior))
     return found
 
 
-def effect_unknowns(model: RigModel, effect: Effect, start: dict[str, float]) -> list[Unknown]:
+def effect_unknowns(model: Joint, effect: Effect, start: dict[str, float]) -> list[Unknown]:
     """Return the parameters of *effect* that a fit from *start* changes.
 
     Those named in *start*; a parameter that it leaves at its default stays there. Strengths
     move linearly, so that they can reach 0; the others by their logarithm where they must be
     positive.
     """
-    j = model.layout.parameter_at[effect.name]
     found = []
     for k, p in enumerate(effect.parameters):
         if p.name not in start:
             continue
         positive = p.low > 0.0 or (p.low == 0.0 and not p.strength and start[p.name] > 0.0)
-        name = f'effects.{effect.name}.{p.name}'
+        of = OfEffect(EffectName(effect.name, p.name), model.layout.index(effect, k))
         if positive and not p.strength:
             low = max(p.low, 1e-6 * start[p.name])
-            unknown = Unknown(name, j + k, start[p.name], 1.0, low, p.high, logarithmic=True)
+            unknown = Unknown(of, start[p.name], 1.0, low, p.high, logarithmic=True)
         else:
-            unknown = Unknown(name, j + k, 0.0, p.scale, p.low, p.high)
+            unknown = Unknown(of, 0.0, p.scale, p.low, p.high)
         found.append(unknown)
     return found
+
+
+def parameters_of(unknowns: Sequence[Unknown], effect: str) -> set[str]:
+    """Return the names of the parameters of an effect that are among *unknowns*."""
+    return {
+        k.of.which.parameter
+        for k in unknowns
+        if isinstance(k.of, OfEffect) and k.of.which.effect == effect
+    }

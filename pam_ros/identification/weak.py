@@ -25,7 +25,9 @@ from pam_ros.identification.problem import Problem, finite
 from pam_ros.identification.segment import Segment
 from pam_ros.identification.solve import Solution, amplified_cost, improved, solve
 from pam_ros.rig.bind import bind
-from pam_ros.rig.model import RigModel, start_row
+from pam_ros.rig.joint import Joint
+from pam_ros.rig.run import acting_commands, delays_of
+from pam_ros.rig.start import start_state
 
 Array = NDArray[np.float64]
 WIDTH = 0.15  # s of a bump, at least
@@ -158,14 +160,16 @@ class WeakProblem(Problem):
 
     def residuals(self, u: Array) -> Array:
         """Return simulated - measured integrals over every bump, in m."""
-        q = self.row_at(u)
-        kernel = bind(self.layout, self.active)
+        q = self.matrix_at(u)
+        kernel, scratch = bind(self.layout, self.active), self.layout.scratch()
+        delays = delays_of(self.layout, q)
         parts = []
         for m in self.motions:
             s = m.segment
-            x = start_row(self.layout, q, s.first_pressure, s.y0, s.v0)
+            x = start_state(self.layout, q, (s.first_pressure,), s.y0, s.v0)
             a = np.empty((m.t.size - 1, 2))
-            kernel.simulate_along(x, np.empty_like(x), q, m.t, m.y, m.v, s.drive_t, s.drive, a)
+            act_t, acting = acting_commands(s.drive_t, s.drive[:, None], delays)
+            kernel.simulate_along(x, scratch, q, m.t, m.y, m.v, act_t, acting, a)
             e = np.einsum('knj,knj->k', a[m.rows], m.weights) - m.wanted
             parts.append(e[m.moving] if self.moving else e)
         return finite(np.concatenate(parts))
@@ -178,7 +182,7 @@ def weak_fits(parent: Fit, motions: Sequence[Motion], pool: Executor) -> list[So
     is when it acts shows where the rig moves.
     """
     problem = parent.solution.problem
-    kept = [k for k, x in enumerate(problem.unknowns) if x.segment < 0]
+    kept = [k for k, x in enumerate(problem.unknowns) if x.is_parameter]
     unknowns = tuple(problem.unknowns[k] for k in kept)
     weak = []
     for moving in (False, True):
@@ -195,14 +199,14 @@ def at_weak(parent: Fit, weak: Solution) -> Fit:
     """Return *parent* fitted anew from where its *weak* fit has ended, if it comes down there."""
     free = parent.solution
     u = free.u.copy()
-    u[[k for k, x in enumerate(free.problem.unknowns) if x.segment < 0]] = weak.u
+    u[[k for k, x in enumerate(free.problem.unknowns) if x.is_parameter]] = weak.u
     start = Solution(free.problem, u, free.problem.residuals(u), free.jacobian, 0)
     return fitted(parent.effects, improved(start, goal=free.cost))
 
 
 def weak_starts(
     parent: Fit,
-    model: RigModel,
+    model: Joint,
     effects: Sequence[Effect],
     read: Mapping[str, Sequence[dict[str, float]]],
     known: Sequence[Solution],
@@ -225,7 +229,7 @@ def weak_starts(
     return found
 
 
-def finer(fit: Solution, model: RigModel, effect: Effect) -> Solution:
+def finer(fit: Solution, model: Joint, effect: Effect) -> Solution:
     """Return a weak fit with finer parameters of *effect* freed where they earn their cost."""
     wide = freed(fit, model, effect, STEPS)
     price = (wide.u.size - fit.u.size) * np.log(fit.problem.independent)
@@ -237,7 +241,7 @@ def as_free(free: Solution, base: Solution, fit: Solution) -> tuple[Problem, Arr
 
     *base* has the unknowns of the fit *free* but for those of single runs.
     """
-    kept = [k for k, x in enumerate(free.problem.unknowns) if x.segment < 0]
+    kept = [k for k, x in enumerate(free.problem.unknowns) if x.is_parameter]
     unknowns = (*free.problem.unknowns, *fit.problem.unknowns[base.u.size :])
     u = np.concatenate([free.u, fit.u[base.u.size :]])
     u[kept] = fit.u[: base.u.size]
@@ -246,7 +250,7 @@ def as_free(free: Solution, base: Solution, fit: Solution) -> tuple[Problem, Arr
 
 
 def fitted_to(
-    base: Solution, model: RigModel, effect: Effect, read: Sequence[dict[str, float]] = ()
+    base: Solution, model: Joint, effect: Effect, read: Sequence[dict[str, float]] = ()
 ) -> Solution:
     """Return the best of the weak fits of *effect* on top of the weak fit *base*.
 

@@ -1,12 +1,12 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Bind the kernel's templates to a set of effects, and compile the result.
+"""Bind the kernel's templates to a kind of joint and a set of effects, and compile the result.
 
 The templates of :mod:`pam_ros.rig.kernel` call chains by name. Here each chain becomes a
-function that passes the value through the effects in their order, and each template is made
-anew with these chains as its globals. numba inlines the chains, and keeps the machine code of
-the loops on disk under a name that holds a hash of all code that went in: numba itself notices
-changes of one file only.
+function that passes the value through the effects in their order, the geometry becomes that of the
+joint, and each template is made anew with these as its globals. numba inlines them, and keeps
+the machine code of the loops on disk under a name that holds a hash of all code that went in:
+numba itself notices changes of one file only.
 """
 
 import hashlib
@@ -18,36 +18,40 @@ from typing import Any
 
 from pam_ros import compiled
 from pam_ros.effects.base import Effect
-from pam_ros.rig import joint_kernel
 from pam_ros.rig import kernel as templates
-from pam_ros.rig.joints import JOINTS
+from pam_ros.rig import run_kernel
 from pam_ros.rig.layout import Layout
 
 Function = Callable[..., Any]
 # Inner templates in the order in which they call each other, then the loops, which are cached.
-_INNER = ('in_force', 'held_until', 'pull', 'coefficient', 'acceleration', 'step')
-_LOOPS = ('advance', 'outputs', 'simulate', 'simulate_held', 'simulate_along')
-_INNER_OF_JOINTS = ('share', 'joint_acceleration', 'joint_step')
-_LOOPS_OF_JOINTS = ('advance_joints', 'outputs_of_joints')
+_INNER = (
+    'felt',
+    'share',
+    'pull',
+    'coefficient',
+    'effort',
+    'acceleration',
+    'remembers',
+    'keep_memories',
+    'begin',
+    'step',
+)
+_INNER_OF_RUNS = ('in_force', 'held_until', 'first_command', 'cell_force')
+_LOOPS = ('advance', 'outputs')
+_LOOPS_OF_RUNS = ('simulate', 'simulate_held', 'simulate_along')
+_STATELESS = ('delay', 'contraction', 'mass', 'damping')
+_WITH_MEMORY = ('pressure', 'force', 'outside')
 
 
 @dataclass(frozen=True)
 class Kernel:
-    """The compiled functions for one set of effects; see the templates for their arguments."""
+    """The compiled functions for one kind of joint and set of effects; see the templates."""
 
     advance: Function
     outputs: Function
     simulate: Function
     simulate_held: Function
     simulate_along: Function
-
-
-@dataclass(frozen=True)
-class JointKernel:
-    """The compiled functions for joints of all kinds and one set of effects."""
-
-    advance_joints: Function
-    outputs_of_joints: Function
 
 
 def _with_parameters(inner: Function, f: Function, j: int) -> Function:
@@ -101,34 +105,47 @@ def _or_present(inner: Function, strengths: tuple[int, ...]) -> Function:
     return _or_present(compiled.scalar(chain), rest)
 
 
+_CHAINED: dict[str, Callable[..., Function]] = {
+    'delay': _delays,
+    'contraction': _with_parameters,
+    'mass': _with_parameters,
+    'damping': _dampings,
+    'pressure': _pressures,
+    'force': _forces,
+    'outside': _forces,
+}
+
+
 def _chains(layout: Layout, active: tuple[Effect, ...]) -> dict[str, Function]:
     """Return the compiled chain of every place, by the name that the templates call."""
     chains = {
         f'{place}_chain': compiled.scalar(getattr(templates, f'{place}_chain'))
-        for place in ('delay', 'pressure', 'contraction', 'mass', 'force', 'damping', 'outside')
+        for place in (*_STATELESS, *_WITH_MEMORY)
     }
     for effect in active:
         i, j = layout.state_at[effect.name], layout.parameter_at[effect.name]
-        stateless = {
-            'delay': _delays,
-            'contraction': _with_parameters,
-            'mass': _with_parameters,
-            'damping': _dampings,
-        }
-        with_memory = {'pressure': _pressures, 'force': _forces, 'outside': _forces}
-        for place, make in stateless.items():
+        for place, make in _CHAINED.items():
             f = getattr(effect, place)
             if f is not None:
-                inner = chains[f'{place}_chain']
-                chains[f'{place}_chain'] = compiled.scalar(make(inner, compiled.scalar(f), j))
-        for place, make_with_memory in with_memory.items():
-            f = getattr(effect, place)
-            if f is not None:
-                inner = chains[f'{place}_chain']
-                chains[f'{place}_chain'] = compiled.scalar(
-                    make_with_memory(inner, compiled.scalar(f), i, j)
-                )
+                inner, own = chains[f'{place}_chain'], compiled.scalar(f)
+                offsets = (j,) if place in _STATELESS else (i, j)
+                chains[f'{place}_chain'] = compiled.scalar(make(inner, own, *offsets))
     return chains
+
+
+def _memories(layout: Layout, active: tuple[Effect, ...]) -> dict[str, Function]:
+    """Return the functions that say whether a row has an effect with a memory of its own."""
+    found = {}
+    for name, on_joint in (('muscle_remembers', False), ('joint_remembers', True)):
+        strengths = tuple(
+            layout.parameter_at[effect.name] + k
+            for effect in active
+            if effect.states and effect.pressure is None and effect.acts_on_joint is on_joint
+            for k, p in enumerate(effect.parameters)
+            if p.strength
+        )
+        found[name] = _or_present(compiled.scalar(getattr(templates, name)), strengths)
+    return found
 
 
 def fingerprint(function: Function) -> str:
@@ -162,45 +179,44 @@ def _parts(value: Any, seen: set[FunctionType]) -> Iterator[Any]:
         yield plain
 
 
-@lru_cache(maxsize=16)
+@lru_cache(maxsize=32)
 def bind(layout: Layout, active: tuple[Effect, ...]) -> Kernel:
     """Return the kernel in which the effects *active*, a subset of the layout's, can act.
 
     Rows keep the layout's width whatever is active. Compilation happens at the first call of
     each loop, or comes from disk.
     """
-    names = _inner(layout, active)
-    return Kernel(**_loops(templates, _LOOPS, names))
+    transmission, load = layout.transmission, layout.load
+    names: dict[str, Any] = {
+        **vars(templates),
+        **_chains(layout, active),
+        **_memories(layout, active),
+        'MUSCLES': layout.muscles,
+        'MEMORY_FROM': layout.memory_from,
+        'WIDTH': layout.width,
+        'LOAD': layout.load_at,
+        'TRANSMISSION': layout.transmission_at,
+        'travel_of': compiled.scalar(transmission.travel),
+        'arm_of': compiled.scalar(transmission.arm),
+        'arm_slope_of': compiled.scalar(transmission.arm_slope),
+        'inertia_of': compiled.scalar(load.inertia),
+        'fall_of': compiled.scalar(load.fall),
+    }
+    _bind_inner(templates, _INNER, names)
+    loops = _bind_loops(templates, _LOOPS, names)
+    # The names that the runs have from the kernel are those bound above.
+    names = {**vars(run_kernel), **{k: v for k, v in names.items() if not k.startswith('__')}}
+    _bind_inner(run_kernel, _INNER_OF_RUNS, names)
+    return Kernel(**loops, **_bind_loops(run_kernel, _LOOPS_OF_RUNS, names))
 
 
-@lru_cache(maxsize=16)
-def bind_joints(layout: Layout, active: tuple[Effect, ...]) -> JointKernel:
-    """Return the kernel of joints of any kind, mixed; otherwise as :func:`bind`."""
-    names = {**vars(joint_kernel), **_inner(layout, active), **_choices()}
-    for name in _INNER_OF_JOINTS:
-        names[name] = compiled.scalar(_rebound(getattr(joint_kernel, name), names, name))
-    return JointKernel(**_loops(joint_kernel, _LOOPS_OF_JOINTS, names))
+def _bind_inner(module: Any, inner: tuple[str, ...], names: dict[str, Any]) -> None:
+    """Bind the functions *inner* of a module of templates to *names*, and put them there."""
+    for name in inner:
+        names[name] = compiled.scalar(_rebound(getattr(module, name), names, name))
 
 
-def _inner(layout: Layout, active: tuple[Effect, ...]) -> dict[str, Any]:
-    """Return the names of the templates, chains and inner functions bound and compiled."""
-    memories = [e for e in active if e.states and e.pressure is None]
-    strengths = tuple(
-        layout.parameter_at[e.name] + k
-        for e in memories
-        for k, p in enumerate(e.parameters)
-        if p.strength
-    )
-    names: dict[str, Any] = dict(vars(templates))
-    names.update(_chains(layout, active))
-    names['remembers'] = _or_present(compiled.scalar(templates.remembers), strengths)
-    names['MEMORY_FROM'] = layout.memory_from if memories else layout.width
-    for name in _INNER:
-        names[name] = compiled.scalar(_rebound(getattr(templates, name), names, name))
-    return names
-
-
-def _loops(module: Any, loops: tuple[str, ...], names: dict[str, Any]) -> dict[str, Function]:
+def _bind_loops(module: Any, loops: tuple[str, ...], names: dict[str, Any]) -> dict[str, Function]:
     """Return the *loops* of a module of templates, each cached under a name with its hash."""
     bound = {}
     for name in loops:
@@ -208,51 +224,6 @@ def _loops(module: Any, loops: tuple[str, ...], names: dict[str, Any]) -> dict[s
         loop.__qualname__ = f'{name}_{fingerprint(loop)}'
         bound[name] = compiled.cached(loop)
     return bound
-
-
-def _choices() -> dict[str, Function]:
-    """Return the functions by which a kernel calls the joint of a kind, an index in JOINTS."""
-    choices = {}
-    for name, make in (
-        ('position', _of_muscle),
-        ('arm', _of_muscle),
-        ('inertia', _of_mass),
-        ('fall', _of_coordinate),
-    ):
-        chosen = compiled.scalar(getattr(joint_kernel, f'{name}_of'))
-        for kind, joint in enumerate(JOINTS):
-            chosen = compiled.scalar(make(chosen, compiled.scalar(getattr(joint, name)), kind))
-        choices[f'{name}_of'] = chosen
-    return choices
-
-
-def _of_muscle(others: Function, f: Function, own: int) -> Function:
-    """Call f for its *own* kind, else the *others*."""
-
-    def chosen(kind, s, i, g):  # type: ignore[no-untyped-def]
-        if kind == own:
-            return f(s, i, g)
-        return others(kind, s, i, g)
-
-    return chosen
-
-
-def _of_mass(others: Function, f: Function, own: int) -> Function:
-    def chosen(kind, m, g):  # type: ignore[no-untyped-def]
-        if kind == own:
-            return f(m, g)
-        return others(kind, m, g)
-
-    return chosen
-
-
-def _of_coordinate(others: Function, f: Function, own: int) -> Function:
-    def chosen(kind, s, m, j, g):  # type: ignore[no-untyped-def]
-        if kind == own:
-            return f(s, m, j, g)
-        return others(kind, s, m, j, g)
-
-    return chosen
 
 
 def _rebound(template: Function, names: dict[str, Any], qualname: str) -> Function:

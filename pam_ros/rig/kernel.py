@@ -1,16 +1,20 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The rig's equations of motion and their integrator, as templates.
+"""The equation of motion of a joint and its integrator, as templates.
 
-The ODE is equation (3) of Sárosi (2015) with contraction positive (the load moves up):
+By virtual work the muscles' forces move the joint's coordinate s:
 
-    m y'' = F(p, kappa) - c y' + f_outside - m g,    kappa = y / l0
+    J s'' = sum_i arm_i (F_i - c_i y_i') + outside - J fall(s),    kappa_i = y_i / l0_i
 
-These functions are plain scalar Python and run as they stand. The names ``*_chain`` and
-``remembers`` are bound to the effects in use by :mod:`pam_ros.rig.bind`, which also compiles
-them; called unbound, the rig is the paper's, without effects. x is a state row, q a parameter row
-(see ``layout``), xn a scratch row of the same width as x. Written ``* (1.0 / m)``, a division is
-done once a step and not at every stage.
+For one muscle on a mass that is equation (3) of Sárosi (2015) with contraction positive (the load
+moves up): m y'' = F(p, kappa) - c y' + outside - m g.
+
+These functions are plain scalar Python and run as they stand. The names ``*_chain``,
+``*_remembers`` and ``*_of`` and the constants at the top are bound to the effects in use and to
+the kind of joint by :mod:`pam_ros.rig.bind`, which also compiles them; called unbound, the joint
+is one muscle on a mass, without effects. x, xn and q are the matrices of one joint (see
+:mod:`pam_ros.rig.layout`). Written ``* (1.0 / m)``, a division is done once a step and not at
+every stage.
 
 Integrator: Nyström's fourth-order scheme for second-order equations with a fixed step (Hairer,
 Nørsett & Wanner, Solving Ordinary Differential Equations I, section II.14). It is the classical
@@ -20,13 +24,40 @@ middle are at one place, so that the exponential there is computed once. At 1 ms
 that of any sensor. Effects with stiff memory bring their own exact or implicit update.
 """
 
-from math import ceil, exp
+from math import exp
 from typing import Any
 
 from pam_ros.muscle.law import damping, force_at, slope_at
-from pam_ros.rig.layout import A1, A2, A3, A4, A5, A6, GRAVITY, HIDDEN, L0, MASS, ZETA, P, V, Y
+from pam_ros.rig.layout import (
+    A1,
+    A2,
+    A3,
+    A4,
+    A5,
+    A6,
+    AT_ZERO,
+    END,
+    JOINT,
+    JOINT_HIDDEN,
+    L0,
+    MASS,
+    MIDDLE,
+    MUSCLE,
+    NUMBERS,
+    START,
+    ZETA,
+    P,
+    S,
+    V,
+)
 
-Row = Any  # float64 row; numba's and numpy's types differ, both index to float
+Row = Any  # float64 array; numba's and numpy's types differ, both index to float
+
+# Bound to the joint's layout.
+MUSCLES = 1
+MEMORY_FROM = 1  # first hidden state of a muscle that is not of its pressure path
+WIDTH = 2  # of a state
+LOAD, TRANSMISSION = NUMBERS, NUMBERS + 1  # where the numbers of both begin
 
 
 def delay_chain(q: Row) -> float:
@@ -62,243 +93,256 @@ def damping_chain(c: float, p: float, kappa: float, v: float, q: Row) -> float:
 
 
 def outside_chain(
-    f: float, p: float, y: float, v: float, t: float, h: float, x: Row, xn: Row, q: Row
+    f: float, p: float, s: float, v: float, t: float, h: float, x: Row, xn: Row, q: Row
 ) -> float:
-    """Return the force on the load from outside the muscle."""
+    """Return the effort on the joint from outside the muscles."""
     return f
 
 
-def remembers(q: Row) -> bool:
-    """Return whether an effect that is present has a memory that is no pressure."""
+def muscle_remembers(q: Row) -> bool:
+    """Return whether an effect that is present in the muscle has a memory that is no pressure."""
     return False
 
 
-MEMORY_FROM = 3  # bound with the chains
+def joint_remembers(q: Row) -> bool:
+    """Return whether an effect that is present on the joint has a memory."""
+    return False
 
 
-def in_force(at: Row, delay: float, i: int, now: float) -> int:
-    """Return the index of the command that acts at *now*, i or a later one: at are its stamps."""
-    while i + 1 < at.shape[0] and at[i + 1] + delay <= now + 1e-9:
-        i += 1
-    return i
+def travel_of(s: float, i: int, q: Row, j: int) -> float:
+    """Return how far muscle i has been drawn."""
+    return s
 
 
-def held_until(at: Row, delay: float, i: int, end: float) -> float:
-    """Return when command i ceases to act, *end* at the latest."""
-    if i + 1 < at.shape[0] and at[i + 1] + delay < end - 1e-9:
-        held: float = at[i + 1] + delay
-        return held
-    return end
+def arm_of(s: float, i: int, q: Row, j: int) -> float:
+    """Return how fast muscle i shortens with the coordinate."""
+    return 1.0
 
 
-def pull(y: float, v: float, p: float, t: float, h: float, x: Row, xn: Row, q: Row) -> float:
-    """Return the muscle's force in N, effects included, h seconds after the state x."""
-    kappa = contraction_chain(y * (1.0 / q[L0]), q)
-    f = force_at(exp(q[A3] * kappa), p, kappa, q[A1], q[A2], q[A4], q[A5], q[A6])
+def arm_slope_of(s: float, i: int, q: Row, j: int) -> float:
+    """Return the derivative of the arm."""
+    return 0.0
+
+
+def inertia_of(m: float, q: Row, j: int) -> float:
+    """Return what resists the coordinate's acceleration."""
+    return m
+
+
+def fall_of(s: float, m: float, inertia: float, q: Row, j: int) -> float:
+    """Return the acceleration against the coordinate that gravity alone gives."""
+    acceleration: float = q[j]
+    return acceleration
+
+
+def felt(s: float, i: int, q: Row) -> float:
+    """Return the contraction that muscle i feels at the coordinate s."""
+    y = q[MUSCLE + i, AT_ZERO] + travel_of(s, i, q[JOINT], TRANSMISSION)
+    kappa: float = contraction_chain(y * (1.0 / q[MUSCLE + i, L0]), q[MUSCLE + i])
+    return kappa
+
+
+def share(arm: float, inertia: float) -> float:
+    """Return the mass in kg that each muscle moves: the m of equation (4).
+
+    Along its line a muscle feels J / arm^2, and it shares that with the others: a joint of
+    equal muscles so has their damping ratio zeta.
+    """
+    return inertia / (MUSCLES * arm * arm)
+
+
+def pull(
+    kappa: float, e: float, v: float, p: float, t: float, h: float, x: Row, xn: Row, q: Row
+) -> float:
+    """Return a muscle's force in N, effects included, h seconds after its state x.
+
+    x, xn and q are its rows; e = exp(a3 kappa).
+    """
+    f = force_at(e, p, kappa, q[A1], q[A2], q[A4], q[A5], q[A6])
     return force_chain(f, p, kappa, v, t, h, x, xn, q)
 
 
-def coefficient(y: float, v: float, p: float, m: float, q: Row) -> float:
-    """Return the muscle's damping coefficient c in N s/m: equation (4), effects included."""
-    kappa = contraction_chain(y * (1.0 / q[L0]), q)
-    k = -slope_at(exp(q[A3] * kappa), p, q[A1], q[A2], q[A3], q[A4]) * (1.0 / q[L0])
-    c = damping(k, m, q[ZETA])
-    return damping_chain(c, p, kappa, v, q)
+def coefficient(kappa: float, e: float, v: float, p: float, m: float, q: Row) -> float:
+    """Return a muscle's damping coefficient c in N s/m: equation (4), effects included."""
+    k = -slope_at(e, p, q[A1], q[A2], q[A3], q[A4]) * (1.0 / q[L0])
+    return damping_chain(damping(k, m, q[ZETA]), p, kappa, v, q)
+
+
+def effort(
+    s: float,
+    v: float,
+    i: int,
+    p: float,
+    t: float,
+    h: float,
+    inertia: float,
+    x: Row,
+    xn: Row,
+    q: Row,
+) -> float:
+    """Return what muscle i at *p* Pa moves the joint with, less its damping."""
+    r = MUSCLE + i
+    arm = arm_of(s, i, q[JOINT], TRANSMISSION)
+    w = arm * v
+    kappa = felt(s, i, q)
+    e = exp(q[r, A3] * kappa)
+    force = pull(kappa, e, w, p, t, h, x[r], xn[r], q[r])
+    net = force - coefficient(kappa, e, w, p, share(arm, inertia), q[r]) * w
+    return arm * net
 
 
 def acceleration(
-    y: float, v: float, p: float, t: float, h: float, m: float, x: Row, xn: Row, q: Row
+    s: float,
+    v: float,
+    stage: int,
+    t: float,
+    h: float,
+    m: float,
+    inertia: float,
+    x: Row,
+    xn: Row,
+    q: Row,
 ) -> float:
-    """Return y'' in m/s^2: equation (3) for the moved mass m."""
-    f = pull(y, v, p, t, h, x, xn, q) - coefficient(y, v, p, m, q) * v
-    f += outside_chain(0.0, p, y, v, t, h, x, xn, q)
-    net: float = f * (1.0 / m) - q[GRAVITY]
+    """Return s'' for the moved mass m; *stage* says which of the kept pressures acts."""
+    mean = xn[MUSCLE, WIDTH + stage]
+    f = effort(s, v, 0, mean, t, h, inertia, x, xn, q)
+    for i in range(1, MUSCLES):
+        p = xn[MUSCLE + i, WIDTH + stage]
+        f += effort(s, v, i, p, t, h, inertia, x, xn, q)
+        mean += p
+    f += outside_chain(0.0, mean / MUSCLES, s, v, t, h, x[JOINT], xn[JOINT], q[JOINT])
+    net: float = f * (1.0 / inertia) - fall_of(s, m, inertia, q[JOINT], LOAD)
     return net
 
 
-def step(x: Row, xn: Row, q: Row, u: float, t: float, h: float) -> None:
-    """Advance the state row x from t by h seconds with the pressure command u held, in place."""
-    y, v = x[Y], x[V]
+def remembers(q: Row) -> bool:
+    """Return whether any effect that is present has a memory that is no pressure."""
+    any_of_them: bool = joint_remembers(q[JOINT])
+    for i in range(MUSCLES):
+        any_of_them = any_of_them or muscle_remembers(q[MUSCLE + i])
+    return any_of_them
+
+
+def keep_memories(x: Row, xn: Row) -> None:
+    """Let hidden states that are no pressures be what they have become."""
+    for c in range(JOINT_HIDDEN, WIDTH):
+        x[JOINT, c] = xn[JOINT, c]
+    for r in range(MUSCLE, MUSCLE + MUSCLES):
+        for c in range(MEMORY_FROM, WIDTH):
+            x[r, c] = xn[r, c]
+
+
+def begin(x: Row, xn: Row) -> None:
+    """Let the scratch matrix be the state."""
+    for r in range(MUSCLE + MUSCLES):
+        for c in range(WIDTH):
+            xn[r, c] = x[r, c]
+
+
+def step(x: Row, xn: Row, q: Row, u: Row, t: float, h: float) -> None:
+    """Advance the state x from t by h seconds with the pressure commands u held, in place."""
+    s, v = x[JOINT, S], x[JOINT, V]
     half, sixth = 0.5 * h, h / 6.0
-    m = mass_chain(q[MASS], q)
-    p0 = pressure_chain(u, t, 0.0, x, xn, q)
-    p1 = pressure_chain(u, t + half, half, x, xn, q)
-    p2 = pressure_chain(u, t + h, half, xn, x, q)
-    a1 = acceleration(y, v, p0, t, 0.0, m, x, xn, q)
-    middle = y + half * v + 0.5 * half * half * a1
-    a2 = acceleration(middle, v + half * a1, p1, t + half, half, m, x, xn, q)
-    a3 = acceleration(middle, v + half * a2, p1, t + half, half, m, x, xn, q)
-    end = y + h * v + 0.5 * h * h * a3
-    a4 = acceleration(end, v + h * a3, p2, t + h, h, m, x, xn, q)
-    x[Y] = y + h * v + h * sixth * (a1 + a2 + a3)
-    x[V] = v + sixth * (a1 + 2.0 * a2 + 2.0 * a3 + a4)
-    x[P] = p2
+    m = mass_chain(q[JOINT, MASS], q[JOINT])
+    inertia = inertia_of(m, q[JOINT], LOAD)
+    for i in range(MUSCLES):
+        r = MUSCLE + i
+        p0 = pressure_chain(u[i], t, 0.0, x[r], xn[r], q[r])
+        p1 = pressure_chain(u[i], t + half, half, x[r], xn[r], q[r])
+        p2 = pressure_chain(u[i], t + h, half, xn[r], x[r], q[r])
+        xn[r, WIDTH + START], xn[r, WIDTH + MIDDLE], xn[r, WIDTH + END] = p0, p1, p2
+    a1 = acceleration(s, v, START, t, 0.0, m, inertia, x, xn, q)
+    middle = s + half * v + 0.5 * half * half * a1
+    a2 = acceleration(middle, v + half * a1, MIDDLE, t + half, half, m, inertia, x, xn, q)
+    a3 = acceleration(middle, v + half * a2, MIDDLE, t + half, half, m, inertia, x, xn, q)
+    end = s + h * v + 0.5 * h * h * a3
+    a4 = acceleration(end, v + h * a3, END, t + h, h, m, inertia, x, xn, q)
+    s = s + h * v + h * sixth * (a1 + a2 + a3)
+    v = v + sixth * (a1 + 2.0 * a2 + 2.0 * a3 + a4)
+    x[JOINT, S], x[JOINT, V] = s, v
+    for r in range(MUSCLE, MUSCLE + MUSCLES):
+        x[r, P] = xn[r, WIDTH + END]
     if remembers(q):
         # Once more at the end that was reached: what the memories have become there.
-        acceleration(x[Y], x[V], p2, t + h, h, m, x, xn, q)
-        for i in range(MEMORY_FROM, x.shape[0]):
-            x[i] = xn[i]
+        acceleration(s, v, END, t + h, h, m, inertia, x, xn, q)
+        keep_memories(x, xn)
 
 
 def advance(
-    x: Row, xn: Row, q: Row, u: Row, at: Row, queue: Row, count: Row, k: int, steps: int, h: float
+    x: Row,
+    xn: Row,
+    q: Row,
+    u: Row,
+    at: Row,
+    queue: Row,
+    count: Row,
+    done: Row,
+    k: int,
+    steps: int,
+    h: float,
 ) -> None:
-    """Advance every muscle by a counted number of steps of exactly h seconds, in place.
+    """Advance every joint by a counted number of steps of exactly h seconds, in place.
 
-    x, xn, q: a row a muscle. u (muscles,): commands in force. at, queue (muscles, room): stamps
-    and values of the commands to come, the first count[m] of them, in order; those that have
-    come into force are removed. A command acts from the first step that starts at or after its
-    stamp plus the delay of the pressure path. Steps are numbered from k: time is k h, never a sum.
+    x, xn, q: a matrix a joint. u (joints, muscles): commands in force. at, queue (joints, muscles,
+    room): stamps and values of the commands to come, the first count[a, i] of them, in order;
+    those that have come into force are removed; done (joints, muscles) is scratch. A command
+    acts from the first step that starts at or after its stamp plus the delay of the pressure
+    path. Steps are numbered from k: time is k h, never a sum.
     """
-    for m in range(x.shape[0]):
-        for j in range(x.shape[1]):
-            xn[m, j] = x[m, j]
-        delay = delay_chain(q[m])
-        done = 0
-        for i in range(k, k + steps):
-            t = i * h
-            while done < count[m] and at[m, done] + delay <= t + 1e-6 * h:
-                u[m] = queue[m, done]
-                done += 1
-            step(x[m], xn[m], q[m], u[m], t, h)
-        for i in range(done, count[m]):
-            at[m, i - done] = at[m, i]
-            queue[m, i - done] = queue[m, i]
-        count[m] -= done
+    for a in range(x.shape[0]):
+        begin(x[a], xn[a])
+        for i in range(MUSCLES):
+            done[a, i] = 0
+        n = k
+        while n < k + steps:
+            end = k + steps
+            for i in range(MUSCLES):
+                late = delay_chain(q[a, MUSCLE + i])
+                while done[a, i] < count[a, i] and at[a, i, done[a, i]] + late <= n * h + 1e-6 * h:
+                    u[a, i] = queue[a, i, done[a, i]]
+                    done[a, i] += 1
+                if done[a, i] < count[a, i]:
+                    end = n + 1  # one is under way: look again after the next step
+            for now in range(n, end):
+                step(x[a], xn[a], q[a], u[a], now * h, h)
+            n = end
+        for i in range(MUSCLES):
+            for n in range(done[a, i], count[a, i]):
+                at[a, i, n - done[a, i]] = at[a, i, n]
+                queue[a, i, n - done[a, i]] = queue[a, i, n]
+            count[a, i] -= done[a, i]
 
 
-def outputs(x: Row, xn: Row, q: Row, t: float, out: Row) -> None:
-    """Fill out (muscles, 4) with force N, stiffness N/m, damping N s/m, acceleration m/s^2.
+def outputs(x: Row, xn: Row, q: Row, t: float, out: Row, joint_out: Row) -> None:
+    """Fill *out* by joint and muscle, and *joint_out* by joint.
 
-    The stiffness is -dF/dkappa / l0 of the force law (2) at the contraction that is felt.
+    out (joints, muscles, 4): force N, stiffness N/m, damping N s/m, acceleration of the muscle's
+    end m/s^2. The stiffness is -dF/dkappa / l0 of the force law (2) at the contraction that is
+    felt. joint_out (joints, 3): effort, stiffness and acceleration of the coordinate.
     """
-    for n in range(x.shape[0]):
-        y, v, p = x[n, Y], x[n, V], x[n, P]
-        m = mass_chain(q[n, MASS], q[n])
-        kappa = contraction_chain(y * (1.0 / q[n, L0]), q[n])
-        e = exp(q[n, A3] * kappa)
-        out[n, 0] = pull(y, v, p, t, 0.0, x[n], xn[n], q[n])
-        out[n, 1] = -slope_at(e, p, q[n, A1], q[n, A2], q[n, A3], q[n, A4]) / q[n, L0]
-        out[n, 2] = coefficient(y, v, p, m, q[n])
-        out[n, 3] = acceleration(y, v, p, t, 0.0, m, x[n], xn[n], q[n])
-
-
-def simulate(
-    x: Row, xn: Row, q: Row, t: Row, at: Row, u: Row, longest: float, out: Row, forces: bool
-) -> None:
-    """Run one muscle over a recording's stamps with its commands exactly as stamped.
-
-    x: state row at t[0], changed in place. t (n,): sample stamps. at, u (m,): stamps and values
-    of the commands, ascending; u[0] is in force before at[0]. Between two stamps the steps are
-    equal, at most *longest* seconds, and none reaches across a command. out (n, 4) receives
-    y, v, p and, if *forces*, the muscle's force less its damping, c v: the state at t[i] before
-    a command of the same stamp has acted.
-    """
-    for j in range(x.shape[0]):
-        xn[j] = x[j]
-    delay = delay_chain(q)
-    i = 0
-    while i + 1 < at.shape[0] and at[i + 1] + delay < t[0]:
-        i += 1
-    now = t[0]
-    for n in range(t.shape[0]):
-        while now < t[n]:
-            i = in_force(at, delay, i, now)
-            end = held_until(at, delay, i, t[n])
-            steps = max(1, ceil((end - now) / longest - 1e-6))
-            h = (end - now) / steps
-            for s in range(steps):
-                step(x, xn, q, u[i], now + s * h, h)
-            now = end
-        out[n, Y], out[n, V], out[n, P] = x[Y], x[V], x[P]
-        if forces:
-            f = pull(x[Y], x[V], x[P], now, 0.0, x, xn, q)
-            c = coefficient(x[Y], x[V], x[P], mass_chain(q[MASS], q), q)
-            out[n, 3] = f - c * x[V]
-
-
-def simulate_held(
-    x: Row, xn: Row, q: Row, t: Row, p: Row, y: Row, v: Row, longest: float, out: Row
-) -> None:
-    """Run one muscle whose length is prescribed; the load does not move it.
-
-    t, p, y, v (n,): stamps, measured pressure in Pa, position in m, velocity in m/s, taken as
-    linear between stamps. out (n, 4) receives y, v, the chamber pressure and the muscle's
-    force less its damping, c v.
-    """
-    for i in range(x.shape[0]):
-        xn[i] = x[i]
-    delay = delay_chain(q)
-    late = 0
-    for n in range(t.shape[0]):
-        last = n - 1 if n else 0
-        span = t[n] - t[last]
-        steps = max(1, ceil(span / longest - 1e-6))
-        h = span / steps
-        for s in range(1, steps + 1):
-            share = s / steps
-            now = t[last] + s * h
-            p_in = p[last] + share * (p[n] - p[last])
-            if delay > 0.0 and t.shape[0] > 1:
-                # The pressure at the sensor, so long ago as it takes to the chamber.
-                then = max(now - delay, t[0])
-                while late + 2 < t.shape[0] and t[late + 1] <= then:
-                    late += 1
-                part = min((then - t[late]) / (t[late + 1] - t[late]), 1.0)
-                p_in = p[late] + part * (p[late + 1] - p[late])
-            y_in = y[last] + share * (y[n] - y[last])
-            v_in = v[last] + share * (v[n] - v[last])
-            x[P] = pressure_chain(p_in, now, h, x, xn, q)
-            out[n, 3] = pull(y_in, v_in, x[P], now, h, x, xn, q)
-            for i in range(HIDDEN, x.shape[0]):
-                x[i] = xn[i]
-        x[Y], x[V] = y[n], v[n]
-        out[n, Y], out[n, V], out[n, P] = x[Y], x[V], x[P]
-        out[n, 3] -= coefficient(x[Y], x[V], x[P], mass_chain(q[MASS], q), q) * x[V]
-
-
-def simulate_along(
-    x: Row, xn: Row, q: Row, t: Row, y: Row, v: Row, at: Row, u: Row, out: Row
-) -> None:
-    """Integrate the acceleration of equation (3) along a motion that is given.
-
-    t, y, v (n,): stamps, position in m, velocity in m/s, linear between stamps. at, u (m,):
-    commands as for ``simulate``. out (n - 1, 2) receives, for each interval between two stamps,
-    the integral of the acceleration in m/s and its moment about the interval's middle in m, by
-    the midpoint rule between commands.
-    """
-    for j in range(x.shape[0]):
-        xn[j] = x[j]
-    m = mass_chain(q[MASS], q)
-    delay = delay_chain(q)
-    i = 0
-    while i + 1 < at.shape[0] and at[i + 1] + delay < t[0]:
-        i += 1
-    now = t[0]
-    before = t[0]
-    for n in range(1, t.shape[0]):
-        out[n - 1, 0] = 0.0
-        out[n - 1, 1] = 0.0
-        while now < t[n]:
-            i = in_force(at, delay, i, now)
-            end = held_until(at, delay, i, t[n])
-            half = 0.5 * (end - now)
-            middle = now + half
-            share = (middle - t[n - 1]) / (t[n] - t[n - 1])
-            x[Y] = y[n - 1] + share * (y[n] - y[n - 1])
-            x[V] = v[n - 1] + share * (v[n] - v[n - 1])
-            x[P] = pressure_chain(u[i], middle, half, x, xn, q)
-            h = middle - before
-            for j in range(HIDDEN, MEMORY_FROM):
-                x[j] = xn[j]
-            a = acceleration(x[Y], x[V], x[P], middle, h, m, x, xn, q)
-            x[P] = pressure_chain(u[i], end, half, x, xn, q)
-            for j in range(HIDDEN, MEMORY_FROM):
-                x[j] = xn[j]
-            if remembers(q):
-                for j in range(MEMORY_FROM, x.shape[0]):
-                    x[j] = xn[j]
-            out[n - 1, 0] += 2.0 * half * a
-            out[n - 1, 1] += 2.0 * half * a * (middle - 0.5 * (t[n - 1] + t[n]))
-            before = middle
-            now = end
+    for a in range(x.shape[0]):
+        s, v = x[a, JOINT, S], x[a, JOINT, V]
+        m = mass_chain(q[a, JOINT, MASS], q[a, JOINT])
+        inertia = inertia_of(m, q[a, JOINT], LOAD)
+        total, stiffness = 0.0, 0.0
+        for i in range(MUSCLES):
+            r = MUSCLE + i
+            p = x[a, r, P]
+            xn[a, r, WIDTH + START] = p
+            arm = arm_of(s, i, q[a, JOINT], TRANSMISSION)
+            w = arm * v
+            kappa = felt(s, i, q[a])
+            e = exp(q[a, r, A3] * kappa)
+            force = pull(kappa, e, w, p, t, 0.0, x[a, r], xn[a, r], q[a, r])
+            slope = slope_at(e, p, q[a, r, A1], q[a, r, A2], q[a, r, A3], q[a, r, A4])
+            k = -slope / q[a, r, L0]
+            out[a, i, 0], out[a, i, 1] = force, k
+            out[a, i, 2] = coefficient(kappa, e, w, p, share(arm, inertia), q[a, r])
+            total += arm * force
+            turn = arm_slope_of(s, i, q[a, JOINT], TRANSMISSION) * force
+            stiffness += arm * arm * k - turn
+        net = acceleration(s, v, START, t, 0.0, m, inertia, x[a], xn[a], q[a])
+        for i in range(MUSCLES):
+            bend = arm_slope_of(s, i, q[a, JOINT], TRANSMISSION) * v * v
+            out[a, i, 3] = arm_of(s, i, q[a, JOINT], TRANSMISSION) * net + bend
+        joint_out[a, 0], joint_out[a, 1], joint_out[a, 2] = total, stiffness, net

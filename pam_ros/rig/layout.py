@@ -1,57 +1,148 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Where each number stands in the rows that the compiled kernel works on.
+"""Where each number stands in the arrays that the compiled kernels work on.
 
-A state row is [y, v, p, hidden states of the pressure path..., hidden states of the forces...],
-a parameter row [a1..a6, zeta, l0, mass, gravity, parameters of the effects...], all SI. One row
-a muscle: several muscles are a matrix.
+A joint has a state x and parameters q, each a matrix with a row for the joint itself and, behind
+it, one for each of its muscles, all SI:
+
+    x[JOINT]         coordinate s, velocity v, hidden states of the effects on the joint
+    x[MUSCLE + i]    chamber pressure, hidden states of the pressure path, those of the forces
+    q[JOINT]         inertia, length, mass, numbers of load and transmission, effects on the joint
+    q[MUSCLE + i]    a1..a6, zeta, l0, position at coordinate 0, effects in the muscle
+
+The scratch matrix xn that goes with x has WORK columns more, in which a step keeps what its stages
+share.
 """
-
-from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:  # effects read the indices below, so that this file must not need them
-    from pam_ros.effects.base import Effect
+import numpy as np
+from numpy.typing import NDArray
 
-# State row.
-Y, V, P = 0, 1, 2
-HIDDEN = 3
-# Parameter row.
-A1, A2, A3, A4, A5, A6, ZETA, L0, MASS, GRAVITY = range(10)
-EFFECTS_FROM = 10
+from pam_ros.effects.base import Effect
+from pam_ros.effects.rows import A1, A2, A3, A4, A5, A6, INERTIA, L0, LENGTH, ZETA
+from pam_ros.rig.loads import LoadEquations
+from pam_ros.rig.transmissions import TransmissionEquations
+
+__all__ = ['A1', 'A2', 'A3', 'A4', 'A5', 'A6', 'INERTIA', 'L0', 'LENGTH', 'ZETA', 'Layout']
+
+Array = NDArray[np.float64]
+
+JOINT, MUSCLE = 0, 1  # rows: the joint's, and that of its first muscle
+# State of the joint, and of a muscle.
+S, V, JOINT_HIDDEN = 0, 1, 2
+P, HIDDEN = 0, 1
+# Parameters of the joint and of a muscle, behind those that effects read.
+MASS, NUMBERS = LENGTH + 1, LENGTH + 2
+AT_ZERO, MUSCLE_EFFECTS = L0 + 1, L0 + 2
+# Scratch of a muscle, counted from the width of a state: the chamber pressure at the start, in the
+# middle and at the end of a step.
+START, MIDDLE, END = 0, 1, 2
+WORK = 3
+# Columns of a run: coordinate, velocity, then pressure and force of each muscle.
+RUN_S, RUN_V, RUN_P, RUN_F = 0, 1, 2, 3
 
 
 @dataclass(frozen=True, eq=False)
 class Layout:
-    """Offsets of a tuple of effects in both rows, keyed by the effect's name."""
+    """Places of the effects of a *library* in the rows of joints of one kind.
 
-    effects: tuple[Effect, ...]
+    ``state_at`` and ``parameter_at`` say, by the name of an effect, where its hidden states and
+    its parameters begin in the row in which it acts. ``memory_from`` is the first hidden state of
+    a muscle that belongs to a force, behind those of the pressure path. ``load_at`` and
+    ``transmission_at`` are where the numbers of load and transmission begin. ``width`` and
+    ``parameters`` are the widths of x and q.
+    """
+
+    library: tuple[Effect, ...]
+    transmission: TransmissionEquations
+    load: LoadEquations
+    muscles: int
     state_at: dict[str, int]
     parameter_at: dict[str, int]
-    memory_from: int  # first hidden state that belongs to a force, behind those of the pressure
+    memory_from: int
+    load_at: int
+    transmission_at: int
     width: int
     parameters: int
 
+    @property
+    def rows(self) -> int:
+        """Number of rows: one of the joint and one of each muscle."""
+        return MUSCLE + self.muscles
 
-@lru_cache(maxsize=16)
-def layout_of(effects: tuple[Effect, ...]) -> Layout:
-    """Lay out *effects*: pressure states first, then the others, both in the order given."""
-    state_at, parameter_at = {}, {}
-    at = HIDDEN
+    @property
+    def run_columns(self) -> int:
+        """Number of columns of a run."""
+        return RUN_P + 2 * self.muscles
+
+    def state(self) -> Array:
+        """Return an empty state x."""
+        return np.zeros((self.rows, self.width))
+
+    def scratch(self) -> Array:
+        """Return an empty scratch matrix xn."""
+        return np.zeros((self.rows, self.width + WORK))
+
+    def index(self, effect: Effect, parameter: int = 0, muscle: int = 0) -> int:
+        """Return where a parameter of *effect* stands in q, counted through all rows.
+
+        *muscle* says in which muscle, for an effect that acts in one.
+        """
+        row = JOINT if effect.acts_on_joint else MUSCLE + muscle
+        return row * self.parameters + self.parameter_at[effect.name] + parameter
+
+    def constant(self, which: int, muscle: int = 0) -> int:
+        """Return where a constant of a muscle, such as A1 or ZETA, stands in q."""
+        return (MUSCLE + muscle) * self.parameters + which
+
+
+@lru_cache(maxsize=32)
+def layout_of(
+    library: tuple[Effect, ...],
+    transmission: TransmissionEquations,
+    load: LoadEquations,
+    muscles: int,
+) -> Layout:
+    """Lay out joints of *muscles* muscles, with these equations and effects.
+
+    In a muscle the states of the pressure path come first, for they are settled before a step's
+    forces; otherwise states and parameters are in the order of the library.
+    """
+    on_joint = [effect for effect in library if effect.acts_on_joint]
+    in_muscle = [effect for effect in library if not effect.acts_on_joint]
+    path = [effect for effect in in_muscle if effect.pressure is not None]
+    forces = [effect for effect in in_muscle if effect.pressure is None]
+    load_at = NUMBERS
+    transmission_at = load_at + load.numbers
+    state_at: dict[str, int] = {}
+    parameter_at: dict[str, int] = {}
+    joint_width = _place(state_at, on_joint, JOINT_HIDDEN, 'states')
+    memory_from = _place(state_at, path, HIDDEN, 'states')
+    muscle_width = _place(state_at, forces, memory_from, 'states')
+    joint_row = _place(
+        parameter_at, on_joint, transmission_at + transmission.numbers, 'parameters'
+    )
+    muscle_row = _place(parameter_at, in_muscle, MUSCLE_EFFECTS, 'parameters')
+    return Layout(
+        library,
+        transmission,
+        load,
+        muscles,
+        state_at,
+        parameter_at,
+        memory_from,
+        load_at,
+        transmission_at,
+        max(joint_width, muscle_width),
+        max(joint_row, muscle_row),
+    )
+
+
+def _place(places: dict[str, int], effects: list[Effect], at: int, what: str) -> int:
+    """Give each effect its place from *at* on; return where the next one would begin."""
     for effect in effects:
-        if effect.pressure is not None:
-            state_at[effect.name] = at
-            at += len(effect.states)
-    memory_from = at
-    for effect in effects:
-        if effect.pressure is None:
-            state_at[effect.name] = at
-            at += len(effect.states)
-    q_at = EFFECTS_FROM
-    for effect in effects:
-        parameter_at[effect.name] = q_at
-        q_at += len(effect.parameters)
-    return Layout(effects, state_at, parameter_at, memory_from, at, q_at)
+        places[effect.name] = at
+        at += len(getattr(effect, what))
+    return at

@@ -1,0 +1,50 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The flat names of effects' parameters, as ROS, YAML and reports have them: made and read here.
+
+``effects.creep.stiffness`` is the parameter stiffness of the effect creep.
+"""
+
+from collections.abc import Mapping
+from typing import NamedTuple, TypeVar
+
+GROUP = 'effects'
+T = TypeVar('T')
+
+
+class EffectName(NamedTuple):
+    """A parameter of an effect."""
+
+    effect: str
+    parameter: str
+
+    @property
+    def flat(self) -> str:
+        """The flat name."""
+        return f'{GROUP}.{self.effect}.{self.parameter}'
+
+
+def parsed(flat: str) -> EffectName | None:
+    """Return which effect and parameter a flat name means, None where it is no effect's."""
+    group, _, rest = flat.partition('.')
+    effect, _, parameter = rest.partition('.')
+    return EffectName(effect, parameter) if group == GROUP and parameter else None
+
+
+def by_effect(values: Mapping[str, T]) -> dict[str, dict[str, T]]:
+    """Return those of flat *values* that are effects' as effect -> parameter -> value."""
+    found: dict[str, dict[str, T]] = {}
+    for flat, value in values.items():
+        name = parsed(flat)
+        if name is not None:
+            found.setdefault(name.effect, {})[name.parameter] = value
+    return found
+
+
+def flattened(effects: Mapping[str, Mapping[str, T]]) -> dict[str, T]:
+    """Return effect -> parameter -> value as flat values."""
+    return {
+        EffectName(effect, parameter).flat: value
+        for effect, given in effects.items()
+        for parameter, value in given.items()
+    }

@@ -1,0 +1,72 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The pressures with which two muscles give a joint an effort and a stiffness, in closed form.
+
+As in :mod:`pam_ros.rig.statics`, all of it is the declared model. Both wanted together are two
+linear equations for the two pressures.
+"""
+
+from pam_ros.errors import RangeError
+from pam_ros.rig import pair, statics
+from pam_ros.rig.statics import Mechanism
+
+
+def pressures(
+    joint: Mechanism, s: float, stiffness: float, effort: float | None = None
+) -> tuple[float, float]:
+    """Return the pressures at which two muscles give *effort* and *stiffness* at s.
+
+    The default effort holds the load there. Raises RangeError where the stiffness is outside
+    :func:`stiffness_range`.
+    """
+    low, high = stiffness_range(joint, s, effort)
+    geometry = joint.transmission.equations
+    if not low * (1.0 - 1e-9) <= stiffness <= high * (1.0 + 1e-9):
+        raise RangeError(
+            f'a stiffness of {stiffness:.6g} {geometry.effort_unit}/{geometry.unit} at '
+            f'{s:.4g} {geometry.unit} is out of reach: {low:.6g} to {high:.6g} can be had there'
+        )
+    tau = float(statics.weight(joint, s)) if effort is None else effort
+    return pair.pressures(_line(joint, 0, s), _line(joint, 1, s), tau, stiffness)
+
+
+def stiffness_range(
+    joint: Mechanism, s: float, effort: float | None = None
+) -> tuple[float, float]:
+    """Return the least and the greatest stiffness with which two muscles give *effort* at s.
+
+    The default effort holds the load there. Within the range both muscles pull, or just do not
+    push, and their pressures are within p_min and p_max. Raises RangeError where there is no
+    such pair of pressures, and for two muscles that pull the same way with the same gains,
+    whose effort settles their stiffness.
+    """
+    if len(joint.muscles) != 2:
+        raise RangeError(
+            f'a stiffness can be chosen for two muscles: this joint has {len(joint.muscles)}'
+        )
+    one, two = _line(joint, 0, s), _line(joint, 1, s)
+    tau = float(statics.weight(joint, s)) if effort is None else effort
+    geometry = joint.transmission.equations
+    unit = f'{tau:.4g} {geometry.effort_unit} at {s:.4g} {geometry.unit}'
+    if pair.is_settled(one, two):
+        raise RangeError(f'the muscles have one stiffness for {unit}: there is none to choose')
+    within = _limits(joint, 0, one), _limits(joint, 1, two)
+    low, high = pair.piece(one, two, tau, within)
+    if low > high:
+        raise RangeError(
+            f'an effort of {unit} is out of reach: there are no pressures within p_min and '
+            'p_max that give it and leave no muscle pushing'
+        )
+    k1, k2 = sorted(pair.stiffness_at(one, two, tau, p) for p in (low, high))
+    return k1, k2
+
+
+def _line(joint: Mechanism, i: int, s: float) -> pair.Line:
+    """Return effort and stiffness of muscle i over its pressure at s."""
+    return pair.Line(*(float(number) for number in statics.line(joint, i, s)))
+
+
+def _limits(joint: Mechanism, i: int, line: pair.Line) -> pair.Limits:
+    """Return the pressures of muscle i from where it begins to pull to its greatest."""
+    m = joint.muscles[i]
+    return max(m.p_min, line.slack), m.p_max

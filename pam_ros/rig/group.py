@@ -1,0 +1,108 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Joints of one kind that are stepped together: their matrices, their commands, their kernel."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pam_ros.rig import layout as at
+from pam_ros.rig.bind import bind
+from pam_ros.rig.joint import Joint
+from pam_ros.rig.start import start_joint, start_muscle, start_state
+
+Array = NDArray[np.float64]
+ROOM = 16  # commands of a muscle that may be under way before the queues grow
+
+
+class Group:
+    """Joints with the same layout. x, q: a matrix a joint; all is (joints, muscles) otherwise."""
+
+    def __init__(self, joints: Sequence[Joint]) -> None:
+        """Make their matrices; :meth:`reset` sets the state."""
+        self.layout = layout = joints[0].layout
+        n, self.muscles = len(joints), layout.muscles
+        self.joints: tuple[Joint, ...] = tuple(joints)
+        self.q = np.array([joint.parameters() for joint in joints])
+        self.x = np.array([layout.state() for _ in joints])
+        self._scratch = np.array([layout.scratch() for _ in joints])
+        self.u = np.zeros((n, self.muscles))  # commands in force, Pa
+        # Commands under way in the pressure path: stamps and values, grown as they are needed.
+        self._at = np.zeros((n, self.muscles, ROOM))
+        self._queue = np.zeros((n, self.muscles, ROOM))
+        self._count = np.zeros((n, self.muscles), dtype=np.int64)
+        self._done = np.zeros_like(self._count)
+        self.out = np.zeros((n, self.muscles, 4))
+        self.joint_out = np.zeros((n, 3))
+        self._bind()
+
+    def _bind(self) -> None:
+        active = max((joint.active for joint in self.joints), key=len)
+        self._kernel = bind(self.layout, active)
+
+    def change(self, joints: Sequence[Joint]) -> None:
+        """Go on from the present state as *joints*, which have the same layout.
+
+        An effect that was absent starts as after a long rest here.
+        """
+        before, self.joints = self.joints, tuple(joints)
+        self.q = np.array([joint.parameters() for joint in joints])
+        for x, q, old, new in zip(self.x, self.q, before, joints, strict=True):
+            on_joint, *in_muscles = (
+                tuple(effect for effect in now if effect not in then)
+                for then, now in zip(old.present, new.present, strict=True)
+            )
+            for i, appeared in enumerate(in_muscles):
+                start_muscle(self.layout, q, x, i, x[at.MUSCLE + i, at.P], appeared)
+            start_joint(self.layout, q, x, on_joint)
+        self._bind()
+
+    def reset(self, pressures: Array, s: Array, v: Array) -> None:
+        """Set the state as after a long rest; *pressures* (joints, muscles) are commands, too."""
+        self.u[:] = pressures
+        self._count[:] = 0
+        for a, q in enumerate(self.q):
+            self.x[a] = start_state(self.layout, q, self.u[a], float(s[a]), float(v[a]))
+
+    def command(self, joint: int, muscle: int, time: float, pressure: float) -> None:
+        """Command one muscle's pressure in Pa from *time* on."""
+        i = int(self._count[joint, muscle])
+        if i and self._at[joint, muscle, i - 1] == time:
+            i -= 1  # the last one counts
+        elif i == self._at.shape[2]:
+            self._at = np.concatenate([self._at, self._at], axis=2)
+            self._queue = np.concatenate([self._queue, self._queue], axis=2)
+        self._at[joint, muscle, i], self._queue[joint, muscle, i] = time, pressure
+        self._count[joint, muscle] = i + 1
+
+    def advance(self, k: int, steps: int, step: float) -> None:
+        """Step all joints *steps* times from step number k on."""
+        self._kernel.advance(
+            self.x,
+            self._scratch,
+            self.q,
+            self.u,
+            self._at,
+            self._queue,
+            self._count,
+            self._done,
+            k,
+            steps,
+            step,
+        )
+
+    def look(self, time: float) -> None:
+        """Fill ``out`` and ``joint_out`` with what the kernel's ``outputs`` says."""
+        self._kernel.outputs(self.x, self._scratch, self.q, time, self.out, self.joint_out)
+
+    @property
+    def ends(self) -> Array:
+        """Positions of the muscles' ends in m, (joints, muscles)."""
+        j = self.layout.transmission_at
+        travel = self.layout.transmission.travel
+        travels = [
+            [travel(x[at.JOINT, at.S], i, q[at.JOINT], j) for i in range(self.muscles)]
+            for x, q in zip(self.x, self.q, strict=True)
+        ]
+        return np.asarray(self.q[:, at.MUSCLE :, at.AT_ZERO] + np.array(travels))

@@ -1,0 +1,267 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""A joint as declared: its load, the muscles that move it, how they are connected, and effects."""
+
+import itertools
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pam_ros.effects import EFFECTS
+from pam_ros.effects.base import Effect
+from pam_ros.effects.turned import turned
+from pam_ros.errors import ParameterError, RangeError
+from pam_ros.muscle.muscle import Muscle
+from pam_ros.rig import layout as at
+from pam_ros.rig import statics
+from pam_ros.rig.layout import Layout, layout_of
+from pam_ros.rig.loads import Load, Mass
+from pam_ros.rig.transmissions import Straight, Transmission
+
+Array = NDArray[np.float64]
+EffectValues = Mapping[str, Mapping[str, float]]
+
+
+@dataclass(frozen=True)
+class Actuator:
+    """A muscle of a joint, with the effects in it and in its pressure path.
+
+    ``contraction`` is the one that it has, as a fraction, where the coordinate is 0.
+    """
+
+    muscle: Muscle = field(default_factory=Muscle)
+    effects: EffectValues = field(default_factory=dict)
+    contraction: float = 0.0
+
+
+@dataclass(frozen=True)
+class Joint:
+    """A load that one or more muscles move along one coordinate: all that its equations need.
+
+    ``actuators`` are the muscles in order, ``transmission`` says how they are connected to the
+    coordinate, ``load`` what they move: a ``Mass`` by a ``Straight`` transmission, an ``Arm`` by
+    a ``Pulley``, a ``Lever`` or one of your own. ``effects`` are those on the joint, such as
+    friction, in the joint's units; effect values map an effect's name to its parameters in SI,
+    and what is not given has its default, absent. ``library`` are the effects that the kernel
+    knows. The paper's rig, one muscle on a mass, is what :func:`one_muscle` makes.
+
+    Raises ParameterError for effects that are unknown, out of range or at the wrong place, and
+    for a joint that has no equilibrium over the range of pressures.
+    """
+
+    actuators: tuple[Actuator, ...] = (Actuator(),)
+    load: Load = field(default_factory=Mass)
+    transmission: Transmission = field(default_factory=Straight)
+    effects: EffectValues = field(default_factory=dict)
+    library: tuple[Effect, ...] = field(default=EFFECTS, repr=False)
+
+    def __post_init__(self) -> None:
+        """Check that the parts fit, then the effects, and that there are equilibria."""
+        if not self.actuators:
+            raise ParameterError('a joint needs a muscle: actuators is empty')
+        if self.load.equations.revolute is not self.transmission.equations.revolute:
+            raise ParameterError(
+                f'{type(self.transmission).__name__} moves no {type(self.load).__name__}: a load '
+                'that slides needs a transmission in m, one that turns one in rad'
+            )
+        for name, given in self.effects.items():
+            self._known(name, on_joint=True).values(given)
+        for actuator in self.actuators:
+            for name, given in actuator.effects.items():
+                self._known(name, on_joint=False).values(given)
+        if self.is_driven:
+            return
+        self._check_equilibria()
+
+    def _known(self, name: str, *, on_joint: bool) -> Effect:
+        """Return the effect with the units that it has here, or say why it is none."""
+        found = [effect for effect in self.library if effect.name == name]
+        if not found:
+            raise ParameterError(
+                f'effects.{name} is not known: give one of '
+                + ', '.join(e.name for e in self.library if e.acts_on_joint is on_joint)
+            )
+        if found[0].acts_on_joint is not on_joint:
+            where = 'on the load' if found[0].acts_on_joint else 'in a muscle'
+            raise ParameterError(f'effects.{name} acts {where}: give it there')
+        return turned(found[0]) if on_joint and self.is_revolute else found[0]
+
+    def _check_equilibria(self) -> None:
+        for i, muscle in enumerate(self.muscles):
+            if muscle.is_load_only:
+                raise ParameterError(
+                    f'muscle {i + 1} of this joint has no stiffness: a1, a2 and a4 are 0, which '
+                    'is for one muscle on a mass'
+                )
+        if not statics.is_direct(self):
+            low, high = statics.span(self)
+            if low >= high:
+                raise ParameterError(
+                    'the muscles of this joint are never within kappa_min and kappa_max '
+                    'together: mend contraction_1, contraction_2 or the lengths l0'
+                )
+        try:
+            for p in itertools.product(*((m.p_min, m.p_max) for m in self.muscles)):
+                statics.equilibrium(self, p)
+        except RangeError as error:
+            raise ParameterError(
+                f'mass = {self.load.mass:g} kg and '
+                f'{"this muscle" if len(self.actuators) == 1 else "these muscles"} make no rig: '
+                f'{error}'
+            ) from error
+
+    # What it is ------------------------------------------------------------------------------
+
+    @property
+    def is_revolute(self) -> bool:
+        """Whether it turns: its coordinate is an angle in rad, its effort a torque in N m."""
+        return self.transmission.equations.revolute
+
+    @property
+    def is_driven(self) -> bool:
+        """Whether a known force moves a mass instead of a muscle: no spring, no equilibrium."""
+        return statics.is_direct(self) and self.muscles[0].is_load_only
+
+    @cached_property
+    def muscles(self) -> tuple[Muscle, ...]:
+        """The muscles in order."""
+        return tuple(actuator.muscle for actuator in self.actuators)
+
+    @cached_property
+    def at_zero(self) -> tuple[float, ...]:
+        """The position of each muscle's end at the coordinate 0, m."""
+        return tuple(one.contraction * one.muscle.l0 for one in self.actuators)
+
+    @cached_property
+    def moved_mass(self) -> float:
+        """Mass in kg after the effects that change it."""
+        m, q = self.load.mass, self._joint_row()
+        for effect in self.library:
+            if effect.mass is not None:
+                m = float(effect.mass(m, q, self.layout.parameter_at[effect.name]))
+        return float(m)
+
+    @cached_property
+    def inertia(self) -> float:
+        """What resists acceleration in kg or kg m^2, with the moved mass."""
+        return self.load.equations.inertia(self.moved_mass, self.load.numbers, 0)
+
+    # One muscle on a mass ----------------------------------------------------------------------
+
+    @property
+    def muscle(self) -> Muscle:
+        """The muscle of a joint that has one; raises ParameterError where it has several."""
+        if len(self.actuators) > 1:
+            raise ParameterError(f'this joint has {len(self.actuators)} muscles, not one')
+        return self.actuators[0].muscle
+
+    @property
+    def all_effects(self) -> dict[str, Mapping[str, float]]:
+        """The effects of a joint with one muscle, those in it and those on the joint."""
+        return {**self.actuators[0].effects, **self.effects}
+
+    # What the kernel gets ----------------------------------------------------------------------
+
+    @cached_property
+    def layout(self) -> Layout:
+        """Places of the effects in the kernel's matrices."""
+        return layout_of(
+            self.library,
+            self.transmission.equations,
+            self.load.equations,
+            len(self.actuators),
+        )
+
+    @cached_property
+    def present(self) -> tuple[tuple[Effect, ...], ...]:
+        """The effects that are present on the joint, then those in each muscle, by row."""
+        each = [self.effects, *(actuator.effects for actuator in self.actuators)]
+        return tuple(
+            tuple(e for e in self.library if e.is_present(given.get(e.name, {}))) for given in each
+        )
+
+    @property
+    def active(self) -> tuple[Effect, ...]:
+        """The effects that the kernel must step: all of the library as soon as one is present.
+
+        Two machine codes for a kind of joint, without effects and with all, instead of one for
+        each subset.
+        """
+        return self.library if any(self.present) else ()
+
+    def parameters(self) -> Array:
+        """Return the matrix q of all parameters, SI; see :mod:`pam_ros.rig.layout`."""
+        layout = self.layout
+        q = np.zeros((layout.rows, layout.parameters))
+        q[at.JOINT] = self._joint_row()
+        for i, actuator in enumerate(self.actuators):
+            row = q[at.MUSCLE + i]
+            row[at.A1 : at.A6 + 1] = actuator.muscle.si
+            row[at.ZETA], row[at.L0] = actuator.muscle.zeta, actuator.muscle.l0
+            row[at.AT_ZERO] = self.at_zero[i]
+            self._fill(row, actuator.effects, on_joint=False)
+        return q
+
+    def _joint_row(self) -> Array:
+        """Return the joint's own row."""
+        layout, load = self.layout, self.load
+        row = np.zeros(layout.parameters)
+        row[at.INERTIA] = load.equations.inertia(load.mass, load.numbers, 0)
+        row[at.LENGTH] = 1.0 if self.is_revolute else self.actuators[0].muscle.l0
+        row[at.MASS] = load.mass
+        row[layout.load_at : layout.load_at + len(load.numbers)] = load.numbers
+        numbers = self.transmission.numbers
+        row[layout.transmission_at : layout.transmission_at + len(numbers)] = numbers
+        self._fill(row, self.effects, on_joint=True)
+        return row
+
+    def _fill(self, row: Array, effects: EffectValues, *, on_joint: bool) -> None:
+        for effect in self.library:
+            if effect.acts_on_joint is on_joint:
+                j = self.layout.parameter_at[effect.name]
+                given = effects.get(effect.name, {})
+                row[j : j + len(effect.parameters)] = [
+                    given.get(p.name, p.default) for p in effect.parameters
+                ]
+
+
+def one_muscle(
+    muscle: Muscle | None = None,
+    load: Mass | None = None,
+    effects: EffectValues | None = None,
+    library: tuple[Effect, ...] = EFFECTS,
+) -> Joint:
+    """Return one muscle on a mass, the paper's rig, with *effects* in the one and on the other."""
+    in_muscle, on_joint = split_effects(effects or {}, library)
+    return Joint(
+        (Actuator(muscle or Muscle(), in_muscle),), load or Mass(), Straight(), on_joint, library
+    )
+
+
+def changed(joint: Joint, muscle: Muscle, effects: EffectValues) -> Joint:
+    """Return a joint of one muscle with another *muscle* and other *effects*, in it and on it."""
+    in_muscle, on_joint = split_effects(effects, joint.library)
+    actuator = replace(joint.actuators[0], muscle=muscle, effects=in_muscle)
+    return replace(joint, actuators=(actuator,), effects=on_joint)
+
+
+def split_effects(
+    effects: EffectValues, library: tuple[Effect, ...] = EFFECTS
+) -> tuple[EffectValues, EffectValues]:
+    """Return those of *effects* that act in a muscle, and those that act on the joint.
+
+    Raises ParameterError for an effect that *library* does not have.
+    """
+    on_joint = {effect.name: effect.acts_on_joint for effect in library}
+    for name in effects:
+        if name not in on_joint:
+            raise ParameterError(
+                f'effects.{name} is not known: give one of ' + ', '.join(on_joint)
+            )
+    return (
+        {name: given for name, given in effects.items() if not on_joint[name]},
+        {name: given for name, given in effects.items() if on_joint[name]},
+    )

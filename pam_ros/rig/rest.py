@@ -1,0 +1,66 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Where a joint comes to rest: slack muscles, stops and offsets among its effects."""
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from pam_ros.rig import statics
+from pam_ros.rig.bind import bind
+from pam_ros.rig.joint import Joint
+from pam_ros.rig.start import start_state
+
+STEPS = 100  # over the span in which a rest is sought
+PRECISION = 1e-13  # m or rad
+
+
+def rest(joint: Joint, p: ArrayLike) -> float:
+    """Return the coordinate at which the joint rests when *p* Pa has long been commanded.
+
+    For one muscle on a mass it is the equilibrium of the paper's static model with the moved
+    mass, and 0 where a known force takes the muscle's place. A joint of several muscles rests
+    nearest to that equilibrium in the direction in which its effects drive it from there.
+    """
+    if joint.is_driven:
+        return 0.0
+    start = statics.equilibrium(joint, p)
+    if not joint.active or statics.is_direct(joint):
+        return start
+    acceleration = held(joint, p)
+    last, a = start, acceleration(start)
+    low, high = statics.span(joint, *statics.BEYOND)
+    for s in np.linspace(start, high if a > 0.0 else low, STEPS)[1:]:
+        if acceleration(float(s)) * a <= 0.0:
+            return _root(acceleration, last, float(s))
+        last = float(s)
+    return start
+
+
+def held(joint: Joint, p: ArrayLike) -> Callable[[float], float]:
+    """Return s'' as a function of s, for the joint that has long been held there at *p* Pa."""
+    layout, q, pressures = joint.layout, joint.parameters(), statics.each(joint, p)
+    outputs = bind(layout, joint.active).outputs
+    scratch = layout.scratch()[None]
+    out, joint_out = np.zeros((1, layout.muscles, 4)), np.zeros((1, 3))
+
+    def acceleration(s: float) -> float:
+        x = start_state(layout, q, pressures, s, 0.0)
+        scratch[0, :, : layout.width] = x
+        outputs(x[None], scratch, q[None], 0.0, out, joint_out)
+        return float(joint_out[0, 2])
+
+    return acceleration
+
+
+def _root(f: Callable[[float], float], a: float, b: float) -> float:
+    """Return where f changes its sign between a and b, by halving."""
+    sign = f(a)
+    while abs(b - a) > PRECISION:
+        middle = 0.5 * (a + b)
+        if f(middle) * sign > 0.0:
+            a = middle
+        else:
+            b = middle
+    return 0.5 * (a + b)

@@ -1,0 +1,218 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Runs of one joint over the stamps of a recording, as templates.
+
+They stand beside those of :mod:`pam_ros.rig.kernel` and are bound with them. Stamps of commands
+are those at which they act in the chamber: dead times are in them already.
+"""
+
+from math import ceil, exp
+from typing import Any
+
+from pam_ros.rig.kernel import (
+    LOAD,
+    MEMORY_FROM,
+    MUSCLES,
+    TRANSMISSION,
+    WIDTH,
+    acceleration,
+    arm_of,
+    begin,
+    coefficient,
+    delay_chain,
+    felt,
+    inertia_of,
+    keep_memories,
+    mass_chain,
+    pressure_chain,
+    pull,
+    remembers,
+    share,
+    step,
+)
+from pam_ros.rig.layout import (
+    A3,
+    HIDDEN,
+    JOINT,
+    MASS,
+    MUSCLE,
+    RUN_F,
+    RUN_P,
+    RUN_S,
+    RUN_V,
+    START,
+    P,
+    S,
+    V,
+)
+
+Row = Any  # float64 array; numba's and numpy's types differ, both index to float
+
+
+def in_force(at: Row, i: int, now: float) -> int:
+    """Return the index of the command that acts at *now*, i or a later one: at are its stamps."""
+    while i + 1 < at.shape[0] and at[i + 1] <= now + 1e-9:
+        i += 1
+    return i
+
+
+def held_until(at: Row, i: int, end: float) -> float:
+    """Return when command i ceases to act, *end* at the latest."""
+    if i + 1 < at.shape[0] and at[i + 1] < end - 1e-9:
+        held: float = at[i + 1]
+        return held
+    return end
+
+
+def first_command(at: Row, begin_at: float) -> int:
+    """Return the index of the command that acts just before *begin_at*."""
+    i = 0
+    while i + 1 < at.shape[0] and at[i + 1] < begin_at:
+        i += 1
+    return i
+
+
+def cell_force(
+    s: float, v: float, i: int, t: float, h: float, inertia: float, x: Row, xn: Row, q: Row
+) -> float:
+    """Return what a force cell at the end of muscle i reads: its pull less its damping, in N."""
+    r = MUSCLE + i
+    arm = arm_of(s, i, q[JOINT], TRANSMISSION)
+    w = arm * v
+    p = x[r, P]
+    kappa = felt(s, i, q)
+    e = exp(q[r, A3] * kappa)
+    f = pull(kappa, e, w, p, t, h, x[r], xn[r], q[r])
+    return f - coefficient(kappa, e, w, p, share(arm, inertia), q[r]) * w
+
+
+def simulate(
+    x: Row, xn: Row, q: Row, t: Row, at: Row, u: Row, longest: float, out: Row, forces: bool
+) -> None:
+    """Run one joint over a recording's stamps with its commands exactly as stamped.
+
+    x: state at t[0], changed in place. t (n,): sample stamps. at (m,), u (m, muscles): stamps
+    and values of the commands, ascending; u[0] is in force before at[0]. Between two stamps the
+    steps are equal, at most *longest* seconds, and none reaches across a command. out (n,
+    columns of a run) receives coordinate, velocity, pressure of each muscle and, if *forces*, its
+    force less its damping: the state at t[i] before a command of the same stamp has acted.
+    """
+    begin(x, xn)
+    m = mass_chain(q[JOINT, MASS], q[JOINT])
+    inertia = inertia_of(m, q[JOINT], LOAD)
+    c = first_command(at, t[0])
+    now = t[0]
+    for n in range(t.shape[0]):
+        while now < t[n]:
+            c = in_force(at, c, now)
+            end = held_until(at, c, t[n])
+            steps = max(1, ceil((end - now) / longest - 1e-6))
+            h = (end - now) / steps
+            for k in range(steps):
+                step(x, xn, q, u[c], now + k * h, h)
+            now = end
+        s, v = x[JOINT, S], x[JOINT, V]
+        out[n, RUN_S], out[n, RUN_V] = s, v
+        for i in range(MUSCLES):
+            out[n, RUN_P + 2 * i] = x[MUSCLE + i, P]
+            if forces:
+                out[n, RUN_F + 2 * i] = cell_force(s, v, i, now, 0.0, inertia, x, xn, q)
+
+
+def simulate_held(
+    x: Row, xn: Row, q: Row, t: Row, p: Row, s: Row, v: Row, longest: float, out: Row
+) -> None:
+    """Run one joint whose coordinate is prescribed; the muscles do not move it.
+
+    t (n,): stamps. p (n, muscles): pressures measured in Pa. s, v (n,): coordinate and velocity;
+    all are taken as linear between stamps. out as with :func:`simulate`, forces included.
+    """
+    begin(x, xn)
+    m = mass_chain(q[JOINT, MASS], q[JOINT])
+    inertia = inertia_of(m, q[JOINT], LOAD)
+    for n in range(t.shape[0]):
+        last = n - 1 if n else 0
+        span = t[n] - t[last]
+        steps = max(1, ceil(span / longest - 1e-6))
+        h = span / steps
+        for i in range(MUSCLES):
+            r = MUSCLE + i
+            delay = delay_chain(q[r])
+            force = 0.0
+            for k in range(1, steps + 1):
+                part = k / steps
+                now = t[last] + k * h
+                p_in = p[last, i] + part * (p[n, i] - p[last, i])
+                if delay > 0.0 and t.shape[0] > 1:
+                    # The pressure at the sensor, so long ago as it takes to the chamber.
+                    then = max(now - delay, t[0])
+                    late = min(n, t.shape[0] - 2)
+                    while late > 0 and t[late] > then:
+                        late -= 1
+                    gone = min((then - t[late]) / (t[late + 1] - t[late]), 1.0)
+                    p_in = p[late, i] + gone * (p[late + 1, i] - p[late, i])
+                here, speed = s[last] + part * (s[n] - s[last]), v[last] + part * (v[n] - v[last])
+                x[r, P] = pressure_chain(p_in, now, h, x[r], xn[r], q[r])
+                kappa = felt(here, i, q)
+                e = exp(q[r, A3] * kappa)
+                w = arm_of(here, i, q[JOINT], TRANSMISSION) * speed
+                force = pull(kappa, e, w, x[r, P], now, h, x[r], xn[r], q[r])
+                for c in range(HIDDEN, WIDTH):
+                    x[r, c] = xn[r, c]
+            arm = arm_of(s[n], i, q[JOINT], TRANSMISSION)
+            w = arm * v[n]
+            kappa = felt(s[n], i, q)
+            e = exp(q[r, A3] * kappa)
+            c_end = coefficient(kappa, e, w, x[r, P], share(arm, inertia), q[r])
+            out[n, RUN_P + 2 * i] = x[r, P]
+            out[n, RUN_F + 2 * i] = force - c_end * w
+        x[JOINT, S], x[JOINT, V] = s[n], v[n]
+        out[n, RUN_S], out[n, RUN_V] = s[n], v[n]
+
+
+def simulate_along(
+    x: Row, xn: Row, q: Row, t: Row, s: Row, v: Row, at: Row, u: Row, out: Row
+) -> None:
+    """Integrate the acceleration of the equation of motion along a motion that is given.
+
+    t, s, v (n,): stamps, coordinate and velocity, linear between stamps. at (m,), u (m, muscles):
+    commands as for :func:`simulate`. out (n - 1, 2) receives, for each interval between two
+    stamps, the integral of the acceleration and its moment about the interval's middle, by the
+    midpoint rule between commands.
+    """
+    begin(x, xn)
+    m = mass_chain(q[JOINT, MASS], q[JOINT])
+    inertia = inertia_of(m, q[JOINT], LOAD)
+    has_memory = remembers(q)
+    c = first_command(at, t[0])
+    now = t[0]
+    before = t[0]
+    for n in range(1, t.shape[0]):
+        out[n - 1, 0] = 0.0
+        out[n - 1, 1] = 0.0
+        while now < t[n]:
+            c = in_force(at, c, now)
+            end = held_until(at, c, t[n])
+            half = 0.5 * (end - now)
+            middle = now + half
+            part = (middle - t[n - 1]) / (t[n] - t[n - 1])
+            here = s[n - 1] + part * (s[n] - s[n - 1])
+            speed = v[n - 1] + part * (v[n] - v[n - 1])
+            for i in range(MUSCLES):
+                r = MUSCLE + i
+                xn[r, WIDTH + START] = pressure_chain(u[c, i], middle, half, x[r], xn[r], q[r])
+                for k in range(HIDDEN, MEMORY_FROM):
+                    x[r, k] = xn[r, k]
+            h = middle - before
+            a = acceleration(here, speed, START, middle, h, m, inertia, x, xn, q)
+            for i in range(MUSCLES):
+                r = MUSCLE + i
+                x[r, P] = pressure_chain(u[c, i], end, half, x[r], xn[r], q[r])
+                for k in range(HIDDEN, MEMORY_FROM):
+                    x[r, k] = xn[r, k]
+            if has_memory:
+                keep_memories(x, xn)
+            out[n - 1, 0] += 2.0 * half * a
+            out[n - 1, 1] += 2.0 * half * a * (middle - 0.5 * (t[n - 1] + t[n]))
+            before = middle
+            now = end

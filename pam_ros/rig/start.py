@@ -1,0 +1,97 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The state of a joint after a long rest: coordinates, pressures and hidden states."""
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pam_ros.effects.base import Effect
+from pam_ros.errors import ParameterError
+from pam_ros.rig import layout as at
+from pam_ros.rig.layout import Layout
+
+Array = NDArray[np.float64]
+
+
+def start_state(
+    layout: Layout, q: Array, pressures: Sequence[float] | Array, s: float, v: float
+) -> Array:
+    """Return the state x at the coordinate s and velocity v after a long rest there.
+
+    *q* are the parameters (rows, parameters), *pressures* those that are commanded in Pa, one a
+    muscle; hidden states are those of their effect's ``start``.
+    """
+    x = layout.state()
+    x[at.JOINT, at.S], x[at.JOINT, at.V] = s, v
+    for i, pressure in enumerate(pressures):
+        start_muscle(layout, q, x, i, float(pressure), layout.library)
+    start_joint(layout, q, x, layout.library)
+    return x
+
+
+def start_muscle(
+    layout: Layout, q: Array, x: Array, i: int, pressure: float, effects: Sequence[Effect]
+) -> None:
+    """Set the hidden states of those of *effects* that act in muscle i, and its pressure.
+
+    *pressure* in Pa is what its pressure path is fed with. The muscle is where the joint is.
+    """
+    row, own = at.MUSCLE + i, q[at.MUSCLE + i]
+    y = position(layout, q, x, i)
+    kappa = y / own[at.L0]
+    for effect in layout.library:
+        if effect.contraction is not None:
+            kappa = effect.contraction(kappa, own, layout.parameter_at[effect.name])
+    for effect in effects:
+        if effect.acts_on_joint:
+            continue
+        k, j = layout.state_at[effect.name], layout.parameter_at[effect.name]
+        if effect.start is not None:
+            x[row, k : k + len(effect.states)] = effect.start(own, j, pressure, kappa, y)
+        if effect.pressure is not None:
+            pressure = effect.pressure(pressure, 0.0, 0.0, x[row], k, x[row].copy(), own, j)
+    x[row, at.P] = pressure
+
+
+def start_joint(layout: Layout, q: Array, x: Array, effects: Sequence[Effect]) -> None:
+    """Set the hidden states of those of *effects* that act on the joint."""
+    own, s = q[at.JOINT], float(x[at.JOINT, at.S])
+    mean = float(np.mean(x[at.MUSCLE :, at.P]))
+    for effect in effects:
+        if effect.acts_on_joint and effect.start is not None:
+            k, j = layout.state_at[effect.name], layout.parameter_at[effect.name]
+            started = effect.start(own, j, mean, s / own[at.LENGTH], s)
+            x[at.JOINT, k : k + len(effect.states)] = started
+
+
+def position(layout: Layout, q: Array, x: Array, i: int) -> float:
+    """Return where the end of muscle i is in m."""
+    s = float(x[at.JOINT, at.S])
+    travel = layout.transmission.travel(s, i, q[at.JOINT], layout.transmission_at)
+    return float(q[at.MUSCLE + i, at.AT_ZERO] + travel)
+
+
+def disturb(layout: Layout, x: Array, away: Mapping[str, Mapping[str, float]]) -> None:
+    """Move hidden states of x *away* from where a long rest has left them.
+
+    *away* maps the name of an effect to the names of its states and the change of each, in the
+    state's unit; an effect in muscles is moved in all of them alike. Raises ParameterError for an
+    effect without hidden states, or a state that it does not have.
+    """
+    known = {effect.name: effect for effect in layout.library if effect.states}
+    for name, changes in away.items():
+        if name not in known:
+            raise ParameterError(
+                f'effect {name} has no hidden states: give one of ' + ', '.join(known)
+            )
+        effect = known[name]
+        names = [state.name for state in effect.states]
+        rows = [at.JOINT] if effect.acts_on_joint else range(at.MUSCLE, layout.rows)
+        for which, change in changes.items():
+            if which not in names:
+                raise ParameterError(
+                    f'effect {name} has no hidden state {which}: give one of ' + ', '.join(names)
+                )
+            x[rows, layout.state_at[name] + names.index(which)] += change

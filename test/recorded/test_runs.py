@@ -1,0 +1,187 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Runs are those that version 0.1.0 made, to the bit.
+
+``runs.npz`` holds what it simulated of the cases in ``cases.py``. The same bits come out where
+the mathematical functions of the platform give the same bits, which a hash in the file says; else
+the runs agree to a billionth of the motion.
+"""
+
+import hashlib
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from pam_ros.muscle.muscle import Muscle
+from pam_ros.rig import statics
+from pam_ros.rig.bind import bind
+from pam_ros.rig.joint import Actuator, Joint, one_muscle
+from pam_ros.rig.loads import Arm, Mass
+from pam_ros.rig.rest import rest
+from pam_ros.rig.rig import Rig
+from pam_ros.rig.run import acting_commands, delays_of, simulate, simulate_held
+from pam_ros.rig.start import start_state
+from pam_ros.rig.step_limit import longest_step
+from pam_ros.rig.transmissions import Pulley, Straight
+from recorded import cases
+
+RECORDED = np.load(Path(__file__).with_name('runs.npz'))
+RIGS = cases.one_muscle()
+BY_RIG = pytest.mark.parametrize('name', RIGS)
+
+
+def platform():
+    """Return a hash of what the platform's mathematical functions give."""
+    x = np.linspace(-30.0, 3.0, 400)
+    digest = hashlib.sha256()
+    for f in (math.exp, math.expm1, math.sin, math.cos):
+        digest.update(np.array([f(a) for a in x]).tobytes())
+    for f in (math.log1p, math.sqrt, math.log):
+        digest.update(np.array([f(abs(a) + 0.1) for a in x]).tobytes())
+    return digest.hexdigest()
+
+
+HAS_SAME_BITS = platform() == str(RECORDED['libm'])
+
+
+def compare(key, found):
+    recorded = RECORDED[key]
+    if HAS_SAME_BITS:
+        np.testing.assert_array_equal(found, recorded)
+    else:
+        scale = np.max(np.abs(recorded), axis=0)
+        assert np.max(np.abs(found - recorded) / np.where(scale > 0.0, scale, 1.0)) < 1e-9
+
+
+def model(name):
+    rig = RIGS[name]
+    return one_muscle(Muscle(**rig['muscle']), Mass(**rig['load']), rig['effects'])
+
+
+def stepped(joints, muscles, seed=3):
+    """Step a rig under commands, some of all muscles and some of one; return rows of all."""
+    rig = Rig(joints, cases.STEP)
+    random = np.random.default_rng(seed)
+    rows = []
+    for k in range(60):
+        if k % 3 == 0:
+            rig.command(random.uniform(0.5e5, 5.5e5, muscles))
+        elif k % 3 == 1:
+            rig.command_one(int(random.integers(muscles)), float(random.uniform(0.5e5, 5.5e5)))
+        rig.advance(int(random.integers(1, 60)))
+        rows.append(
+            np.concatenate(
+                [
+                    rig.position,
+                    rig.velocity,
+                    rig.pressure,
+                    rig.contraction,
+                    rig.outputs().ravel(),
+                    rig.joint_outputs().ravel(),
+                ]
+            )
+        )
+    return np.array(rows)
+
+
+def columns(run):
+    return np.array([run.position, run.velocity, run.pressure, run.force])
+
+
+@BY_RIG
+def test_one_muscle_is_stepped_as_ever(name):
+    compare(f'stepped/{name}', stepped([model(name)], 1))
+
+
+def test_several_muscles_with_their_loads_are_stepped_as_ever():
+    joints = [model('plain'), model('all'), model('dmsp_10')]
+    compare('stepped/three', stepped(joints, 3))
+
+
+@BY_RIG
+def test_one_muscle_runs_over_stamps_as_ever(name):
+    at, u = cases.commands()
+    run = simulate(model(name), cases.stamps(), at, u, position=0.05, velocity=0.01)
+    compare(f'free/{name}', columns(run))
+
+
+def test_a_drive_without_a_muscle_runs_as_ever():
+    effects = {'viscous_friction': {'coefficient': 200.0}, 'coulomb_friction': {'level': 20.0}}
+    drive = one_muscle(Muscle(**cases.DRIVE), Mass(95.0, 'horizontal'), effects)
+    at, u = cases.commands()
+    compare('free/drive', columns(simulate(drive, cases.stamps(), at, u * 1e-5 - 3, position=0.0)))
+
+
+@BY_RIG
+def test_a_held_muscle_pulls_as_ever(name):
+    t = cases.stamps()
+    y, v, p = cases.motion(t)
+    compare(f'held/{name}', columns(simulate_held(model(name), t, p, y, v)))
+
+
+@BY_RIG
+def test_accelerations_along_a_motion_are_as_ever(name):
+    joint = model(name)
+    at, u = cases.commands()
+    t = cases.stamps()
+    y, v, _ = cases.motion(t)
+    q = joint.parameters()
+    x = start_state(joint.layout, q, u[:1], y[0], v[0])
+    out = np.empty((t.size - 1, 2))
+    at, u = acting_commands(at, u[:, None], delays_of(joint.layout, q))
+    kernel = bind(joint.layout, joint.active)
+    kernel.simulate_along(x, joint.layout.scratch(), q, t, y, v, at, u, out)
+    compare(f'along/{name}', out)
+
+
+@BY_RIG
+def test_rest_step_and_weight_of_one_muscle_are_as_ever(name):
+    joint = model(name)
+    weight = float(statics.weight(joint, 0.0))
+    found = rest(joint, 3e5), longest_step(joint), joint.moved_mass, weight
+    compare(f'rest/{name}', np.array(found))
+
+
+# Joints of two muscles ---------------------------------------------------------------------------
+
+
+def pair(in_muscles=(), on_joint=(), second=0.4):
+    return Joint(
+        tuple(Actuator(Muscle(l0=l0), dict(in_muscles), 0.1) for l0 in (0.4, second)),
+        Arm(),
+        Pulley(),
+        dict(on_joint),
+    )
+
+
+def parallel(in_muscles=(), on_joint=()):
+    actuators = (
+        Actuator(Muscle(), dict(in_muscles), 0.05),
+        Actuator(Muscle(l0=0.38), dict(in_muscles)),
+    )
+    return Joint(actuators, Mass(mass=40.0), Straight(), dict(on_joint))
+
+
+JOINTS = {
+    'pair': pair(),
+    'unequal': pair(second=0.35),
+    'parallel': parallel(),
+    'pair all': pair(cases.MUSCLE_EFFECTS, cases.TURNED_EFFECTS),
+    'parallel all': parallel(cases.MUSCLE_EFFECTS, cases.JOINT_EFFECTS),
+    **{name: pair({name: values}) for name, values in cases.MUSCLE_EFFECTS.items()},
+    **{name: pair((), {name: values}) for name, values in cases.TURNED_EFFECTS.items()},
+}
+
+
+@pytest.mark.parametrize('name', JOINTS)
+def test_joints_of_two_muscles_move_as_ever(name):
+    compare(f'joint/{name}', stepped([JOINTS[name]], 2))
+
+
+@pytest.mark.parametrize('name', ['pair', 'pair all', 'parallel'])
+def test_rest_and_step_of_two_muscles_are_as_ever(name):
+    joint = JOINTS[name]
+    found = rest(joint, (3e5, 2e5)), longest_step(joint), joint.moved_mass, joint.inertia
+    compare(f'joint rest/{name}', np.array([*found, *statics.span(joint)]))
