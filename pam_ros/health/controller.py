@@ -2,14 +2,24 @@
 # SPDX-License-Identifier: Apache-2.0
 """What ``pam_control`` says of itself on ``/diagnostics``."""
 
-from typing import Any
+from typing import Any, NamedTuple
 
-from pam_ros.control.loop import RUNNING, Loop
+from pam_ros.control.loop import BLIND, DISABLED, HOLD, RUNNING, VENT, WAITING, Loop
 from pam_ros.control.pair_law import PairLaw
 from pam_ros.health.health import Health, Level
 from pam_ros.settings.control import Told
 from pam_ros.settings.pair_control import ToldPair
 from pam_ros.timing.ticker import Punctuality
+
+
+class Heard(NamedTuple):
+    """What a controller hears."""
+
+    age: float | None  # s of the newest joint states
+    blindness: str  # why the last of them was not usable
+    refused: int  # references and trajectories
+    refusal: str  # why the last of them was refused
+    is_refusal_new: bool  # since the last report
 
 
 def values_of(loop: Loop[Any], told: Told | ToldPair, age: float | None) -> dict[str, Any]:
@@ -35,6 +45,37 @@ def values_of(loop: Loop[Any], told: Told | ToldPair, age: float | None) -> dict
             'highest co-contraction (N m/rad)': high,
         }
     return values
+
+
+def trouble(loop: Loop[Any], on_timeout: str, blindness: str, fault: str) -> str:
+    """Say why *loop* does not control, '' where it does."""
+    did = {VENT: 'vents', HOLD: 'holds the pressure'}[on_timeout]
+    why = f': {blindness}' if blindness else ''
+    missing = 'a measured pressure' if loop.awaits_chamber else 'joint_states'
+    return {
+        RUNNING: '',
+        WAITING: f'waits for {missing}' + why,
+        BLIND: f'joint_states stay away: {did}' + why,
+        DISABLED: fault or 'disabled: commands nothing',
+    }[loop.state]
+
+
+def control(loop: Loop[Any], told: Told | ToldPair, heard: Heard, fault: str) -> Health:
+    """Return the health of the control; *fault* is why the law was given up."""
+    state = loop.state
+    why = trouble(loop, told.settings.on_timeout, heard.blindness, fault)
+    values = values_of(loop, told, heard.age)
+    values |= {'refused': heard.refused, 'last reason': heard.refusal}
+    is_blind = state == BLIND or (state == WAITING and bool(heard.blindness))
+    if is_blind or fault:
+        return Health(Level.ERROR, why, values)
+    if heard.is_refusal_new:
+        return Health(Level.WARN, heard.refusal, values)
+    if state == WAITING:
+        return Health(Level.WARN, why, values)
+    if state == RUNNING and heard.blindness:
+        return Health(Level.WARN, heard.blindness, values)
+    return Health(Level.OK, why or 'controlling', values)
 
 
 def timing(kept: Punctuality, commanded: int, wanted: float | None) -> Health:

@@ -12,12 +12,13 @@ from std_msgs.msg import Float64
 from std_srvs.srv import SetBool
 from trajectory_msgs.msg import JointTrajectory
 
-from pam_ros.control.loop import BLIND, DISABLED, RUNNING, WAITING, Loop, Reading, warm_up
+from pam_ros.control.loop import BLIND, RUNNING, WAITING, Loop, Reading, warm_up
 from pam_ros.control.pair_law import PairLaw
 from pam_ros.control.signals import PAIR_TERMS, TERMS
 from pam_ros.errors import RangeError
 from pam_ros.health import controller as control_health
-from pam_ros.health.health import Health, Level
+from pam_ros.health.controller import Heard
+from pam_ros.health.health import Health
 from pam_ros.nodes.common.diagnostics import Diagnostics
 from pam_ros.nodes.common.node_parameters import NodeParameters, given
 from pam_ros.nodes.common.qos import DEPTH, open_qos
@@ -279,32 +280,14 @@ class PamControl(TickingNode):
 
     def _trouble(self) -> str:
         """Say why it does not control, '' where it does."""
-        did = {'vent': 'vents', 'hold': 'holds the pressure'}[self._told.settings.on_timeout]
-        why = f': {self._blindness}' if self._blindness else ''
-        missing = 'a measured pressure' if self._loop.awaits_chamber else 'joint_states'
-        return {
-            RUNNING: '',
-            WAITING: f'waits for {missing}' + why,
-            BLIND: f'joint_states stay away: {did}' + why,
-            DISABLED: self._fault or 'disabled: commands nothing',
-        }[self._loop.state]
+        did = self._told.settings.on_timeout
+        return control_health.trouble(self._loop, did, self._blindness, self._fault)
 
     def _control(self) -> Health:
-        state, is_running = self._loop.state, self._loop.state == RUNNING
         age = None if self._stamp is None else (monotonic_ns() - self._seen) / SECOND
-        values = control_health.values_of(self._loop, self._told, age)
-        values |= {'refused': self._refused, 'last reason': self._refusal}
         is_new, self._is_refusal_new = self._is_refusal_new, False
-        is_blind = state == BLIND or (state == WAITING and bool(self._blindness))
-        if is_blind or self._fault:
-            return Health(Level.ERROR, self._trouble(), values)
-        if is_new:
-            return Health(Level.WARN, self._refusal, values)
-        if state == WAITING:
-            return Health(Level.WARN, self._trouble(), values)
-        if is_running and self._blindness:
-            return Health(Level.WARN, self._blindness, values)
-        return Health(Level.OK, self._trouble() or 'controlling', values)
+        heard = Heard(age, self._blindness, self._refused, self._refusal, is_new)
+        return control_health.control(self._loop, self._told, heard, self._fault)
 
     def _timing(self) -> Health:
         commanded, self._commanded = self._commanded, 0

@@ -6,15 +6,13 @@ import argparse
 import os
 import sys
 import threading
-from collections import deque
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from datetime import datetime
 from importlib import import_module
 from pathlib import Path
 from time import monotonic_ns
 from typing import Any
 
-from rclpy.callback_groups import CallbackGroup
 from rclpy.executors import Executor, SingleThreadedExecutor
 from rclpy.subscription import Subscription
 from rosgraph_msgs.msg import Clock
@@ -23,6 +21,7 @@ from pam_ros.errors import RecordingError
 from pam_ros.nodes.common.spin import TickingNode
 from pam_ros.nodes.record.message_text import message_text
 from pam_ros.nodes.record.qos import matching, metadata
+from pam_ros.nodes.record.taking import Recorded, Taken, all_of, never
 from pam_ros.recording.bag_writer import BagTopic, BagWriter
 from pam_ros.recording.simulated_time import SimulatedTime
 from pam_ros.timing.pace import SECOND
@@ -36,43 +35,6 @@ SEAL = 0.5  # s between two seals: what a kill can lose
 REPORT, REPORT_LOGGED = 1.0, 10.0  # s between lines of progress, on a terminal and in a log
 
 
-class _Taken(CallbackGroup):
-    """Subscriptions that no executor serves: their messages are taken by the recorder's thread.
-
-    The middleware keeps them until then and knows when each was received.
-    """
-
-    def can_execute(self, entity: Any) -> bool:
-        """Leave it to the recorder."""
-        return False
-
-    def beginning_execution(self, entity: Any) -> bool:
-        """Leave it to the recorder."""
-        return False
-
-    def ending_execution(self, entity: Any) -> None:
-        """Nothing has begun."""
-
-
-class _Recorded:
-    """A topic that is recorded."""
-
-    def __init__(self, subscription: Subscription, channel: int) -> None:
-        self.subscription, self.channel = subscription, channel
-        self.last_number: int | None = None
-        self.lost = 0
-        # Taken, and not yet told when they were sent: data, system time of that, time taken, ns.
-        self.waiting: deque[tuple[bytes, int, int]] = deque()
-
-    def count_lost(self, number: int | None, is_sole: bool) -> None:
-        """Count the messages between the last number of its one publisher and *number*."""
-        if number is None:
-            return
-        if is_sole and self.last_number is not None and number > self.last_number:
-            self.lost += number - self.last_number - 1
-        self.last_number = number
-
-
 class PamRecord(TickingNode):
     """The recorder node."""
 
@@ -83,10 +45,10 @@ class PamRecord(TickingNode):
         names = dict.fromkeys((*TOPICS, *topics))
         self._wanted = {self._resolved(name): name in topics for name in names}
         self._writer = BagWriter(directory, os.environ.get('ROS_DISTRO', 'unknown'))
-        self._recorded: dict[str, _Recorded] = {}
+        self._recorded: dict[str, Recorded] = {}
         self._refused: set[str] = set()
         self._sole: set[str] = set()
-        self._group = _Taken()
+        self._group = Taken()
         self._time = SimulatedTime()
         self._is_simulated = bool(self.get_parameter('use_sim_time').value)
         self._clock_told: Subscription | None = None
@@ -177,7 +139,7 @@ class PamRecord(TickingNode):
         )
         subscription = self._subscribe(message_type, topic, publishers)
         with self._lock:
-            self._recorded[topic] = _Recorded(subscription, self._writer.add_topic(described))
+            self._recorded[topic] = Recorded(subscription, self._writer.add_topic(described))
 
     def _subscribe(
         self, kind: Any, topic: str, publishers: list[Any], *, raw: bool = True
@@ -186,7 +148,7 @@ class PamRecord(TickingNode):
         return self.create_subscription(
             kind,
             topic,
-            _never,
+            never,
             matching([info.qos_profile for info in publishers]),
             callback_group=self._group,
             raw=raw,
@@ -215,7 +177,7 @@ class PamRecord(TickingNode):
         late, and the later the faster time is simulated.
         """
         for topic, recorded in self._recorded.items():
-            for data, info in _all_of(recorded.subscription):
+            for data, info in all_of(recorded.subscription):
                 received, sent = info['received_timestamp'], info['source_timestamp']
                 if self._is_simulated and sent:
                     recorded.waiting.append((data, sent, monotonic_ns()))
@@ -225,13 +187,13 @@ class PamRecord(TickingNode):
                     self._writer.write(recorded.channel, received, sent, data)
                 recorded.count_lost(info['publication_sequence_number'], topic in self._sole)
         if self._clock_told:
-            for message, info in _all_of(self._clock_told):
+            for message, info in all_of(self._clock_told):
                 now = message.clock.sec * SECOND + message.clock.nanosec
                 self._time.tell(info['source_timestamp'], now)
         for recorded in self._recorded.values():
             self._write_waiting(recorded, is_last)
 
-    def _write_waiting(self, recorded: _Recorded, is_last: bool) -> None:
+    def _write_waiting(self, recorded: Recorded, is_last: bool) -> None:
         """Write the messages of a topic until one whose time may still be told."""
         now, waiting = monotonic_ns(), recorded.waiting
         while waiting:
@@ -287,18 +249,6 @@ class PamRecord(TickingNode):
         if sys.stdout.isatty():
             print()
         print('\n'.join(lines), flush=True)
-
-
-def _all_of(subscription: Subscription) -> Iterator[tuple[Any, dict[str, Any]]]:
-    """Yield all messages that have come, and what the middleware knows of each."""
-    handle = subscription.handle
-    with handle:
-        while taken := handle.take_message(subscription.msg_type, subscription.raw):
-            yield taken
-
-
-def _never(message: bytes) -> None:
-    """Stand in for the callback: messages are taken, not called back with."""
 
 
 def _message_type(kind: str) -> Any:

@@ -3,29 +3,25 @@
 """The node of ``pam_sim``: its topics and services are listed there."""
 
 import math
-import sys
-from functools import partial
 from time import monotonic_ns
-from typing import Any
 
-from rclpy.qos import QoSProfile
 from rclpy.time import Time
-from rosgraph_msgs.msg import Clock
 from std_msgs.msg import Float64, Float64MultiArray
 from std_srvs.srv import SetBool, Trigger
 
 from pam_ros.health import simulator as sim_health
-from pam_ros.health.health import Health, Level
+from pam_ros.health.health import Health
+from pam_ros.health.simulator import Progress
 from pam_ros.nodes.common.diagnostics import Diagnostics
 from pam_ros.nodes.common.node_parameters import NodeParameters, given
-from pam_ros.nodes.common.qos import DEPTH, open_qos
 from pam_ros.nodes.common.spin import TickingNode
+from pam_ros.nodes.sim.commands import hear_commands
 from pam_ros.nodes.sim.lockstep import Turns
+from pam_ros.nodes.sim.output import Output
 from pam_ros.nodes.sim.sim_time import FollowedTime, OwnTime
-from pam_ros.nodes.sim.telemetry import Telemetry
-from pam_ros.nodes.sim.telemetry_arrays import ArrayTelemetry, MuscleTelemetry
 from pam_ros.settings.scene import Scene, Simulation
 from pam_ros.simulator.plant import BadCommand, OneReading, Plant, Reading
+from pam_ros.timing.grid import Grid
 from pam_ros.timing.pace import SECOND
 from pam_ros.timing.ticker import Ticker
 
@@ -53,13 +49,16 @@ class PamSim(TickingNode):
             self._time = FollowedTime(settings.physics_rate, self.get_clock())
         else:
             self._time = OwnTime(settings.physics_rate, self._factor)
-            self._clock_message = Clock()
-            self._clock_publisher = self.create_publisher(Clock, '/clock', DEPTH)
         self.keeps_wall_time = self._is_followed and not self._time.follows_clock
         self._is_paused = False
         self._published = self._bad = 0
         self._said: tuple[int, Reading | OneReading] | None = None
-        self._open_topics()
+        self._samples = Grid(settings.physics_rate)
+        self._clock_ticks = Grid(settings.physics_rate)
+        self._one = self._told.is_one
+        self._output = Output(self, self._told)
+        self._turns = Turns(self, len(self._told.muscles))
+        hear_commands(self, self._told, self._turns, self._command, self._command_all)
         self._begin()
         self.create_service(Trigger, '~/reset', self._reset)
         self.create_service(SetBool, '~/pause', self._pause)
@@ -71,38 +70,6 @@ class PamSim(TickingNode):
         )
         self._given.refuse_mistyped()
         self.ticker = Ticker(self._tick_rate)
-
-    def _open_topics(self) -> None:
-        told, settings = self._told, self._told.settings
-        self._turns = Turns(self, len(told.muscles))
-
-        def hear(kind: type, topic: str, callback) -> None:
-            quality = QoSProfile(depth=DEPTH)
-            subscription = self.create_subscription(
-                kind, topic, callback, quality, qos_overriding_options=open_qos()
-            )
-            self._turns.watch(subscription)
-
-        self._one = told.is_one
-        # Each takes what the plant reads: of one muscle alone, or of several.
-        self._telemetry: list[Any]
-        if self._one:
-            self._telemetry = [Telemetry(self, told.joint_names[0])]
-            hear(Float64, 'pressure_command', partial(self._command, 0))
-        else:
-            self._telemetry = [ArrayTelemetry(self, told.joint_names, told.muscle_names)]
-            hear(Float64MultiArray, 'pressure_commands', self._command_all)
-            if settings.muscle_topics:
-                have_loads = settings.joint == 'load'
-                self._telemetry.append(MuscleTelemetry(self, told.muscle_names, have_loads))
-                for i, name in enumerate(told.muscle_names):
-                    hear(Float64, f'{name}/pressure_command', partial(self._command, i))
-        self._describe()
-
-    def _describe(self) -> None:
-        frame, variance = self._told.settings.frame_id, self._told.sensors.pressure_noise**2
-        for telemetry in self._telemetry:
-            telemetry.describe(frame, variance)
 
     def start(self) -> None:
         """Let simulated time begin now."""
@@ -121,9 +88,8 @@ class PamSim(TickingNode):
         """Go to the initial state."""
         self._plant.begin()
         self._fault = ''
-        self._first = 0  # step that samples are counted from
-        self._aim_at_sample(0)
-        self._aim_at_clock(0)
+        self._samples.begin(self._told.settings.publish_rate)
+        self._clock_ticks.begin(self._clock_rate)
         self._turns.begin()
 
     # Time ----------------------------------------------------------------------------------
@@ -132,6 +98,10 @@ class PamSim(TickingNode):
     def _factor(self) -> float:
         """How fast simulated time is to pass: in lockstep as fast as its turns are."""
         return 0.0 if self._is_lockstep else self._told.settings.speed_factor
+
+    @property
+    def _clock_rate(self) -> float:
+        return 0.0 if self._is_followed else self._told.settings.clock_rate
 
     @property
     def _tick_rate(self) -> float:
@@ -149,14 +119,14 @@ class PamSim(TickingNode):
             self._tell_again()
         elif self._is_lockstep:
             if self._turns.is_complete:
-                self._run_to(self._next)
+                self._run_to(self._samples.next)
             elif self._turns.must_repeat():
                 self._tell_again()
         else:
             self._run_to_now()
             if not self._time.follows_clock:
                 # Wake up when the next sample is due: its grid moves with ROS time and resets.
-                next_one = self._time.steady_time(min(self._next, self._next_clock))
+                next_one = self._time.steady_time(min(self._samples.next, self._clock_ticks.next))
                 self.ticker.aim(next_one if self._time_is_paced else monotonic_ns() + BREATH)
 
     @property
@@ -172,7 +142,7 @@ class PamSim(TickingNode):
         if self._is_followed:
             self._publish(self._time.now())
         elif self._said:
-            self._publish_clock(self._time.now())
+            self._output.publish_clock(self._time.now())
             self._say(*self._said)
 
     def _run_to_now(self) -> None:
@@ -182,18 +152,18 @@ class PamSim(TickingNode):
 
     def _run_to(self, due: int, end: float = math.inf) -> None:
         """Simulate until the step *due*, or until the steady time *end* at a sample."""
-        plant = self._plant
+        plant, samples, clock = self._plant, self._samples, self._clock_ticks
         # The time that others make is followed at once: what is due there is bounded.
         end = math.inf if self._is_followed else end
         try:
-            while (step := min(self._next, self._next_clock)) <= due:
+            while (step := min(samples.next, clock.next)) <= due:
                 plant.advance(step)
-                if step == self._next_clock:
-                    self._publish_clock(self._time.stamp(step))
-                    self._aim_at_clock(self._clock_tick + 1)
-                if step == self._next:
+                if step == clock.next:
+                    self._output.publish_clock(self._time.stamp(step))
+                    clock.advance()
+                if step == samples.next:
                     self._publish(self._time.stamp(step))
-                    self._aim_at_sample(self._sample + 1)
+                    samples.advance()
                     self._turns.begin()
                 if end < math.inf and monotonic_ns() > end:
                     return
@@ -201,39 +171,18 @@ class PamSim(TickingNode):
         except (ArithmeticError, ValueError) as error:  # the kernel's own as plain Python
             self._stop_at_fault(error)
 
-    def _aim_at_sample(self, sample: int) -> None:
-        """Let this sample, counted from the first one, be the next one."""
-        self._sample = sample
-        self._next = self._first + self._grid(sample, self._told.settings.publish_rate)
-
     def _sample_from_here(self) -> None:
         """Let the next sample come one period from now."""
-        self._first = self._plant.step
-        self._aim_at_sample(1)
-
-    def _aim_at_clock(self, tick: int) -> None:
-        """Let this message on ``/clock``, counted from the start, be the next one."""
-        rate = self._told.settings.clock_rate
-        self._clock_tick = tick
-        self._next_clock = sys.maxsize if self._is_followed else self._grid(tick, rate)
-
-    def _grid(self, n: int, rate: float) -> int:
-        return math.ceil(n * self._told.settings.physics_rate / rate - 1e-9)
+        self._samples.begin(self._told.settings.publish_rate, self._plant.step, 1)
 
     # Out -----------------------------------------------------------------------------------
-
-    def _publish_clock(self, stamp: int) -> None:
-        self._clock_message.clock.sec, self._clock_message.clock.nanosec = divmod(stamp, SECOND)
-        self._clock_publisher.publish(self._clock_message)
 
     def _publish(self, stamp: int) -> None:
         self._said = stamp, self._plant.read_one() if self._one else self._plant.read()
         self._say(*self._said)
 
     def _say(self, stamp: int, reading: Reading | OneReading) -> None:
-        ambient = self._told.settings.ambient_pressure
-        for telemetry in self._telemetry:
-            telemetry.publish(stamp, reading, ambient)
+        self._output.publish(stamp, reading)
         self._published += 1
 
     def _stop_at_fault(self, error: Exception) -> None:
@@ -277,14 +226,14 @@ class PamSim(TickingNode):
         if self._is_lockstep:
             self._turns.take(muscle)
             if self._turns.is_complete and not self._is_paused:
-                self._run_to(self._next)
+                self._run_to(self._samples.next)
 
     def _change(self, now: Simulation) -> None:
         """Go on with other parameters."""
         self._run_to_now()
         before, self._told = self._told.settings, now
         self._plant.change(now)
-        self._describe()
+        self._output.describe(now)
         settings = now.settings
         if isinstance(self._time, OwnTime) and self._time.factor != self._factor:
             self._time.factor = self._factor
@@ -292,7 +241,8 @@ class PamSim(TickingNode):
         if settings.publish_rate != before.publish_rate:
             self._sample_from_here()
         if settings.clock_rate != before.clock_rate:
-            self._aim_at_clock(math.floor(self._plant.time * settings.clock_rate + 1e-9) + 1)
+            passed = math.floor(self._plant.time * settings.clock_rate + 1e-9)
+            self._clock_ticks.begin(self._clock_rate, sample=passed + 1)
         if self._tick_rate != self.ticker.rate:
             self.ticker.start(self._tick_rate, monotonic_ns())
 
@@ -331,8 +281,9 @@ class PamSim(TickingNode):
         self._sample_from_here()
         for _ in range(periods):
             if self._is_followed:
-                self._time.align(self._next)  # each is stamped with the time that it is told at
-            self._run_to(self._next)
+                # Each is stamped with the time that it is told at.
+                self._time.align(self._samples.next)
+            self._run_to(self._samples.next)
             if self._fault:
                 response.message = self._fault
                 return response
@@ -343,38 +294,21 @@ class PamSim(TickingNode):
     # Health --------------------------------------------------------------------------------
 
     def _timing(self) -> Health:
-        kept = self.ticker.report(monotonic_ns())
-        rate, self._published = self._published / kept.span, 0
-        settings = self._told.settings
-        wanted = settings.publish_rate * (1.0 if self._is_followed else self._factor)
-        values = {
-            'publish rate (Hz)': rate,
-            'wanted publish rate (Hz)': wanted,
-            'overruns': kept.overruns,
-            'worst lateness (s)': kept.worst,
-            'simulated time (s)': self._plant.time,
-            'simulated time lost (s)': self._time.lost,
-            'clock jumps': self._time.jumps,
-            'paused': self._is_paused,
-            'time mode': settings.time_mode,
-            'scheduling': self.scheduling,
-        }
-        if not self._is_followed:
-            values['speed (simulated s / s)'] = rate / settings.publish_rate
-        if self._fault:
-            return Health(Level.ERROR, self._fault, values)
-        if self._time.follows_clock and not self._time.now():
-            return Health(Level.WARN, 'waits for /clock (use_sim_time is set)', values)
-        if self._is_paused:
-            return Health(Level.OK, 'paused', values)
-        if self._is_lockstep:
-            complaint = self._turns.complaint
-            return Health(
-                Level.WARN if complaint else Level.OK, complaint or 'in lockstep', values
-            )
-        if rate < 0.95 * wanted and not self._time.follows_clock:
-            return Health(Level.WARN, f'publishes at {rate:.1f} Hz instead of {wanted:g}', values)
-        return Health(Level.OK, 'keeps its rate' if wanted else 'as fast as possible', values)
+        time, kept = self._time, self.ticker.report(monotonic_ns())
+        published, self._published = self._published, 0
+        done = Progress(
+            published,
+            1.0 if self._is_followed else self._factor,
+            self._plant.time,
+            time.lost,
+            time.jumps,
+            is_paused=self._is_paused,
+            follows_clock=time.follows_clock,
+            has_clock=not time.follows_clock or time.now() > 0,
+            waits=self._turns.complaint if self._is_lockstep else '',
+            fault=self._fault,
+        )
+        return sim_health.timing(self._told.settings, kept, done, self.scheduling)
 
     def _commands(self) -> Health:
         return sim_health.commands(self._plant, self._bad)
