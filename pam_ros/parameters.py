@@ -8,12 +8,20 @@ documentation, and the YAML files.
 
 import math
 import numbers
-from dataclasses import Field, dataclass, field, fields
-from typing import Any
+from dataclasses import dataclass, field, fields, replace
+from typing import Any, NamedTuple
 
 from pam_ros.errors import ParameterError
+from pam_ros.units import turned_unit
 
 _KEY = 'parameter'
+
+
+class OnTurning(NamedTuple):
+    """Default and highest value that a parameter has on a joint that turns."""
+
+    default: Any
+    high: float | None
 
 
 @dataclass(frozen=True)
@@ -22,7 +30,8 @@ class Parameter:
 
     ``low`` and ``high`` are inclusive and in ``unit``; ``None`` means unbounded.
     ``choices`` lists the allowed values of a string. ``live`` says whether a running node
-    may change it. ``above_low`` makes the lower bound exclusive.
+    may change it. ``above_low`` makes the lower bound exclusive. ``turning`` is what a joint that
+    turns has instead, where that is not the same number.
     """
 
     text: str
@@ -32,6 +41,12 @@ class Parameter:
     choices: tuple[str, ...] = ()
     live: bool = True
     above_low: bool = False
+    turning: OnTurning | None = None
+
+    def turned(self, name: str) -> 'Parameter':
+        """Return what is known of the parameter *name* on a joint that turns."""
+        high = self.high if self.turning is None else self.turning.high
+        return replace(self, unit=turned_unit(self.unit, name), high=high, turning=None)
 
     def allowed(self, kind: type = float) -> str:
         """Say in words what is allowed of a *kind*, for the sentence of an error."""
@@ -87,21 +102,32 @@ def parameter(default: Any, text: str, unit: str = '', **kwargs: Any) -> Any:
     return field(default=default, metadata={_KEY: Parameter(text, unit, **kwargs)})
 
 
-def described(cls: type) -> dict[str, tuple[type, Any, Parameter]]:
-    """Return name -> (type, default, Parameter) of the described fields of a dataclass."""
+def described(cls: type, *, turning: bool = False) -> dict[str, tuple[type, Any, Parameter]]:
+    """Return name -> (type, default, Parameter) of the described fields of a dataclass.
+
+    With *turning* they are those of a joint that turns.
+    """
     table = {}
     for item in fields(cls):
         if _KEY in item.metadata:
-            table[item.name] = (type(item.default), item.default, item.metadata[_KEY])
+            about, default = item.metadata[_KEY], item.default
+            if turning:
+                default = default if about.turning is None else about.turning.default
+                about = about.turned(item.name)
+            table[item.name] = (type(item.default), default, about)
     return table
 
 
-def check_all(instance: Any) -> None:
-    """Check and normalise every described field of a (frozen) dataclass instance."""
-    item: Field[Any]
-    for item in fields(instance):
-        if _KEY in item.metadata:
-            value = item.metadata[_KEY].check(
-                item.name, getattr(instance, item.name), type(item.default)
-            )
-            object.__setattr__(instance, item.name, value)
+def check_all(instance: Any, *, turning: bool = False) -> None:
+    """Check and normalise every described field of a (frozen) dataclass instance.
+
+    With *turning* it is that of a joint that turns.
+    """
+    for name, (kind, _, about) in described(type(instance), turning=turning).items():
+        object.__setattr__(instance, name, about.check(name, getattr(instance, name), kind))
+
+
+def turning_defaults(cls: type) -> dict[str, Any]:
+    """Return the described fields of a dataclass with the defaults of a joint that turns."""
+    table = described(cls, turning=True)
+    return {name: default for name, (_, default, _) in table.items()}

@@ -1,32 +1,35 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""How stiff two muscles make their joint by pulling against each other: told, and approached."""
+"""How stiff muscles make their joint by pulling against each other: set, and approached."""
 
 from dataclasses import dataclass
 
-from pam_ros.control.pair_model import PairModel
 from pam_ros.control.profile import Bounds, Rest
+from pam_ros.control.sharing import Sharing
 from pam_ros.parameters import check_all, parameter
 
-SWIFT = 0.05  # s in which the rate is reached, and in which its change is
+SWIFT = 0.05  # s in which the rate is reached, and its change: some three samples of a 50 Hz topic
 
 
 @dataclass(frozen=True)
 class CoContraction:
-    """The stiffness that a joint shall have, and how fast it may change."""
+    """The stiffness that a joint shall have, and how fast it may change.
+
+    In N/m, or N m/rad of a joint that turns.
+    """
 
     co_contraction: float = parameter(
         0.0,
         'stiffness that the muscles shall give the joint, until co_contraction_reference says '
         'otherwise; 0: in the middle of what can be had at the middle of the reach',
-        'N m/rad',
+        'N/m',
         low=0.0,
         high=1e6,
     )
     co_contraction_rate: float = parameter(
         100.0,
         'rate at which another stiffness is approached',
-        'N m/(rad s)',
+        'N/(m s)',
         low=0.0,
         high=1e6,
         above_low=True,
@@ -36,21 +39,26 @@ class CoContraction:
         """Check every field."""
         check_all(self)
 
-    def wanted(self, rig: PairModel) -> float:
-        """Return the stiffness in N m/rad for this joint; raises RangeError where it has none."""
-        middle = 0.5 * (rig.reach[0] + rig.reach[1])
+    def wanted(self, sharing: Sharing) -> float:
+        """Return the stiffness for this joint; raises RangeError where it has none.
+
+        0 where the effort settles the stiffness.
+        """
+        if not sharing.can_stiffen:
+            return 0.0
+        middle = 0.5 * (sharing.reach[0] + sharing.reach[1])
         if self.co_contraction == 0.0:
-            low, high = rig.stiffness_range(middle)
+            low, high = sharing.stiffness_range(middle)
             return 0.5 * (low + high)
-        rig.refuse_stiffness(self.co_contraction, middle)
+        sharing.refuse_stiffness(self.co_contraction, middle)
         return self.co_contraction
 
 
 class StiffnessCourse:
-    """Leads the stiffness to what it was told last, within bounds; N m/rad."""
+    """Leads the stiffness to what was set last, within bounds; N/m or N m/rad."""
 
     def __init__(self, goal: float, rate: float) -> None:
-        """Rest at *goal*; approach others at *rate* in N m/(rad s)."""
+        """Rest at *goal*; approach others at *rate* a second."""
         self.goal, self.rate = goal, rate
         self._offset = Rest()
         self._is_new = False
@@ -65,7 +73,7 @@ class StiffnessCourse:
         self._offset.state = (stiffness - self.goal, 0.0, 0.0)
         self._is_new = True
 
-    def tell(self, goal: float) -> None:
+    def set_goal(self, goal: float) -> None:
         """Go to another *goal*."""
         x, v, a = self._offset.state
         self._offset.state = (x + self.goal - goal, v, a)
@@ -75,7 +83,7 @@ class StiffnessCourse:
     def follow(self, dt: float) -> float:
         """Return the stiffness *dt* s on."""
         if self._is_new:
-            # However often it is told, the way is sought once a step.
+            # However often it is set, the way is sought once a step.
             slope = self.rate / SWIFT
             self._offset.begin(self._offset.state, Bounds(self.rate, slope, slope / SWIFT))
             self._is_new = False

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What declared effects with a memory take from the muscle's force along the reference.
+"""What declared effects with a memory take from the effort along the reference.
 
 Friction, hysteresis and creep are fed forward: their own equations, those of the simulator, run
 along the motion that the load shall make. Driven by the reference alone they can neither
@@ -8,61 +8,88 @@ destabilise the loop nor amplify noise; where the load does not follow, the obse
 difference.
 """
 
-import numpy as np
-
+from pam_ros.control.model import ControlModel, Pressures
 from pam_ros.control.signals import Reference
-from pam_ros.effects.base import Effect
-from pam_ros.rig.model import RigModel, start_row
+from pam_ros.effects.base import Compensation, Effect
+from pam_ros.rig import layout as at
+from pam_ros.rig.joint import Joint
+from pam_ros.rig.start import start_state
 
-FED_FORWARD = ('hysteresis', 'creep', 'coulomb_friction')
-IN_MODEL = ('length_offset', 'payload', 'viscous_friction', 'pressure_dependent_damping')
-IN_PATH = ('dead_time', 'pressure_offset', 'pressure_lag')
+# An effect, and where its states and its parameters begin in its row.
+_Placed = tuple[Effect, int, int]
 
 
-def left_to_feedback(model: RigModel) -> tuple[str, ...]:
+def left_to_feedback(joint: Joint) -> tuple[str, ...]:
     """Return the declared effects that no part of a controller compensates ahead."""
-    known = (*FED_FORWARD, *IN_MODEL, *IN_PATH)
-    return tuple(effect.name for effect in model.present if effect.name not in known)
+    return tuple(
+        effect.name for effect in joint.all_present if effect.compensation is Compensation.FEEDBACK
+    )
 
 
 class Losses:
-    """The force in N that declared effects of FED_FORWARD take along the reference."""
+    """The effort that declared effects to be fed forward take along the reference.
 
-    def __init__(self, model: RigModel) -> None:
-        """Take those that are present in *model*."""
-        layout = model.layout
-        self._model = model
-        self._row = model.row()
-        self._effects: list[tuple[Effect, int, int]] = [
-            (effect, layout.state_at[effect.name], layout.parameter_at[effect.name])
-            for effect in model.present
-            if effect.name in FED_FORWARD
+    Those of the muscles run along their own ends, those on the joint along its coordinate.
+    """
+
+    def __init__(self, model: ControlModel) -> None:
+        """Take those that are present in the declared joint."""
+        self._model, joint = model, model.joint
+        self._layout, self._q = joint.layout, joint.parameters()
+        self._placed = [
+            [
+                (
+                    effect,
+                    self._layout.state_at[effect.name],
+                    self._layout.parameter_at[effect.name],
+                )
+                for effect in row
+                if effect.compensation is Compensation.FEED_FORWARD
+            ]
+            for row in joint.present
         ]
-        self._x = self._xn = np.zeros(layout.width)
-        self.force = 0.0
-        self.start(0.0, 0.0)
+        self._x = self._layout.state()
+        self._xn = self._layout.scratch()
+        self.effort = 0.0
+        self.start(0.0, [0.0] * len(model.muscles))
 
-    def start(self, position: float, pressure: float) -> None:
-        """Begin anew after a long rest at *position* m and *pressure* Pa."""
+    def start(self, position: float, pressures: Pressures) -> None:
+        """Begin anew after a long rest at *position*, chambers at *pressures* Pa."""
         for _ in range(2):  # effects may be compiled when they are first called: not in flight
-            self._x = start_row(self._model.layout, self._row, pressure, position, 0.0)
-            self._xn = self._x.copy()
-            self.follow(1e-6, Reference(position), pressure, 0.0)
-        self.force = 0.0
+            self._x = start_state(self._layout, self._q, list(pressures), position, 0.0)
+            self._xn[:, : self._layout.width] = self._x
+            self.follow(1e-6, Reference(position), pressures)
+        self.effort = 0.0
 
-    def follow(self, dt: float, reference: Reference, pressure: float, pull: float) -> float:
-        """Go on by *dt* s to *reference*, there *pull* N at *pressure* Pa; return the force."""
-        if not self._effects:
+    def follow(self, dt: float, reference: Reference, pressures: Pressures) -> float:
+        """Go on by *dt* s to *reference*, chambers at *pressures* Pa; return the effort."""
+        if not any(self._placed):
             return 0.0
-        kappa = reference.position / self._model.muscle.l0
-        f, outside = pull, 0.0
-        v = reference.velocity
-        for effect, i, j in self._effects:
-            at = (v, 0.0, dt, self._x, i, self._xn, self._row, j)
-            if effect.force is not None:
-                f = effect.force(f, pressure, kappa, *at)
+        s, v = reference.position, reference.velocity
+        on_joint, *in_muscles = self._placed
+        lost = 0.0
+        for i, effects in enumerate(in_muscles):
+            if effects:
+                muscle = self._model.muscles[i]
+                arm, y = muscle.arm(s), muscle.position(s)
+                pull = muscle.force(pressures[i], y)
+                f = pull
+                for effect, k, j in effects:
+                    if effect.force is not None:
+                        row = at.MUSCLE + i
+                        f = effect.force(
+                            f, pressures[i], y / muscle.l0, arm * v, 0.0, dt,
+                            self._x[row], k, self._xn[row], self._q[row], j,
+                        )  # fmt: skip
+                lost += arm * (pull - f)
+        outside = 0.0
+        mean = sum(pressures) / len(pressures)
+        for effect, k, j in on_joint:
             if effect.outside is not None:
-                outside = effect.outside(outside, pressure, reference.position, *at)
-        self._x[:] = self._xn
-        self.force = pull - f - outside
-        return self.force
+                outside = effect.outside(
+                    outside, mean, s, v, 0.0, dt,
+                    self._x[at.JOINT], k, self._xn[at.JOINT], self._q[at.JOINT], j,
+                )  # fmt: skip
+        self._x[:] = self._xn[:, : self._layout.width]
+        self.effort = lost - outside
+        return self.effort

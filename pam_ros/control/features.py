@@ -8,18 +8,47 @@ Prandtl-Ishlinskii). The first, with its reach of a few micrometres, is dry fric
 surplus at rest goes with it. A stiffness other than the declared one is a force over position.
 """
 
+from dataclasses import dataclass
 from math import exp
 
-REACHES = (50e-6, 250e-6, 0.8e-3, 2e-3, 5e-3)  # m
-STRIBECK_SPEED = 0.01  # m/s
-STROKE = 0.01  # m, for the stiffness
-COUNT = len(REACHES) + 3
-CONSTANT = COUNT - 1
+from pam_ros.control.tuning import number
 
-# Of each: standard deviation expected, least and largest force, N. The last is a constant force.
-SPREAD = (*(20.0 for _ in REACHES), 10.0, 15.0, 100.0)
-LOW = (*(0.0 for _ in REACHES), -5.0, -30.0, -300.0)
-HIGH = (*(60.0 for _ in REACHES), 30.0, 30.0, 300.0)
+COUNT = 8  # play elements and the three others
+CONSTANT = COUNT - 1  # index of the constant force
+
+
+@dataclass(frozen=True)
+class FeatureTuning:
+    """Sizes of the features, and what is expected of the force that each stands for."""
+
+    reaches: tuple[float, ...] = number(
+        (50e-6, 250e-6, 0.8e-3, 2e-3, 5e-3),
+        'm',
+        'ways until the play elements slip: from 2.5 times the noise to half of the largest swing '
+        'of control, in steps of a factor 2.5 to 5',
+    )
+    stribeck_speed: float = number(
+        0.01, 'm/s', 'default of effects.coulomb_friction.stribeck_speed'
+    )
+    stroke: float = number(
+        0.01, 'm', 'motion that a difference of stiffness is counted over: the swing of control'
+    )
+    spreads: tuple[float, ...] = number(
+        (20.0, 20.0, 20.0, 20.0, 20.0, 10.0, 15.0, 100.0),
+        'N',
+        'expected force of each: half of the hysteresis of 40 N and about the friction of 15/25 N '
+        'of control; the constant one is a payload of 10 kg',
+    )
+    lows: tuple[float, ...] = number(
+        (0.0, 0.0, 0.0, 0.0, 0.0, -5.0, -30.0, -300.0),
+        'N',
+        'play elements resist the motion; a stiffness may be off either way by 3 N a mm',
+    )
+    highs: tuple[float, ...] = number(
+        (60.0, 60.0, 60.0, 60.0, 60.0, 30.0, 30.0, 300.0),
+        'N',
+        'three times what is expected: beyond it an estimate is wrong',
+    )
 
 
 class Features:
@@ -29,8 +58,9 @@ class Features:
     resist the motion or grow with the position: they are what must be pulled against.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, tuning: FeatureTuning) -> None:
         """Make them at rest at 0."""
+        self._tuning = tuning
         self.values = [0.0] * COUNT
         self.rates = [0.0] * COUNT
         self.start(0.0)
@@ -47,10 +77,11 @@ class Features:
         self._position = position
         now = [
             min(max(before + way / reach, -1.0), 1.0)
-            for before, reach in zip(self.values, REACHES, strict=False)
+            for before, reach in zip(self.values, self._tuning.reaches, strict=False)
         ]
-        ratio = velocity / STRIBECK_SPEED
-        now += [now[0] * exp(-ratio * ratio), (position - self._origin) / STROKE, 1.0]
+        ratio = velocity / self._tuning.stribeck_speed
+        stretch = (position - self._origin) / self._tuning.stroke
+        now += [now[0] * exp(-ratio * ratio), stretch, 1.0]
         self.rates[:] = [(a - b) / dt for a, b in zip(now, self.values, strict=True)]
         self.values[:] = now
         return now

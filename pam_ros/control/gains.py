@@ -4,22 +4,45 @@
 
 from dataclasses import dataclass
 from math import acos, exp, log, pi, sqrt
-from typing import Protocol
+from typing import Any
 
+from pam_ros.control.sharing import Sharing
+from pam_ros.control.tuning import number
 from pam_ros.errors import ParameterError
-from pam_ros.parameters import check_all, parameter
-from pam_ros.rig.model import RigModel
+from pam_ros.parameters import OnTurning, check_all, parameter, turning_defaults
+from pam_ros.rig.joint import Joint
 
 BOUNDARY_LAYER, SUPER_TWISTING = 'boundary_layer', 'super_twisting'
-SPREAD = 4.0  # by which the velocity estimate must be faster than the sliding variable's decay
-SAMPLES = 1.5  # largest product of velocity bandwidth and control period
+
+
+@dataclass(frozen=True)
+class OrderTuning:
+    """What must hold between the bandwidths of a law."""
+
+    spread: float = number(
+        4.0,
+        '',
+        'least ratio of velocity bandwidth and decay of the sliding variable: the two poles of '
+        'the estimate then lag the surface by a phase of 2 atan(1/4), 28 degrees',
+    )
+    samples: float = number(
+        1.5,
+        '',
+        'largest velocity bandwidth times control period: the pole exp(-1.5) = 0.22 of the '
+        'estimate has forgotten a sample after three',
+    )
+
+
+ORDER = OrderTuning()
 
 
 @dataclass(frozen=True)
 class Gains:
     """Gains of :class:`pam_ros.control.sliding_mode.SlidingMode`.
 
-    What follows from them, for a moved mass m:
+    Units are those of a load that slides; for one that turns, m is rad and N is N m, and the
+    defaults are others (:meth:`turning`). What follows from them, for a moved mass m (or a moment
+    of inertia):
 
     switching gain
         K = disturbance_bound / m. Reaching condition (Slotine & Li 1991, section 7.1): with
@@ -44,6 +67,7 @@ class Gains:
         '1/s',
         low=0.5,
         high=200.0,
+        turning=OnTurning(25.0, 200.0),
     )
     fast_bandwidth: float = parameter(
         50.0,
@@ -61,7 +85,12 @@ class Gains:
         high=200.0,
     )
     surface_damping: float = parameter(
-        0.28, 'damping ratio of the error on the sliding surface', '', low=0.05, high=5.0
+        0.28,
+        'damping ratio of the error on the sliding surface',
+        '',
+        low=0.05,
+        high=5.0,
+        turning=OnTurning(0.5, 5.0),
     )
     disturbance_bound: float = parameter(
         200.0,
@@ -70,6 +99,7 @@ class Gains:
         low=0.0,
         high=1e5,
         above_low=True,
+        turning=OnTurning(5.0, 1e5),
     )
     switching: str = parameter(
         BOUNDARY_LAYER,
@@ -84,10 +114,16 @@ class Gains:
         low=0.0,
         high=1e6,
         above_low=True,
+        turning=OnTurning(5.0, 1e6),
     )
     observer: bool = parameter(True, 'whether the disturbance observer acts')
     observer_bandwidth: float = parameter(
-        4.0, 'bandwidth of the disturbance observer', 'rad/s', low=0.01, high=200.0
+        4.0,
+        'bandwidth of the disturbance observer',
+        'rad/s',
+        low=0.01,
+        high=200.0,
+        turning=OnTurning(8.0, 200.0),
     )
     velocity_bandwidth: float = parameter(
         126.0,
@@ -106,6 +142,7 @@ class Gains:
         '',
         low=0.01,
         high=1.0,
+        turning=OnTurning(0.3, 1.0),
     )
     rest_tolerance: float = parameter(
         12e-6,
@@ -115,6 +152,7 @@ class Gains:
         low=0.0,
         high=0.01,
         above_low=True,
+        turning=OnTurning(2e-4, 1.0),
     )
     learning: bool = parameter(
         True, 'whether friction, hysteresis and lag that nobody declared are learned from motion'
@@ -127,26 +165,56 @@ class Gains:
         high=1.0,
     )
 
+    is_turning: bool = False
+
+    @classmethod
+    def turning(cls, **given: Any) -> 'Gains':
+        """Return the gains of a joint that turns: its defaults, with those *given*."""
+        return cls(**{**turning_defaults(cls), 'is_turning': True, **given})
+
+    @classmethod
+    def of(cls, joint: Joint) -> 'Gains':
+        """Return the default gains of *joint*."""
+        return cls.turning() if joint.is_revolute else cls()
+
     def __post_init__(self) -> None:
         """Check every field, then what must hold between them."""
-        check_all(self)
+        check_all(self, turning=self.is_turning)
         if self.fast_bandwidth < self.bandwidth:
             raise ParameterError(
                 f'fast_bandwidth = {self.fast_bandwidth:g} 1/s is below bandwidth = '
                 f'{self.bandwidth:g} 1/s: it is what that grows to'
             )
-        refuse_disorder(self)
-
-    def check(self, model: RigModel, period: float) -> None:
-        """Raise ParameterError where these gains do not suit a rig, sampled each *period* s."""
-        refuse_fast_estimate(self, period)
-        muscle = model.muscle
-        contraction = 0.0 if muscle.is_load_only else 0.5 * muscle.kappa_max
-        available = muscle.gain(contraction).item() * (muscle.p_max - max(muscle.p_min, 0.0))
-        if self.disturbance_bound > available:
+        if self.velocity_bandwidth < ORDER.spread * self.bandwidth:
             raise ParameterError(
-                f'disturbance_bound = {self.disturbance_bound:g} N cannot be overcome: this '
-                f'muscle changes its force by {available:.4g} N over its range of pressure'
+                f'velocity_bandwidth = {self.velocity_bandwidth:g} rad/s is too slow for '
+                f'bandwidth = {self.bandwidth:g} 1/s: give at least {ORDER.spread:g} times as '
+                'much, or the boundary layer is not kept'
+            )
+        if self.observer and self.observer_bandwidth > self.bandwidth:
+            raise ParameterError(
+                f'observer_bandwidth = {self.observer_bandwidth:g} rad/s is above bandwidth = '
+                f'{self.bandwidth:g} 1/s: the observer takes what the switching term leaves over '
+                'and must be slower'
+            )
+
+    def check(self, sharing: Sharing, period: float) -> None:
+        """Raise ParameterError where these gains do not suit a joint, sampled each *period* s."""
+        if self.velocity_bandwidth * period > ORDER.samples:
+            raise ParameterError(
+                f'velocity_bandwidth = {self.velocity_bandwidth:g} rad/s is too fast for a '
+                f'control rate of {1.0 / period:g} Hz: give at most {ORDER.samples / period:g}'
+            )
+        available = sharing.available()
+        if self.disturbance_bound > available:
+            unit = sharing.model.joint.transmission.equations.effort_unit
+            these = (
+                'this muscle changes its' if len(sharing.ranges) == 1 else 'the muscles change the'
+            )
+            what = 'force' if unit == 'N' else 'torque'
+            raise ParameterError(
+                f'disturbance_bound = {self.disturbance_bound:g} {unit} cannot be overcome: '
+                f'{these} {what} by {available:.4g} {unit} over the range of pressure'
             )
 
     def switching_gain(self, mass: float) -> float:
@@ -177,51 +245,6 @@ class Gains:
         else:
             area = 2.0 * _overdamped_peak(z) / w
         return disturbance / (mass * self.bandwidth) * area
-
-
-class Bandwidths(Protocol):
-    """The bandwidths that gains of any load have."""
-
-    @property
-    def bandwidth(self) -> float:
-        """Decay rate of the sliding variable, 1/s."""
-
-    @property
-    def velocity_bandwidth(self) -> float:
-        """Bandwidth of the velocity estimate, rad/s."""
-
-    @property
-    def observer(self) -> bool:
-        """Whether the disturbance observer acts."""
-
-    @property
-    def observer_bandwidth(self) -> float:
-        """Bandwidth of the disturbance observer, rad/s."""
-
-
-def refuse_disorder(gains: Bandwidths) -> None:
-    """Raise ParameterError where bandwidths are not in the order that the law needs."""
-    if gains.velocity_bandwidth < SPREAD * gains.bandwidth:
-        raise ParameterError(
-            f'velocity_bandwidth = {gains.velocity_bandwidth:g} rad/s is too slow for '
-            f'bandwidth = {gains.bandwidth:g} 1/s: give at least {SPREAD:g} times as much, or '
-            'the boundary layer is not kept'
-        )
-    if gains.observer and gains.observer_bandwidth > gains.bandwidth:
-        raise ParameterError(
-            f'observer_bandwidth = {gains.observer_bandwidth:g} rad/s is above bandwidth = '
-            f'{gains.bandwidth:g} 1/s: the observer takes what the switching term leaves over '
-            'and must be slower'
-        )
-
-
-def refuse_fast_estimate(gains: Bandwidths, period: float) -> None:
-    """Raise ParameterError where the velocity estimate is too fast for a *period* in s."""
-    if gains.velocity_bandwidth * period > SAMPLES:
-        raise ParameterError(
-            f'velocity_bandwidth = {gains.velocity_bandwidth:g} rad/s is too fast for a '
-            f'control rate of {1.0 / period:g} Hz: give at most {SAMPLES / period:g}'
-        )
 
 
 def _overdamped_peak(z: float) -> float:

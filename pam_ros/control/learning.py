@@ -14,45 +14,72 @@ reference alone, cannot destabilise the loop. A learned lag is inverted, and one
 be short lets the bandwidth grow.
 """
 
+from dataclasses import dataclass
 from math import exp
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pam_ros.control import features as beside
-from pam_ros.control.features import Features
+from pam_ros.control.features import Features, FeatureTuning
 from pam_ros.control.gains import Gains
-from pam_ros.control.inner_model import InnerModel
+from pam_ros.control.model import ControlModel, Pressures
 from pam_ros.control.observer import Observer
 from pam_ros.control.pressure_path import Chamber
 from pam_ros.control.regression import Regression
+from pam_ros.control.sharing import Sharing
 from pam_ros.control.signals import Reference
+from pam_ros.control.tuning import number
 
 Array = NDArray[np.float64]
 
-FAST = 60.0  # rad/s of the observer, and of the filter of the features
-EVERY = 0.01  # s between two samples of the regressions
-NOISE = 1.0  # N^2
-FORGOTTEN = 0.01  # share of the prior variance per second
-LAG_SPREAD, LAG_HIGH = 0.05, 0.2  # s
-JUDGE, CENTRE = 1.0, 2.0  # s over which prediction errors, and the mean force, are averaged
-CONVINCED = 1.5  # s of motion after which what is learned is trusted
-FLOOR = 1.0  # N^2 of missing force that is not worth a word
-WORSE, LOST = 0.7, 0.6  # ratios of errors at which a lag is doubted, or sought anew
-DOUBT = 0.5  # s of motion for which it must be doubted to be dropped
-RESTART = 2.0  # s of motion
-BLEND, GROW = 0.2, 0.2  # s
-MARGIN = 3.0  # periods of a lag that make a decay time
-MOST = 200.0  # N that are fed forward at most
 
-_SPREAD, _LOW, _HIGH = (
-    np.array(a + b)
-    for a, b in (
-        (beside.SPREAD, (LAG_SPREAD, LAG_SPREAD)),
-        (beside.LOW, (0.0, 0.0)),
-        (beside.HIGH, (LAG_HIGH, LAG_HIGH)),
+@dataclass(frozen=True)
+class LearningTuning:
+    """How fast is learned, when it is trusted, and what is fed forward at most."""
+
+    fast: float = number(
+        60.0,
+        'rad/s',
+        'bandwidth of the fast observer and of the features: half of the velocity bandwidth, so '
+        'that its noise stays below that of the law',
     )
-)
+    every: float = number(
+        0.01, 's', 'between two samples of the regressions: they see what the fast observer passes'
+    )
+    noise: float = number(
+        1.0, 'N^2', 'variance of the missing force, of the fast observer with the noise'
+    )
+    forgotten: float = number(
+        0.01, '1/s', 'share of the prior variance a second: a muscle warms in minutes'
+    )
+    early: float = number(
+        0.3,
+        '1/s',
+        'the same of a lag in the beginning, whose sensitivities change with itself (Ljung & '
+        'Soderstrom 1983, section 5.5): pair_control, lag; more of it costs control, friction',
+    )
+    settled: float = number(3.0, 's', 'of motion in which that falls to 1/e: likewise')
+    lag_spread: float = number(0.05, 's', 'expected lag: servo valves have 20 to 130 ms')
+    lag_high: float = number(0.2, 's', 'largest lag that is inverted: slower ones are no control')
+    judge: float = number(1.0, 's', 'average of prediction errors: half a period of control')
+    centre: float = number(2.0, 's', 'average of the mean force: a period of control')
+    convinced: float = number(
+        1.5, 's', 'of motion until what is learned is trusted to 63 %: control, valve lag'
+    )
+    floor: float = number(1.0, 'N^2', 'missing force that explains nothing: that of the noise')
+    worse: float = number(0.7, '', 'ratio of errors at which a lag is doubted: control, all')
+    lost: float = number(0.6, '', 'ratio of errors at which it is sought anew: control, friction')
+    doubt: float = number(0.5, 's', 'of motion for which it must be doubted to be dropped')
+    restart: float = number(2.0, 's', 'of motion between two searches for a lag')
+    blend: float = number(0.2, 's', 'from one hypothesis to the other: slow beside the loop')
+    grow: float = number(0.2, 's', 'in which the bandwidth follows what the lag allows')
+    margin: float = number(
+        3.0, '', 'times a lag that make a decay time: a phase margin of some 60 degrees'
+    )
+    most: float = number(200.0, 'N', 'that is fed forward at most: the disturbance bound')
+
+
 _N = beside.COUNT
 
 
@@ -78,32 +105,50 @@ class Learner:
         (fill, vent) in s: the lag that is to be inverted, where none is declared
     bandwidth
         1/s: what the lag allows, between the two bandwidths of the gains
+
+    For a joint that turns, read rad for m, and N m for N. All muscles of a joint are taken to have
+    the same lag.
     """
 
-    def __init__(self, model: InnerModel, gains: Gains, lag_is_declared: bool) -> None:
-        """Make one that has learned nothing."""
-        self._model, self.gains = model, gains
+    def __init__(
+        self,
+        sharing: Sharing,
+        gains: Gains,
+        tuning: LearningTuning,
+        features: FeatureTuning,
+        *,
+        lag_is_declared: bool,
+    ) -> None:
+        """Make one that has learned nothing; *tuning* and *features* are in the joint's units."""
+        self._sharing, self.gains, self._tuning = sharing, gains, tuning
+        self._model: ControlModel = sharing.model
         self._lag_is_declared = lag_is_declared
-        self._observer = Observer(model)
-        self._wanted, self._actual = Features(), Features()
-        self.start(0.0, 0.0, 0.0)
+        self._observer = Observer(self._model)
+        self._wanted, self._actual = Features(features), Features(features)
+        lags = (tuning.lag_spread,) * 2, (0.0, 0.0), (tuning.lag_high,) * 2
+        priors = features.spreads, features.lows, features.highs
+        self._spread, self._low, self._high = (
+            np.array(a + b) for a, b in zip(priors, lags, strict=True)
+        )
+        self.start(0.0, [0.0] * len(self._model.muscles), 0.0)
 
-    def start(self, position: float, pressure: float, disturbance: float) -> None:
-        """Forget everything; the load rests at *position* m, the chamber at *pressure* Pa."""
+    def start(self, position: float, pressures: Pressures, disturbance: float) -> None:
+        """Forget everything; the load rests at *position*, the chambers at *pressures* Pa."""
         self.trust = 0.0
         self.lag = (0.0, 0.0)
         self.bandwidth = self.gains.bandwidth
         self._observer.start(position, disturbance)
         self._wanted.start(position)
         self._actual.start(position)
-        self._chamber = Chamber()
-        self._chamber.pressure = pressure
-        self._declared = pressure
-        self._sensitivity = _Sensitivity()
-        plain = _SPREAD.copy()
+        self._chambers = [Chamber() for _ in pressures]
+        for chamber, pressure in zip(self._chambers, pressures, strict=True):
+            chamber.pressure = pressure
+        self._declared = list(pressures)
+        self._sensitivities = [_Sensitivity() for _ in pressures]
+        plain, noise = self._spread.copy(), self._tuning.noise
         plain[_N:] = 0.0
-        self._plain = Regression(plain, _LOW, _HIGH, NOISE)
-        self._lagged = Regression(_SPREAD, _LOW, _HIGH, NOISE)
+        self._plain = Regression(plain, self._low, self._high, noise)
+        self._lagged = Regression(self._spread, self._low, self._high, noise)
         for one in (self._plain, self._lagged):
             one.theta[beside.CONSTANT] = -disturbance
         # Three equal poles, like the observer's: of the features, and of the force by which the
@@ -126,12 +171,13 @@ class Learner:
         return mix
 
     def feed_forward(self, dt: float, reference: Reference) -> tuple[float, float]:
-        """Return the force in N that the reference needs more than modelled, and its rate."""
+        """Return the effort that the reference needs more than modelled, and its rate."""
+        most = self._tuning.most
         self._wanted.follow(dt, reference.position, reference.velocity)
         values = self._wanted.values
         self._input[_N + 3] = self._plain.theta[:_N].dot(values)
         self._input[_N + 4] = self._lagged.theta[:_N].dot(values)
-        self._share += dt / BLEND * (self._prefers_lag - self._share)
+        self._share += dt / self._tuning.blend * (self._prefers_lag - self._share)
         weights = self._weights.tolist()
         force = rate = 0.0
         if self.trust > 0.0:
@@ -142,8 +188,8 @@ class Learner:
         used = self.trust * self._share
         self.lag = (used * weights[_N], used * weights[_N + 1])
         self._let_grow(dt)
-        if abs(force) > MOST:
-            return (MOST if force > 0.0 else -MOST), 0.0
+        if abs(force) > most:
+            return (most if force > 0.0 else -most), 0.0
         return force, rate
 
     def _let_grow(self, dt: float) -> None:
@@ -152,25 +198,27 @@ class Learner:
         wanted = low
         if self.trust > 0.0 and not self._lag_is_declared:
             lag = float(self._lagged.theta[_N:].max())
-            decay = self.trust * max(MARGIN * lag, 1.0 / high) + (1.0 - self.trust) / low
+            decay = (
+                self.trust * max(self._tuning.margin * lag, 1.0 / high) + (1.0 - self.trust) / low
+            )
             wanted = min(max(1.0 / decay, low), high)
-        self.bandwidth += dt / GROW * (wanted - self.bandwidth)
+        self.bandwidth += dt / self._tuning.grow * (wanted - self.bandwidth)
 
     def see(self, dt: float, waited: float, position: float | None) -> None:
-        """Take in a measured *position* in m, the first for *waited* s, if there is a new one."""
+        """Take in a measured *position*, the first for *waited* s, if there is a new one."""
         if position is not None:
-            self._observer.correct(position, waited, FAST, FAST)
+            self._observer.correct(position, waited, self._tuning.fast, self._tuning.fast)
         observer = self._observer
         self._input[:_N] = self._actual.follow(dt, observer.position, observer.velocity)
 
     def go_on(
-        self, dt: float, inflow: float, declared: float, losses: float, may_learn: bool
+        self, dt: float, inflows: Pressures, declared: Pressures, losses: float, *, may_learn: bool
     ) -> None:
-        """Go on by *dt* s with *inflow* Pa at the chamber, in it *declared* Pa as declared.
+        """Go on by *dt* s with *inflows* Pa at the chambers, in them *declared* Pa as declared.
 
-        *losses* are those in N that declared effects have along the reference: not to be learned.
+        *losses* is the effort that declared effects take along the reference: not to be learned.
         """
-        share = 1.0 - exp(-FAST * dt)
+        share = 1.0 - exp(-self._tuning.fast * dt)
         stages = self._filter
         stages[0] += share * (self._input - stages[0])
         stages[1] += share * (stages[0] - stages[1])
@@ -178,30 +226,36 @@ class Learner:
         if may_learn:
             self._moved += dt
             self._waited += dt
-            if self._waited >= EVERY - 1e-9:
+            if self._waited >= self._tuning.every - 1e-9:
                 self._learn(self._waited)
                 self._waited = 0.0
-        self._advance(dt, inflow, declared, losses)
+        self._advance(dt, inflows, declared, losses)
 
-    def _advance(self, dt: float, inflow: float, declared: float, losses: float) -> None:
-        """Let the observer and the learned chamber go on, and see how they depend on the lag."""
-        observer, gain = self._observer, self._model.gain(self._observer.position)
-        mean = 0.5 * (self._declared + declared)
-        self._declared = declared
+    def _advance(self, dt: float, inflows: Pressures, declared: Pressures, losses: float) -> None:
+        """Let the observer and the learned chambers go on, and see how they depend on the lag."""
+        observer = self._observer
+        gains = self._sharing.gains(observer.position)
+        means = [0.5 * (a + b) for a, b in zip(self._declared, declared, strict=True)]
+        self._declared = list(declared)
         if self._lag_is_declared:
-            observer.predict(dt, mean, -losses)
+            observer.predict(dt, means, -losses)
             return
-        chamber = self._chamber
-        chamber.fill, chamber.vent = self._lagged.theta[_N:].tolist()
-        before = chamber.pressure
-        fills = inflow > before
-        pressure = chamber.follow(inflow, dt)
-        rate = (chamber.pressure - before) / dt
-        self._sensitivity.follow(rate, fills, chamber.fill if fills else chamber.vent, dt)
-        self._input[_N] = -gain * self._sensitivity.fill
-        self._input[_N + 1] = -gain * self._sensitivity.vent
-        self._input[_N + 2] = gain * (pressure - mean)
-        observer.predict(dt, pressure, -losses)
+        fill, vent = self._lagged.theta[_N:].tolist()
+        pressures = []
+        by_fill = by_vent = less = 0.0
+        for i, gain in enumerate(gains):
+            chamber, sensitivity = self._chambers[i], self._sensitivities[i]
+            chamber.fill, chamber.vent = fill, vent
+            before = chamber.pressure
+            fills = inflows[i] > before
+            pressures.append(chamber.follow(inflows[i], dt))
+            rate = (chamber.pressure - before) / dt
+            sensitivity.follow(rate, fills, fill if fills else vent, dt)
+            by_fill += -gain * sensitivity.fill
+            by_vent += -gain * sensitivity.vent
+            less += gain * (pressures[i] - means[i])
+        self._input[_N], self._input[_N + 1], self._input[_N + 2] = by_fill, by_vent, less
+        observer.predict(dt, pressures, -losses)
 
     def _learn(self, span: float) -> None:
         """Let both hypotheses take in the force that is missing now, *span* s after the last."""
@@ -210,7 +264,7 @@ class Learner:
         as_declared = missing - self._filter[2, _N + 2]
         plain = as_declared - float(phi[:_N] @ self._plain.theta[:_N])
         lagged = missing - float(phi[:_N] @ self._lagged.theta[:_N])
-        share = min(span / JUDGE, 1.0)
+        share = min(span / self._tuning.judge, 1.0)
         self._plain_error += share * (plain * plain - self._plain_error)
         self._lagged_error += share * (lagged * lagged - self._lagged_error)
         self._plain_miss += share * (
@@ -220,28 +274,33 @@ class Learner:
         if not self._has_learned:
             # A load that nobody declared is no evidence of anything else.
             self._centre, self._has_learned = as_declared, True
-        self._centre += min(span / CENTRE, 1.0) * (as_declared - self._centre)
+        self._centre += min(span / self._tuning.centre, 1.0) * (as_declared - self._centre)
         self._whole += share * ((as_declared - self._centre) ** 2 - self._whole)
         self._choose(span)
-        forgotten = FORGOTTEN * span
+        forgotten = self._tuning.forgotten * span
+        # What was seen while the lag was thought to be another one said where to go from there.
+        early = self._tuning.early * span * exp(-self._moved / self._tuning.settled)
+        by_parameter = np.full(_N + 2, forgotten)
+        by_parameter[_N:] += early
         self._plain.update(phi, plain, forgotten)
-        self._lagged.update(phi, lagged, forgotten)
+        self._lagged.update(phi, lagged, by_parameter)
 
     def _choose(self, span: float) -> None:
         """Prefer a hypothesis, restart one that is lost, and say how far to trust."""
-        is_worse = self._plain_error < WORSE * self._lagged_error
+        tuning = self._tuning
+        is_worse = self._plain_error < tuning.worse * self._lagged_error
         self._doubt = self._doubt + span if is_worse else 0.0
-        if self._lag_is_declared or self._doubt > DOUBT:
+        if self._lag_is_declared or self._doubt > tuning.doubt:
             self._prefers_lag = False
         elif self._lagged_error < self._plain_error:
             self._prefers_lag = True
         is_used = self._prefers_lag or self._share > 0.05 or self._lag_is_declared
-        is_lost = self._plain_error < LOST * self._lagged_error
-        if is_lost and not is_used and self._moved - self._restarted > RESTART:
+        is_lost = self._plain_error < tuning.lost * self._lagged_error
+        if is_lost and not is_used and self._moved - self._restarted > tuning.restart:
             self._restart_lagged()
         error = self._lagged_miss if self._prefers_lag else self._plain_miss
-        explained = 1.0 - (error + FLOOR) / (self._whole + 1e-9)
-        practice = 1.0 - exp(-((self._moved / CONVINCED) ** 2))
+        explained = 1.0 - (error + tuning.floor) / (self._whole + 1e-9)
+        practice = 1.0 - exp(-((self._moved / tuning.convinced) ** 2))
         self.trust = min(max(1.25 * explained, 0.0), 1.0) * practice
 
     def _restart_lagged(self) -> None:
@@ -250,9 +309,10 @@ class Learner:
         self._lagged_error = self._plain_error
         self._lagged.theta = self._plain.theta.copy()
         self._lagged.covariance = self._plain.covariance.copy()
-        self._lagged.covariance[_N:, _N:] = np.diag(_SPREAD[_N:] ** 2)
+        self._lagged.covariance[_N:, _N:] = np.diag(self._spread[_N:] ** 2)
         self._observer.disturbance += float(self._filter[2, _N + 2])
         self._filter[:, _N + 2] = 0.0
         self._input[_N:] = 0.0
-        self._chamber.pressure = self._declared
-        self._sensitivity = _Sensitivity()
+        for chamber, pressure in zip(self._chambers, self._declared, strict=True):
+            chamber.pressure = pressure
+        self._sensitivities = [_Sensitivity() for _ in self._declared]

@@ -5,8 +5,8 @@
 from dataclasses import dataclass
 
 from pam_ros.errors import ParameterError, RangeError
+from pam_ros.muscle.muscle import Muscle
 from pam_ros.parameters import check_all, parameter
-from pam_ros.rig.model import RigModel
 
 MARGIN = 0.02  # share of the range of pressure that is kept for control at both ends
 
@@ -39,14 +39,14 @@ class Limits:
                 f'{self.pressure_high:g} Pa'
             )
 
-    def range_for(self, model: RigModel) -> tuple[float, float]:
-        """Return the lowest and highest pressure in Pa for this rig; raises ParameterError."""
-        low = max(self.pressure_low, model.muscle.p_min)
-        high = min(self.pressure_high, model.muscle.p_max)
+    def range_for(self, muscle: Muscle) -> tuple[float, float]:
+        """Return the lowest and highest pressure in Pa for a muscle; raises ParameterError."""
+        low = max(self.pressure_low, muscle.p_min)
+        high = min(self.pressure_high, muscle.p_max)
         if low >= high:
             raise ParameterError(
                 f'pressure_low = {self.pressure_low:g} Pa leaves no range below the p_max = '
-                f'{model.muscle.p_max:g} Pa of the muscle'
+                f'{muscle.p_max:g} Pa of the muscle'
             )
         return low, high
 
@@ -69,29 +69,6 @@ class Limiter:
         within = min(max(wanted, self.last - step), self.last + step)
         self.last = min(max(within, self.low), self.high)
         return self.last
-
-
-def reachable(model: RigModel, limits: Limits) -> tuple[float, float]:
-    """Return the lowest and highest position in m at which the load can be held.
-
-    The declared model at rest, with MARGIN of the range of pressure left at both ends, within the
-    contractions that the muscle permits. A load without a muscle has no bounds.
-    """
-    muscle = model.muscle
-    if muscle.is_load_only:
-        return -float('inf'), float('inf')
-    low, high = limits.range_for(model)
-    spare = MARGIN * (high - low)
-    ends = (model.rest(low + spare), model.rest(high - spare))
-    bounds = (muscle.kappa_min * muscle.l0, muscle.kappa_max * muscle.l0)
-    found = max(min(ends), bounds[0]), min(max(ends), bounds[1])
-    if found[0] >= found[1]:
-        raise ParameterError(
-            f'the load cannot be held anywhere: {low / 1e3:g} to {high / 1e3:g} kPa hold it at '
-            f'{min(ends):.4g} to {max(ends):.4g} m, the muscle permits {bounds[0]:.4g} to '
-            f'{bounds[1]:.4g} m'
-        )
-    return found
 
 
 def refuse_unreachable(position: float, reach: tuple[float, float], unit: str = 'm') -> None:

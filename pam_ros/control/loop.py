@@ -8,15 +8,16 @@ which they were taken.
 
 from dataclasses import dataclass
 from math import isfinite
-from typing import Generic
 
 from pam_ros.control.course import Course
-from pam_ros.control.signals import PositionLaw, Pressure, Reference
+from pam_ros.control.signals import PositionLaw, Pressures, Reference
 from pam_ros.control.trajectory import Point, Trajectory
 
 HOLD, VENT = 'hold', 'vent'
 WAITING, RUNNING, BLIND, DISABLED = 'waiting', 'running', 'blind', 'disabled'
-LEAST, MOST = 0.1, 0.1  # shortest step in periods, longest in s
+# Shortest step in periods, since a law divides by it, and longest in s: what passes in a longer
+# one is not steered, and a law that took it for one step would overshoot.
+LEAST, MOST = 0.1, 0.1
 
 
 @dataclass(frozen=True)
@@ -28,25 +29,24 @@ class Reading:
     velocity: float | None = None
 
 
-class Loop(Generic[Pressure]):
+class Loop:
     """Runs a law at a period, on what is seen and told.
 
     state
         WAITING for a first measurement, RUNNING, BLIND without fresh measurements, DISABLED
-    pressure
-        the last command in Pa, one of each muscle, None before there was one
+    pressures
+        the last commands in Pa, one a muscle, None before there were any
     time
         of the last step, s
     """
 
-    def __init__(self, law: PositionLaw[Pressure], course: Course, period: float) -> None:
+    def __init__(self, law: PositionLaw, course: Course, period: float) -> None:
         """Make it wait for the first measurement; *period* in s."""
-        self.law: PositionLaw[Pressure] = law
-        self.course, self.period = course, period
+        self.law, self.course, self.period = law, course, period
         self.timeout, self.safe = 0.1, HOLD
         self.state = WAITING
-        self.pressure: Pressure | None = None
-        self.chamber: Pressure | None = None  # command in Pa that would hold what is measured
+        self.pressures: Pressures | None = None
+        self.chambers: Pressures | None = None  # commands in Pa that would hold what is measured
         self.awaits_chamber = False  # whether such a measurement is worth waiting for
         self.starts = 0
         self._seen: Reading | None = None
@@ -69,10 +69,10 @@ class Loop(Generic[Pressure]):
         if self._seen is None or reading.time > self._seen.time:
             self._seen, self._is_new = reading, True
 
-    def change(self, law: PositionLaw[Pressure], course: Course) -> None:
+    def change(self, law: PositionLaw, course: Course) -> None:
         """Go on with another law and course from where the load and the pressure are."""
         if self.state == RUNNING:
-            law.start(self.law.terms.position, self.pressure)
+            law.start(self.law.terms.position, self.pressures)
             course.start(self.course.reference.position)
         self.law, self.course = law, course
 
@@ -86,7 +86,7 @@ class Loop(Generic[Pressure]):
         """Return how old the newest measurement is, in s."""
         return None if self._seen is None else now - self._seen.time
 
-    def tick(self, now: float) -> Pressure | None:
+    def tick(self, now: float) -> Pressures | None:
         """Return the gauge pressure in Pa to command from *now* on, None for no command."""
         if self.state == DISABLED:
             return None
@@ -94,7 +94,7 @@ class Loop(Generic[Pressure]):
         if reading is None or now - reading.time > self.timeout:
             return self._stay_safe()
         if self.state != RUNNING:
-            if self.awaits_chamber and self.chamber is None:
+            if self.awaits_chamber and self.chambers is None:
                 return self._stay_safe()
             self._start(reading, now)
         passed = max(now - self.time, LEAST * self.period)
@@ -105,35 +105,30 @@ class Loop(Generic[Pressure]):
             position, velocity = reading.position, reading.velocity
             self._is_new = False
         reference = self.course.follow(dt, passed - dt)
-        self.pressure = self.law.update(dt, reference, position, velocity, now - reading.time)
-        return self.pressure
+        self.pressures = self.law.update(dt, reference, position, velocity, now - reading.time)
+        return self.pressures
 
     def _start(self, reading: Reading, now: float) -> None:
         """Begin anew where the load is, at the pressure that is there."""
-        known = self.pressure if self.chamber is None else self.chamber
+        known = self.pressures if self.chambers is None else self.chambers
         self.law.start(reading.position, known)
         self.course.start(reading.position)
         self.time = now - self.period
         self.state = RUNNING
         self.starts += 1
 
-    def _stay_safe(self) -> Pressure | None:
+    def _stay_safe(self) -> Pressures | None:
         """Return what is commanded when nothing is seen: nothing before the first start."""
         if self.state == RUNNING:
             self.state = BLIND
         if self.state != BLIND:
             return None
-        if self.safe == VENT and self.pressure is not None:
-            self.pressure = vented(self.pressure)
-        return self.pressure
+        if self.safe == VENT and self.pressures is not None:
+            self.pressures = (0.0,) * len(self.pressures)
+        return self.pressures
 
 
-def vented(pressure: Pressure) -> Pressure:
-    """Return 0 Pa for as many muscles."""
-    return (0.0, 0.0) if isinstance(pressure, tuple) else 0.0
-
-
-def warm_up(law: PositionLaw[Pressure], reach: tuple[float, float], period: float) -> None:
+def warm_up(law: PositionLaw, reach: tuple[float, float], period: float) -> None:
     """Let *law* and trajectories compile and load all that they need, before time counts."""
     middle = 0.5 * (reach[0] + reach[1]) if isfinite(reach[0]) else 0.0
     for rest in ((), (0.0,), (0.0, 0.0)):  # each kind of interpolation

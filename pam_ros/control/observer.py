@@ -8,31 +8,23 @@ shows up there.
 """
 
 from math import ceil, exp
-from typing import Any, Protocol
 
-SUBSTEP = 1e-3  # s, longest
+from pam_ros.control.model import ControlModel, Pressures
 
-
-class Body(Protocol):
-    """A rig with one coordinate: what the observer asks of it."""
-
-    mass: float  # kg, or kg m^2
-    weight: float  # N, or N m
-
-    def pull(self, p: Any, y: float, v: float) -> float:
-        """Return the force at *p* Pa in the chamber or chambers, place and speed."""
+SUBSTEP = 1e-3  # s, longest: the physics step at which the model is known to be exact
 
 
 class Observer:
-    """Position m, velocity m/s and disturbance N of the load, from measured positions.
+    """Position, velocity and disturbance of the load, from measured positions.
 
-    The disturbance is the force upwards that the model does not have. Poles are real: two at the
+    In m, m/s and N, or rad, rad/s and N m. The disturbance is the force upwards that the model
+    does not have. Poles are real: two at the
     *velocity* bandwidth, one at the *disturbance* bandwidth, both in rad/s and free to change at
     any step. The velocity lags a motion that the model does not foresee by 2/velocity s, the
     disturbance by 1/disturbance + 2/velocity s; a motion that it foresees, not at all.
     """
 
-    def __init__(self, model: Body) -> None:
+    def __init__(self, model: ControlModel) -> None:
         """Make it at rest at 0; see :meth:`start`."""
         self.model = model
         self.start(0.0, 0.0)
@@ -57,17 +49,17 @@ class Observer:
         surprise = position - self.position
         self.position += l1 * surprise
         self.velocity += l2 * surprise
-        self.disturbance += l3 * surprise * self.model.mass
+        self.disturbance += l3 * surprise * self.model.inertia
 
-    def predict(self, dt: float, pressure: Any, known: float = 0.0) -> None:
-        """Go on by *dt* s with chambers at *pressure* Pa and a *known* force upwards in N."""
+    def predict(self, dt: float, pressures: Pressures, known: float = 0.0) -> None:
+        """Go on by *dt* s with chambers at *pressures* Pa and a *known* force upwards in N."""
         model = self.model
         steps = ceil(dt / SUBSTEP - 1e-6)
         h = dt / max(steps, 1)
         y, v = self.position, self.velocity
         given = self.disturbance + known - model.weight
         for _ in range(max(steps, 1)):
-            a = (model.pull(pressure, y, v) + given) / model.mass
+            a = (model.pull(pressures, y, v) + given) / model.inertia
             y += h * (v + 0.5 * h * a)
             v += h * a
         self.position, self.velocity = y, v

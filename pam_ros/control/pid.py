@@ -7,13 +7,15 @@ from importlib import import_module
 from math import exp
 from typing import Any
 
-from pam_ros.control.inner_model import InnerModel
+from pam_ros.control.co_contraction import CoContraction
 from pam_ros.control.limits import Limiter, Limits
+from pam_ros.control.model import ControlModel
 from pam_ros.control.pressure_path import PressurePath
-from pam_ros.control.signals import Reference, Terms
+from pam_ros.control.sharing import sharing_of
+from pam_ros.control.signals import Pressures, Reference, Terms
 from pam_ros.errors import ParameterError
-from pam_ros.parameters import check_all, parameter
-from pam_ros.rig.model import RigModel
+from pam_ros.parameters import OnTurning, check_all, parameter, turning_defaults
+from pam_ros.rig.joint import Joint
 
 
 @dataclass(frozen=True)
@@ -33,57 +35,115 @@ class PidGains:
     lag.
     """
 
-    proportional: float = parameter(0.82e6, 'pressure per error', 'Pa/m', low=0.0, high=1e9)
-    integral: float = parameter(39e6, 'rate of pressure per error', 'Pa/(m s)', low=0.0, high=1e10)
+    proportional: float = parameter(
+        0.82e6,
+        'pressure per error',
+        'Pa/m',
+        low=0.0,
+        high=1e9,
+        turning=OnTurning(33e3, 1e9),
+    )
+    integral: float = parameter(
+        39e6,
+        'rate of pressure per error',
+        'Pa/(m s)',
+        low=0.0,
+        high=1e10,
+        turning=OnTurning(1.6e6, 1e10),
+    )
     derivative: float = parameter(
-        194e3, 'pressure per rate of the error', 'Pa s/m', low=0.0, high=1e9
+        194e3,
+        'pressure per rate of the error',
+        'Pa s/m',
+        low=0.0,
+        high=1e9,
+        turning=OnTurning(7.8e3, 1e9),
     )
     filter_bandwidth: float = parameter(
         282.0, 'bandwidth of the filter of the measured position', 'rad/s', low=1.0, high=1e4
     )
+    is_turning: bool = False
+
+    @classmethod
+    def turning(cls, **given: Any) -> 'PidGains':
+        """Return the gains of a joint that turns: its defaults, with those *given*."""
+        return cls(**{**turning_defaults(cls), 'is_turning': True, **given})
+
+    @classmethod
+    def of(cls, joint: Joint) -> 'PidGains':
+        """Return the default gains of *joint*."""
+        return cls.turning() if joint.is_revolute else cls()
 
     def __post_init__(self) -> None:
         """Check every field."""
-        check_all(self)
+        check_all(self, turning=self.is_turning)
 
 
 class Pid:
-    """PID on the error, on top of the pressure that holds the load at the reference.
+    """PID on the error, on top of the pressures that hold the load at the reference.
 
     The error is filtered twice at the same bandwidth, since its derivative would be noise. The
     static part comes from the same model as that of the sliding-mode law: without it no PID
-    follows a muscle's curve.
+    follows a muscle's curve. Of muscles against each other, some get what the others lose: the
+    stiffness is that of the static part.
     """
 
-    def __init__(self, model: RigModel, gains: PidGains, limits: Limits | None = None) -> None:
-        """Make it for a declared rig; raises ParameterError where simple-pid is missing."""
+    def __init__(
+        self,
+        joint: Joint,
+        gains: PidGains | None = None,
+        limits: Limits | None = None,
+        co_contraction: CoContraction | None = None,
+    ) -> None:
+        """Make it for a declared joint; raises ParameterError where simple-pid is missing."""
         try:
             maker: Any = import_module('simple_pid').PID
         except ImportError as error:
             raise ParameterError('the PID law needs simple-pid: pip install simple-pid') from error
         limits = limits or Limits()
-        self.gains = gains
+        self.gains = gains = gains or PidGains.of(joint)
         self.terms = Terms()
-        self._rig = InnerModel(model)
-        self._path = PressurePath(model, 1.0)
-        self._limiter = Limiter(*limits.range_for(model), limits.pressure_rate)
+        self.model = ControlModel(joint)
+        self.sharing = sharing_of(self.model, limits)
+        self._stiffness = (co_contraction or CoContraction()).wanted(self.sharing)
+        self._paths = [PressurePath(joint, i, 1.0) for i in range(len(self.model.muscles))]
+        self._limiters = [
+            Limiter(low, high, limits.pressure_rate) for low, high in self.sharing.ranges
+        ]
         self._pid = maker(gains.proportional, gains.integral, gains.derivative, sample_time=None)
         self.start(0.0)
 
-    def _static(self, position: float) -> float:
-        """Return the command in Pa that holds the load at *position* m, as modelled."""
-        chamber = self._rig.pressure_for(self._rig.weight, position)
-        return self._path.command_at_rest(chamber)
+    def _static(self, position: float) -> Pressures:
+        """Return the commands in Pa that hold the load at *position*, as modelled."""
+        effort = self.model.gravity(position)
+        chambers = self.sharing.split(effort, self._stiffness, position).pressures
+        return tuple(
+            path.command_at_rest(p) for path, p in zip(self._paths, chambers, strict=True)
+        )
 
-    def start(self, position: float, pressure: float | None = None) -> None:
-        """Begin anew at rest at *position* m, the chamber at *pressure* Pa if that is known."""
-        static = self._static(position)
-        self._limiter.start(static if pressure is None else pressure)
+    def _signs(self, position: float) -> list[float]:
+        return [1.0 if gain > 0.0 else -1.0 for gain in self.sharing.gains(position)]
+
+    def stiffen(self, stiffness: float) -> None:
+        """Take a stiffness; raises RangeError where it cannot be had at the reference."""
+        self.sharing.refuse_stiffness(stiffness, self.terms.reference)
+        self._stiffness = stiffness
+
+    def start(self, position: float, pressures: Pressures | None = None) -> None:
+        """Begin anew at rest at *position*, under commands of *pressures* Pa if they are known."""
+        static, signs = self._static(position), self._signs(position)
+        for limiter, pressure in zip(self._limiters, pressures or static, strict=True):
+            limiter.start(pressure)
+        commands = tuple(limiter.last for limiter in self._limiters)
+        before = sum(
+            sign * (command - pressure)
+            for sign, command, pressure in zip(signs, commands, static, strict=True)
+        ) / len(signs)
         self._pid.set_auto_mode(False)
-        self._pid.set_auto_mode(True, last_output=self._limiter.last - static)
+        self._pid.set_auto_mode(True, last_output=before)
         self._error = self._filtered = 0.0
         self._seen = position
-        self.terms = Terms(reference=position, position=position, pressure=self._limiter.last)
+        self.terms = Terms(reference=position, position=position, pressures=commands)
 
     def update(
         self,
@@ -92,29 +152,44 @@ class Pid:
         position: float | None,
         velocity: float | None = None,
         age: float = 0.0,
-    ) -> float:
-        """Return the gauge pressure in Pa to command from now on, *dt* s after the last call."""
+    ) -> Pressures:
+        """Return the gauge pressures in Pa to command from now on, *dt* s after the last call."""
         if position is not None:
             self._seen = position
-        static = self._static(reference.position)
+        static, gains = self._static(reference.position), self.sharing.gains(reference.position)
+        signs = self._signs(reference.position)
         # What the limits leave of the range: simple-pid stops its integral there.
-        self._pid.output_limits = (self._limiter.low - static, self._limiter.high - static)
+        self._pid.output_limits = self._room(static, signs)
         share = 1.0 - exp(-self.gains.filter_bandwidth * dt)
         self._error += share * (reference.position - self._seen - self._error)
         self._filtered += share * (self._error - self._filtered)
-        wanted = static + self._pid(-self._filtered, dt=dt)
-        command = self._limiter.limit(wanted, dt)
+        output = self._pid(-self._filtered, dt=dt)
         p, i, d = self._pid.components
-        gain = self._rig.gain(reference.position)
+        commands, cut = [], 0.0
+        for limiter, sign, pressure, gain in zip(
+            self._limiters, signs, static, gains, strict=True
+        ):
+            commands.append(limiter.limit(pressure + sign * output, dt))
+            cut += gain * (pressure + sign * (p + i + d) - commands[-1])
+        gain = sum(map(abs, gains))
         self.terms = Terms(
             reference=reference.position,
             speed=reference.velocity,
             position=self._seen,
             error=reference.position - self._seen,
-            equivalent=gain * static,
+            equivalent=sum(g * pressure for g, pressure in zip(gains, static, strict=True)),
             switching=gain * (p + d),
             observer=gain * i,
-            pressure=command,
-            cut=gain * (static + p + i + d - command),
+            pressures=tuple(commands),
+            co_contraction=self._stiffness,
+            cut=cut,
         )
-        return command
+        return self.terms.pressures
+
+    def _room(self, static: Pressures, signs: list[float]) -> tuple[float, float]:
+        """Return the least and the greatest output that keeps all pressures within the limits."""
+        low, high = -float('inf'), float('inf')
+        for limiter, sign, pressure in zip(self._limiters, signs, static, strict=True):
+            ends = sorted((sign * (limiter.low - pressure), sign * (limiter.high - pressure)))
+            low, high = max(low, ends[0]), min(high, ends[1])
+        return low, max(low, high)

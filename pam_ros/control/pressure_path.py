@@ -2,14 +2,18 @@
 # SPDX-License-Identifier: Apache-2.0
 """The way of the pressure from the command to the chamber, and its inverse.
 
-Dead time, regulator offset and chamber lag are those of the declared effects ``dead_time``,
-``pressure_offset`` and ``pressure_lag``.
+Dead time, offset, gain and lag are those of the declared effects whose compensation is ``PATH``.
 """
 
 from collections import deque
 from math import exp
 
-from pam_ros.rig.model import RigModel
+from pam_ros.effects.base import Compensation
+from pam_ros.rig import layout as at
+from pam_ros.rig.joint import Joint
+from pam_ros.rig.run import delays_of
+
+BAR = 1e5  # Pa
 
 
 class Chamber:
@@ -30,22 +34,33 @@ class Chamber:
 
 
 class PressurePath:
-    """What is known of the chamber of a rig from the commands that it was given.
+    """What is known of the chamber of a muscle from the commands that it was given.
 
     *quickest* is the time constant in s that the inverse makes of a lag: a shorter one would ask
     for more pressure than it is worth, since noise is amplified by lag / quickest.
     """
 
-    def __init__(self, model: RigModel, quickest: float) -> None:
-        """Take the declared effects of *model*."""
-        lag = model.effects.get('pressure_lag', {})
-        offset = model.effects.get('pressure_offset', {})
-        self.is_lag_declared = lag.get('fill', 0.0) > 0.0 or lag.get('vent', 0.0) > 0.0
-        self.chamber = Chamber(lag.get('fill', 0.0), lag.get('vent', 0.0))
-        self.delay = model.delay
+    def __init__(self, joint: Joint, muscle: int, quickest: float) -> None:
+        """Take the declared effects of one *muscle*."""
+        q, layout = joint.parameters(), joint.layout
+        row = q[at.MUSCLE + muscle].tolist()
+        fill = vent = self._offset = 0.0
+        self._gain = 1.0
+        for effect in joint.present[at.MUSCLE + muscle]:
+            if effect.compensation is not Compensation.PATH:
+                continue
+            j = layout.parameter_at[effect.name]
+            if effect.lag is not None:
+                fill, vent = effect.lag(row, j)
+            elif effect.pressure is not None:
+                # Without a memory it is an offset and a gain.
+                low, high = (effect.pressure(p, 0.0, 0.0, (), 0, (), row, j) for p in (0.0, BAR))
+                slope = (high - low) / BAR
+                self._offset, self._gain = slope * self._offset + low, slope * self._gain
+        self.is_lag_declared = fill > 0.0 or vent > 0.0
+        self.chamber = Chamber(fill, vent)
+        self.delay = delays_of(layout, q)[muscle]
         self.quickest = quickest
-        self._offset = offset.get('offset', 0.0)
-        self._gain = 1.0 + offset.get('gain', 0.0)
         self.start(0.0)
 
     def start(self, command: float) -> None:

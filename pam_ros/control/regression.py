@@ -23,11 +23,11 @@ class Regression:
         self.theta = np.zeros(len(spread))
         self.covariance = np.diag(self._prior)
 
-    def update(self, phi: Array, error: float, forgotten: float) -> None:
+    def update(self, phi: Array, error: float, forgotten: float | Array) -> None:
         """Take in a sample whose y was *error* above phi . theta.
 
         *forgotten* is the share of the prior variance by which theta may have wandered since the
-        last sample.
+        last sample, one number or one a parameter.
         """
         direction = self.covariance @ phi
         gain = direction / (self._noise + phi @ direction)

@@ -9,24 +9,50 @@ added to it is an offset that goes to zero within the bounds and is nothing once
 
 from dataclasses import dataclass
 from math import exp
+from typing import Any
 
 from pam_ros.control.profile import Bounds, Rest, advance, change
 from pam_ros.control.signals import Reference
-from pam_ros.parameters import check_all, parameter
+from pam_ros.control.tuning import number
+from pam_ros.parameters import OnTurning, check_all, parameter, turning_defaults
 
-QUICK, PER_SAMPLE = 80.0, 1.5  # rad/s of the tracker, and rad a sample: the lower one counts
-ROUGH = 4.0  # times the bound of acceleration that samples of a stream may be off by
-PAUSE = 0.12  # s without a sample after which the next one is a new target
-LEAST_INTERVAL = 1e-4  # s, for samples that come at once
-MISSED, LEAST = 4.0, 0.05  # intervals, and s, without a sample after which a stream has ended
+
+@dataclass(frozen=True)
+class StreamTuning:
+    """How a target that is set again and again is told from one that jumps."""
+
+    quick: float = number(
+        80.0, 'rad/s', 'of the tracker: a sine of 0.5 Hz is followed to 6e-5 of its amplitude'
+    )
+    per_sample: float = number(
+        1.5, '', 'rad of the tracker a sample at most: as of the velocity estimate'
+    )
+    rough: float = number(
+        4.0, '', 'times the bound of acceleration that samples of a stream may be off by'
+    )
+    pause: float = number(
+        0.12, 's', 'without a sample after which the next is a new target: one at 10 Hz and jitter'
+    )
+    least_interval: float = number(1e-4, 's', 'for samples that come at once')
+    missed: float = number(4.0, '', 'intervals without a sample after which a stream has ended')
+    least_missed: float = number(0.05, 's', 'and at least so long: a late turn of a busy machine')
+
+
+STREAM = StreamTuning()
 
 
 @dataclass(frozen=True)
 class Shape:
-    """Bounds of the motion to a target that jumps."""
+    """Bounds of the motion to a target that jumps; in rad of a joint that turns."""
 
     max_velocity: float = parameter(
-        0.1, 'velocity of the reference after a step', 'm/s', low=0.0, high=10.0, above_low=True
+        0.1,
+        'velocity of the reference after a step',
+        'm/s',
+        low=0.0,
+        high=10.0,
+        above_low=True,
+        turning=OnTurning(2.0, 100.0),
     )
     max_acceleration: float = parameter(
         0.5,
@@ -35,14 +61,27 @@ class Shape:
         low=0.0,
         high=1000.0,
         above_low=True,
+        turning=OnTurning(15.0, 1e4),
     )
     max_jerk: float = parameter(
-        6.0, 'jerk of the reference after a step', 'm/s^3', low=0.0, high=1e6, above_low=True
+        6.0,
+        'jerk of the reference after a step',
+        'm/s^3',
+        low=0.0,
+        high=1e6,
+        above_low=True,
+        turning=OnTurning(300.0, 1e7),
     )
+    is_turning: bool = False
+
+    @classmethod
+    def turning(cls, **given: Any) -> 'Shape':
+        """Return the bounds of a joint that turns: its defaults, with those *given*."""
+        return cls(**{**turning_defaults(cls), 'is_turning': True, **given})
 
     def __post_init__(self) -> None:
         """Check every field."""
-        check_all(self)
+        check_all(self, turning=self.is_turning)
 
     @property
     def bounds(self) -> Bounds:
@@ -50,33 +89,14 @@ class Shape:
         return Bounds(self.max_velocity, self.max_acceleration, self.max_jerk)
 
 
-@dataclass(frozen=True)
-class Turn(Shape):
-    """The same of a joint that turns."""
-
-    max_velocity: float = parameter(
-        2.0, 'velocity of the reference after a step', 'rad/s', low=0.0, high=100.0, above_low=True
-    )
-    max_acceleration: float = parameter(
-        15.0,
-        'acceleration of the reference after a step',
-        'rad/s^2',
-        low=0.0,
-        high=1e4,
-        above_low=True,
-    )
-    max_jerk: float = parameter(
-        300.0, 'jerk of the reference after a step', 'rad/s^3', low=0.0, high=1e7, above_low=True
-    )
-
-
 class Tracker:
     """Velocity and acceleration of a target that is only told as positions, sample by sample.
 
-    An alpha-beta-gamma filter with three equal poles at QUICK rad/s: it follows a constant
-    acceleration without error, a sine of amplitude A and w rad/s with one of A (w / QUICK)^3. A
-    sample that no acceleration within *bounds* explains is a jump: the target is there, at rest.
-    A second one in a row, within the bound of velocity, is the second sample of a motion.
+    An alpha-beta-gamma filter with three equal poles at ``StreamTuning.quick``: it follows a
+    constant acceleration without error, a sine of amplitude A and w rad/s with one of
+    A (w / quick)^3. A sample that no acceleration within *bounds* explains is a jump: the target
+    is there, at rest. A second one in a row, within the bound of velocity, is the second sample
+    of a motion.
     """
 
     def __init__(self, bounds: Bounds) -> None:
@@ -88,7 +108,7 @@ class Tracker:
         """Begin anew with a target at rest at *position* m."""
         self.state = (position, 0.0, 0.0)
         self._last = position
-        self._age = self._interval = PAUSE
+        self._age = self._interval = STREAM.pause
         self._has_jumped = False
 
     def follow(self, dt: float) -> bool:
@@ -97,7 +117,7 @@ class Tracker:
         x, v, a = self.state
         if v == a == 0.0:
             return False
-        if self._age > max(MISSED * self._interval, LEAST):
+        if self._age > max(STREAM.missed * self._interval, STREAM.least_missed):
             self.state = (self._last, 0.0, 0.0)
             return True
         self.state = (x + dt * (v + 0.5 * dt * a), v + dt * a, a)
@@ -105,16 +125,19 @@ class Tracker:
 
     def take(self, position: float, ago: float) -> bool:
         """Take in a sample in m that came *ago* s ago; return whether it is a jump."""
-        interval = max(self._age - ago, LEAST_INTERVAL)
+        interval = max(self._age - ago, STREAM.least_interval)
         way = position - self._last
         self._interval, self._age, self._last = interval, ago, position
         x, v, a = self.state
         # Compared where both are now: the sample is taken along.
         surprise = position + ago * (v + 0.5 * ago * a) - x
-        rate = min(QUICK, PER_SAMPLE / interval)
-        if interval > PAUSE or abs(surprise) * rate * rate > ROUGH * self.bounds.acceleration:
+        rate = min(STREAM.quick, STREAM.per_sample / interval)
+        if (
+            interval > STREAM.pause
+            or abs(surprise) * rate * rate > STREAM.rough * self.bounds.acceleration
+        ):
             speed = way / interval
-            is_stream = self._has_jumped and interval <= PAUSE
+            is_stream = self._has_jumped and interval <= STREAM.pause
             is_second = is_stream and abs(speed) <= self.bounds.velocity
             self.state = (
                 (position + ago * speed, speed, 0.0) if is_second else (position, 0.0, 0.0)

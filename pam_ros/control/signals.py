@@ -3,10 +3,11 @@
 """What goes into a position law and what can be read out of it."""
 
 from dataclasses import dataclass
-from typing import NamedTuple, Protocol, TypeVar
+from typing import NamedTuple, Protocol
 
-# Gauge Pa: of one muscle, or of the two of a pair.
-Pressure = TypeVar('Pressure', float, tuple[float, float])
+from pam_ros.control.sharing import Sharing
+
+Pressures = tuple[float, ...]  # gauge Pa, one a muscle
 
 
 class Reference(NamedTuple):
@@ -22,6 +23,8 @@ class Reference(NamedTuple):
 class Terms:
     """What a law found at its last step, for plots: SI, forces in N, contraction positive.
 
+    For a joint that turns, read rad for m, and N m for N.
+
     reference, speed
         where the load shall be and how fast it shall go, m and m/s
     position, velocity
@@ -33,8 +36,11 @@ class Terms:
     equivalent, switching, observer, learned
         parts of the wanted force: what the model wants, what the sliding variable wants, what
         the disturbance observer takes back, and what has been learned
-    pressure
-        gauge Pa commanded
+    pressures
+        gauge Pa commanded, one a muscle
+    co_contraction, stiffness
+        stiffness in N/m that the muscles shall give the joint, where it can be chosen, and that
+        they give it as modelled
     bandwidth
         decay rate of the sliding variable in use, 1/s
     cut
@@ -51,42 +57,31 @@ class Terms:
     switching: float = 0.0
     observer: float = 0.0
     learned: float = 0.0
-    pressure: float = 0.0
+    pressures: Pressures = (0.0,)
+    co_contraction: float = 0.0
+    stiffness: float = 0.0
     bandwidth: float = 0.0
     cut: float = 0.0
+
+    @property
+    def pressure(self) -> float:
+        """Mean of the commanded pressures in Pa."""
+        return sum(self.pressures) / len(self.pressures)
 
     @property
     def saturated(self) -> bool:
         """Whether a limit of pressure or of its rate holds."""
         return self.cut != 0.0
 
-
-@dataclass
-class PairTerms(Terms):
-    """The same of a law for two muscles against each other: rad for m, N m for N.
-
-    pressures
-        gauge Pa commanded of both muscles; ``pressure`` is their mean
-    co_contraction, stiffness
-        stiffness that the muscles shall give the joint, and do as modelled, N m/rad
-    """
-
-    pressures: tuple[float, float] = (0.0, 0.0)
-    co_contraction: float = 0.0
-    stiffness: float = 0.0
-
-    @property
-    def pressure_1(self) -> float:
-        """Pressure of the first muscle, which a positive angle shortens."""
-        return self.pressures[0]
-
-    @property
-    def pressure_2(self) -> float:
-        """Pressure of the second muscle."""
-        return self.pressures[1]
+    def value(self, name: str) -> float:
+        """Return a term by its name among :func:`term_names`."""
+        which, _, number = name.partition('_')
+        if which == 'pressure' and number:
+            return self.pressures[int(number) - 1]
+        return float(getattr(self, name))
 
 
-# What a plot shows, in this order. SI: m, m/s, N, Pa, 1/s; saturated is 0 or 1.
+# What a plot shows, in this order: m, m/s, N, Pa, 1/s (or rad, N m); saturated is 0 or 1.
 TERMS = (
     'reference',
     'position',
@@ -101,17 +96,27 @@ TERMS = (
     'bandwidth',
     'saturated',
 )
-# Of a pair: rad, rad/s, N m, N m/rad, Pa (the mean first).
-PAIR_TERMS = (
-    *(name for name in TERMS if name != 'learned'),
-    'pressure_1',
-    'pressure_2',
-    'co_contraction',
-    'stiffness',
-)
 
 
-class PositionLaw(Protocol[Pressure]):
+def term_names(muscles: int) -> tuple[str, ...]:
+    """Return the names of what is shown of a joint of so many muscles, in order.
+
+    Of several, beside the TERMS, the pressure of each (their mean is ``pressure``), and the
+    stiffness in N/m or N m/rad that is wanted and that there is as modelled.
+    """
+    if muscles == 1:
+        return TERMS
+    # What is learned comes last: plots that show terms by number know the others at their places.
+    return (
+        *(name for name in TERMS if name != 'learned'),
+        *(f'pressure_{i + 1}' for i in range(muscles)),
+        'co_contraction',
+        'stiffness',
+        'learned',
+    )
+
+
+class PositionLaw(Protocol):
     """A law that turns positions into pressures; it has no clock and knows no ROS.
 
     For a joint that turns, read rad for m, and N m for N.
@@ -121,10 +126,17 @@ class PositionLaw(Protocol[Pressure]):
     def terms(self) -> Terms:
         """What the last step found."""
 
-    def start(self, position: float, pressure: Pressure | None = None) -> None:
-        """Begin anew with the load at *position* m, chambers at *pressure* gauge Pa if known.
+    @property
+    def sharing(self) -> Sharing:
+        """How the muscles share what the law wants."""
 
-        The first pressure that is commanded then is that pressure.
+    def stiffen(self, stiffness: float) -> None:
+        """Take a stiffness in N/m; raises RangeError where it cannot be had at the reference."""
+
+    def start(self, position: float, pressures: Pressures | None = None) -> None:
+        """Begin anew with the load at *position* m, under commands of *pressures* Pa if known.
+
+        The first pressures that are commanded then are these.
         """
 
     def update(
@@ -134,8 +146,8 @@ class PositionLaw(Protocol[Pressure]):
         position: float | None,
         velocity: float | None = None,
         age: float = 0.0,
-    ) -> Pressure:
-        """Return the gauge pressure in Pa to command from now on, *dt* s after the last call.
+    ) -> Pressures:
+        """Return the gauge pressures in Pa to command from now on, *dt* s after the last call.
 
         *reference* is where the load shall be now. *position* is the newest measurement in m,
         taken *age* s ago, None where there was none since the last call; *velocity* is the

@@ -1,110 +1,183 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The sliding-mode position law.
+"""The sliding-mode position law of every joint.
 
-The rig, contraction positive, with d what is not known of it:
+The joint, with J its inertia, tau what the muscles move it with, G gravity and d what is not known
+of it; for one muscle on a mass J is m, tau its force F, and G m g:
 
-    m y'' = F(p, y) - c y' - m g + d
+    J s'' = tau(p, s) - c s' - G(s) + d
 
-The error e = r - y shall obey e'' + 2 z w e' + w^2 e = 0, written as a sliding variable with
+The error e = r - s shall obey e'' + 2 z w e' + w^2 e = 0, written as a sliding variable with
 integral action (Utkin & Shi 1996: there is no reaching phase from a bumpless start)
 
-    s = e' + int (2 z w e' + w^2 e) dt,
+    sigma = e' + int (2 z w e' + w^2 e) dt,
 
-and the wanted force is
+and the wanted effort is
 
-    F = m (r'' + g) + c r' + losses             equivalent control, model along the reference
-      + (2 z w m - c) e' + (w^2 m - k) e        the rest of it
-      + K m sat(s / Phi)                        switching, or super-twisting
-      - d^                                      disturbance observer
+    tau = J r'' + G(r) + c r' + losses          equivalent control, model along the reference
+        + (2 z w J - c) e' + (w^2 J - k) e      the rest of it
+        + K J sat(sigma / Phi)                  switching, or super-twisting
+        - d^                                    disturbance observer
 
-so that s' = -K sat(s / Phi) + (d^ - d) / m: see :class:`pam_ros.control.gains.Gains` for what
-follows. The pressure is the explicit inverse of the force law **at the reference**, not at the
-load: F(p, r) = F(p, y) - k e, so the muscle's own spring pulls the load to the reference, without
-noise and without lag, and -k e above takes account of it. w is the muscle's own sqrt(k / m) unless
-the gains ask for more; then (w^2 m - k) e is nothing.
+so that sigma' = -K sat(sigma / Phi) + (d^ - d) / J: see :class:`pam_ros.control.gains.Gains` for
+what follows. The pressures are the explicit inverse of the force law **at the reference**, not
+at the load (:mod:`.sharing`): tau(p, r) = tau(p, s) - k e, so the joint's own spring pulls the
+load to the reference, without noise and without lag, and -k e above takes account of it. w is the
+joint's own sqrt(k / J) unless the gains ask for more; then (w^2 J - k) e is nothing. Muscles
+against each other have a stiffness as a second set-point, which does not move the coordinate.
 
-While the reference rests, the bandwidths shrink as the goal is reached (:mod:`.standstill`); what
-motion shows is learned (:mod:`.learning`); declared effects are compensated
-(:mod:`.compensation`, :mod:`.pressure_path`).
+While the reference rests, the bandwidths shrink as the goal is reached (:mod:`.standstill`), and a
+load that sticks and slips is pushed to its goal (:mod:`.stiction`); what motion shows is learned
+(:mod:`.learning`); declared effects are compensated (:mod:`.compensation`,
+:mod:`.pressure_path`).
 
 Sources: Slotine & Li, Applied Nonlinear Control, 1991, chapter 7; Lilly & Quesada 2004 (sliding
-mode for a muscle, boundary layer under wrong coefficients); Levant 1993; Han 2009 (observer).
+mode for a muscle, boundary layer under wrong coefficients); Levant 1993; Han 2009 (observer);
+Tondu & Lopez, IEEE Control Systems Magazine 20 (2), 2000 (angle and stiffness of a pair apart).
 """
 
+from dataclasses import dataclass
 from math import sqrt
 
+from pam_ros.control.co_contraction import CoContraction, StiffnessCourse
 from pam_ros.control.compensation import Losses
+from pam_ros.control.features import FeatureTuning
 from pam_ros.control.gains import SUPER_TWISTING, Gains
-from pam_ros.control.inner_model import InnerModel
-from pam_ros.control.learning import Learner
+from pam_ros.control.learning import Learner, LearningTuning
 from pam_ros.control.limits import Limiter, Limits
+from pam_ros.control.model import ControlModel
 from pam_ros.control.observer import Observer
 from pam_ros.control.pressure_path import PressurePath
-from pam_ros.control.signals import Reference, Terms
-from pam_ros.control.standstill import Standstill
-from pam_ros.control.stiction import Stiction
+from pam_ros.control.sharing import sharing_of
+from pam_ros.control.signals import Pressures, Reference, Terms
+from pam_ros.control.standstill import Standstill, StandstillTuning
+from pam_ros.control.stiction import Stiction, StictionTuning
 from pam_ros.control.switching import Surface
-from pam_ros.rig.model import RigModel
+from pam_ros.control.tuning import number, scaled
+from pam_ros.rig.joint import Joint
 
-REST_SPEED, REST_ACCELERATION = 1e-4, 1e-3  # m/s, m/s^2 below which a reference rests
-QUICKEST = 2.0  # times its bandwidth that the velocity estimate grows to
-STICTION_TOLERANCE = 1.5  # rest tolerances that a load which sticks and slips may be off
-STUCK_RATE = 30.0  # N/s at most with which a contact is loaded
+
+@dataclass(frozen=True)
+class LawTuning:
+    """What is left of the law itself."""
+
+    quickest: float = number(
+        2.0,
+        '',
+        'times its bandwidth that the velocity estimate grows to: beyond that the noise of the '
+        'pressure grows and the sine of control does not fall',
+    )
+    stuck_rate: float = number(
+        30.0, 'N/s', 'at most with which a contact is loaded: control, friction at rest'
+    )
 
 
 class SlidingMode:
-    """The law for one muscle; ``terms`` holds what its last step found."""
+    """The law for one joint; ``terms`` holds what its last step found."""
 
-    def __init__(self, model: RigModel, gains: Gains, limits: Limits | None = None) -> None:
-        """Make it for a declared rig, at rest at 0 m; see :meth:`start`."""
-        self.model, self.gains = model, gains
-        limits = limits or Limits()
+    def __init__(
+        self,
+        joint: Joint,
+        gains: Gains | None = None,
+        limits: Limits | None = None,
+        co_contraction: CoContraction | None = None,
+    ) -> None:
+        """Make it for a declared joint, at rest in the middle of its reach; see :meth:`start`."""
+        limits, wanted = limits or Limits(), co_contraction or CoContraction()
+        self.joint, self.gains = joint, gains or Gains.of(joint)
+        gains = self.gains
+        self.model = model = ControlModel(joint)
+        self.sharing = sharing_of(model, limits)
         self.terms = Terms()
-        self._rig = rig = InnerModel(model)
-        self._limiter = Limiter(*limits.range_for(model), limits.pressure_rate)
-        self._path = PressurePath(model, gains.pressure_time)
+        length, force = 1.0 / model.arm, model.arms
+        self._tuning = scaled(LawTuning(), length, force)
+        self._limiters = [
+            Limiter(low, high, limits.pressure_rate) for low, high in self.sharing.ranges
+        ]
+        self._paths = [
+            PressurePath(joint, i, gains.pressure_time) for i in range(len(model.muscles))
+        ]
+        self._is_lag_declared = any(path.is_lag_declared for path in self._paths)
         self._losses = Losses(model)
-        self._observer = Observer(rig)
-        self._learner = Learner(rig, gains, self._path.is_lag_declared)
-        self._standstill = Standstill(gains.rest_tolerance)
-        self._stiction = Stiction(STICTION_TOLERANCE * gains.rest_tolerance)
+        self._observer = Observer(model)
+        self._learner = Learner(
+            self.sharing,
+            gains,
+            scaled(LearningTuning(), length, force),
+            scaled(FeatureTuning(), length, force),
+            lag_is_declared=self._is_lag_declared,
+        )
+        self._standstill = Standstill(
+            gains.rest_tolerance, scaled(StandstillTuning(), length, force)
+        )
+        self._stiction = Stiction(gains.rest_tolerance, scaled(StictionTuning(), length, force))
         self._surface = Surface()
-        self.start(0.0)
+        self._stiffness = StiffnessCourse(wanted.wanted(self.sharing), wanted.co_contraction_rate)
+        low, high = self.sharing.reach
+        self.start(0.5 * (low + high) if high < float('inf') else 0.0)
 
     def set_gains(self, gains: Gains) -> None:
         """Go on from the present state with other gains."""
         self.gains = self._learner.gains = gains
-        self._path.quickest = gains.pressure_time
+        for path in self._paths:
+            path.quickest = gains.pressure_time
         self._standstill.tolerance = gains.rest_tolerance
 
-    def start(self, position: float, pressure: float | None = None) -> None:
+    def set_co_contraction(self, wanted: CoContraction) -> None:
+        """Go on to another stiffness, or at another rate; raises RangeError out of reach."""
+        self._stiffness.set_goal(wanted.wanted(self.sharing))
+        self._stiffness.rate = wanted.co_contraction_rate
+
+    def stiffen(self, stiffness: float) -> None:
+        """Take a stiffness; raises RangeError where it cannot be had at the reference.
+
+        In N/m or N m/rad. On the way to other places it is kept as nearly as the limits of
+        pressure leave it.
+        """
+        self.sharing.refuse_stiffness(stiffness, self.terms.reference)
+        self._stiffness.set_goal(stiffness)
+
+    def start(self, position: float, pressures: Pressures | None = None) -> None:
         """Begin anew; what was learned is forgotten.
 
-        Where *pressure* is not known, it is taken that the load rests as the model says.
+        Where *pressures* are not known, it is taken that the load rests as the model says, with
+        the stiffness that was set.
         """
-        rig = self._rig
-        if pressure is None:
-            chamber = rig.pressure_for(rig.weight, position)
-            pressure = self._path.command_at_rest(chamber)
-        self._limiter.start(pressure)
-        pressure = self._limiter.last
-        self._path.start(pressure)
-        chamber = self._path.chamber.pressure
+        model = self.model
+        if pressures is None:
+            goal = self._stiffness.goal
+            chambers = self.sharing.split(model.gravity(position), goal, position).pressures
+            pressures = tuple(
+                path.command_at_rest(p) for path, p in zip(self._paths, chambers, strict=True)
+            )
+        for limiter, path, pressure in zip(self._limiters, self._paths, pressures, strict=True):
+            limiter.start(pressure)
+            path.start(limiter.last)
+        chambers = self._chambers
         # What the model lacks to explain that the load rests here.
-        disturbance = rig.weight - rig.force(chamber, position)
+        disturbance = model.gravity(position) - model.effort(chambers, position)
+        self._stiffness.start(model.stiffness(chambers, position))
         self._observer.start(position, disturbance)
-        self._learner.start(position, chamber, disturbance)
-        self._losses.start(position, chamber)
+        self._learner.start(position, chambers, disturbance)
+        self._losses.start(position, chambers)
         self._standstill.start()
         self._stiction.start()
         self._pushed: float | None = None
         self._surface.start()
+        self.sharing.start()
         self._waited = 0.0  # since the last measurement, s
         self._offset = 0.0 if self.gains.observer else disturbance
-        self._foreseen = rig.weight
         self._lost, self._may_learn = 0.0, False
-        self.terms = Terms(reference=position, position=position, pressure=pressure)
+        self.terms = Terms(reference=position, position=position)
+        self._note(self._commands)
+
+    @property
+    def _chambers(self) -> Pressures:
+        return tuple(path.chamber.pressure for path in self._paths)
+
+    @property
+    def _commands(self) -> Pressures:
+        return tuple(limiter.last for limiter in self._limiters)
 
     def update(
         self,
@@ -113,30 +186,54 @@ class SlidingMode:
         position: float | None,
         velocity: float | None = None,
         age: float = 0.0,
-    ) -> float:
-        """Return the gauge pressure in Pa to command from now on, *dt* s after the last call.
+    ) -> Pressures:
+        """Return the gauge pressures in Pa to command from now on, *dt* s after the last call.
 
-        *reference* is where the load shall be now. *position* is the newest measurement in m,
-        taken *age* s ago, None where there was none since the last call. *velocity*, measured in
-        m/s, is used if the gains say so.
+        *reference* is where the load shall be now. *position* is the newest measurement in m or
+        rad, taken *age* s ago, None where there was none since the last call. *velocity*, measured
+        in m/s or rad/s, is used if the gains say so.
         """
         self._go_on(dt)
-        moves = (
-            abs(reference.velocity) > REST_SPEED or abs(reference.acceleration) > REST_ACCELERATION
-        )
-        self._take_in(dt, reference, position, age, moves)
-        force, rate = self._wanted_force(dt, reference, velocity)
-        force = self._push(dt, reference, force)
-        pressure = self._rig.pressure_for(force, reference.position)
-        gain = self._rig.gain(reference.position)
-        wanted = self._path.command_for(pressure, rate / gain)
-        command = self._limiter.limit(wanted, dt)
-        self.terms.pressure, self.terms.cut = command, gain * (wanted - command)
-        self._integrate(dt, force, command, wanted)
-        return command
+        self._take_in(dt, reference, position, age)
+        effort, foreseen, rate = self._wanted_effort(dt, reference, velocity)
+        effort = self._push(dt, reference, effort)
+        stiffness, s = self._stiffness.stiffness, reference.position
+        wanted = self.sharing.split(effort, stiffness, s)
+        rates = self.sharing.rates(dt, foreseen, rate, stiffness, s)
+        cut, commands = wanted.short, []
+        for i, gain in enumerate(self.sharing.gains(s)):
+            asked = self._paths[i].command_for(wanted.pressures[i], rates[i])
+            commands.append(self._limiters[i].limit(asked, dt))
+            cut += gain * (asked - commands[i])
+        self.terms.cut = cut
+        self._integrate(dt, effort, cut)
+        self._note(tuple(commands))
+        return self.terms.pressures
+
+    def _note(self, commands: Pressures) -> None:
+        """Put the pressures and what they make of the stiffness into the terms."""
+        terms = self.terms
+        terms.pressures = commands
+        if self.sharing.can_stiffen:
+            terms.co_contraction = self._stiffness.stiffness
+            terms.stiffness = self.model.stiffness(self._chambers, terms.position)
+
+    def _go_on(self, dt: float) -> None:
+        """Let all estimates go on by *dt* s under the last commands."""
+        paths = self._paths
+        means = [
+            path.follow(limiter.last, dt)
+            for path, limiter in zip(paths, self._limiters, strict=True)
+        ]
+        self._observer.predict(dt, means, -self._lost)
+        if self.gains.learning:
+            inflows, losses = [path.inflow for path in paths], self._losses.effort
+            may_learn = self._may_learn
+            self._learner.go_on(dt, inflows, self._chambers, losses, may_learn=may_learn)
+        self._stiffness.follow(dt)
 
     def _take_in(
-        self, dt: float, reference: Reference, position: float | None, age: float, moves: bool
+        self, dt: float, reference: Reference, position: float | None, age: float
     ) -> None:
         """Take in a measurement and find the bandwidths for this step."""
         observer, learner, gains = self._observer, self._learner, self.gains
@@ -145,106 +242,100 @@ class SlidingMode:
         if position is not None:
             position += observer.velocity * age
             error = reference.position - position
-        self._standstill.see_error(dt, error, moves)
+        self._standstill.see_error(dt, error, self._standstill.moves(reference))
         scale = gains.rest_factor + (1.0 - gains.rest_factor) * self._standstill.factor
         growth = learner.bandwidth / gains.bandwidth if gains.learning else 1.0
         scale *= growth
         self._bandwidth = scale * gains.bandwidth
         waited = self._waited
         if position is not None:
-            fast = min(scale, QUICKEST) * gains.velocity_bandwidth
+            fast = min(scale, self._tuning.quickest) * gains.velocity_bandwidth
             observer.correct(position, waited, fast, scale * gains.observer_bandwidth)
             self._waited = 0.0
         self._seen = observer.position if position is None else position
         if gains.learning:
             learner.see(dt, waited, position)
 
-    def _wanted_force(
+    def _wanted_effort(
         self, dt: float, reference: Reference, velocity: float | None
-    ) -> tuple[float, float]:
-        """Return the wanted force in N, and the rate in N/s at which its foreseen part goes."""
-        rig, gains, observer, terms = self._rig, self.gains, self._observer, self.terms
-        m, chamber = rig.mass, self._path.chamber.pressure
-        y, v, a, jerk = reference
-        self._k = k = rig.stiffness(chamber, y)
-        c = rig.damping(chamber, y, v)
-        self._square = max(k / m, gains.surface_bandwidth * gains.surface_bandwidth)
-        self._decay = max(2.0 * gains.surface_damping * sqrt(self._square), c / m)
+    ) -> tuple[float, float, float]:
+        """Return the wanted effort, its part that is foreseen, and how fast that goes."""
+        model, gains, observer, terms = self.model, self.gains, self._observer, self.terms
+        inertia, chambers = model.inertia, self._chambers
+        s, v, a, jerk = reference
+        self._k = k = model.stiffness(chambers, s) + model.gravity_stiffness(s)
+        c = model.damping(chambers, s, v)
+        self._square = max(k / inertia, gains.surface_bandwidth * gains.surface_bandwidth)
+        self._decay = max(2.0 * gains.surface_damping * sqrt(self._square), c / inertia)
         if velocity is None or not gains.use_measured_velocity:
             velocity = observer.velocity
-        self._error, self._error_rate = y - observer.position, v - velocity
+        self._error, self._error_rate = s - observer.position, v - velocity
 
-        losses = self._losses.force
-        lost = self._losses.follow(dt, reference, chamber, self._foreseen)
-        rate = k * v + c * a + m * jerk + (lost - losses) / dt
+        losses = self._losses.effort
+        lost = self._losses.follow(dt, reference, chambers)
+        rate = k * v + c * a + inertia * jerk + (lost - losses) / dt
         learned = learned_rate = 0.0
         if gains.learning:
             learned, learned_rate = self._learner.feed_forward(dt, reference)
-            if not self._path.is_lag_declared:
-                self._path.chamber.fill, self._path.chamber.vent = self._learner.lag
+            if not self._is_lag_declared:
+                for path in self._paths:
+                    path.chamber.fill, path.chamber.vent = self._learner.lag
         self._lost = lost + learned
-        self._foreseen = m * a + rig.weight + c * v
-        shaping = (self._decay * m - c) * self._error_rate + (self._square * m - k) * self._error
+        foreseen = inertia * a + model.gravity(s) + c * v
+        shaping = (self._decay * inertia - c) * self._error_rate
+        shaping += (self._square * inertia - k) * self._error
 
         switching = self._switching(dt)
         taken = -observer.disturbance if gains.observer else -self._offset
-        terms.reference, terms.speed = y, v
+        terms.reference, terms.speed = s, v
         terms.position, terms.velocity = observer.position, velocity
         terms.error = self._error
-        terms.equivalent = self._foreseen + lost + shaping
+        terms.equivalent = foreseen + lost + shaping
         terms.switching, terms.observer, terms.learned = switching, taken, learned
         terms.bandwidth = self._bandwidth
-        return terms.equivalent + switching + taken + learned, rate + learned_rate
+        wanted = terms.equivalent + switching + taken + learned
+        return wanted, foreseen + self._lost, rate + learned_rate
 
-    def _push(self, dt: float, reference: Reference, force: float) -> float:
-        """Return the force to apply: pushes where the load sticks and slips, else *force*."""
+    def _push(self, dt: float, reference: Reference, effort: float) -> float:
+        """Return the effort to apply: pushes where the load sticks and slips, else *effort*."""
         stiction, standstill = self._stiction, self._standstill
         if standstill.is_moving:
             stiction.start()
         pushed = None
         if not standstill.is_moving:
             error = reference.position - self._seen
-            pushed = stiction.follow(dt, error, force, standstill.stiffness)
+            pushed = stiction.follow(dt, error, effort, standstill.stiffness)
         if pushed is not None:
             self._pushed = pushed
             return pushed
         if self._pushed is not None:
-            # The law goes on from the force that was pushed with last.
-            self._surface.integral += (self._pushed - force) / (self._rig.mass * self._bandwidth)
-            force, self._pushed = self._pushed, None
-        return force
+            # The law goes on from the effort that was pushed with last.
+            missing = self._pushed - effort
+            self._surface.integral += missing / (self.model.inertia * self._bandwidth)
+            effort, self._pushed = self._pushed, None
+        return effort
 
     def _switching(self, dt: float) -> float:
-        """Return the switching force in N; sets the sliding variable."""
-        gains, m, surface = self.gains, self._rig.mass, self._surface
+        """Return the switching effort; sets the sliding variable."""
+        gains, inertia, surface = self.gains, self.model.inertia, self._surface
         if gains.switching == SUPER_TWISTING:
-            term = surface.twist(self._error_rate, dt, *gains.super_twisting(m))
+            term = surface.twist(self._error_rate, dt, *gains.super_twisting(inertia))
         else:
-            term = surface.drive(self._error_rate, self._bandwidth, gains.switching_gain(m))
+            term = surface.drive(self._error_rate, self._bandwidth, gains.switching_gain(inertia))
         self.terms.surface = surface.value
-        return m * term
+        return inertia * term
 
-    def _integrate(self, dt: float, force: float, command: float, wanted: float) -> None:
-        """Integrate the surface, and watch how the load answers to the wanted *force* in N."""
-        standstill, m = self._standstill, self._rig.mass
+    def _integrate(self, dt: float, effort: float, cut: float) -> None:
+        """Integrate the surface, and watch how the load answers to the wanted *effort*."""
+        standstill, inertia = self._standstill, self.model.inertia
         spring = self._square * self._error
         if standstill.stiffness > 1.0:
             # A load that sticks: load its contact faster, though not faster than it can be seen.
-            most = max(abs(spring), STUCK_RATE / (m * self._bandwidth))
+            most = max(abs(spring), self._tuning.stuck_rate / (inertia * self._bandwidth))
             spring = min(max(spring * standstill.stiffness, -most), most)
         growth = (self._decay * self._error_rate + spring) * dt
         # Anti-windup: at a limit the integral may only lead away from it.
-        is_free = command == wanted or growth * (wanted - command) < 0.0
-        if is_free and self._pushed is None:
+        if growth * cut <= 0.0 and self._pushed is None:
             self._surface.integral += growth
-        standstill.see_force(dt, force, self._seen, self._k)
-        self._may_learn = standstill.is_moving and command == wanted
-
-    def _go_on(self, dt: float) -> None:
-        """Let all estimates go on by *dt* s under the last command."""
-        path = self._path
-        mean = path.follow(self._limiter.last, dt)
-        self._observer.predict(dt, mean, -self._lost)
-        if self.gains.learning:
-            pressure, losses = path.chamber.pressure, self._losses.force
-            self._learner.go_on(dt, path.inflow, pressure, losses, self._may_learn)
+        standstill.see_force(dt, effort, self._seen, self._k)
+        self._may_learn = standstill.is_moving and cut == 0.0

@@ -8,15 +8,37 @@ goal is a spring some hundred times as stiff as the muscle: an integral tuned fo
 take minutes to load it. So this measures the stiffness that the load shows.
 """
 
+from dataclasses import dataclass
 from math import exp
 
-AFTER = 0.5  # s of resting reference before the motion counts as over
-WINDOW = 0.05  # s over which the error is averaged
-RELEASE = 0.3  # s in which the bandwidth falls
-FULL = 2.5  # times the tolerance: error at which the full bandwidth acts
-SLOW, MEMORY = 0.2, 0.3  # s, for the slopes of force and position and for what they show
-DOUBT = 1.5  # N, change of force below which nothing is concluded
-STIFFEST = 20.0
+from pam_ros.control.signals import Reference
+from pam_ros.control.tuning import number
+
+
+@dataclass(frozen=True)
+class StandstillTuning:
+    """When a reference counts as reached, and when a load as stuck."""
+
+    after: float = number(
+        0.5, 's', 'of resting reference before the motion counts as over: two periods of the load'
+    )
+    window: float = number(
+        0.05, 's', 'average of the error: 25 samples bring the noise below half of the tolerance'
+    )
+    release: float = number(0.3, 's', 'in which the bandwidth falls: slower than the loop')
+    full: float = number(
+        2.5, '', 'times the tolerance: error at which the full bandwidth acts; control, at rest'
+    )
+    slow: float = number(0.2, 's', 'filter of the slopes of force and position: a period of 4 Hz')
+    memory: float = number(0.3, 's', 'average of what the slopes show')
+    doubt: float = number(
+        1.5, 'N', 'change of force below which nothing is concluded: control, friction at rest'
+    )
+    stiffest: float = number(
+        20.0, '', 'largest stiffness, in muscles: faster loading overshoots; control, friction'
+    )
+    rest_speed: float = number(1e-4, 'm/s', 'below which a reference rests: 5 noises a second')
+    rest_acceleration: float = number(1e-3, 'm/s^2', 'likewise: ten times that a second')
 
 
 class Standstill:
@@ -25,12 +47,12 @@ class Standstill:
     factor
         0 (rests where it shall) to 1 (moves, or shall): what all bandwidths go with
     stiffness
-        how many times stiffer than the muscle the load shows itself, 1 to STIFFEST
+        how many times stiffer than the muscles the load shows itself, from 1 on
     """
 
-    def __init__(self, tolerance: float) -> None:
-        """Count an error of *tolerance* m as none."""
-        self.tolerance = tolerance
+    def __init__(self, tolerance: float, tuning: StandstillTuning) -> None:
+        """Count an error of *tolerance* as none; *tuning* is in the joint's units."""
+        self.tolerance, self._tuning = tolerance, tuning
         self.start()
 
     def start(self) -> None:
@@ -38,25 +60,35 @@ class Standstill:
         self.factor = 0.0
         self.stiffness = 1.0
         self._error = 0.0
-        self._since = AFTER
+        self._since = self._tuning.after
         self._is_new = True
         self._reset_slopes(0.0, 0.0)
 
     @property
     def is_moving(self) -> bool:
         """Whether the reference moves, or did until a moment ago."""
-        return self._since < AFTER
+        return self._since < self._tuning.after
+
+    def moves(self, reference: Reference) -> bool:
+        """Say whether *reference* moves."""
+        tuning = self._tuning
+        return (
+            abs(reference.velocity) > tuning.rest_speed
+            or abs(reference.acceleration) > tuning.rest_acceleration
+        )
 
     def see_error(self, dt: float, error: float, moves: bool) -> None:
         """Take in the raw *error* in m, and whether the reference *moves*."""
         self._since = 0.0 if moves else self._since + dt
-        self._error += (1.0 - exp(-dt / WINDOW)) * (error - self._error)
+        self._error += (1.0 - exp(-dt / self._tuning.window)) * (error - self._error)
         size = abs(self._error) / self.tolerance
-        wanted = 1.0 if self.is_moving else min(max((size - 1.0) / (FULL - 1.0), 0.0), 1.0)
+        wanted = (
+            1.0 if self.is_moving else min(max((size - 1.0) / (self._tuning.full - 1.0), 0.0), 1.0)
+        )
         if wanted > self.factor:
             self.factor = wanted
         else:
-            self.factor += dt / RELEASE * (wanted - self.factor)
+            self.factor += dt / self._tuning.release * (wanted - self.factor)
 
     def _reset_slopes(self, force: float, position: float) -> None:
         self._force, self._position = force, position
@@ -64,13 +96,14 @@ class Standstill:
         self._power = self._product = 0.0
 
     def see_force(self, dt: float, force: float, position: float, stiffness: float) -> None:
-        """Take in the wanted *force* in N, the *position* in m and the muscle's k in N/m."""
+        """Take in the wanted *force* in N, the *position* in m and the spring's k in N/m."""
+        tuning = self._tuning
         if self.is_moving or self._is_new:
             self._is_new = False
             self._reset_slopes(force, position)
             self.stiffness = 1.0
             return
-        share, kept = 1.0 - exp(-dt / SLOW), 1.0 - exp(-dt / MEMORY)
+        share, kept = 1.0 - exp(-dt / tuning.slow), 1.0 - exp(-dt / tuning.memory)
         up, way = force - self._force, position - self._position
         self._force += share * up
         self._position += share * way
@@ -78,7 +111,7 @@ class Standstill:
         self._position_slope += share * (way - self._position_slope)
         self._product += kept * (self._force_slope * self._position_slope - self._product)
         self._power += kept * (self._force_slope * self._force_slope - self._power)
-        doubt = DOUBT * DOUBT
+        doubt = tuning.doubt * tuning.doubt
         k = max(stiffness, 1.0)
         compliance = (self._product + doubt / k) / (self._power + doubt)
-        self.stiffness = min(max(1.0 / (k * max(compliance, 1e-12)), 1.0), STIFFEST)
+        self.stiffness = min(max(1.0 / (k * max(compliance, 1e-12)), 1.0), tuning.stiffest)

@@ -11,28 +11,55 @@ slide brings it to the goal (after Popovic, Gorinevsky & Goldenberg 2000, who fi
 beforehand). In the end it rests at the middle force, where nothing pulls at it.
 """
 
+from dataclasses import dataclass
 from math import copysign, exp
 
-LOOSE_WAY, LOOSE_SPEED = 60e-6, 4e-3  # m and m/s that tell a slip from a bent contact
-SEE, SEE_SPEED = 0.008, 0.012  # s of the filters of place and speed
-ANCHOR, REST = 0.3, 0.06  # s of those of the sticking place and of the place at rest
-TURNS, LASTING = 3, 0.5  # breaks in turn, and how little they may decay, for it to be a hunt
-DWELL = 0.08  # s at rest before a slip, for it to be a break
-CALM = 0.25  # s after a push until the load is looked at again
-QUICK, CAREFUL = 2.0, 0.6  # loading, in breaking forces per second, up to and from NEAR of it
-NEAR, TOO_MUCH = 0.75, 2.0  # breaking forces
-REACTION = 0.03  # s between a speed and its end when the push is taken back, to begin with
-PATIENCE = 6  # pushes after which the tolerance doubles
-RELAPSE = 1.6  # tolerances that a load may drift once it was within one
-STUCK = 2.0  # stiffness, in muscles, that counts as sticking
+from pam_ros.control.tuning import number
+
+
+@dataclass(frozen=True)
+class StictionTuning:
+    """How sticking and slipping are told from other motion, and how pushes are made."""
+
+    tolerance: float = number(
+        1.5, '', 'rest tolerances that a load which sticks and slips may be off: control, friction'
+    )
+    loose_way: float = number(
+        60e-6,
+        'm',
+        'way that tells a slip from a bent contact: three times the noise, and beyond '
+        'the default presliding of 10 um',
+    )
+    loose_speed: float = number(
+        4e-3, 'm/s', 'speed that does, above the noise of the filtered one: control, friction'
+    )
+    see: float = number(0.008, 's', 'filter of the place: four samples at 500 Hz')
+    see_speed: float = number(0.012, 's', 'filter of the speed: six samples')
+    anchor: float = number(0.3, 's', 'filter of the sticking place: longer than a slip lasts')
+    rest: float = number(0.06, 's', 'filter of the place at rest: 30 samples')
+    turns: int = number(3, '', 'breaks in turn that make a hunt: fewer may be a disturbance')
+    lasting: float = number(0.5, '', 'least ratio of the last break to the first one')
+    dwell: float = number(0.08, 's', 'at rest before a slip that is a break: control, friction')
+    calm: float = number(0.25, 's', 'after a push until the load is looked at: a period of 4 Hz')
+    quick: float = number(2.0, '1/s', 'loading in breaking forces a second, up to *near* of it')
+    careful: float = number(0.6, '1/s', 'loading from there: control, friction at rest')
+    near: float = number(0.75, '', 'breaking forces up to which loading is quick')
+    too_much: float = number(2.0, '', 'breaking forces at which the friction has changed')
+    reaction: float = number(
+        0.03, 's', 'between a speed and its end when a push is taken back, until it is learned'
+    )
+    longest_reaction: float = number(0.3, 's', 'that is learned at most: a period of 4 Hz')
+    patience: int = number(6, '', 'pushes after which the tolerance doubles')
+    relapse: float = number(1.6, '', 'tolerances that a load may drift once it was within one')
+    stuck: float = number(2.0, '', 'stiffness, in muscles, that counts as sticking')
 
 
 class Stiction:
     """Says what force to apply instead of the law's, while it is at work."""
 
-    def __init__(self, tolerance: float) -> None:
-        """Be content within *tolerance* m."""
-        self.tolerance = tolerance
+    def __init__(self, tolerance: float, tuning: StictionTuning) -> None:
+        """Take *tuning.tolerance* times the rest *tolerance*; all is in the joint's units."""
+        self.tolerance, self._tuning = tuning.tolerance * tolerance, tuning
         self.start()
 
     def start(self) -> None:
@@ -48,7 +75,7 @@ class Stiction:
         self._side = 0.0  # direction of the push, 0 when there is none
         self._is_loose = False
         self._calm = 0.0
-        self._reaction = REACTION
+        self._reaction = self._tuning.reaction
         self._expected = self._speed = 0.0
         self._pushes = 0
         self._wide = self.tolerance
@@ -63,10 +90,10 @@ class Stiction:
         self._see(dt, -error)
         slipped = self._has_slipped()
         if not self.is_active:
-            self._stuck = self._stuck or stiffness > STUCK
+            self._stuck = self._stuck or stiffness > self._tuning.stuck
             if slipped:
                 towards_goal = self._v * self._anchor < 0.0
-                if self._stuck and self._dwelt > DWELL and towards_goal:
+                if self._stuck and self._dwelt > self._tuning.dwell and towards_goal:
                     self._note_break(force)
                 self._anchor, self._dwelt = self._x, 0.0
             return self._force if self.is_active else None
@@ -78,17 +105,21 @@ class Stiction:
         if self._is_new:
             self._x = self._anchor = x
             self._is_new = False
-        way = (1.0 - exp(-dt / SEE)) * (x - self._x)
+        way = (1.0 - exp(-dt / self._tuning.see)) * (x - self._x)
         self._x += way
-        self._v += (1.0 - exp(-dt / SEE_SPEED)) * (way / dt - self._v)
-        if abs(self._v) < LOOSE_SPEED:
-            self._anchor += (1.0 - exp(-dt / ANCHOR)) * (self._x - self._anchor)
-        if abs(self._v) < 0.5 * LOOSE_SPEED:
+        self._v += (1.0 - exp(-dt / self._tuning.see_speed)) * (way / dt - self._v)
+        if abs(self._v) < self._tuning.loose_speed:
+            self._anchor += (1.0 - exp(-dt / self._tuning.anchor)) * (self._x - self._anchor)
+        if abs(self._v) < 0.5 * self._tuning.loose_speed:
             self._dwelt += dt
 
     def _has_slipped(self) -> bool:
         way = self._x - self._anchor
-        return abs(way) > LOOSE_WAY and abs(self._v) > LOOSE_SPEED and way * self._v > 0.0
+        return (
+            abs(way) > self._tuning.loose_way
+            and abs(self._v) > self._tuning.loose_speed
+            and way * self._v > 0.0
+        )
 
     def _note_break(self, force: float) -> None:
         """Take note of a break, and set to work at the third in turn of a hunt that lasts."""
@@ -97,10 +128,10 @@ class Stiction:
         if self._breaks and self._breaks[-1][0] == side:
             self._breaks.clear()
         self._breaks.append((side, force, abs(self._anchor)))
-        if len(self._breaks) < TURNS:
+        if len(self._breaks) < self._tuning.turns:
             return
-        (_, _, first), (_, other, _), (_, _, last) = self._breaks[-TURNS:]
-        if last > LASTING * first and side * (force - other) > 0.0:
+        (_, _, first), (_, other, _), (_, _, last) = self._breaks[-self._tuning.turns :]
+        if last > self._tuning.lasting * first and side * (force - other) > 0.0:
             self._middle = 0.5 * (force + other)
             self._breaking = 0.5 * abs(force - other)
             self._force, self._side, self._is_loose = force, side, True
@@ -120,9 +151,13 @@ class Stiction:
         if self._is_loose:
             return
         loaded = self._side * (self._force - self._middle)
-        rate = QUICK if loaded < NEAR * self._breaking else CAREFUL
+        rate = (
+            self._tuning.quick
+            if loaded < self._tuning.near * self._breaking
+            else self._tuning.careful
+        )
         self._force += self._side * rate * self._breaking * dt
-        if loaded > TOO_MUCH * self._breaking:
+        if loaded > self._tuning.too_much * self._breaking:
             self.start()  # this is no friction as it was: back to the law
 
     def _end_push(self) -> None:
@@ -133,20 +168,22 @@ class Stiction:
     def _rest(self, dt: float) -> None:
         """Let the load come to rest, learn how far it slid, and push again if it must be."""
         self._calm += dt
-        if self._calm < CALM:
+        if self._calm < self._tuning.calm:
             self._anchor = self._mean = self._x
             return
-        self._mean += (1.0 - exp(-dt / REST)) * (self._x - self._mean)
-        if self._calm < CALM + REST:
+        self._mean += (1.0 - exp(-dt / self._tuning.rest)) * (self._x - self._mean)
+        if self._calm < self._tuning.calm + self._tuning.rest:
             return
         if self._speed != 0.0:
             # How long the speed lasted beyond what was expected corrects the next push.
             late = (self._mean - self._expected) / self._speed
-            self._reaction = min(max(self._reaction + 0.5 * late, 0.0), 0.3)
+            self._reaction = min(
+                max(self._reaction + 0.5 * late, 0.0), self._tuning.longest_reaction
+            )
             self._speed = 0.0
-        if self._pushes % PATIENCE == 0 and self._pushes:
-            self._wide = self.tolerance * 2.0 ** (self._pushes // PATIENCE)
-        allowed = RELAPSE * self._wide if self._is_content else self._wide
+        if self._pushes % self._tuning.patience == 0 and self._pushes:
+            self._wide = self.tolerance * 2.0 ** (self._pushes // self._tuning.patience)
+        allowed = self._tuning.relapse * self._wide if self._is_content else self._wide
         self._is_content = abs(self._mean) <= allowed
         if not self._is_content:
             self._side = copysign(1.0, -self._mean)

@@ -12,7 +12,8 @@ from matplotlib.ticker import MultipleLocator
 from pam_ros.demo.paper import SPRING_FORCE
 from pam_ros.demo.run import PublishedRun
 from pam_ros.report.style import COLOURS, FAINT, INK, stacked, styled
-from pam_ros.rig.model import RigModel
+from pam_ros.rig import statics
+from pam_ros.rig.joint import Joint
 
 WIDTH = 760
 MODEL, MEASURED = COLOURS[2], COLOURS[0]
@@ -24,7 +25,7 @@ def save(figure: Figure, path: Path) -> None:
         figure.savefig(path, format='png', dpi=144, facecolor='white')
 
 
-def figure_5(run: PublishedRun, model: RigModel) -> Figure:
+def figure_5(run: PublishedRun, model: Joint) -> Figure:
     """Draw stiffness, damping ratio and damping coefficient over contraction.
 
     Lines are equations (2) and (4) over the working range, dots what was published while the
@@ -62,13 +63,13 @@ def figure_5(run: PublishedRun, model: RigModel) -> Figure:
     return figure
 
 
-def figure_6(run: PublishedRun, model: RigModel) -> Figure:
+def figure_6(run: PublishedRun, model: Joint) -> Figure:
     """Draw acceleration, velocity and spring force of the released load over time."""
     load = model.load
     panels = (
         ('acceleration [m/s²]', run.acceleration(load), 0.0),
         ('velocity [m/s]', run.velocity, 0.0),
-        ('spring force F_spring [N]', run.force, load.mass * load.gravity),
+        ('spring force F_spring [N]', run.force, float(statics.weight(model, 0.0))),
     )
     with styled():
         figure, axes = stacked(WIDTH, (150, 150, 150))
@@ -106,7 +107,7 @@ def figure_6(run: PublishedRun, model: RigModel) -> Figure:
     return figure
 
 
-def figure_steps(runs: Sequence[PublishedRun], model: RigModel) -> Figure:
+def figure_steps(runs: Sequence[PublishedRun], model: Joint) -> Figure:
     """Draw pressure, contraction and spring force over a series of pressure steps."""
     l0, load = model.muscle.l0, model.load
     start = runs[0].t[0]
@@ -114,7 +115,7 @@ def figure_steps(runs: Sequence[PublishedRun], model: RigModel) -> Figure:
         figure, axes = stacked(WIDTH, (100, 180, 150))
         for run in runs:
             t, p = run.t - start, float(run.pressure[-1])
-            kappa = 100.0 * model.muscle.equilibrium(p, model.weight)
+            kappa = 100.0 * model.muscle.equilibrium(p, float(statics.weight(model, 0.0)))
             axes[0].plot(t, run.pressure / 1e3, color=MODEL)
             axes[1].plot(
                 t[[0, -1]], [kappa, kappa], color=FAINT, linewidth=0.8, linestyle=(0, (4, 3))
@@ -125,7 +126,7 @@ def figure_steps(runs: Sequence[PublishedRun], model: RigModel) -> Figure:
             )
             axes[2].plot(t, run.force, color=MODEL)
         axes[2].axhline(
-            load.mass * load.gravity, color=FAINT, linewidth=0.8, linestyle=(0, (4, 3))
+            float(statics.weight(model, 0.0)), color=FAINT, linewidth=0.8, linestyle=(0, (4, 3))
         )
         for ax, title in zip(
             axes,

@@ -11,7 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from pam_ros.demo.run import PublishedRun
-from pam_ros.rig.model import RigModel
+from pam_ros.rig import statics
+from pam_ros.rig.joint import Joint
 
 PRESSURE = 600e3  # Pa gauge
 MASS = 20.0  # kg
@@ -62,7 +63,7 @@ def resting(run: PublishedRun) -> PublishedRun:
     return run.between(float(run.t[-1]) - SETTLED, np.inf)
 
 
-def compare(released: PublishedRun, model: RigModel) -> list[Row]:
+def compare(released: PublishedRun, model: Joint) -> list[Row]:
     """Return the paper's values beside those of the released load."""
     end = resting(released)
     l0 = model.muscle.l0
@@ -111,7 +112,7 @@ def frequency(run: PublishedRun) -> float:
     return float(0.5 * (len(last) - 1) / (last[-1] - last[0]))
 
 
-def steps(runs: Sequence[PublishedRun], model: RigModel) -> list[Row]:
+def steps(runs: Sequence[PublishedRun], model: Joint) -> list[Row]:
     """Return the contraction to which each pressure step led, beside that of equation (1)."""
     rows = []
     for run in runs:
@@ -121,7 +122,7 @@ def steps(runs: Sequence[PublishedRun], model: RigModel) -> list[Row]:
             Row(
                 f'contraction at {p / 1e3:.0f} kPa',
                 '%',
-                100.0 * model.muscle.equilibrium(p, model.weight),
+                100.0 * model.muscle.equilibrium(p, float(statics.weight(model, 0.0))),
                 'equation (1) = m g',
                 100.0 * float(end.position.mean()) / model.muscle.l0,
                 2,

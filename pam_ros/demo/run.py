@@ -7,7 +7,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 from numpy.typing import NDArray
 
-from pam_ros.rig.model import Load
+from pam_ros.rig.loads import Mass
 
 Array = NDArray[np.float64]
 
@@ -33,7 +33,7 @@ class PublishedRun:
         inside = (self.t >= begin) & (self.t < end)
         return PublishedRun(*(getattr(self, item.name)[inside] for item in fields(self)))
 
-    def acceleration(self, load: Load) -> Array:
+    def acceleration(self, load: Mass) -> Array:
         """Return y'' in m/s^2 by equation (3) from what was published."""
         pull = self.force - self.damping * self.velocity
         return np.asarray(pull / load.mass - load.gravity)

@@ -97,7 +97,7 @@ EFFECT = Effect(
         {'share': 1.0, 'toe': 30.0, 'push': 10.0},
     ),
     example={'share': 1.0, 'toe': 20.0},
-    compensation=Compensation.FEEDBACK,
+    compensation=Compensation.MODEL,
     rivals=('end_stop',),
     force=force,
     damping=damping,

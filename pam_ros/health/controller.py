@@ -4,11 +4,11 @@
 
 from typing import Any, NamedTuple
 
+from pam_ros.control.compensation import left_to_feedback
 from pam_ros.control.loop import BLIND, DISABLED, HOLD, RUNNING, VENT, WAITING, Loop
-from pam_ros.control.pair_law import PairLaw
+from pam_ros.control.signals import Pressures
 from pam_ros.health.health import Health, Level
-from pam_ros.settings.control import Told
-from pam_ros.settings.pair_control import ToldPair
+from pam_ros.settings.control import ControlSetup
 from pam_ros.timing.ticker import Punctuality
 
 
@@ -22,23 +22,26 @@ class Heard(NamedTuple):
     is_refusal_new: bool  # since the last report
 
 
-def values_of(loop: Loop[Any], told: Told | ToldPair, age: float | None) -> dict[str, Any]:
+def values_of(loop: Loop, setup: ControlSetup, age: float | None) -> dict[str, Any]:
     """Return in numbers what the loop does; *age* is that of the joint states in s."""
-    terms, law, unit = loop.law.terms, loop.law, told.unit
+    terms, law, unit = loop.law.terms, loop.law, setup.unit
     is_running = loop.state == RUNNING
     values = {
         'state': loop.state,
-        'controller': told.settings.controller,
+        'controller': setup.settings.controller,
         f'reference ({unit})': terms.reference if is_running else None,
         f'error ({unit})': terms.error if is_running else None,
-        'command (Pa)': loop.pressure,
+        'command (Pa)': shown(loop.pressures),
         'saturated': terms.saturated if is_running else None,
-        f'lowest reference ({unit})': told.reach[0],
-        f'highest reference ({unit})': told.reach[1],
+        f'lowest reference ({unit})': setup.reach[0],
+        f'highest reference ({unit})': setup.reach[1],
         'age of joint_states (s)': age,
     }
-    if isinstance(law, PairLaw):
-        low, high = law.rig.stiffness_range(law.terms.reference)
+    feedback = left_to_feedback(setup.joint)
+    if feedback:
+        values['declared and left to the feedback'] = ', '.join(feedback)
+    if law.sharing.can_stiffen:
+        low, high = law.sharing.stiffness_range(law.terms.reference)
         values |= {
             'co-contraction (N m/rad)': law.terms.co_contraction if is_running else None,
             'lowest co-contraction (N m/rad)': low,
@@ -47,7 +50,12 @@ def values_of(loop: Loop[Any], told: Told | ToldPair, age: float | None) -> dict
     return values
 
 
-def trouble(loop: Loop[Any], on_timeout: str, blindness: str, fault: str) -> str:
+def shown(pressures: Pressures | None) -> float | Pressures | None:
+    """Return commands as a number where there is one, as a tuple where there are several."""
+    return pressures[0] if pressures is not None and len(pressures) == 1 else pressures
+
+
+def trouble(loop: Loop, on_timeout: str, blindness: str, fault: str) -> str:
     """Say why *loop* does not control, '' where it does."""
     did = {VENT: 'vents', HOLD: 'holds the pressure'}[on_timeout]
     why = f': {blindness}' if blindness else ''
@@ -60,11 +68,11 @@ def trouble(loop: Loop[Any], on_timeout: str, blindness: str, fault: str) -> str
     }[loop.state]
 
 
-def control(loop: Loop[Any], told: Told | ToldPair, heard: Heard, fault: str) -> Health:
+def control(loop: Loop, setup: ControlSetup, heard: Heard, fault: str) -> Health:
     """Return the health of the control; *fault* is why the law was given up."""
     state = loop.state
-    why = trouble(loop, told.settings.on_timeout, heard.blindness, fault)
-    values = values_of(loop, told, heard.age)
+    why = trouble(loop, setup.settings.on_timeout, heard.blindness, fault)
+    values = values_of(loop, setup, heard.age)
     values |= {'refused': heard.refused, 'last reason': heard.refusal}
     is_blind = state == BLIND or (state == WAITING and bool(heard.blindness))
     if is_blind or fault:

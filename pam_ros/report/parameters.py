@@ -6,16 +6,17 @@ import textwrap
 from dataclasses import replace
 from pathlib import Path
 
+from pam_ros.effects.names import parsed
 from pam_ros.identification.result import Trace
 from pam_ros.report.provenance import Provenance
 from pam_ros.report.summary import last_line
 from pam_ros.report.wording import listed
-from pam_ros.rig.model import RigModel
+from pam_ros.rig.joint import Joint, changed
 from pam_ros.settings.files import write
 from pam_ros.settings.tables import Values, flat_rig
 
 
-def identified(trace: Trace, source: Provenance) -> RigModel:
+def identified(trace: Trace, source: Provenance) -> Joint:
     """Return the model that the trace ends with: re-tuned, with the effects that it found.
 
     Its constants are no longer those of the declared source, and say so.
@@ -23,17 +24,18 @@ def identified(trace: Trace, source: Provenance) -> RigModel:
     model = trace.stages[-1].model
     names = listed([recording.name for recording in source.recordings])
     text = f'pam_identify, re-tuned on {names}; declared: {source.parameters}'
-    return replace(model, muscle=replace(model.muscle, source=text))
+    return changed(model, replace(model.muscle, source=text), model.all_effects)
 
 
-def values(model: RigModel) -> Values:
+def values(model: Joint) -> Values:
     """Return the flat parameters of a rig; effects that are absent are left out."""
-    present = {effect.name for effect in model.present}
-    return {
-        name: value
-        for name, value in flat_rig(model).items()
-        if not name.startswith('effects.') or name.split('.')[1] in present
-    }
+    present = {effect.name for effect in model.all_present}
+    found = {}
+    for flat, value in flat_rig(model).items():
+        name = parsed(flat)
+        if name is None or name.effect in present:
+            found[flat] = value
+    return found
 
 
 def write_identified(path: Path, trace: Trace, source: Provenance) -> None:

@@ -13,7 +13,7 @@ from typing import Any
 
 import pam_ros
 from pam_ros.recording.recording import Recording
-from pam_ros.rig.model import RigModel
+from pam_ros.rig.joint import Joint
 from pam_ros.settings.files import find
 from pam_ros.settings.tables import flat_rig
 
@@ -41,7 +41,7 @@ class Provenance:
 
 
 def provenance(
-    model: RigModel,
+    model: Joint,
     parameters: str,
     overrides: Sequence[str],
     recordings: Sequence[Recording],

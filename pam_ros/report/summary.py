@@ -24,5 +24,7 @@ def last_line(trace: Trace) -> str:
 
 def added(trace: Trace) -> list[str]:
     """Return the names of the effects that the last model has beside the declared ones."""
-    first, *_, last = ([effect.name for effect in stage.model.present] for stage in trace.stages)
+    first, *_, last = (
+        [effect.name for effect in stage.model.all_present] for stage in trace.stages
+    )
     return [name for name in last if name not in first]

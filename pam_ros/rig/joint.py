@@ -184,6 +184,11 @@ class Joint:
         )
 
     @property
+    def all_present(self) -> tuple[Effect, ...]:
+        """The effects that are present anywhere, in the order of the library."""
+        return tuple(e for e in self.library if any(e in row for row in self.present))
+
+    @property
     def active(self) -> tuple[Effect, ...]:
         """The effects that the kernel must step: all of the library as soon as one is present.
 

@@ -1,34 +1,36 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What ``pam_control`` is told for one muscle: rig, law with its gains, rates and time-outs."""
+"""What is declared to ``pam_control``: rig, law with its gains, rates and time-outs.
 
+Muscles, joints and their effects are declared as to ``pam_sim``, so that one file is for both.
+"""
+
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, ClassVar
 
+from pam_ros.control.co_contraction import CoContraction
 from pam_ros.control.course import Course
 from pam_ros.control.gains import Gains
-from pam_ros.control.limits import Limits, reachable
+from pam_ros.control.limits import Limits
 from pam_ros.control.loop import HOLD, VENT
+from pam_ros.control.model import ControlModel
 from pam_ros.control.pid import Pid, PidGains
 from pam_ros.control.pressure_path import PressurePath
 from pam_ros.control.shaping import Shape
-from pam_ros.control.signals import PositionLaw
+from pam_ros.control.sharing import sharing_of
+from pam_ros.control.signals import PositionLaw, Pressures
 from pam_ros.control.sliding_mode import SlidingMode
+from pam_ros.errors import ParameterError
 from pam_ros.parameters import check_all, parameter
-from pam_ros.rig.model import RigModel
-from pam_ros.settings.files import read_known
-from pam_ros.settings.sim import MUSCLE
-from pam_ros.settings.tables import (
-    Table,
-    Values,
-    build,
-    build_rig,
-    rig_table,
-    table_of,
-    with_defaults,
-)
+from pam_ros.rig.arrangements import ARRANGEMENTS, LOAD
+from pam_ros.rig.joint import Joint
+from pam_ros.settings.rig import RigParameters
+from pam_ros.settings.sim import SimSettings, Start
+from pam_ros.settings.tables import Table, Values, build, build_joint, table_of
 
 MEASURED = 'use_measured_velocity'  # a gain that velocity_source stands for
+NAMES = ('muscles', 'joint_names', 'muscle_topics')  # which pam_sim has, too
 
 
 @dataclass(frozen=True)
@@ -88,10 +90,9 @@ class ControlSettings:
         True, 'whether it controls from the start; false: from ~/enable on', live=False
     )
     joint: str = parameter(
-        'load',
-        'load: one muscle moves a load; antagonistic: two muscles turn a pulley against each '
-        'other, and the angle is controlled',
-        choices=('load', 'antagonistic'),
+        LOAD.name,
+        'the joint that is controlled; ' + '; '.join(f'{k.name}: {k.text}' for k in ARRANGEMENTS),
+        choices=tuple(kind.name for kind in ARRANGEMENTS),
         live=False,
     )
     joint_name: str = parameter('pam', 'name of the joint in joint_states', live=False)
@@ -101,80 +102,175 @@ class ControlSettings:
         check_all(self)
 
 
-@dataclass(frozen=True)
-class Told:
-    """All that the node was told, checked against each other."""
+class ControlParameters(RigParameters):
+    """The muscles and joints of a rig, one of which is controlled."""
 
-    model: RigModel
+    elsewhere: ClassVar[tuple[str, ...]] = tuple(table_of(Start, 'initial.'))
+
+    @property
+    def common(self) -> Table:
+        """The table of what is everybody's beside the rig, in the units of this kind of joint."""
+        turning = self.kind.transmission.equations.revolute
+        gains, names = table_of(Gains, 'gains.', turning=turning), table_of(SimSettings)
+        del gains[f'gains.{MEASURED}']
+        kind, default, about = names['muscle_topics']
+        text = (
+            'command each muscle on <name>/pressure_command, as pam_sim with muscle_topics takes'
+        )
+        names['muscle_topics'] = kind, default, replace(about, text=text)
+        return {
+            **{name: names[name] for name in NAMES},
+            **table_of(ControlSettings),
+            **(table_of(CoContraction, turning=True) if turning and self.kind.muscles > 1 else {}),
+            **gains,
+            **table_of(PidGains, 'pid.', turning=turning),
+            **table_of(Limits, 'limits.'),
+            **table_of(Shape, 'shape.', turning=turning),
+        }
+
+    def build(self, values: Values) -> 'ControlSetup':
+        """Make of flat *values* what the node works with; PamError where they do not fit."""
+        settings = build(ControlSettings, values)
+        has_topics = bool(values['muscle_topics'])
+        k = self._controlled(settings.joint_name, has_topics=has_topics)
+        n = self.kind.muscles
+        if self.kind is not LOAD and len(self.joints) > 1 and not has_topics:
+            raise ParameterError(
+                f'pressure_commands has all muscles of {len(self.joints)} joints and this is '
+                f'the controller of {self.joints[k or 0]} alone: set muscle_topics, here and in '
+                'pam_sim'
+            )
+        if k is None:
+            joint = build_joint(self.kind, [values] * n, values)
+        else:
+            joint = self.build_joints(values)[k]
+            settings = replace(settings, joint_name=self.joints[k])
+        is_turning = joint.is_revolute
+        gains = replace(
+            build(Gains, values, 'gains.', is_turning=is_turning),
+            use_measured_velocity=settings.velocity_source == 'measured',
+        )
+        setup = ControlSetup(
+            joint,
+            settings,
+            gains,
+            build(PidGains, values, 'pid.', is_turning=is_turning),
+            build(Limits, values, 'limits.'),
+            build(Shape, values, 'shape.', is_turning=is_turning),
+            build(CoContraction, values),
+            (0.0, 0.0),
+            self.muscles[n * (k or 0) : n * (k or 0) + n],
+            has_topics,
+        )
+        sharing = sharing_of(ControlModel(joint), setup.limits)
+        gains.check(sharing, 1.0 / settings.rate)
+        setup.co_contraction.wanted(sharing)
+        setup = replace(setup, reach=sharing.reach)
+        setup.make_law()  # which says what it lacks
+        return setup
+
+    def _controlled(self, name: str, *, has_topics: bool) -> int | None:
+        """Return which of the joints is controlled; None for a muscle that only has a name."""
+        if len(self.joints) == 1 and (self.kind is not LOAD or name in self.joints):
+            return 0
+        if name in self.joints:
+            return self.joints.index(name)
+        if self.kind is LOAD and not has_topics:
+            return None
+        raise ParameterError(
+            f'joint_name = {name} is none of the joints {", ".join(self.joints)}: say which '
+            'of them is controlled'
+        )
+
+
+@dataclass(frozen=True)
+class ControlSetup:
+    """All that is declared to the node, checked against each other."""
+
+    joint: Joint
     settings: ControlSettings
     gains: Gains
     pid: PidGains
     limits: Limits
     shape: Shape
+    co_contraction: CoContraction
     reach: tuple[float, float]
-    unit: ClassVar[str] = 'm'
-    vented: ClassVar[float] = 0.0  # Pa
-    pressure_topics: ClassVar[tuple[str, ...]] = ('pressure',)
+    muscles: tuple[str, ...]
+    muscle_topics: bool
 
-    def make_law(self) -> PositionLaw[float]:
+    @property
+    def unit(self) -> str:
+        """Unit of the coordinate."""
+        return self.joint.transmission.equations.unit
+
+    @property
+    def can_stiffen(self) -> bool:
+        """Whether a stiffness can be chosen beside the position."""
+        return self.joint.is_revolute and len(self.muscles) > 1
+
+    @property
+    def has_arrays(self) -> bool:
+        """Whether commands and pressures of all muscles are arrays, as ``pam_sim`` has them.
+
+        Else each has a topic of its own.
+        """
+        return self.settings.joint != LOAD.name and not self.muscle_topics
+
+    @property
+    def command_topics(self) -> tuple[str, ...]:
+        """Topics of the commands: one for the array, or one for each muscle."""
+        return self._topics('pressure_command', 'pressure_commands')
+
+    @property
+    def pressure_topics(self) -> tuple[str, ...]:
+        """Topics of the measured pressures: one for the array, or one for each muscle."""
+        return self._topics('pressure', 'pressures')
+
+    def _topics(self, one: str, array: str) -> tuple[str, ...]:
+        if self.has_arrays:
+            return (array,)
+        if self.muscle_topics:
+            return tuple(f'{muscle}/{one}' for muscle in self.muscles)
+        return (one,)
+
+    def make_law(self) -> PositionLaw:
         """Return a new law, that has to be started."""
         if self.settings.controller == 'pid':
-            return Pid(self.model, self.pid, self.limits)
-        return SlidingMode(self.model, self.gains, self.limits)
+            return Pid(self.joint, self.pid, self.limits, self.co_contraction)
+        return SlidingMode(self.joint, self.gains, self.limits, self.co_contraction)
 
     def make_course(self) -> Course:
         """Return a new course, that has to be started."""
-        return Course(self.shape, self.reach)
+        return Course(self.shape, self.reach, self.unit)
 
-    def command_at(self, chambers: list[float]) -> float:
-        """Return the command in Pa under which the chamber rests at a gauge pressure in Pa."""
-        return PressurePath(self.model, 1.0).command_at_rest(chambers[0])
-
-    def take_over(self, law: PositionLaw[float], before: 'Told') -> None:
-        """Let *law*, which was made as told *before*, go on with other gains."""
-        if isinstance(law, SlidingMode) and self.gains != before.gains:
-            law.set_gains(self.gains)
-
-    def needs_new_law(self, before: 'Told') -> bool:
-        """Say whether more than what a law can take while it runs differs from *before*."""
-        return (self.settings.controller, self.model, self.pid, self.limits) != (
-            *(before.settings.controller, before.model, before.pid, before.limits),
+    def command_at(self, chambers: Sequence[float]) -> Pressures:
+        """Return the commands in Pa under which chambers rest at gauge pressures in Pa."""
+        return tuple(
+            PressurePath(self.joint, i, 1.0).command_at_rest(chamber)
+            for i, chamber in enumerate(chambers)
         )
 
+    def take_over(self, law: PositionLaw, before: 'ControlSetup') -> None:
+        """Let *law*, which was made by *before*, go on with other gains and stiffness."""
+        if not isinstance(law, SlidingMode):
+            return
+        if self.gains != before.gains:
+            law.set_gains(self.gains)
+        if self.co_contraction != before.co_contraction:
+            law.set_co_contraction(self.co_contraction)
 
-def table(given: Values) -> Table:
-    """Return the table of all parameters, those of the muscle that is *given* as its defaults."""
-    gains = table_of(Gains, 'gains.')
-    del gains[f'gains.{MEASURED}']
-    plain: Table = {
-        **MUSCLE,
-        **rig_table(),
-        **table_of(ControlSettings),
-        **gains,
-        **table_of(PidGains, 'pid.'),
-        **table_of(Limits, 'limits.'),
-        **table_of(Shape, 'shape.'),
-    }
-    name = given.get('muscle', '')
-    return with_defaults(plain, read_known(str(name), plain)) if name else plain
+    def needs_new_law(self, before: 'ControlSetup') -> bool:
+        """Say whether more than what a law can take while it runs differs from *before*."""
+        is_pid = self.settings.controller == 'pid'
+        return (self.settings.controller, self.joint, self.pid, self.limits) != (
+            *(before.settings.controller, before.joint, before.pid, before.limits),
+        ) or (is_pid and self.co_contraction != before.co_contraction)
 
 
-def build_told(values: dict[str, Any]) -> Told:
-    """Make of flat *values* what the node works with; raises PamError where they do not fit."""
-    model = build_rig(values)
-    settings = build(ControlSettings, values)
-    gains = build(Gains, values, 'gains.')
-    gains = replace(gains, use_measured_velocity=settings.velocity_source == 'measured')
-    limits = build(Limits, values, 'limits.')
-    gains.check(model, 1.0 / settings.rate)
-    told = Told(
-        model,
-        settings,
-        gains,
-        build(PidGains, values, 'pid.'),
-        limits,
-        build(Shape, values, 'shape.'),
-        reachable(model, limits),
-    )
-    told.make_law()  # which says what it lacks
-    return told
+def settings_of(given: Values) -> tuple[Table, Callable[[dict[str, Any]], ControlSetup]]:
+    """Return the table of all parameters of a controller that is started with *given*.
+
+    And what makes of their values what it works with.
+    """
+    parameters = ControlParameters(given)
+    return parameters.table(), parameters.build

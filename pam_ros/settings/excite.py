@@ -7,7 +7,7 @@ from typing import Any
 
 from pam_ros.excitation.programme import Programme, plan, programme
 from pam_ros.excitation.settings import Excitation
-from pam_ros.rig.model import RigModel
+from pam_ros.rig.joint import Joint
 from pam_ros.rig.run import simulate
 from pam_ros.settings.files import read_known
 from pam_ros.settings.sim import MUSCLE
@@ -18,7 +18,7 @@ from pam_ros.settings.tables import Table, build, build_rig, rig_table, table_of
 class Experiment:
     """All that the node is told, and the programme that it makes."""
 
-    model: RigModel
+    model: Joint
     settings: Excitation
     programme: Programme
 

@@ -22,7 +22,7 @@ import numpy as np
 import yaml
 
 from pam_ros.errors import ParameterError
-from pam_ros.rig.model import RigModel
+from pam_ros.rig.joint import Joint
 from pam_ros.settings.tables import Table, Value, build_rig, override, refuse_mistyped, rig_table
 
 TABLE = 'ros__parameters'
@@ -145,7 +145,7 @@ def _flat(table: Any, prefix: str = '') -> Iterator[tuple[str, Any]]:
 
 def load_rig(
     name: str, overrides: Iterable[str] = (), table: Table | None = None
-) -> tuple[RigModel, dict[str, Value]]:
+) -> tuple[Joint, dict[str, Value]]:
     """Return the rig that a file or muscle *name* declares, and its flat values.
 
     *overrides* are ``name=value`` texts that come last. *table* are the names that the caller

@@ -8,32 +8,27 @@ or joint alone. A name has those of its own that it was given at the start, itse
 """
 
 import re
+from collections.abc import Iterable
 from functools import cached_property
 from itertools import chain
 from typing import Any, ClassVar
 
-from pam_ros.effects import EFFECTS
 from pam_ros.errors import ParameterError
-from pam_ros.muscle.muscle import Muscle
-from pam_ros.rig.assembly import Model
-from pam_ros.rig.joint_model import Actuator, JointModel
-from pam_ros.rig.joints import antagonistic_pair, parallel
-from pam_ros.rig.joints.base import Joint, acts_in_muscle, acts_on_load
+from pam_ros.rig.arrangements import ARRANGEMENTS, LOAD
+from pam_ros.rig.joint import Joint
 from pam_ros.settings.files import read_known
 from pam_ros.settings.sim import MUSCLE, SimSettings
 from pam_ros.settings.tables import (
     Table,
     Values,
-    build,
-    build_rig,
-    effects_table,
+    build_joint,
+    joint_table,
+    muscle_table,
     refuse_mistyped,
-    rig_table,
-    table_of,
     with_defaults,
 )
 
-PAIRS: dict[str, Joint] = {'antagonistic': antagonistic_pair.JOINT, 'parallel': parallel.JOINT}
+KINDS = {kind.name: kind for kind in ARRANGEMENTS}
 NAME = re.compile(r'[A-Za-z][A-Za-z0-9_]*')
 
 
@@ -45,31 +40,37 @@ def _lists(value: Any) -> tuple[str, ...]:
 class RigParameters:
     """The names of muscles and joints, and which parameters each of them can have.
 
-    *given* are the parameters that the node was started with. ``common`` are those that are
-    everybody's beside the rig; of ``start`` each muscle has what begins with its pressure, and
-    each joint the rest. ``elsewhere`` are names that another program knows. Raises ParameterError
-    where the names do not go together, or a parameter given to one of them is none of its own.
+    *given* are the parameters that the node was started with. Of ``start`` each muscle has what
+    begins with its pressure, and each joint the rest. ``elsewhere`` are names that another
+    program knows. Raises ParameterError where the names do not go together, or a parameter given
+    to one of them is none of its own.
     """
 
-    common: ClassVar[Table] = {}
     start: ClassVar[Table] = {}
     elsewhere: ClassVar[tuple[str, ...]] = ()
 
+    @property
+    def common(self) -> Table:
+        """The table of the parameters that are everybody's beside the rig."""
+        return {}
+
     def __init__(self, given: Values) -> None:
         """Look at what is given; the values are checked later."""
-        self.pair = PAIRS.get(str(given.get('joint', 'load')))
+        self.kind = KINDS.get(str(given.get('joint', LOAD.name)), LOAD)
         self._given = given
-        per_joint = self.pair.muscles if self.pair else 1
+        per_joint = self.kind.muscles
         alone = str(given.get('joint_name', SimSettings.joint_name))
         self.muscles = _lists(given.get('muscles')) or self._names(alone, per_joint)
         if len(self.muscles) % per_joint:
             raise ParameterError(
-                f'muscles: {len(self.muscles)} names make no joint = {given["joint"]}: give '
+                f'muscles: {len(self.muscles)} names make no joint = {self.kind.name}: give '
                 f'{per_joint} for each joint'
             )
         count = len(self.muscles) // per_joint
+        # A muscle that has its joint for itself gives it its name.
+        is_own = per_joint == 1 and bool(given.get('muscles'))
         self.joints = _lists(given.get('joint_names')) or (
-            self._names(alone, count) if self.pair or not given.get('muscles') else self.muscles
+            self.muscles if is_own else self._names(alone, count)
         )
         if len(self.joints) != count:
             raise ParameterError(
@@ -99,62 +100,43 @@ class RigParameters:
 
     # Tables ----------------------------------------------------------------------------------
 
-    def _load(self) -> Table:
-        """Return the table of a joint's load, with the effects on it."""
-        assert self.pair
-        library = tuple(self.pair.on_load(e) for e in EFFECTS if acts_on_load(e))
-        return {**table_of(self.pair.declared), **effects_table(library)}
-
-    def _actuator(self) -> Table:
-        """Return the table of a muscle in a joint, with the effects in it."""
-        return {
-            **table_of(Muscle),
-            **effects_table(tuple(e for e in EFFECTS if acts_in_muscle(e))),
-        }
-
-    def _own(self, name: str) -> Table:
-        """Return the table of all that the muscle or joint *name* can have of its own."""
-        if self.pair is None:
-            return self._alone
-        own: Table = {}
-        if name in self.muscles:
-            own |= self._of_muscle
-        if name in self.joints:
-            own |= self._of_joint
-        return own
-
-    @cached_property
-    def _alone(self) -> Table:
-        return {**MUSCLE, **rig_table(), **self.start}
-
     @cached_property
     def _of_muscle(self) -> Table:
+        """The table of all that a muscle can have of its own."""
         start = {flat: about for flat, about in self.start.items() if flat.endswith('.pressure')}
-        return {**MUSCLE, **self._actuator(), **start}
+        return {**MUSCLE, **muscle_table(), **start}
 
     @cached_property
     def _of_joint(self) -> Table:
+        """The table of all that a joint can have of its own beside its muscles."""
+        start = {k: about for k, about in self.start.items() if k not in self._of_muscle}
+        return {**joint_table(self.kind), **start}
+
+    def _own(self, name: str) -> Table:
+        """Return the table of all that the muscle or joint *name* can have of its own."""
+        is_both = self.kind.muscles == 1  # a muscle and its joint go by either name
         return {
-            **self._load(),
-            **{k: v for k, v in self.start.items() if k not in self._of_muscle},
+            **(self._of_muscle if is_both or name in self.muscles else {}),
+            **(self._of_joint if is_both or name in self.joints else {}),
         }
 
     def base(self) -> Table:
         """Return the table of the parameters that are everybody's."""
         plain = {
             **MUSCLE,
-            **({**self._actuator(), **self._load()} if self.pair else rig_table()),
+            **muscle_table(),
+            **joint_table(self.kind),
             **self.common,
             **self.start,
         }
         return with_defaults(plain, self._preset(self._given, plain))
 
     def _preset(self, given: Values, known: Table) -> Values:
-        """Return what a preset says: for a pair of muscles nothing of the load."""
+        """Return what a preset says: of the load, only for one muscle on a mass, as it has."""
         if not given.get('muscle'):
             return {}
         values = read_known(str(given['muscle']), known)
-        here = self._actuator() if self.pair else known
+        here = known if self.kind is LOAD else muscle_table()
         return {name: value for name, value in values.items() if name in here}
 
     def table(self) -> Table:
@@ -166,9 +148,9 @@ class RigParameters:
             if dot and name in names:
                 own.setdefault(name, {})[rest] = value
         table = self.base()
-        for name, told in own.items():
+        for name, values in own.items():
             known = self._own(name)
-            given = {rest: value for rest, value in told.items() if rest not in self.elsewhere}
+            given = {rest: value for rest, value in values.items() if rest not in self.elsewhere}
             all_known = {f'{name}.{rest}' for rest in known}
             for stranger in refuse_mistyped((f'{name}.{rest}' for rest in given), all_known):
                 raise ParameterError(f'{stranger}: {name} has no parameter of this name')
@@ -177,47 +159,42 @@ class RigParameters:
             table |= {f'{name}.{rest}': known[rest] for rest in chain(preset, given)}
         return table
 
-    # Models ----------------------------------------------------------------------------------
+    # Joints ----------------------------------------------------------------------------------
 
-    def of(self, values: Values, name: str) -> dict[str, Any]:
-        """Return the values of one name: its own, or everybody's."""
-        own = ((rest, f'{name}.{rest}') for rest in self._own(name))
-        return {rest: values[flat] if flat in values else values[rest] for rest, flat in own}
+    def of_muscle(self, values: Values, i: int) -> dict[str, Any]:
+        """Return the values of muscle number i: its own, or everybody's."""
+        names = [self.muscles[i]]
+        if self.kind.muscles == 1:
+            names.append(self.joints[i])
+        return _found(values, self._of_muscle, names)
 
-    def models(self, values: Values) -> tuple[Model, ...]:
+    def of_joint(self, values: Values, k: int) -> dict[str, Any]:
+        """Return the values of joint number k beside its muscles: its own, or everybody's."""
+        names = [self.joints[k]]
+        if self.kind.muscles == 1:
+            names.append(self.muscles[k])
+        return _found(values, self._of_joint, names)
+
+    def build_joints(self, values: Values) -> tuple[Joint, ...]:
         """Make the joints of checked flat *values*; ParameterError where they make none."""
-        if self.pair is None:
-            # Muscles that are told the same are the same: most of many are.
-            made: dict[tuple[Any, ...], Model] = {}
-            found = []
-            for name in self.joints:
-                own = self.of(values, name)
-                key = tuple(own.values())
-                if key not in made:
-                    made[key] = build_rig(own)
-                found.append(made[key])
-            return tuple(found)
-        per_joint = self.pair.muscles
-        acting = [self.of(values, name) for name in self.muscles]
-        actuators = [Actuator(build(Muscle, own), _effects(own, acts_in_muscle)) for own in acting]
-        loads = [self.of(values, name) for name in self.joints]
-        return tuple(
-            JointModel(
-                build(self.pair.declared, own),
-                tuple(actuators[k * per_joint : (k + 1) * per_joint]),
-                _effects(own, acts_on_load),
-            )
-            for k, own in enumerate(loads)
-        )
+        n = self.kind.muscles
+        # Joints with the same values are the same: most of many are.
+        made: dict[tuple[Any, ...], Joint] = {}
+        found = []
+        for k in range(len(self.joints)):
+            muscles = [self.of_muscle(values, i) for i in range(n * k, n * (k + 1))]
+            joint = self.of_joint(values, k)
+            key = tuple(chain.from_iterable(own.values() for own in (*muscles, joint)))
+            if key not in made:
+                made[key] = build_joint(self.kind, muscles, joint)
+            found.append(made[key])
+        return tuple(found)
 
 
-def _effects(values: Values, is_here: Any) -> dict[str, dict[str, float]]:
-    """Return the effects of a muscle or of a load among flat *values*."""
-    return {
-        effect.name: {
-            p.name: values[f'effects.{effect.name}.{p.name}']  # type: ignore[misc]
-            for p in effect.parameters
-        }
-        for effect in EFFECTS
-        if is_here(effect)
-    }
+def _found(values: Values, table: Table, names: Iterable[str]) -> dict[str, Any]:
+    """Return a value for each name of *table*: that of the first of *names* that has its own."""
+    found = {}
+    for rest in table:
+        flats = (*(f'{name}.{rest}' for name in names), rest)
+        found[rest] = values[next(flat for flat in flats if flat in values)]
+    return found

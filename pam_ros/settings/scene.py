@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """What ``pam_sim`` simulates: its muscles and joints, put together from flat parameters."""
 
-from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain
@@ -13,9 +12,11 @@ from numpy.typing import NDArray
 
 from pam_ros.errors import ParameterError
 from pam_ros.muscle.muscle import Muscle
-from pam_ros.rig.assembly import Model
-from pam_ros.rig.joint_model import JointModel
+from pam_ros.rig import statics
+from pam_ros.rig.joint import Joint
+from pam_ros.rig.rest import rest
 from pam_ros.rig.sensors import Sensors
+from pam_ros.rig.step_limit import check_step
 from pam_ros.settings.rig import RigParameters
 from pam_ros.settings.sim import SimSettings, Start
 from pam_ros.settings.tables import Table, Values, build, table_of
@@ -28,34 +29,41 @@ START = (-0.2, 0.95)  # contractions at which a simulation may start
 class Scene(RigParameters):
     """The muscles and joints that are simulated, and their parameters."""
 
-    common: ClassVar[Table] = {**table_of(Sensors, 'sensor.'), **table_of(SimSettings)}
     start: ClassVar[Table] = table_of(Start, 'initial.')
+
+    @property
+    def common(self) -> Table:
+        """The table of the parameters that are everybody's beside the rig."""
+        return {**table_of(Sensors, 'sensor.'), **table_of(SimSettings)}
 
     def build(self, values: Values) -> 'Simulation':
         """Make the simulation of checked flat *values*; ParameterError where they make none."""
-        starts, pressures = (
-            tuple(build(Start, self.of(values, name), 'initial.') for name in names)
-            for names in (self.joints, self.muscles)
-        )
+        starts = [
+            build(Start, self.of_joint(values, k), 'initial.') for k in range(len(self.joints))
+        ]
+        pressures = [
+            build(Start, self.of_muscle(values, i), 'initial.').pressure
+            for i in range(len(self.muscles))
+        ]
         return Simulation(
-            self.models(values),
+            self.build_joints(values),
             self.muscles,
             self.joints,
             build(Sensors, values, 'sensor.'),
             build(SimSettings, values),
-            starts,
-            tuple(start.pressure for start in pressures),
+            tuple(starts),
+            tuple(pressures),
         )
 
 
 @dataclass(frozen=True)
 class Simulation:
-    """All that the node is told, checked together.
+    """All that is declared to the node, checked together.
 
-    ``models`` are the joints, ``starts`` theirs; ``pressures`` (Pa) are those of the muscles.
+    ``starts`` are those of the joints, ``pressures`` (Pa) those of the muscles.
     """
 
-    models: tuple[Model, ...]
+    joints: tuple[Joint, ...]
     muscle_names: tuple[str, ...]
     joint_names: tuple[str, ...]
     sensors: Sensors
@@ -65,8 +73,8 @@ class Simulation:
 
     def __post_init__(self) -> None:
         """Refuse a step that is too long, and a start that the muscles cannot have."""
-        for model in {id(model): model for model in self.models}.values():
-            model.check_step(1.0 / self.settings.physics_rate)
+        for joint in {id(joint): joint for joint in self.joints}.values():
+            check_step(joint, 1.0 / self.settings.physics_rate)
         for muscle, pressure, name in zip(
             self.muscles, self.pressures, self.muscle_names, strict=True
         ):
@@ -75,42 +83,44 @@ class Simulation:
                     f'{self._whose(name)}initial.pressure = {pressure:g} Pa is outside p_min = '
                     f'{muscle.p_min:g} to p_max = {muscle.p_max:g} Pa'
                 )
-        for model, start, name in zip(self.models, self.starts, self.joint_names, strict=True):
-            if not start.at_rest:
-                self._check_position(model, start.position, self._whose(name))
+        for joint, start, name in zip(self.joints, self.starts, self.joint_names, strict=True):
+            if not (start.at_rest or joint.is_driven):
+                self._check_position(joint, start.position, self._whose(name))
 
     def _whose(self, name: str) -> str:
-        return f'{name}: ' if len(self.models) > 1 else ''
+        return f'{name}: ' if len(self.joints) > 1 else ''
 
-    def _check_position(self, model: Model, position: float, whose: str) -> None:
-        if isinstance(model, JointModel):
-            ends = [
-                sorted(model.joint.coordinate(k * m.l0, i, model.geometry) for k in START)
-                for i, m in enumerate(model.muscles)
-            ]
-            low, high = max(end[0] for end in ends), min(end[1] for end in ends)
-            unit, of = model.joint.unit, f'joint = {self.settings.joint}'
-        elif model.muscle.is_load_only:
-            return
+    def _check_position(self, joint: Joint, position: float, whose: str) -> None:
+        ends = [
+            sorted(statics.coordinate(joint, i, kappa) for kappa in START)
+            for i in range(len(joint.muscles))
+        ]
+        low, high = max(end[0] for end in ends), min(end[1] for end in ends)
+        unit = joint.transmission.equations.unit
+        if statics.is_direct(joint):
+            what = f'length of a muscle of {joint.muscle.l0:g} m'
         else:
-            low, high = (bound * model.muscle.l0 for bound in START)
-            unit, of = 'm', f'a muscle of {model.muscle.l0:g} m'
+            what = f'place of joint = {self.settings.joint}'
         if not low <= position <= high:
             raise ParameterError(
-                f'{whose}initial.position = {position:g} {unit} is no '
-                f'{"place" if isinstance(model, JointModel) else "length"} of {of}: give '
+                f'{whose}initial.position = {position:g} {unit} is no {what}: give '
                 f'{low:g} to {high:g} {unit}'
             )
 
     @cached_property
     def muscles(self) -> tuple[Muscle, ...]:
         """All muscles in order."""
-        return tuple(chain.from_iterable(map(_muscles_of, self.models)))
+        return tuple(chain.from_iterable(joint.muscles for joint in self.joints))
+
+    @cached_property
+    def are_direct(self) -> bool:
+        """Whether each joint is one muscle on a mass, whose force is the joint's effort."""
+        return all(map(statics.is_direct, self.joints))
 
     @property
     def is_one(self) -> bool:
-        """Whether there is one muscle alone."""
-        return len(self.muscles) == 1
+        """Whether there is one muscle on a mass alone."""
+        return len(self.muscles) == 1 and self.are_direct
 
     @cached_property
     def reach(self) -> Array:
@@ -128,26 +138,18 @@ class Simulation:
         pressures = iter(self.pressures)
         positions, velocities = [], []
         rests: dict[tuple[int, tuple[float, ...]], float] = {}
-        for model, start in zip(self.models, self.starts, strict=True):
-            p = tuple(next(pressures) for _ in _muscles_of(model))
+        for joint, start in zip(self.joints, self.starts, strict=True):
+            p = tuple(next(pressures) for _ in joint.muscles)
             if start.at_rest:
-                key = id(model), p
+                key = id(joint), p
                 if key not in rests:
-                    rests[key] = _rest(model, p)
+                    rests[key] = rest(joint, p)
                 positions.append(rests[key])
                 velocities.append(0.0)
             else:
                 positions.append(start.position)
                 velocities.append(start.velocity)
         return np.array(self.pressures), np.array(positions), np.array(velocities)
-
-
-def _muscles_of(model: Model) -> Iterable[Muscle]:
-    return model.muscles if isinstance(model, JointModel) else (model.muscle,)
-
-
-def _rest(model: Model, pressures: tuple[float, ...]) -> float:
-    return model.rest(pressures) if isinstance(model, JointModel) else model.rest(pressures[0])
 
 
 def table(**given: Any) -> Table:

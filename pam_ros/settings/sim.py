@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from pam_ros.errors import ParameterError
 from pam_ros.parameters import Parameter, check_all, parameter
+from pam_ros.rig.arrangements import ARRANGEMENTS
 from pam_ros.settings.tables import Table
 
 SLOWEST = 0.1  # least speed_factor but 0
@@ -77,9 +78,8 @@ class SimSettings:
     )
     joint: str = parameter(
         'load',
-        'load: each muscle has a load of its own; antagonistic: two muscles turn a pulley '
-        'against each other; parallel: two muscles move one load',
-        choices=('load', 'antagonistic', 'parallel'),
+        '; '.join(f'{kind.name}: {kind.text}' for kind in ARRANGEMENTS),
+        choices=tuple(kind.name for kind in ARRANGEMENTS),
         live=False,
     )
     muscles: tuple[str, ...] = parameter(

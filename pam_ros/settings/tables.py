@@ -7,43 +7,82 @@ maps each to its type, default and description. Nodes, parameter files and comma
 share these tables, so that no list of parameters exists twice.
 """
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import fields
 from difflib import get_close_matches
 from typing import Any, TypeVar
 
 from pam_ros.effects import EFFECTS
 from pam_ros.effects.base import Effect
+from pam_ros.effects.names import EffectName, by_effect, flattened
+from pam_ros.effects.turned import turned
 from pam_ros.errors import ParameterError
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.parameters import Parameter, described
-from pam_ros.rig.model import Load, RigModel
+from pam_ros.rig.arrangements import LOAD, Arrangement
+from pam_ros.rig.joint import Actuator, Joint, split_effects
 
 Value = bool | int | float | str | tuple[str, ...]
 Values = Mapping[str, Value]
 Table = dict[str, tuple[type, Any, Parameter]]
 T = TypeVar('T')
 
+ORDINALS = ('first', 'second', 'third', 'fourth', 'fifth', 'sixth')
 ALIKE = 0.8  # likeness from which an unknown name is taken for a mistyped one
 
 
-def table_of(cls: type, prefix: str = '') -> Table:
-    """Return the table of a described dataclass, each name led by *prefix*."""
-    return {prefix + name: entry for name, entry in described(cls).items()}
+def table_of(cls: type, prefix: str = '', *, turning: bool = False) -> Table:
+    """Return the table of a described dataclass, each name led by *prefix*.
+
+    With *turning* it is that of a joint that turns.
+    """
+    return {prefix + name: entry for name, entry in described(cls, turning=turning).items()}
 
 
 def effects_table(library: tuple[Effect, ...] = EFFECTS) -> Table:
     """Return the table of all effects: ``effects.<name>.<parameter>``."""
     return {
-        f'effects.{effect.name}.{p.name}': (float, p.default, p.described())
+        EffectName(effect.name, p.name).flat: (float, p.default, p.described())
         for effect in library
         for p in effect.parameters
     }
 
 
-def rig_table() -> Table:
-    """Return the table of everything that a :class:`RigModel` is made of."""
-    return {**table_of(Muscle), **table_of(Load), **effects_table()}
+def muscle_table() -> Table:
+    """Return the table of a muscle with the effects in it."""
+    return {
+        **table_of(Muscle),
+        **effects_table(tuple(effect for effect in EFFECTS if not effect.acts_on_joint)),
+    }
+
+
+def joint_table(kind: Arrangement) -> Table:
+    """Return the table of a joint beside its muscles, with the effects on it."""
+    library = tuple(effect for effect in EFFECTS if effect.acts_on_joint)
+    is_revolute = kind.transmission.equations.revolute
+    return {
+        **table_of(kind.transmission),
+        **table_of(kind.load),
+        **{name: _contraction(kind, i) for i, name in enumerate(_mountings(kind))},
+        **effects_table(tuple(map(turned, library)) if is_revolute else library),
+    }
+
+
+def rig_table(kind: Arrangement = LOAD) -> Table:
+    """Return the table of everything that a joint of this kind is made of."""
+    return {**muscle_table(), **joint_table(kind)}
+
+
+def _mountings(kind: Arrangement) -> list[str]:
+    """Return the names of the parameters that say how the muscles are mounted."""
+    return [f'contraction_{i + 1}' for i in range(kind.muscles)] if kind.has_mounting else []
+
+
+def _contraction(kind: Arrangement, i: int) -> tuple[type, Any, Parameter]:
+    which = f'the {ORDINALS[i]} muscle' if kind.muscles > 1 else 'the muscle'
+    place = 'angle' if kind.transmission.equations.revolute else 'position'
+    about = Parameter(f'contraction of {which} at {place} 0', 'fraction', -0.5, 0.9)
+    return float, kind.contraction, about
 
 
 def checked(table: Table, given: Values) -> dict[str, Any]:
@@ -58,25 +97,41 @@ def checked(table: Table, given: Values) -> dict[str, Any]:
     }
 
 
-def build(cls: type[T], values: Values, prefix: str = '') -> T:
-    """Make a described dataclass from those flat *values* that are its own."""
+def build(cls: type[T], values: Values, prefix: str = '', **more: Any) -> T:
+    """Make a described dataclass from those flat *values* that are its own, and *more* fields."""
     own = {item.name: prefix + item.name for item in fields(cls)}  # type: ignore[arg-type]
-    return cls(**{name: values[flat] for name, flat in own.items() if flat in values})
+    return cls(**{name: values[flat] for name, flat in own.items() if flat in values}, **more)
 
 
-def build_rig(values: Values) -> RigModel:
-    """Make the rig from flat *values*; what is not given has its default.
+def build_joint(kind: Arrangement, muscles: Sequence[Values], joint: Values) -> Joint:
+    """Make a joint from the flat values of each muscle, and of the joint itself.
 
-    Names that belong to something else are passed over; raises ParameterError where the values
-    make no rig.
+    What is not given has its default, and names that belong to something else are passed over:
+    of effects, too, each takes those that act in it. Raises ParameterError where the values make
+    no joint.
     """
-    effects: dict[str, dict[str, float]] = {}
-    for name, value in values.items():
-        kind, _, rest = name.partition('.')
-        effect, _, which = rest.partition('.')
-        if kind == 'effects':
-            effects.setdefault(effect, {})[which] = value  # type: ignore[assignment]
-    return RigModel(build(Muscle, values), build(Load, values), effects)
+    contractions: list[Any] = [joint.get(n, kind.contraction) for n in _mountings(kind)]
+    actuators = tuple(
+        Actuator(build(Muscle, own), split_effects(_effects(own))[0], contraction)
+        for own, contraction in zip(muscles, contractions or [0.0], strict=True)
+    )
+    return Joint(
+        actuators,
+        build(kind.load, joint),
+        build(kind.transmission, joint),
+        split_effects(_effects(joint))[1],
+    )
+
+
+def build_rig(values: Values) -> Joint:
+    """Make one muscle on a mass from flat *values*, as :func:`build_joint` does."""
+    return build_joint(LOAD, [values], values)
+
+
+def _effects(values: Values) -> dict[str, dict[str, float]]:
+    """Return the values of effects among flat *values*; they are checked when they are used."""
+    found: dict[str, dict[str, Any]] = by_effect(values)
+    return found
 
 
 def flat(instance: Any, prefix: str = '') -> dict[str, Any]:
@@ -84,12 +139,9 @@ def flat(instance: Any, prefix: str = '') -> dict[str, Any]:
     return {prefix + name: getattr(instance, name) for name in described(type(instance))}
 
 
-def flat_rig(model: RigModel) -> dict[str, Any]:
-    """Return the flat values of a rig: muscle, load, and the effects that it was given."""
-    values = {**flat(model.muscle), **flat(model.load)}
-    for effect, given in model.effects.items():
-        values.update({f'effects.{effect}.{name}': value for name, value in given.items()})
-    return values
+def flat_rig(joint: Joint) -> dict[str, Any]:
+    """Return the flat values of one muscle on a mass, with the effects that it was given."""
+    return {**flat(joint.muscle), **flat(joint.load), **flattened(joint.all_effects)}
 
 
 def with_defaults(table: Table, values: Values) -> Table:

@@ -9,7 +9,6 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from pam_ros.rig.joint_model import JointModel
 from pam_ros.rig.rig import Rig
 from pam_ros.rig.sensors import Feedback, Sensors
 from pam_ros.settings.scene import Simulation
@@ -47,8 +46,7 @@ class Plant:
         """Make them at their initial state."""
         self.told = told
         self.inputs = [PressureInput(muscle) for muscle in told.muscles]
-        self._rig = Rig(told.models, 1.0 / told.settings.physics_rate)
-        self._has_joints = any(isinstance(model, JointModel) for model in told.models)
+        self._rig = Rig(told.joints, 1.0 / told.settings.physics_rate)
         self._all = range(len(self.inputs))
         self.begin()
         self._rig.outputs()  # compiled code is loaded at its first call
@@ -79,7 +77,7 @@ class Plant:
 
     def change(self, told: Simulation) -> None:
         """Go on with other parameters."""
-        self._rig.change(told.models)
+        self._rig.change(told.joints)
         self.told = told
         self._feedback.change(told.sensors)
         self._gauges.change(self._gauges_told(told))
@@ -179,15 +177,15 @@ class Plant:
     def read(self) -> Reading:
         """Return what the sensors say of all; raises ArithmeticError where one cannot be."""
         rig = self._rig
-        force, stiffness, damping, moved = rig.outputs().T
+        force, stiffness, damping, _ = rig.outputs().T
         position, velocity, pressure = rig.position, rig.velocity, rig.pressure
-        effort, _, acceleration = rig.joint_outputs().T if self._has_joints else (force, 0, moved)
+        effort, _, acceleration = rig.joint_outputs().T
         is_there = np.abs(rig.contraction) < self.told.reach
         if not (np.all(is_there) and np.isfinite(np.sum(force) + np.sum(velocity))):
             lost = self.told.muscle_names[int(np.argmin(is_there))]
             raise ArithmeticError(f'{lost} is out of its reach')
         if not self._feedback.is_ideal:
-            if self._has_joints:
+            if not self.told.are_direct:
                 end = np.zeros_like(force)
                 muscles = np.array([end, end, pressure, force, end])
                 pressure, force = self._gauges.read(rig.time, muscles)[2:]

@@ -7,10 +7,10 @@ The solver's equations are written in each test; only the muscle's own are here,
 """
 
 import numpy as np
+from pam_ros.rig.model import Load, RigModel
 from scipy.integrate import solve_ivp
 
 from pam_ros.muscle.muscle import Muscle
-from pam_ros.rig.model import Load, RigModel
 from support import paper
 
 L0 = paper.L0

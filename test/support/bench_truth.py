@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Recordings of the truth plant as the package reads them, and what their user believes."""
 
+from pam_ros.rig.model import GRAVITY, Load, RigModel
+
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.recording.recording import Recording
-from pam_ros.rig.model import GRAVITY, Load, RigModel
 from truth import held_record, record
 from truth.muscles import GRAVITY as TRUE_GRAVITY
 from truth.muscles import constants_si

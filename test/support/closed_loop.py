@@ -9,7 +9,8 @@ import numpy as np
 
 from pam_ros.control.shaping import Shape, Shaper
 from pam_ros.muscle.muscle import Muscle
-from pam_ros.rig.model import Load, RigModel
+from pam_ros.rig.joint import one_muscle
+from pam_ros.rig.loads import Mass
 from truth import CONTROL_PLANTS, Sensor, TruthPlant
 from truth.control_plants import FEEDBACK_NOISE
 
@@ -47,7 +48,7 @@ def truth(name, mass=20.0, p0=300e3, noise=FEEDBACK_NOISE, seed=0, **more):
 
 def declared(mass=20.0, effects=None, **muscle):
     """Return the rig as it is declared to the controller."""
-    return RigModel(Muscle(zeta=0.15, **muscle), Load(mass=mass), effects or {})
+    return one_muscle(Muscle(zeta=0.15, **muscle), Mass(mass=mass), effects or {})
 
 
 def step_target(height, at=1.0):
@@ -69,7 +70,7 @@ def close_loop(law, plant, target, duration, rate=500.0, shape=None, is_pressure
     dt = 1.0 / rate
     count = round(duration * rate)
     origin = plant.y
-    law.start(origin, plant.state.u if is_pressure_known else None)
+    law.start(origin, (plant.state.u,) if is_pressure_known else None)
     shaper = Shaper(shape or Shape())
     shaper.start(origin)
     measured = plant.measure()
@@ -83,7 +84,7 @@ def close_loop(law, plant, target, duration, rate=500.0, shape=None, is_pressure
         if sample != told:
             told = sample
             shaper.take(origin + target(sample * STREAM), t - sample * STREAM)
-        pressure = law.update(dt, shaper.reference, measured)
+        (pressure,) = law.update(dt, shaper.reference, measured)
         measured = plant.step(pressure, dt)
         shaper.follow(dt)
         end = (n + 1) * dt

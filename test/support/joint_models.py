@@ -2,11 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """The joints of ``support.joints`` as the package declares them."""
 
-from pam_ros.effects import EFFECTS
-from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig.joint_model import Actuator, JointModel
 from pam_ros.rig.joints.antagonistic_pair import PulleyArm
 from pam_ros.rig.joints.parallel import ParallelLoad
+
+from pam_ros.effects import EFFECTS
+from pam_ros.muscle.muscle import Muscle
 from support import joints
 
 NAMES = ('a1', 'a2', 'a3', 'a4', 'a5', 'a6')

@@ -6,8 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from pam_ros.control.shaping import Shaper, Turn
-from pam_ros.rig.joint_model import Actuator, JointModel
+from pam_ros.control.shaping import Shape, Shaper
+from pam_ros.rig.joint import Actuator, Joint
+from pam_ros.rig.loads import Arm
+from pam_ros.rig.transmissions import Pulley
 from support.closed_loop import STREAM
 
 LAG = {'pressure_lag': {'fill': 0.050, 'vent': 0.070}}
@@ -39,8 +41,8 @@ class PairRun:
 
 def declared(effects=None, load=None):
     """Return the joint as it is declared to the controller; *effects* of both muscles."""
-    actuator = Actuator(effects=effects or {})
-    return JointModel(actuators=(actuator, actuator), effects=load or {})
+    actuator = Actuator(effects=effects or {}, contraction=0.1)
+    return Joint((actuator, actuator), Arm(), Pulley(), load or {})
 
 
 def close_pair(law, plant, target, duration, stiffness=None, rate=500.0, begin=0.0, stream=STREAM):
@@ -51,7 +53,7 @@ def close_pair(law, plant, target, duration, stiffness=None, rate=500.0, begin=0
     dt, count = 1.0 / rate, round(duration * rate)
     law.start(begin)
     plant.reset(begin, law.terms.pressures)
-    shaper = Shaper(Turn())
+    shaper = Shaper(Shape.turning())
     shaper.start(begin)
     measured, told, wanted = plant.measure(), None, None
     rows = np.zeros((count, 7))

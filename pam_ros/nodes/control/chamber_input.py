@@ -15,8 +15,7 @@ from std_msgs.msg import Float64MultiArray
 
 from pam_ros.control.loop import BLIND, WAITING, Loop
 from pam_ros.nodes.common.stamps import stamp_of
-from pam_ros.settings.control import Told
-from pam_ros.settings.pair_control import ToldPair
+from pam_ros.settings.control import ControlSetup
 from pam_ros.timing.pace import SECOND
 
 FRESH = SECOND  # ns that a pressure may be older than the state that control begins at
@@ -28,20 +27,19 @@ Hear = Callable[[type, str, Callable[..., None]], None]
 class ChamberInput:
     """Takes absolute pressures in Pa from the topics on which ``pam_sim`` tells them."""
 
-    def __init__(self, told: Told | ToldPair, hear: Hear, heard: Callable[[], None]) -> None:
+    def __init__(self, setup: ControlSetup, hear: Hear, heard: Callable[[], None]) -> None:
         """Subscribe by *hear*(type, topic, callback); *heard* is called for all that comes."""
         self._heard = heard
-        muscles = told.pressure_topics
-        self._found: list[tuple[int, int, float] | None] = [None] * len(muscles)
+        self._found: list[tuple[int, int, float] | None] = [None] * len(setup.muscles)
         self._waited = 0
         self._looked = monotonic_ns()
-        if not told.settings.pressure_wait:
+        if not setup.settings.pressure_wait:
             return
-        if len(set(muscles)) < len(muscles):
-            hear(Float64MultiArray, muscles[0], self._take_all)
-            return
-        for i, topic in enumerate(muscles):
-            hear(FluidPressure, topic, partial(self._take, i))
+        for i, topic in enumerate(setup.pressure_topics):
+            if setup.has_arrays:
+                hear(Float64MultiArray, topic, self._take_all)
+            else:
+                hear(FluidPressure, topic, partial(self._take, i))
 
     def _take(self, muscle: int, message: FluidPressure) -> None:
         self._note(muscle, stamp_of(message), message.fluid_pressure)
@@ -61,7 +59,7 @@ class ChamberInput:
         self._found = [None] * len(self._found)
         self._waited = 0
 
-    def prepare(self, loop: Loop, stamp: int | None, told: Told | ToldPair) -> None:
+    def prepare(self, loop: Loop, stamp: int | None, setup: ControlSetup) -> None:
         """Say at which pressure *loop* is to begin at a state of *stamp* ns, or that it must wait.
 
         Pressures count by their stamps, where both have one, else by when they came.
@@ -71,12 +69,12 @@ class ChamberInput:
             return
         now = monotonic_ns()
         fresh = [
-            one[2] - told.settings.ambient_pressure
+            one[2] - setup.settings.ambient_pressure
             for one in self._found
             if one and (abs(stamp - one[0]) if stamp and one[0] else now - one[1]) <= FRESH
         ]
-        loop.chamber = told.command_at(fresh) if len(fresh) == len(self._found) else None
+        loop.chambers = setup.command_at(fresh) if len(fresh) == len(self._found) else None
         self._waited += min(now - self._looked, LONGEST)
         self._looked = now
-        is_early = self._waited < told.settings.pressure_wait * SECOND
+        is_early = self._waited < setup.settings.pressure_wait * SECOND
         loop.awaits_chamber = loop.state == WAITING and is_early

@@ -3,8 +3,8 @@
 """The node of ``pam_control``: its topics and services are listed there."""
 
 from functools import partial
+from math import isfinite
 from time import monotonic_ns
-from typing import Any
 
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from sensor_msgs.msg import JointState
@@ -13,8 +13,7 @@ from std_srvs.srv import SetBool
 from trajectory_msgs.msg import JointTrajectory
 
 from pam_ros.control.loop import BLIND, RUNNING, WAITING, Loop, Reading, warm_up
-from pam_ros.control.pair_law import PairLaw
-from pam_ros.control.signals import PAIR_TERMS, TERMS
+from pam_ros.control.signals import Pressures, term_names
 from pam_ros.errors import RangeError
 from pam_ros.health import controller as control_health
 from pam_ros.health.controller import Heard
@@ -26,9 +25,9 @@ from pam_ros.nodes.common.spin import TickingNode
 from pam_ros.nodes.common.stamps import stamp_of
 from pam_ros.nodes.control.chamber_input import ChamberInput
 from pam_ros.nodes.control.inputs import points_of, sight_of
-from pam_ros.nodes.control.output import ArrayCommand, EachCommand, OneCommand, is_finite
+from pam_ros.nodes.control.output import commands_of
 from pam_ros.nodes.control.state import StateTopic
-from pam_ros.settings.pair_control import ToldPair, settings_of
+from pam_ros.settings.control import ControlSetup, settings_of
 from pam_ros.timing.pace import SECOND
 from pam_ros.timing.ticker import Ticker
 
@@ -46,10 +45,10 @@ class PamControl(TickingNode):
     def __init__(self) -> None:
         """Make the controller that the parameters describe."""
         super().__init__('pam_control')
-        self._given: NodeParameters[Any] = NodeParameters(
+        self._given: NodeParameters[ControlSetup] = NodeParameters(
             self, *settings_of(given(self)), self._change
         )
-        self._told = self._given.built
+        self._setup = self._given.built
         self._loop = self._make_loop()
         self._is_followed = bool(self.get_parameter('use_sim_time').value)
         self.keeps_wall_time = not self._is_followed
@@ -71,12 +70,12 @@ class PamControl(TickingNode):
         self.ticker = Ticker(self._tick_rate)
 
     def _make_loop(self) -> Loop:
-        told = self._told
-        law, period = told.make_law(), 1.0 / told.settings.rate
-        warm_up(law, told.reach, period)
-        loop = Loop(law, told.make_course(), period)
-        loop.timeout, loop.safe = told.settings.state_timeout, told.settings.on_timeout
-        loop.enable(told.settings.start_enabled)
+        setup = self._setup
+        law, period = setup.make_law(), 1.0 / setup.settings.rate
+        warm_up(law, setup.reach, period)
+        loop = Loop(law, setup.make_course(), period)
+        loop.timeout, loop.safe = setup.settings.state_timeout, setup.settings.on_timeout
+        loop.enable(setup.settings.start_enabled)
         return loop
 
     def _open_topics(self) -> None:
@@ -93,32 +92,26 @@ class PamControl(TickingNode):
         hear(JointState, 'joint_states', self._see, states)
         hear(Float64, 'position_reference', self._take_reference)
         hear(JointTrajectory, 'joint_trajectory', self._take_trajectory)
-        told = self._told
-        self._chambers = ChamberInput(told, partial(hear, reliability=states), self._begin)
-        self._commands: OneCommand | ArrayCommand | EachCommand
-        if isinstance(told, ToldPair):
+        self._chambers = ChamberInput(self._setup, partial(hear, reliability=states), self._begin)
+        if self._setup.can_stiffen:
             hear(Float64, 'co_contraction_reference', self._take_co_contraction)
-            self._states = StateTopic(self, PAIR_TERMS)
-            make = EachCommand if told.muscle_topics else ArrayCommand
-            self._commands = make(self, told.muscles)
-        else:
-            self._states = StateTopic(self, TERMS)
-            self._commands = OneCommand(self)
+        self._states = StateTopic(self, term_names(len(self._setup.muscles)))
+        self._commands = commands_of(self, self._setup)
 
     # Time ----------------------------------------------------------------------------------
 
     @property
     def _tick_rate(self) -> float:
-        return WATCH_RATE if self._is_followed else self._told.settings.rate
+        return WATCH_RATE if self._is_followed else self._setup.settings.rate
 
     def tick(self) -> None:
         """Command; where the states make the time, only see whether they stay away."""
         now = monotonic_ns()
-        self._chambers.prepare(self._loop, self._stamp, self._told)
+        self._chambers.prepare(self._loop, self._stamp, self._setup)
         if self._is_followed:
             self._watch(now)
             return
-        settings = self._told.settings
+        settings = self._setup.settings
         longest = max(0.5 * settings.state_timeout, 3.0 / settings.rate) * SECOND
         was_held_up = now - self._ticked > longest and not self._has_waited
         self._ticked, self._has_waited = now, was_held_up
@@ -131,7 +124,7 @@ class PamControl(TickingNode):
         now = self.get_clock().now().nanoseconds
         # By both clocks: /clock may be heard before the states that belong to it.
         age = min(now - self._stamp, steady - self._seen) / SECOND
-        if age > self._told.settings.state_timeout:
+        if age > self._setup.settings.state_timeout:
             self._step(now / SECOND, now)
         else:
             self._begin()
@@ -139,42 +132,42 @@ class PamControl(TickingNode):
     def _begin(self) -> None:
         """Where states make the time, answer the one that control has waited at."""
         if self._is_followed and self._stamp is not None and self._loop.state == WAITING:
-            self._chambers.prepare(self._loop, self._stamp, self._told)
+            self._chambers.prepare(self._loop, self._stamp, self._setup)
             self._step(self._stamp / SECOND, self._stamp)
 
     def _step(self, time: float, stamp: int) -> None:
         """Command at *time* in s, by the clock of the loop; *stamp* is ROS time in ns."""
         loop, before = self._loop, self._loop.state
         try:
-            pressure = loop.tick(time)
+            pressures = loop.tick(time)
         except ArithmeticError:
-            pressure = float('nan')
-        if pressure is None:
+            pressures = (float('nan'),)
+        if pressures is None:
             return
-        if not is_finite(pressure):
+        if not all(map(isfinite, pressures)):
             loop.enable(False)
-            loop.pressure = pressure = self._told.vented
+            loop.pressures = pressures = (0.0,) * len(self._setup.muscles)
             self._fault = 'the law gave no number: vented and disabled'
             self.get_logger().error(self._fault)
         elif loop.state == BLIND != before:
             self.get_logger().error(self._trouble())
-        self._publish(pressure)
-        rate = self._told.settings.state_rate
+        self._publish(pressures)
+        rate = self._setup.settings.state_rate
         # A little early is on time: stamps of a grid are rounded.
         is_due = bool(rate) and not 0 <= stamp - self._shown < 0.99 * SECOND / rate
         if loop.state == RUNNING and is_due:
             self._shown = stamp
             self._states.publish(stamp, loop.law.terms)
 
-    def _publish(self, pressure: Any) -> None:
-        self._commands.publish(pressure)
+    def _publish(self, pressures: Pressures) -> None:
+        self._commands.publish(pressures)
         self._answered = monotonic_ns()
         self._commanded += 1
 
     # In ------------------------------------------------------------------------------------
 
     def _see(self, message: JointState) -> None:
-        settings = self._told.settings
+        settings = self._setup.settings
         try:
             sight = sight_of(message, settings.joint_name, settings.velocity_source == 'measured')
         except RangeError as error:
@@ -195,12 +188,12 @@ class PamControl(TickingNode):
             self._chambers.forget()
         self._last = Reading(sight.stamp / SECOND, sight.position, sight.velocity)
         self._loop.see(self._last)
-        self._chambers.prepare(self._loop, self._stamp, self._told)
+        self._chambers.prepare(self._loop, self._stamp, self._setup)
         self._step(self._last.time, sight.stamp)
 
     def _see_again(self) -> None:
         """Answer a state that is told again: in lockstep the answer was not heard."""
-        last = self._loop.pressure
+        last = self._loop.pressures
         is_due = monotonic_ns() - self._answered > REPEAT
         if self._is_followed and self._loop.state == RUNNING and last is not None and is_due:
             self._publish(last)
@@ -213,10 +206,9 @@ class PamControl(TickingNode):
                 self._refuse(str(error))
 
     def _take_co_contraction(self, message: Float64) -> None:
-        law = self._loop.law
-        if self._is_ready('co_contraction_reference') and isinstance(law, PairLaw):
+        if self._is_ready('co_contraction_reference'):
             try:
-                law.stiffen(message.data)
+                self._loop.law.stiffen(message.data)
             except RangeError as error:
                 self._refuse(str(error))
 
@@ -225,7 +217,7 @@ class PamControl(TickingNode):
             return
         begin = stamp_of(message)
         try:
-            points = points_of(message, self._told.settings.joint_name)
+            points = points_of(message, self._setup.settings.joint_name)
             self._loop.course.play(points, self._wait_for(begin) if begin else 0.0)
         except RangeError as error:
             self._refuse(str(error))
@@ -255,14 +247,14 @@ class PamControl(TickingNode):
             if self._is_followed and self._last:
                 self._loop.see(self._last)  # which may wait for an answer: no other would come
         else:
-            self._loop.pressure = None  # somebody else may command from now on
+            self._loop.pressures = None  # somebody else may command from now on
         response.success = True
         response.message = self._trouble() or 'controlling'
         return response
 
-    def _change(self, now: Any) -> None:
+    def _change(self, now: ControlSetup) -> None:
         """Go on with other parameters."""
-        before, self._told = self._told, now
+        before, self._setup = self._setup, now
         loop, settings = self._loop, now.settings
         loop.timeout, loop.safe = settings.state_timeout, settings.on_timeout
         loop.period = 1.0 / settings.rate
@@ -280,16 +272,16 @@ class PamControl(TickingNode):
 
     def _trouble(self) -> str:
         """Say why it does not control, '' where it does."""
-        did = self._told.settings.on_timeout
+        did = self._setup.settings.on_timeout
         return control_health.trouble(self._loop, did, self._blindness, self._fault)
 
     def _control(self) -> Health:
         age = None if self._stamp is None else (monotonic_ns() - self._seen) / SECOND
         is_new, self._is_refusal_new = self._is_refusal_new, False
         heard = Heard(age, self._blindness, self._refused, self._refusal, is_new)
-        return control_health.control(self._loop, self._told, heard, self._fault)
+        return control_health.control(self._loop, self._setup, heard, self._fault)
 
     def _timing(self) -> Health:
         commanded, self._commanded = self._commanded, 0
-        wanted = None if self._is_followed else self._told.settings.rate
+        wanted = None if self._is_followed else self._setup.settings.rate
         return control_health.timing(self.ticker.report(monotonic_ns()), commanded, wanted)

@@ -1,10 +1,9 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What a controller publishes its pressures on: of one muscle, of both of a pair, of each."""
+"""What a controller publishes its pressures on: an array, or a topic of each muscle."""
 
 from array import array
 from collections.abc import Sequence
-from math import isfinite
 from typing import Any
 
 from rclpy.node import Node
@@ -12,6 +11,7 @@ from rclpy.qos import QoSProfile
 from std_msgs.msg import Float64, Float64MultiArray, MultiArrayDimension
 
 from pam_ros.nodes.common.qos import DEPTH, open_qos
+from pam_ros.settings.control import ControlSetup
 
 
 def _publisher(node: Node, kind: type, topic: str) -> Any:
@@ -20,31 +20,17 @@ def _publisher(node: Node, kind: type, topic: str) -> Any:
     )
 
 
-class OneCommand:
-    """The pressure of one muscle."""
-
-    def __init__(self, node: Node, topic: str = 'pressure_command') -> None:
-        """Create the publisher on *node*."""
-        self._message = Float64()
-        self._publisher = _publisher(node, Float64, topic)
-
-    def publish(self, pressure: float) -> None:
-        """Command *pressure* in Pa."""
-        self._message.data = pressure
-        self._publisher.publish(self._message)
-
-
 class ArrayCommand:
     """The pressures of several muscles in one array."""
 
-    def __init__(self, node: Node, muscles: Sequence[str]) -> None:
+    def __init__(self, node: Node, topic: str, muscles: Sequence[str]) -> None:
         """Create the publisher on *node*; the label of the array names the *muscles*."""
         size = len(muscles)
         self._message = Float64MultiArray()
         self._message.layout.dim = [
             MultiArrayDimension(label=','.join(muscles), size=size, stride=size)
         ]
-        self._publisher = _publisher(node, Float64MultiArray, 'pressure_commands')
+        self._publisher = _publisher(node, Float64MultiArray, topic)
 
     def publish(self, pressures: Sequence[float]) -> None:
         """Command *pressures* in Pa, muscles in order."""
@@ -53,18 +39,22 @@ class ArrayCommand:
 
 
 class EachCommand:
-    """The pressure of each muscle on a topic below its name."""
+    """The pressure of each muscle on a topic of its own."""
 
-    def __init__(self, node: Node, muscles: Sequence[str]) -> None:
+    def __init__(self, node: Node, topics: Sequence[str]) -> None:
         """Create the publishers on *node*."""
-        self._each = [OneCommand(node, f'{name}/pressure_command') for name in muscles]
+        self._message = Float64()
+        self._publishers = [_publisher(node, Float64, topic) for topic in topics]
 
     def publish(self, pressures: Sequence[float]) -> None:
         """Command *pressures* in Pa, muscles in order."""
-        for command, pressure in zip(self._each, pressures, strict=True):
-            command.publish(pressure)
+        for publisher, pressure in zip(self._publishers, pressures, strict=True):
+            self._message.data = pressure
+            publisher.publish(self._message)
 
 
-def is_finite(pressure: Any) -> bool:
-    """Say whether a pressure, or each of several, is a number."""
-    return all(map(isfinite, pressure)) if isinstance(pressure, tuple) else isfinite(pressure)
+def commands_of(node: Node, setup: ControlSetup) -> ArrayCommand | EachCommand:
+    """Create the publishers that *setup* asks for on *node*."""
+    if setup.has_arrays:
+        return ArrayCommand(node, setup.command_topics[0], setup.muscles)
+    return EachCommand(node, setup.command_topics)

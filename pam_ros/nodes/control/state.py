@@ -29,5 +29,5 @@ class StateTopic:
         """Publish the terms of the ROS time *stamp* in ns."""
         message = self._message
         message.header.stamp.sec, message.header.stamp.nanosec = divmod(stamp, SECOND)
-        message.position = [float(getattr(terms, name)) for name in self._names]
+        message.position = [terms.value(name) for name in self._names]
         self._publisher.publish(message)

@@ -14,7 +14,7 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64, Float64MultiArray
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
-from pam_ros.control.signals import PAIR_TERMS
+from pam_ros.control.signals import term_names
 from pam_ros.demo import joint
 from pam_ros.demo.joint import JointCourse
 from pam_ros.nodes.common.stamps import seconds
@@ -112,7 +112,7 @@ def put_together(
         stamp = message.header.stamp
         if (stamp.sec, stamp.nanosec) in at:
             angle, stiffness = at[stamp.sec, stamp.nanosec]
-            values = dict(zip(PAIR_TERMS, message.position, strict=True))
+            values = dict(zip(term_names(2), message.position, strict=True))
             pressures = values['pressure_1'], values['pressure_2']
             row = seconds(message), values['reference'], angle, *pressures
             rows.append((*row, values['co_contraction'], stiffness))

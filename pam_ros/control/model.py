@@ -1,0 +1,100 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The declared joint as a position law sees it, as scalars: efforts, stiffness, damping."""
+
+from collections.abc import Sequence
+
+from pam_ros.control.muscle_model import MuscleModel
+from pam_ros.effects.base import Compensation
+from pam_ros.rig import layout as at
+from pam_ros.rig.joint import Joint
+from pam_ros.rig.loads import Mass
+
+Pressures = Sequence[float]
+
+
+class ControlModel:
+    """The declared joint without memory: what holds at one instant.
+
+    s is its coordinate, v its velocity, p the gauge pressures in the chambers in Pa, one a
+    muscle. Declared payload, length offset, slack, viscous and pressure-dependent damping are
+    in; effects with a memory are in :mod:`pam_ros.control.compensation`. ``weight`` is the part
+    of gravity that is the same everywhere.
+    """
+
+    def __init__(self, joint: Joint) -> None:
+        """Take the numbers out of *joint*."""
+        self.joint = joint
+        self.inertia, self.moved_mass = joint.inertia, joint.moved_mass
+        self.muscles = tuple(MuscleModel(joint, i) for i in range(len(joint.muscles)))
+        self._load, self._numbers = joint.load.equations, joint.load.numbers
+        self._swings = not isinstance(joint.load, Mass)
+        self.weight = 0.0 if self._swings else self.gravity(0.0)
+        self._viscous = _drag(joint)
+
+    @property
+    def arms(self) -> float:
+        """Sum of the muscles' arms at the coordinate 0: effort of a newton in each of them."""
+        return sum(abs(muscle.arm(0.0)) for muscle in self.muscles)
+
+    @property
+    def arm(self) -> float:
+        """Mean of the muscles' arms at the coordinate 0."""
+        return self.arms / len(self.muscles)
+
+    def gravity(self, s: float) -> float:
+        """Return the effort that holds the load against gravity."""
+        return self.inertia * self._load.fall(s, self.moved_mass, self.inertia, self._numbers, 0)
+
+    def gravity_stiffness(self, s: float) -> float:
+        """Return the stiffness that gravity adds."""
+        return self.inertia * self._load.fall_slope(
+            s, self.moved_mass, self.inertia, self._numbers, 0
+        )
+
+    def effort(self, p: Pressures, s: float) -> float:
+        """Return what the muscles pull the joint with at rest."""
+        total = 0.0
+        for muscle, pressure in zip(self.muscles, p, strict=True):
+            total += muscle.arm(s) * muscle.force(pressure, muscle.position(s))
+        return total
+
+    def stiffness(self, p: Pressures, s: float) -> float:
+        """Return the stiffness that the muscles give the joint."""
+        total = 0.0
+        for muscle, pressure in zip(self.muscles, p, strict=True):
+            total += muscle.stiffness_on_joint(pressure, s)
+        return total
+
+    def damping(self, p: Pressures, s: float, v: float) -> float:
+        """Return the joint's damping: equation (4) and the declared effects of damping."""
+        total = 0.0
+        for muscle, pressure in zip(self.muscles, p, strict=True):
+            total += muscle.pull(pressure, s, v, self.inertia)[1]
+        return total + self._viscous
+
+    def pull(self, p: Pressures, s: float, v: float) -> float:
+        """Return the effort on the load: muscles less damping, and the gravity that changes."""
+        total = damping = 0.0
+        for muscle, pressure in zip(self.muscles, p, strict=True):
+            effort, c = muscle.pull(pressure, s, v, self.inertia)
+            total += effort
+            damping += c
+        total -= (damping + self._viscous) * v
+        return total - self.gravity(s) if self._swings else total
+
+
+def _drag(joint: Joint) -> float:
+    """Return the damping of the effects on the joint that are part of the model.
+
+    They have no memory and are linear in the velocity.
+    """
+    drag, row = 0.0, joint.parameters()[at.JOINT].tolist()
+    for effect in joint.present[at.JOINT]:
+        if effect.outside is not None and effect.compensation is Compensation.MODEL:
+            j = joint.layout.parameter_at[effect.name]
+            up, down = (
+                effect.outside(0.0, 0.0, 0.0, v, 0.0, 0.0, (), 0, (), row, j) for v in (1.0, -1.0)
+            )
+            drag += 0.5 * (down - up)
+    return drag

@@ -1,0 +1,322 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""How muscles share what a joint wants: pressures for an effort, and for a stiffness beside it.
+
+Muscles that pull the same way are a side, and have one pressure. With one side the effort settles
+the pressure, and with it the stiffness. With two sides against each other, effort and stiffness
+are both affine in the two pressures, so that both wanted together are two linear equations for
+them (:mod:`pam_ros.rig.pair`): co-contraction is their common mode. Where the limits of pressure
+do not leave both, the effort comes first.
+"""
+
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from pam_ros.control.limits import MARGIN, Limits
+from pam_ros.control.model import ControlModel
+from pam_ros.errors import ParameterError, RangeError
+from pam_ros.rig import pair, statics
+from pam_ros.rig.pair import Line
+
+PLACES = 400  # of the travel at which the reach of two sides is looked for
+
+
+class Split(NamedTuple):
+    """Pressures of the muscles in Pa, and the effort that they cannot give."""
+
+    pressures: tuple[float, ...]
+    short: float
+
+
+class Sharing(ABC):
+    """The pressures of the muscles of one joint.
+
+    ``ranges`` are the lowest and highest pressure of each muscle in Pa. ``reach`` are the
+    coordinates at which the load can be held, with a MARGIN of the range of pressure left at both
+    ends. Raises ParameterError where there is none.
+    """
+
+    can_stiffen = False  # whether a stiffness can be chosen beside the effort
+    reach: tuple[float, float]
+
+    def __init__(self, model: ControlModel, limits: Limits) -> None:
+        """Take the muscles' ranges within *limits*."""
+        self.model = model
+        self.ranges = tuple(limits.range_for(muscle) for muscle in model.joint.muscles)
+
+    @abstractmethod
+    def split(self, effort: float, stiffness: float, s: float) -> Split:
+        """Return the pressures that give *effort*, and *stiffness* as nearly as can be."""
+
+    @abstractmethod
+    def rates(
+        self, dt: float, foreseen: float, rate: float, stiffness: float, s: float
+    ) -> tuple[float, ...]:
+        """Return how fast the pressures go, Pa/s, where the joint is led along its reference.
+
+        *foreseen* is the effort that the reference needs, and *rate* how fast the muscles' efforts
+        at constant length would have to change, which their spring along the reference adds to.
+        """
+
+    @abstractmethod
+    def gains(self, s: float) -> tuple[float, ...]:
+        """Return the effort per pressure of each muscle, with its sign."""
+
+    @abstractmethod
+    def available(self) -> float:
+        """Return by how much the effort changes over the range of pressure, at mid travel."""
+
+    @abstractmethod
+    def stiffness_range(self, s: float) -> tuple[float, float]:
+        """Return the least and the greatest stiffness that can be had while the load rests."""
+
+    def start(self) -> None:
+        """Begin anew: no pressures are known of a step before."""
+        return
+
+    def refuse_stiffness(self, stiffness: float, s: float) -> None:
+        """Raise RangeError, with the range, for a stiffness that cannot be had at s."""
+        low, high = self.stiffness_range(s)
+        if not low <= stiffness <= high:
+            unit = self.model.joint.transmission.equations
+            raise RangeError(
+                f'co-contraction {stiffness:.6g} {unit.effort_unit}/{unit.unit} is out of reach: '
+                f'at {s:.4g} {unit.unit} this joint can have a stiffness of {low:.4g} to '
+                f'{high:.4g} {unit.effort_unit}/{unit.unit}'
+            )
+
+
+class OneSide(Sharing):
+    """Muscles that all pull the same way, with one pressure: that for the effort, not clamped."""
+
+    def __init__(self, model: ControlModel, limits: Limits) -> None:
+        """Find the reach."""
+        super().__init__(model, limits)
+        self.reach = self._reach()
+
+    def split(self, effort: float, stiffness: float, s: float) -> Split:
+        """Return the pressure for *effort*; the stiffness is settled by it."""
+        if len(self.model.muscles) == 1:
+            muscle = self.model.muscles[0]
+            p = muscle.pressure_for(effort / muscle.arm(s), muscle.position(s))
+            return Split((p,), 0.0)
+        rest = gain = 0.0
+        for muscle in self.model.muscles:
+            arm, y = muscle.arm(s), muscle.position(s)
+            rest += arm * muscle.force_law(0.0, y)
+            gain += arm * muscle.gain(y)
+        return Split(((effort - rest) / gain,) * len(self.model.muscles), 0.0)
+
+    def rates(
+        self, dt: float, foreseen: float, rate: float, stiffness: float, s: float
+    ) -> tuple[float, ...]:
+        """Return the rate of the effort over the gain."""
+        gains = self.gains(s)
+        return (rate / sum(gains),) * len(gains)
+
+    def gains(self, s: float) -> tuple[float, ...]:
+        """Return arm dF/dp of each muscle."""
+        return tuple(m.arm(s) * m.gain(m.position(s)) for m in self.model.muscles)
+
+    def available(self) -> float:
+        """Return gain times range of pressure where the muscles are contracted by half."""
+        total = 0.0
+        for model, muscle in zip(self.model.muscles, self.model.joint.muscles, strict=True):
+            y = 0.0 if muscle.is_load_only else 0.5 * muscle.kappa_max * muscle.l0
+            total += abs(model.arm(0.0)) * model.gain(y) * (muscle.p_max - max(muscle.p_min, 0.0))
+        return total
+
+    def stiffness_range(self, s: float) -> tuple[float, float]:
+        """Return the stiffness that there is, twice."""
+        p = self.split(self.model.gravity(s), 0.0, s).pressures
+        k = self.model.stiffness(p, s)
+        return k, k
+
+    def _reach(self) -> tuple[float, float]:
+        joint = self.model.joint
+        if joint.is_driven:
+            return -float('inf'), float('inf')
+        low = max(range_[0] for range_ in self.ranges)
+        high = min(range_[1] for range_ in self.ranges)
+        spare = MARGIN * (high - low)
+        ends = [statics.equilibrium(joint, p) for p in (low + spare, high - spare)]
+        bounds = statics.span(joint)
+        found = max(min(ends), bounds[0]), min(max(ends), bounds[1])
+        if found[0] >= found[1]:
+            unit = joint.transmission.equations.unit
+            these = 'the muscle permits' if len(joint.muscles) == 1 else 'the muscles permit'
+            raise ParameterError(
+                f'the load cannot be held anywhere: {low / 1e3:g} to {high / 1e3:g} kPa hold it '
+                f'at {min(ends):.4g} to {max(ends):.4g} {unit}, {these} {bounds[0]:.4g} to '
+                f'{bounds[1]:.4g} {unit}'
+            )
+        return found
+
+
+class TwoSides(Sharing):
+    """Muscles against each other: those that a positive coordinate shortens, and the others."""
+
+    can_stiffen = True
+
+    def __init__(self, model: ControlModel, limits: Limits) -> None:
+        """Find the sides and the reach."""
+        super().__init__(model, limits)
+        signs = [muscle.arm(0.0) > 0.0 for muscle in model.muscles]
+        self._side_of = [0 if is_positive else 1 for is_positive in signs]
+        self._sides = tuple(
+            [i for i, side in enumerate(self._side_of) if side == which] for which in (0, 1)
+        )
+        one, two = (
+            (max(self.ranges[i][0] for i in side), min(self.ranges[i][1] for i in side))
+            for side in self._sides
+        )
+        for low, high in (one, two):
+            if low >= high:
+                raise ParameterError(
+                    'muscles that pull the same way have no pressure in common: mend p_min, p_max '
+                    'or the limits of pressure'
+                )
+        self._within: tuple[pair.Limits, pair.Limits] = one, two
+        (a, b), (c, d) = one, two
+        spare = MARGIN * (b - a), MARGIN * (d - c)
+        self._spare: tuple[pair.Limits, pair.Limits] = (
+            (a + spare[0], b - spare[0]),
+            (c + spare[1], d - spare[1]),
+        )
+        self._place = float('nan')
+        self._lines: tuple[Line, Line]
+        self._before: tuple[float, ...] | None = None
+        self.reach = self._reach()
+
+    def start(self) -> None:
+        """Begin anew: no pressures are known of a step before."""
+        self._before = None
+
+    def lines(self, s: float) -> tuple[Line, Line]:
+        """Return effort and stiffness over pressure of both sides."""
+        if s != self._place:  # a step asks for them at its reference several times
+            one, two = (self._line(side, s) for side in self._sides)
+            self._place, self._lines = s, (one, two)
+        return self._lines
+
+    def _line(self, side: Sequence[int], s: float) -> Line:
+        a = b = c = d = 0.0
+        for i in side:
+            muscle, high = self.model.muscles[i], self.ranges[i][1]
+            r, y, turn = muscle.arm(s), muscle.position(s), muscle.arm_slope(s)
+            force, gain = muscle.force_law(0.0, y), muscle.gain(y)
+            soft, stiff = muscle.stiffness(0.0, y), muscle.stiffness(high, y)
+            a += r * force
+            b += r * gain
+            c += r * r * soft - turn * force
+            d += r * r * (stiff - soft) / high - turn * gain
+        return Line(a, b, c, d)
+
+    def _pulling(
+        self, lines: tuple[Line, Line], ranges: tuple[pair.Limits, pair.Limits]
+    ) -> tuple[pair.Limits, pair.Limits]:
+        """Return the pressures of both sides at which they pull."""
+        one, two = (
+            (min(max(low, line.slack), high), high)
+            for line, (low, high) in zip(lines, ranges, strict=True)
+        )
+        return one, two
+
+    def split(self, effort: float, stiffness: float, s: float) -> Split:
+        """Return the pressures that give *effort*, and *stiffness* as nearly as can be.
+
+        Pressures are within the limits and no muscle pushes.
+        """
+        one, two = lines = self.lines(s)
+        within = self._pulling(lines, self._within)
+        low, high = pair.piece(one, two, effort, within)
+        if low <= high:
+            p = min(max(pair.pressures(one, two, effort, stiffness)[0], low), high)
+            q = min(max(pair.other(one, two, effort, p), within[1][0]), within[1][1])
+            return Split(self._to_muscles(p, q), 0.0)
+        ends = _ends(lines, within)
+        p, q = ends[1] if effort > _given(lines, ends[1]) else ends[0]
+        return Split(self._to_muscles(p, q), effort - _given(lines, (p, q)))
+
+    def _to_muscles(self, p: float, q: float) -> tuple[float, ...]:
+        return tuple(q if side else p for side in self._side_of)
+
+    def rates(
+        self, dt: float, foreseen: float, rate: float, stiffness: float, s: float
+    ) -> tuple[float, ...]:
+        """Return the change of the foreseen pressures since the step before.
+
+        So a limit that holds one of them lets the other one go faster.
+        """
+        ahead = self.split(foreseen, stiffness, s).pressures
+        before, self._before = self._before or ahead, ahead
+        return tuple((now - then) / dt for now, then in zip(ahead, before, strict=True))
+
+    def gains(self, s: float) -> tuple[float, ...]:
+        """Return arm dF/dp of each muscle."""
+        return tuple(m.arm(s) * m.gain(m.position(s)) for m in self.model.muscles)
+
+    def available(self) -> float:
+        """Return greatest less least effort in the middle of the reach."""
+        lines = self.lines(0.5 * (self.reach[0] + self.reach[1]))
+        least, most = _ends(lines, self._pulling(lines, self._within))
+        return _given(lines, most) - _given(lines, least)
+
+    def stiffness_range(self, s: float) -> tuple[float, float]:
+        """Return the least and the greatest stiffness that can be had while the load rests.
+
+        With the MARGIN left; equal where s is out of reach.
+        """
+        one, two = lines = self.lines(s)
+        effort = self.model.gravity(s)
+        low, high = pair.piece(one, two, effort, self._pulling(lines, self._spare))
+        if low > high:
+            low = high = self.split(effort, 0.0, s).pressures[self._sides[0][0]]
+        k = sorted(pair.stiffness_at(one, two, effort, p) for p in (low, high))
+        return k[0], k[1]
+
+    def _reach(self) -> tuple[float, float]:
+        low, high = statics.span(self.model.joint)
+        places = [low + (high - low) * k / PLACES for k in range(PLACES + 1)]
+        held = [self._is_held(s) for s in places]
+        if not any(held):
+            raise ParameterError(
+                'the load cannot be held anywhere: mend the limits of pressure, the load, or how '
+                'the muscles are hung up (contraction_1, contraction_2)'
+            )
+        # The stretch in one piece that is nearest to 0.
+        middle = min((abs(s), k) for k, s in enumerate(places) if held[k])[1]
+        first = last = middle
+        while first > 0 and held[first - 1]:
+            first -= 1
+        while last < PLACES and held[last + 1]:
+            last += 1
+        return places[first], places[last]
+
+    def _is_held(self, s: float) -> bool:
+        one, two = lines = self.lines(s)
+        within = self._pulling(lines, self._spare)
+        low, high = pair.piece(one, two, self.model.gravity(s), within)
+        return low <= high
+
+
+def _given(lines: tuple[Line, Line], p: tuple[float, float]) -> float:
+    return sum(line.a + line.b * each for line, each in zip(lines, p, strict=True))
+
+
+def _ends(
+    lines: tuple[Line, Line], within: tuple[pair.Limits, pair.Limits]
+) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Return the pressures of the least and of the greatest effort."""
+    (a, b), (c, d) = (
+        (low, high) if line.b > 0.0 else (high, low)
+        for line, (low, high) in zip(lines, within, strict=True)
+    )
+    return (a, c), (b, d)
+
+
+def sharing_of(model: ControlModel, limits: Limits) -> Sharing:
+    """Return how the muscles of a joint share what it wants."""
+    signs = {muscle.arm(0.0) > 0.0 for muscle in model.muscles}
+    return OneSide(model, limits) if len(signs) == 1 else TwoSides(model, limits)

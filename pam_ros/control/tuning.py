@@ -1,0 +1,68 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Tuning numbers of the control laws: each with its unit and with where it comes from.
+
+They are fields of frozen dataclasses, one for each part. Lengths and forces are those along the
+line of a muscle, so that they hold for every joint: on one that turns, a length is divided by the
+muscles' arm and a force multiplied by it (:func:`scaled`).
+
+Sources that are named there: *noise* is the noise of 20 um of the position that the benchmark has;
+``control`` and ``pair_control`` are benchmarks (``make bench ARGS=control``), with the row that
+decided.
+"""
+
+from dataclasses import dataclass, field, fields, replace
+from typing import Any, TypeVar
+
+T = TypeVar('T')
+
+# How often the scale of lengths, and that of forces, is in a unit.
+_POWERS = {
+    '': (0, 0),
+    's': (0, 0),
+    '1/s': (0, 0),
+    'rad/s': (0, 0),
+    'm': (1, 0),
+    'm/s': (1, 0),
+    'm/s^2': (1, 0),
+    'N': (0, 1),
+    'N/s': (0, 1),
+    'N^2': (0, 2),
+}
+
+
+@dataclass(frozen=True)
+class Number:
+    """What is known of a tuning number beside its value."""
+
+    unit: str
+    source: str
+
+
+def number(value: Any, unit: str, source: str) -> Any:
+    """Return a dataclass field with this value; *source* says where it comes from."""
+    return field(default=value, metadata={'number': Number(unit, source)})
+
+
+def numbers_of(cls: type) -> dict[str, tuple[Any, Number]]:
+    """Return name -> (value, Number) of a dataclass of tuning numbers."""
+    return {item.name: (item.default, item.metadata['number']) for item in fields(cls)}
+
+
+def scaled(tuning: T, length: float, force: float) -> T:
+    """Return *tuning* with lengths and forces in the joint's own units.
+
+    *length* is how much of the coordinate a metre of muscle is, *force* the effort of a newton.
+    """
+    changes = {}
+    for name, (_, about) in numbers_of(type(tuning)).items():
+        lengths, forces = _POWERS[about.unit]
+        value, scale = getattr(tuning, name), length**lengths * force**forces
+        changes[name] = tuple(scale * v for v in value) if _is_many(value) else scale * value
+        if not lengths and not forces:
+            changes[name] = value
+    return replace(tuning, **changes)  # type: ignore[type-var]
+
+
+def _is_many(value: Any) -> bool:
+    return isinstance(value, tuple)

@@ -1,0 +1,48 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""What the units of a load that slides are on a joint that turns.
+
+A force is a torque there, and a length along the motion an angle.
+"""
+
+from pam_ros.errors import ParameterError
+
+TURNED = {
+    'm': 'rad',
+    'm/s': 'rad/s',
+    'm/s^2': 'rad/s^2',
+    'm/s^3': 'rad/s^3',
+    'N': 'N m',
+    'N/s': 'N m/s',
+    'N/m': 'N m/rad',
+    'N/(m s)': 'N m/(rad s)',
+    'N s/m': 'N m s/rad',
+    'N/Pa': 'N m/Pa',
+    's/m': 's/rad',
+    'Pa/m': 'Pa/rad',
+    'Pa/(m s)': 'Pa/(rad s)',
+    'Pa s/m': 'Pa s/rad',
+    # A contraction stands for a place: it becomes the angle itself.
+    'fraction': 'rad',
+    # These have nothing to do with the coordinate.
+    '': '',
+    'kg': 'kg',
+    's': 's',
+    '1/s': '1/s',
+    'rad/s': 'rad/s',
+    'Hz': 'Hz',
+    'Pa': 'Pa',
+}
+
+
+def turned_unit(unit: str, whose: str) -> str:
+    """Return what *unit* is on a joint that turns; raises ParameterError where it is not known.
+
+    *whose* names the parameter that has it.
+    """
+    if unit not in TURNED:
+        raise ParameterError(
+            f'{whose} is in {unit}: what that is on a joint that turns is not known; add the '
+            'unit to TURNED in pam_ros/units.py'
+        )
+    return TURNED[unit]
