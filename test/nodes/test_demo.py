@@ -11,6 +11,8 @@ from pathlib import Path
 import pytest
 from matplotlib.image import imread
 
+pytestmark = pytest.mark.usefixtures('domain')
+
 DEMO = [sys.executable, '-m', 'pam_ros.nodes.pam_demo']
 
 

@@ -189,6 +189,7 @@ def test_parameters_are_described_and_changed_or_refused_as_a_whole(watch):
         assert abs(watch.latest('error')) < 1e-5
 
 
+@pytest.mark.usefixtures('domain')
 @pytest.mark.parametrize(
     ('arguments', 'named'),
     [

@@ -252,6 +252,7 @@ def test_of_several_joints_each_has_a_controller(peer):
         peer.until(are_there, 'both')
 
 
+@pytest.mark.usefixtures('domain')
 @pytest.mark.parametrize(
     ('arguments', 'named'),
     [

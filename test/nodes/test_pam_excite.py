@@ -15,6 +15,8 @@ from pam_ros.excitation.programme import programme
 from pam_ros.excitation.settings import Excitation
 from support.harness import Program
 
+pytestmark = pytest.mark.usefixtures('domain')
+
 SHORT = {'duration': 30.0, 'countdown': 0.0}
 LONGEST = 0.1  # s without a command for which the pressure may change at once
 PATIENT = {**SHORT, 'silence': 30.0}  # a busy machine may keep the rig of the test quiet

@@ -17,6 +17,8 @@ from std_msgs.msg import Float64, String
 from support.bags import contents
 from support.harness import DEADLINE, Program
 
+pytestmark = pytest.mark.usefixtures('domain')
+
 DEEP = QoSProfile(depth=20_000)  # so that the publisher of the test drops nothing either
 
 

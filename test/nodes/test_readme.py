@@ -133,6 +133,7 @@ def test_the_simulator_starts_as_shown(peer, arguments, tmp_path, monkeypatch):
         assert states, sim.output
 
 
+@pytest.mark.usefixtures('domain')
 @pytest.mark.parametrize('arguments', DRY_RUNS, ids=' '.join)
 def test_the_excitation_plans_as_shown(arguments):
     with Program('pam_excite', *arguments, '--', '--dry-run') as excite:
