@@ -8,7 +8,7 @@ from setuptools import find_packages, setup
 
 PACKAGE = 'pam_ros'
 
-# Each program is the module of its name in pam_ros/nodes/, with a function main().
+# Each program is the module of its name in pam_ros/cli/, with a function main().
 PROGRAMS = ['pam_control', 'pam_demo', 'pam_excite', 'pam_identify', 'pam_record', 'pam_sim']
 
 
@@ -59,6 +59,6 @@ setup(
     },
     zip_safe=False,
     entry_points={
-        'console_scripts': [f'{name} = {PACKAGE}.nodes.{name}:main' for name in PROGRAMS],
+        'console_scripts': [f'{name} = {PACKAGE}.cli.{name}:main' for name in PROGRAMS],
     },
 )

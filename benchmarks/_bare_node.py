@@ -19,7 +19,7 @@ from rclpy.signals import SignalHandlerOptions
 from sensor_msgs.msg import FluidPressure, JointState
 from std_msgs.msg import Float64
 
-from pam_ros.nodes.program import StopRequest
+from pam_ros.processes.stop import StopRequest
 
 SETTLE = 2_000_000_000  # ns from the first message to the first that counts
 

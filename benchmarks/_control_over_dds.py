@@ -18,10 +18,10 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
-from pam_ros.nodes.children import Program
-from pam_ros.nodes.client import Client
-from pam_ros.nodes.control_state import TERMS
-from pam_ros.nodes.rig_log import seconds
+from pam_ros.control.signals import TERMS
+from pam_ros.nodes.common.client import Client
+from pam_ros.nodes.common.stamps import seconds
+from pam_ros.processes.children import Program
 
 MASS, PRESSURE = 20.0, 300e3  # declared kg, Pa at the start
 BEFORE = 1.0  # s at rest before the step, and from one motion to the other

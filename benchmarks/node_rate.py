@@ -27,7 +27,7 @@ PUBLISHERS = {
     'bare node, rclpy timer': [*BARE, 'timer', str(RATE)],
     'bare node': [*BARE, 'loop', str(RATE)],
     'pam_sim': [
-        *(sys.executable, '-m', 'pam_ros.nodes.pam_sim'),
+        *(sys.executable, '-m', 'pam_ros.cli.pam_sim'),
         *('--ros-args', '-p', f'publish_rate:={RATE}', '-p', f'physics_rate:={RATE}'),
         *('-p', 'initial.at_rest:=false', '-p', 'initial.pressure:=600000.0'),
     ],

@@ -27,13 +27,13 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64MultiArray
 
 from benchmarks.node_rate import cpu_seconds
-from pam_ros.nodes.client import Client
+from pam_ros.nodes.common.client import Client
 
 HERE = Path(__file__).parent
 CONTROLLER = HERE.parent / 'test' / 'support' / 'example_controller.py'
 NAMESPACE = f'/time_modes_{os.getpid()}'
 SECONDS = 30.0
-SIM = [sys.executable, '-m', 'pam_ros.nodes.pam_sim', '--ros-args', '-r', f'__ns:={NAMESPACE}']
+SIM = [sys.executable, '-m', 'pam_ros.cli.pam_sim', '--ros-args', '-r', f'__ns:={NAMESPACE}']
 MUSCLES = (2, 8, 16, 32, 64)
 ARRAYS = ('pressures', 'forces', 'stiffnesses', 'dampings')
 TURNS = 3

@@ -86,6 +86,31 @@ class PairTerms(Terms):
         return self.pressures[1]
 
 
+# What a plot shows, in this order. SI: m, m/s, N, Pa, 1/s; saturated is 0 or 1.
+TERMS = (
+    'reference',
+    'position',
+    'velocity',
+    'error',
+    'surface',
+    'equivalent',
+    'switching',
+    'observer',
+    'learned',
+    'pressure',
+    'bandwidth',
+    'saturated',
+)
+# Of a pair: rad, rad/s, N m, N m/rad, Pa (the mean first).
+PAIR_TERMS = (
+    *(name for name in TERMS if name != 'learned'),
+    'pressure_1',
+    'pressure_2',
+    'co_contraction',
+    'stiffness',
+)
+
+
 class PositionLaw(Protocol[Pressure]):
     """A law that turns positions into pressures; it has no clock and knows no ROS.
 

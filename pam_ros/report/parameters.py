@@ -6,13 +6,13 @@ import textwrap
 from dataclasses import replace
 from pathlib import Path
 
-from pam_ros import parameter_files
-from pam_ros.config import Values, flat_rig
 from pam_ros.identification.result import Trace
 from pam_ros.report.provenance import Provenance
 from pam_ros.report.summary import last_line
 from pam_ros.report.wording import listed
 from pam_ros.rig.model import RigModel
+from pam_ros.settings.files import write
+from pam_ros.settings.tables import Values, flat_rig
 
 
 def identified(trace: Trace, source: Provenance) -> RigModel:
@@ -41,7 +41,7 @@ def write_identified(path: Path, trace: Trace, source: Provenance) -> None:
 
     Constants are in the units of the declared file. Read again, it makes the same rig to the bit.
     """
-    parameter_files.write(path, values(identified(trace, source)), about(trace, source))
+    write(path, values(identified(trace, source)), about(trace, source))
 
 
 def about(trace: Trace, source: Provenance) -> str:

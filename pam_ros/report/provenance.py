@@ -12,10 +12,10 @@ from pathlib import Path
 from typing import Any
 
 import pam_ros
-from pam_ros.config import flat_rig
-from pam_ros.parameter_files import find
 from pam_ros.recording.recording import Recording
 from pam_ros.rig.model import RigModel
+from pam_ros.settings.files import find
+from pam_ros.settings.tables import flat_rig
 
 LIBRARIES = ('numpy', 'scipy', 'numba')
 

@@ -5,7 +5,6 @@
 from dataclasses import dataclass
 from typing import Any
 
-from pam_ros.config import rig_table
 from pam_ros.identification.result import Candidate, Estimate, Trace
 from pam_ros.recording.quantities import QUANTITIES
 from pam_ros.report.numbers import Table
@@ -22,6 +21,7 @@ from pam_ros.report.wording import (
     probability,
     scale_for,
 )
+from pam_ros.settings.tables import rig_table
 
 ORDER = {'chosen': 0, 'ambiguous': 1, 'rejected': 2}
 

@@ -5,10 +5,10 @@
 import numpy as np
 import pytest
 
-from pam_ros.config import build_rig
 from pam_ros.demo import loop
 from pam_ros.demo.loop import Replay, read_replay
-from pam_ros.parameter_files import load_rig
+from pam_ros.settings.files import load_rig
+from pam_ros.settings.tables import build_rig
 from support.bags import FLOAT, JOINT, joint, ns, number, write_bag
 
 

@@ -60,8 +60,8 @@ def test_everything_is_where_ros2_looks(installed, sources):
 def test_every_program_is_in_lib(installed, sources):
     programs = installed / 'lib' / 'pam_ros'
     present = {path.name for path in programs.iterdir() if os.access(path, os.X_OK)}
-    nodes = sources / 'pam_ros' / 'nodes'
-    assert present == {path.stem for path in nodes.glob('pam_*.py')}
+    started = sources / 'pam_ros' / 'cli'
+    assert present == {path.stem for path in started.glob('pam_*.py')}
 
 
 def test_ament_index_finds_it(workspace, clean_environment):

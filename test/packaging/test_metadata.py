@@ -101,9 +101,9 @@ def test_programs_are_modules_with_a_main(setup):
     scripts = setup['entry_points']['console_scripts']
     assert scripts
     for script in scripts:
-        name, module = re.fullmatch(r'(\w+) = pam_ros\.nodes\.(\w+):main', script).groups()
+        name, module = re.fullmatch(r'(\w+) = pam_ros\.cli\.(\w+):main', script).groups()
         assert name == module
-        source = (ROOT / 'pam_ros' / 'nodes' / f'{module}.py').read_text(encoding='utf-8')
+        source = (ROOT / 'pam_ros' / 'cli' / f'{module}.py').read_text(encoding='utf-8')
         assert '\ndef main() -> None:\n' in source
 
 

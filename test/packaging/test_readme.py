@@ -12,9 +12,9 @@ from pathlib import Path
 import pytest
 
 from benchmarks.__main__ import names as benchmarks
-from pam_ros.nodes import pam_identify
-from pam_ros.nodes.sim_scene import table as sim_table
-from pam_ros.parameter_files import load_rig
+from pam_ros.cli import pam_identify
+from pam_ros.settings.files import load_rig
+from pam_ros.settings.scene import table as sim_table
 from support.pages import (
     PAGES,
     README,
@@ -39,7 +39,7 @@ OF_OTHERS = (
     'rosdep install',
     'source install/setup.bash',
 )
-PROGRAMS = sorted(path.stem for path in (ROOT / 'pam_ros' / 'nodes').glob('pam_*.py'))
+PROGRAMS = sorted(path.stem for path in (ROOT / 'pam_ros' / 'cli').glob('pam_*.py'))
 FILE = re.compile(r'[\w./*<>-]+\.(css|csv|html|json|md|png|py|rst|toml|txt|xml|yaml)')
 LARGEST = 300_000  # bytes of a picture
 
@@ -49,7 +49,7 @@ each_page = pytest.mark.parametrize('page', PAGES, ids=lambda page: page.name)
 @cache
 def help_of(program):
     done = subprocess.run(
-        [sys.executable, '-m', f'pam_ros.nodes.{program}', '--help'],
+        [sys.executable, '-m', f'pam_ros.cli.{program}', '--help'],
         capture_output=True,
         text=True,
         check=True,

@@ -51,7 +51,7 @@ def test_has_every_program(wheel, sources):
     (listed,) = (name for name in wheel.namelist() if name.endswith('/entry_points.txt'))
     parser = configparser.ConfigParser()
     parser.read_string(wheel.read(listed).decode())
-    programs = (sources / 'pam_ros' / 'nodes').glob('pam_*.py')
+    programs = (sources / 'pam_ros' / 'cli').glob('pam_*.py')
     assert set(parser['console_scripts']) == {path.stem for path in programs}
 
 

@@ -7,10 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pam_ros.parameter_files import load_rig
 from pam_ros.report.parameters import identified, write_identified
 from pam_ros.rig.model import RigModel
 from pam_ros.rig.run import simulate, simulate_held
+from pam_ros.settings.files import load_rig
 
 
 def reloaded(parts, tmp_path):

@@ -8,7 +8,7 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64
 from std_srvs.srv import SetBool
 
-from pam_ros.nodes.control_state import TERMS
+from pam_ros.control.signals import TERMS
 
 # For a controller in lockstep whose terms are all to be heard, however late.
 LOSE_NO_TERMS = {'qos_overrides./pam_control/state.publisher.depth': 20_000}

@@ -12,10 +12,10 @@ from typing import Any
 from rcl_interfaces.srv import DescribeParameters, GetParameters, SetParameters
 from rclpy.parameter import parameter_value_to_python
 
-from pam_ros.nodes.children import PATIENCE as DEADLINE
-from pam_ros.nodes.children import Program
-from pam_ros.nodes.client import Client, parameter_messages
-from pam_ros.nodes.rig_log import lose_nothing
+from pam_ros.nodes.common.client import Client, parameter_messages
+from pam_ros.nodes.common.rig_log import lose_nothing
+from pam_ros.processes.children import PATIENCE as DEADLINE
+from pam_ros.processes.children import Program
 
 __all__ = ['DEADLINE', 'Peer', 'Program', 'has_loaded', 'lose_nothing']
 

@@ -6,7 +6,6 @@ from dataclasses import replace
 
 import numpy as np
 
-from pam_ros.config import build_rig
 from pam_ros.effects import EFFECTS
 from pam_ros.identification.noise import Noise
 from pam_ros.identification.result import Candidate, Estimate, Finding, Stage, Trace
@@ -15,6 +14,7 @@ from pam_ros.identification.structure import Structure
 from pam_ros.recording.recording import Recording
 from pam_ros.report.provenance import provenance
 from pam_ros.rig.run import simulate, simulate_held
+from pam_ros.settings.tables import build_rig
 
 NOISE = 5e-5  # m
 DECLARED = {'mass': 20.0, 'zeta': 0.15}

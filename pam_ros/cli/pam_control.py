@@ -1,0 +1,35 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""``pam_control``: move the load of one muscle to a position, or a pair to an angle.
+
+Subscribes
+    ``joint_states`` (sensor_msgs/JointState): contraction in m, of the joint joint_name
+    ``position_reference`` (std_msgs/Float64): m; a step is approached smoothly
+    ``joint_trajectory`` (trajectory_msgs/JointTrajectory): m, m/s, m/s^2
+Publishes
+    ``pressure_command`` (std_msgs/Float64): Pa gauge, at ``rate``
+    ``~/state`` (sensor_msgs/JointState): the terms of the law by name, their values as positions
+    ``/diagnostics`` (diagnostic_msgs/DiagnosticArray), once a second
+Services
+    ``~/enable`` (std_srvs/SetBool): control from where the joint is, or command nothing
+
+With ``joint`` antagonistic two muscles turn a pulley: rad for m; it subscribes
+``co_contraction_reference`` (Float64, stiffness of the joint in N m/rad) as well, and publishes
+``pressure_commands`` (std_msgs/Float64MultiArray), or ``<muscle>/pressure_command`` of each.
+
+Contraction is positive: the load moves up. Parameters say what they are:
+``ros2 param describe /pam_control <name>``. It begins by holding the load where it is. A reference
+that is out of reach is refused and the last one holds; when joint_states stay away for
+state_timeout seconds the muscle vents, or its pressure is held (on_timeout).
+"""
+
+from pam_ros.cli.start import start_node
+
+
+def main() -> None:
+    """Run the controller until Ctrl-C or SIGTERM."""
+    start_node('pam_ros.nodes.control.node', 'PamControl', __doc__)
+
+
+if __name__ == '__main__':
+    main()

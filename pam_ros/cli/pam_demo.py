@@ -1,0 +1,46 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""``pam_demo``: what this package can do, shown over real topics in a folder of plots."""
+
+import argparse
+import os
+import sys
+from importlib import import_module
+from pathlib import Path
+
+from pam_ros.errors import PamError
+from pam_ros.processes.interrupts import heed
+
+BAD_INPUT, INTERRUPTED = 2, 130
+# Each is a module of pam_ros.nodes.demo with a function play(stage).
+CHAPTERS = ('paper', 'position', 'joint', 'loop')
+
+
+def main() -> None:
+    """Play the chapters that the command line names, all of them by default."""
+    parser = argparse.ArgumentParser(prog='pam_demo', description=__doc__)
+    parser.add_argument(
+        'chapters', nargs='*', metavar='CHAPTER', help='one of ' + ', '.join(CHAPTERS)
+    )
+    parser.add_argument('--out', type=Path, default=Path('demo'), help='folder (default: demo)')
+    given = parser.parse_args()
+    for name in given.chapters:
+        if name not in CHAPTERS:
+            parser.error(f'there is no chapter {name}: give one of ' + ', '.join(CHAPTERS))
+    # A polite kill stops the programs that a chapter has started, as Ctrl-C does.
+    heed()
+    # Nothing of the demonstration needs another machine, and none should hear it.
+    os.environ.setdefault('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
+    try:
+        stage = import_module('pam_ros.nodes.demo.stage').Stage(given.out)
+        for name in given.chapters or CHAPTERS:
+            import_module(f'pam_ros.nodes.demo.{name}').play(stage)
+    except (PamError, OSError) as error:
+        print(f'pam_demo: {error}', file=sys.stderr)
+        sys.exit(BAD_INPUT)
+    except KeyboardInterrupt:
+        sys.exit(INTERRUPTED)
+
+
+if __name__ == '__main__':
+    main()

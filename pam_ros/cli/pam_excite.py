@@ -1,0 +1,30 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""``pam_excite``: play a safe pressure programme that brings out what a muscle does.
+
+Steps with holds, a slow triangle with minor loops, the same range four times as fast, a
+multisine, chirps at three mean pressures, and the first steps once more; about 85 s. The plan
+is printed before it starts.
+
+Publishes
+    ``pressure_command`` (std_msgs/Float64): Pa gauge
+Subscribes
+    ``joint_states`` (sensor_msgs/JointState): contraction in m
+
+Commands at ``rate``; with use_sim_time it answers each joint state with one command instead.
+Stops and vents when the joint leaves contraction_min..contraction_max or is silent for
+``silence`` seconds, and on Ctrl-C. Limits, length and seed are parameters; those of the muscle
+(``-p muscle:=dmsp_20_400n``, or a parameter file) apply as well. Exit code 0 at the end or after
+Ctrl-C, 1 where it stopped or could not start, 2 for parameters that make no programme.
+"""
+
+from pam_ros.cli.start import start_node
+
+
+def main() -> None:
+    """Play the programme to its end, or until Ctrl-C or SIGTERM."""
+    start_node('pam_ros.nodes.excite.node', 'PamExcite', __doc__)
+
+
+if __name__ == '__main__':
+    main()

@@ -1,0 +1,181 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""``pam_identify``: what a declared model lacks, found in recordings of the real rig.
+
+How wrong is the model as declared, how wrong with its parameters re-tuned, which physical effect
+is missing, how wrong is it with that added. Recordings are rosbag2 folders or CSV files whose
+column names carry the unit (t_s, pressure_command_kPa, position_mm, force_N, ...). The folder
+--out gets report.html to read, report.json, identified.yaml (a parameter file for pam_sim and
+pam_control) and residual.csv. Exit code 0 for any verdict, 2 for what cannot be used. Runs
+without ROS.
+"""
+
+import argparse
+import shlex
+import signal
+import sys
+from pathlib import Path
+from types import FrameType
+from typing import NoReturn
+
+from pam_ros.errors import PamError
+
+BAD_INPUT, INTERRUPTED, TERMINATED = 2, 130, 143
+
+
+class _Parser(argparse.ArgumentParser):
+    """Says in one sentence what is wrong with a command line."""
+
+    def error(self, message: str) -> NoReturn:
+        """Print the sentence and exit."""
+        self.exit(BAD_INPUT, f'{self.prog}: {message} (--help tells more)\n')
+
+
+def parser() -> argparse.ArgumentParser:
+    """Return the parser of the command line."""
+    made = _Parser(
+        prog='pam_identify',
+        description=__doc__,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    made.add_argument(
+        'recordings', nargs='+', metavar='RECORDING', help='rosbag2 folder or CSV file to fit'
+    )
+    made.add_argument(
+        '--params',
+        required=True,
+        metavar='FILE',
+        help='the declared model: a parameter file of pam_sim, or a muscle of this package',
+    )
+    made.add_argument(
+        '--set',
+        action='append',
+        default=[],
+        metavar='NAME=VALUE',
+        help='override a parameter of it, such as mass=20; may be repeated',
+    )
+    made.add_argument(
+        '--test',
+        nargs='+',
+        action='extend',
+        default=[],
+        metavar='RECORDING',
+        help='recordings to judge by, which no fit sees (default: a third of the others)',
+    )
+    made.add_argument(
+        '--column',
+        action='append',
+        default=[],
+        metavar='SOURCE=TARGET',
+        help='what a column or topic means: adc=force_N*0.392-4.18, or NAME=ignore',
+    )
+    made.add_argument(
+        '--mapping', type=Path, metavar='FILE', help='YAML file with such lines below columns:'
+    )
+    made.add_argument(
+        '--kind',
+        choices=('free', 'held'),
+        help='free: the load moves; held: the length is prescribed (default: found)',
+    )
+    made.add_argument('--namespace', help='the rig to take from bags that hold several')
+    made.add_argument(
+        '--out', type=Path, required=True, metavar='DIR', help='folder for the report'
+    )
+    return made
+
+
+class Progress:
+    """Tells what runs: a bar on a terminal, else a line whenever something else begins."""
+
+    def __init__(self) -> None:
+        """Begin at nothing."""
+        from tqdm import tqdm
+
+        self._text = ''
+        self._is_shown = sys.stderr.isatty()
+        self._bar = tqdm(
+            total=1.0,
+            disable=not self._is_shown,
+            leave=False,
+            bar_format='{percentage:3.0f} % |{bar:24}| {desc}',
+        )
+
+    def __call__(self, fraction: float, text: str) -> None:
+        """Show how far it is, and what runs."""
+        if text != self._text and not self._is_shown:
+            print(f'{100.0 * fraction:3.0f} %  {text}', file=sys.stderr, flush=True)
+        self._text = text
+        self._bar.set_description_str(text, refresh=False)
+        self._bar.update(fraction - self._bar.n)
+        self._bar.refresh()
+
+    def close(self) -> None:
+        """Leave nothing of the bar behind."""
+        self._bar.close()
+
+
+def identify(given: argparse.Namespace, command: str) -> str:
+    """Trace what the command line names, write the report, return its last line."""
+    from pam_ros.compiled import HAVE_NUMBA
+    from pam_ros.identification.finder import trace
+    from pam_ros.recording.mapping import read_mapping
+    from pam_ros.recording.read import read_recording
+    from pam_ros.report.provenance import provenance
+    from pam_ros.report.summary import last_line
+    from pam_ros.report.write import check_folder, write_report
+    from pam_ros.settings.files import load_rig
+
+    check_folder(given.out)
+    model, _ = load_rig(given.params, given.set)
+    mapping = read_mapping(given.column, given.mapping)
+    muscle = model.muscle
+    recordings, test = (
+        [
+            read_recording(path, mapping, given.kind, muscle.l0, muscle.p_max, given.namespace)
+            for path in paths
+        ]
+        for paths in (given.recordings, given.test)
+    )
+    for recording in test:
+        if recording.digest in {other.digest for other in recordings}:
+            raise PamError(
+                f'{recording.name} is to be fitted and to test: what was fitted tests nothing'
+            )
+    for recording in (*recordings, *test):
+        for warning in recording.warnings:
+            print(f'{recording.name}: {warning}', file=sys.stderr)
+    if not HAVE_NUMBA:
+        print('numba is not installed: this takes some hundred times as long', file=sys.stderr)
+    source = provenance(model, given.params, given.set, recordings, test, command)
+    progress = Progress()
+    try:
+        answer = trace(model, recordings, test, progress)
+        progress(1.0, 'writing the report')
+        write_report(given.out, answer, source)
+    finally:
+        progress.close()
+    return f'{last_line(answer)}; see {given.out / "report.html"}'
+
+
+def main() -> None:
+    """Identify what the command line names; exit with the program's code."""
+    signal.signal(signal.SIGTERM, _terminate)
+    try:
+        given = parser().parse_args()
+        command = shlex.join(['pam_identify', *sys.argv[1:]])
+        print(identify(given, command))
+    except PamError as error:
+        print(f'pam_identify: {error}', file=sys.stderr)
+        sys.exit(BAD_INPUT)
+    except KeyboardInterrupt:
+        print('pam_identify: interrupted, nothing was written', file=sys.stderr)
+        sys.exit(INTERRUPTED)
+
+
+def _terminate(kind: int, frame: FrameType | None) -> NoReturn:
+    """Leave as on Ctrl-C: what is half done is undone on the way."""
+    sys.exit(TERMINATED)
+
+
+if __name__ == '__main__':
+    main()

@@ -1,0 +1,21 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""``pam_record``: write the topics of a rig to a rosbag2, for machines without ``ros2 bag``.
+
+Records ``joint_states``, ``pressure_command``, ``force``, ``stiffness``, ``damping`` and
+``pressure``, and the topics that are named, each as soon as somebody publishes it. Messages are
+kept as they came, with the time at which the middleware received them. The bag (MCAP, with
+metadata.yaml) is whole at every moment: when the recorder is killed, what is lost is the last
+second. Ctrl-C ends it.
+"""
+
+from pam_ros.cli.start import start_node
+
+
+def main() -> None:
+    """Record until Ctrl-C or SIGTERM."""
+    start_node('pam_ros.nodes.record.node', 'PamRecord', __doc__)
+
+
+if __name__ == '__main__':
+    main()

@@ -1,0 +1,40 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""``pam_sim``: pneumatic artificial muscles with their loads, simulated in the time you want.
+
+One muscle subscribes
+    ``pressure_command`` (std_msgs/Float64): Pa gauge
+and publishes
+    ``joint_states`` (sensor_msgs/JointState): contraction in m, velocity in m/s, force in N
+    ``force``, ``stiffness``, ``damping`` (std_msgs/Float64): N, N/m, N s/m
+    ``pressure`` (sensor_msgs/FluidPressure): absolute Pa in the chamber
+Several (parameters muscles, joint) subscribe
+    ``pressure_commands`` (std_msgs/Float64MultiArray): Pa gauge, in the order of the muscles
+and publish
+    ``joint_states``: all joints in order; m, m/s, N, or rad, rad/s, N m
+    ``forces``, ``stiffnesses``, ``dampings``, ``pressures`` (std_msgs/Float64MultiArray)
+    and, with muscle_topics, the topics of one muscle below the name of each
+All publish
+    ``/diagnostics`` (diagnostic_msgs/DiagnosticArray), once a second
+    ``/clock`` (rosgraph_msgs/Clock), in time_mode scaled and lockstep
+Services
+    ``~/reset`` (std_srvs/Trigger): back to the initial state
+    ``~/pause`` (std_srvs/SetBool): let simulated time stand still; messages go on
+    ``~/step`` (std_srvs/Trigger): while paused, simulate step_periods periods
+
+Contraction is positive: the load moves up. Parameters say what they are:
+``ros2 param describe /pam_sim <name>``. A pressure command outside p_min..p_max is clamped, one
+that is no number is refused and the last good one holds; when none comes for command_timeout
+seconds the muscle vents (on_timeout).
+"""
+
+from pam_ros.cli.start import start_node
+
+
+def main() -> None:
+    """Run the simulator until Ctrl-C or SIGTERM."""
+    start_node('pam_ros.nodes.sim.node', 'PamSim', __doc__)
+
+
+if __name__ == '__main__':
+    main()

@@ -1,0 +1,26 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""How a node's program starts: signals first, then what takes time to import.
+
+So that Ctrl-C and SIGTERM end a program cleanly from its first tenth of a second on.
+"""
+
+import gc
+import sys
+from importlib import import_module
+from typing import NoReturn
+
+from pam_ros.processes.stop import StopRequest
+
+
+def start_node(module: str, name: str, about: str) -> NoReturn:
+    """Run the node class *name* of *module* until it is asked to stop; exit with its code.
+
+    *about* is what ``--help`` shows.
+    """
+    stop = StopRequest()
+    # What is imported stays: looking for garbage in it would take a fifth of the start.
+    gc.disable()
+    spin = import_module('pam_ros.nodes.common.spin')
+    node = getattr(import_module(module), name)
+    sys.exit(spin.run(node, stop, about))

@@ -1,0 +1,93 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""What ``pam_control`` says of itself on ``/diagnostics``."""
+
+from typing import Any, NamedTuple
+
+from pam_ros.control.loop import BLIND, DISABLED, HOLD, RUNNING, VENT, WAITING, Loop
+from pam_ros.control.pair_law import PairLaw
+from pam_ros.health.health import Health, Level
+from pam_ros.settings.control import Told
+from pam_ros.settings.pair_control import ToldPair
+from pam_ros.timing.ticker import Punctuality
+
+
+class Heard(NamedTuple):
+    """What a controller hears."""
+
+    age: float | None  # s of the newest joint states
+    blindness: str  # why the last of them was not usable
+    refused: int  # references and trajectories
+    refusal: str  # why the last of them was refused
+    is_refusal_new: bool  # since the last report
+
+
+def values_of(loop: Loop[Any], told: Told | ToldPair, age: float | None) -> dict[str, Any]:
+    """Return in numbers what the loop does; *age* is that of the joint states in s."""
+    terms, law, unit = loop.law.terms, loop.law, told.unit
+    is_running = loop.state == RUNNING
+    values = {
+        'state': loop.state,
+        'controller': told.settings.controller,
+        f'reference ({unit})': terms.reference if is_running else None,
+        f'error ({unit})': terms.error if is_running else None,
+        'command (Pa)': loop.pressure,
+        'saturated': terms.saturated if is_running else None,
+        f'lowest reference ({unit})': told.reach[0],
+        f'highest reference ({unit})': told.reach[1],
+        'age of joint_states (s)': age,
+    }
+    if isinstance(law, PairLaw):
+        low, high = law.rig.stiffness_range(law.terms.reference)
+        values |= {
+            'co-contraction (N m/rad)': law.terms.co_contraction if is_running else None,
+            'lowest co-contraction (N m/rad)': low,
+            'highest co-contraction (N m/rad)': high,
+        }
+    return values
+
+
+def trouble(loop: Loop[Any], on_timeout: str, blindness: str, fault: str) -> str:
+    """Say why *loop* does not control, '' where it does."""
+    did = {VENT: 'vents', HOLD: 'holds the pressure'}[on_timeout]
+    why = f': {blindness}' if blindness else ''
+    missing = 'a measured pressure' if loop.awaits_chamber else 'joint_states'
+    return {
+        RUNNING: '',
+        WAITING: f'waits for {missing}' + why,
+        BLIND: f'joint_states stay away: {did}' + why,
+        DISABLED: fault or 'disabled: commands nothing',
+    }[loop.state]
+
+
+def control(loop: Loop[Any], told: Told | ToldPair, heard: Heard, fault: str) -> Health:
+    """Return the health of the control; *fault* is why the law was given up."""
+    state = loop.state
+    why = trouble(loop, told.settings.on_timeout, heard.blindness, fault)
+    values = values_of(loop, told, heard.age)
+    values |= {'refused': heard.refused, 'last reason': heard.refusal}
+    is_blind = state == BLIND or (state == WAITING and bool(heard.blindness))
+    if is_blind or fault:
+        return Health(Level.ERROR, why, values)
+    if heard.is_refusal_new:
+        return Health(Level.WARN, heard.refusal, values)
+    if state == WAITING:
+        return Health(Level.WARN, why, values)
+    if state == RUNNING and heard.blindness:
+        return Health(Level.WARN, heard.blindness, values)
+    return Health(Level.OK, why or 'controlling', values)
+
+
+def timing(kept: Punctuality, commanded: int, wanted: float | None) -> Health:
+    """Return the health of the rate; *wanted* in Hz is None where states make the time."""
+    values = {
+        'command rate (Hz)': commanded / kept.span,
+        'wanted rate (Hz)': wanted,
+        'overruns': kept.overruns,
+        'worst lateness (s)': kept.worst,
+    }
+    if wanted is None:
+        return Health(Level.OK, 'answers each joint state (use_sim_time is set)', values)
+    if kept.rate < 0.95 * wanted:
+        return Health(Level.WARN, f'runs at {kept.rate:.1f} Hz instead of {wanted:g}', values)
+    return Health(Level.OK, 'keeps its rate', values)

@@ -1,0 +1,87 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""What ``pam_sim`` says of itself on ``/diagnostics``."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from pam_ros.health.health import Health, Level
+from pam_ros.settings.sim import SimSettings
+from pam_ros.simulator.plant import Plant
+from pam_ros.timing.ticker import Punctuality
+
+
+def commands(plant: Plant, last: int) -> Health:
+    """Return the health of the commands, *last* being the muscle that had a bad one last."""
+    inputs = plant.inputs
+    heard = plant.heard[~np.isnan(plant.heard)]
+    age = plant.time - float(heard.min()) if heard.size else None
+    values = {
+        'command age (s)': age,
+        'last command (Pa)': inputs[0].last if len(inputs) == 1 else None,
+        'accepted': sum(given.accepted for given in inputs),
+        'clamped': sum(given.clamped for given in inputs),
+        'refused': sum(given.refused for given in inputs),
+        'last reason': inputs[last].reason,
+    }
+    if len(inputs) > 1:
+        del values['last command (Pa)']
+        values['muscles commanded'] = int(heard.size)
+    if age is None:
+        return Health(Level.OK, 'no command yet', values)
+    if np.any(plant.is_silent):
+        did = {'vent': 'vented', 'hold': 'held'}[plant.told.settings.on_timeout]
+        whose = ''
+        if len(inputs) > 1:
+            silent = np.flatnonzero(plant.is_silent)
+            names = [plant.told.muscle_names[i] for i in silent[:5]]
+            whose = f' for {", ".join(names)}' + (' and others' if len(silent) > 5 else '')
+        return Health(Level.WARN, f'no command{whose} for {age:.3g} s: {did}', values)
+    return Health(Level.OK, 'commanded', values)
+
+
+class Progress(NamedTuple):
+    """How far a simulation has come since the last report, and what holds it up."""
+
+    published: int  # samples
+    speed: float  # simulated seconds that are to pass in a second; 0: as many as can
+    time: float  # simulated s since the start or the last reset
+    lost: float  # simulated s that were never made up for
+    jumps: int  # of the clock that it follows
+    is_paused: bool
+    follows_clock: bool
+    has_clock: bool  # False where nothing has come of the clock that it follows
+    waits: str  # what there is to say of a long wait in lockstep
+    fault: str
+
+
+def timing(settings: SimSettings, kept: Punctuality, done: Progress, scheduling: str) -> Health:
+    """Return the health of the rate, of a loop that is scheduled by *scheduling*."""
+    rate = done.published / kept.span
+    wanted = settings.publish_rate * done.speed
+    values = {
+        'publish rate (Hz)': rate,
+        'wanted publish rate (Hz)': wanted,
+        'overruns': kept.overruns,
+        'worst lateness (s)': kept.worst,
+        'simulated time (s)': done.time,
+        'simulated time lost (s)': done.lost,
+        'clock jumps': done.jumps,
+        'paused': done.is_paused,
+        'time mode': settings.time_mode,
+        'scheduling': scheduling,
+    }
+    if settings.has_own_time:
+        values['speed (simulated s / s)'] = rate / settings.publish_rate
+    if done.fault:
+        return Health(Level.ERROR, done.fault, values)
+    if not done.has_clock:
+        return Health(Level.WARN, 'waits for /clock (use_sim_time is set)', values)
+    if done.is_paused:
+        return Health(Level.OK, 'paused', values)
+    if settings.time_mode == 'lockstep':
+        return Health(Level.WARN if done.waits else Level.OK, done.waits or 'in lockstep', values)
+    if rate < 0.95 * wanted and not done.follows_clock:
+        return Health(Level.WARN, f'publishes at {rate:.1f} Hz instead of {wanted:g}', values)
+    return Health(Level.OK, 'keeps its rate' if wanted else 'as fast as possible', values)

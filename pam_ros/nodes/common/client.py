@@ -1,0 +1,125 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""A node that uses other nodes step by step: waits for messages, calls services, sets values."""
+
+import itertools
+import os
+from collections.abc import Callable
+from time import monotonic
+from types import TracebackType
+from typing import Any, TypeVar
+
+import rclpy
+from rcl_interfaces.msg import Parameter as ParameterMessage
+from rcl_interfaces.srv import SetParametersAtomically
+from rclpy.duration import Duration
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.parameter import Parameter
+from rclpy.qos import QoSProfile
+
+from pam_ros.errors import PamError
+from pam_ros.processes.interrupts import held_back
+
+DEPTH = 20_000  # messages that may wait for their turn: none is dropped
+TURN = 0.05  # s in which a condition is looked at again when nothing comes in
+_numbers = itertools.count()
+T = TypeVar('T')
+
+
+class Client:
+    """A node in a context of its own that works only while it waits for something."""
+
+    def __init__(self, namespace: str = '', patience: float = 60.0) -> None:
+        """Make the node; what it waits for longer than *patience* s is given up."""
+        self.context = rclpy.Context()
+        rclpy.init(context=self.context)
+        name = f'pam_client_{os.getpid()}_{next(_numbers)}'
+        self.node = rclpy.create_node(name, context=self.context, namespace=namespace)
+        self._patience = patience
+        self._executor = SingleThreadedExecutor(context=self.context)
+        self._executor.add_node(self.node)
+        self._publishers: dict[str, Any] = {}
+
+    def __enter__(self) -> 'Client':
+        """Return the client."""
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        """Release the node."""
+        self._executor.shutdown()
+        self.node.destroy_node()
+        rclpy.shutdown(context=self.context)
+
+    def until(self, condition: Callable[[], T], what: str) -> T:
+        """Work until *condition* gives something true, and return that.
+
+        Raises PamError, naming *what* was waited for, after the client's patience.
+        """
+        end = monotonic() + self._patience
+        while not (result := condition()):
+            if monotonic() > end:
+                raise PamError(f'waited {self._patience:g} s in vain for {what}')
+            self._turn(TURN)
+        return result
+
+    def work(self, seconds: float) -> None:
+        """Take in what comes for a while."""
+        end = monotonic() + seconds
+        while (rest := end - monotonic()) > 0.0:
+            self._turn(min(rest, TURN))
+
+    def _turn(self, seconds: float) -> None:
+        with held_back():
+            self._executor.spin_once(timeout_sec=seconds)
+
+    def collect(self, kind: type, topic: str) -> list[Any]:
+        """Subscribe, and return the list that the messages will come into."""
+        messages: list[Any] = []
+        self.node.create_subscription(kind, topic, messages.append, QoSProfile(depth=DEPTH))
+        return messages
+
+    def more(self, messages: list[Any], count: int = 1) -> None:
+        """Wait for *count* messages more than there are now."""
+        wanted = len(messages) + count
+        self.until(lambda: len(messages) >= wanted, f'{count} messages more')
+
+    def publish(self, message: Any, topic: str) -> None:
+        """Publish, the first time once somebody listens."""
+        if topic not in self._publishers:
+            self._publishers[topic] = self.node.create_publisher(type(message), topic, 10)
+            self.until(self._publishers[topic].get_subscription_count, f'a subscriber of {topic}')
+        self._publishers[topic].publish(message)
+
+    def delivered(self, topic: str, patience: Duration) -> None:
+        """Wait until all that was published on *topic* has arrived."""
+        if not self._publishers[topic].wait_for_all_acked(patience):
+            raise PamError(f'what was told on {topic} has not arrived')
+
+    def call(self, kind: Any, service: str, **request: Any) -> Any:
+        """Call a service and return its response."""
+        client = self.node.create_client(kind, service)
+        self.until(client.service_is_ready, f'the service {service}')
+        future = client.call_async(kind.Request(**request))
+        self.until(future.done, f'the answer of {service}')
+        self.node.destroy_client(client)
+        return future.result()
+
+    def set_together(self, node: str, **values: Any) -> Any:
+        """Set parameters atomically; ``__`` in a name stands for a dot. Return the result."""
+        service = f'{node}/set_parameters_atomically'
+        return self.call(
+            SetParametersAtomically, service, parameters=parameter_messages(**values)
+        ).result
+
+
+def parameter_messages(**values: Any) -> list[ParameterMessage]:
+    """Return values as messages; ``__`` in a name stands for a dot."""
+    return [
+        Parameter(name.replace('__', '.'), value=value).to_parameter_msg()
+        for name, value in values.items()
+    ]

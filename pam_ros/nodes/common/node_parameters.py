@@ -1,0 +1,126 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Turn tables of described values into ROS parameters: declared, ranged, checked as a whole."""
+
+from collections.abc import Callable
+from typing import Any, Generic, TypeVar
+
+from rcl_interfaces.msg import (
+    FloatingPointRange,
+    IntegerRange,
+    ParameterDescriptor,
+    SetParametersResult,
+)
+from rclpy.node import Node
+from rclpy.parameter import Parameter as RosParameter
+
+from pam_ros.errors import PamError
+from pam_ros.parameters import Parameter
+from pam_ros.settings.tables import Table, checked, refuse_mistyped
+
+T = TypeVar('T')
+
+
+class NodeParameters(Generic[T]):
+    """The parameters of a node, and what they make.
+
+    *table* names them (see :mod:`pam_ros.settings.tables`), *build* makes of a complete set of
+    values what the node works with, or raises PamError, and has no side effects. A set of changes
+    is taken whole or refused whole, with the sentence of that error; then *apply* gets what was
+    made. A whole number is taken for a float. ``values`` and ``built`` are the ones in force.
+
+    Raises PamError when the node was started with values that are not allowed.
+    """
+
+    def __init__(
+        self,
+        node: Node,
+        table: Table,
+        build: Callable[[dict[str, Any]], T],
+        apply: Callable[[T], None],
+    ) -> None:
+        """Declare all of *table* on *node* with the values that it was started with."""
+        self._node, self._table = node, table
+        self._build, self._apply = build, apply
+        self.values = checked(table, given(node))
+        self.built = build(self.values)
+        for name, (kind, _, about) in table.items():
+            descriptor, value = describe(about, kind), self.values[name]
+            if kind is tuple:
+                # An empty list tells rclpy no type: there is no public way to declare one.
+                texts = RosParameter.Type.STRING_ARRAY
+                descriptor.type = texts.value
+                node._declare_parameter_common(
+                    [RosParameter(name, texts, list(value))], {name: descriptor}
+                )
+            else:
+                node.declare_parameter(name, value, descriptor, ignore_override=True)
+        node.add_pre_set_parameters_callback(self._to_float)
+        node.add_on_set_parameters_callback(self._check)
+        node.add_post_set_parameters_callback(self._take)
+
+    def refuse_mistyped(self) -> None:
+        """Raise PamError for a given parameter that is nearly the name of a declared one.
+
+        Others that nobody declared are warned of: they may be meant for another node. To be
+        called when everything is declared, publishers and subscriptions included.
+        """
+        known = [name for name in given(self._node) if self._node.has_parameter(name)]
+        for name in refuse_mistyped(given(self._node), [*known, *self._table]):
+            self._node.get_logger().warning(f'parameter {name} is not known here and not used')
+
+    def _to_float(self, parameters: list[RosParameter]) -> list[RosParameter]:
+        return [
+            RosParameter(p.name, RosParameter.Type.DOUBLE, float(p.value))
+            if p.type_ == RosParameter.Type.INTEGER
+            and p.name in self._table
+            and self._table[p.name][0] is float
+            else p
+            for p in parameters
+        ]
+
+    def _changed(self, parameters: list[RosParameter]) -> dict[str, Any]:
+        changes = {p.name: p.value for p in parameters if p.name in self._table}
+        return {**self.values, **changes}
+
+    def _are_ours(self, parameters: list[RosParameter]) -> bool:
+        return any(p.name in self._table for p in parameters)
+
+    def _check(self, parameters: list[RosParameter]) -> SetParametersResult:
+        if self._are_ours(parameters):
+            try:
+                self._build(checked(self._table, self._changed(parameters)))
+            except PamError as error:
+                return SetParametersResult(successful=False, reason=str(error))
+        return SetParametersResult(successful=True)
+
+    def _take(self, parameters: list[RosParameter]) -> None:
+        if self._are_ours(parameters):
+            self.values = checked(self._table, self._changed(parameters))
+            self.built = self._build(self.values)
+            self._apply(self.built)
+
+
+def given(node: Node) -> dict[str, Any]:
+    """Return the values that *node* was started with, declared or not, by name."""
+    # rclpy has no public way to look at them before they are declared.
+    return {name: p.value for name, p in node._parameter_overrides.items()}
+
+
+def describe(about: Parameter, kind: type) -> ParameterDescriptor:
+    """Return the ROS description: text, unit, what is allowed, a range for sliders."""
+    unit = f' [{about.unit}]' if about.unit else ''
+    descriptor = ParameterDescriptor(description=about.text + unit, read_only=not about.live)
+    bounded = about.low is not None or about.high is not None
+    if about.choices or bounded:
+        descriptor.additional_constraints = about.allowed()
+    if about.low is not None and about.high is not None:
+        if kind is float:
+            descriptor.floating_point_range = [
+                FloatingPointRange(from_value=about.low, to_value=about.high)
+            ]
+        else:
+            descriptor.integer_range = [
+                IntegerRange(from_value=int(about.low), to_value=int(about.high))
+            ]
+    return descriptor

@@ -1,0 +1,129 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Run a node at a fixed rate until it is asked to stop, and leave cleanly.
+
+The loop waits in the executor for the time until the next tick and ticks itself: a timer of
+rclpy skips the ticks that it is late for, and costs more (``benchmarks/node_rate.py``).
+"""
+
+import argparse
+import gc
+import re
+import sys
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from pathlib import Path
+from time import monotonic_ns
+
+import rclpy
+from rclpy.exceptions import NameValidationException, ParameterException
+from rclpy.executors import Executor, SingleThreadedExecutor
+from rclpy.node import Node
+from rclpy.signals import SignalHandlerOptions
+from rclpy.utilities import remove_ros_args
+
+from pam_ros.errors import PamError
+from pam_ros.processes.priority import NORMAL, prefer_real_time
+from pam_ros.processes.stop import StopRequest
+from pam_ros.timing.ticker import Ticker
+
+try:
+    from rclpy.experimental import EventsExecutor
+except ImportError:  # Jazzy before its patch release of 2025
+    EventsExecutor = SingleThreadedExecutor
+
+BAD_INPUT = 2
+LONGEST_WAIT = 0.1  # s in the executor, so that a stop is heeded whatever the rate
+
+# What rclpy raises for a command line that makes no node; RuntimeError is what rcl's own errors
+# and unknown policies in overrides of QoS come as.
+REFUSALS = (PamError, NameValidationException, ParameterException, RuntimeError)
+
+
+class TickingNode(Node, ABC):
+    """A node that does its work in :meth:`tick`, at the rate of its ``ticker``.
+
+    A node whose work comes to an end sets ``exit_code``; the others run until they are stopped.
+    One that ``keeps_wall_time`` runs before other programs where the system permits it.
+    """
+
+    ticker: Ticker
+    exit_code: int | None = None
+    keeps_wall_time = False
+    scheduling = NORMAL
+
+    @classmethod
+    def of_arguments(cls, parser: argparse.ArgumentParser, given: Sequence[str]) -> 'TickingNode':
+        """Make the node of the command line's arguments, those for ROS left out: none."""
+        parser.parse_args(given)
+        return cls()
+
+    def make_executor(self) -> Executor:
+        """Return the executor that serves the node: the lightest there is."""
+        return EventsExecutor()
+
+    def start(self) -> None:
+        """Begin to count time: all is there and the loop starts."""
+        self.ticker.start(self.ticker.rate, monotonic_ns())
+
+    @abstractmethod
+    def tick(self) -> None:
+        """Do the work of one period."""
+
+
+def run(kind: type[TickingNode], stop: StopRequest, about: str) -> int:
+    """Make a node of *kind* and run it until *stop* or its end; return the exit code.
+
+    0 after a stop, the node's own at its end; 2, with the sentence on stderr, when the arguments
+    (``--ros-args ...``) or the parameters make no node.
+    """
+    node = None
+    try:
+        try:
+            parser = argparse.ArgumentParser(
+                prog=Path(sys.argv[0]).stem,
+                description=about,
+                formatter_class=argparse.RawDescriptionHelpFormatter,
+                epilog='All else is told with --ros-args: see the manual of ROS 2.',
+            )
+            rclpy.init(args=sys.argv, signal_handler_options=SignalHandlerOptions.NO)
+            node = kind.of_arguments(parser, remove_ros_args(sys.argv)[1:])
+        except REFUSALS as error:
+            print(f'{parser.prog}: {sentence(error)}', file=sys.stderr)
+            return BAD_INPUT
+        executor = node.make_executor()
+        executor.add_node(node)
+        # What is there now stays: a collection over it would cost the loop some 20 ms.
+        gc.freeze()
+        gc.enable()
+        if node.keeps_wall_time:
+            node.scheduling = prefer_real_time()
+        node.start()
+        spin(node, executor, stop)
+    finally:
+        if node is not None:
+            node.destroy_node()
+        rclpy.try_shutdown()
+    return node.exit_code or 0
+
+
+def spin(node: TickingNode, executor: Executor, stop: StopRequest) -> None:
+    """Tick the node and let the executor work in between, until *stop* or the node's end."""
+    ticker = node.ticker
+    while not stop.is_made and node.exit_code is None:
+        now = monotonic_ns()
+        wait = ticker.remaining(now)
+        if wait <= 0.0:
+            ticker.tick(now)
+            node.tick()
+            # However late the ticks are, commands and services get their turn.
+            wait = max(ticker.remaining(monotonic_ns()), 0.0)
+        executor.spin_once(timeout_sec=min(wait, LONGEST_WAIT))
+
+
+def sentence(error: Exception) -> str:
+    """Return the text of an error in one line, without rcl's places in its sources."""
+    text = re.sub(r', at \S+\.c(pp)?:\d+', '', str(error))
+    text = re.sub(r"^\['(-.*)'\]$", r'unknown ROS arguments: \1', text)
+    text = text.replace('failed to initialize rcl: ', '')
+    return ' '.join(text.split())

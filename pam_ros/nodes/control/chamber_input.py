@@ -1,0 +1,82 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""What pressure there is in the muscles before control begins, where the rig tells it.
+
+A controller that begins at the pressure that holds the load moves nothing, whatever the load is.
+"""
+
+from collections.abc import Callable
+from functools import partial
+from math import isfinite
+from time import monotonic_ns
+
+from sensor_msgs.msg import FluidPressure
+from std_msgs.msg import Float64MultiArray
+
+from pam_ros.control.loop import BLIND, WAITING, Loop
+from pam_ros.nodes.common.stamps import stamp_of
+from pam_ros.settings.control import Told
+from pam_ros.settings.pair_control import ToldPair
+from pam_ros.timing.pace import SECOND
+
+FRESH = SECOND  # ns that a pressure may be older than the state that control begins at
+LONGEST = SECOND // 10  # ns of one turn that count as waiting: else this process was held up
+
+Hear = Callable[[type, str, Callable[..., None]], None]
+
+
+class ChamberInput:
+    """Takes absolute pressures in Pa from the topics on which ``pam_sim`` tells them."""
+
+    def __init__(self, told: Told | ToldPair, hear: Hear, heard: Callable[[], None]) -> None:
+        """Subscribe by *hear*(type, topic, callback); *heard* is called for all that comes."""
+        self._heard = heard
+        muscles = told.pressure_topics
+        self._found: list[tuple[int, int, float] | None] = [None] * len(muscles)
+        self._waited = 0
+        self._looked = monotonic_ns()
+        if not told.settings.pressure_wait:
+            return
+        if len(set(muscles)) < len(muscles):
+            hear(Float64MultiArray, muscles[0], self._take_all)
+            return
+        for i, topic in enumerate(muscles):
+            hear(FluidPressure, topic, partial(self._take, i))
+
+    def _take(self, muscle: int, message: FluidPressure) -> None:
+        self._note(muscle, stamp_of(message), message.fluid_pressure)
+        self._heard()
+
+    def _take_all(self, message: Float64MultiArray) -> None:
+        if len(message.data) == len(self._found):
+            for muscle, pressure in enumerate(message.data):
+                self._note(muscle, 0, pressure)
+            self._heard()
+
+    def _note(self, muscle: int, stamp: int, pressure: float) -> None:
+        self._found[muscle] = (stamp, monotonic_ns(), pressure) if isfinite(pressure) else None
+
+    def forget(self) -> None:
+        """Wait anew for what there is."""
+        self._found = [None] * len(self._found)
+        self._waited = 0
+
+    def prepare(self, loop: Loop, stamp: int | None, told: Told | ToldPair) -> None:
+        """Say at which pressure *loop* is to begin at a state of *stamp* ns, or that it must wait.
+
+        Pressures count by their stamps, where both have one, else by when they came.
+        """
+        if stamp is None or loop.state not in (WAITING, BLIND):
+            self._waited = 0
+            return
+        now = monotonic_ns()
+        fresh = [
+            one[2] - told.settings.ambient_pressure
+            for one in self._found
+            if one and (abs(stamp - one[0]) if stamp and one[0] else now - one[1]) <= FRESH
+        ]
+        loop.chamber = told.command_at(fresh) if len(fresh) == len(self._found) else None
+        self._waited += min(now - self._looked, LONGEST)
+        self._looked = now
+        is_early = self._waited < told.settings.pressure_wait * SECOND
+        loop.awaits_chamber = loop.state == WAITING and is_early

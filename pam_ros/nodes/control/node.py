@@ -1,0 +1,295 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The node of ``pam_control``: its topics and services are listed there."""
+
+from functools import partial
+from time import monotonic_ns
+from typing import Any
+
+from rclpy.qos import QoSProfile, ReliabilityPolicy
+from sensor_msgs.msg import JointState
+from std_msgs.msg import Float64
+from std_srvs.srv import SetBool
+from trajectory_msgs.msg import JointTrajectory
+
+from pam_ros.control.loop import BLIND, RUNNING, WAITING, Loop, Reading, warm_up
+from pam_ros.control.pair_law import PairLaw
+from pam_ros.control.signals import PAIR_TERMS, TERMS
+from pam_ros.errors import RangeError
+from pam_ros.health import controller as control_health
+from pam_ros.health.controller import Heard
+from pam_ros.health.health import Health
+from pam_ros.nodes.common.diagnostics import Diagnostics
+from pam_ros.nodes.common.node_parameters import NodeParameters, given
+from pam_ros.nodes.common.qos import DEPTH, open_qos
+from pam_ros.nodes.common.spin import TickingNode
+from pam_ros.nodes.common.stamps import stamp_of
+from pam_ros.nodes.control.chamber_input import ChamberInput
+from pam_ros.nodes.control.inputs import points_of, sight_of
+from pam_ros.nodes.control.output import ArrayCommand, EachCommand, OneCommand, is_finite
+from pam_ros.nodes.control.state import StateTopic
+from pam_ros.settings.pair_control import ToldPair, settings_of
+from pam_ros.timing.pace import SECOND
+from pam_ros.timing.ticker import Ticker
+
+WATCH_RATE = 20.0  # Hz at which time-outs are looked for where states make the time
+REPEAT = SECOND // 20  # ns after which a state that comes again asks for its answer again
+
+
+class PamControl(TickingNode):
+    """A position law in a loop that is closed over topics.
+
+    As ROS time goes by the system's clock, it commands at its own rate. With use_sim_time, time
+    passes as the stamps of the joint states say: each new one is answered with one command.
+    """
+
+    def __init__(self) -> None:
+        """Make the controller that the parameters describe."""
+        super().__init__('pam_control')
+        self._given: NodeParameters[Any] = NodeParameters(
+            self, *settings_of(given(self)), self._change
+        )
+        self._told = self._given.built
+        self._loop = self._make_loop()
+        self._is_followed = bool(self.get_parameter('use_sim_time').value)
+        self.keeps_wall_time = not self._is_followed
+        self._seen = monotonic_ns()  # steady time of the newest usable state, ns
+        self._stamp: int | None = None  # and its stamp
+        self._last: Reading | None = None  # and what it was, where states make the time
+        self._ticked = self._seen  # steady time of the last tick, ns
+        self._has_waited = False
+        self._answered = 0  # steady time of the last command, ns
+        self._blindness = ''  # why the last state was not usable
+        self._refusal, self._refused, self._is_refusal_new = '', 0, False
+        self._shown = 0  # ROS time of the last message on ~/state, ns
+        self._fault = ''
+        self._commanded = 0
+        self._open_topics()
+        self.create_service(SetBool, '~/enable', self._enable)
+        self._diagnostics = Diagnostics(self, {'timing': self._timing, 'control': self._control})
+        self._given.refuse_mistyped()
+        self.ticker = Ticker(self._tick_rate)
+
+    def _make_loop(self) -> Loop:
+        told = self._told
+        law, period = told.make_law(), 1.0 / told.settings.rate
+        warm_up(law, told.reach, period)
+        loop = Loop(law, told.make_course(), period)
+        loop.timeout, loop.safe = told.settings.state_timeout, told.settings.on_timeout
+        loop.enable(told.settings.start_enabled)
+        return loop
+
+    def _open_topics(self) -> None:
+        def hear(kind: type, topic: str, callback, reliability=ReliabilityPolicy.RELIABLE) -> None:
+            quality = QoSProfile(depth=DEPTH, reliability=reliability)
+            self.create_subscription(
+                kind, topic, callback, quality, qos_overriding_options=open_qos()
+            )
+
+        # Where states make the time, one that is lost is one that is waited for. A rig in real
+        # time tells the next one soon, and may publish either way: best effort hears both.
+        followed = ReliabilityPolicy.RELIABLE
+        states = followed if self._is_followed else ReliabilityPolicy.BEST_EFFORT
+        hear(JointState, 'joint_states', self._see, states)
+        hear(Float64, 'position_reference', self._take_reference)
+        hear(JointTrajectory, 'joint_trajectory', self._take_trajectory)
+        told = self._told
+        self._chambers = ChamberInput(told, partial(hear, reliability=states), self._begin)
+        self._commands: OneCommand | ArrayCommand | EachCommand
+        if isinstance(told, ToldPair):
+            hear(Float64, 'co_contraction_reference', self._take_co_contraction)
+            self._states = StateTopic(self, PAIR_TERMS)
+            make = EachCommand if told.muscle_topics else ArrayCommand
+            self._commands = make(self, told.muscles)
+        else:
+            self._states = StateTopic(self, TERMS)
+            self._commands = OneCommand(self)
+
+    # Time ----------------------------------------------------------------------------------
+
+    @property
+    def _tick_rate(self) -> float:
+        return WATCH_RATE if self._is_followed else self._told.settings.rate
+
+    def tick(self) -> None:
+        """Command; where the states make the time, only see whether they stay away."""
+        now = monotonic_ns()
+        self._chambers.prepare(self._loop, self._stamp, self._told)
+        if self._is_followed:
+            self._watch(now)
+            return
+        settings = self._told.settings
+        longest = max(0.5 * settings.state_timeout, 3.0 / settings.rate) * SECOND
+        was_held_up = now - self._ticked > longest and not self._has_waited
+        self._ticked, self._has_waited = now, was_held_up
+        if not was_held_up:  # else what came meanwhile is to be heard first
+            self._step(now / SECOND, self.get_clock().now().nanoseconds)
+
+    def _watch(self, steady: int) -> None:
+        if self._stamp is None:
+            return
+        now = self.get_clock().now().nanoseconds
+        # By both clocks: /clock may be heard before the states that belong to it.
+        age = min(now - self._stamp, steady - self._seen) / SECOND
+        if age > self._told.settings.state_timeout:
+            self._step(now / SECOND, now)
+        else:
+            self._begin()
+
+    def _begin(self) -> None:
+        """Where states make the time, answer the one that control has waited at."""
+        if self._is_followed and self._stamp is not None and self._loop.state == WAITING:
+            self._chambers.prepare(self._loop, self._stamp, self._told)
+            self._step(self._stamp / SECOND, self._stamp)
+
+    def _step(self, time: float, stamp: int) -> None:
+        """Command at *time* in s, by the clock of the loop; *stamp* is ROS time in ns."""
+        loop, before = self._loop, self._loop.state
+        try:
+            pressure = loop.tick(time)
+        except ArithmeticError:
+            pressure = float('nan')
+        if pressure is None:
+            return
+        if not is_finite(pressure):
+            loop.enable(False)
+            loop.pressure = pressure = self._told.vented
+            self._fault = 'the law gave no number: vented and disabled'
+            self.get_logger().error(self._fault)
+        elif loop.state == BLIND != before:
+            self.get_logger().error(self._trouble())
+        self._publish(pressure)
+        rate = self._told.settings.state_rate
+        # A little early is on time: stamps of a grid are rounded.
+        is_due = bool(rate) and not 0 <= stamp - self._shown < 0.99 * SECOND / rate
+        if loop.state == RUNNING and is_due:
+            self._shown = stamp
+            self._states.publish(stamp, loop.law.terms)
+
+    def _publish(self, pressure: Any) -> None:
+        self._commands.publish(pressure)
+        self._answered = monotonic_ns()
+        self._commanded += 1
+
+    # In ------------------------------------------------------------------------------------
+
+    def _see(self, message: JointState) -> None:
+        settings = self._told.settings
+        try:
+            sight = sight_of(message, settings.joint_name, settings.velocity_source == 'measured')
+        except RangeError as error:
+            self._blindness = str(error)
+            self.get_logger().warning(self._blindness, throttle_duration_sec=1.0)
+            return
+        self._blindness = ''
+        if sight.stamp and sight.stamp == self._stamp:
+            self._see_again()
+            return
+        before, self._stamp = self._stamp, sight.stamp
+        self._seen = monotonic_ns()
+        if not self._is_followed:
+            self._loop.see(Reading(self._seen / SECOND, sight.position, sight.velocity))
+            return
+        if before is not None and sight.stamp < before:
+            self._loop.forget()  # simulated time begins anew, and so does what happens in it
+            self._chambers.forget()
+        self._last = Reading(sight.stamp / SECOND, sight.position, sight.velocity)
+        self._loop.see(self._last)
+        self._chambers.prepare(self._loop, self._stamp, self._told)
+        self._step(self._last.time, sight.stamp)
+
+    def _see_again(self) -> None:
+        """Answer a state that is told again: in lockstep the answer was not heard."""
+        last = self._loop.pressure
+        is_due = monotonic_ns() - self._answered > REPEAT
+        if self._is_followed and self._loop.state == RUNNING and last is not None and is_due:
+            self._publish(last)
+
+    def _take_reference(self, message: Float64) -> None:
+        if self._is_ready('position_reference'):
+            try:
+                self._loop.course.tell(message.data)
+            except RangeError as error:
+                self._refuse(str(error))
+
+    def _take_co_contraction(self, message: Float64) -> None:
+        law = self._loop.law
+        if self._is_ready('co_contraction_reference') and isinstance(law, PairLaw):
+            try:
+                law.stiffen(message.data)
+            except RangeError as error:
+                self._refuse(str(error))
+
+    def _take_trajectory(self, message: JointTrajectory) -> None:
+        if not self._is_ready('joint_trajectory'):
+            return
+        begin = stamp_of(message)
+        try:
+            points = points_of(message, self._told.settings.joint_name)
+            self._loop.course.play(points, self._wait_for(begin) if begin else 0.0)
+        except RangeError as error:
+            self._refuse(str(error))
+
+    def _wait_for(self, begin: int) -> float:
+        """Return how long after the loop's last step in s the ROS time *begin* in ns is."""
+        if self._is_followed and self._stamp is not None:
+            return (begin - self._stamp) / SECOND
+        since = monotonic_ns() / SECOND - self._loop.time
+        return (begin - self.get_clock().now().nanoseconds) / SECOND + since
+
+    def _is_ready(self, topic: str) -> bool:
+        is_ready = self._loop.state == RUNNING
+        if not is_ready:
+            self._refuse(f'{topic} is not taken: {self._trouble()}')
+        return is_ready
+
+    def _refuse(self, reason: str) -> None:
+        self._refusal, self._is_refusal_new = reason, True
+        self._refused += 1
+        self.get_logger().warning(reason, throttle_duration_sec=1.0)
+
+    def _enable(self, request: SetBool.Request, response: SetBool.Response) -> SetBool.Response:
+        self._loop.enable(request.data)
+        if request.data:
+            self._fault = ''
+            if self._is_followed and self._last:
+                self._loop.see(self._last)  # which may wait for an answer: no other would come
+        else:
+            self._loop.pressure = None  # somebody else may command from now on
+        response.success = True
+        response.message = self._trouble() or 'controlling'
+        return response
+
+    def _change(self, now: Any) -> None:
+        """Go on with other parameters."""
+        before, self._told = self._told, now
+        loop, settings = self._loop, now.settings
+        loop.timeout, loop.safe = settings.state_timeout, settings.on_timeout
+        loop.period = 1.0 / settings.rate
+        if now.needs_new_law(before):
+            law = now.make_law()
+            warm_up(law, now.reach, loop.period)
+            loop.change(law, now.make_course())
+        else:
+            now.take_over(loop.law, before)
+            loop.course.set_shape(now.shape)
+        if before.settings.rate != settings.rate:
+            self.ticker.start(self._tick_rate, monotonic_ns())
+
+    # Health --------------------------------------------------------------------------------
+
+    def _trouble(self) -> str:
+        """Say why it does not control, '' where it does."""
+        did = self._told.settings.on_timeout
+        return control_health.trouble(self._loop, did, self._blindness, self._fault)
+
+    def _control(self) -> Health:
+        age = None if self._stamp is None else (monotonic_ns() - self._seen) / SECOND
+        is_new, self._is_refusal_new = self._is_refusal_new, False
+        heard = Heard(age, self._blindness, self._refused, self._refusal, is_new)
+        return control_health.control(self._loop, self._told, heard, self._fault)
+
+    def _timing(self) -> Health:
+        commanded, self._commanded = self._commanded, 0
+        wanted = None if self._is_followed else self._told.settings.rate
+        return control_health.timing(self.ticker.report(monotonic_ns()), commanded, wanted)

@@ -1,0 +1,120 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""``pam_sim`` and ``pam_control`` in lockstep, each a process, and a listener who misses nothing.
+
+The listener passes each command on. So simulated time waits for who watches, too, and stands still
+where he says: what a busy machine does to any of the three changes nothing.
+"""
+
+import math
+from contextlib import ExitStack
+from types import TracebackType
+from typing import Any
+
+from rclpy.duration import Duration
+from sensor_msgs.msg import JointState
+
+from pam_ros.errors import PamError
+from pam_ros.nodes.common.client import Client
+from pam_ros.nodes.common.stamps import seconds
+from pam_ros.nodes.demo.stage import Stage
+from pam_ros.processes.children import Program
+
+STILL = 1e-6  # change of a term by which nothing has begun yet
+HISTORY = 30_000  # messages kept for a listener who is late: a minute at 500 Hz
+PATIENCE = 600.0  # s that a busy machine may take for one of the moves
+
+
+class Duet:
+    """Both programs in the namespace of a stage; ``states`` and ``terms`` are what they say."""
+
+    def __init__(
+        self,
+        stage: Stage,
+        rig: dict[str, Any],
+        told: dict[str, Any],
+        command: tuple[type, str],
+        topics: tuple[str, ...] = (),
+    ) -> None:
+        """Make them with parameters of their own, *command* being type and topic of commands.
+
+        Of *rig* no message on *topics* is lost.
+        """
+        self._space, self._command = stage.namespace, command
+        self._rig = {**rig, 'time_mode': 'lockstep'}
+        for topic in ('joint_states', *topics):
+            self._rig[f'qos_overrides.{self._space}/{topic}.publisher.depth'] = HISTORY
+        self._told = {**told, 'use_sim_time': True}
+        self._told[f'qos_overrides.{self._space}/pam_control/state.publisher.depth'] = HISTORY
+        self._stack = ExitStack()
+        self._end = 0.0  # simulated time in s from which on time stands still
+        self._held: Any = None  # the command that is not passed on meanwhile
+
+    def __enter__(self) -> 'Duet':
+        """Start them."""
+        # Their /clock is nobody else's business.
+        space, (kind, topic) = self._space, self._command
+        where = ('-r', f'__ns:={space}', '-r', f'/clock:={space}/clock')
+        asked = ('-r', f'{topic}:=asked')
+        sim = Program('pam_sim', *where, parameters=self._rig)
+        control = Program('pam_control', *where, *asked, parameters=self._told)
+        self._programs = [self._stack.enter_context(one) for one in (sim, control)]
+        self.client = self._stack.enter_context(Client(space, PATIENCE))
+        self.states = self.client.collect(JointState, 'joint_states')
+        self.terms = self.client.collect(JointState, 'pam_control/state')
+        self._commands = self.client.node.create_publisher(kind, topic, 10)
+        self.client.node.create_subscription(kind, 'asked', self._pass_on, 10)
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        """Stop them."""
+        self._stack.close()
+
+    def _pass_on(self, command: Any) -> None:
+        if self.states and seconds(self.states[-1]) >= self._end:
+            self._held = command
+        else:
+            self._commands.publish(command)
+
+    def _until(self, condition: Any, what: str) -> None:
+        """Wait for *condition*; raise PamError where a program has ended."""
+
+        def is_so() -> bool:
+            for program in self._programs:
+                if not program.is_running:
+                    raise PamError(f'{program.name} ended: {program.output.strip()}')
+            return bool(condition())
+
+        self.client.until(is_so, what)
+
+    def begin(self, *heard: list[Any]) -> None:
+        """Wait until it is controlled, and something has come into each of *heard*."""
+        # Not the terms: they come once with the first command, for whom was there then.
+        lists = (self.states, *heard)
+        self._until(lambda: self._held is not None and all(lists), 'the first command')
+
+    def stop_after(self, duration: float) -> float:
+        """Let so many seconds pass from now on, then let time stand still; return when."""
+        self._go_on(seconds(self.states[-1]) + duration)
+        self._until(lambda: self._held is not None, f'{duration:g} s to pass')
+        return seconds(self.states[-1])
+
+    def tell(self, message: Any, topic: str, term: str = 'reference') -> None:
+        """Tell what sets *term* in motion, and let time go on until it moves."""
+        k = list(self.terms[-1].name).index(term)
+        rest = self.terms[-1].position[k]
+        self.client.publish(message, topic)
+        self.client.delivered(topic, Duration(seconds=PATIENCE))
+        self._go_on(math.inf)
+        self._until(lambda: abs(self.terms[-1].position[k] - rest) > STILL, f'{term} to change')
+
+    def _go_on(self, end: float) -> None:
+        """Let time go on until *end* s."""
+        self._end, held, self._held = end, self._held, None
+        if held is not None:
+            self._commands.publish(held)

@@ -1,0 +1,119 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""An antagonistic joint over topics: ``pam_control`` leads angle and stiffness of ``pam_sim``.
+
+The arm carries more than the controller was told. The angle swings by ``joint_trajectory``; the
+stiffness is told on ``co_contraction_reference``, in the midst of the swing and at rest.
+"""
+
+import math
+
+import numpy as np
+from rclpy.duration import Duration
+from sensor_msgs.msg import JointState
+from std_msgs.msg import Float64, Float64MultiArray
+from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
+
+from pam_ros.control.signals import PAIR_TERMS
+from pam_ros.demo import joint
+from pam_ros.demo.joint import JointCourse
+from pam_ros.nodes.common.stamps import seconds
+from pam_ros.nodes.demo.duet import Duet
+from pam_ros.nodes.demo.stage import Stage
+
+MUSCLE = 'dmsp_20_400n'
+DECLARED, TRUE = 1.0, 1.3  # kg on the arm
+RADIUS = 0.04  # m
+NOISE = math.radians(0.02)
+SWING, FREQUENCY, CYCLES = math.radians(15.0), 0.5, 6
+REST = 1.0  # s
+SOFT, STIFF = 20.0, 35.0  # N m/rad
+SPACING = 0.02  # s between the points of the trajectory
+
+
+def play(stage: Stage) -> None:
+    """Lead the joint, and leave a plot and a table."""
+    stage.say(
+        f'An antagonistic joint over ROS topics: two {MUSCLE}, an arm declared with '
+        f'{DECLARED:g} kg, in truth with {TRUE:g} kg'
+    )
+    course = record(stage)
+    begin = course.departure
+    whole = course.between(begin + 1.0 / FREQUENCY, begin + (CYCLES - 1) / FREQUENCY)
+    still = course.between(begin + CYCLES / FREQUENCY, np.inf)
+    parts = [
+        (f'sine, {SOFT:g} N m/rad', whole.with_stiffness(SOFT)),
+        (f'sine, {STIFF:g} N m/rad', whole.with_stiffness(STIFF)),
+        (f'at rest, to {SOFT:g} N m/rad', still),
+    ]
+    from pam_ros.demo import figures
+
+    path = stage.folder / 'joint.png'
+    headline = f'pam_control: told {DECLARED:g} kg, moves {TRUE:g} kg'
+    figures.save(joint.figure(course, headline), path)
+    stage.wrote(path)
+    stage.text('joint.txt', joint.table(parts))
+
+
+def record(stage: Stage) -> JointCourse:
+    """Return what happened."""
+    both = {'joint': 'antagonistic', 'muscle': MUSCLE, 'radius': RADIUS}
+    rig = {**both, 'mass': TRUE, 'initial.pressure': 250e3, 'sensor.position_noise': NOISE}
+    told = {**both, 'mass': DECLARED, 'co_contraction': SOFT}
+    commands = (Float64MultiArray, 'pressure_commands')
+    with Duet(stage, rig, told, commands, ('stiffnesses',)) as duet:
+        arrays = duet.client.collect(Float64MultiArray, 'stiffnesses')
+        duet.begin(arrays)
+        before = len(arrays)
+        duet.stop_after(REST)
+        stage.say(f'  a sine of {math.degrees(SWING):.0f} degrees at {FREQUENCY:g} Hz')
+        duet.tell(sine(), 'joint_trajectory')
+        begin = seconds(duet.terms[-1])
+        duet.stop_after(0.5 * CYCLES / FREQUENCY)
+        stage.say(f'  co-contraction from {SOFT:g} to {STIFF:g} N m/rad')
+        duet.tell(Float64(data=STIFF), 'co_contraction_reference', 'co_contraction')
+        duet.stop_after(begin + CYCLES / FREQUENCY + REST - seconds(duet.states[-1]))
+        stage.say(f'  and back to {SOFT:g} N m/rad')
+        duet.tell(Float64(data=SOFT), 'co_contraction_reference', 'co_contraction')
+        duet.stop_after(REST)
+        periods = len({seconds(state) for state in duet.states}) - 1
+        duet.client.until(lambda: len(arrays) >= before + periods, 'an array for each state')
+        return put_together(duet.states, duet.terms, arrays)
+
+
+def sine() -> JointTrajectory:
+    """Return the sine as a trajectory around 0; it swells over a cycle and fades over the last."""
+    turn, end = 2.0 * math.pi * FREQUENCY, CYCLES / FREQUENCY
+    message = JointTrajectory(joint_names=['pam'])
+    for k in range(1, round(end / SPACING) + 1):
+        t = k * SPACING
+        share = max(min(t * FREQUENCY, (end - t) * FREQUENCY, 1.0), 0.0)
+        swing = SWING * math.sin(0.5 * math.pi * share) ** 2
+        point = JointTrajectoryPoint(positions=[swing * math.sin(turn * t)])
+        point.time_from_start = Duration(seconds=t).to_msg()
+        message.points.append(point)
+    return message
+
+
+def put_together(
+    states: list[JointState], terms: list[JointState], arrays: list[Float64MultiArray]
+) -> JointCourse:
+    """Return angle and stiffness of the rig beside the terms of the same stamp.
+
+    An array has no stamp: one comes with each state, and the last ones belong together.
+    """
+    count = min(len(states), len(arrays))
+    at = {}
+    for state, array in zip(states[-count:], arrays[-count:], strict=True):
+        stamp = state.header.stamp
+        at[stamp.sec, stamp.nanosec] = state.position[0], RADIUS**2 * sum(array.data)
+    rows = []
+    for message in terms:
+        stamp = message.header.stamp
+        if (stamp.sec, stamp.nanosec) in at:
+            angle, stiffness = at[stamp.sec, stamp.nanosec]
+            values = dict(zip(PAIR_TERMS, message.position, strict=True))
+            pressures = values['pressure_1'], values['pressure_2']
+            row = seconds(message), values['reference'], angle, *pressures
+            rows.append((*row, values['co_contraction'], stiffness))
+    return JointCourse(*np.array(rows).T)

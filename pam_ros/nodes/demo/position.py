@@ -1,0 +1,102 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Position control over topics: ``pam_control`` leads the load of ``pam_sim``.
+
+The load is heavier than the controller was told. Set-points come on ``position_reference``, a sine
+as ``joint_trajectory``. Both programs run in lockstep, so that a busy machine changes nothing.
+"""
+
+import math
+
+import numpy as np
+from rclpy.duration import Duration
+from sensor_msgs.msg import JointState
+from std_msgs.msg import Float64
+from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
+
+from pam_ros.control.signals import TERMS
+from pam_ros.demo import position
+from pam_ros.demo.position import Course
+from pam_ros.nodes.common.stamps import seconds
+from pam_ros.nodes.demo.duet import STILL, Duet
+from pam_ros.nodes.demo.stage import Stage
+
+MUSCLE = 'dmsp_20_400n'
+DECLARED, TRUE = 20.0, 25.0  # kg
+GOALS = (0.070, 0.050, 0.060)  # m
+HOLD = 2.5  # s for each of them
+SWING, FREQUENCY, CYCLES = 0.010, 0.5, 5  # m, Hz: the sine, from the last of the goals
+SPACING = 0.05  # s between the points of its trajectory
+
+
+def play(stage: Stage) -> None:
+    """Lead the load, and leave a plot and a table."""
+    stage.say(
+        f'Position control over ROS topics: {MUSCLE}, declared with {DECLARED:g} kg, '
+        f'in truth with {TRUE:g} kg'
+    )
+    course, marks = record(stage)
+    steps = [
+        (goal, course.between(begin, begin + HOLD))
+        for goal, begin in zip(GOALS, marks[:-1], strict=True)
+    ]
+    whole = course.between(
+        marks[-1] + 1.0 / FREQUENCY, marks[-1] + (CYCLES - 1) / FREQUENCY
+    )  # where it has its full swing
+    from pam_ros.demo import figures
+
+    path = stage.folder / 'position_control.png'
+    headline = f'pam_control: told {DECLARED:g} kg, moves {TRUE:g} kg'
+    figures.save(position.figure(course, headline), path)
+    stage.wrote(path)
+    stage.text('position_control.txt', position.table(steps, whole))
+
+
+def record(stage: Stage) -> tuple[Course, list[float]]:
+    """Return what happened, and the times in s at which it set out to each goal and the sine."""
+    rig = {'muscle': MUSCLE, 'mass': TRUE, 'initial.pressure': 300e3}
+    told = {'muscle': MUSCLE, 'mass': DECLARED}
+    with Duet(stage, rig, told, (Float64, 'pressure_command')) as duet:
+        duet.begin()
+        stops = [duet.stop_after(1.5)]
+        for goal in GOALS:
+            stage.say(f'  to {1e3 * goal:.0f} mm')
+            duet.tell(Float64(data=goal), 'position_reference')
+            stops.append(duet.stop_after(HOLD))
+        stage.say(f'  a sine of {1e3 * SWING:.0f} mm at {FREQUENCY:g} Hz')
+        duet.tell(sine(GOALS[-1]), 'joint_trajectory')
+        duet.stop_after(CYCLES / FREQUENCY + 0.5)
+        course = put_together(duet.states, duet.terms)
+    return course, [course.departure(stop, STILL) for stop in stops]
+
+
+def sine(middle: float) -> JointTrajectory:
+    """Return the sine as a trajectory around *middle* m."""
+    turn, end = 2.0 * math.pi * FREQUENCY, CYCLES / FREQUENCY
+    message = JointTrajectory(joint_names=['pam'])
+    for k in range(1, round(end / SPACING) + 1):
+        t = k * SPACING
+        # It swells over the first cycle and fades over the last.
+        share = min(t * FREQUENCY, (end - t) * FREQUENCY, 1.0)
+        swing = SWING * math.sin(0.5 * math.pi * max(share, 0.0)) ** 2
+        message.points.append(
+            JointTrajectoryPoint(
+                positions=[middle + swing * math.sin(turn * t)],
+                time_from_start=Duration(seconds=t).to_msg(),
+            )
+        )
+    return message
+
+
+def put_together(states: list[JointState], terms: list[JointState]) -> Course:
+    """Return the positions of the rig beside the terms of the same stamp."""
+    at = {(m.header.stamp.sec, m.header.stamp.nanosec): m.position[0] for m in states}
+    rows = []
+    for message in terms:
+        stamp = message.header.stamp
+        measured = at.get((stamp.sec, stamp.nanosec))
+        if measured is not None:
+            values = dict(zip(TERMS, message.position, strict=True))
+            row = seconds(message), values['reference'], measured
+            rows.append((*row, values['surface'], values['pressure']))
+    return Course(*np.array(rows).T)

@@ -1,0 +1,280 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The node ``pam_excite``: waits for the rig, plays the programme, watches the joint."""
+
+import argparse
+import sys
+import time
+from collections.abc import Sequence
+from pathlib import Path
+
+from rclpy.duration import Duration
+from rclpy.qos import QoSProfile, ReliabilityPolicy
+from sensor_msgs.msg import JointState
+from std_msgs.msg import Float64
+from tqdm import tqdm
+
+from pam_ros.excitation.guard import Guard
+from pam_ros.excitation.programme import write_csv
+from pam_ros.nodes.common.node_parameters import NodeParameters, given
+from pam_ros.nodes.common.qos import DEPTH, open_qos
+from pam_ros.nodes.common.spin import TickingNode
+from pam_ros.nodes.common.stamps import stamp_of
+from pam_ros.settings.excite import Experiment, experiment, table
+from pam_ros.timing.pace import SECOND
+from pam_ros.timing.ticker import Ticker
+
+STOPPED = 1  # exit code
+UNNAMED = '_NODE_NAME_UNKNOWN_'  # what a node is called until it is discovered whole
+LONGEST = 0.1  # s without a command for which the pressure may change at once
+LAST = 0.2  # s for which 0 Pa is commanded after an emergency
+REPEAT = 0.05  # s after which a state that comes again asks for its answer again
+
+
+class PamExcite(TickingNode):
+    """Plays a programme: waits, counts down, plays, vents.
+
+    As ROS time goes by the system's clock, it commands at its own rate. With use_sim_time, time
+    passes as the stamps of the joint states say: each new one is answered with one command.
+    """
+
+    def __init__(self, csv: Path | None, is_dry: bool) -> None:
+        """Make the programme that the parameters describe."""
+        super().__init__('pam_excite')
+        parameters = NodeParameters(
+            self, table(given(self).get('muscle', '')), experiment, _nothing_live
+        )
+        self._now = parameters.built
+        parameters.refuse_mistyped()
+        if csv is not None:
+            write_csv(self._now.programme, csv)
+        self._is_dry = is_dry
+        self._pressure = 0.0  # last command
+        self._rest = round(LAST * self._now.settings.rate)  # commands of 0 Pa still to come
+        self._is_followed = bool(self.get_parameter('use_sim_time').value)
+        self.keeps_wall_time = not self._is_followed
+        self._stamp = 0.0  # ROS time of the newest joint state, s
+        self._answered = 0.0  # steady time of the last command, s
+        self._segment = ''
+        self._bar = tqdm(disable=True)
+        self._do = self._wait
+        self.ticker = Ticker(self._now.settings.rate)
+
+    @classmethod
+    def of_arguments(cls, parser: argparse.ArgumentParser, given: Sequence[str]) -> 'PamExcite':
+        """Make the node that the command line asks for."""
+        parser.add_argument(
+            '--dry-run', action='store_true', help='print the plan and play nothing'
+        )
+        parser.add_argument(
+            '--csv',
+            type=Path,
+            metavar='FILE',
+            help='write the commands as well: t_s,pressure_command_Pa',
+        )
+        arguments = parser.parse_args(given)
+        return cls(arguments.csv, arguments.dry_run)
+
+    def start(self) -> None:
+        """Print the plan and look for the rig."""
+        super().start()
+        print(self._now.plan(), flush=True)
+        if self._is_dry:
+            self.exit_code = 0
+            return
+        self._begun = time.monotonic()
+        self._heard = self._begun  # steady time of the newest joint state, s
+        self._seen = self._ros_time()  # and its time by the clock of the programme, s
+        self._guard = Guard(*self._now.window, self._now.settings.silence, self._seen)
+        self._misread = ''
+        self._publisher = self.create_publisher(
+            Float64,
+            'pressure_command',
+            QoSProfile(depth=DEPTH),
+            qos_overriding_options=open_qos(),
+        )
+        # Where states make the time, one that is lost is one that is waited for.
+        followed, free = ReliabilityPolicy.RELIABLE, ReliabilityPolicy.BEST_EFFORT
+        self.create_subscription(
+            JointState,
+            'joint_states',
+            self._see,
+            QoSProfile(depth=DEPTH, reliability=followed if self._is_followed else free),
+            qos_overriding_options=open_qos(),
+        )
+
+    def tick(self) -> None:
+        """Do what is next."""
+        if self.exit_code is None:
+            self._do()
+
+    def _see(self, message: JointState) -> None:
+        names, wanted = list(message.name), self._now.settings.joint_name
+        if wanted and wanted not in names:
+            self._misread = f'joint_states has no joint {wanted!r}: it has {", ".join(names)}'
+        elif not wanted and len(names) != 1:
+            self._misread = f'joint_states has {len(names)} joints ({", ".join(names)}): choose '
+            self._misread += 'one with the parameter joint_name'
+        elif len(message.position) != len(names):
+            self._misread = 'joint_states carries no positions'
+        else:
+            at = names.index(wanted) if wanted else 0
+            before, self._heard = self._stamp, time.monotonic()
+            self._stamp = stamp_of(message) / SECOND if self._is_followed else 0.0
+            self._seen = now = self._stamp or self._ros_time()
+            self._guard.see(message.position[at], now)
+            if self._is_followed and self._do == self._play:
+                self._answer(now, is_again=bool(before) and self._stamp == before)
+
+    def _answer(self, now: float, *, is_again: bool) -> None:
+        """Command at *now* s; one that is told again asks for its answer, that may be lost."""
+        if not is_again:
+            self._play_at(now)
+        elif time.monotonic() - self._answered > REPEAT:
+            self._command(self._pressure)
+
+    # Before --------------------------------------------------------------------------------
+
+    def _wait(self) -> None:
+        """Wait until the rig is there and alone."""
+        if self._misread:
+            self._refuse(self._misread)
+            return
+        rivals = self._rivals()
+        if rivals and UNNAMED not in rivals:
+            self._refuse(f'{" and ".join(rivals)} commands pressures as well: stop it first')
+            return
+        missing = {
+            'nobody subscribes to pressure_command': not self._publisher.get_subscription_count(),
+            'joint_states is silent': self._guard.position is None,
+            'use_sim_time is set and /clock is silent': self._ros_time() == 0.0,
+            'another node commands pressures': bool(rivals),
+        }
+        if not any(missing.values()):
+            self._play_from = time.monotonic() + self._now.settings.countdown
+            self._do = self._count_down
+        elif time.monotonic() - self._begun > self._now.settings.patience:
+            problems = ', '.join(text for text, is_so in missing.items() if is_so)
+            self._refuse(f'{problems}: is the rig running?')
+
+    def _rivals(self) -> list[str]:
+        """Return the other nodes that publish pressure_command."""
+        names = [
+            info.node_namespace.rstrip('/') + '/' + info.node_name
+            for info in self.get_publishers_info_by_topic('pressure_command')
+        ]
+        own = self.get_fully_qualified_name()
+        if own in names:
+            names.remove(own)
+        return [UNNAMED if UNNAMED in name else name for name in names]
+
+    def _count_down(self) -> None:
+        problem = self._problem()
+        if problem:
+            self._refuse(problem)
+        elif time.monotonic() >= self._play_from:
+            self._origin = self._last = self._stamp or self._ros_time()
+            self._bar = tqdm(
+                total=round(self._now.programme.duration, 1),
+                unit='s',
+                bar_format='{l_bar}{bar}| {n:.1f}/{total} s',
+                disable=not sys.stderr.isatty(),
+            )
+            self._do = self._play
+            self._play_at(self._origin)  # also the state that waits for an answer
+
+    def _problem(self) -> str:
+        """Return why to stop, or ''."""
+        now = self._ros_time()
+        if self._is_followed:
+            silent = time.monotonic() - self._heard
+            if silent > self._now.settings.patience:
+                return f'joint_states has been silent for {silent:.1f} s, whatever /clock says'
+            # By both clocks: time may stand still, and /clock be heard before its states.
+            now = min(now, self._seen + silent)
+        return self._misread or self._guard.problem(now)
+
+    def _refuse(self, why: str) -> None:
+        print(f'pam_excite: {why}', file=sys.stderr, flush=True)
+        self.exit_code = STOPPED
+
+    # While it plays ------------------------------------------------------------------------
+
+    def _ros_time(self) -> float:
+        if self._is_followed:
+            return float(self.get_clock().now().nanoseconds) / SECOND
+        return time.monotonic()
+
+    def _play(self) -> None:
+        """Play on; where states make the time, only see whether they stay away."""
+        if not self._is_followed or self._problem():
+            self._play_at(self._ros_time())
+
+    def _play_at(self, now: float) -> None:
+        elapsed, since = now - self._origin, now - self._last
+        self._last = now
+        problem = self._problem()
+        if since < 0.0:
+            problem = 'the clock went back'
+        if problem:
+            self._bar.close()
+            print(
+                f'pam_excite: {problem}: stopped after {elapsed:.1f} s, venting',
+                file=sys.stderr,
+                flush=True,
+            )
+            self._do = self._vent
+            return
+        if elapsed >= self._now.programme.duration and self._pressure == 0.0:
+            self._bar.close()
+            print(f'played {self._now.programme.duration:.1f} s, vented', flush=True)
+            self.exit_code = 0
+            return
+        # Behind a pause of this process the programme is caught up with, not jumped to.
+        step = self._now.settings.pressure_rate * min(since, LONGEST)
+        wanted = self._now.programme.at(elapsed)
+        self._command(min(max(wanted, self._pressure - step), self._pressure + step))
+        self._show(elapsed)
+
+    def _command(self, pressure: float) -> None:
+        self._pressure = pressure
+        self._answered = time.monotonic()
+        self._publisher.publish(Float64(data=pressure))
+
+    def _show(self, elapsed: float) -> None:
+        self._bar.update(elapsed - self._bar.n)
+        name = self._now.programme.segment_at(elapsed).name
+        if name != self._segment:
+            self._segment = name
+            self._bar.set_description(name)
+            if self._bar.disable:
+                print(f'{elapsed:6.1f} s  {name}', flush=True)
+
+    # The end -------------------------------------------------------------------------------
+
+    def _vent(self) -> None:
+        """Let the pressure out as fast as is allowed, one command."""
+        self._command(self._let_out())
+        if self._pressure == 0.0:
+            self._rest -= 1
+            if self._rest <= 0:
+                self.exit_code = STOPPED
+
+    def _let_out(self) -> float:
+        settings = self._now.settings
+        return max(self._pressure - settings.pressure_rate / settings.rate, 0.0)
+
+    def destroy_node(self) -> None:
+        """Vent where something is left to vent: the node was asked to stop."""
+        if self._pressure > 0.0:
+            self._bar.close()
+            print('pam_excite: asked to stop, venting', file=sys.stderr, flush=True)
+            while self._pressure > 0.0:
+                self._command(self._let_out())
+                time.sleep(1.0 / self._now.settings.rate)
+            self._publisher.wait_for_all_acked(Duration(seconds=1))
+        super().destroy_node()
+
+
+def _nothing_live(built: Experiment) -> None:
+    """Take changes: there are none, as every parameter is read-only while it plays."""

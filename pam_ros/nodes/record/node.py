@@ -1,0 +1,259 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The node ``pam_record``: finds topics, takes their messages, writes them to a bag."""
+
+import argparse
+import os
+import sys
+import threading
+from collections.abc import Sequence
+from datetime import datetime
+from importlib import import_module
+from pathlib import Path
+from time import monotonic_ns
+from typing import Any
+
+from rclpy.executors import Executor, SingleThreadedExecutor
+from rclpy.subscription import Subscription
+from rosgraph_msgs.msg import Clock
+
+from pam_ros.errors import RecordingError
+from pam_ros.nodes.common.spin import TickingNode
+from pam_ros.nodes.record.message_text import message_text
+from pam_ros.nodes.record.qos import matching, metadata
+from pam_ros.nodes.record.taking import Recorded, Taken, all_of, never
+from pam_ros.recording.bag_writer import BagTopic, BagWriter
+from pam_ros.recording.simulated_time import SimulatedTime
+from pam_ros.timing.pace import SECOND
+from pam_ros.timing.ticker import Ticker
+
+TOPICS = ('joint_states', 'pressure_command', 'force', 'stiffness', 'damping', 'pressure')
+LOOK = 5.0  # Hz, for new topics
+TAKE = 0.01  # s between two rounds of taking messages
+UNTOLD = SECOND // 2  # ns that a message waits for /clock to go on beyond it
+SEAL = 0.5  # s between two seals: what a kill can lose
+REPORT, REPORT_LOGGED = 1.0, 10.0  # s between lines of progress, on a terminal and in a log
+
+
+class PamRecord(TickingNode):
+    """The recorder node."""
+
+    def __init__(self, directory: Path, topics: Sequence[str]) -> None:
+        """Make the bag in *directory*; record our topics and *topics*."""
+        super().__init__('pam_record')
+        self._directory = directory
+        names = dict.fromkeys((*TOPICS, *topics))
+        self._wanted = {self._resolved(name): name in topics for name in names}
+        self._writer = BagWriter(directory, os.environ.get('ROS_DISTRO', 'unknown'))
+        self._recorded: dict[str, Recorded] = {}
+        self._refused: set[str] = set()
+        self._sole: set[str] = set()
+        self._group = Taken()
+        self._time = SimulatedTime()
+        self._is_simulated = bool(self.get_parameter('use_sim_time').value)
+        self._clock_told: Subscription | None = None
+        self._lock = threading.Lock()  # of the writer and of what is recorded
+        self._is_closing = threading.Event()
+        self._problem = ''
+        self._begun = monotonic_ns()
+        self._told = self._begun
+        self._thread = threading.Thread(target=self._work, name='recorder')
+        self.ticker = Ticker(LOOK)
+
+    @classmethod
+    def of_arguments(cls, parser: argparse.ArgumentParser, given: Sequence[str]) -> 'PamRecord':
+        """Make the recorder that the command line asks for."""
+        parser.add_argument('topics', nargs='*', metavar='TOPIC', help='record this topic as well')
+        parser.add_argument(
+            '-o',
+            '--output',
+            type=Path,
+            metavar='DIR',
+            default=Path(datetime.now().strftime('recording_%Y_%m_%d-%H_%M_%S')),
+            help='directory of the bag, to be made (default: recording_DATE-TIME)',
+        )
+        arguments = parser.parse_args(given)
+        return cls(arguments.output, arguments.topics)
+
+    def make_executor(self) -> Executor:
+        """Return an executor that heeds callback groups."""
+        return SingleThreadedExecutor()
+
+    def start(self) -> None:
+        """Begin to record."""
+        super().start()
+        self._thread.start()
+        print(f'recording to {self._directory}: Ctrl-C ends it', flush=True)
+
+    def _resolved(self, name: str) -> str:
+        try:
+            return str(self.resolve_topic_name(name))
+        except RuntimeError as error:
+            raise RecordingError(f'{name!r} is no name of a topic: {error}') from error
+
+    # Finding topics ------------------------------------------------------------------------
+
+    def tick(self) -> None:
+        """Look for topics that are published now, and say how it is going."""
+        if self._problem:
+            print(f'pam_record: {self._problem}', file=sys.stderr)
+            self.exit_code = 1
+            return
+        kinds = dict(self.get_topic_names_and_types())
+        clocks = self.get_publishers_info_by_topic('/clock') if self._is_simulated else []
+        if clocks and self._clock_told is None:
+            told = self._subscribe(Clock, '/clock', clocks, raw=False)
+            with self._lock:
+                self._clock_told = told
+        for topic in self._wanted:
+            publishers = self.get_publishers_info_by_topic(topic)
+            if publishers and topic not in self._recorded and topic not in self._refused:
+                self._add(topic, kinds.get(topic, []), publishers)
+            if len(publishers) == 1:
+                self._sole.add(topic)
+            elif publishers:
+                self._sole.discard(topic)
+        pause = REPORT if sys.stdout.isatty() else REPORT_LOGGED
+        if monotonic_ns() - self._told > pause * 1e9:
+            self._told = monotonic_ns()
+            self._tell()
+
+    def _add(self, topic: str, kinds: list[str], publishers: list[Any]) -> None:
+        kind = publishers[0].topic_type
+        message_type = _message_type(kind)
+        if len(set(kinds)) > 1 or message_type is None:
+            self._refused.add(topic)
+            reason = (
+                f'it is published as {" and ".join(kinds)}'
+                if len(set(kinds)) > 1
+                else f'its type {kind} is not installed here'
+            )
+            self.get_logger().warning(f'{topic} is not recorded: {reason}')
+            return
+        described = BagTopic(
+            topic,
+            kind,
+            message_text(kind),
+            type_hash=str(publishers[0].topic_type_hash),
+            qos=[metadata(info.qos_profile) for info in publishers],
+        )
+        subscription = self._subscribe(message_type, topic, publishers)
+        with self._lock:
+            self._recorded[topic] = Recorded(subscription, self._writer.add_topic(described))
+
+    def _subscribe(
+        self, kind: Any, topic: str, publishers: list[Any], *, raw: bool = True
+    ) -> Subscription:
+        """Subscribe as well as these publishers can be heard."""
+        return self.create_subscription(
+            kind,
+            topic,
+            never,
+            matching([info.qos_profile for info in publishers]),
+            callback_group=self._group,
+            raw=raw,
+        )
+
+    # Taking and writing --------------------------------------------------------------------
+
+    def _work(self) -> None:
+        """Take and write messages until the node closes; a problem ends it."""
+        sealed = monotonic_ns()
+        try:
+            while not self._is_closing.is_set():
+                self._is_closing.wait(TAKE)
+                with self._lock:
+                    self._take()
+                    if monotonic_ns() - sealed > SEAL * 1e9:
+                        self._writer.seal()
+                        sealed = monotonic_ns()
+        except Exception as error:  # whatever it is, nothing is recorded any more: say so
+            self._problem = str(error) or type(error).__name__
+
+    def _take(self, *, is_last: bool = False) -> None:
+        """Take all messages that have come, and write those whose time is known: *is_last*, all.
+
+        Simulated time is that of sending, as ``/clock`` had it then: not that of taking, which is
+        late, and the later the faster time is simulated.
+        """
+        for topic, recorded in self._recorded.items():
+            for data, info in all_of(recorded.subscription):
+                received, sent = info['received_timestamp'], info['source_timestamp']
+                if self._is_simulated and sent:
+                    recorded.waiting.append((data, sent, monotonic_ns()))
+                else:
+                    if self._is_simulated or not received:
+                        received = sent = self.get_clock().now().nanoseconds
+                    self._writer.write(recorded.channel, received, sent, data)
+                recorded.count_lost(info['publication_sequence_number'], topic in self._sole)
+        if self._clock_told:
+            for message, info in all_of(self._clock_told):
+                now = message.clock.sec * SECOND + message.clock.nanosec
+                self._time.tell(info['source_timestamp'], now)
+        for recorded in self._recorded.values():
+            self._write_waiting(recorded, is_last)
+
+    def _write_waiting(self, recorded: Recorded, is_last: bool) -> None:
+        """Write the messages of a topic until one whose time may still be told."""
+        now, waiting = monotonic_ns(), recorded.waiting
+        while waiting:
+            data, sent, taken = waiting[0]
+            time = self._time.at(sent)
+            if time is None:
+                if not is_last and now - taken < UNTOLD:
+                    return
+                time = self._time.before(sent)
+            self._writer.write(recorded.channel, time, time, data)
+            waiting.popleft()
+
+    # Saying how it is ----------------------------------------------------------------------
+
+    def _tell(self) -> None:
+        elapsed = (monotonic_ns() - self._begun) * 1e-9
+        counts = self._writer.counts
+        missing = [topic for topic in self._wanted if topic not in counts]
+        line = f'{elapsed:.0f} s, {sum(counts.values())} messages on {len(counts)} topics'
+        if missing:
+            line += ', nobody publishes ' + ', '.join(missing)
+        if sys.stdout.isatty():
+            print(f'\r\x1b[K{line}', end='', flush=True)
+        else:
+            print(line, flush=True)
+
+    def destroy_node(self) -> None:
+        """Close the bag and say what is in it."""
+        if self._thread.is_alive():
+            self._is_closing.set()
+            self._thread.join()
+        try:
+            if not self._problem:
+                self._take(is_last=True)
+            self._writer.close()
+        except RecordingError as error:
+            print(f'pam_record: {error}', file=sys.stderr)
+            self.exit_code = 1
+        self._summarise()
+        super().destroy_node()
+
+    def _summarise(self) -> None:
+        lines = [f'{self._directory}: {self._writer.duration:.2f} s']
+        for topic, count in sorted(self._writer.counts.items()):
+            lost = self._recorded[topic].lost
+            note = f'  {lost} lost before they came here' if lost else ''
+            lines.append(
+                f'  {topic:<28} {count:>9} messages {self._writer.rate(topic):9.1f} Hz{note}'
+            )
+        for topic, is_asked in self._wanted.items():
+            if topic not in self._writer.counts and is_asked:
+                lines.append(f'  {topic:<28} was not published')
+        if sys.stdout.isatty():
+            print()
+        print('\n'.join(lines), flush=True)
+
+
+def _message_type(kind: str) -> Any:
+    package, _, name = kind.split('/')
+    try:
+        return getattr(import_module(f'{package}.msg'), name)
+    except (ImportError, AttributeError):
+        return None

@@ -1,0 +1,59 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Subscriptions whose messages are taken from the middleware, not called back with."""
+
+from collections import deque
+from collections.abc import Iterator
+from typing import Any
+
+from rclpy.callback_groups import CallbackGroup
+from rclpy.subscription import Subscription
+
+
+class Taken(CallbackGroup):
+    """Subscriptions that no executor serves: their messages are taken by the recorder's thread.
+
+    The middleware keeps them until then and knows when each was received.
+    """
+
+    def can_execute(self, entity: Any) -> bool:
+        """Leave it to the recorder."""
+        return False
+
+    def beginning_execution(self, entity: Any) -> bool:
+        """Leave it to the recorder."""
+        return False
+
+    def ending_execution(self, entity: Any) -> None:
+        """Nothing has begun."""
+
+
+class Recorded:
+    """A topic that is recorded."""
+
+    def __init__(self, subscription: Subscription, channel: int) -> None:
+        self.subscription, self.channel = subscription, channel
+        self.last_number: int | None = None
+        self.lost = 0
+        # Taken, and not yet told when they were sent: data, system time of that, time taken, ns.
+        self.waiting: deque[tuple[bytes, int, int]] = deque()
+
+    def count_lost(self, number: int | None, is_sole: bool) -> None:
+        """Count the messages between the last number of its one publisher and *number*."""
+        if number is None:
+            return
+        if is_sole and self.last_number is not None and number > self.last_number:
+            self.lost += number - self.last_number - 1
+        self.last_number = number
+
+
+def all_of(subscription: Subscription) -> Iterator[tuple[Any, dict[str, Any]]]:
+    """Yield all messages that have come, and what the middleware knows of each."""
+    handle = subscription.handle
+    with handle:
+        while taken := handle.take_message(subscription.msg_type, subscription.raw):
+            yield taken
+
+
+def never(message: bytes) -> None:
+    """Stand in for the callback: messages are taken, not called back with."""

@@ -1,0 +1,42 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The topics on which the simulator hears commands: of one muscle, of all, of each."""
+
+from collections.abc import Callable
+from functools import partial
+
+from rclpy.node import Node
+from rclpy.qos import QoSProfile
+from std_msgs.msg import Float64, Float64MultiArray
+
+from pam_ros.nodes.common.qos import DEPTH, open_qos
+from pam_ros.nodes.sim.lockstep import Turns
+from pam_ros.settings.scene import Simulation
+
+
+def hear_commands(
+    node: Node,
+    told: Simulation,
+    turns: Turns,
+    take: Callable[[int, Float64], None],
+    take_all: Callable[[Float64MultiArray], None],
+) -> None:
+    """Let *take* have the commands of each muscle, and *take_all* those of all.
+
+    *turns* watches who commands.
+    """
+
+    def hear(kind: type, topic: str, callback: Callable[..., None]) -> None:
+        quality = QoSProfile(depth=DEPTH)
+        subscription = node.create_subscription(
+            kind, topic, callback, quality, qos_overriding_options=open_qos()
+        )
+        turns.watch(subscription)
+
+    if told.is_one:
+        hear(Float64, 'pressure_command', partial(take, 0))
+        return
+    hear(Float64MultiArray, 'pressure_commands', take_all)
+    if told.settings.muscle_topics:
+        for i, name in enumerate(told.muscle_names):
+            hear(Float64, f'{name}/pressure_command', partial(take, i))

@@ -1,0 +1,96 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Whose turn it is in lockstep: the simulator's when all muscles were commanded."""
+
+from time import monotonic_ns
+
+from rclpy.node import Node
+from rclpy.subscription import Subscription
+
+from pam_ros.timing.pace import SECOND
+
+REPEAT = SECOND // 2  # ns after which the state is told again to a controller that was not heard
+PATIENCE = SECOND  # ns of waiting that is worth a word
+SETTLE = SECOND // 4  # ns in which answers to a state that was told more than once come in
+
+
+class Turns:
+    """Counts the muscles that were commanded in this period, and watches who commands.
+
+    A controller that comes late, or takes the place of one that died, has not heard the state
+    that waits for an answer: it is to be told again, until something is heard of it. One that was
+    heard is never told twice, however long it thinks.
+
+    Where a controller may have more than one command under way (it was just found, time goes on
+    after a pause, the rig was reset) all that comes within SETTLE is one answer: the last counts.
+    """
+
+    def __init__(self, node: Node, muscles: int) -> None:
+        """Begin with all muscles waited for."""
+        self._node, self._muscles = node, muscles
+        self._topics: list[str] = []
+        self._answered: set[int] = set()
+        self._known: frozenset[bytes] = frozenset()
+        self._is_heard = False
+        self._settled = 0  # steady time until which answers are gathered
+        self.begin()
+
+    def watch(self, subscription: Subscription) -> None:
+        """Look for controllers among the publishers of this subscription's topic."""
+        self._topics.append(subscription.topic_name)
+
+    def begin(self) -> None:
+        """Wait for commands from now on: the state was published."""
+        self._answered.clear()
+        self._since = self._told = monotonic_ns()
+
+    def take(self, muscle: int | None) -> None:
+        """Note the command of one muscle, or of all."""
+        if not self._is_heard:
+            self.settle()
+        self._is_heard = True
+        if muscle is None:
+            self._answered.update(range(self._muscles))
+        else:
+            self._answered.add(muscle)
+
+    def settle(self) -> None:
+        """Gather for a while what may be under way."""
+        self._settled = monotonic_ns() + SETTLE
+
+    @property
+    def is_complete(self) -> bool:
+        """Whether all muscles were commanded, and no command to the same state is under way."""
+        return len(self._answered) == self._muscles and monotonic_ns() >= self._settled
+
+    @property
+    def waited(self) -> float:
+        """Seconds since the state was published."""
+        return (monotonic_ns() - self._since) / SECOND
+
+    @property
+    def complaint(self) -> str:
+        """Return what there is to say of a long wait, '' for nothing."""
+        if monotonic_ns() - self._since < PATIENCE:
+            return ''
+        if not self._known:
+            return f'waits for a controller since {self.waited:.1f} s: nobody commands'
+        left = self._muscles - len(self._answered)
+        return f'waits for commands since {self.waited:.1f} s: {left} of {self._muscles} missing'
+
+    def must_repeat(self) -> bool:
+        """Say whether the state is to be told again now; called a few times a second."""
+        known = frozenset(
+            bytes(info.endpoint_gid)
+            for topic in self._topics
+            for info in self._node.get_publishers_info_by_topic(topic)
+        )
+        is_new = bool(known - self._known)
+        self._known = known
+        if is_new or not known:
+            self._is_heard = False
+        now = monotonic_ns()
+        if self._is_heard or not (is_new or now - self._told > REPEAT):
+            return False
+        self._told = now
+        return True

@@ -1,0 +1,314 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The node of ``pam_sim``: its topics and services are listed there."""
+
+import math
+from time import monotonic_ns
+
+from rclpy.time import Time
+from std_msgs.msg import Float64, Float64MultiArray
+from std_srvs.srv import SetBool, Trigger
+
+from pam_ros.health import simulator as sim_health
+from pam_ros.health.health import Health
+from pam_ros.health.simulator import Progress
+from pam_ros.nodes.common.diagnostics import Diagnostics
+from pam_ros.nodes.common.node_parameters import NodeParameters, given
+from pam_ros.nodes.common.spin import TickingNode
+from pam_ros.nodes.sim.commands import hear_commands
+from pam_ros.nodes.sim.lockstep import Turns
+from pam_ros.nodes.sim.output import Output
+from pam_ros.nodes.sim.sim_time import FollowedTime, OwnTime
+from pam_ros.settings.scene import Scene, Simulation
+from pam_ros.simulator.plant import BadCommand, OneReading, Plant, Reading
+from pam_ros.timing.grid import Grid
+from pam_ros.timing.pace import SECOND
+from pam_ros.timing.ticker import Ticker
+
+SLICE = 5_000_000  # ns of simulating after which commands and services get their turn
+BREATH = 200_000  # ns that they get where everything is due at once
+IDLE_RATE = 10.0  # Hz at which a simulator whose time stands still tells its state
+FASTEST_TICK = 1000.0  # Hz
+
+
+class PamSim(TickingNode):
+    """A rig whose time passes as it is told; it hears commands and tells its state."""
+
+    def __init__(self) -> None:
+        """Make the rig that the parameters describe, at its initial state."""
+        super().__init__('pam_sim')
+        scene = Scene(given(self))
+        self._given = NodeParameters(self, scene.table(), scene.build, self._change)
+        self._told = self._given.built
+        settings = self._told.settings
+        self._plant = Plant(self._told)
+        self._is_lockstep = settings.time_mode == 'lockstep'
+        self._is_followed = not settings.has_own_time
+        self._time: FollowedTime | OwnTime
+        if self._is_followed:
+            self._time = FollowedTime(settings.physics_rate, self.get_clock())
+        else:
+            self._time = OwnTime(settings.physics_rate, self._factor)
+        self.keeps_wall_time = self._is_followed and not self._time.follows_clock
+        self._is_paused = False
+        self._published = self._bad = 0
+        self._said: tuple[int, Reading | OneReading] | None = None
+        self._samples = Grid(settings.physics_rate)
+        self._clock_ticks = Grid(settings.physics_rate)
+        self._one = self._told.is_one
+        self._output = Output(self, self._told)
+        self._turns = Turns(self, len(self._told.muscles))
+        hear_commands(self, self._told, self._turns, self._command, self._command_all)
+        self._begin()
+        self.create_service(Trigger, '~/reset', self._reset)
+        self.create_service(SetBool, '~/pause', self._pause)
+        self.create_service(Trigger, '~/step', self._step)
+        self._diagnostics = Diagnostics(
+            self,
+            {'timing': self._timing, 'commands': self._commands},
+            None if self._is_followed else lambda: Time(nanoseconds=self._time.now()),
+        )
+        self._given.refuse_mistyped()
+        self.ticker = Ticker(self._tick_rate)
+
+    def start(self) -> None:
+        """Let simulated time begin now."""
+        super().start()
+        self._time.align(0)
+        self._begin()
+        if self._is_lockstep:
+            self._run_to(0)
+
+    def _begin_again(self) -> None:
+        """Go to the initial state, one period later."""
+        self._time.restart(self._plant.step, round(SECOND / self._told.settings.publish_rate))
+        self._begin()
+
+    def _begin(self) -> None:
+        """Go to the initial state."""
+        self._plant.begin()
+        self._fault = ''
+        self._samples.begin(self._told.settings.publish_rate)
+        self._clock_ticks.begin(self._clock_rate)
+        self._turns.begin()
+
+    # Time ----------------------------------------------------------------------------------
+
+    @property
+    def _factor(self) -> float:
+        """How fast simulated time is to pass: in lockstep as fast as its turns are."""
+        return 0.0 if self._is_lockstep else self._told.settings.speed_factor
+
+    @property
+    def _clock_rate(self) -> float:
+        return 0.0 if self._is_followed else self._told.settings.clock_rate
+
+    @property
+    def _tick_rate(self) -> float:
+        settings = self._told.settings
+        if self._is_followed:
+            return settings.publish_rate
+        if self._is_lockstep or self._is_paused:
+            return IDLE_RATE
+        rate = max(settings.publish_rate, settings.clock_rate) * self._factor
+        return min(rate, FASTEST_TICK) if rate else FASTEST_TICK
+
+    def tick(self) -> None:
+        """Simulate what is due and publish; tell the state where time stands still."""
+        if self._is_paused:
+            self._tell_again()
+        elif self._is_lockstep:
+            if self._turns.is_complete:
+                self._run_to(self._samples.next)
+            elif self._turns.must_repeat():
+                self._tell_again()
+        else:
+            self._run_to_now()
+            if not self._time.follows_clock:
+                # Wake up when the next sample is due: its grid moves with ROS time and resets.
+                next_one = self._time.steady_time(min(self._samples.next, self._clock_ticks.next))
+                self.ticker.aim(next_one if self._time_is_paced else monotonic_ns() + BREATH)
+
+    @property
+    def _time_is_paced(self) -> bool:
+        return self._is_followed or self._factor > 0.0
+
+    def _tell_again(self) -> None:
+        """Publish the state that there is.
+
+        Where time stands still, too, it is what the sensors said: they are not asked again, so
+        that their noise does not depend on how long that takes.
+        """
+        if self._is_followed:
+            self._publish(self._time.now())
+        elif self._said:
+            self._output.publish_clock(self._time.now())
+            self._say(*self._said)
+
+    def _run_to_now(self) -> None:
+        """Simulate what is due, and publish each sample that is due on the way."""
+        if not (self._is_paused or self._is_lockstep):
+            self._run_to(self._time.due(self._plant.step), monotonic_ns() + SLICE)
+
+    def _run_to(self, due: int, end: float = math.inf) -> None:
+        """Simulate until the step *due*, or until the steady time *end* at a sample."""
+        plant, samples, clock = self._plant, self._samples, self._clock_ticks
+        # The time that others make is followed at once: what is due there is bounded.
+        end = math.inf if self._is_followed else end
+        try:
+            while (step := min(samples.next, clock.next)) <= due:
+                plant.advance(step)
+                if step == clock.next:
+                    self._output.publish_clock(self._time.stamp(step))
+                    clock.advance()
+                if step == samples.next:
+                    self._publish(self._time.stamp(step))
+                    samples.advance()
+                    self._turns.begin()
+                if end < math.inf and monotonic_ns() > end:
+                    return
+            plant.advance(due)
+        except (ArithmeticError, ValueError) as error:  # the kernel's own as plain Python
+            self._stop_at_fault(error)
+
+    def _sample_from_here(self) -> None:
+        """Let the next sample come one period from now."""
+        self._samples.begin(self._told.settings.publish_rate, self._plant.step, 1)
+
+    # Out -----------------------------------------------------------------------------------
+
+    def _publish(self, stamp: int) -> None:
+        self._said = stamp, self._plant.read_one() if self._one else self._plant.read()
+        self._say(*self._said)
+
+    def _say(self, stamp: int, reading: Reading | OneReading) -> None:
+        self._output.publish(stamp, reading)
+        self._published += 1
+
+    def _stop_at_fault(self, error: Exception) -> None:
+        """Stand still at the initial state: what the model says now is no motion."""
+        time = self._plant.time
+        self._begin_again()
+        self._set_paused(True)
+        self._fault = f'the load is lost {time:.3f} s after the start, {error}: reset and paused'
+        self.get_logger().error(self._fault)
+
+    # In ------------------------------------------------------------------------------------
+
+    def _command(self, muscle: int, message: Float64) -> None:
+        if self._time_is_paced:
+            self._run_to_now()
+        self._complain(self._plant.take(muscle, message.data))
+        self._answer(muscle)
+
+    def _command_all(self, message: Float64MultiArray) -> None:
+        wanted, count = len(self._told.muscles), len(message.data)
+        if count != wanted:
+            reason = f'pressure_commands has {count} values for {wanted} muscles: nothing taken'
+            self.get_logger().warning(reason, throttle_duration_sec=1.0)
+            return
+        if self._time_is_paced:
+            self._run_to_now()
+        self._complain(self._plant.take_all(message.data.tolist()))
+        self._answer(None)
+
+    def _complain(self, bad: BadCommand | None) -> None:
+        if bad is None:
+            return
+        self._bad = bad.muscle
+        if bad.is_refused:  # each kind of warning is held back for itself
+            self.get_logger().warning(bad.reason, throttle_duration_sec=1.0)
+        else:
+            self.get_logger().warning(bad.reason, throttle_duration_sec=1.0)
+
+    def _answer(self, muscle: int | None) -> None:
+        """In lockstep, simulate a period when all muscles were commanded."""
+        if self._is_lockstep:
+            self._turns.take(muscle)
+            if self._turns.is_complete and not self._is_paused:
+                self._run_to(self._samples.next)
+
+    def _change(self, now: Simulation) -> None:
+        """Go on with other parameters."""
+        self._run_to_now()
+        before, self._told = self._told.settings, now
+        self._plant.change(now)
+        self._output.describe(now)
+        settings = now.settings
+        if isinstance(self._time, OwnTime) and self._time.factor != self._factor:
+            self._time.factor = self._factor
+            self._time.align(self._plant.step)
+        if settings.publish_rate != before.publish_rate:
+            self._sample_from_here()
+        if settings.clock_rate != before.clock_rate:
+            passed = math.floor(self._plant.time * settings.clock_rate + 1e-9)
+            self._clock_ticks.begin(self._clock_rate, sample=passed + 1)
+        if self._tick_rate != self.ticker.rate:
+            self.ticker.start(self._tick_rate, monotonic_ns())
+
+    def _reset(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+        self._begin_again()
+        self._turns.settle()
+        if self._is_lockstep or self._is_paused:
+            self._run_to(0)
+        response.success, response.message = True, 'at the initial state'
+        return response
+
+    def _pause(self, request: SetBool.Request, response: SetBool.Response) -> SetBool.Response:
+        if self._time_is_paced:
+            self._run_to_now()
+        if self._is_paused and not request.data:
+            self._time.align(self._plant.step)
+            self._turns.settle()
+            self._fault = ''
+        if request.data and not (self._is_paused or self._is_followed or self._is_lockstep):
+            self._publish(self._time.stamp(self._plant.step))  # where it stands, to be repeated
+        self._set_paused(request.data)
+        response.success, response.message = True, 'paused' if request.data else 'running'
+        return response
+
+    def _set_paused(self, is_paused: bool) -> None:
+        if is_paused != self._is_paused:
+            self._is_paused = is_paused
+            self.ticker.start(self._tick_rate, monotonic_ns())
+
+    def _step(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
+        """Simulate some periods, each published, with the commands in force."""
+        if not self._is_paused:
+            response.message = 'time goes on: pause first'
+            return response
+        periods = self._told.settings.step_periods
+        self._sample_from_here()
+        for _ in range(periods):
+            if self._is_followed:
+                # Each is stamped with the time that it is told at.
+                self._time.align(self._samples.next)
+            self._run_to(self._samples.next)
+            if self._fault:
+                response.message = self._fault
+                return response
+        response.success = True
+        response.message = f'simulated {periods} periods, until {self._plant.time:.9g} s'
+        return response
+
+    # Health --------------------------------------------------------------------------------
+
+    def _timing(self) -> Health:
+        time, kept = self._time, self.ticker.report(monotonic_ns())
+        published, self._published = self._published, 0
+        done = Progress(
+            published,
+            1.0 if self._is_followed else self._factor,
+            self._plant.time,
+            time.lost,
+            time.jumps,
+            is_paused=self._is_paused,
+            follows_clock=time.follows_clock,
+            has_clock=not time.follows_clock or time.now() > 0,
+            waits=self._turns.complaint if self._is_lockstep else '',
+            fault=self._fault,
+        )
+        return sim_health.timing(self._told.settings, kept, done, self.scheduling)
+
+    def _commands(self) -> Health:
+        return sim_health.commands(self._plant, self._bad)

@@ -1,0 +1,53 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""All that the simulator publishes of its rig and of its time."""
+
+from typing import Any
+
+from rclpy.node import Node
+from rosgraph_msgs.msg import Clock
+
+from pam_ros.nodes.common.qos import DEPTH
+from pam_ros.nodes.sim.telemetry import Telemetry
+from pam_ros.nodes.sim.telemetry_arrays import ArrayTelemetry, MuscleTelemetry
+from pam_ros.settings.scene import Simulation
+from pam_ros.simulator.plant import OneReading, Reading
+from pam_ros.timing.pace import SECOND
+
+
+class Output:
+    """The topics of one muscle or of several, and ``/clock`` where the time is the simulator's."""
+
+    def __init__(self, node: Node, told: Simulation) -> None:
+        """Create the publishers on *node*."""
+        settings = told.settings
+        if settings.has_own_time:
+            self._clock = Clock()
+            self._clock_publisher = node.create_publisher(Clock, '/clock', DEPTH)
+        # Each takes what the plant reads: of one muscle alone, or of several.
+        self._telemetry: list[Any]
+        if told.is_one:
+            self._telemetry = [Telemetry(node, told.joint_names[0])]
+        else:
+            self._telemetry = [ArrayTelemetry(node, told.joint_names, told.muscle_names)]
+            if settings.muscle_topics:
+                have_loads = settings.joint == 'load'
+                self._telemetry.append(MuscleTelemetry(node, told.muscle_names, have_loads))
+        self.describe(told)
+
+    def describe(self, told: Simulation) -> None:
+        """Publish from now on with the frame, variance and ambient pressure that are told."""
+        self._ambient = told.settings.ambient_pressure
+        frame, variance = told.settings.frame_id, told.sensors.pressure_noise**2
+        for telemetry in self._telemetry:
+            telemetry.describe(frame, variance)
+
+    def publish_clock(self, stamp: int) -> None:
+        """Publish the simulated time *stamp* in ns."""
+        self._clock.clock.sec, self._clock.clock.nanosec = divmod(stamp, SECOND)
+        self._clock_publisher.publish(self._clock)
+
+    def publish(self, stamp: int, reading: Reading | OneReading) -> None:
+        """Publish one state of the given ROS time in ns."""
+        for telemetry in self._telemetry:
+            telemetry.publish(stamp, reading, self._ambient)

@@ -1,0 +1,115 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Where the simulator's time comes from: ROS time that it follows, or time that it makes."""
+
+import sys
+from time import monotonic_ns, time_ns
+
+from rclpy.clock import Clock
+
+from pam_ros.timing.pace import CATCH_UP, SECOND, Pace
+
+FIRST = SECOND  # ROS time at the first step of a time of one's own: 0 would mean no time at all
+
+
+class FollowedTime:
+    """ROS time: the system's, or that of somebody's ``/clock``."""
+
+    def __init__(self, rate: float, clock: Clock) -> None:
+        """Begin at step 0 now, with *rate* steps a second."""
+        self._clock = clock
+        self._pace = Pace(rate, self.now(), monotonic_ns())
+
+    @property
+    def follows_clock(self) -> bool:
+        """Whether ROS time comes from ``/clock``."""
+        return self._clock.ros_time_is_active
+
+    @property
+    def jumps(self) -> int:
+        """How often ROS time has jumped."""
+        return self._pace.jumps
+
+    @property
+    def lost(self) -> float:
+        """Simulated seconds that were never made up for."""
+        return self._pace.lost
+
+    def now(self) -> int:
+        """Return the ROS time in ns."""
+        # Otherwise it is the system's, which is cheaper to ask itself.
+        return self._clock.now().nanoseconds if self._clock.ros_time_is_active else time_ns()
+
+    def stamp(self, step: int) -> int:
+        """Return the ROS time of a step."""
+        return self._pace.stamp(step)
+
+    def steady_time(self, step: int) -> int:
+        """Return the steady time at which a step will be due."""
+        return self._pace.steady_time(step)
+
+    def due(self, step: int) -> int:
+        """Return the step that is due now, when the simulation stands at *step*."""
+        return self._pace.due(step, self.now(), monotonic_ns(), self.follows_clock)
+
+    def align(self, step: int) -> None:
+        """Let *step* be now, whatever has passed."""
+        self._pace.align(step, self.now(), monotonic_ns())
+
+    def restart(self, step: int, gap: int) -> None:
+        """Begin at step 0 now."""
+        self.align(0)
+
+
+class OwnTime:
+    """Time that passes with the simulation alone; ``factor`` times as fast as the steady clock.
+
+    A factor of 0 is no pace at all: everything is due. Time never goes back, not at a reset
+    either, so that nobody who follows it has to bear that.
+    """
+
+    follows_clock = False
+    jumps = 0
+
+    def __init__(self, rate: float, factor: float) -> None:
+        """Begin at step 0 now, with *rate* steps a simulated second."""
+        self._rate, self.factor = rate, factor
+        self._origin, self.lost = FIRST, 0.0
+        self._last = FIRST
+        self.align(0)
+
+    def now(self) -> int:
+        """Return the time of the last step that was stamped, in ns."""
+        return self._last
+
+    def stamp(self, step: int) -> int:
+        """Return the time of a step that the simulation has come to."""
+        self._last = self._origin + round(step * SECOND / self._rate)
+        return self._last
+
+    def steady_time(self, step: int) -> int:
+        """Return the steady time at which a step will be due."""
+        if not self.factor:
+            return monotonic_ns()
+        return self._steady + round((step - self._step) * SECOND / (self.factor * self._rate))
+
+    def due(self, step: int) -> int:
+        """Return the step that is due now, when the simulation stands at *step*."""
+        if not self.factor:
+            return sys.maxsize
+        now = monotonic_ns()
+        behind = now - self.steady_time(step)
+        if behind > CATCH_UP:
+            self.lost += (behind - CATCH_UP) * self.factor / SECOND
+            self._step, self._steady = step, now - CATCH_UP
+        passed = (now - self._steady) * self.factor * self._rate
+        return max(step, self._step + int(passed / SECOND))
+
+    def align(self, step: int) -> None:
+        """Let *step* be due now, whatever has passed."""
+        self._step, self._steady = step, monotonic_ns()
+
+    def restart(self, step: int, gap: int) -> None:
+        """Begin at step 0 now, *gap* ns after *step*, where the simulation has been."""
+        self._origin = self.stamp(step) + gap
+        self.align(0)

@@ -1,0 +1,65 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""What ``pam_excite`` is told: the declared rig, limits, and the programme that they make."""
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+from pam_ros.excitation.programme import Programme, plan, programme
+from pam_ros.excitation.settings import Excitation
+from pam_ros.rig.model import RigModel
+from pam_ros.rig.run import simulate
+from pam_ros.settings.files import read_known
+from pam_ros.settings.sim import MUSCLE
+from pam_ros.settings.tables import Table, build, build_rig, rig_table, table_of, with_defaults
+
+
+@dataclass(frozen=True)
+class Experiment:
+    """All that the node is told, and the programme that it makes."""
+
+    model: RigModel
+    settings: Excitation
+    programme: Programme
+
+    @property
+    def window(self) -> tuple[float, float]:
+        """Lowest and highest allowed position in m."""
+        l0 = self.model.muscle.l0
+        return self.settings.contraction_min * l0, self.settings.contraction_max * l0
+
+    def plan(self) -> str:
+        """Return what the user should read before it starts."""
+        low, high = (1e3 * x for x in self.window)
+        commands = self.programme
+        path = simulate(self.model, commands.t, commands.t, commands.pressure).position
+        lines = [
+            plan(commands, self.settings),
+            f'stops and vents outside {low:.1f} to {high:.1f} mm, and after '
+            f'{self.settings.silence:g} s without joint_states',
+            f'the declared model would move from {1e3 * path.min():.1f} to '
+            f'{1e3 * path.max():.1f} mm',
+        ]
+        if path.min() < self.window[0] or path.max() > self.window[1]:
+            lines.append('CAUTION: that leaves the window; narrow pressure_min..pressure_max')
+        return '\n'.join(lines)
+
+
+def table(muscle: Any = '') -> Table:
+    """Return the table of all parameters; their defaults come from *muscle* where it is given.
+
+    None of them can change while the programme is played.
+    """
+    live = {**MUSCLE, **rig_table(), **table_of(Excitation)}
+    plain: Table = {
+        name: (kind, default, replace(about, live=False))
+        for name, (kind, default, about) in live.items()
+    }
+    return with_defaults(plain, read_known(str(muscle), plain)) if muscle else plain
+
+
+def experiment(values: dict[str, Any]) -> Experiment:
+    """Make an experiment from flat values; raises ParameterError where they make none."""
+    model = build_rig(values)
+    settings = build(Excitation, values).within(model.muscle)
+    return Experiment(model, settings, programme(settings))

@@ -1,0 +1,194 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Read and write ROS parameter files without ROS, and find those that come with the package.
+
+A file holds a table for each node name, ``/**`` for all of them, with dotted or nested names::
+
+    /**:
+      ros__parameters:
+        mass: 20.0
+        effects:
+          creep: {gain: 0.05}
+"""
+
+import os
+import re
+import tempfile
+from collections.abc import Iterable, Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import yaml
+
+from pam_ros.errors import ParameterError
+from pam_ros.rig.model import RigModel
+from pam_ros.settings.tables import Table, Value, build_rig, override, refuse_mistyped, rig_table
+
+TABLE = 'ros__parameters'
+PRESETS = ('muscles', 'rigs')
+
+
+class _Loader(yaml.SafeLoader):
+    """YAML as ROS reads it: 6e5 is a number."""
+
+
+_Loader.add_implicit_resolver(
+    'tag:yaml.org,2002:float',
+    re.compile(r'^[-+]?([0-9]+(\.[0-9]*)?|\.[0-9]+)[eE][-+]?[0-9]+$'),
+    list('-+.0123456789'),
+)
+
+
+class _Dumper(yaml.SafeDumper):
+    """YAML in which a text is a text for every parser: quoted."""
+
+
+class _Text(str):
+    """A string value, as opposed to a name."""
+
+
+_Dumper.add_representer(
+    _Text, lambda dumper, text: dumper.represent_scalar('tag:yaml.org,2002:str', text, style="'")
+)
+
+
+def share() -> Path:
+    """Return the folder that holds ``config/``: the checkout, or the package's share folder."""
+    here = Path(__file__)
+    checkout = here.resolve().parents[2]
+    prefixes = [*here.parents, *(Path(p) for p in _ament_prefixes())]
+    for folder in (checkout, *(prefix / 'share' / 'pam_ros' for prefix in prefixes)):
+        if (folder / 'package.xml').is_file() and (folder / 'config').is_dir():
+            return folder
+    raise ParameterError('the folder config/ of pam_ros was not found: is the package installed?')
+
+
+def _ament_prefixes() -> list[str]:
+    return [p for p in os.environ.get('AMENT_PREFIX_PATH', '').split(os.pathsep) if p]
+
+
+def find(name: str) -> Path:
+    """Return the file that *name* means: a path, or one of the package's muscles or rigs.
+
+    ``dmsp_20_400n`` stands for ``config/muscles/dmsp_20_400n.yaml``. Raises ParameterError with
+    the names that there are.
+    """
+    path = Path(name)
+    if path.is_file():
+        return path
+    presets = {
+        file.stem: file
+        for folder in PRESETS
+        for file in sorted((share() / 'config' / folder).glob('*.yaml'))
+    }
+    if name in presets:
+        return presets[name]
+    raise ParameterError(
+        f'{name} is neither a parameter file nor a muscle of this package: give a path or one of '
+        + ', '.join(presets)
+    )
+
+
+def read(path: Path, node: str = 'pam_sim') -> dict[str, Value]:
+    """Return the parameters that *path* has for a node of this name, in dotted names.
+
+    Tables of other nodes are passed over. Raises ParameterError where the file cannot be read or
+    has nothing for this node.
+    """
+    try:
+        content = yaml.load(path.read_text(encoding='utf-8'), _Loader)
+    except (OSError, UnicodeDecodeError) as error:
+        raise ParameterError(f'{path} cannot be read: {error}') from error
+    except yaml.YAMLError as error:
+        raise ParameterError(f'{path} is no YAML: {" ".join(str(error).split())}') from error
+    tables = [table for name, table in _tables(content) if _is_for(name, node)]
+    if not tables:
+        raise ParameterError(
+            f'{path} has no parameters for {node}: a parameter file has a table {TABLE} below '
+            f'/** or {node}'
+        )
+    values: dict[str, Value] = {}
+    for table in tables:
+        for name, read in _flat(table):
+            is_list = isinstance(read, list) and all(isinstance(text, str) for text in read)
+            if not (is_list or isinstance(read, bool | int | float | str)):
+                raise ParameterError(
+                    f'{path}: {name} = {read!r} is not a single value, nor a list of texts'
+                )
+            values[name] = tuple(read) if is_list else read
+    return values
+
+
+def _tables(content: Any, name: str = '') -> Iterator[tuple[str, Any]]:
+    """Yield each parameter table of a file with the name of its node, namespaces included."""
+    if isinstance(content, dict):
+        for key, value in content.items():
+            if key == TABLE:
+                yield name, value
+            else:
+                yield from _tables(value, f'{name}/{key}'.replace('//', '/'))
+
+
+def _is_for(name: str, node: str) -> bool:
+    last = name.rsplit('/', 1)[-1]
+    return last in (node, '*', '**')
+
+
+def _flat(table: Any, prefix: str = '') -> Iterator[tuple[str, Any]]:
+    if isinstance(table, dict):
+        for key, value in table.items():
+            yield from _flat(value, f'{prefix}.{key}' if prefix else str(key))
+    elif prefix:
+        yield prefix, table
+
+
+def load_rig(
+    name: str, overrides: Iterable[str] = (), table: Table | None = None
+) -> tuple[RigModel, dict[str, Value]]:
+    """Return the rig that a file or muscle *name* declares, and its flat values.
+
+    *overrides* are ``name=value`` texts that come last. *table* are the names that the caller
+    knows (default: the rig's). Names that are known to nobody here are passed over, for they may
+    be another program's; those that look mistyped are refused. Raises ParameterError.
+    """
+    table = rig_table() if table is None else table
+    values = read_known(name, table)
+    values.update(override(text, table) for text in overrides)
+    return build_rig(values), values
+
+
+def read_known(name: str, table: Table) -> dict[str, Value]:
+    """Return the values of a file or muscle *name*, none of them a mistyped one of *table*."""
+    path = find(name)
+    values = read(path)
+    try:
+        refuse_mistyped(values, table)
+    except ParameterError as error:
+        raise ParameterError(f'{path}: {error}') from error
+    return values
+
+
+def write(path: Path, values: Mapping[str, Value], about: str = '', node: str = '/**') -> None:
+    """Write flat *values* as a ROS parameter file for *node*, with *about* as its comment.
+
+    The file appears whole or not at all.
+    """
+    nested: dict[str, Any] = {}
+    for name, value in values.items():
+        *groups, last = name.split('.')
+        table = nested
+        for group in groups:
+            table = table.setdefault(group, {})
+        plain = value.item() if isinstance(value, np.generic) else value
+        table[last] = _Text(plain) if isinstance(plain, str) else plain
+    text = ''.join(f'# {line}'.rstrip() + '\n' for line in about.splitlines())
+    text += yaml.dump({node: {TABLE: nested}}, Dumper=_Dumper, sort_keys=False, allow_unicode=True)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with tempfile.NamedTemporaryFile(
+        'w', dir=path.parent, prefix=f'.{path.name}', delete=False, encoding='utf-8'
+    ) as file:
+        file.write(text)
+    part = Path(file.name)
+    part.chmod(0o644)
+    part.replace(path)

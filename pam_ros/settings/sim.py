@@ -1,0 +1,144 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""What ``pam_sim`` is told beside the rig itself: time, rates, time-out, start, names."""
+
+from dataclasses import dataclass
+
+from pam_ros.errors import ParameterError
+from pam_ros.parameters import Parameter, check_all, parameter
+from pam_ros.settings.tables import Table
+
+SLOWEST = 0.1  # least speed_factor but 0
+MUSCLE: Table = {
+    'muscle': (
+        str,
+        '',
+        Parameter(
+            'what is not given as a parameter comes from here: a muscle of this package, such as '
+            'dmsp_20_400n, or the path of a parameter file',
+            live=False,
+        ),
+    )
+}
+
+
+@dataclass(frozen=True)
+class SimSettings:
+    """Time, rates, safety and names of the simulator node."""
+
+    time_mode: str = parameter(
+        'real_time',
+        'real_time: as fast as ROS time; scaled: speed_factor times as fast as the wall clock; '
+        'lockstep: one period of publish_rate for each pressure command',
+        choices=('real_time', 'scaled', 'lockstep'),
+        live=False,
+    )
+    speed_factor: float = parameter(
+        1.0,
+        'simulated seconds a second in time_mode scaled, 0.1 or more; 0: as fast as possible',
+        low=0.0,
+        high=1000.0,
+    )
+    clock_rate: float = parameter(
+        100.0,
+        'messages on /clock per simulated second, in time_mode scaled and lockstep',
+        'Hz',
+        low=1.0,
+        high=5000.0,
+    )
+    step_periods: int = parameter(
+        1, 'periods of publish_rate that ~/step simulates', '', low=1, high=100_000
+    )
+    physics_rate: float = parameter(
+        1000.0, 'integration steps per second', 'Hz', low=100.0, high=100e3, live=False
+    )
+    publish_rate: float = parameter(
+        500.0, 'messages per second on each topic', 'Hz', low=1.0, high=5000.0
+    )
+    command_timeout: float = parameter(
+        1.0,
+        'silence of pressure_command after which on_timeout acts, once a command has come; '
+        '0: never',
+        's',
+        low=0.0,
+        high=3600.0,
+    )
+    on_timeout: str = parameter(
+        'vent',
+        'what the valve does when commands stay away: vent to 0 Pa, or hold the last one',
+        choices=('vent', 'hold'),
+    )
+    ambient_pressure: float = parameter(
+        101325.0,
+        'absolute pressure around the muscle, added to the gauge pressure on topic pressure',
+        'Pa',
+        low=0.0,
+        high=1e6,
+    )
+    joint: str = parameter(
+        'load',
+        'load: each muscle has a load of its own; antagonistic: two muscles turn a pulley '
+        'against each other; parallel: two muscles move one load',
+        choices=('load', 'antagonistic', 'parallel'),
+        live=False,
+    )
+    muscles: tuple[str, ...] = parameter(
+        (), 'names of the muscles in order, two in a row for a joint of two; none: one', live=False
+    )
+    muscle_topics: bool = parameter(
+        False, 'beside the arrays, topics of each muscle below its name', live=False
+    )
+    joint_name: str = parameter('pam', 'name of the joint in joint_states', live=False)
+    joint_names: tuple[str, ...] = parameter(
+        (), 'names of the joints in joint_states where they are several', live=False
+    )
+    frame_id: str = parameter('', 'frame in the headers of joint_states and pressure')
+
+    def __post_init__(self) -> None:
+        """Check every field, then the rates against each other."""
+        check_all(self)
+        if 0.0 < self.speed_factor < SLOWEST:
+            raise ParameterError(
+                f'speed_factor = {self.speed_factor:g} is not allowed: give {SLOWEST:g} or more, '
+                'or 0 for as fast as possible'
+            )
+        for name in ('publish_rate', 'clock_rate'):
+            rate = getattr(self, name)
+            if rate > self.physics_rate and (name == 'publish_rate' or self.has_own_time):
+                raise ParameterError(
+                    f'{name} = {rate:g} Hz is above physics_rate = {self.physics_rate:g} Hz: '
+                    'there is nothing new to publish so often'
+                )
+
+    @property
+    def has_own_time(self) -> bool:
+        """Whether the node makes ROS time, and publishes it on ``/clock``."""
+        return self.time_mode != 'real_time'
+
+
+@dataclass(frozen=True)
+class Start:
+    """The state at the start and after each reset, long at rest there as far as memories go."""
+
+    pressure: float = parameter(0.0, 'gauge pressure at the start', 'Pa', low=-101325.0, high=5e6)
+    at_rest: bool = parameter(
+        True, 'start where the load rests at initial.pressure; false: at initial.position'
+    )
+    position: float = parameter(
+        0.0,
+        'contraction at the start unless initial.at_rest; rad for a pulley',
+        'm',
+        low=-5.0,
+        high=9.0,
+    )
+    velocity: float = parameter(
+        0.0,
+        'velocity at the start unless initial.at_rest; rad/s for a pulley',
+        'm/s',
+        low=-100.0,
+        high=100.0,
+    )
+
+    def __post_init__(self) -> None:
+        """Check every field."""
+        check_all(self)

@@ -1,0 +1,201 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The simulated rig with its valves and sensors, step by step: all of ``pam_sim`` but ROS."""
+
+import math
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pam_ros.rig.joint_model import JointModel
+from pam_ros.rig.rig import Rig
+from pam_ros.rig.sensors import Feedback, Sensors
+from pam_ros.settings.scene import Simulation
+from pam_ros.simulator.pressure_input import PressureInput
+
+Array = NDArray[np.float64]
+OneReading = tuple[float, float, float, float, float, float]  # see Plant.read_one
+
+
+class BadCommand(NamedTuple):
+    """A command that a muscle did not take as it was."""
+
+    muscle: int
+    reason: str
+    is_refused: bool  # else clamped
+
+
+@dataclass(frozen=True)
+class Reading:
+    """What the sensors say: of the joints (joints,) in m or rad, of the muscles (muscles,), SI."""
+
+    position: Array
+    velocity: Array
+    effort: Array
+    pressure: Array
+    force: Array
+    stiffness: Array
+    damping: Array
+
+
+class Plant:
+    """Muscles that take commands as valves do, and are read as sensors do."""
+
+    def __init__(self, told: Simulation) -> None:
+        """Make them at their initial state."""
+        self.told = told
+        self.inputs = [PressureInput(muscle) for muscle in told.muscles]
+        self._rig = Rig(told.models, 1.0 / told.settings.physics_rate)
+        self._has_joints = any(isinstance(model, JointModel) for model in told.models)
+        self._all = range(len(self.inputs))
+        self.begin()
+        self._rig.outputs()  # compiled code is loaded at its first call
+        self._rig.advance(0)
+
+    def begin(self) -> None:
+        """Go to the initial state; noise begins anew."""
+        told = self.told
+        pressures, positions, velocities = told.initial
+        self._rig.reset(pressures, positions, velocities)
+        self._feedback = Feedback(told.sensors, len(positions))
+        # Where they are not as many as joints, muscles have sensors, and noise, of their own.
+        self._gauges = Feedback(self._gauges_told(told), len(pressures))
+        self.step = 0
+        self._ordered = pressures.copy()  # Pa, what the valves were last told
+        self.heard = np.full(len(pressures), np.nan)  # simulated time of the last good command
+        self.is_silent = np.zeros(len(pressures), dtype=bool)
+        self._deadline = math.inf  # simulated time of the first silence to come
+
+    @staticmethod
+    def _gauges_told(told: Simulation) -> Sensors:
+        return replace(told.sensors, seed=told.sensors.seed ^ 0x5EED)
+
+    @property
+    def time(self) -> float:
+        """Simulated time in s since the start or the last reset."""
+        return self._rig.time
+
+    def change(self, told: Simulation) -> None:
+        """Go on with other parameters."""
+        self._rig.change(told.models)
+        self.told = told
+        self._feedback.change(told.sensors)
+        self._gauges.change(self._gauges_told(told))
+        for given, muscle in zip(self.inputs, told.muscles, strict=True):
+            given.muscle = muscle
+        self._order_all(self._ordered)  # the limits may have changed
+        self._set_deadline()
+
+    def advance(self, step: int) -> None:
+        """Simulate until this step."""
+        if step > self.step:
+            self._rig.advance(step - self.step)
+            self.step = step
+            if self._rig.time > self._deadline:
+                self._fall_silent()
+
+    # Valves ----------------------------------------------------------------------------------
+
+    def take(self, muscle: int, value: float) -> BadCommand | None:
+        """Command one muscle in Pa; return what was wrong with that."""
+        given = self.inputs[muscle]
+        pressure = given.take(value)
+        if pressure is None:
+            return self._bad(muscle, is_refused=True)
+        self._order(muscle, pressure)
+        self.heard[muscle] = self._rig.time
+        self.is_silent[muscle] = False
+        self._set_deadline()
+        return None if pressure == value else self._bad(muscle)
+
+    def _bad(self, muscle: int, *, is_refused: bool = False) -> BadCommand:
+        whose = f'{self.told.muscle_names[muscle]}: ' if len(self.inputs) > 1 else ''
+        return BadCommand(muscle, whose + self.inputs[muscle].reason, is_refused)
+
+    def take_all(self, values: list[float]) -> BadCommand | None:
+        """Command all muscles in Pa; a bad value leaves its muscle as it is."""
+        bad, now, ordered = None, self._rig.time, self._ordered
+        for i, (given, value) in enumerate(zip(self.inputs, values, strict=True)):
+            pressure = given.take(value)
+            if pressure != value:
+                bad = self._bad(i, is_refused=pressure is None)
+            if pressure is not None:
+                ordered[i] = pressure
+                self.heard[i] = now
+                self.is_silent[i] = False
+        self._rig.command(ordered)
+        self._set_deadline()
+        return bad
+
+    def _order(self, muscle: int, pressure: float) -> None:
+        self._ordered[muscle] = pressure
+        self._rig.command_one(muscle, pressure)
+
+    def _order_all(self, pressures: Array) -> None:
+        self._ordered = np.clip(pressures, *self.told.limits)
+        self._rig.command(self._ordered)
+
+    def _set_deadline(self) -> None:
+        timeout = self.told.settings.command_timeout
+        if len(self.heard) == 1:
+            heard = self.heard.item()
+            hears = timeout and not (math.isnan(heard) or self.is_silent.item())
+            self._deadline = heard + timeout if hears else math.inf
+            return
+        heard = self.heard[~np.isnan(self.heard) & ~self.is_silent]
+        self._deadline = float(heard.min()) + timeout if timeout and heard.size else math.inf
+
+    def _fall_silent(self) -> None:
+        settings = self.told.settings
+        for i in self._all:
+            if self._rig.time - self.heard[i] > settings.command_timeout and not self.is_silent[i]:
+                self.is_silent[i] = True
+                if settings.on_timeout == 'vent':
+                    self._order(i, self.inputs[i].within_limits(0.0))
+        self._set_deadline()
+
+    # Sensors ---------------------------------------------------------------------------------
+
+    def read_one(self) -> OneReading:
+        """Return position, velocity, pressure, force, stiffness and damping of a muscle alone.
+
+        Raises ArithmeticError where the muscle cannot be.
+        """
+        rig = self._rig
+        force, stiffness, damping, acceleration = rig.outputs()[0].tolist()
+        position, velocity = rig.position.item(), rig.velocity.item()
+        pressure = rig.pressure.item()
+        reach = self.told.reach.item() * self.told.muscles[0].l0
+        if not (abs(position) < reach and math.isfinite(force + velocity)):
+            raise ArithmeticError(f"at {position:g} m it is out of the muscle's reach")
+        if not self._feedback.is_ideal:
+            sample = np.array([[position], [velocity], [pressure], [force], [acceleration]])
+            reading = self._feedback.read(rig.time, sample)
+            position, velocity, pressure, force = reading[:, 0].tolist()
+        return position, velocity, pressure, force, stiffness, damping
+
+    def read(self) -> Reading:
+        """Return what the sensors say of all; raises ArithmeticError where one cannot be."""
+        rig = self._rig
+        force, stiffness, damping, moved = rig.outputs().T
+        position, velocity, pressure = rig.position, rig.velocity, rig.pressure
+        effort, _, acceleration = rig.joint_outputs().T if self._has_joints else (force, 0, moved)
+        is_there = np.abs(rig.contraction) < self.told.reach
+        if not (np.all(is_there) and np.isfinite(np.sum(force) + np.sum(velocity))):
+            lost = self.told.muscle_names[int(np.argmin(is_there))]
+            raise ArithmeticError(f'{lost} is out of its reach')
+        if not self._feedback.is_ideal:
+            if self._has_joints:
+                end = np.zeros_like(force)
+                muscles = np.array([end, end, pressure, force, end])
+                pressure, force = self._gauges.read(rig.time, muscles)[2:]
+                sample = [position, velocity, np.zeros_like(effort), effort, acceleration]
+                position, velocity, _, effort = self._feedback.read(rig.time, np.array(sample))
+            else:
+                sample = [position, velocity, pressure, force, acceleration]
+                reading = self._feedback.read(rig.time, np.array(sample))
+                position, velocity, pressure, force = reading
+                effort = force
+        return Reading(position, velocity, effort, pressure, force, stiffness, damping)

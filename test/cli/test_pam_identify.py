@@ -1,0 +1,218 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""``pam_identify`` as a user runs it: recordings in, a report out, one sentence for a mistake."""
+
+import csv
+import json
+import os
+import signal
+import subprocess
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from pam_ros.recording.csv_file import write_csv
+from pam_ros.recording.read import read_recording
+from pam_ros.report.write import FILES
+from pam_ros.rig.run import simulate
+from pam_ros.settings.files import load_rig
+from support import traces
+
+pytestmark = pytest.mark.needs_numba
+
+ROOT = Path(__file__).parents[2]
+DECLARED = ('--params', 'dmsp_20_400n', '--set', 'mass=20')
+FRICTION = 14.0  # N
+
+
+@pytest.fixture(scope='module')
+def bench(tmp_path_factory):
+    """Return a folder with recordings of a rig with friction, and of others that are no use."""
+    folder = tmp_path_factory.mktemp('bench')
+    truth = traces.rig(**{'effects.coulomb_friction.level': FRICTION, 'a5': 303.5, 'zeta': 0.2})
+    good = traces.free_recording(truth, 60.0, 200.0)
+    write_csv(good, folder / 'friction.csv')
+    write_csv(traces.free_recording(truth, 30.0, 200.0, 5), folder / 'other.csv')
+    write_csv(replace(good, position=good.position * 1e3), folder / 'millimetres.csv')
+    (folder / 'no_time.csv').write_text('position_mm\n1\n2\n', encoding='utf-8')
+    text = (folder / 'friction.csv').read_text(encoding='utf-8')
+    renamed = text.replace('pressure_command_Pa', 'valve').replace('position_m', 'encoder')
+    (folder / 'renamed.csv').write_text(renamed, encoding='utf-8')
+    return folder
+
+
+def start(folder, *arguments, **options):
+    return subprocess.Popen(
+        [sys.executable, '-m', 'pam_ros.cli.pam_identify', *map(str, arguments)],
+        cwd=folder,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+        **options,
+    )
+
+
+def run(folder, *arguments):
+    """Return (exit code, last line of stdout, stderr)."""
+    process = start(folder, *arguments)
+    out, errors = process.communicate(timeout=600)
+    return process.returncode, out.strip(), errors
+
+
+def left(folder):
+    """Return what is in a folder, hidden files too, but for the recordings."""
+    return sorted(p.name for p in folder.iterdir() if p.suffix != '.csv')
+
+
+@pytest.fixture(scope='module')
+def found(bench):
+    """Return the result of identifying the friction with a test recording, and the folder."""
+    result = run(bench, 'friction.csv', *DECLARED, '--test', 'other.csv', '--out', 'found')
+    return result, bench / 'found'
+
+
+def test_friction_is_found_and_the_model_mended(found):
+    (code, out, _), folder = found
+    assert code == 0
+    report = json.loads((folder / 'report.json').read_text(encoding='utf-8'))
+    assert report['verdict'] == 'effect_found'
+    assert [effect['name'] for effect in report['effects']] == ['coulomb_friction']
+    level = report['effects'][0]['parameters']['level']
+    assert level['value'] == pytest.approx(FRICTION, rel=0.05)
+    error = report['error']
+    assert error['noise_floor'] == pytest.approx(traces.NOISE, rel=0.1)
+    assert error['augmented']['held_out'] < 1.2 * traces.NOISE
+    assert error['retuned']['held_out'] > 5.0 * traces.NOISE
+    assert sorted(p.name for p in folder.iterdir()) == sorted(FILES)
+    assert len(out.splitlines()) == 1
+    assert out.startswith('effect_found (coulomb_friction): held-out error ')
+    assert out.endswith('see found/report.html')
+
+
+def test_report_is_valid(found):
+    jsonschema = pytest.importorskip('jsonschema')
+    schema = json.loads((ROOT / 'docs' / 'report.schema.json').read_text(encoding='utf-8'))
+    report = json.loads((found[1] / 'report.json').read_text(encoding='utf-8'))
+    jsonschema.Draft202012Validator(schema).validate(report)
+
+
+def test_declared_parameters_are_not_estimates(found):
+    report = json.loads((found[1] / 'report.json').read_text(encoding='utf-8'))
+    for name, one in report['parameters']['declared'].items():
+        assert one['low'] == one['value'] == one['high'], name
+
+
+def test_progress_is_told_in_plain_lines_where_there_is_no_terminal(found):
+    (_, _, errors), _ = found
+    lines = [line for line in errors.splitlines() if ' %  ' in line]
+    assert len(lines) >= 5
+    assert '\r' not in errors
+    fractions = [int(line.split('%')[0]) for line in lines]
+    assert fractions == sorted(fractions)
+
+
+def test_identified_file_starts_the_better_simulator(found, bench):
+    model, _ = load_rig(str(found[1] / 'identified.yaml'))
+    declared, _ = load_rig('dmsp_20_400n', ['mass=20'])
+    other = read_recording(bench / 'other.csv')
+    rmse = {}
+    for name, rig in (('declared', declared), ('identified', model)):
+        y = simulate(rig, other.t, other.command_t, other.command).position
+        rmse[name] = np.sqrt(np.mean((y - other.position)[200:] ** 2))
+    assert rmse['identified'] < 2.0 * traces.NOISE
+    assert rmse['declared'] > 20.0 * rmse['identified']
+
+
+def test_residual_file_gives_the_errors_of_the_report(found):
+    report = json.loads((found[1] / 'report.json').read_text(encoding='utf-8'))
+    with (found[1] / 'residual.csv').open(encoding='utf-8', newline='') as stream:
+        rows = list(csv.DictReader(stream))
+    for name in ('declared', 'retuned', 'augmented'):
+        e = np.array([float(r[f'residual_{name}_m']) for r in rows if r['set'] == 'held_out'])
+        assert np.sqrt(np.mean(e**2)) == pytest.approx(report['error'][name]['held_out'], rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ('arguments', 'sentence'),
+    [
+        (('absent.csv', *DECLARED), 'recording absent.csv does not exist'),
+        (('no_time.csv', *DECLARED), 'no_time.csv has no time axis'),
+        (('millimetres.csv', *DECLARED), 'cannot be right'),
+        (('friction.csv', '--params', 'dmsp_9'), 'dmsp_9 is neither a parameter file'),
+        (('friction.csv', *DECLARED, '--set', 'mas=3'), 'mas is not a parameter'),
+        (('friction.csv', *DECLARED, '--set', 'mass=-3'), 'mass = -3.0 is not allowed'),
+        (('friction.csv', *DECLARED, '--column', 'position_m=weight_kg'), 'is not understood'),
+        (('friction.csv', *DECLARED, '--mapping', 'absent.yaml'), 'absent.yaml cannot be read'),
+        (('friction.csv', *DECLARED, '--kind', 'held'), 'has no force'),
+        (('friction.csv', *DECLARED, '--kind', 'loose'), 'invalid choice'),
+        (('friction.csv', *DECLARED, '--test', 'friction.csv'), 'what was fitted tests nothing'),
+        (('friction.csv',), 'the following arguments are required: --params'),
+    ],
+)
+def test_a_mistake_is_one_sentence_and_nothing_is_written(bench, arguments, sentence):
+    before = left(bench)
+    code, out, errors = run(bench, *arguments, '--out', 'bad')
+    assert code == 2
+    assert out == ''
+    assert len(errors.splitlines()) == 1
+    assert errors.startswith('pam_identify: ')
+    assert sentence in errors
+    assert left(bench) == before
+
+
+def test_a_folder_with_other_files_is_refused_before_any_work(bench, tmp_path):
+    (tmp_path / 'thesis.tex').write_text('mine', encoding='utf-8')
+    code, _, errors = run(bench, 'friction.csv', *DECLARED, '--out', tmp_path)
+    assert code == 2
+    assert errors == (
+        f'pam_identify: {tmp_path} holds thesis.tex, which is no report of pam_identify: give a '
+        'new folder\n'
+    )
+
+
+@pytest.mark.parametrize(
+    ('kind', 'code'), [(signal.SIGINT, 130), (signal.SIGTERM, 143)], ids=['Ctrl-C', 'SIGTERM']
+)
+def test_interrupted_it_leaves_nothing(bench, kind, code):
+    before = left(bench)
+    process = start(bench, 'friction.csv', *DECLARED, '--out', 'deep/half')
+    for line in process.stderr:
+        if 'trying effects' in line:
+            os.killpg(process.pid, kind)
+            break
+    _, errors = process.communicate(timeout=600)
+    assert process.returncode == code
+    assert 'Traceback' not in errors
+    assert left(bench) == before
+
+
+def test_other_names_are_mapped_on_the_command_line_and_in_a_file(bench, tmp_path):
+    (tmp_path / 'map.yaml').write_text('columns:\n  encoder: position_m\n', encoding='utf-8')
+    code, out, errors = run(
+        bench, 'renamed.csv', *DECLARED, '--mapping', tmp_path / 'map.yaml',
+        '--column', 'valve=pressure_command_Pa', '--out', tmp_path / 'out',
+    )  # fmt: skip
+    assert code == 0, errors
+    assert out.startswith('effect_found (coulomb_friction)')
+
+
+def test_it_needs_no_ros(bench):
+    program = (
+        'import sys\n'
+        'class Refuse:\n'
+        '    def find_spec(self, name, *_):\n'
+        '        if name.split(".")[0] in ("rclpy", "std_msgs", "sensor_msgs"):\n'
+        '            raise ImportError(name)\n'
+        'sys.meta_path.insert(0, Refuse())\n'
+        'import pam_ros.cli.pam_identify as program\n'
+        'import pam_ros.identification.finder, pam_ros.report.page\n'
+        'program.parser().print_help()\n'
+    )
+    done = subprocess.run(
+        [sys.executable, '-c', program], capture_output=True, text=True, check=True, cwd=bench
+    )
+    assert '--params' in done.stdout

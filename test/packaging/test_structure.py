@@ -1,0 +1,160 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Who imports whom in ``pam_ros``: no circles, floors from bottom to top, ROS in one room alone.
+
+Found in the sources without running them, so that imports in functions, and those that are for
+types alone, count as well.
+"""
+
+import sys
+from collections import Counter
+from graphlib import CycleError, TopologicalSorter
+from pathlib import Path
+
+import pytest
+
+from support.imports import imported, modules_of
+
+ROOT = Path(__file__).parents[2]
+PACKAGE = ROOT / 'pam_ros'
+FILES = sorted(path.relative_to(ROOT) for path in PACKAGE.rglob('*.py'))
+# From bottom to top. A room is a folder or a module; it imports from itself and lower floors.
+FLOORS = (
+    ('pam_ros', 'pam_ros.compiled', 'pam_ros.errors', 'pam_ros.processes', 'pam_ros.timing'),
+    ('pam_ros.parameters', 'pam_ros.recording'),
+    ('pam_ros.muscle',),
+    ('pam_ros.effects', 'pam_ros.excitation'),
+    ('pam_ros.rig',),
+    ('pam_ros.control', 'pam_ros.identification'),
+    ('pam_ros.settings',),
+    ('pam_ros.report', 'pam_ros.simulator'),
+    ('pam_ros.demo', 'pam_ros.health'),
+    ('pam_ros.nodes.common',),
+    (
+        'pam_ros.nodes.control',
+        'pam_ros.nodes.demo',
+        'pam_ros.nodes.excite',
+        'pam_ros.nodes.record',
+        'pam_ros.nodes.sim',
+    ),
+    ('pam_ros.cli',),
+)
+# Imports that go up or close a circle, until they are gone: to become empty.
+KNOWN = {
+    ('pam_ros.effects.coulomb_friction', 'pam_ros.rig.layout'),
+    ('pam_ros.effects.creep', 'pam_ros.rig.layout'),
+    ('pam_ros.effects.end_stop', 'pam_ros.rig.layout'),
+    ('pam_ros.effects.hysteresis', 'pam_ros.rig.layout'),
+    ('pam_ros.effects.slack', 'pam_ros.rig.layout'),
+    ('pam_ros.rig.settle', 'pam_ros.rig.joint_model'),
+    ('pam_ros.rig.statics', 'pam_ros.rig.joint_model'),
+    ('pam_ros.rig.swing', 'pam_ros.rig.joint_model'),
+}
+MOST_MODULES = 25  # in one folder
+ROS = {
+    *('ament_index_python', 'builtin_interfaces', 'diagnostic_msgs', 'geometry_msgs'),
+    *('rcl_interfaces', 'rclpy', 'rosgraph_msgs', 'sensor_msgs', 'std_msgs', 'std_srvs'),
+    'trajectory_msgs',
+}
+# What the other rooms may import beside themselves and Python's own library.
+ALLOWED = {
+    *('jinja2', 'matplotlib', 'mcap', 'numba', 'numpy', 'rosbags', 'scipy'),
+    *('simple_pid', 'tqdm', 'yaml'),
+    'pam_ros',
+}
+# Reads bags with ROS' own library where that is installed.
+MAY_SEE_ROS = {Path('pam_ros/recording/bag_source.py'): {'rosbag2_py', 'rclpy'}}
+
+
+ROOMS = [room for floor in FLOORS for room in floor]
+
+
+def is_node(path):
+    return path.parts[1] == 'nodes'
+
+
+def name_of(path):
+    parts = path.with_suffix('').parts
+    return '.'.join(parts[:-1] if parts[-1] == '__init__' else parts)
+
+
+NAMES = {name_of(path): path for path in FILES}
+ARROWS = {
+    (name, other)
+    for name, path in NAMES.items()
+    for other in modules_of(ROOT / path, NAMES)
+    if other in NAMES
+}
+
+
+def room_of(name):
+    """Return the innermost room that a module is in."""
+    return max((room for room in ROOMS if f'{name}.'.startswith(f'{room}.')), key=len)
+
+
+def floor_of(room):
+    return next(number for number, floor in enumerate(FLOORS) if room in floor)
+
+
+def upward(arrows):
+    """Return the arrows that go up, or to another room on the same floor."""
+    rooms = {arrow: tuple(map(room_of, arrow)) for arrow in arrows}
+    return {
+        arrow
+        for arrow, (room, other) in rooms.items()
+        if room != other and floor_of(room) <= floor_of(other)
+    }
+
+
+def circle(arrows):
+    """Return the modules of a circle, one after the other; none where there is no circle."""
+    imports = {}
+    for name, other in arrows:
+        imports.setdefault(name, set()).add(other)
+    try:
+        TopologicalSorter(imports).prepare()
+    except CycleError as error:
+        return error.args[1]
+    return []
+
+
+def test_every_module_is_in_a_room():
+    assert {name for name in NAMES if room_of(name) == 'pam_ros'} == {'pam_ros', 'pam_ros.nodes'}
+
+
+def test_every_room_is_there_and_on_one_floor():
+    assert len(set(ROOMS)) == len(ROOMS)
+    assert set(ROOMS) <= set(NAMES)
+
+
+def test_no_circle():
+    assert circle(ARROWS - KNOWN) == []
+
+
+def test_rooms_import_from_lower_floors():
+    assert upward(ARROWS - KNOWN) == set()
+
+
+@pytest.mark.parametrize('arrow', sorted(KNOWN), ids=' -> '.join)
+def test_a_known_exception_is_needed(arrow):
+    arrows = ARROWS - (KNOWN - {arrow})
+    assert arrow in arrows
+    assert upward(arrows) or circle(arrows)
+
+
+@pytest.mark.parametrize('path', [p for p in FILES if not is_node(p)], ids=str)
+def test_a_room_beside_the_nodes_sees_no_ros(path):
+    allowed = ALLOWED | MAY_SEE_ROS.get(path, set())
+    assert imported(ROOT / path) - sys.stdlib_module_names <= allowed
+
+
+@pytest.mark.parametrize(
+    'path', [p for p in FILES if is_node(p) and p.stem != '__init__'], ids=str
+)
+def test_a_module_of_the_nodes_imports_ros_itself(path):
+    assert imported(ROOT / path) & ROS
+
+
+def test_folders_can_be_overlooked():
+    counts = Counter(path.parent for path in FILES if path.stem != '__init__')
+    assert max(counts.values()) <= MOST_MODULES

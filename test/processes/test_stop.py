@@ -1,0 +1,48 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Signals in processes of their own: taken note of, or raised once."""
+
+import subprocess
+import sys
+
+import pytest
+
+NOTED = """
+import os, signal
+from pam_ros.processes.stop import StopRequest
+stop = StopRequest()
+print(stop.is_made)
+for _ in range(2):
+    os.kill(os.getpid(), signal.{kind})
+print(stop.is_made)
+"""
+RAISED = """
+import os, signal
+from pam_ros.processes.interrupts import heed, held_back
+heed()
+try:
+    with held_back():
+        os.kill(os.getpid(), signal.{kind})
+        print('held')
+except KeyboardInterrupt:
+    print('raised')
+os.kill(os.getpid(), signal.{kind})
+print('once')
+"""
+
+
+@pytest.mark.parametrize('kind', ['SIGINT', 'SIGTERM'])
+@pytest.mark.parametrize(
+    ('code', 'printed'),
+    [(NOTED, ['False', 'True']), (RAISED, ['held', 'raised', 'once'])],
+    ids=['noted', 'raised'],
+)
+def test_a_signal_that_comes_again_does_no_harm(code, printed, kind):
+    done = subprocess.run(
+        [sys.executable, '-c', code.format(kind=kind)],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.split() == printed

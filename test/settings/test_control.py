@@ -1,0 +1,81 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""What the controller is told, put together and checked as a whole."""
+
+from pathlib import Path
+
+import pytest
+
+from pam_ros.control.pid import Pid
+from pam_ros.control.sliding_mode import SlidingMode
+from pam_ros.errors import ParameterError
+from pam_ros.settings.control import build_told, table
+from pam_ros.settings.files import read
+from pam_ros.settings.tables import checked, rig_table
+
+CONFIG = Path(__file__).parents[2] / 'config'
+MUSCLES = sorted(path.stem for path in (CONFIG / 'muscles').glob('*.yaml'))
+
+
+def told(given, muscle=''):
+    return build_told(checked(table({'muscle': muscle}), given))
+
+
+def test_control_yaml_lists_all_but_the_rig_and_the_gains_with_its_defaults():
+    values = read(CONFIG / 'control.yaml', 'pam_control')
+    left_out = {*rig_table(), 'muscle'}
+    beside = {
+        name: default
+        for name, (_, default, _) in table({}).items()
+        if name not in left_out and not name.startswith(('gains.', 'pid.'))
+    }
+    assert values == beside
+
+
+@pytest.mark.parametrize('muscle', MUSCLES)
+def test_every_muscle_of_the_package_can_be_controlled(muscle):
+    mass = 5.0 if muscle == 'dmsp_10' else 20.0
+    now = told({'mass': mass}, muscle)
+    low, high = now.reach
+    l0 = now.model.muscle.l0
+    assert now.model.muscle.kappa_min * l0 <= low < high <= now.model.muscle.kappa_max * l0
+
+
+def test_the_source_of_the_velocity_is_a_gain():
+    assert told({'velocity_source': 'measured'}).gains.use_measured_velocity
+    assert not told({}).gains.use_measured_velocity
+    assert 'gains.use_measured_velocity' not in table({})
+
+
+def test_the_law_is_chosen():
+    assert isinstance(told({}).make_law(), SlidingMode)
+    pytest.importorskip('simple_pid', reason='the baseline needs simple-pid')
+    assert isinstance(told({'controller': 'pid'}).make_law(), Pid)
+
+
+@pytest.mark.parametrize(
+    ('change', 'needs'),
+    [
+        ({'gains.bandwidth': 10.0}, False),
+        ({'shape.max_velocity': 0.05}, False),
+        ({'on_timeout': 'hold'}, False),
+        ({'mass': 10.0}, True),
+        ({'limits.pressure_high': 4e5}, True),
+        ({'effects.pressure_lag.fill': 0.05}, True),
+    ],
+)
+def test_only_another_rig_or_other_limits_need_a_new_law(change, needs):
+    assert told(change).needs_new_law(told({})) == needs
+
+
+@pytest.mark.parametrize(
+    ('given', 'sentence'),
+    [
+        ({'gains.velocity_bandwidth': 1000.0}, 'too fast for a control rate of 500 Hz'),
+        ({'gains.observer_bandwidth': 20.0}, 'observer_bandwidth = 20 rad/s is above bandwidth'),
+        ({'limits.pressure_low': 700e3}, 'leaves no range below the p_max'),
+    ],
+)
+def test_what_does_not_go_together_is_refused(given, sentence):
+    with pytest.raises(ParameterError, match=sentence):
+        told(given)

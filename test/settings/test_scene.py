@@ -1,0 +1,115 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Several muscles and joints put together from flat parameters, as a whole."""
+
+import numpy as np
+import pytest
+
+from pam_ros.errors import ParameterError
+from pam_ros.rig.joint_model import JointModel
+from pam_ros.rig.model import RigModel
+from pam_ros.settings.scene import Scene
+from pam_ros.settings.tables import checked
+
+
+def of(given):
+    scene = Scene(given)
+    return scene.build(checked(scene.table(), given))
+
+
+def built(**given):
+    given = {name.replace('__', '.'): value for name, value in given.items()}
+    return of(given)
+
+
+def test_one_is_what_it_was():
+    now = built(mass=12.0, joint_name='arm')
+    assert (now.joint_names, now.muscle_names, now.is_one) == (('arm',), ('arm',), True)
+    assert now.models[0].load.mass == 12.0
+
+
+def test_names_have_their_own_and_follow_in_the_rest():
+    now = built(
+        muscles=['a', 'b'], mass=12.0, b__mass=7.0, a__effects__coulomb_friction__level=5.0
+    )
+    a, b = now.models
+    assert (a.load.mass, b.load.mass) == (12.0, 7.0)
+    assert [m.effects['coulomb_friction']['level'] for m in (a, b)] == [5.0, 0.0]
+    assert now.joint_names == now.muscle_names == ('a', 'b')
+
+
+def test_only_what_a_name_is_given_is_declared_for_it():
+    table = Scene({'muscles': ['a', 'b'], 'b.mass': 7.0}).table()
+    assert [name for name in table if name.startswith(('a.', 'b.'))] == ['b.mass']
+
+
+def test_a_preset_of_a_name_goes_before_everybodys_and_after_its_own():
+    now = built(muscles=['a', 'b'], l0=0.6, b__muscle='dmsp_10', b__zeta=0.33)
+    a, b = (model.muscle for model in now.models)
+    assert (a.l0, b.l0, b.zeta) == (0.6, 0.25, 0.33)
+
+
+def test_of_a_preset_a_pair_takes_the_muscle_and_not_its_load():
+    plain, preset = built(joint='antagonistic'), built(joint='antagonistic', muscle='dmsp_10')
+    assert preset.models[0].load == plain.models[0].load
+    assert [m.l0 for m in preset.muscles] == [0.25, 0.25]
+
+
+def test_equal_muscles_are_one_model():
+    now = built(muscles=[f'm{i}' for i in range(64)], m3__mass=9.0)
+    assert len({id(model) for model in now.models}) == 2
+    pressure, position, velocity = now.initial
+    assert pressure.shape == position.shape == velocity.shape == (64,)
+    rest = [RigModel().rest(0.0)] * 64
+    rest[3] = now.models[3].rest(0.0)
+    np.testing.assert_array_equal(position, rest)
+
+
+def test_effects_of_a_pair_are_where_they_act():
+    now = built(
+        joint='antagonistic',
+        effects__coulomb_friction__level=0.5,
+        pam_1__effects__pressure_lag__fill=0.02,
+        pam__hanging_at=0.2,
+    )
+    (pair,) = now.models
+    assert isinstance(pair, JointModel)
+    assert pair.effects['coulomb_friction']['level'] == 0.5
+    assert [a.effects['pressure_lag']['fill'] for a in pair.actuators] == [0.02, 0.0]
+    assert pair.load.hanging_at == 0.2
+
+
+def test_a_pair_starts_at_rest_under_its_own_pressures():
+    now = built(joint='antagonistic', initial__pressure=2e5, pam_1__initial__pressure=3e5)
+    pressure, position, _ = now.initial
+    np.testing.assert_array_equal(pressure, [3e5, 2e5])
+    assert position[0] == now.models[0].rest((3e5, 2e5)) > 0.0
+
+
+@pytest.mark.parametrize(
+    ('given', 'sentence'),
+    [
+        ({'muscles': ['a', 'a']}, 'a is named twice'),
+        ({'muscles': ['effects']}, 'effects is the name of a parameter'),
+        ({'muscles': ['1st']}, "'1st' is no name"),
+        ({'muscles': ['a__b']}, "'a__b' is no name"),
+        ({'muscles': ['a', 'b', 'c'], 'joint': 'parallel'}, '3 names make no joint = parallel'),
+        ({'muscles': ['a', 'b'], 'joint_names': ['x']}, '1 names for 2 joints'),
+        ({'muscles': ['a'], 'a.sensor.latency': 0.1}, 'a has no parameter of this name'),
+        ({'muscles': ['a'], 'a.zeta_': 0.1}, 'was a.zeta meant'),
+        ({'muscles': ['a', 'b'], 'b.initial.pressure': 9e5}, 'b: initial.pressure = 900000'),
+        (
+            {'muscles': ['a', 'b'], 'b.initial.at_rest': False, 'b.initial.position': 0.5},
+            'b: initial.position = 0.5 m is no length',
+        ),
+        (
+            {'joint': 'antagonistic', 'initial.at_rest': False, 'initial.position': 5.0},
+            'initial.position = 5 rad is no place of joint = antagonistic: give -3 to 3 rad',
+        ),
+        ({'muscles': 'a'}, 'muscles = .a. is not allowed: give a list of texts'),
+        ({'time_mode': 'lockstep', 'clock_rate': 2000.0}, 'clock_rate = 2000 Hz is above'),
+    ],
+)
+def test_what_does_not_go_together_is_refused(given, sentence):
+    with pytest.raises(ParameterError, match=sentence):
+        of(given)

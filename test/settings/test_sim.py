@@ -1,0 +1,66 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""What the simulator is told, put together and checked as a whole."""
+
+from pathlib import Path
+
+import pytest
+
+from pam_ros.errors import ParameterError
+from pam_ros.settings.files import read
+from pam_ros.settings.scene import simulation, table
+from pam_ros.settings.tables import checked, rig_table
+
+CONFIG = Path(__file__).parents[2] / 'config'
+MUSCLES = sorted(path.stem for path in (CONFIG / 'muscles').glob('*.yaml'))
+
+
+def test_sim_yaml_lists_all_that_is_not_the_rig_with_its_defaults():
+    values = read(CONFIG / 'sim.yaml')
+    # ROS has no empty list in a file: names are shown in a comment there.
+    left_out = {*rig_table(), 'muscle', 'muscles', 'joint_names'}
+    beside = {n: entry for n, entry in table().items() if n not in left_out}
+    assert values == {name: default for name, (_, default, _) in beside.items()}
+    assert {n: type(v) for n, v in values.items()} == {
+        n: kind for n, (kind, _, _) in beside.items()
+    }
+
+
+@pytest.mark.parametrize('name', [*MUSCLES, str(CONFIG / 'rigs' / 'emps.yaml')])
+def test_every_muscle_and_rig_of_the_package_can_be_simulated(name):
+    now = simulation(checked(table(muscle=name), {}))
+    ((pressure,), (position,), (velocity,)) = now.initial
+    assert (pressure, velocity) == (0.0, 0.0)
+    (model,) = now.models
+    if not model.muscle.is_load_only:
+        kappa = position / model.muscle.l0
+        assert model.muscle.force(0.0, kappa) == pytest.approx(model.weight, rel=1e-9)
+
+
+def test_values_of_a_muscle_are_defaults_only():
+    assert table(muscle='dmsp_10')['l0'][1] == 0.25
+    assert simulation(checked(table(muscle='dmsp_10'), {'l0': 0.3})).models[0].muscle.l0 == 0.3
+
+
+@pytest.mark.parametrize(
+    ('given', 'sentence'),
+    [
+        (
+            {'initial.pressure': 700e3},
+            r'initial.pressure = 700000 Pa is outside p_min = 0 to p_max',
+        ),
+        (
+            {'initial.at_rest': False, 'initial.position': 0.5},
+            r'initial.position = 0.5 m is no length of a muscle of 0.4 m: give -0.08 to 0.38 m',
+        ),
+        ({'publish_rate': 2000.0}, r'publish_rate = 2000 Hz is above physics_rate = 1000 Hz'),
+        ({'mass': 1e-6}, 'does not resolve a mass'),
+    ],
+)
+def test_what_does_not_go_together_is_refused(given, sentence):
+    with pytest.raises(ParameterError, match=sentence):
+        simulation(checked(table(), given))
+
+
+def test_a_position_out_of_reach_matters_only_where_it_is_used():
+    assert simulation(checked(table(), {'initial.position': 0.5})).initial[1][0] < 0.1
