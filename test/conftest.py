@@ -13,8 +13,10 @@ from hypothesis import settings
 from pam_ros.compiled import HAVE_NUMBA
 from support.domain import DISCOVERY, NOT_CLAIMED, claimed
 
-# A test that has one of these starts nodes.
+# Fixtures of tests that start nodes, and of those that need still more: a browser, a shell without
+# our environment to set up another one, a copy of the sources to build from.
 DOMAINS = {'domain', 'module_domain'}
+NOT_PURE = {*DOMAINS, 'browser', 'clean_environment', 'sources'}
 
 
 def pytest_configure():
@@ -39,6 +41,8 @@ def pytest_report_header():
 @pytest.hookimpl(tryfirst=True)  # before markers select
 def pytest_collection_modifyitems(items):
     for item in items:
+        if NOT_PURE.isdisjoint(item.fixturenames):
+            item.add_marker(pytest.mark.pure)
         starts_nodes = not DOMAINS.isdisjoint(item.fixturenames)
         if starts_nodes and not item.get_closest_marker('at_any_pace'):
             item.add_marker(pytest.mark.keeps_rate)

@@ -14,6 +14,8 @@ from sensor_msgs.msg import JointState
 from support.harness import Program, lose_nothing
 from support.pages import README, blocks, commands, names, part, rows
 
+pytestmark = pytest.mark.at_any_pace
+
 # What every node has: parameters, logging, its description.
 OF_EVERY_NODE = ('rcl_interfaces/', 'type_description_interfaces/')
 LENGTH = 2700  # states of 2 ms, so that the error decays to micrometres

@@ -13,7 +13,7 @@ from std_srvs.srv import Trigger
 
 from support.harness import Program, has_loaded
 
-pytestmark = pytest.mark.usefixtures('domain')
+pytestmark = [pytest.mark.at_any_pace, pytest.mark.usefixtures('domain')]
 
 
 @pytest.mark.parametrize(
