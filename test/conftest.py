@@ -26,6 +26,9 @@ def pytest_configure():
     os.environ['FASTRTPS_DEFAULT_PROFILES_FILE'] = str(DISCOVERY)
     os.environ['ROS_PYTHON_CHECK_FIELDS'] = '1'
     os.environ['MPLBACKEND'] = 'Agg'
+    # For workers and programs: threads of linear algebra that wait for each other on cores that
+    # others use as well cost forty times what they bring.
+    os.environ['OPENBLAS_NUM_THREADS'] = '1'
     # A slow machine is no failure; and what passes once in CI passes each time.
     settings.register_profile('pam_ros', deadline=None, derandomize='CI' in os.environ)
     settings.load_profile('pam_ros')
