@@ -13,14 +13,15 @@ export ROS_AUTOMATIC_DISCOVERY_RANGE := LOCALHOST
 export PYTHON
 
 .DEFAULT_GOAL := help
-.PHONY: help environment warm demo test lint bench clean
+.PHONY: help environment warm demo test test-fast lint bench clean
 
 help:
-	@echo 'make demo   the experiment of the paper, controllers and the closed loop, over ROS topics: see demo/'
-	@echo 'make test   all tests (make test ARGS="test/muscle -x" for some)'
-	@echo 'make lint   style and types'
-	@echo 'make bench  the speed claims, measured on this machine (ARGS=plant for one)'
-	@echo 'make clean  remove what these commands made'
+	@echo 'make demo       the experiment of the paper, controllers and the closed loop, over ROS topics: see demo/'
+	@echo 'make test       all tests (make test ARGS="test/muscle -x" for some)'
+	@echo 'make test-fast  those of them that start no node and build nothing, in 90 s'
+	@echo 'make lint       style and types'
+	@echo 'make bench      the speed claims, measured on this machine (ARGS=plant for one)'
+	@echo 'make clean      remove what these commands made'
 	@echo 'The first of them sets up the environment $(VENV); PYTHON=python3.12 chooses its Python.'
 
 environment:
@@ -38,8 +39,11 @@ ifdef ARGS
 	$(PY) -m pytest $(ARGS)
 else
 	$(PY) -m pytest -n auto --dist loadfile -m 'not keeps_rate'
-	$(PY) -m pytest -m keeps_rate test/nodes
+	$(PY) -m pytest -n 2 --dist loadfile -m keeps_rate test/nodes
 endif
+
+test-fast: warm
+	$(PY) -m pytest -n auto --dist loadfile -m 'pure and not long_search' $(ARGS)
 
 lint: environment
 	$(PY) -m ruff check .

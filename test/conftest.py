@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What every test run has: its own ROS domain, checked messages, plots without a screen."""
+"""What every test run has: checked messages, plots without a screen; and for nodes a domain."""
 
 import os
 from pathlib import Path
@@ -11,48 +11,66 @@ import scipy
 from hypothesis import settings
 
 from pam_ros.compiled import HAVE_NUMBA
-from support.domain import claim_domain
+from support.domain import DISCOVERY, NOT_CLAIMED, claimed
 
-DOMAIN = pytest.StashKey()
-NODES = Path(__file__).parent / 'nodes'
-DISCOVERY = Path(__file__).parent / 'support' / 'discovery.xml'
+# Fixtures of tests that start nodes, and of those that need still more: a browser, a shell without
+# our environment to set up another one, a copy of the sources to build from.
+DOMAINS = {'domain', 'module_domain'}
+NOT_PURE = {*DOMAINS, 'browser', 'clean_environment', 'sources'}
 
 
-def pytest_configure(config):
-    domain, lock = claim_domain()
-    config.stash[DOMAIN] = lock  # held until the run ends
-    os.environ['ROS_DOMAIN_ID'] = str(domain)
+def pytest_configure():
+    os.environ['ROS_DOMAIN_ID'] = NOT_CLAIMED
     os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'] = 'LOCALHOST'
     os.environ.pop('ROS_STATIC_PEERS', None)
     os.environ['FASTRTPS_DEFAULT_PROFILES_FILE'] = str(DISCOVERY)
     os.environ['ROS_PYTHON_CHECK_FIELDS'] = '1'
     os.environ['MPLBACKEND'] = 'Agg'
+    # For workers and programs: threads of linear algebra that wait for each other on cores that
+    # others use as well cost forty times what they bring.
+    os.environ['OPENBLAS_NUM_THREADS'] = '1'
     # A slow machine is no failure; and what passes once in CI passes each time.
     settings.register_profile('pam_ros', deadline=None, derandomize='CI' in os.environ)
     settings.load_profile('pam_ros')
 
 
-def pytest_unconfigure(config):
-    config.stash[DOMAIN].close()
-
-
 def pytest_report_header():
     return (
         f'numpy {np.__version__}, scipy {scipy.__version__}, '
-        f'{"with" if HAVE_NUMBA else "without"} numba, ROS_DOMAIN_ID {os.environ["ROS_DOMAIN_ID"]}'
+        f'{"with" if HAVE_NUMBA else "without"} numba'
     )
 
 
 @pytest.hookimpl(tryfirst=True)  # before markers select
 def pytest_collection_modifyitems(items):
     for item in items:
-        if item.path.is_relative_to(NODES) and not item.get_closest_marker('at_any_pace'):
+        if NOT_PURE.isdisjoint(item.fixturenames):
+            item.add_marker(pytest.mark.pure)
+        starts_nodes = not DOMAINS.isdisjoint(item.fixturenames)
+        if starts_nodes and not item.get_closest_marker('at_any_pace'):
             item.add_marker(pytest.mark.keeps_rate)
     if not HAVE_NUMBA:
         skip = pytest.mark.skip(reason='needs numba: takes too long as plain Python')
         for item in items:
             if item.get_closest_marker('needs_numba'):
                 item.add_marker(skip)
+
+
+@pytest.fixture(scope='module')
+def module_domain():
+    """Hold a ROS domain for nodes that all tests of a module share."""
+    with claimed() as number:
+        yield number
+
+
+@pytest.fixture
+def domain(request):
+    """Hold a ROS domain for the nodes that a test starts, but for those that a module shares."""
+    if 'module_domain' in request.fixturenames:
+        yield request.getfixturevalue('module_domain')
+        return
+    with claimed() as number:
+        yield number
 
 
 @pytest.fixture(scope='session')

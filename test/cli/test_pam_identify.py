@@ -33,7 +33,7 @@ def bench(tmp_path_factory):
     """Return a folder with recordings of a rig with friction, and of others that are no use."""
     folder = tmp_path_factory.mktemp('bench')
     truth = traces.rig(**{'effects.coulomb_friction.level': FRICTION, 'a5': 303.5, 'zeta': 0.2})
-    good = traces.free_recording(truth, 60.0, 200.0)
+    good = traces.free_recording(truth, 30.0, 200.0)
     write_csv(good, folder / 'friction.csv')
     write_csv(traces.free_recording(truth, 30.0, 200.0, 5), folder / 'other.csv')
     write_csv(replace(good, position=good.position * 1e3), folder / 'millimetres.csv')

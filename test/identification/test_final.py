@@ -46,6 +46,7 @@ def test_an_effect_that_the_fit_to_every_sample_does_not_need_is_dropped():
     assert augmented.held_error < 1.1 * setting.noise.sigma
 
 
+@pytest.mark.long_search
 def test_a_stop_that_long_steps_softened_is_as_stiff_as_it_is_in_the_end():
     """Thinned runs know no difference between stiff pads, and leave them at their bound."""
     stop = effect('end_stop', stop_m=0.065, stop_n_m15=1e7, stop_s_m=1.0)

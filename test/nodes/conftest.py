@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""A node of the test for every test of a node."""
+"""A node of the test for every test of a node, in a ROS domain that this test alone has."""
 
 import pytest
 
@@ -8,6 +8,6 @@ from support.harness import Peer
 
 
 @pytest.fixture
-def peer():
+def peer(domain):
     with Peer() as peer:
         yield peer

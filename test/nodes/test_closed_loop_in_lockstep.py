@@ -24,7 +24,7 @@ from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
 from support.harness import Peer, Program, lose_nothing
 
-pytestmark = pytest.mark.at_any_pace
+pytestmark = [pytest.mark.at_any_pace, pytest.mark.usefixtures('module_domain')]
 
 CONTROLLER = Path(__file__).parents[1] / 'support' / 'example_controller.py'
 SECONDS = 20.0
@@ -52,7 +52,7 @@ def run(file, busy=0):
 
 
 @pytest.fixture(scope='module')
-def runs(tmp_path_factory):
+def runs(module_domain, tmp_path_factory):
     folder = tmp_path_factory.mktemp('runs')
     busy = (0, 0, os.cpu_count() or 1)
     return [run(folder / f'{i}.npz', n) for i, n in enumerate(busy)]
@@ -147,12 +147,12 @@ def three_runs(*scenario):
 
 
 @pytest.fixture(scope='module')
-def runs_of_pam_control():
+def runs_of_pam_control(module_domain):
     return three_runs(lose_nothing(), {}, places(), (Float64, 'pressure_command'))
 
 
 @pytest.fixture(scope='module')
-def runs_of_a_pair():
+def runs_of_a_pair(module_domain):
     both = {'joint': 'antagonistic'}
     # An arm that is heavier than the controller is told, and a sensor with noise.
     rig = {**both, 'mass': 1.3, 'sensor.position_noise': float(np.radians(0.02))}

@@ -6,9 +6,12 @@ import xml.etree.ElementTree as ET
 from importlib import import_module
 from pathlib import Path
 
+import pytest
 from sensor_msgs.msg import JointState
 
 from support.harness import Program
+
+pytestmark = pytest.mark.at_any_pace
 
 LAYOUT = Path(__file__).parents[2] / 'config' / 'plotjuggler.xml'
 ROOT = ET.parse(LAYOUT).getroot()

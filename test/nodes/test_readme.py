@@ -14,6 +14,8 @@ from sensor_msgs.msg import JointState
 from support.harness import Program, lose_nothing
 from support.pages import README, blocks, commands, names, part, rows
 
+pytestmark = pytest.mark.at_any_pace
+
 # What every node has: parameters, logging, its description.
 OF_EVERY_NODE = ('rcl_interfaces/', 'type_description_interfaces/')
 LENGTH = 2700  # states of 2 ms, so that the error decays to micrometres
@@ -133,6 +135,7 @@ def test_the_simulator_starts_as_shown(peer, arguments, tmp_path, monkeypatch):
         assert states, sim.output
 
 
+@pytest.mark.usefixtures('domain')
 @pytest.mark.parametrize('arguments', DRY_RUNS, ids=' '.join)
 def test_the_excitation_plans_as_shown(arguments):
     with Program('pam_excite', *arguments, '--', '--dry-run') as excite:

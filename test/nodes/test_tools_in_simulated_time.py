@@ -10,6 +10,8 @@ from pam_ros.excitation.settings import Excitation
 from support.bags import contents
 from support.harness import DEADLINE, Peer, Program, lose_nothing
 
+pytestmark = pytest.mark.usefixtures('module_domain')
+
 RATE, CLOCK_RATE = 200.0, 100.0  # Hz of states and of /clock
 PLAN = {'duration': 30.0, 'pressure_min': 150e3, 'pressure_max': 400e3}
 DURATION = PLAN['duration']  # s
@@ -38,7 +40,7 @@ def play(peer, bag, mode):
 
 
 @pytest.fixture(scope='module', params=FASTER)
-def played(request, tmp_path_factory):
+def played(request, module_domain, tmp_path_factory):
     with Peer() as peer:
         yield request.param, play(peer, tmp_path_factory.mktemp('bags') / 'rig', request.param)
 

@@ -79,16 +79,20 @@ def test_ament_index_finds_it(workspace, clean_environment):
     assert answer.split() == [str(prefix), str(prefix / 'share' / 'pam_ros')]
 
 
+@pytest.mark.at_any_pace
 @pytest.mark.parametrize('stop', [signal.SIGINT, signal.SIGTERM], ids=lambda stop: stop.name)
-def test_simulator_runs_from_there_and_ends_well(workspace, clean_environment, tmp_path, stop):
+def test_simulator_runs_from_there_and_ends_well(
+    workspace, clean_environment, domain, tmp_path, stop
+):
     program = workspace / 'install' / 'pam_ros' / 'lib' / 'pam_ros' / 'pam_sim'
     printed = tmp_path / 'printed'
+    environment = {**clean_environment, 'ROS_DOMAIN_ID': str(domain)}
     with Peer() as peer, printed.open('w') as output:
         states = peer.collect(JointState, 'joint_states')
         running = in_workspace(
             workspace,
             f"exec '{program}' --ros-args -p muscle:=dmsp_20_200n",
-            clean_environment,
+            environment,
             stdout=output,
             stderr=subprocess.STDOUT,
             start_new_session=True,

@@ -15,6 +15,7 @@ from benchmarks.__main__ import names as benchmarks
 from pam_ros.cli import pam_identify
 from pam_ros.settings.files import load_rig
 from pam_ros.settings.scene import table as sim_table
+from support.domain import claimed
 from support.pages import (
     PAGES,
     README,
@@ -48,13 +49,14 @@ each_page = pytest.mark.parametrize('page', PAGES, ids=lambda page: page.name)
 
 @cache
 def help_of(program):
-    done = subprocess.run(
-        [sys.executable, '-m', f'pam_ros.cli.{program}', '--help'],
-        capture_output=True,
-        text=True,
-        check=True,
-        timeout=60,
-    )
+    with claimed():  # programs of ROS ask for a domain before anything else
+        done = subprocess.run(
+            [sys.executable, '-m', f'pam_ros.cli.{program}', '--help'],
+            capture_output=True,
+            text=True,
+            check=True,
+            timeout=60,
+        )
     return done.stdout
 
 

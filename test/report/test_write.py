@@ -3,6 +3,7 @@
 """The folder of a report: whole or not at all, and never in the place of something else."""
 
 import json
+import shutil
 import stat
 
 import pytest
@@ -14,6 +15,15 @@ from pam_ros.report.write import FILES, check_folder, replaced, write_report
 
 def names(folder):
     return sorted(path.name for path in folder.iterdir())
+
+
+@pytest.fixture(scope='module')
+def written(friction, tmp_path_factory):
+    """Return the folder of a report that friction was found in, for copies of it."""
+    trace, source, _ = friction
+    path = tmp_path_factory.mktemp('written') / 'report'
+    write_report(path, trace, source)
+    return path
 
 
 def test_all_files_are_there_and_nothing_else(folder):
@@ -29,9 +39,10 @@ def test_folder_has_the_permissions_of_any_other(folder, tmp_path):
     assert modes[0] == modes[1]
 
 
-def test_former_report_is_replaced(friction, clean, tmp_path):
-    for parts in (friction, clean):
-        write_report(tmp_path / 'out', parts[0], parts[1])
+def test_former_report_is_replaced(written, clean, tmp_path):
+    shutil.copytree(written, tmp_path / 'out')
+    trace, source, _ = clean
+    write_report(tmp_path / 'out', trace, source)
     report = json.loads((tmp_path / 'out' / 'report.json').read_text(encoding='utf-8'))
     assert report['verdict'] == 'no_missing_effect'
     assert names(tmp_path) == ['out']
@@ -52,10 +63,10 @@ def test_replacing_swaps_two_folders(tmp_path, monkeypatch, swaps):
 
 
 @pytest.mark.parametrize('error', [KeyboardInterrupt, RuntimeError, SystemExit])
-def test_nothing_is_left_where_writing_breaks_off(friction, tmp_path, monkeypatch, error):
+def test_nothing_is_left_where_writing_breaks_off(friction, written, tmp_path, monkeypatch, error):
     trace, source, _ = friction
     target = tmp_path / 'deep' / 'report'
-    write_report(target, trace, source)
+    shutil.copytree(written, target)
     before = (target / 'report.json').read_bytes()
 
     def fail(*_):

@@ -85,6 +85,26 @@ def hold_pair(parameters, states, geometry, u1, u2, h, dt):
     S1.t = S2.t = start + h
 
 
+@jit
+def torque_at(parameters, states, geometry, q):
+    """Torque in N m of both muscles at the angle q, the pressures being what they are."""
+    G = geometry[0]
+    total = 0.0
+    for i in range(2):
+        P, S, sign = parameters[i][0], states[i][0], 1.0 - 2.0 * i
+        end = (G.x1 if i == 0 else G.x2) + sign * G.radius * q
+        total += sign * G.radius * law(P, S.p, end / P.l0_m)[0]
+    return total
+
+
+@jit
+def stiffness_now(parameters, states, geometry):
+    """Stiffness in N m/rad by a difference of torques."""
+    h, q = 1e-6, geometry[0].q
+    above = torque_at(parameters, states, geometry, q + h)
+    return -(above - torque_at(parameters, states, geometry, q - h)) / (2.0 * h)
+
+
 class TruthPair:
     """An antagonistic pair, stepped from two pressure commands; rad, N m, gauge Pa, s.
 
@@ -118,6 +138,7 @@ class TruthPair:
         self.dt, self.sensor = dt, sensor or Sensor()
         self._parameters = tuple(new_parameters() for _ in range(3))
         self._states = tuple(new_state() for _ in range(3))
+        self._first = element(self._states[0])
         self._geometry = blank('pair', PAIR, {})
         self.state = G = element(self._geometry)
         G.radius, G.hanging_at = radius, hanging_at
@@ -157,7 +178,7 @@ class TruthPair:
 
     def measure(self) -> float:
         """Return the sensor's reading now, rad. Each call draws new noise."""
-        return self.sensor.read(float(element(self._states[0]).t), self.angle)
+        return self.sensor.read(float(self._first.t), self.angle)
 
     @property
     def angle(self) -> float:
@@ -177,17 +198,7 @@ class TruthPair:
 
     def stiffness(self) -> float:
         """Stiffness in N m/rad that the muscles give the joint, by a difference of their pulls."""
-        h, G = 1e-6, self.state
-
-        def torque(q: float) -> float:
-            ends = G.x1 + G.radius * q, G.x2 - G.radius * q
-            total = 0.0
-            for sign, i, x in zip((1.0, -1.0), (0, 1), ends, strict=True):
-                P = element(self._parameters[i])
-                total += sign * G.radius * law(P, self.pressures[i], x / P.l0_m)[0]
-            return total
-
-        return -(torque(self.angle + h) - torque(self.angle - h)) / (2.0 * h)
+        return float(stiffness_now(self._parameters, self._states, self._geometry))
 
 
 def _give(P: Any, effects: Sequence[Effect]) -> None:

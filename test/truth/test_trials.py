@@ -121,7 +121,7 @@ def test_trials_cover_the_stated_ranges():
 
 @pytest.mark.parametrize('kind', KINDS + OUT_OF_LIBRARY)
 def test_what_a_trial_hides_can_be_seen(kind):
-    trial = blind_trial(kind, 7, rate=200.0, duration=45.0)
+    trial = blind_trial(kind, 7, rate=200.0, duration=24.0)
     recording = trial.recording
     assert trial.kinds == (kind,)
     assert trial.in_library == (kind in KINDS)

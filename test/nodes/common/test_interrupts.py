@@ -7,7 +7,7 @@ import sys
 
 import pytest
 
-pytestmark = pytest.mark.at_any_pace
+pytestmark = [pytest.mark.at_any_pace, pytest.mark.usefixtures('domain')]
 
 CLIENT = """
 import os, signal, sys

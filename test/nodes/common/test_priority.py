@@ -12,6 +12,8 @@ from diagnostic_msgs.msg import DiagnosticArray
 
 from support.harness import Program
 
+pytestmark = pytest.mark.at_any_pace
+
 PERMITTED = 'import os; os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(10))'
 
 

@@ -9,6 +9,8 @@ from std_msgs.msg import Float64
 
 from support.harness import Program
 
+pytestmark = pytest.mark.at_any_pace
+
 RELIABLE, BEST_EFFORT = ReliabilityPolicy.RELIABLE, ReliabilityPolicy.BEST_EFFORT
 OVERRIDE = 'qos_overrides./joint_states.subscription.reliability'
 

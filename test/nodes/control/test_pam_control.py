@@ -29,6 +29,7 @@ def watch(peer):
     return Watch(peer)
 
 
+@pytest.mark.at_any_pace
 def test_a_step_and_a_sine_are_followed_in_lockstep(watch):
     with Program('pam_sim', parameters=LOCKSTEP), Program('pam_control', parameters=FOLLOWING):
         begin = watch.begin()
@@ -91,6 +92,7 @@ def test_silence_of_the_joint_is_answered_safely(watch, action, pressure):
         assert watch.terms[before].position[TERMS.index('reference')] == pytest.approx(0.05)
 
 
+@pytest.mark.at_any_pace
 def test_bad_references_are_refused_with_the_range(watch):
     with Program('pam_sim', parameters=LOCKSTEP), Program('pam_control', parameters=FOLLOWING):
         begin = watch.begin()
@@ -114,6 +116,7 @@ def test_bad_references_are_refused_with_the_range(watch):
         assert all(math.isfinite(message.data) for message in watch.commands)
 
 
+@pytest.mark.at_any_pace
 def test_a_wrong_joint_name_is_named_and_nothing_is_commanded(watch):
     rig = Rig(watch.peer)
     with Program('pam_control', parameters={'joint_name': 'elbow'}) as control:
@@ -127,6 +130,7 @@ def test_a_wrong_joint_name_is_named_and_nothing_is_commanded(watch):
         assert not watch.commands
 
 
+@pytest.mark.at_any_pace
 def test_a_position_that_is_no_number_is_not_used(watch):
     rig = Rig(watch.peer)
     with Program('pam_control'):
@@ -158,6 +162,7 @@ def test_disabled_it_commands_nothing_and_enabled_it_holds_the_load_where_it_is(
         watch.falls_silent()
 
 
+@pytest.mark.at_any_pace
 def test_the_baseline_and_measured_velocity_control_as_well(watch):
     told = {**FOLLOWING, 'velocity_source': 'measured'}
     with Program('pam_sim', parameters=LOCKSTEP), Program('pam_control', parameters=told):
@@ -171,6 +176,7 @@ def test_the_baseline_and_measured_velocity_control_as_well(watch):
         assert abs(watch.latest('error')) < 2e-5
 
 
+@pytest.mark.at_any_pace
 def test_parameters_are_described_and_changed_or_refused_as_a_whole(watch):
     with Program('pam_sim', parameters=LOCKSTEP), Program('pam_control', parameters=FOLLOWING):
         watch.begin()
@@ -189,6 +195,8 @@ def test_parameters_are_described_and_changed_or_refused_as_a_whole(watch):
         assert abs(watch.latest('error')) < 1e-5
 
 
+@pytest.mark.at_any_pace
+@pytest.mark.usefixtures('domain')
 @pytest.mark.parametrize(
     ('arguments', 'named'),
     [

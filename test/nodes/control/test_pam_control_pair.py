@@ -46,6 +46,7 @@ def sine(joint, swing, end=8.0):
     return JointTrajectory(joint_names=[joint], points=points)
 
 
+@pytest.mark.at_any_pace
 def test_angle_and_stiffness_are_led_in_lockstep(watch):
     # A third more load than is declared, and a sensor with noise.
     rig = {**RIG, 'mass': 1.3, 'sensor.position_noise': 0.02 * DEGREE}
@@ -114,6 +115,7 @@ def test_silence_of_the_joint_is_answered_safely(watch, action):
         assert watch.terms[before].position[0] == pytest.approx(-0.2)
 
 
+@pytest.mark.at_any_pace
 def test_what_is_out_of_reach_is_refused_with_the_range(watch):
     with Program('pam_sim', parameters=RIG), Program('pam_control', parameters=FOLLOWING):
         begin = watch.begin()
@@ -160,6 +162,7 @@ def test_disabled_it_commands_nothing(watch):
         assert watch.begin() == pytest.approx(0.055)
 
 
+@pytest.mark.at_any_pace
 def test_parameters_change_while_it_runs_or_are_refused_as_a_whole(watch):
     with Program('pam_sim', parameters=RIG), Program('pam_control', parameters=FOLLOWING):
         watch.begin()
@@ -201,6 +204,7 @@ ONE_FILE = """
 """
 
 
+@pytest.mark.at_any_pace
 def test_one_file_is_for_both_programs(watch, tmp_path):
     file = tmp_path / 'elbow.yaml'
     file.write_text(ONE_FILE)
@@ -218,6 +222,7 @@ def test_one_file_is_for_both_programs(watch, tmp_path):
         assert 'extensor.initial.pressure is not known here' in warning
 
 
+@pytest.mark.at_any_pace
 def test_of_several_joints_each_has_a_controller(peer):
     shared = {
         'joint': 'antagonistic',
@@ -252,6 +257,8 @@ def test_of_several_joints_each_has_a_controller(peer):
         peer.until(are_there, 'both')
 
 
+@pytest.mark.at_any_pace
+@pytest.mark.usefixtures('domain')
 @pytest.mark.parametrize(
     ('arguments', 'named'),
     [

@@ -31,7 +31,9 @@ def states_of(position, stamp):
     return state, pressure
 
 
-@pytest.mark.parametrize('mode', ['lockstep', 'real_time'])
+@pytest.mark.parametrize(
+    'mode', [pytest.param('lockstep', marks=pytest.mark.at_any_pace), 'real_time']
+)
 def test_a_load_that_nobody_declared_stays_where_it_is(peer, mode):
     states = peer.collect(JointState, 'joint_states')
     terms = peer.collect(JointState, 'pam_control/state')
@@ -47,6 +49,7 @@ def test_a_load_that_nobody_declared_stays_where_it_is(peer, mode):
     assert term(terms[0], 'pressure') == pytest.approx(PRESSURE, rel=1e-6)
 
 
+@pytest.mark.at_any_pace
 def test_it_does_not_wait_for_ever_for_a_pressure_that_nobody_tells(peer):
     commands = peer.collect(Float64, 'pressure_command')
     with Program('pam_control', parameters={'pressure_wait': 0.2}):
@@ -62,6 +65,7 @@ def test_it_does_not_wait_for_ever_for_a_pressure_that_nobody_tells(peer):
 
 
 # A regulator that is known to give more than it is told is told less.
+@pytest.mark.at_any_pace
 @pytest.mark.parametrize('offset', [0.0, 10e3])
 def test_it_waits_for_the_pressure_and_begins_there(peer, offset):
     commands = peer.collect(Float64, 'pressure_command')
@@ -85,6 +89,7 @@ def test_it_waits_for_the_pressure_and_begins_there(peer, offset):
     assert commands[0].data == pytest.approx(250e3 - offset, rel=1e-6)
 
 
+@pytest.mark.at_any_pace
 def test_in_lockstep_it_is_enabled_at_the_state_that_waits(peer):
     states = peer.collect(JointState, 'joint_states')
     terms = peer.collect(JointState, 'pam_control/state')

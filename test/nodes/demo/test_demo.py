@@ -11,6 +11,8 @@ from pathlib import Path
 import pytest
 from matplotlib.image import imread
 
+pytestmark = pytest.mark.usefixtures('domain')
+
 DEMO = [sys.executable, '-m', 'pam_ros.cli.pam_demo']
 
 
@@ -49,6 +51,7 @@ def test_the_papers_experiment_over_topics(tmp_path):
     assert 'released at 600 kPa' in result.stderr  # its progress
 
 
+@pytest.mark.at_any_pace
 def test_an_unknown_chapter_is_refused_with_those_that_there_are(tmp_path):
     result = run_in(tmp_path, 'encore')
     assert result.returncode == 2

@@ -5,9 +5,11 @@
 import subprocess
 import sys
 
+import pytest
 from matplotlib.image import imread
 
 
+@pytest.mark.usefixtures('domain')
 def test_a_joint_is_led_by_angle_and_stiffness_over_topics(tmp_path):
     done = subprocess.run(
         [sys.executable, '-m', 'pam_ros.cli.pam_demo', 'joint', '--out', 'shown'],

@@ -5,9 +5,11 @@
 import subprocess
 import sys
 
+import pytest
 from matplotlib.image import imread
 
 
+@pytest.mark.usefixtures('domain')
 def test_a_load_is_led_over_topics(tmp_path):
     done = subprocess.run(
         [sys.executable, '-m', 'pam_ros.cli.pam_demo', 'position', '--out', 'shown'],

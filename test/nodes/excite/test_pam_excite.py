@@ -15,6 +15,8 @@ from pam_ros.excitation.programme import programme
 from pam_ros.excitation.settings import Excitation
 from support.harness import Program
 
+pytestmark = pytest.mark.usefixtures('domain')
+
 SHORT = {'duration': 30.0, 'countdown': 0.0}
 LONGEST = 0.1  # s without a command for which the pressure may change at once
 PATIENT = {**SHORT, 'silence': 30.0}  # a busy machine may keep the rig of the test quiet
@@ -102,6 +104,7 @@ def test_it_plays_the_programme_to_its_end(rig):
     assert output.index('total') < output.index(' s  vented')
 
 
+@pytest.mark.at_any_pace
 def test_the_plan_alone(peer, tmp_path):
     commands = peer.collect(Float64, 'pressure_command')
     file = tmp_path / 'plan.csv'
@@ -120,6 +123,7 @@ def test_the_plan_alone(peer, tmp_path):
     assert commands == []
 
 
+@pytest.mark.at_any_pace
 def test_the_muscle_narrows_the_limits_and_a_window_too_narrow_is_warned_of():
     values = {'muscle': 'dmsp_10', 'contraction_max': 0.1}
     with excite(values, '--dry-run') as program:
@@ -163,6 +167,7 @@ def test_a_signal_vents(rig, kind):
     check_vented(rig.commands)
 
 
+@pytest.mark.at_any_pace
 def test_a_signal_before_it_plays(peer):
     with excite() as program:
         peer.until(lambda: 'total' in program.output, 'the plan')
@@ -170,6 +175,7 @@ def test_a_signal_before_it_plays(peer):
         assert program.wait() == 0
 
 
+@pytest.mark.at_any_pace
 def test_without_a_rig_it_gives_up():
     with excite({**SHORT, 'patience': 0.1}) as program:
         assert program.wait() == 1
@@ -179,12 +185,14 @@ def test_without_a_rig_it_gives_up():
         )
 
 
+@pytest.mark.at_any_pace
 def test_without_a_clock_it_gives_up():
     with excite({**SHORT, 'patience': 0.1, 'use_sim_time': 'true'}) as program:
         assert program.wait() == 1
         assert 'use_sim_time is set and /clock is silent' in program.output
 
 
+@pytest.mark.at_any_pace
 def test_another_commander_is_named(rig, peer):
     rival = peer.node.create_publisher(Float64, 'pressure_command', 10)
     with excite({**PATIENT, 'countdown': 30.0}) as program:
@@ -194,6 +202,7 @@ def test_another_commander_is_named(rig, peer):
     peer.node.destroy_publisher(rival)
 
 
+@pytest.mark.at_any_pace
 def test_of_several_joints_one_must_be_chosen(rig):
     rig.names = ['base', 'elbow']
     with excite() as program:
@@ -209,6 +218,7 @@ def test_of_several_joints_one_must_be_chosen(rig):
         rig.until_pressed()
 
 
+@pytest.mark.at_any_pace
 def test_a_joint_outside_its_window_is_not_started(rig):
     rig.position = 0.2
     with excite() as program:
@@ -218,6 +228,7 @@ def test_a_joint_outside_its_window_is_not_started(rig):
     assert rig.commands == []
 
 
+@pytest.mark.at_any_pace
 def test_nothing_can_be_changed_while_it_plays(rig, peer):
     with excite({**PATIENT, 'countdown': 60.0}):
         rig.until(lambda: True, 'the rig')
@@ -228,6 +239,7 @@ def test_nothing_can_be_changed_while_it_plays(rig, peer):
         assert 'Pa/s' in described.description
 
 
+@pytest.mark.at_any_pace
 @pytest.mark.parametrize(
     ('parameters', 'named'),
     [
@@ -247,6 +259,7 @@ def test_bad_parameters_end_it_with_a_sentence(parameters, named):
         assert 'Traceback' not in program.output
 
 
+@pytest.mark.at_any_pace
 def test_a_csv_that_cannot_be_written(tmp_path):
     with excite(SHORT, '--csv', str(tmp_path / 'nowhere' / 'plan.csv')) as program:
         assert program.wait() == 2

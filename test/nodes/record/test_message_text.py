@@ -7,8 +7,6 @@ from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
 from pam_ros.nodes.record.message_text import message_text
 
-pytestmark = pytest.mark.at_any_pace
-
 STORE = get_typestore(Stores.ROS2_JAZZY)
 
 

@@ -17,6 +17,8 @@ from std_msgs.msg import Float64, String
 from support.bags import contents
 from support.harness import DEADLINE, Program
 
+pytestmark = pytest.mark.usefixtures('domain')
+
 DEEP = QoSProfile(depth=20_000)  # so that the publisher of the test drops nothing either
 
 
@@ -86,6 +88,7 @@ def test_all_messages_of_a_rig_are_in_the_bag(peer, tmp_path, kind):
         assert stamp >= sent
 
 
+@pytest.mark.at_any_pace
 def test_what_is_recorded_describes_itself(peer, tmp_path):
     """The reader checks the definitions in the bag against the hashes of the types."""
     bag = tmp_path / 'rig'
@@ -105,6 +108,7 @@ def test_what_is_recorded_describes_itself(peer, tmp_path):
         assert (profile.deadline.sec, profile.deadline.nsec) == (9223372036, 854775807)
 
 
+@pytest.mark.at_any_pace
 def test_topics_that_come_late_and_topics_that_are_named(peer, tmp_path):
     bag = tmp_path / 'rig'
     with recorder(bag, 'notes', '/other/level', 'silent') as program:
@@ -126,6 +130,7 @@ def test_topics_that_come_late_and_topics_that_are_named(peer, tmp_path):
     assert found['/notes'][0][1].data == 'now it creaks'
 
 
+@pytest.mark.at_any_pace
 def test_a_rig_in_a_namespace_and_remapped(peer, tmp_path):
     bag = tmp_path / 'rig'
     arguments = ('-r', '__ns:=/left', '-r', 'force:=cell')
@@ -136,6 +141,7 @@ def test_a_rig_in_a_namespace_and_remapped(peer, tmp_path):
     assert sorted(contents(bag)) == ['/left/cell']
 
 
+@pytest.mark.at_any_pace
 @pytest.mark.parametrize('reliability', list(ReliabilityPolicy)[1:3])
 @pytest.mark.parametrize(
     'durability', [DurabilityPolicy.VOLATILE, DurabilityPolicy.TRANSIENT_LOCAL]
@@ -149,6 +155,7 @@ def test_publishers_of_every_quality_are_heard(peer, tmp_path, reliability, dura
     assert contents(bag)['/force'][0][1].data == 3.0
 
 
+@pytest.mark.at_any_pace
 def test_what_was_published_before_is_there_where_the_publisher_keeps_it(peer, tmp_path):
     bag = tmp_path / 'rig'
     qos = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
@@ -179,6 +186,7 @@ def test_a_recorder_that_is_killed_leaves_a_whole_bag(peer, tmp_path):
         assert len(numbers) >= on_disk
 
 
+@pytest.mark.at_any_pace
 def test_where_time_is_simulated_it_is_what_is_recorded(peer, tmp_path):
     bag = tmp_path / 'rig'
     with Program('pam_record', '-p', 'use_sim_time:=true', '--', '-o', str(bag)):
@@ -200,6 +208,7 @@ def test_where_time_is_simulated_it_is_what_is_recorded(peer, tmp_path):
     assert set(stamps) <= {0, 5 * 10**9}
 
 
+@pytest.mark.at_any_pace
 def test_a_directory_that_exists_is_left_alone(tmp_path):
     (tmp_path / 'rig').mkdir()
     with recorder(tmp_path / 'rig') as program:
@@ -210,6 +219,7 @@ def test_a_directory_that_exists_is_left_alone(tmp_path):
     assert list((tmp_path / 'rig').iterdir()) == []
 
 
+@pytest.mark.at_any_pace
 @pytest.mark.parametrize('arguments', [['--nonsense'], ['two words'], ['1st']])
 def test_bad_arguments_end_it_with_a_sentence(tmp_path, arguments):
     with recorder(tmp_path / 'rig', *arguments) as program:

@@ -108,6 +108,7 @@ def test_a_bad_command_does_not_count_as_a_sign_of_life(watch):
         watch.peer.until(vents_while_told_nonsense, 'venting')
 
 
+@pytest.mark.at_any_pace
 def test_a_lower_limit_lowers_the_pressure_in_force(watch):
     with Program('pam_sim', parameters={'command_timeout': 0.0}):
         watch.command(5e5)
@@ -116,6 +117,7 @@ def test_a_lower_limit_lowers_the_pressure_in_force(watch):
         watch.pressure_becomes(4.5e5)
 
 
+@pytest.mark.at_any_pace
 def test_a_lost_load_is_told_and_never_published(watch):
     given = {'initial.at_rest': False, 'initial.velocity': -100.0}  # no muscle holds that
     with Program('pam_sim', parameters=given) as sim:
@@ -131,6 +133,7 @@ def test_a_lost_load_is_told_and_never_published(watch):
     assert all(abs(m.position[0]) < 0.4 for m in watch.states)
 
 
+@pytest.mark.at_any_pace
 def test_the_initial_pressure_stands_until_a_first_command(watch):
     given = {'initial.pressure': 250e3, 'command_timeout': 0.05}
     with Program('pam_sim', parameters=given):

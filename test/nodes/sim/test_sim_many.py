@@ -19,7 +19,7 @@ from pam_ros.rig.model import Load, RigModel
 from pam_ros.rig.rig import Rig
 from support.harness import Program
 
-pytestmark = pytest.mark.at_any_pace
+pytestmark = [pytest.mark.at_any_pace, pytest.mark.usefixtures('domain')]
 
 AMBIENT = 101325.0
 PERIODS = 60

@@ -16,7 +16,7 @@ NODE = '/pam_sim'
 
 
 @pytest.fixture(scope='module')
-def sim():
+def sim(module_domain):
     """Return a peer of one simulator that all tests here share; each leaves it as it was."""
     with Peer() as peer, Program('pam_sim'):
         yield peer

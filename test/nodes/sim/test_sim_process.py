@@ -13,6 +13,8 @@ from std_srvs.srv import Trigger
 
 from support.harness import Program, has_loaded
 
+pytestmark = [pytest.mark.at_any_pace, pytest.mark.usefixtures('domain')]
+
 
 @pytest.mark.parametrize(
     ('kind', 'times'), [(signal.SIGINT, 1), (signal.SIGINT, 3), (signal.SIGTERM, 1)]

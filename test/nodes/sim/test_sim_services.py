@@ -5,6 +5,7 @@
 from itertools import groupby
 
 import numpy as np
+import pytest
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64
 from std_srvs.srv import SetBool, Trigger
@@ -50,6 +51,7 @@ def test_reset_repeats_the_run_to_the_bit_and_time_goes_on(peer):
     assert all(np.diff(stamps) > 0)
 
 
+@pytest.mark.at_any_pace
 def test_reset_goes_to_the_initial_state_of_now(peer):
     states = peer.collect(JointState, 'joint_states')
     with Program('pam_sim', parameters=RELEASED):

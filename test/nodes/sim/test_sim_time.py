@@ -220,6 +220,7 @@ def test_others_follow_its_clock(peer):
         assert {stamp(m) for m in follower[count:]} <= {end, stamp(follower[count - 1])}
 
 
+@pytest.mark.at_any_pace
 def test_a_command_acts_at_any_speed(peer):
     states = peer.collect(JointState, 'joint_states')
     with Program('pam_sim', parameters={**SCALED, 'speed_factor': 0.0}):
