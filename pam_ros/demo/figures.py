@@ -67,7 +67,7 @@ def figure_6(run: PublishedRun, model: Joint) -> Figure:
     """Draw acceleration, velocity and spring force of the released load over time."""
     load = model.load
     panels = (
-        ('acceleration [m/s²]', run.acceleration(load), 0.0),
+        ('acceleration [m/s²]', run.acceleration(model), 0.0),
         ('velocity [m/s]', run.velocity, 0.0),
         ('spring force F_spring [N]', run.force, float(statics.weight(model, 0.0))),
     )

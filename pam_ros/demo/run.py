@@ -7,7 +7,8 @@ from dataclasses import dataclass, fields
 import numpy as np
 from numpy.typing import NDArray
 
-from pam_ros.rig.loads import Mass
+from pam_ros.rig import statics
+from pam_ros.rig.joint import Joint
 
 Array = NDArray[np.float64]
 
@@ -33,7 +34,8 @@ class PublishedRun:
         inside = (self.t >= begin) & (self.t < end)
         return PublishedRun(*(getattr(self, item.name)[inside] for item in fields(self)))
 
-    def acceleration(self, load: Mass) -> Array:
+    def acceleration(self, joint: Joint) -> Array:
         """Return y'' in m/s^2 by equation (3) from what was published."""
         pull = self.force - self.damping * self.velocity
-        return np.asarray(pull / load.mass - load.gravity)
+        weight = float(statics.weight(joint, 0.0))
+        return np.asarray((pull - weight) / joint.inertia)
