@@ -19,6 +19,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / 'test'))
 
 from pam_ros.control.pair_gains import PairGains
 from pam_ros.control.pair_law import PairLaw
+
 from support.pair_loop import LAG, close_pair, declared
 from truth.pair import pair_plant
 

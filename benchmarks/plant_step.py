@@ -20,8 +20,7 @@ from pathlib import Path
 import numpy as np
 
 from pam_ros.compiled import HAVE_NUMBA
-from pam_ros.rig import layout as at
-from pam_ros.rig.model import RigModel
+from pam_ros.rig.joint import one_muscle
 from pam_ros.rig.rig import Rig
 
 STEPS = 100_000
@@ -65,7 +64,9 @@ def plain_c(folder: str, compiler: str) -> Callable[[], float]:
     pointer = ctypes.POINTER(ctypes.c_double)
     advance.argtypes = [pointer, pointer, ctypes.c_double, ctypes.c_long, ctypes.c_double]
     advance.restype = None
-    constants = RigModel().row()[: at.EFFECTS_FROM].copy()
+    joint = one_muscle()
+    muscle, load = joint.muscle, joint.load
+    constants = np.array([*muscle.si, muscle.zeta, muscle.l0, load.mass, *load.numbers])
 
     def run() -> float:
         state = np.zeros(2)
@@ -78,7 +79,7 @@ def plain_c(folder: str, compiler: str) -> Callable[[], float]:
 
 def rig(effects: dict[str, dict[str, float]]) -> Callable[[], float]:
     """Return this package's rig as a node steps it."""
-    plant = Rig([RigModel(effects=effects)], STEP)
+    plant = Rig([one_muscle(effects=effects)], STEP)
 
     def run() -> float:
         plant.reset([PRESSURE], [0.0], [0.0])

@@ -29,7 +29,8 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / 'test'))
 from pam_ros.identification.finder import trace
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.recording.recording import Recording
-from pam_ros.rig.model import Load, RigModel
+from pam_ros.rig.joint import Joint, one_muscle
+from pam_ros.rig.loads import Mass
 from truth import KINDS, NOISE_ONLY, OUT_OF_LIBRARY, PAIRS, Trial, blind_trial
 
 TARGETS = {
@@ -42,13 +43,13 @@ TARGETS = {
 }
 
 
-def declared_model(trial: Trial) -> RigModel:
+def declared_model(trial: Trial) -> Joint:
     """Return what the user of the trial believes."""
     d = trial.declared
     muscle = Muscle(
         *d.constants_si, pressure_unit='Pa', contraction_unit='fraction', zeta=d.zeta, l0=d.l0
     )
-    return RigModel(muscle, Load(mass=d.mass))
+    return one_muscle(muscle, Mass(mass=d.mass))
 
 
 def recording_of(trial: Trial) -> Recording:

@@ -20,8 +20,7 @@ from pam_ros.identification.admission import (
 )
 from pam_ros.identification.evidence import Evidence
 from pam_ros.identification.noise import Noise
-from pam_ros.identification.unknowns import Unknown
-from support.equations import least_squares_fit, missing
+from support.equations import least_squares_fit, missing, unknown
 
 KNOWN = {e.name: e for e in EFFECTS}
 CLEAR = Evidence(p=1e-9, gain=0.5, interval_clear=True, absorbed=False)
@@ -115,7 +114,7 @@ def test_near_the_noise_only_odd_parameters_ask_for_more():
     near, far = fit_of(0.1, 'creep'), fit_of(0.2, 'creep')
     assert not could_matter(near, retuned, quiet)
     assert could_matter(far, retuned, quiet)
-    odd = replace(near.solution.problem, unknowns=(Unknown('a1', 0, 0.0, 1.0, prior=0.01),))
+    odd = replace(near.solution.problem, unknowns=(unknown('a1', 0.0, 1.0, prior=0.01),))
     assert could_matter(
         replace(near, solution=replace(near.solution, problem=odd)), retuned, quiet
     )
@@ -124,9 +123,9 @@ def test_near_the_noise_only_odd_parameters_ask_for_more():
 def test_strain_is_that_of_the_declared_parameters_alone():
     columns = np.eye(3)
     unknowns = [
-        Unknown('a1', 0, 0.0, 1.0, prior=0.5),
-        Unknown('x', 1, 0.0, 1.0),
-        Unknown('y0[0]', -1, 0.0, 1.0, prior=0.1, segment=0),
+        unknown('a1', 0.0, 1.0, prior=0.5),
+        unknown('x', 0.0, 1.0),
+        unknown('y0[0]', 0.0, 1.0, prior=0.1, run=0),
     ]
     fit = least_squares_fit(columns, np.array([1.5, 7.0, 2.0]), unknowns, 3.0)
     assert strain(fit) == pytest.approx(9.0)
@@ -136,7 +135,7 @@ def test_strain_is_that_of_the_declared_parameters_alone():
     ('name', 'counts'), [('payload', False), ('creep', True), ('periodic_disturbance', True)]
 )
 def test_a_payload_that_needs_odd_parameters_does_not_count(name, counts):
-    prior = (Unknown('a1', 0, 0.0, 1.0, prior=1.0),)
+    prior = (unknown('a1', 0.0, 1.0, prior=1.0),)
     parent, fit = fit_of(1.0, 'leak'), fit_of(0.1, 'leak', name)
     odd = replace(fit.solution, u=np.array([4.0]))
     odd = replace(odd, problem=replace(odd.problem, unknowns=prior))

@@ -22,9 +22,8 @@ from pam_ros.identification.noise import noise_of
 from pam_ros.identification.retuning import problem_of
 from pam_ros.identification.segment import segments_of
 from pam_ros.identification.solve import solve
-from pam_ros.identification.unknowns import Unknown
 from support import bench_truth
-from support.equations import equation
+from support.equations import equation, unknown
 from truth import effect
 
 pytestmark = pytest.mark.needs_numba
@@ -82,13 +81,12 @@ def test_an_effect_has_the_values_of_its_start_and_else_its_defaults(parent):
     start = {'level': 5.0, 'breakaway': 8.0, 'stribeck_speed': 0.02}
     problem, added = extended(parent.solution.problem, MODEL, friction, start)
     row = problem.row_at(np.concatenate([parent.solution.u, added]))
-    j = MODEL.layout.parameter_at['coulomb_friction']
     for k, p in enumerate(friction.parameters):
-        assert row[j + k] == pytest.approx(start.get(p.name, p.default))
+        assert row[MODEL.layout.index(friction, k)] == pytest.approx(start.get(p.name, p.default))
     names = [unknown.name.rsplit('.', 1)[-1] for unknown in problem.unknowns[-3:]]
     assert set(names) == set(start)
     # The parent's own problem stays as it was.
-    assert parent.solution.problem.row[j] == 0.0
+    assert parent.solution.problem.row[MODEL.layout.index(friction)] == 0.0
 
 
 def test_nothing_is_released_where_everything_moves_already(parent):
@@ -112,10 +110,10 @@ def test_finer_parameters_must_earn_their_cost(parent):
 
 def test_a_score_is_schwarzs():
     unknowns = [
-        Unknown('a1', 0, 0.0, 1.0, prior=1.0),  # expected beforehand: costs by its prior
-        Unknown('x', 1, 0.0, 1.0),
-        Unknown('y', 2, 0.0, 1.0),
-        Unknown('y0[0]', -1, 0.0, 1.0, segment=0),  # a start state, the same in all models
+        unknown('a1', 0.0, 1.0, prior=1.0),  # expected beforehand: costs by its prior
+        unknown('x', 0.0, 1.0),
+        unknown('y', 0.0, 1.0),
+        unknown('y0[0]', 0.0, 1.0, run=0),  # a start state, the same in all models
     ]
     problem = equation(lambda u: np.array([1.0, 2.0, 2.0]) + 0.0 * u[0], unknowns, 50.0)
     u = np.array([2.0, 0.0, 0.0, 0.0])

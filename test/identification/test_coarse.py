@@ -13,7 +13,9 @@ from pam_ros.identification.retuning import problem_of
 from pam_ros.identification.segment import segments_of
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.recording.recording import Recording
-from pam_ros.rig.model import Load, RigModel
+from pam_ros.rig.joint import one_muscle
+from pam_ros.rig.loads import Mass
+from pam_ros.rig.rest import rest
 
 STEP = 6e-3
 
@@ -147,12 +149,12 @@ def test_a_held_run_keeps_every_sample_up_to_a_number():
 
 
 def test_the_step_turns_the_rigs_fastest_swing_by_a_set_angle():
-    model = RigModel(Muscle(), Load(mass=10.0))
+    model = one_muscle(Muscle(), Mass(mass=10.0))
     # Stiffness of Sarosi's law by hand, p in bar and kappa in percent: -dF/dkappa / l0 in N/m.
     k = []
     for p in (0.0, 6.0):
-        rest = 100.0 * model.rest(p * 1e5) / 0.4
-        slope = (-4.35573 * p + 281.2237) * -0.32866 * np.exp(-0.32866 * rest) - 9.27035 * p
+        percent = 100.0 * rest(model, p * 1e5) / 0.4
+        slope = (-4.35573 * p + 281.2237) * -0.32866 * np.exp(-0.32866 * percent) - 9.27035 * p
         k.append(-100.0 * slope / 0.4)
     expected = PHASE / np.sqrt(max(k) / 10.0)
     assert STEPS[0] < expected < STEPS[1]
@@ -160,19 +162,19 @@ def test_the_step_turns_the_rigs_fastest_swing_by_a_set_angle():
 
 
 def test_the_step_stays_between_its_limits():
-    heavy = RigModel(Muscle(), Load(mass=40.0, mount='horizontal'))
+    heavy = one_muscle(Muscle(), Mass(mass=40.0, mount='horizontal'))
     assert STEPS[0] <= coarse_step(heavy) <= STEPS[1]
     source = Muscle(a1=0.0, a2=0.0, a4=0.0, zeta=0.0)
-    assert coarse_step(RigModel(source, Load(mass=5.0, mount='horizontal'))) == STEPS[1]
+    assert coarse_step(one_muscle(source, Mass(mass=5.0, mount='horizontal'))) == STEPS[1]
 
 
 @pytest.mark.needs_numba
 def test_a_thinned_run_moves_like_the_full_one():
-    model = RigModel(Muscle(), Load(mass=20.0))
+    model = one_muscle(Muscle(), Mass(mass=20.0))
     rng = np.random.default_rng(0)
     t = np.arange(20_000) * 1e-3
     command = wave(t) + 1e4 * np.sin(2 * np.pi * 4.0 * t) + 4e4 * (uneven(rng, t.size) // 1.7 % 2)
-    segment = recorded(t, t, command, np.full(t.size, model.rest(command[0])))
+    segment = recorded(t, t, command, np.full(t.size, rest(model, command[0])))
     thin = thinned(segment, coarse_step(model))
     stride = round(thin.t[1] / t[1])
     assert stride >= 5

@@ -43,7 +43,7 @@ def as_declared(*recordings):
 
 def level_of(fit):
     """Return what the declared muscle is off by: its weight stands in a6."""
-    return float(bench_truth.declared().row()[5] - constants_si('dmsp_20_400n')[5])
+    return float(bench_truth.declared().muscle.si[5] - constants_si('dmsp_20_400n')[5])
 
 
 def test_runs_of_one_length_that_drift_count_by_how_late_they_are():

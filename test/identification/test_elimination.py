@@ -94,8 +94,8 @@ def test_what_is_contained_begins_where_the_other_has_it(setting):
     assert fit.effects == ('viscous_friction', 'pressure_lag')
     assert fit.held_error < 1.02 * both.held_error
     row = fit.solution.problem.row_at(fit.solution.u)
-    assert row[MODEL.layout.parameter_at['leak']] == 0.0
-    at_lag = MODEL.layout.parameter_at['pressure_lag']
+    assert row[MODEL.layout.index(KNOWN['leak'])] == 0.0
+    at_lag = MODEL.layout.index(KNOWN['pressure_lag'])
     there = effect('pressure_lag').values
     np.testing.assert_allclose(
         row[at_lag : at_lag + 2], [there['fill_s'], there['vent_s']], rtol=0.05

@@ -13,8 +13,7 @@ from pam_ros.effects import EFFECTS
 from pam_ros.identification import evidence
 from pam_ros.identification.candidate import Fit
 from pam_ros.identification.solve import Solution
-from pam_ros.identification.unknowns import Unknown
-from support.equations import coloured, equation, least_squares_fit, missing
+from support.equations import coloured, equation, least_squares_fit, missing, unknown
 
 N = 4000
 T = np.linspace(0.0, 1.0, N)
@@ -155,7 +154,7 @@ def stop_fit(size):
     def residuals(u):
         return noise + miss * np.exp(-(u[0] / 2.0))
 
-    problem = equation(residuals, [Unknown(name, 0, 0.0, 1.0)], float(N))
+    problem = equation(residuals, [unknown(name, 0.0, 1.0)], float(N))
     u = np.array([size])
     r = residuals(u)
     columns = ((residuals(u + 1e-3) - r) / 1e-3)[:, None]

@@ -17,9 +17,8 @@ from pam_ros.identification.noise import Noise, noise_of
 from pam_ros.identification.search import Search, search
 from pam_ros.identification.segment import segments_of
 from pam_ros.identification.solve import solve
-from pam_ros.identification.unknowns import Unknown
 from support import bench_truth
-from support.equations import Equation, equation
+from support.equations import Equation, equation, unknown
 from support.rounds import retuned, setting_of, with_effect_starts
 from truth import effect
 
@@ -75,7 +74,7 @@ def test_finer_parameters_that_earn_nothing_in_full_are_dropped():
 
 def test_a_final_fit_begins_where_a_strength_still_matters():
     """Of a stop that is stiff beyond measure no derivative says that it should be softer."""
-    stiffness = Unknown('effects.end_stop.stiffness', 0, 0.0, 1.0, 0.0, 1e4)
+    stiffness = unknown('effects.end_stop.stiffness', 0.0, 1.0, 0.0, 1e4)
     known = equation(lambda u: RAMP * (np.tanh(u[0]) - 0.5) + FLAW, [stiffness], 50.0)
     problem = replace(known, active=(end_stop.EFFECT,))
     quiet = Noise(1e-6, 0.0)
@@ -100,7 +99,7 @@ class TwoValleys(Equation):
 
 @pytest.mark.parametrize(('keep_back', 'valley'), [(True, 1.0), (False, 0.1)])
 def test_of_two_ends_the_one_is_taken_that_carries_over(keep_back, valley):
-    strength = Unknown('effects.end_stop.stiffness', 0, 0.0, 1.0, 0.0, 1e4)
+    strength = unknown('effects.end_stop.stiffness', 0.0, 1.0, 0.0, 1e4)
     plain = equation(None, [strength], 50.0)
     values = {f.name: getattr(plain, f.name) for f in fields(plain) if f.init}
     segments = segments_of([bench_truth.free(duration=10.0)], keep_back=keep_back)

@@ -12,20 +12,22 @@ from scipy.special import pseudo_huber
 
 from pam_ros.identification.problem import Problem
 from pam_ros.identification.segment import segments_of
-from pam_ros.identification.unknowns import SPECIMEN, Unknown, declared_unknowns, run_unknowns
+from pam_ros.identification.unknowns import SPECIMEN, declared_unknowns, run_unknowns
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.recording.recording import Recording
 from pam_ros.rig import layout as at
-from pam_ros.rig.model import Load, RigModel
-from support.equations import equation
+from pam_ros.rig.joint import one_muscle
+from pam_ros.rig.loads import Mass
+from pam_ros.rig.rest import rest
+from support.equations import equation, unknown
 
-MUSCLE = RigModel(Muscle(), Load(mass=20.0))
+MUSCLE = one_muscle(Muscle(), Mass(mass=20.0))
 # A force source of 0.01 N/Pa moves 5 kg on a rail: its motion is a parabola.
 GAIN, MASS = 0.01, 5.0
-SOURCE = RigModel(
+SOURCE = one_muscle(
     Muscle(a1=0.0, a2=0.0, a3=0.0, a4=0.0, a5=GAIN, a6=0.0, zeta=0.0, pressure_unit='Pa',
            contraction_unit='fraction', l0=1.0),
-    Load(mass=MASS, mount='horizontal'),
+    Mass(mass=MASS, mount='horizontal'),
 )  # fmt: skip
 PRESSURE = 100.0  # Pa: 0.2 m/s^2
 
@@ -34,7 +36,14 @@ def problem_of(model, segments, outlier=np.inf):
     unknowns = (*declared_unknowns(model), *run_unknowns(segments, np.inf))
     samples = float(sum(s.fit.sum() for s in segments))
     return Problem(
-        tuple(segments), model.layout, model.active, model.row(), unknowns, samples, 1e-3, outlier
+        tuple(segments),
+        model.layout,
+        model.active,
+        model.parameters().ravel(),
+        unknowns,
+        samples,
+        1e-3,
+        outlier,
     )
 
 
@@ -115,14 +124,14 @@ def test_jacobian_of_the_force_law_in_closed_form():
     u = np.zeros(len(problem.unknowns))
     p = np.concatenate([s.pressure[s.fit] for s in segments])
     kappa = np.concatenate([s.position[s.fit] / 0.4 for s in segments])
-    a1, a2, a3, a4, a5, a6 = (problem.row[k] for k in (at.A1, at.A2, at.A3, at.A4, at.A5, at.A6))
+    a1, a2, a3, a4, a5, a6 = MUSCLE.muscle.si
     e = np.exp(a3 * kappa)
     force = (a1 * p + a2) * e + a4 * kappa * p + a5 * p + a6
     np.testing.assert_allclose(problem.residuals(u), force - 300.0, rtol=1e-12)
     derivatives = [p * e, e, (a1 * p + a2) * kappa * e, kappa * p, p, np.ones_like(p), 0.0 * p]
     found = problem.jacobian(u, problem.residuals(u))
-    for k, (unknown, derivative) in enumerate(zip(problem.unknowns, derivatives, strict=True)):
-        scale = 0.0 if unknown.name == 'zeta' else unknown.scale
+    for k, (one, derivative) in enumerate(zip(problem.unknowns, derivatives, strict=True)):
+        scale = 0.0 if one.name == 'zeta' else one.scale
         np.testing.assert_allclose(found[:, k], scale * derivative, rtol=2e-3, atol=1e-6)
 
 
@@ -130,7 +139,7 @@ def test_jacobian_of_the_force_law_in_closed_form():
 def test_jacobian_of_a_swinging_muscle_against_scipy():
     t = np.arange(400) / 100.0
     command = 3e5 + 5e4 * np.sin(2 * np.pi * 1.3 * t)
-    y = np.full(t.size, MUSCLE.rest(3e5))
+    y = np.full(t.size, rest(MUSCLE, 3e5))
     recording = Recording('m', t, t, command, y, None, None, None, 'free')
     problem = problem_of(MUSCLE, segments_of([recording], keep_back=True), outlier=5e-4)
     u = np.random.default_rng(3).uniform(-0.5, 0.5, len(problem.unknowns))
@@ -156,7 +165,7 @@ def test_a_column_never_leaves_its_bounds():
         seen.append(u[0])
         return np.array([u[0] ** 2, 1.0])
 
-    problem = equation(function, [Unknown('x', 0, 0.0, 1.0, -1.0, 2.0)], 2.0)
+    problem = equation(function, [unknown('x', 0.0, 1.0, -1.0, 2.0)], 2.0)
     for u in (-1.0, 2.0, 2.0 - 1e-4, 0.5):
         at_u = np.array([u])
         slope = problem.jacobian(at_u, problem.residuals(at_u))[0, 0]
@@ -168,10 +177,11 @@ def test_a_column_never_leaves_its_bounds():
 def test_the_row_holds_what_is_unknown_and_nothing_else_moves(two_runs):
     u = np.array([1.0, 5.0, 5.0, 5.0, 5.0])
     row = two_runs.row_at(u)
-    assert row[at.A5] == pytest.approx((1.0 + SPECIMEN) * GAIN)
-    others = np.arange(row.size) != at.A5
+    a5 = SOURCE.layout.constant(at.A5)
+    assert row[a5] == pytest.approx((1.0 + SPECIMEN) * GAIN)
+    others = np.arange(row.size) != a5
     np.testing.assert_array_equal(row[others], two_runs.row[others])
-    assert two_runs.row[at.A5] == GAIN
+    assert two_runs.row[a5] == GAIN
 
 
 def test_outliers_count_by_pseudo_hubers_loss(two_runs):
@@ -202,7 +212,7 @@ def test_errors_of_what_is_fitted_and_kept_back(two_runs):
 
 
 def test_cost_is_twice_the_negative_log_posterior():
-    unknowns = [Unknown('x', 0, 0.0, 1.0, prior=0.5), Unknown('y', 1, 0.0, 1.0)]
+    unknowns = [unknown('x', 0.0, 1.0, prior=0.5), unknown('y', 0.0, 1.0)]
     problem = equation(lambda u: np.array([3.0, 4.0, 0.0]) + 0.0 * u[0], unknowns, 10.0)
     u = np.array([1.0, 7.0])
     np.testing.assert_allclose(problem.priors(u), [2.0, 0.0])
@@ -211,7 +221,7 @@ def test_cost_is_twice_the_negative_log_posterior():
 
 def test_a_run_that_diverges_leaves_finite_residuals(two_runs):
     wild = replace(two_runs, row=two_runs.row.copy())
-    wild.row[at.A6] = 1e300
+    wild.row[SOURCE.layout.constant(at.A6)] = 1e300
     with np.errstate(all='ignore'):  # without numba, numpy says what overflows
         r = wild.residuals(np.zeros(5))
     assert np.all(np.isfinite(r))

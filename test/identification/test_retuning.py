@@ -29,7 +29,7 @@ def test_samples_that_were_thinned_are_less_alike():
         assert problem.independent == pytest.approx(fitted * (1 - rho) / (1 + rho))
     names = [unknown.name for unknown in problem.unknowns]
     assert names == ['a1', 'a2', 'a3', 'a4', 'a5', 'a6', 'zeta', 'y0[0]', 'v0[0]']
-    np.testing.assert_array_equal(problem.row, MODEL.row())
+    np.testing.assert_array_equal(problem.row, MODEL.parameters().ravel())
 
 
 @pytest.mark.needs_numba

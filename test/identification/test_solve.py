@@ -9,8 +9,7 @@ from hypothesis import strategies as st
 from scipy.optimize import least_squares
 
 from pam_ros.identification.solve import Solution, amplified_cost, improved, predicted_cost, solve
-from pam_ros.identification.unknowns import Unknown
-from support.equations import coloured, equation, linear
+from support.equations import coloured, equation, linear, unknown
 
 T = np.linspace(0.0, 5.0, 400)
 TRUTH = np.array([2.0, 0.8, 0.5])
@@ -31,7 +30,7 @@ def decaying(**changes):
     unknowns = []
     for name in 'abc':
         low, high, prior = changes.get(name, (-np.inf, np.inf, np.inf))
-        unknowns.append(Unknown(name, 0, 0.0, 1.0, low, high, prior))
+        unknowns.append(unknown(name, 0.0, 1.0, low, high, prior))
     return equation(lambda u: decay(u) - MEASURED, unknowns, float(T.size))
 
 
@@ -66,8 +65,8 @@ def test_ends_where_scipy_ends(changes, start):
     assert solution.cost == pytest.approx(least, abs=CLOSE)
     error = np.sqrt(np.diag(solution.covariance()))
     np.testing.assert_array_less(np.abs(solution.u - expected), 0.5 * error + 1e-12)
-    for unknown, u in zip(problem.unknowns, solution.u, strict=True):
-        assert unknown.bounds[0] <= u <= unknown.bounds[1]
+    for one, u in zip(problem.unknowns, solution.u, strict=True):
+        assert one.bounds[0] <= u <= one.bounds[1]
     np.testing.assert_array_equal(solution.r, problem.residuals(solution.u))
 
 
@@ -85,8 +84,7 @@ def test_never_ends_higher_than_it_began(seed, rugged):
     columns, values = rng.standard_normal((30, 4)), rng.standard_normal(30)
     waves = 3.0 * rng.standard_normal((30, 4)) if rugged else np.zeros((30, 4))
     unknowns = [
-        Unknown(str(k), 0, 0.0, 1.0, -1.0, 1.5, prior)
-        for k, prior in enumerate((1, 9, 0.1, np.inf))
+        unknown(str(k), 0.0, 1.0, -1.0, 1.5, prior) for k, prior in enumerate((1, 9, 0.1, np.inf))
     ]
     problem = equation(lambda u: columns @ u + waves @ np.sin(5.0 * u) - values, unknowns, 12.0)
     start = rng.uniform(-1.0, 1.5, 4)
@@ -175,7 +173,7 @@ def test_frozen_columns_are_not_computed_and_the_others_are():
 
 def line(values, prior=np.inf, independent=None):
     """Return the problem of a straight line through *values* over T."""
-    unknowns = [Unknown('level', 0, 0.0, 1.0, prior=prior), Unknown('slope', 0, 0.0, 1.0)]
+    unknowns = [unknown('level', 0.0, 1.0, prior=prior), unknown('slope', 0.0, 1.0)]
     columns = np.stack([np.ones_like(T), T], axis=1)
     return linear(columns, values, unknowns, independent or float(values.size)), columns
 

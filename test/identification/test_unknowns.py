@@ -13,9 +13,7 @@ from pam_ros.effects import EFFECTS
 from pam_ros.identification.segment import segments_of, start_of
 from pam_ros.identification.unknowns import (
     SPECIMEN,
-    START_V,
-    START_Y,
-    Unknown,
+    RunStart,
     declared_unknowns,
     effect_unknowns,
     run_unknowns,
@@ -23,59 +21,62 @@ from pam_ros.identification.unknowns import (
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.recording.recording import Recording
 from pam_ros.rig import layout as at
-from pam_ros.rig.model import Load, RigModel
+from pam_ros.rig.joint import one_muscle
+from pam_ros.rig.loads import Mass
+from support.equations import unknown
 
-RIG = RigModel(Muscle(), Load(mass=20.0))
+RIG = one_muscle(Muscle(), Mass(mass=20.0))
 
 
 @given(st.floats(-5.0, 5.0), st.booleans())
 def test_coordinate_undoes_value(u, logarithmic):
-    unknown = Unknown('x', 0, base=3.0, scale=0.7, logarithmic=logarithmic)
+    one = unknown('x', base=3.0, scale=0.7, logarithmic=logarithmic)
     expected = 3.0 * np.exp(0.7 * u) if logarithmic else 3.0 + 0.7 * u
-    assert unknown.value(u) == pytest.approx(expected, rel=1e-12)
-    assert unknown.coordinate(unknown.value(u)) == pytest.approx(u, abs=1e-9)
+    assert one.value(u) == pytest.approx(expected, rel=1e-12)
+    assert one.coordinate(one.value(u)) == pytest.approx(u, abs=1e-9)
 
 
 @given(st.floats(1e-9, 1e9), st.floats(1e-9, 1e9), st.booleans())
 def test_a_value_at_its_bound_is_not_past_it(base, span, logarithmic):
-    unknown = Unknown('x', 0, base, 0.3, base, base + span, logarithmic=logarithmic)
-    low, high = unknown.bounds
-    assert unknown.value(low) == unknown.low
-    assert unknown.value(high) <= unknown.high
-    assert unknown.value(high) == pytest.approx(unknown.high, rel=1e-9)
-    assert unknown.value(high + 1.0) == unknown.high
+    one = unknown('x', base, 0.3, base, base + span, logarithmic=logarithmic)
+    low, high = one.bounds
+    assert one.value(low) == one.low
+    assert one.value(high) <= one.high
+    assert one.value(high) == pytest.approx(one.high, rel=1e-9)
+    assert one.value(high + 1.0) == one.high
 
 
 def test_a_logarithm_has_no_bound_at_zero_or_infinity():
-    unknown = Unknown('x', 0, 2.0, 1.0, 0.0, np.inf, logarithmic=True)
-    assert unknown.bounds == (-np.inf, np.inf)
+    one = unknown('x', 2.0, 1.0, 0.0, np.inf, logarithmic=True)
+    assert one.bounds == (-np.inf, np.inf)
 
 
 def test_constants_and_damping_are_retuned_but_not_what_scale_and_rule_measure():
-    found = {unknown.name: unknown for unknown in declared_unknowns(RIG)}
+    found = {one.name: one for one in declared_unknowns(RIG)}
     assert list(found) == ['a1', 'a2', 'a3', 'a4', 'a5', 'a6', 'zeta']
-    q = RIG.row()
-    for unknown in found.values():
-        assert unknown.value(0.0) == q[unknown.index]
-        assert unknown.prior == 1.0
-    assert found['a2'].index == at.A2
-    assert found['zeta'].index == at.ZETA
+    q = RIG.parameters().ravel()
+    for one in found.values():
+        assert one.value(0.0) == q[one.of.index]
+        assert one.prior == 1.0
+        assert one.is_parameter
+    assert found['a2'].of.index == RIG.layout.constant(at.A2)
+    assert found['zeta'].of.index == RIG.layout.constant(at.ZETA)
     assert found['zeta'].bounds[0] == -np.inf
     # A specimen differs by some per cent; a1, a small correction of a5, by more.
     for name in ('a2', 'a3', 'a4', 'a5', 'a6'):
         assert found[name].scale == pytest.approx(SPECIMEN * abs(found[name].base))
-    a1, a5 = abs(q[at.A1]), abs(q[at.A5])
+    a1, a5 = abs(RIG.muscle.si[0]), abs(RIG.muscle.si[4])
     assert SPECIMEN * a1 < found['a1'].scale < 2.0 * a1
     assert found['a1'].scale < SPECIMEN * a5
     assert 0.01 <= SPECIMEN <= 0.1
 
 
 def test_what_is_zero_stays_zero():
-    drive = RigModel(
+    drive = one_muscle(
         Muscle(a1=0.0, a2=0.0, a4=0.0, a3=0.0, a6=0.0, zeta=0.0),
-        Load(mass=95.0, mount='horizontal'),
+        Mass(mass=95.0, mount='horizontal'),
     )
-    assert [unknown.name for unknown in declared_unknowns(drive)] == ['a5']
+    assert [one.name for one in declared_unknowns(drive)] == ['a5']
 
 
 def run(kind, keep=True):
@@ -87,12 +88,9 @@ def run(kind, keep=True):
 
 def test_each_free_run_has_its_own_start():
     found = run_unknowns([run('free'), run('free')], np.inf)
-    assert [(u.segment, u.index) for u in found] == [
-        (0, START_Y),
-        (0, START_V),
-        (1, START_Y),
-        (1, START_V),
-    ]
+    assert [u.of for u in found] == [RunStart(k, fast) for k in (0, 1) for fast in (False, True)]
+    assert [u.name for u in found] == ['y0[0]', 'v0[0]', 'y0[1]', 'v0[1]']
+    assert not any(u.is_parameter for u in found)
     assert [u.value(0.0) for u in found] == pytest.approx([0.01, 0.03, 0.01, 0.03], abs=1e-9)
     assert all(u.prior == np.inf for u in found)
 
@@ -121,16 +119,16 @@ def test_what_a_start_names_is_what_moves(effect):
     for start in effect.fit_starts:
         found = effect_unknowns(RIG, effect, start)
         assert {u.name for u in found} == {f'effects.{effect.name}.{name}' for name in start}
-        for unknown in found:
-            name = unknown.name.rsplit('.', 1)[1]
+        for one in found:
+            name = one.of.which.parameter
             p = effect.parameters[names.index(name)]
-            assert unknown.index == layout.parameter_at[effect.name] + names.index(name)
-            assert unknown.prior == np.inf
+            assert one.of.index == layout.index(effect, names.index(name))
+            assert one.prior == np.inf
             # The start lies within, and no value can leave what the simulator accepts.
-            u = unknown.coordinate(start[name])
-            assert unknown.bounds[0] <= u <= unknown.bounds[1]
-            assert unknown.value(u) == pytest.approx(start[name], rel=1e-12, abs=1e-15)
-            assert all(p.low <= unknown.value(bound) <= p.high for bound in unknown.bounds)
+            u = one.coordinate(start[name])
+            assert one.bounds[0] <= u <= one.bounds[1]
+            assert one.value(u) == pytest.approx(start[name], rel=1e-12, abs=1e-15)
+            assert all(p.low <= one.value(bound) <= p.high for bound in one.bounds)
             if p.strength:  # must be able to vanish
-                assert not unknown.logarithmic
-                assert unknown.low <= 0.0 <= unknown.high
+                assert not one.logarithmic
+                assert one.low <= 0.0 <= one.high

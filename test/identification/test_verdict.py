@@ -17,7 +17,7 @@ from pam_ros.identification.search import Search
 from pam_ros.identification.segment import segments_of
 from pam_ros.identification.structure import Structure
 from pam_ros.recording.recording import Recording
-from pam_ros.rig.model import RigModel
+from pam_ros.rig.joint import one_muscle
 from support.equations import coloured, missing
 
 FLOOR = 1e-5  # m
@@ -25,7 +25,7 @@ KNOWN = {effect.name: effect for effect in EFFECTS}
 
 
 def stage(name, held_error):
-    return Stage(name, RigModel(), {}, held_error, held_error, (), ())
+    return Stage(name, one_muscle(), {}, held_error, held_error, (), ())
 
 
 def answer(declared, retuned, augmented, ceiling=0.0, share=0.0, effects=(), candidates=()):

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from pam_ros.report.parameters import identified, write_identified
-from pam_ros.rig.model import RigModel
+from pam_ros.rig.joint import changed
 from pam_ros.rig.run import simulate, simulate_held
 from pam_ros.settings.files import load_rig
 
@@ -25,7 +25,7 @@ def test_loaded_again_it_is_the_same_rig(any_trace, tmp_path):
     assert model == identified(trace, source)
     last = trace.stages[-1].model
     assert replace(model.muscle, source=last.muscle.source) == last.muscle
-    assert np.array_equal(model.row(), last.row())
+    assert np.array_equal(model.parameters(), last.parameters())
 
 
 def test_it_simulates_as_the_last_stage_did_to_the_bit(any_trace, tmp_path):
@@ -41,18 +41,18 @@ def test_it_simulates_as_the_last_stage_did_to_the_bit(any_trace, tmp_path):
 
 def test_awkward_numbers_survive(friction, tmp_path):
     trace, source, _ = friction
-    model: RigModel = trace.stages[-1].model
-    odd = replace(
+    model = trace.stages[-1].model
+    odd = changed(
         model,
-        muscle=replace(model.muscle, a1=-4.1e-7, a5=302.00000000000006, a2=1e2 / 3.0),
-        effects={
+        replace(model.muscle, a1=-4.1e-7, a5=302.00000000000006, a2=1e2 / 3.0),
+        {
             'coulomb_friction': {'level': np.float64(1.0) / 3.0, 'presliding': 1e-5},
             'creep': {},
         },
     )
-    changed = replace(trace, stages=(*trace.stages[:2], replace(trace.stages[2], model=odd)))
-    again = reloaded((changed, source, None), tmp_path)
-    assert np.array_equal(again.row(), odd.row())
+    other = replace(trace, stages=(*trace.stages[:2], replace(trace.stages[2], model=odd)))
+    again = reloaded((other, source, None), tmp_path)
+    assert np.array_equal(again.parameters(), odd.parameters())
     assert 'creep' not in (tmp_path / 'identified.yaml').read_text(encoding='utf-8')
 
 

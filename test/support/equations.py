@@ -8,14 +8,27 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.signal import lfilter
 
-from pam_ros.effects import EFFECTS
+from pam_ros.effects.names import parsed
 from pam_ros.identification.candidate import Fit
 from pam_ros.identification.problem import Problem
 from pam_ros.identification.segment import segments_of
 from pam_ros.identification.solve import Solution
-from pam_ros.identification.unknowns import Unknown
+from pam_ros.identification.unknowns import Constant, OfEffect, RunStart, Unknown
 from pam_ros.recording.recording import Recording
-from pam_ros.rig.layout import layout_of
+from pam_ros.rig.joint import one_muscle
+
+LAYOUT = one_muscle().layout
+
+
+def unknown(name, base=0.0, scale=1.0, *numbers, index=0, run=None, **more):
+    """Return an unknown by its name; of the start of a *run*, where one is given."""
+    if run is not None:
+        of = RunStart(run, name.startswith('v'))
+    elif parsed(name):
+        of = OfEffect(parsed(name), index)
+    else:
+        of = Constant(name, index)
+    return Unknown(of, base, scale, *numbers, **more)
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,10 +47,9 @@ class Equation(Problem):
 
 def equation(function, unknowns, independent):
     """Return the problem of *unknowns*: Unknowns, or names of ones that nothing is known of."""
-    made = tuple(Unknown(one, 0, 0.0, 1.0) if isinstance(one, str) else one for one in unknowns)
-    layout = layout_of(EFFECTS)
-    row = np.zeros(layout.parameters)
-    return Equation((), layout, (), row, made, independent, function=function)
+    made = tuple(unknown(one) if isinstance(one, str) else one for one in unknowns)
+    row = np.zeros(LAYOUT.rows * LAYOUT.parameters)
+    return Equation((), LAYOUT, (), row, made, independent, function=function)
 
 
 def linear(columns, values, unknowns, independent):
@@ -60,7 +72,7 @@ class Missing(Problem):
 
     miss: np.ndarray = None
 
-    def predict(self, u, only=-1):
+    def predict(self, u, only=None):
         return [s.target + u[0] * self.miss for s in self.segments]
 
 
@@ -69,10 +81,8 @@ def missing(miss, size, effects=()):
     t = np.arange(miss.size) / 100.0
     recording = Recording('r', t, t, t, 0.0 * t, None, None, None, 'free')
     segments = segments_of([recording], keep_back=True)
-    layout = layout_of(EFFECTS)
-    row = np.zeros(layout.parameters)
-    unknown = Unknown('size', -1, 0.0, 1.0)
-    problem = Missing(segments, layout, (), row, (unknown,), float(miss.size), miss=miss)
+    row = np.zeros(LAYOUT.rows * LAYOUT.parameters)
+    problem = Missing(segments, LAYOUT, (), row, (unknown('size'),), float(miss.size), miss=miss)
     u = np.array([size])
     r = problem.residuals(u)
     solution = Solution(problem, u, r, r[:, None] / size, 1)

@@ -12,7 +12,7 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64, Float64MultiArray
 from std_srvs.srv import SetBool, Trigger
 
-from pam_ros.rig.model import RigModel
+from pam_ros.rig.joint import one_muscle
 from pam_ros.rig.rig import Rig
 from support.harness import Peer, Program, lose_nothing
 
@@ -61,7 +61,7 @@ class Controller:
 
 def expected(periods):
     """Return positions and velocities of the released rig, period by period."""
-    rig = Rig([RigModel()], 1e-3)
+    rig = Rig([one_muscle()], 1e-3)
     rig.reset([0.0], [0.0], [0.0])
     found = []
     for k in range(periods):
@@ -244,7 +244,7 @@ def test_a_controller_that_answers_too_often_gets_the_same_run(peer):
             count = len(naive.heard)
             peer.until(lambda n=count: len(naive.heard) > n + 300, 'more periods')
     got = sorted(set(naive.heard))
-    rig = Rig([RigModel()], 1e-3)
+    rig = Rig([one_muscle()], 1e-3)
     rig.reset([0.0], [0.0], [0.0])
     assert len(got) > 600
     assert set(np.diff([time for time, *_ in got])) == {PERIOD}

@@ -4,7 +4,6 @@
 
 import math
 
-import numpy as np
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray
 from sensor_msgs.msg import FluidPressure, JointState
@@ -12,11 +11,12 @@ from std_msgs.msg import Float64, Float64MultiArray
 from std_srvs.srv import SetBool, Trigger
 
 from pam_ros.muscle.muscle import Muscle
-from pam_ros.rig.joint_model import Actuator, JointModel
-from pam_ros.rig.joints.antagonistic_pair import PulleyArm
-from pam_ros.rig.joints.parallel import ParallelLoad
-from pam_ros.rig.model import Load, RigModel
+from pam_ros.rig.joint import Actuator, Joint, one_muscle
+from pam_ros.rig.loads import Arm as ArmLoad
+from pam_ros.rig.loads import Mass
+from pam_ros.rig.rest import rest
 from pam_ros.rig.rig import Rig
+from pam_ros.rig.transmissions import Pulley
 from support.harness import Program
 
 pytestmark = [pytest.mark.at_any_pace, pytest.mark.usefixtures('domain')]
@@ -72,8 +72,7 @@ class Arm:
 def simulated(models, pressures, periods=PERIODS):
     """Return a rig after the same run."""
     rig = Rig(models, 1e-3)
-    muscles = sum(len(m.muscles) if isinstance(m, JointModel) else 1 for m in models)
-    rig.reset(np.zeros(muscles), [m.rest(0.0) for m in models], np.zeros(len(models)))
+    rig.reset(0.0, [rest(joint, 0.0) for joint in models], 0.0)
     rig.command(pressures)
     for _ in range(periods):
         rig.advance(2)
@@ -108,9 +107,9 @@ def test_each_muscle_is_its_own_and_what_it_is_not_told_is_everybodys(peer):
     with Program('pam_sim', parameters=given):
         states = arm.run(pressures)
         models = [
-            RigModel(load=Load(mass=7.0)),
-            RigModel(Muscle(a1=-4.0), Load(mass=15.0, mount='horizontal')),
-            RigModel(load=Load(mass=15.0), effects={'viscous_friction': {'coefficient': 30.0}}),
+            one_muscle(load=Mass(mass=7.0)),
+            one_muscle(Muscle(a1=-4.0), Mass(mass=15.0, mount='horizontal')),
+            one_muscle(load=Mass(mass=15.0), effects={'viscous_friction': {'coefficient': 30.0}}),
         ]
         is_as(arm, states, simulated(models, pressures))
         assert states[-1].name == names
@@ -146,9 +145,10 @@ def test_an_antagonistic_pair_is_an_angle_in_rad(peer):
     with Program('pam_sim', parameters=given):
         states = arm.run(pressures)
         lag = {'pressure_lag': {'fill': 0.02}}
-        pair = JointModel(
-            PulleyArm(radius=0.05, mass=0.8),
-            (Actuator(), Actuator(effects=lag)),
+        pair = Joint(
+            (Actuator(contraction=0.1), Actuator(effects=lag, contraction=0.1)),
+            ArmLoad(mass=0.8),
+            Pulley(radius=0.05),
             {'viscous_friction': {'coefficient': 0.3}},
         )
         is_as(arm, states, simulated([pair], pressures))
@@ -163,7 +163,7 @@ def test_a_mass_on_two_muscles(peer):
     given = {**STILL, 'joint': 'parallel', 'muscles': ['a', 'b'], 'mass': 40.0}
     with Program('pam_sim', parameters=given):
         states = arm.run([3e5, 2e5])
-        rig = simulated([JointModel(ParallelLoad(mass=40.0))], [3e5, 2e5])
+        rig = simulated([Joint((Actuator(), Actuator()), Mass(mass=40.0))], [3e5, 2e5])
         is_as(arm, states, rig)
     assert states[-1].name == ['pam']
 
@@ -262,7 +262,7 @@ def test_pause_step_and_reset_are_for_all_of_them(peer):
         assert peer.call(Trigger, 'pam_sim/step').success
         peer.until(lambda: stamp(arm.states[-1]) == stamp(before) + 5 * 2_000_000, 'five periods')
         assert peer.call(Trigger, 'pam_sim/reset').success
-        at_rest = RigModel().rest(0.0)
+        at_rest = rest(one_muscle(), 0.0)
         peer.until(lambda: list(arm.states[-1].position) == [at_rest] * 2, 'the start')
 
 
