@@ -1,5 +1,111 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Pneumatic artificial muscles: simulate, control, identify."""
+"""Pneumatic artificial muscles: simulate, control, identify.
 
-__version__ = '0.1.0'
+What is named here is for users; ``docs/python.md`` shows it. All other names of the package are
+its own and may change. A name is imported when it is first used, so that programs which need a
+part of the package do not wait for the rest.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+from pam_ros.version import __version__
+
+if TYPE_CHECKING:
+    from pam_ros.control.co_contraction import CoContraction
+    from pam_ros.control.gains import Gains
+    from pam_ros.control.limits import Limits
+    from pam_ros.control.pid import Pid, PidGains
+    from pam_ros.control.signals import Reference
+    from pam_ros.control.sliding_mode import SlidingMode
+    from pam_ros.effects import EFFECTS
+    from pam_ros.effects.base import Effect
+    from pam_ros.errors import PamError
+    from pam_ros.identification.finder import trace
+    from pam_ros.identification.result import Trace
+    from pam_ros.muscle.fit import fit_static_map
+    from pam_ros.muscle.muscle import Muscle
+    from pam_ros.recording.read import read_recording
+    from pam_ros.recording.recording import Recording
+    from pam_ros.rig.joint import Actuator, Joint, one_muscle
+    from pam_ros.rig.loads import Arm, Mass
+    from pam_ros.rig.rest import rest
+    from pam_ros.rig.rig import Rig
+    from pam_ros.rig.run import Trajectory, simulate, simulate_held
+    from pam_ros.rig.transmissions import Lever, Pulley, Straight
+    from pam_ros.settings.files import load_rig
+
+__all__ = [
+    'EFFECTS',
+    'Actuator',
+    'Arm',
+    'CoContraction',
+    'Effect',
+    'Gains',
+    'Joint',
+    'Lever',
+    'Limits',
+    'Mass',
+    'Muscle',
+    'PamError',
+    'Pid',
+    'PidGains',
+    'Pulley',
+    'Recording',
+    'Reference',
+    'Rig',
+    'SlidingMode',
+    'Straight',
+    'Trace',
+    'Trajectory',
+    '__version__',
+    'fit_static_map',
+    'load_rig',
+    'one_muscle',
+    'read_recording',
+    'rest',
+    'simulate',
+    'simulate_held',
+    'trace',
+]
+
+_PLACES = {
+    'control.co_contraction': ('CoContraction',),
+    'control.gains': ('Gains',),
+    'control.limits': ('Limits',),
+    'control.pid': ('Pid', 'PidGains'),
+    'control.signals': ('Reference',),
+    'control.sliding_mode': ('SlidingMode',),
+    'effects': ('EFFECTS',),
+    'effects.base': ('Effect',),
+    'errors': ('PamError',),
+    'identification.finder': ('trace',),
+    'identification.result': ('Trace',),
+    'muscle.fit': ('fit_static_map',),
+    'muscle.muscle': ('Muscle',),
+    'recording.read': ('read_recording',),
+    'recording.recording': ('Recording',),
+    'rig.joint': ('Actuator', 'Joint', 'one_muscle'),
+    'rig.loads': ('Arm', 'Mass'),
+    'rig.rest': ('rest',),
+    'rig.rig': ('Rig',),
+    'rig.run': ('Trajectory', 'simulate', 'simulate_held'),
+    'rig.transmissions': ('Lever', 'Pulley', 'Straight'),
+    'settings.files': ('load_rig',),
+}
+_PLACE_OF = {name: place for place, names in _PLACES.items() for name in names}
+
+
+def __getattr__(name: str) -> Any:
+    """Import a public name when it is first used (PEP 562)."""
+    if name not in _PLACE_OF:
+        raise AttributeError(f'module pam_ros has no attribute {name}')
+    value = getattr(import_module(f'pam_ros.{_PLACE_OF[name]}'), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    """Return the public names."""
+    return __all__

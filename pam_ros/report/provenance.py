@@ -11,11 +11,11 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any
 
-import pam_ros
 from pam_ros.recording.recording import Recording
 from pam_ros.rig.joint import Joint
 from pam_ros.settings.files import find
 from pam_ros.settings.tables import flat_rig
+from pam_ros.version import __version__
 
 LIBRARIES = ('numpy', 'scipy', 'numba')
 
@@ -65,7 +65,7 @@ def provenance(
 
 def versions() -> dict[str, str]:
     """Return the versions of what computed: this package, Python, the numerical libraries."""
-    found = {'pam_ros': pam_ros.__version__, 'python': platform.python_version()}
+    found = {'pam_ros': __version__, 'python': platform.python_version()}
     for library in LIBRARIES:
         try:
             found[library] = metadata.version(library)

@@ -7,12 +7,12 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from urdf_parser_py.urdf import URDF
-
-from pam_ros.rig import statics
 from pam_ros.rig.joint_model import JointModel
 from pam_ros.rig.joints.antagonistic_pair import PulleyArm
 from pam_ros.rig.model import Load, RigModel
+from urdf_parser_py.urdf import URDF
+
+from pam_ros.rig import statics
 from pam_ros.settings.sim import SimSettings
 
 FOLDER = Path(__file__).parents[2] / 'urdf'

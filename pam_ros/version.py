@@ -1,0 +1,5 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The version of this package, as setup.py and package.xml have it."""
+
+__version__ = '0.1.0'

@@ -1,0 +1,79 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The public names, and the page that shows them: its examples run in their order."""
+
+import ast
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import pam_ros
+
+ROOT = Path(__file__).parents[1]
+PAGE = ROOT / 'docs' / 'python.md'
+EXAMPLES = re.findall(r'```python\n(.*?)```', PAGE.read_text(encoding='utf-8'), re.DOTALL)
+FACE = ROOT / 'pam_ros' / '__init__.py'
+
+
+@pytest.mark.parametrize('name', pam_ros.__all__)
+def test_a_public_name_is_there(name):
+    assert getattr(pam_ros, name) is not None
+    assert name in dir(pam_ros)
+
+
+def test_an_unknown_name_is_refused():
+    with pytest.raises(AttributeError, match='has no attribute nosuch'):
+        _ = pam_ros.nosuch
+
+
+def test_names_for_type_checkers_are_those_that_are_imported():
+    typed = {
+        alias.name: node.module
+        for node in ast.walk(ast.parse(FACE.read_text(encoding='utf-8')))
+        if isinstance(node, ast.ImportFrom) and node.module.startswith('pam_ros.')
+        for alias in node.names
+    }
+    own = typed.pop('__version__')
+    assert own == 'pam_ros.version'
+    assert typed == {name: f'pam_ros.{place}' for name, place in pam_ros._PLACE_OF.items()}
+    assert set(pam_ros.__all__) == {*typed, '__version__'}
+
+
+def test_the_package_alone_imports_nothing_heavy():
+    code = (
+        'import sys, pam_ros; print([n for n in ("numpy", "scipy", "numba") if n in sys.modules])'
+    )
+    done = subprocess.run(
+        [sys.executable, '-c', code], cwd=ROOT, capture_output=True, text=True, check=True
+    )
+    assert done.stdout.strip() == '[]'
+
+
+@pytest.mark.needs_numba
+def test_the_examples_run_and_print_what_they_say(capsys):
+    names = {}
+    said = 0
+    for example in EXAMPLES:
+        exec(compile(example, str(PAGE), 'exec'), names)
+        printed = capsys.readouterr().out.splitlines()
+        wanted = re.findall(r'^print\(.*\)  # (.*)$', example, re.MULTILINE)
+        assert printed[: len(wanted)] == wanted
+        said += len(wanted)
+    assert said >= 5
+    assert names['found'].verdict == 'effect_found'
+    assert [finding.name for finding in names['found'].effects] == ['coulomb_friction']
+
+
+def test_the_page_names_all_that_is_public():
+    page = PAGE.read_text(encoding='utf-8')
+    missing = [name for name in pam_ros.__all__ if f'`{name}`' not in page]
+    assert missing == ['__version__']
+
+
+def test_examples_import_from_the_face_alone():
+    for example in EXAMPLES:
+        for module in re.findall(r'^from (\S+) import', example, re.MULTILINE):
+            assert module == 'pam_ros'
