@@ -33,10 +33,14 @@ def values_of(loop: Loop, setup: ControlSetup, age: float | None) -> dict[str, A
         f'error ({unit})': terms.error if is_running else None,
         'command (Pa)': shown(loop.pressures),
         'saturated': terms.saturated if is_running else None,
+        'on a trajectory': loop.course.is_on_trajectory if is_running else None,
         f'lowest reference ({unit})': setup.reach[0],
         f'highest reference ({unit})': setup.reach[1],
         'age of joint_states (s)': age,
     }
+    if setup.settings.controller == 'sliding_mode':
+        width = setup.gains.boundary_width(setup.joint.inertia)
+        values[f'half width of the boundary layer ({unit}/s)'] = width
     feedback = left_to_feedback(setup.joint)
     if feedback:
         values['declared and left to the feedback'] = ', '.join(feedback)

@@ -89,10 +89,6 @@ class Unknown:
         """Whether it is a parameter of the model, which all runs share."""
         return not isinstance(self.of, RunStart)
 
-    def is_of_run(self, run: int) -> bool:
-        """Whether it is of the start of the run with this number."""
-        return isinstance(self.of, RunStart) and self.of.run == run
-
     def value(self, u: float) -> float:
         """Return the physical value at u, which rounding does not carry past its bounds."""
         move = self.scale * u
