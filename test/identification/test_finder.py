@@ -36,9 +36,10 @@ def names(found):
             {'fill': 0.05, 'vent': 0.07},
         ),
         (effect('viscous_friction', viscous_ns_m=60.0), {'coefficient': 60.0}),
-        (
+        pytest.param(
             effect('coulomb_friction', coulomb_n=8.0, static_n=8.8, stribeck_m_s=5e-3),
             {'level': 8.0},
+            marks=pytest.mark.long_search,
         ),
     ],
     ids=lambda one: getattr(one, 'kind', ''),
