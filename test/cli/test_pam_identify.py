@@ -14,6 +14,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from pam_ros.cli import pam_identify
 from pam_ros.recording.csv_file import write_csv
 from pam_ros.recording.read import read_recording
 from pam_ros.report.write import FILES
@@ -153,15 +154,30 @@ def test_residual_file_gives_the_errors_of_the_report(found):
         (('friction.csv',), 'the following arguments are required: --params'),
     ],
 )
-def test_a_mistake_is_one_sentence_and_nothing_is_written(bench, arguments, sentence):
+def test_a_mistake_is_one_sentence_and_nothing_is_written(
+    bench, monkeypatch, capsys, arguments, sentence
+):
     before = left(bench)
-    code, out, errors = run(bench, *arguments, '--out', 'bad')
+    # In this process: the imports of another one take far longer than to find the mistake.
+    monkeypatch.chdir(bench)
+    monkeypatch.setattr(sys, 'argv', ['pam_identify', *arguments, '--out', 'bad'])
+    on_sigterm = signal.getsignal(signal.SIGTERM)
+    with pytest.raises(SystemExit) as end:
+        pam_identify.main()
+    signal.signal(signal.SIGTERM, on_sigterm)
+    code, (out, errors) = end.value.code, capsys.readouterr()
     assert code == 2
     assert out == ''
     assert len(errors.splitlines()) == 1
     assert errors.startswith('pam_identify: ')
     assert sentence in errors
     assert left(bench) == before
+
+
+def test_a_mistake_is_the_exit_code_of_the_program(bench):
+    code, out, errors = run(bench, 'absent.csv', *DECLARED, '--out', 'bad')
+    assert (code, out) == (2, '')
+    assert errors == 'pam_identify: recording absent.csv does not exist\n'
 
 
 def test_a_folder_with_other_files_is_refused_before_any_work(bench, tmp_path):
@@ -190,6 +206,7 @@ def test_interrupted_it_leaves_nothing(bench, kind, code):
     assert left(bench) == before
 
 
+@pytest.mark.long_search
 def test_other_names_are_mapped_on_the_command_line_and_in_a_file(bench, tmp_path):
     (tmp_path / 'map.yaml').write_text('columns:\n  encoder: position_m\n', encoding='utf-8')
     code, out, errors = run(

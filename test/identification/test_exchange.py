@@ -25,6 +25,7 @@ def test_an_effect_that_was_taken_for_another_is_exchanged(setting):
     assert all(one.parents == ('viscous_friction',) for one in tried)
 
 
+@pytest.mark.long_search
 def test_one_that_made_up_for_what_was_missing_is_exchanged_for_one_that_came_near():
     """A quick creep has parameters enough to pass for a delay beside damping."""
     damping = effect(

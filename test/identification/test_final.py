@@ -58,6 +58,7 @@ def test_a_stop_that_long_steps_softened_is_as_stiff_as_it_is_in_the_end():
     assert found.stages[2].held_error < 4.0 * NOISE < 0.1 * found.stages[1].held_error
 
 
+@pytest.mark.long_search
 def test_finer_parameters_that_earn_nothing_in_full_are_dropped():
     there = effect('coulomb_friction', coulomb_n=8.0, static_n=8.0, stribeck_m_s=5e-3)
     model = bench_truth.declared(off=OFF)

@@ -18,7 +18,7 @@ from pam_ros.settings.files import load_rig
 from support import bench_truth
 from truth import effect
 
-pytestmark = pytest.mark.needs_numba
+pytestmark = [pytest.mark.needs_numba, pytest.mark.long_search]
 ROOT = Path(__file__).parents[2]
 NOISE = 20e-6  # m
 OFF = [0.01, -0.015, 0.005, 0.01, -0.01, 0.015]
@@ -165,7 +165,6 @@ def test_recordings_of_two_kinds_are_refused():
         trace(bench_truth.declared(), [bench_truth.free(duration=6.0), bench_truth.held()])
 
 
-@pytest.mark.long_search
 def test_the_measured_drive_has_two_frictions(shared_data):
     """A public benchmark, 25 s of closed loop: a mass moved by a motor of known force."""
     model, _ = load_rig(str(ROOT / 'config' / 'rigs' / 'emps.yaml'))
@@ -190,7 +189,6 @@ def test_the_measured_drive_has_two_frictions(shared_data):
     assert np.sqrt(np.mean((run.position - y) ** 2)) < 8e-3
 
 
-@pytest.mark.long_search
 def test_the_measured_muscle_goes_slack(shared_data):
     """A muscle held at four lengths: fitted on three repeats, tested on two others."""
     model, _ = load_rig('dmsp_20_400n', ['mass=20'])

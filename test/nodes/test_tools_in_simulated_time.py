@@ -15,9 +15,10 @@ pytestmark = pytest.mark.usefixtures('module_domain')
 RATE, CLOCK_RATE = 200.0, 100.0  # Hz of states and of /clock
 PLAN = {'duration': 30.0, 'pressure_min': 150e3, 'pressure_max': 400e3}
 DURATION = PLAN['duration']  # s
-EXCITATION = {**PLAN, 'use_sim_time': True, 'countdown': 0.5}
+# A busy machine may keep the rig quiet for a while, and time goes faster than on the wall.
+EXCITATION = {**PLAN, 'use_sim_time': True, 'countdown': 0.5, 'silence': 10.0}
 FASTER = {
-    'scaled': {'time_mode': 'scaled', 'speed_factor': 5.0},
+    'scaled': {'time_mode': 'scaled', 'speed_factor': 2.0},
     'lockstep': {'time_mode': 'lockstep'},
 }
 

@@ -44,12 +44,24 @@ def any_trace(request):
 
 
 @pytest.fixture(scope='session')
-def folder(any_trace, tmp_path_factory):
+def reports(tmp_path_factory):
+    """Return a function that gives the folder of a report, written once for each trace."""
+    folders = {}
+
+    def written(parts):
+        trace, source, _ = parts
+        if id(trace) not in folders:
+            folders[id(trace)] = tmp_path_factory.mktemp('reports') / 'report'
+            write_report(folders[id(trace)], trace, source)
+        return folders[id(trace)]
+
+    return written
+
+
+@pytest.fixture(scope='session')
+def folder(any_trace, reports):
     """Return the folder of a written report, one for each kind of trace."""
-    trace, source, _ = any_trace
-    path = tmp_path_factory.mktemp('reports') / 'report'
-    write_report(path, trace, source)
-    return path
+    return reports(any_trace)
 
 
 @pytest.fixture(scope='session')

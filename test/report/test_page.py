@@ -63,8 +63,8 @@ def rendered(parts):
 
 
 @pytest.fixture(scope='module')
-def friction_page(friction):
-    return rendered(friction)
+def friction_page(reports, friction):
+    return (reports(friction) / 'report.html').read_text(encoding='utf-8')
 
 
 def test_page_is_whole_and_needs_nothing_else(html):
@@ -108,8 +108,8 @@ def test_every_verdict_says_what_is_open(clean, verdict):
     assert len(sentences) == (0 if verdict == 'effect_found' else 1)
 
 
-def test_nothing_missing_says_what_would_not_be_seen(clean):
-    html = rendered(clean)
+def test_nothing_missing_says_what_would_not_be_seen(reports, clean):
+    html = (reports(clean) / 'report.html').read_text(encoding='utf-8')
     assert '<h1 id="verdict">Nothing missing</h1>' in html
     assert 'stay below the noise floor of 0.0500 mm' in html
 

@@ -17,15 +17,6 @@ def names(folder):
     return sorted(path.name for path in folder.iterdir())
 
 
-@pytest.fixture(scope='module')
-def written(friction, tmp_path_factory):
-    """Return the folder of a report that friction was found in, for copies of it."""
-    trace, source, _ = friction
-    path = tmp_path_factory.mktemp('written') / 'report'
-    write_report(path, trace, source)
-    return path
-
-
 def test_all_files_are_there_and_nothing_else(folder):
     assert names(folder) == sorted(FILES)
     assert names(folder.parent) == ['report']
@@ -39,8 +30,8 @@ def test_folder_has_the_permissions_of_any_other(folder, tmp_path):
     assert modes[0] == modes[1]
 
 
-def test_former_report_is_replaced(written, clean, tmp_path):
-    shutil.copytree(written, tmp_path / 'out')
+def test_former_report_is_replaced(reports, friction, clean, tmp_path):
+    shutil.copytree(reports(friction), tmp_path / 'out')
     trace, source, _ = clean
     write_report(tmp_path / 'out', trace, source)
     report = json.loads((tmp_path / 'out' / 'report.json').read_text(encoding='utf-8'))
@@ -63,10 +54,10 @@ def test_replacing_swaps_two_folders(tmp_path, monkeypatch, swaps):
 
 
 @pytest.mark.parametrize('error', [KeyboardInterrupt, RuntimeError, SystemExit])
-def test_nothing_is_left_where_writing_breaks_off(friction, written, tmp_path, monkeypatch, error):
+def test_nothing_is_left_where_writing_breaks_off(friction, reports, tmp_path, monkeypatch, error):
     trace, source, _ = friction
     target = tmp_path / 'deep' / 'report'
-    shutil.copytree(written, target)
+    shutil.copytree(reports(friction), target)
     before = (target / 'report.json').read_bytes()
 
     def fail(*_):
