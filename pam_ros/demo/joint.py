@@ -20,7 +20,7 @@ LAST = 0.2  # s at the end of a set-point over which the stiffness is judged
 class JointCourse:
     """One sample a row of time, all (n,) and SI: s, rad, rad, Pa, Pa, N m/rad, N m/rad.
 
-    ``angle`` is measured; ``stiffness`` is that of the rig, ``co_contraction`` what was told.
+    ``angle`` is measured; ``stiffness`` is that of the rig, ``co_contraction`` what was set.
     """
 
     t: Array
@@ -41,9 +41,9 @@ class JointCourse:
         """When the reference leaves where it was at first, s."""
         return float(self.t[np.argmax(np.abs(self.reference - self.reference[0]) > STILL)])
 
-    def with_stiffness(self, told: float) -> 'JointCourse':
-        """Return the part in which *told* N m/rad was told and reached."""
-        return self._where(np.abs(self.co_contraction - told) < 1e-6 * told)
+    def with_stiffness(self, wanted: float) -> 'JointCourse':
+        """Return the part in which *wanted* N m/rad was set and reached."""
+        return self._where(np.abs(self.co_contraction - wanted) < 1e-6 * wanted)
 
     def _where(self, inside: NDArray[np.bool_]) -> 'JointCourse':
         return JointCourse(*(getattr(self, item.name)[inside] for item in fields(self)))
@@ -55,7 +55,7 @@ class JointCourse:
 
 def table(parts: list[tuple[str, JointCourse]]) -> str:
     """Return error and stiffness in each of the *parts*, by their names."""
-    lines = [f'{"":<26}{"swing":>10}{"error RMS":>13}{"largest":>12}{"N m/rad":>12}{"told":>8}']
+    lines = [f'{"":<26}{"swing":>10}{"error RMS":>13}{"largest":>12}{"N m/rad":>12}{"set":>8}']
     for name, part in parts:
         error = np.degrees(part.error)
         last = part.between(part.t[-1] - LAST, np.inf)
@@ -85,7 +85,7 @@ def figure(course: JointCourse, headline: str) -> Figure:
         pressure.plot(t, 1e-3 * course.pressure_2, color=COLOURS[2], label='second muscle')
         pressure.margins(y=0.25)
         stiffness.plot(
-            t, course.co_contraction, color=FAINT, linewidth=2.5, label='told (co-contraction)'
+            t, course.co_contraction, color=FAINT, linewidth=2.5, label='set (co-contraction)'
         )
         stiffness.plot(t, course.stiffness, color=COLOURS[2], label='of the rig')
         stiffness.margins(y=0.3)

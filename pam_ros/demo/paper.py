@@ -100,7 +100,7 @@ def compare(released: PublishedRun, model: Joint) -> list[Row]:
 
 
 def frequency(run: PublishedRun) -> float:
-    """Return the frequency in Hz of the last swings of a decaying run that can be told.
+    """Return the frequency in Hz of the last swings of a decaying run that can be resolved.
 
     From the times at which the velocity changes its sign, interpolated linearly.
     """

@@ -72,7 +72,7 @@ class Compensation(Enum):
 class EffectParameter:
     """One parameter of an effect, in SI.
 
-    ``default`` is the value that it has when nobody gives it; ``strength`` marks a parameter whose
+    ``default`` is the value that it has when none is given; ``strength`` marks a parameter whose
     0 means that the effect is absent. ``scale`` is a typical size (fits are scaled by it), and
     ``sign`` the physical sign that a fitted strength must have (0: either).
     """

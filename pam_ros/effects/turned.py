@@ -13,7 +13,7 @@ from pam_ros.units import turned_unit
 def turned(effect: Effect) -> Effect:
     """Return *effect* with the units and ranges that it has on a joint that turns.
 
-    Raises ParameterError for a unit of which nobody has said what it is there.
+    Raises ParameterError for a unit that is not known to have one.
     """
     return replace(effect, parameters=tuple(_turned(effect.name, p) for p in effect.parameters))
 

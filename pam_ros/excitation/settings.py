@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What an excitation is told: its limits, its length, and when to give up."""
+"""The settings of an excitation: its limits, its length, and when to give up."""
 
 from dataclasses import dataclass, replace
 

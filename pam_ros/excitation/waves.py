@@ -83,8 +83,8 @@ def multisine(rate: float, duration: float, rng: Generator, fastest: float) -> A
 def chirp(rate: float, duration: float, fastest: float) -> Array:
     """Return three small logarithmic chirps from 0.3 Hz to *fastest* Hz, low, middle and high.
 
-    Damping that depends on pressure is told from other damping by the mean pressures; the phase
-    tells lag from dead time.
+    The mean pressures distinguish damping that depends on pressure from other damping; the phase
+    distinguishes lag from dead time.
     """
     count = round(rate * duration)
     edges = [round(count * k / 3) for k in range(4)]

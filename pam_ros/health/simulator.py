@@ -31,11 +31,11 @@ def commands(plant: Plant, last: int) -> Health:
     if age is None:
         return Health(Level.OK, 'no command yet', values)
     if np.any(plant.is_silent):
-        did = {'vent': 'vented', 'hold': 'held'}[plant.told.settings.on_timeout]
+        did = {'vent': 'vented', 'hold': 'held'}[plant.simulation.settings.on_timeout]
         whose = ''
         if len(inputs) > 1:
             silent = np.flatnonzero(plant.is_silent)
-            names = [plant.told.muscle_names[i] for i in silent[:5]]
+            names = [plant.simulation.muscle_names[i] for i in silent[:5]]
             whose = f' for {", ".join(names)}' + (' and others' if len(silent) > 5 else '')
         return Health(Level.WARN, f'no command{whose} for {age:.3g} s: {did}', values)
     return Health(Level.OK, 'commanded', values)

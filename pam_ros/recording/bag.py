@@ -22,7 +22,7 @@ __all__ = ['bag_files', 'read_bag']
 ATMOSPHERE = 101325.0  # Pa: FluidPressure is absolute, a recording's pressures are gauge
 _LATENCY = (-2e-3, 0.5)  # s from a header's stamp to its receipt; outside, the clocks differ
 _SIMULATED = 10**18  # ns: no real clock is before 2001
-_TICK = 0.1  # s by which a simulated clock, told in ticks, may be behind a header
+_TICK = 0.1  # s by which a simulated clock, published in ticks, may be behind a header
 
 _FLOAT = (FLOAT64, 'std_msgs/msg/Float32')
 _PA, _M = Target('pressure_command', 'Pa'), Target('position', 'm')

@@ -92,7 +92,7 @@ def _refuse_constant(recording: Recording) -> None:
     if _is_constant(value) and not _is_stretched(recording):
         raise RecordingError(
             f'{recording.name}: {name} is constant at {float(np.mean(value)):.6g} Pa: nothing '
-            'can be told from it'
+            'can be found from it'
         )
     output = 'position' if recording.kind == 'free' else 'force'
     if np.ptp(getattr(recording, output)) == 0.0:

@@ -29,7 +29,7 @@ class SimulatedTime:
             del self._sent[:KEPT], self._time[:KEPT]
 
     def at(self, sent: int) -> int | None:
-        """Return the time of what was *sent* then, None until a later time was told."""
+        """Return the time of what was *sent* then, None until a later time was published."""
         n = bisect_right(self._sent, sent)
         if n == len(self._sent):
             return None
@@ -42,6 +42,6 @@ class SimulatedTime:
         return begin + round(share * (end - begin))
 
     def before(self, sent: int) -> int:
-        """Return the last time that was told before *sent*, 0 where there is none."""
+        """Return the last time that was published before *sent*, 0 where there is none."""
         n = bisect_right(self._sent, sent)
         return self._time[n - 1] if n else 0

@@ -91,8 +91,8 @@ def curves_of(trace: Trace, runs: list[Run]) -> list[Curve]:
 def warnings_of(trace: Trace, source: Provenance) -> list[tuple[str, str]]:
     """Return (recording, what limits it) and, without a name, what limits the whole trace."""
     all_of_them = (*source.recordings, *source.test)
-    told = {warning for recording in all_of_them for warning in recording.warnings}
-    found = [('', warning) for warning in trace.warnings if warning not in told]
+    shown = {warning for recording in all_of_them for warning in recording.warnings}
+    found = [('', warning) for warning in trace.warnings if warning not in shown]
     found += [(one.name, '; '.join(one.warnings)) for one in all_of_them if one.warnings]
     return found
 

@@ -54,7 +54,7 @@ class Mechanism(Protocol):
 
     @property
     def moved_mass(self) -> float:
-        """Mass in kg with the payload that nobody declared."""
+        """Mass in kg with the payload among its effects."""
 
     @property
     def inertia(self) -> float:

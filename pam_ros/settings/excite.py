@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What ``pam_excite`` is told: the declared rig, limits, and the programme that they make."""
+"""What is declared to ``pam_excite``: the rig, limits, and the programme that they make."""
 
 from dataclasses import dataclass, replace
 from typing import Any
@@ -16,7 +16,7 @@ from pam_ros.settings.tables import Table, build, build_rig, rig_table, table_of
 
 @dataclass(frozen=True)
 class Experiment:
-    """All that the node is told, and the programme that it makes."""
+    """All that is declared to the node, and the programme that it makes."""
 
     model: Joint
     settings: Excitation

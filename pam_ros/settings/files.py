@@ -149,7 +149,7 @@ def load_rig(
     """Return the rig that a file or muscle *name* declares, and its flat values.
 
     *overrides* are ``name=value`` texts that come last. *table* are the names that the caller
-    knows (default: the rig's). Names that are known to nobody here are passed over, for they may
+    knows (default: the rig's). Names that are not known here are passed over, for they may
     be another program's; those that look mistyped are refused. Raises ParameterError.
     """
     table = rig_table() if table is None else table

@@ -88,7 +88,7 @@ class RigParameters:
             for i, name in enumerate(names):
                 if name in names[:i]:
                     raise ParameterError(f'{kind}: {name} is named twice')
-                # What nobody named is not told from others by its name.
+                # Names that are not given are made here, and need no check.
                 if not self._given.get(kind):
                     continue
                 if not NAME.fullmatch(name) or '__' in name or name.endswith('_'):

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What ``pam_sim`` is told beside the rig itself: time, rates, time-out, start, names."""
+"""What is declared to ``pam_sim`` beside the rig itself: time, rates, time-out, start, names."""
 
 from dataclasses import dataclass
 

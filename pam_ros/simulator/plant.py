@@ -42,11 +42,11 @@ class Reading:
 class Plant:
     """Muscles that take commands as valves do, and are read as sensors do."""
 
-    def __init__(self, told: Simulation) -> None:
+    def __init__(self, simulation: Simulation) -> None:
         """Make them at their initial state."""
-        self.told = told
-        self.inputs = [PressureInput(muscle) for muscle in told.muscles]
-        self._rig = Rig(told.joints, 1.0 / told.settings.physics_rate)
+        self.simulation = simulation
+        self.inputs = [PressureInput(muscle) for muscle in simulation.muscles]
+        self._rig = Rig(simulation.joints, 1.0 / simulation.settings.physics_rate)
         self._all = range(len(self.inputs))
         self.begin()
         self._rig.outputs()  # compiled code is loaded at its first call
@@ -54,34 +54,34 @@ class Plant:
 
     def begin(self) -> None:
         """Go to the initial state; noise begins anew."""
-        told = self.told
-        pressures, positions, velocities = told.initial
+        simulation = self.simulation
+        pressures, positions, velocities = simulation.initial
         self._rig.reset(pressures, positions, velocities)
-        self._feedback = Feedback(told.sensors, len(positions))
+        self._feedback = Feedback(simulation.sensors, len(positions))
         # Where they are not as many as joints, muscles have sensors, and noise, of their own.
-        self._gauges = Feedback(self._gauges_told(told), len(pressures))
+        self._gauges = Feedback(self._gauge_sensors(simulation), len(pressures))
         self.step = 0
-        self._ordered = pressures.copy()  # Pa, what the valves were last told
+        self._ordered = pressures.copy()  # Pa, the last commands of the valves
         self.heard = np.full(len(pressures), np.nan)  # simulated time of the last good command
         self.is_silent = np.zeros(len(pressures), dtype=bool)
         self._deadline = math.inf  # simulated time of the first silence to come
 
     @staticmethod
-    def _gauges_told(told: Simulation) -> Sensors:
-        return replace(told.sensors, seed=told.sensors.seed ^ 0x5EED)
+    def _gauge_sensors(simulation: Simulation) -> Sensors:
+        return replace(simulation.sensors, seed=simulation.sensors.seed ^ 0x5EED)
 
     @property
     def time(self) -> float:
         """Simulated time in s since the start or the last reset."""
         return self._rig.time
 
-    def change(self, told: Simulation) -> None:
+    def change(self, simulation: Simulation) -> None:
         """Go on with other parameters."""
-        self._rig.change(told.joints)
-        self.told = told
-        self._feedback.change(told.sensors)
-        self._gauges.change(self._gauges_told(told))
-        for given, muscle in zip(self.inputs, told.muscles, strict=True):
+        self._rig.change(simulation.joints)
+        self.simulation = simulation
+        self._feedback.change(simulation.sensors)
+        self._gauges.change(self._gauge_sensors(simulation))
+        for given, muscle in zip(self.inputs, simulation.muscles, strict=True):
             given.muscle = muscle
         self._order_all(self._ordered)  # the limits may have changed
         self._set_deadline()
@@ -109,7 +109,7 @@ class Plant:
         return None if pressure == value else self._bad(muscle)
 
     def _bad(self, muscle: int, *, is_refused: bool = False) -> BadCommand:
-        whose = f'{self.told.muscle_names[muscle]}: ' if len(self.inputs) > 1 else ''
+        whose = f'{self.simulation.muscle_names[muscle]}: ' if len(self.inputs) > 1 else ''
         return BadCommand(muscle, whose + self.inputs[muscle].reason, is_refused)
 
     def take_all(self, values: list[float]) -> BadCommand | None:
@@ -132,11 +132,11 @@ class Plant:
         self._rig.command_one(muscle, pressure)
 
     def _order_all(self, pressures: Array) -> None:
-        self._ordered = np.clip(pressures, *self.told.limits)
+        self._ordered = np.clip(pressures, *self.simulation.limits)
         self._rig.command(self._ordered)
 
     def _set_deadline(self) -> None:
-        timeout = self.told.settings.command_timeout
+        timeout = self.simulation.settings.command_timeout
         if len(self.heard) == 1:
             heard = self.heard.item()
             hears = timeout and not (math.isnan(heard) or self.is_silent.item())
@@ -146,7 +146,7 @@ class Plant:
         self._deadline = float(heard.min()) + timeout if timeout and heard.size else math.inf
 
     def _fall_silent(self) -> None:
-        settings = self.told.settings
+        settings = self.simulation.settings
         for i in self._all:
             if self._rig.time - self.heard[i] > settings.command_timeout and not self.is_silent[i]:
                 self.is_silent[i] = True
@@ -165,7 +165,7 @@ class Plant:
         force, stiffness, damping, acceleration = rig.outputs()[0].tolist()
         position, velocity = rig.position.item(), rig.velocity.item()
         pressure = rig.pressure.item()
-        reach = self.told.reach.item() * self.told.muscles[0].l0
+        reach = self.simulation.reach.item() * self.simulation.muscles[0].l0
         if not (abs(position) < reach and math.isfinite(force + velocity)):
             raise ArithmeticError(f"at {position:g} m it is out of the muscle's reach")
         if not self._feedback.is_ideal:
@@ -180,12 +180,12 @@ class Plant:
         force, stiffness, damping, _ = rig.outputs().T
         position, velocity, pressure = rig.position, rig.velocity, rig.pressure
         effort, _, acceleration = rig.joint_outputs().T
-        is_there = np.abs(rig.contraction) < self.told.reach
+        is_there = np.abs(rig.contraction) < self.simulation.reach
         if not (np.all(is_there) and np.isfinite(np.sum(force) + np.sum(velocity))):
-            lost = self.told.muscle_names[int(np.argmin(is_there))]
+            lost = self.simulation.muscle_names[int(np.argmin(is_there))]
             raise ArithmeticError(f'{lost} is out of its reach')
         if not self._feedback.is_ideal:
-            if not self.told.are_direct:
+            if not self.simulation.are_direct:
                 end = np.zeros_like(force)
                 muscles = np.array([end, end, pressure, force, end])
                 pressure, force = self._gauges.read(rig.time, muscles)[2:]

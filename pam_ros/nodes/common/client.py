@@ -98,7 +98,7 @@ class Client:
     def delivered(self, topic: str, patience: Duration) -> None:
         """Wait until all that was published on *topic* has arrived."""
         if not self._publishers[topic].wait_for_all_acked(patience):
-            raise PamError(f'what was told on {topic} has not arrived')
+            raise PamError(f'what was published on {topic} has not arrived')
 
     def call(self, kind: Any, service: str, **request: Any) -> Any:
         """Call a service and return its response."""

@@ -62,7 +62,7 @@ class NodeParameters(Generic[T]):
     def refuse_mistyped(self) -> None:
         """Raise PamError for a given parameter that is nearly the name of a declared one.
 
-        Others that nobody declared are warned of: they may be meant for another node. To be
+        Others that are not declared are warned of: they may be meant for another node. To be
         called when everything is declared, publishers and subscriptions included.
         """
         known = [name for name in given(self._node) if self._node.has_parameter(name)]

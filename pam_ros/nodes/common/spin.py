@@ -84,7 +84,7 @@ def run(kind: type[TickingNode], stop: StopRequest, about: str) -> int:
                 prog=Path(sys.argv[0]).stem,
                 description=about,
                 formatter_class=argparse.RawDescriptionHelpFormatter,
-                epilog='All else is told with --ros-args: see the manual of ROS 2.',
+                epilog='All else is given with --ros-args: see the manual of ROS 2.',
             )
             rclpy.init(args=sys.argv, signal_handler_options=SignalHandlerOptions.NO)
             node = kind.of_arguments(parser, remove_ros_args(sys.argv)[1:])

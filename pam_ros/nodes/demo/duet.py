@@ -32,7 +32,7 @@ class Duet:
         self,
         stage: Stage,
         rig: dict[str, Any],
-        told: dict[str, Any],
+        controller: dict[str, Any],
         command: tuple[type, str],
         topics: tuple[str, ...] = (),
     ) -> None:
@@ -44,8 +44,10 @@ class Duet:
         self._rig = {**rig, 'time_mode': 'lockstep'}
         for topic in ('joint_states', *topics):
             self._rig[f'qos_overrides.{self._space}/{topic}.publisher.depth'] = HISTORY
-        self._told = {**told, 'use_sim_time': True}
-        self._told[f'qos_overrides.{self._space}/pam_control/state.publisher.depth'] = HISTORY
+        self._controller = {**controller, 'use_sim_time': True}
+        self._controller[f'qos_overrides.{self._space}/pam_control/state.publisher.depth'] = (
+            HISTORY
+        )
         self._stack = ExitStack()
         self._end = 0.0  # simulated time in s from which on time stands still
         self._held: Any = None  # the command that is not passed on meanwhile
@@ -57,7 +59,7 @@ class Duet:
         where = ('-r', f'__ns:={space}', '-r', f'/clock:={space}/clock')
         asked = ('-r', f'{topic}:=asked')
         sim = Program('pam_sim', *where, parameters=self._rig)
-        control = Program('pam_control', *where, *asked, parameters=self._told)
+        control = Program('pam_control', *where, *asked, parameters=self._controller)
         self._programs = [self._stack.enter_context(one) for one in (sim, control)]
         self.client = self._stack.enter_context(Client(space, PATIENCE))
         self.states = self.client.collect(JointState, 'joint_states')
@@ -104,7 +106,7 @@ class Duet:
         self._until(lambda: self._held is not None, f'{duration:g} s to pass')
         return seconds(self.states[-1])
 
-    def tell(self, message: Any, topic: str, term: str = 'reference') -> None:
+    def publish(self, message: Any, topic: str, term: str = 'reference') -> None:
         """Tell what sets *term* in motion, and let time go on until it moves."""
         k = list(self.terms[-1].name).index(term)
         rest = self.terms[-1].position[k]

@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """An antagonistic joint over topics: ``pam_control`` leads angle and stiffness of ``pam_sim``.
 
-The arm carries more than the controller was told. The angle swings by ``joint_trajectory``; the
-stiffness is told on ``co_contraction_reference``, in the midst of the swing and at rest.
+The arm carries more than is declared to the controller. The angle swings by
+``joint_trajectory``; the stiffness is set on ``co_contraction_reference``, in the midst of the
+swing and at rest.
 """
 
 import math
@@ -49,7 +50,7 @@ def play(stage: Stage) -> None:
     from pam_ros.demo import figures
 
     path = stage.folder / 'joint.png'
-    headline = f'pam_control: told {DECLARED:g} kg, moves {TRUE:g} kg'
+    headline = f'pam_control: {DECLARED:g} kg declared, {TRUE:g} kg moved'
     figures.save(joint.figure(course, headline), path)
     stage.wrote(path)
     stage.text('joint.txt', joint.table(parts))
@@ -59,22 +60,22 @@ def record(stage: Stage) -> JointCourse:
     """Return what happened."""
     both = {'joint': 'antagonistic', 'muscle': MUSCLE, 'radius': RADIUS}
     rig = {**both, 'mass': TRUE, 'initial.pressure': 250e3, 'sensor.position_noise': NOISE}
-    told = {**both, 'mass': DECLARED, 'co_contraction': SOFT}
+    controller = {**both, 'mass': DECLARED, 'co_contraction': SOFT}
     commands = (Float64MultiArray, 'pressure_commands')
-    with Duet(stage, rig, told, commands, ('stiffnesses',)) as duet:
+    with Duet(stage, rig, controller, commands, ('stiffnesses',)) as duet:
         arrays = duet.client.collect(Float64MultiArray, 'stiffnesses')
         duet.begin(arrays)
         before = len(arrays)
         duet.stop_after(REST)
         stage.say(f'  a sine of {math.degrees(SWING):.0f} degrees at {FREQUENCY:g} Hz')
-        duet.tell(sine(), 'joint_trajectory')
+        duet.publish(sine(), 'joint_trajectory')
         begin = seconds(duet.terms[-1])
         duet.stop_after(0.5 * CYCLES / FREQUENCY)
         stage.say(f'  co-contraction from {SOFT:g} to {STIFF:g} N m/rad')
-        duet.tell(Float64(data=STIFF), 'co_contraction_reference', 'co_contraction')
+        duet.publish(Float64(data=STIFF), 'co_contraction_reference', 'co_contraction')
         duet.stop_after(begin + CYCLES / FREQUENCY + REST - seconds(duet.states[-1]))
         stage.say(f'  and back to {SOFT:g} N m/rad')
-        duet.tell(Float64(data=SOFT), 'co_contraction_reference', 'co_contraction')
+        duet.publish(Float64(data=SOFT), 'co_contraction_reference', 'co_contraction')
         duet.stop_after(REST)
         periods = len({seconds(state) for state in duet.states}) - 1
         duet.client.until(lambda: len(arrays) >= before + periods, 'an array for each state')

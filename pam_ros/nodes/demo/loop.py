@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """The loop closed over topics: a rig is excited, recorded and identified, then simulated better.
 
-``pam_sim`` stands in for the rig, with effects that are told to nobody. ``pam_excite`` plays its
-programme, ``pam_record`` writes a rosbag2, ``pam_identify`` finds what the declared model lacks.
+``pam_sim`` stands in for the rig, with effects that are declared to no program. ``pam_excite``
+plays its programme, ``pam_record`` writes a rosbag2, ``pam_identify`` finds what the declared
+model lacks.
 Then the rig runs once more, beside it a simulator as declared and one that was started with
 ``identified.yaml``; all three hear the same commands.
 """

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Position control over topics: ``pam_control`` leads the load of ``pam_sim``.
 
-The load is heavier than the controller was told. Set-points come on ``position_reference``, a sine
-as ``joint_trajectory``. Both programs run in lockstep, so that a busy machine changes nothing.
+The load is heavier than is declared to the controller. Set-points come on
+``position_reference``, a sine as ``joint_trajectory``. Both programs run in lockstep, so that a busy machine changes nothing.
 """
 
 import math
@@ -46,7 +46,7 @@ def play(stage: Stage) -> None:
     from pam_ros.demo import figures
 
     path = stage.folder / 'position_control.png'
-    headline = f'pam_control: told {DECLARED:g} kg, moves {TRUE:g} kg'
+    headline = f'pam_control: {DECLARED:g} kg declared, {TRUE:g} kg moved'
     figures.save(position.figure(course, headline), path)
     stage.wrote(path)
     stage.text('position_control.txt', position.table(steps, whole))
@@ -55,16 +55,16 @@ def play(stage: Stage) -> None:
 def record(stage: Stage) -> tuple[Course, list[float]]:
     """Return what happened, and the times in s at which it set out to each goal and the sine."""
     rig = {'muscle': MUSCLE, 'mass': TRUE, 'initial.pressure': 300e3}
-    told = {'muscle': MUSCLE, 'mass': DECLARED}
-    with Duet(stage, rig, told, (Float64, 'pressure_command')) as duet:
+    controller = {'muscle': MUSCLE, 'mass': DECLARED}
+    with Duet(stage, rig, controller, (Float64, 'pressure_command')) as duet:
         duet.begin()
         stops = [duet.stop_after(1.5)]
         for goal in GOALS:
             stage.say(f'  to {1e3 * goal:.0f} mm')
-            duet.tell(Float64(data=goal), 'position_reference')
+            duet.publish(Float64(data=goal), 'position_reference')
             stops.append(duet.stop_after(HOLD))
         stage.say(f'  a sine of {1e3 * SWING:.0f} mm at {FREQUENCY:g} Hz')
-        duet.tell(sine(GOALS[-1]), 'joint_trajectory')
+        duet.publish(sine(GOALS[-1]), 'joint_trajectory')
         duet.stop_after(CYCLES / FREQUENCY + 0.5)
         course = put_together(duet.states, duet.terms)
     return course, [course.departure(stop, STILL) for stop in stops]

@@ -127,7 +127,7 @@ class PamExcite(TickingNode):
                 self._answer(now, is_again=bool(before) and self._stamp == before)
 
     def _answer(self, now: float, *, is_again: bool) -> None:
-        """Command at *now* s; one that is told again asks for its answer, that may be lost."""
+        """Command at *now* s; one that comes again asks for its answer again."""
         if not is_again:
             self._play_at(now)
         elif time.monotonic() - self._answered > REPEAT:

@@ -51,7 +51,7 @@ class PamRecord(TickingNode):
         self._group = Taken()
         self._time = SimulatedTime()
         self._is_simulated = bool(self.get_parameter('use_sim_time').value)
-        self._clock_told: Subscription | None = None
+        self._clock_heard: Subscription | None = None
         self._lock = threading.Lock()  # of the writer and of what is recorded
         self._is_closing = threading.Event()
         self._problem = ''
@@ -101,10 +101,10 @@ class PamRecord(TickingNode):
             return
         kinds = dict(self.get_topic_names_and_types())
         clocks = self.get_publishers_info_by_topic('/clock') if self._is_simulated else []
-        if clocks and self._clock_told is None:
-            told = self._subscribe(Clock, '/clock', clocks, raw=False)
+        if clocks and self._clock_heard is None:
+            clock = self._subscribe(Clock, '/clock', clocks, raw=False)
             with self._lock:
-                self._clock_told = told
+                self._clock_heard = clock
         for topic in self._wanted:
             publishers = self.get_publishers_info_by_topic(topic)
             if publishers and topic not in self._recorded and topic not in self._refused:
@@ -186,15 +186,15 @@ class PamRecord(TickingNode):
                         received = sent = self.get_clock().now().nanoseconds
                     self._writer.write(recorded.channel, received, sent, data)
                 recorded.count_lost(info['publication_sequence_number'], topic in self._sole)
-        if self._clock_told:
-            for message, info in all_of(self._clock_told):
+        if self._clock_heard:
+            for message, info in all_of(self._clock_heard):
                 now = message.clock.sec * SECOND + message.clock.nanosec
                 self._time.tell(info['source_timestamp'], now)
         for recorded in self._recorded.values():
             self._write_waiting(recorded, is_last)
 
     def _write_waiting(self, recorded: Recorded, is_last: bool) -> None:
-        """Write the messages of a topic until one whose time may still be told."""
+        """Write the messages of a topic until one whose time is not yet known."""
         now, waiting = monotonic_ns(), recorded.waiting
         while waiting:
             data, sent, taken = waiting[0]

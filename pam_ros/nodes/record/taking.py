@@ -35,7 +35,7 @@ class Recorded:
         self.subscription, self.channel = subscription, channel
         self.last_number: int | None = None
         self.lost = 0
-        # Taken, and not yet told when they were sent: data, system time of that, time taken, ns.
+        # Taken, but simulated time is not yet known: data, system time of sending, time taken, ns.
         self.waiting: deque[tuple[bytes, int, int]] = deque()
 
     def count_lost(self, number: int | None, is_sole: bool) -> None:

@@ -16,7 +16,7 @@ from pam_ros.settings.scene import Simulation
 
 def hear_commands(
     node: Node,
-    told: Simulation,
+    simulation: Simulation,
     turns: Turns,
     take: Callable[[int, Float64], None],
     take_all: Callable[[Float64MultiArray], None],
@@ -33,10 +33,10 @@ def hear_commands(
         )
         turns.watch(subscription)
 
-    if told.is_one:
+    if simulation.is_one:
         hear(Float64, 'pressure_command', partial(take, 0))
         return
     hear(Float64MultiArray, 'pressure_commands', take_all)
-    if told.settings.muscle_topics:
-        for i, name in enumerate(told.muscle_names):
+    if simulation.settings.muscle_topics:
+        for i, name in enumerate(simulation.muscle_names):
             hear(Float64, f'{name}/pressure_command', partial(take, i))

@@ -9,17 +9,19 @@ from rclpy.subscription import Subscription
 
 from pam_ros.timing.pace import SECOND
 
-REPEAT = SECOND // 2  # ns after which the state is told again to a controller that was not heard
+REPEAT = (
+    SECOND // 2
+)  # ns after which the state is published again for a controller that was not heard
 PATIENCE = SECOND  # ns of waiting that is worth a word
-SETTLE = SECOND // 4  # ns in which answers to a state that was told more than once come in
+SETTLE = SECOND // 4  # ns in which answers to a state that was published more than once come in
 
 
 class Turns:
     """Counts the muscles that were commanded in this period, and watches who commands.
 
     A controller that comes late, or takes the place of one that died, has not heard the state
-    that waits for an answer: it is to be told again, until something is heard of it. One that was
-    heard is never told twice, however long it thinks.
+    that waits for an answer: it is to be published again, until something is heard of it. For
+    one that was heard it is never published twice, however long it computes.
 
     Where a controller may have more than one command under way (it was just found, time goes on
     after a pause, the rig was reset) all that comes within SETTLE is one answer: the last counts.
@@ -42,7 +44,7 @@ class Turns:
     def begin(self) -> None:
         """Wait for commands from now on: the state was published."""
         self._answered.clear()
-        self._since = self._told = monotonic_ns()
+        self._since = self._simulation = monotonic_ns()
 
     def take(self, muscle: int | None) -> None:
         """Note the command of one muscle, or of all."""
@@ -74,12 +76,12 @@ class Turns:
         if monotonic_ns() - self._since < PATIENCE:
             return ''
         if not self._known:
-            return f'waits for a controller since {self.waited:.1f} s: nobody commands'
+            return f'waits for a controller since {self.waited:.1f} s: no node commands'
         left = self._muscles - len(self._answered)
         return f'waits for commands since {self.waited:.1f} s: {left} of {self._muscles} missing'
 
     def must_repeat(self) -> bool:
-        """Say whether the state is to be told again now; called a few times a second."""
+        """Say whether the state is to be published again now; called a few times a second."""
         known = frozenset(
             bytes(info.endpoint_gid)
             for topic in self._topics
@@ -90,7 +92,7 @@ class Turns:
         if is_new or not known:
             self._is_heard = False
         now = monotonic_ns()
-        if self._is_heard or not (is_new or now - self._told > REPEAT):
+        if self._is_heard or not (is_new or now - self._simulation > REPEAT):
             return False
-        self._told = now
+        self._simulation = now
         return True

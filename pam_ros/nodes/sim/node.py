@@ -32,16 +32,16 @@ FASTEST_TICK = 1000.0  # Hz
 
 
 class PamSim(TickingNode):
-    """A rig whose time passes as it is told; it hears commands and tells its state."""
+    """A rig that is simulated in the declared time; it hears commands and publishes its state."""
 
     def __init__(self) -> None:
         """Make the rig that the parameters describe, at its initial state."""
         super().__init__('pam_sim')
         scene = Scene(given(self))
         self._given = NodeParameters(self, scene.table(), scene.build, self._change)
-        self._told = self._given.built
-        settings = self._told.settings
-        self._plant = Plant(self._told)
+        self._simulation = self._given.built
+        settings = self._simulation.settings
+        self._plant = Plant(self._simulation)
         self._is_lockstep = settings.time_mode == 'lockstep'
         self._is_followed = not settings.has_own_time
         self._time: FollowedTime | OwnTime
@@ -55,10 +55,10 @@ class PamSim(TickingNode):
         self._said: tuple[int, Reading | OneReading] | None = None
         self._samples = Grid(settings.physics_rate)
         self._clock_ticks = Grid(settings.physics_rate)
-        self._one = self._told.is_one
-        self._output = Output(self, self._told)
-        self._turns = Turns(self, len(self._told.muscles))
-        hear_commands(self, self._told, self._turns, self._command, self._command_all)
+        self._one = self._simulation.is_one
+        self._output = Output(self, self._simulation)
+        self._turns = Turns(self, len(self._simulation.muscles))
+        hear_commands(self, self._simulation, self._turns, self._command, self._command_all)
         self._begin()
         self.create_service(Trigger, '~/reset', self._reset)
         self.create_service(SetBool, '~/pause', self._pause)
@@ -81,14 +81,16 @@ class PamSim(TickingNode):
 
     def _begin_again(self) -> None:
         """Go to the initial state, one period later."""
-        self._time.restart(self._plant.step, round(SECOND / self._told.settings.publish_rate))
+        self._time.restart(
+            self._plant.step, round(SECOND / self._simulation.settings.publish_rate)
+        )
         self._begin()
 
     def _begin(self) -> None:
         """Go to the initial state."""
         self._plant.begin()
         self._fault = ''
-        self._samples.begin(self._told.settings.publish_rate)
+        self._samples.begin(self._simulation.settings.publish_rate)
         self._clock_ticks.begin(self._clock_rate)
         self._turns.begin()
 
@@ -97,15 +99,15 @@ class PamSim(TickingNode):
     @property
     def _factor(self) -> float:
         """How fast simulated time is to pass: in lockstep as fast as its turns are."""
-        return 0.0 if self._is_lockstep else self._told.settings.speed_factor
+        return 0.0 if self._is_lockstep else self._simulation.settings.speed_factor
 
     @property
     def _clock_rate(self) -> float:
-        return 0.0 if self._is_followed else self._told.settings.clock_rate
+        return 0.0 if self._is_followed else self._simulation.settings.clock_rate
 
     @property
     def _tick_rate(self) -> float:
-        settings = self._told.settings
+        settings = self._simulation.settings
         if self._is_followed:
             return settings.publish_rate
         if self._is_lockstep or self._is_paused:
@@ -116,12 +118,12 @@ class PamSim(TickingNode):
     def tick(self) -> None:
         """Simulate what is due and publish; tell the state where time stands still."""
         if self._is_paused:
-            self._tell_again()
+            self._publish_again()
         elif self._is_lockstep:
             if self._turns.is_complete:
                 self._run_to(self._samples.next)
             elif self._turns.must_repeat():
-                self._tell_again()
+                self._publish_again()
         else:
             self._run_to_now()
             if not self._time.follows_clock:
@@ -133,7 +135,7 @@ class PamSim(TickingNode):
     def _time_is_paced(self) -> bool:
         return self._is_followed or self._factor > 0.0
 
-    def _tell_again(self) -> None:
+    def _publish_again(self) -> None:
         """Publish the state that there is.
 
         Where time stands still, too, it is what the sensors said: they are not asked again, so
@@ -173,7 +175,7 @@ class PamSim(TickingNode):
 
     def _sample_from_here(self) -> None:
         """Let the next sample come one period from now."""
-        self._samples.begin(self._told.settings.publish_rate, self._plant.step, 1)
+        self._samples.begin(self._simulation.settings.publish_rate, self._plant.step, 1)
 
     # Out -----------------------------------------------------------------------------------
 
@@ -202,7 +204,7 @@ class PamSim(TickingNode):
         self._answer(muscle)
 
     def _command_all(self, message: Float64MultiArray) -> None:
-        wanted, count = len(self._told.muscles), len(message.data)
+        wanted, count = len(self._simulation.muscles), len(message.data)
         if count != wanted:
             reason = f'pressure_commands has {count} values for {wanted} muscles: nothing taken'
             self.get_logger().warning(reason, throttle_duration_sec=1.0)
@@ -231,7 +233,7 @@ class PamSim(TickingNode):
     def _change(self, now: Simulation) -> None:
         """Go on with other parameters."""
         self._run_to_now()
-        before, self._told = self._told.settings, now
+        before, self._simulation = self._simulation.settings, now
         self._plant.change(now)
         self._output.describe(now)
         settings = now.settings
@@ -277,11 +279,11 @@ class PamSim(TickingNode):
         if not self._is_paused:
             response.message = 'time goes on: pause first'
             return response
-        periods = self._told.settings.step_periods
+        periods = self._simulation.settings.step_periods
         self._sample_from_here()
         for _ in range(periods):
             if self._is_followed:
-                # Each is stamped with the time that it is told at.
+                # Each is stamped with the time at which it is published.
                 self._time.align(self._samples.next)
             self._run_to(self._samples.next)
             if self._fault:
@@ -308,7 +310,7 @@ class PamSim(TickingNode):
             waits=self._turns.complaint if self._is_lockstep else '',
             fault=self._fault,
         )
-        return sim_health.timing(self._told.settings, kept, done, self.scheduling)
+        return sim_health.timing(self._simulation.settings, kept, done, self.scheduling)
 
     def _commands(self) -> Health:
         return sim_health.commands(self._plant, self._bad)

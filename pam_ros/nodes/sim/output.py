@@ -18,27 +18,30 @@ from pam_ros.timing.pace import SECOND
 class Output:
     """The topics of one muscle or of several, and ``/clock`` where the time is the simulator's."""
 
-    def __init__(self, node: Node, told: Simulation) -> None:
+    def __init__(self, node: Node, simulation: Simulation) -> None:
         """Create the publishers on *node*."""
-        settings = told.settings
+        settings = simulation.settings
         if settings.has_own_time:
             self._clock = Clock()
             self._clock_publisher = node.create_publisher(Clock, '/clock', DEPTH)
         # Each takes what the plant reads: of one muscle alone, or of several.
         self._telemetry: list[Any]
-        if told.is_one:
-            self._telemetry = [Telemetry(node, told.joint_names[0])]
+        if simulation.is_one:
+            self._telemetry = [Telemetry(node, simulation.joint_names[0])]
         else:
-            self._telemetry = [ArrayTelemetry(node, told.joint_names, told.muscle_names)]
+            self._telemetry = [
+                ArrayTelemetry(node, simulation.joint_names, simulation.muscle_names)
+            ]
             if settings.muscle_topics:
                 have_loads = settings.joint == 'load'
-                self._telemetry.append(MuscleTelemetry(node, told.muscle_names, have_loads))
-        self.describe(told)
+                self._telemetry.append(MuscleTelemetry(node, simulation.muscle_names, have_loads))
+        self.describe(simulation)
 
-    def describe(self, told: Simulation) -> None:
-        """Publish from now on with the frame, variance and ambient pressure that are told."""
-        self._ambient = told.settings.ambient_pressure
-        frame, variance = told.settings.frame_id, told.sensors.pressure_noise**2
+    def describe(self, simulation: Simulation) -> None:
+        """Publish from now on with the frame, variance and ambient pressure of these settings."""
+        settings = simulation.settings
+        self._ambient = settings.ambient_pressure
+        frame, variance = settings.frame_id, simulation.sensors.pressure_noise**2
         for telemetry in self._telemetry:
             telemetry.describe(frame, variance)
 

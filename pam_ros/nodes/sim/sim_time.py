@@ -65,7 +65,7 @@ class OwnTime:
     """Time that passes with the simulation alone; ``factor`` times as fast as the steady clock.
 
     A factor of 0 is no pace at all: everything is due. Time never goes back, not at a reset
-    either, so that nobody who follows it has to bear that.
+    either, so that no program that follows it sees a jump.
     """
 
     follows_clock = False

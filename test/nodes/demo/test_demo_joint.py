@@ -25,11 +25,11 @@ def test_a_joint_is_led_by_angle_and_stiffness_over_topics(tmp_path):
     text = (folder / 'joint.txt').read_text(encoding='utf-8')
     assert text.strip() in done.stdout
     _, *sines, rest = text.splitlines()
-    for row, told in zip(sines, (20.0, 35.0), strict=True):
+    for row, wanted_stiffness in zip(sines, (20.0, 35.0), strict=True):
         *_, rms, _, _, _, stiffness, wanted = row.split()
         assert float(rms) < 0.2  # degrees, with a third more load than was declared
-        assert float(wanted) == told
-        assert abs(float(stiffness) - told) < 0.05
+        assert float(wanted) == wanted_stiffness
+        assert abs(float(stiffness) - wanted_stiffness) < 0.05
     *_, largest, _, stiffness, wanted = rest.split()
     assert float(largest) < 0.2  # four or five times the noise of the sensor, and what it lacks
     assert float(wanted) == 20.0
