@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from pam_ros.identification.segment import Segment
+from pam_ros.identification.segment import FreeSegment, HeldSegment, Segment
 from pam_ros.rig.joint import Joint
 from pam_ros.rig.rest import rest
 
@@ -37,7 +37,7 @@ def coarse_step(model: Joint) -> float:
 def thinned(segment: Segment, step: float) -> Segment:
     """Return *segment* with every n-th sample, n so that the period is at most *step*."""
     period = float(np.median(np.diff(segment.t)))
-    if segment.kind == 'held':
+    if isinstance(segment, HeldSegment):
         stride = max(1, segment.t.size // SAMPLES)
         rows = slice(None, None, stride)
         return replace(
@@ -47,6 +47,7 @@ def thinned(segment: Segment, step: float) -> Segment:
                 for name in ('t', 'target', 'fit', 'pressure', 'position', 'velocity')
             },
         )
+    assert isinstance(segment, FreeSegment)
     stride = max(1, int(step / period + 1e-6))
     t = segment.t[::stride]
     drive_t, drive = _merged(segment.drive_t, segment.drive, t)

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pam_ros.identification.candidate import Fit
-from pam_ros.identification.segment import Segment
+from pam_ros.identification.segment import HeldSegment
 from pam_ros.rig import layout as at
 
 Array = NDArray[np.float64]
@@ -69,16 +69,17 @@ def drifts(fit: Fit, sigma: float) -> list[Drift]:
     a free one, is not compared.
     """
     problem = fit.solution.problem
-    if problem.segments[0].kind != 'held':
+    runs = [s for s in problem.segments if isinstance(s, HeldSegment)]
+    if len(runs) < len(problem.segments):
         return []
-    runs = problem.segments
     simulated = problem.predict(fit.solution.u)
+    l0 = float(problem.row[problem.layout.constant(at.L0)])
     found = []
-    for same in _of_one_length(runs, SAME * problem.row[at.L0]):
+    for same in _of_one_length(runs, SAME * l0):
         left = [(runs[k].target - simulated[k])[runs[k].fit] for k in same]
         levels = np.array([np.median(e) for e in left])
         if np.ptp(levels) > sigma:
-            kappa = float(runs[same[0]].position.mean() / problem.row[at.L0])
+            kappa = float(runs[same[0]].position.mean() / l0)
             found.append(Drift(tuple(same), kappa, levels))
     return found
 
@@ -91,7 +92,7 @@ def shares(drifting: Sequence[Drift], count: int) -> tuple[float, ...]:
     return tuple(found) if drifting else ()
 
 
-def _of_one_length(segments: Sequence[Segment], same: float) -> list[list[int]]:
+def _of_one_length(segments: Sequence[HeldSegment], same: float) -> list[list[int]]:
     """Return the numbers of the runs at each length; lengths less than *same* m apart are one."""
     groups: dict[float, list[int]] = {}
     for k, s in enumerate(segments):

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pam_ros.effects.base import Effect
-from pam_ros.identification.segment import Segment
+from pam_ros.identification.segment import FreeSegment, HeldSegment, Segment
 from pam_ros.identification.unknowns import RunStart, Unknown
 from pam_ros.rig import layout as at
 from pam_ros.rig.bind import bind
@@ -87,10 +87,10 @@ class Problem:
                         y0 = unknown.value(value)
             out = np.empty((s.t.size, self.layout.run_columns))
             x = start_state(self.layout, q, (s.first_pressure,), y0, v0)
-            if s.kind == 'free':
+            if isinstance(s, FreeSegment):
                 act_t, acting = acting_commands(s.drive_t, s.drive[:, None], delays)
                 kernel.simulate(x, scratch, q, s.t, act_t, acting, self.step, out, False)
-            else:
+            elif isinstance(s, HeldSegment):
                 pressure = s.pressure[:, None]
                 kernel.simulate_held(
                     x, scratch, q, s.t, pressure, s.position, s.velocity, HELD_STEP, out

@@ -18,7 +18,7 @@ from pam_ros.identification.noise import Noise
 from pam_ros.identification.pairs import paired
 from pam_ros.identification.retuning import only_starts, problem_of, robust
 from pam_ros.identification.round import NEAR, Setting, try_effects
-from pam_ros.identification.segment import Segment, windows
+from pam_ros.identification.segment import FreeSegment, Segment, windows
 from pam_ros.identification.solve import solve
 from pam_ros.identification.weak import motion_of
 from pam_ros.rig.joint import Joint
@@ -47,12 +47,13 @@ def search(model: Joint, segments: Sequence[Segment], noise: Noise, progress: Pr
     if model.is_driven:
         thin = [part for s in thin for part in windows(s, WINDOW)]
     problem = problem_of(model, thin, noise, step, stride)
-    is_free_rig = thin[0].kind == 'free' and not model.is_driven
-    motions = (
-        [motion_of(s, t, noise.sigma) for s, t in zip(segments, thin, strict=True)]
-        if is_free_rig
-        else []
-    )
+    # A load without a spring is cut into windows, which are no runs to be smoothed.
+    pairs = [] if model.is_driven else zip(segments, thin, strict=True)
+    motions = [
+        motion_of(full, part, noise.sigma)
+        for full, part in pairs
+        if isinstance(full, FreeSegment) and isinstance(part, FreeSegment)
+    ]
     with ThreadPoolExecutor() as pool:
         progress(0.0, 'simulating the model as declared')
         declared = fitted((), only_starts(problem, np.zeros(len(problem.unknowns)), pool))

@@ -2,9 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """A gapless stretch of a recording, made ready to be simulated again and again."""
 
+from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,41 +23,65 @@ BLOCKS = 10
 ONSET = 0.4  # s
 
 
-@dataclass(frozen=True, eq=False)
-class Segment:
-    """One free run of the simulator, compared with what was measured.
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Segment(ABC):
+    """A run of the simulator, compared with what was measured.
 
-    t (n,) s; drive_t, drive (m,) the commands of a free run; pressure, position, velocity (n,)
-    the inputs of a held one; target (n,) what the simulation must give: position in m of a free
-    rig, force in N of a held one; fit (n,) marks the samples that may be used for fitting, the
-    others are kept back. y0, v0: first guess of the state at t[0].
+    t (n,) s; target (n,) what the simulation must give; fit (n,) marks the samples that may be
+    used for fitting, the others are kept back. y0, v0: first guess of the state at t[0].
     """
 
+    kind: ClassVar[str]  # as a recording has it
+    quantity: ClassVar[str]  # name of the target
+
     name: str
-    kind: str
     t: Array
     target: Array
     fit: Mask
-    drive_t: Array
-    drive: Array
-    pressure: Array
-    position: Array
-    velocity: Array
     y0: float
     v0: float
 
     @property
+    @abstractmethod
     def first_pressure(self) -> float:
         """Pressure in Pa, commanded or measured, under which the run begins."""
-        if self.kind == 'held':
-            return float(self.pressure[0])
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class FreeSegment(Segment):
+    """A run of a rig whose load moves: commands in, position in m out.
+
+    drive_t, drive (m,): stamps in s and values in Pa of the commands.
+    """
+
+    kind: ClassVar[str] = 'free'
+    quantity: ClassVar[str] = 'position'
+
+    drive_t: Array
+    drive: Array
+
+    @property
+    def first_pressure(self) -> float:
+        """Commanded pressure in Pa under which the run begins."""
         before = int(np.searchsorted(self.drive_t, self.t[0], side='right')) - 1
         return float(self.drive[max(before, 0)])
 
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class HeldSegment(Segment):
+    """A run at a prescribed length: measured pressure in Pa, position and velocity in, N out."""
+
+    kind: ClassVar[str] = 'held'
+    quantity: ClassVar[str] = 'force'
+
+    pressure: Array
+    position: Array
+    velocity: Array
+
     @property
-    def quantity(self) -> str:
-        """Name of the target."""
-        return 'position' if self.kind == 'free' else 'force'
+    def first_pressure(self) -> float:
+        """Measured pressure in Pa under which the run begins."""
+        return float(self.pressure[0])
 
 
 def segments_of(recordings: Sequence[Recording], keep_back: bool) -> list[Segment]:
@@ -87,11 +113,16 @@ def _segment(part: Recording, keep_back: bool) -> Segment:
     if part.kind == 'free':
         drive_t, drive = part.drive(1e-3)
         y0, v0 = start_of(part.t, part.position)
-        empty = np.empty(0)
-        return Segment(
-            part.name, part.kind, part.t, part.position, fit, drive_t, drive,
-            empty, empty, empty, y0, v0,
-        )  # fmt: skip
+        return FreeSegment(
+            name=part.name,
+            t=part.t,
+            target=part.position,
+            fit=fit,
+            y0=y0,
+            v0=v0,
+            drive_t=drive_t,
+            drive=drive,
+        )
     pressure = part.pressure
     if pressure is None:
         assert part.command_t is not None
@@ -102,11 +133,17 @@ def _segment(part: Recording, keep_back: bool) -> Segment:
     if part.force is None:
         raise RecordingError(f'{part.name}: a held recording needs the force')
     velocity = _velocity(part.t, part.position)
-    empty = np.empty(0)
-    return Segment(
-        part.name, part.kind, part.t, part.force, fit, empty, empty,
-        pressure, part.position, velocity, part.position[0], velocity[0],
-    )  # fmt: skip
+    return HeldSegment(
+        name=part.name,
+        t=part.t,
+        target=part.force,
+        fit=fit,
+        y0=part.position[0],
+        v0=velocity[0],
+        pressure=pressure,
+        position=part.position,
+        velocity=velocity,
+    )
 
 
 def _kept_back(k: int) -> bool:

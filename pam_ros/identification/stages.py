@@ -15,7 +15,7 @@ from pam_ros.identification.candidate import Fit
 from pam_ros.identification.evidence import independent_samples
 from pam_ros.identification.problem import Problem
 from pam_ros.identification.result import Estimate, Stage
-from pam_ros.identification.segment import Segment
+from pam_ros.identification.segment import HeldSegment, Segment
 from pam_ros.identification.unknowns import CONSTANTS, OfEffect, Unknown
 from pam_ros.muscle.constants import Constants, from_si
 from pam_ros.muscle.muscle import Muscle
@@ -106,7 +106,9 @@ def model_of(model: Joint, problem: Problem, u: Array, effects: Sequence[str]) -
                 p.name: float(q[model.layout.index(effect, k)])
                 for k, p in enumerate(effect.parameters)
             }
-    went = np.concatenate([s.target if s.kind == 'free' else s.position for s in problem.segments])
+    went = np.concatenate(
+        [s.position if isinstance(s, HeldSegment) else s.target for s in problem.segments]
+    )
     limits = {
         'kappa_min': min(0.0, float(went.min()) / model.muscle.l0),
         'kappa_max': max(0.01, float(went.max()) / model.muscle.l0),

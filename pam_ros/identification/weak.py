@@ -22,7 +22,7 @@ from scipy.signal import savgol_filter
 from pam_ros.effects.base import Effect
 from pam_ros.identification.candidate import EARNED, PROMISING, Fit, extended, fitted, freed
 from pam_ros.identification.problem import Problem, finite
-from pam_ros.identification.segment import Segment
+from pam_ros.identification.segment import FreeSegment, Segment
 from pam_ros.identification.solve import Solution, amplified_cost, improved, solve
 from pam_ros.rig.bind import bind
 from pam_ros.rig.joint import Joint
@@ -52,7 +52,7 @@ class Motion:
     noise of the position. moving (k,) marks those under which the rig goes one way all the time.
     """
 
-    segment: Segment
+    segment: FreeSegment
     t: Array
     y: Array
     v: Array
@@ -62,7 +62,7 @@ class Motion:
     moving: NDArray[np.bool_]
 
 
-def motion_of(full: Segment, thin: Segment, sigma: float) -> Motion:
+def motion_of(full: FreeSegment, thin: FreeSegment, sigma: float) -> Motion:
     """Return the motion of a free run, its measurement from *full*, its stamps from *thin*.
 
     sigma is the noise of the position in m. Bumps are as wide as SAMPLES of a slow recording, and

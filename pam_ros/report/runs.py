@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pam_ros.identification.result import Trace
-from pam_ros.identification.segment import Segment
+from pam_ros.identification.segment import FreeSegment, HeldSegment, Segment
 from pam_ros.report.diagnostics import Size, size_of
 
 Array = NDArray[np.float64]
@@ -63,12 +63,13 @@ def _cut(simulated: Array) -> Array:
 def _run(
     segment: Segment, simulated: tuple[Array, Array, Array], held: Mask, is_test: bool, l0: float
 ) -> Run:
-    if segment.kind == 'free':
+    if isinstance(segment, FreeSegment):
         position = simulated[-1]
         velocity = np.asarray(np.gradient(position, segment.t), dtype=float)
         at = np.searchsorted(segment.drive_t, segment.t, side='right') - 1
         pressure = segment.drive[np.maximum(at, 0)]
     else:
+        assert isinstance(segment, HeldSegment)
         position, velocity, pressure = segment.position, segment.velocity, segment.pressure
     return Run(
         segment.name,

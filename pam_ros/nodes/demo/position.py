@@ -3,7 +3,8 @@
 """Position control over topics: ``pam_control`` leads the load of ``pam_sim``.
 
 The load is heavier than is declared to the controller. Set-points come on
-``position_reference``, a sine as ``joint_trajectory``. Both programs run in lockstep, so that a busy machine changes nothing.
+``position_reference``, a sine as ``joint_trajectory``. Both programs run in lockstep, so that a
+busy machine changes nothing.
 """
 
 import math
