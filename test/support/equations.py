@@ -8,14 +8,13 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.signal import lfilter
 
-from pam_ros.effects import EFFECTS
 from pam_ros.identification.candidate import Fit
 from pam_ros.identification.problem import Problem
 from pam_ros.identification.segment import segments_of
 from pam_ros.identification.solve import Solution
-from pam_ros.identification.unknowns import Unknown
+from pam_ros.identification.unknowns import Constant, Unknown
 from pam_ros.recording.recording import Recording
-from pam_ros.rig.layout import layout_of
+from pam_ros.rig.joint import one_muscle
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,9 +33,11 @@ class Equation(Problem):
 
 def equation(function, unknowns, independent):
     """Return the problem of *unknowns*: Unknowns, or names of ones that nothing is known of."""
-    made = tuple(Unknown(one, 0, 0.0, 1.0) if isinstance(one, str) else one for one in unknowns)
-    layout = layout_of(EFFECTS)
-    row = np.zeros(layout.parameters)
+    made = tuple(
+        Unknown(Constant(one, 0), 0.0, 1.0) if isinstance(one, str) else one for one in unknowns
+    )
+    layout = one_muscle().layout
+    row = np.zeros(layout.rows * layout.parameters)
     return Equation((), layout, (), row, made, independent, function=function)
 
 
@@ -69,9 +70,9 @@ def missing(miss, size, effects=()):
     t = np.arange(miss.size) / 100.0
     recording = Recording('r', t, t, t, 0.0 * t, None, None, None, 'free')
     segments = segments_of([recording], keep_back=True)
-    layout = layout_of(EFFECTS)
-    row = np.zeros(layout.parameters)
-    unknown = Unknown('size', -1, 0.0, 1.0)
+    layout = one_muscle().layout
+    row = np.zeros(layout.rows * layout.parameters)
+    unknown = Unknown(Constant('size', 0), 0.0, 1.0)
     problem = Missing(segments, layout, (), row, (unknown,), float(miss.size), miss=miss)
     u = np.array([size])
     r = problem.residuals(u)
