@@ -101,7 +101,7 @@ def test_a_lever_is_declared_by_its_geometry(kind, muscles):
         elbow__effects__payload__mass=0.2,
     )
     (joint,) = now.joints
-    assert joint.transmission == Lever(crank=0.05, angle=1.5)
+    assert joint.transmission == Lever(crank=0.05, angle=1.6)
     assert [a.contraction for a in joint.actuators] == [0.08, 0.1][:muscles]
     assert joint.effects['end_stop']['upper'] == 0.9
     assert joint.moved_mass == joint.load.mass + 0.2
