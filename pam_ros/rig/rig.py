@@ -28,8 +28,7 @@ class Rig:
     force N (pulling), stiffness N/m, damping N s/m. Steps are counted, so time is exact; the same
     joints, start and commands give the same bits, however the steps are split into calls.
 
-    *joints* must share one library of effects. *step* is in s. Raises ParameterError when it is
-    too long for one of them.
+    *step* is in s. Raises ParameterError when it is too long for one of the joints.
     """
 
     def __init__(self, joints: Sequence[Joint], step: float = 1e-3) -> None:

@@ -66,7 +66,8 @@ def simulate(
     ]
     s = rest(joint, first) if position is None else position
     x = start_state(layout, q, first, s, velocity)
-    disturb(layout, x, hidden or {})
+    if hidden:
+        disturb(layout, q, x, first, hidden)
     out = np.empty((len(t), layout.run_columns))
     act_t, acting = acting_commands(command_t, command, delays)
     bind(layout, joint.active).simulate(x, layout.scratch(), q, t, act_t, acting, step, out, True)

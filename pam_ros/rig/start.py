@@ -73,12 +73,19 @@ def position(layout: Layout, q: Array, x: Array, i: int) -> float:
     return float(q[at.MUSCLE + i, at.AT_ZERO] + travel)
 
 
-def disturb(layout: Layout, x: Array, away: Mapping[str, Mapping[str, float]]) -> None:
-    """Move hidden states of x *away* from where a long rest has left them.
+def disturb(
+    layout: Layout,
+    q: Array,
+    x: Array,
+    pressures: Sequence[float] | Array,
+    away: Mapping[str, Mapping[str, float]],
+) -> None:
+    """Move hidden states of x *away* from where a long rest at *pressures* Pa has left them.
 
     *away* maps the name of an effect to the names of its states and the change of each, in the
-    state's unit; an effect in muscles is moved in all of them alike. Raises ParameterError for an
-    effect without hidden states, or a state that it does not have.
+    state's unit; an effect in muscles is moved in all of them alike. The chambers then have the
+    pressures of the states that were moved. Raises ParameterError for an effect without hidden
+    states, or a state that it does not have.
     """
     known = {effect.name: effect for effect in layout.library if effect.states}
     for name, changes in away.items():
@@ -95,3 +102,15 @@ def disturb(layout: Layout, x: Array, away: Mapping[str, Mapping[str, float]]) -
                     f'effect {name} has no hidden state {which}: give one of ' + ', '.join(names)
                 )
             x[rows, layout.state_at[name] + names.index(which)] += change
+    for i, pressure in enumerate(pressures):
+        x[at.MUSCLE + i, at.P] = _in_chamber(layout, q, x, i, float(pressure))
+
+
+def _in_chamber(layout: Layout, q: Array, x: Array, i: int, pressure: float) -> float:
+    """Return what is in the chamber of muscle i now, with *pressure* Pa fed to its path."""
+    row, own = at.MUSCLE + i, q[at.MUSCLE + i]
+    for effect in layout.library:
+        if effect.pressure is not None:
+            k, j = layout.state_at[effect.name], layout.parameter_at[effect.name]
+            pressure = effect.pressure(pressure, 0.0, 0.0, x[row], k, x[row].copy(), own, j)
+    return pressure

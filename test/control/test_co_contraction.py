@@ -4,11 +4,11 @@
 
 import numpy as np
 import pytest
+from pam_ros.control.pair_model import PairModel
+from pam_ros.rig.joint_model import JointModel
 
 from pam_ros.control.co_contraction import SWIFT, CoContraction, StiffnessCourse
-from pam_ros.control.pair_model import PairModel
 from pam_ros.errors import ParameterError, RangeError
-from pam_ros.rig.joint_model import JointModel
 
 RIG = PairModel(JointModel())
 DT = 2e-3

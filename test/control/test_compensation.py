@@ -4,11 +4,11 @@
 
 import numpy as np
 import pytest
+from pam_ros.control.inner_model import InnerModel
+from pam_ros.rig.model import RigModel
 
 from pam_ros.control.compensation import Losses, left_to_feedback
-from pam_ros.control.inner_model import InnerModel
 from pam_ros.control.signals import Reference
-from pam_ros.rig.model import RigModel
 from pam_ros.rig.run import simulate_held
 
 DT = 2e-3

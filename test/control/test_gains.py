@@ -6,13 +6,13 @@ import math
 
 import numpy as np
 import pytest
+from pam_ros.rig.model import Load, RigModel
 from scipy.integrate import trapezoid
 from scipy.signal import TransferFunction, impulse
 
 from pam_ros.control.gains import Gains
 from pam_ros.errors import ParameterError
 from pam_ros.muscle.muscle import Muscle
-from pam_ros.rig.model import Load, RigModel
 
 
 @pytest.mark.parametrize(

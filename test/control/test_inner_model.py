@@ -3,10 +3,10 @@
 """What the controller takes for the rig, against the rig itself."""
 
 import pytest
-
 from pam_ros.control.inner_model import InnerModel
-from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig.model import Load, RigModel
+
+from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig.rig import Rig
 
 EFFECTS = {

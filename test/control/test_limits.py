@@ -3,11 +3,11 @@
 """What a valve is asked for, and where a load can be held."""
 
 import pytest
+from pam_ros.rig.model import Load, RigModel
 
 from pam_ros.control.limits import Limiter, Limits, reachable, refuse_unreachable
 from pam_ros.errors import ParameterError, RangeError
 from pam_ros.muscle.muscle import Muscle
-from pam_ros.rig.model import Load, RigModel
 from support.bench import cart, rest
 
 

@@ -6,10 +6,10 @@ import math
 
 import numpy as np
 import pytest
-
 from pam_ros.control.inner_model import InnerModel
-from pam_ros.control.observer import Observer
 from pam_ros.rig.model import Load, RigModel
+
+from pam_ros.control.observer import Observer
 from pam_ros.rig.rig import Rig
 from support.bench import cart
 

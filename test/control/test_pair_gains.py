@@ -3,12 +3,12 @@
 """The gains for a pair: what suits a joint, and what does not."""
 
 import pytest
-
-from pam_ros.control.gains import Gains
 from pam_ros.control.pair_gains import PairGains
 from pam_ros.control.pair_model import PairModel
-from pam_ros.errors import ParameterError
 from pam_ros.rig.joint_model import JointModel
+
+from pam_ros.control.gains import Gains
+from pam_ros.errors import ParameterError
 
 RIG = PairModel(JointModel())
 

@@ -6,16 +6,16 @@ import math
 
 import numpy as np
 import pytest
+from pam_ros.control.pair_gains import PairGains
+from pam_ros.control.pair_law import PairLaw
+from pam_ros.rig.joint_model import Actuator, JointModel
+from pam_ros.rig.joints.antagonistic_pair import PulleyArm
 
 from pam_ros.control.gains import SUPER_TWISTING
 from pam_ros.control.limits import Limits
-from pam_ros.control.pair_gains import PairGains
-from pam_ros.control.pair_law import PairLaw
 from pam_ros.control.signals import Reference
 from pam_ros.errors import RangeError
 from pam_ros.rig import statics
-from pam_ros.rig.joint_model import Actuator, JointModel
-from pam_ros.rig.joints.antagonistic_pair import PulleyArm
 from pam_ros.rig.rig import Rig
 from support.joint_models import pair
 from support.pair_loop import LAG, close_pair, declared

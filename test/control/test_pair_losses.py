@@ -6,13 +6,13 @@ import math
 
 import numpy as np
 import pytest
-
 from pam_ros.control.pair_gains import PairGains
 from pam_ros.control.pair_law import PairLaw
 from pam_ros.control.pair_losses import PairLosses
 from pam_ros.control.pair_model import PairModel
-from pam_ros.control.signals import Reference
 from pam_ros.rig.joint_model import Actuator, JointModel
+
+from pam_ros.control.signals import Reference
 from pam_ros.rig.rig import Rig
 
 DT = 2e-3

@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-
-from pam_ros.control.limits import Limits
 from pam_ros.control.pair_model import PairModel
-from pam_ros.errors import ParameterError, RangeError
-from pam_ros.rig import statics
 from pam_ros.rig.joint_model import Actuator, JointModel
 from pam_ros.rig.joints.antagonistic_pair import PulleyArm
+
+from pam_ros.control.limits import Limits
+from pam_ros.errors import ParameterError, RangeError
+from pam_ros.rig import statics
 from pam_ros.rig.rig import Rig
 from support import joints
 from support.joint_models import UNEQUAL, pair

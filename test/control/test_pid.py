@@ -4,11 +4,11 @@
 
 import numpy as np
 import pytest
+from pam_ros.rig.model import RigModel
 
 from pam_ros.control.limits import Limits
 from pam_ros.control.pid import Pid, PidGains
 from pam_ros.control.signals import Reference
-from pam_ros.rig.model import RigModel
 from support.closed_loop import close_loop, declared, step_target, truth
 
 pytest.importorskip('simple_pid', reason='the PID law needs simple-pid')

@@ -6,9 +6,9 @@ import math
 
 import numpy as np
 import pytest
+from pam_ros.rig.model import RigModel
 
 from pam_ros.control.pressure_path import PressurePath
-from pam_ros.rig.model import RigModel
 from pam_ros.rig.rig import Rig
 
 DT = 2e-3

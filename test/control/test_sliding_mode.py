@@ -6,13 +6,13 @@ import math
 
 import numpy as np
 import pytest
+from pam_ros.rig.model import Load, RigModel
 
 from pam_ros.control.gains import SUPER_TWISTING, Gains
 from pam_ros.control.limits import Limits
 from pam_ros.control.signals import Reference
 from pam_ros.control.sliding_mode import SlidingMode
 from pam_ros.muscle.muscle import Muscle
-from pam_ros.rig.model import Load, RigModel
 from pam_ros.rig.rig import Rig
 from support.bench import cart
 from support.closed_loop import LAG, close_loop, declared, sine_target, step_target, truth

@@ -70,6 +70,6 @@ def test_what_is_hidden_makes_a_rig_that_is_not_the_declared_one():
     declared, values = load_rig(loop.MUSCLE)
     hidden = {k: v for k, v in loop.HIDDEN.items() if k != 'muscle'}
     rig = build_rig({**values, **hidden})
-    assert {effect.name for effect in rig.present} == {'coulomb_friction', 'pressure_lag'}
-    assert not declared.present
+    assert {effect.name for effect in rig.all_present} == {'coulomb_friction', 'pressure_lag'}
+    assert not declared.all_present
     assert rig.muscle.a5 != declared.muscle.a5

@@ -7,9 +7,10 @@ import pytest
 
 from pam_ros.demo import paper
 from pam_ros.demo.run import PublishedRun
-from pam_ros.rig.model import Load, RigModel
+from pam_ros.rig.joint import one_muscle
+from pam_ros.rig.loads import Mass
 
-MODEL = RigModel()
+MODEL = one_muscle()
 
 
 def swing(hertz, decay, rest, amplitude=0.02, seconds=3.0, rate=500.0):
@@ -47,8 +48,9 @@ def test_between_takes_the_begin_and_leaves_the_end():
 def test_acceleration_is_equation_3():
     run = swing(4.0, 6.0, 0.09)
     for mount, gravity in (('vertical', 9.80665), ('horizontal', 0.0)):
+        joint = one_muscle(load=Mass(8.0, mount))
         wanted = (run.force - run.damping * run.velocity) / 8.0 - gravity
-        np.testing.assert_allclose(run.acceleration(Load(8.0, mount)), wanted, rtol=1e-12)
+        np.testing.assert_allclose(run.acceleration(joint), wanted, rtol=1e-12)
 
 
 def test_the_papers_values_stand_beside_ours():

@@ -4,10 +4,10 @@
 
 import numpy as np
 import pytest
+from pam_ros.rig.model import Load, RigModel
 from scipy.integrate import solve_ivp
 
 from pam_ros.muscle.muscle import Muscle
-from pam_ros.rig.model import Load, RigModel
 from pam_ros.rig.run import simulate
 from support import bench
 

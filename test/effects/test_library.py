@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
+from pam_ros.rig.model import start_row
 
 from pam_ros.effects import EFFECTS
 from pam_ros.effects.base import PLACES
 from pam_ros.rig.bind import bind
 from pam_ros.rig.layout import layout_of
-from pam_ros.rig.model import start_row
 from pam_ros.rig.run import simulate, simulate_held
 from support import bench
 

@@ -55,7 +55,7 @@ def test_an_effect_is_named_and_measured(there, numbers):
     assert augmented < (4.0 if there.kind == 'coulomb_friction' else 1.2) * NOISE
     assert found.noise.sigma == pytest.approx(NOISE, rel=0.15)
     assert there.kind in found.sentence
-    assert found.stages[2].model.effects.keys() == {there.kind}
+    assert found.stages[2].model.all_effects.keys() == {there.kind}
     assert found.stages[0].model.effects == {}
 
 

@@ -10,13 +10,15 @@ import pytest
 import yaml
 
 from pam_ros.muscle.muscle import Muscle
-from pam_ros.rig.model import Load, RigModel
+from pam_ros.rig.joint import one_muscle
+from pam_ros.rig.loads import Mass
+from pam_ros.rig.step_limit import longest_step
 
 CONFIG = Path(__file__).parents[2] / 'config'
 MUSCLES = sorted((CONFIG / 'muscles').glob('*.yaml'))
 RIGS = sorted((CONFIG / 'rigs').glob('*.yaml'))
 OF_MUSCLE = {field.name for field in fields(Muscle)}
-OF_LOAD = {field.name for field in fields(Load)}
+OF_LOAD = {field.name for field in fields(Mass)}
 
 
 def load(path):
@@ -29,7 +31,7 @@ def load(path):
 def rig(path):
     values = load(path)
     muscle = Muscle(**{k: v for k, v in values.items() if k in OF_MUSCLE})
-    return RigModel(muscle, Load(**{k: v for k, v in values.items() if k in OF_LOAD}))
+    return one_muscle(muscle, Mass(**{k: v for k, v in values.items() if k in OF_LOAD}))
 
 
 def preset(name):
@@ -53,7 +55,7 @@ def test_every_preset_makes_a_rig_and_says_all_of_it(path):
         # ROS gives a whole number in a file another type than a float.
         assert isinstance(value, (float, str)), f'{name}: {value!r}'
     model = rig(path)
-    assert model.longest_step > 2e-3
+    assert longest_step(model) > 2e-3
 
 
 def test_the_400_mm_muscle_is_the_default_one():
@@ -61,7 +63,7 @@ def test_the_400_mm_muscle_is_the_default_one():
     assert Muscle(**{k: v for k, v in values.items() if k in OF_MUSCLE}) == Muscle(
         source=values['source']
     )
-    assert preset('dmsp_20_400n').load == Load()
+    assert preset('dmsp_20_400n').load == Mass()
 
 
 def data_sheet(folder, size):
@@ -94,6 +96,6 @@ def test_static_force_agrees_with_the_data_sheet(shared_data, name, size, share)
 def test_emps_is_a_mass_and_a_force():
     model = preset('../rigs/emps')
     assert model.muscle.is_load_only
-    assert model.load == Load(mass=95.0, mount='horizontal')
+    assert model.load == Mass(mass=95.0, mount='horizontal')
     np.testing.assert_allclose(model.muscle.force([-2.0, 1.0], 0.2), [-70.30130376, 35.15065188])
     assert model.muscle.p_min == -10.0  # volts, either way

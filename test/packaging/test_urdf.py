@@ -7,17 +7,19 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from pam_ros.rig.joint_model import JointModel
-from pam_ros.rig.joints.antagonistic_pair import PulleyArm
-from pam_ros.rig.model import Load, RigModel
 from urdf_parser_py.urdf import URDF
 
 from pam_ros.rig import statics
+from pam_ros.rig.arrangements import ANTAGONISTIC
+from pam_ros.rig.joint import one_muscle
+from pam_ros.rig.loads import Mass
 from pam_ros.settings.sim import SimSettings
+from pam_ros.settings.tables import build_joint
 
 FOLDER = Path(__file__).parents[2] / 'urdf'
 FILES = sorted(FOLDER.glob('*.urdf'))
 JOINT = SimSettings().joint_name
+PAIR = build_joint(ANTAGONISTIC, ({}, {}), {})  # with all defaults
 each = pytest.mark.parametrize('path', FILES, ids=lambda path: path.stem)
 
 
@@ -136,14 +138,14 @@ def test_what_is_seen_has_a_material_that_is_defined(path):
 
 
 def test_the_rig_is_the_default_one():
-    described, model = robot(FOLDER / 'rig.urdf'), RigModel()
+    described, model = robot(FOLDER / 'rig.urdf'), one_muscle()
     (joint,), muscle = moving(described), model.muscle
     assert joint.type == 'prismatic'
     assert joint.limit.lower == pytest.approx(muscle.kappa_min * muscle.l0)
     assert joint.limit.upper == pytest.approx(muscle.kappa_max * muscle.l0)
     assert joint.limit.effort == muscle.force_max
     inertial = described.link_map['load'].inertial
-    assert inertial.mass == Load().mass
+    assert inertial.mass == Mass().mass
     # Of a cylinder as it is drawn.
     shape = next(v for v in described.link_map['load'].visuals if v.name == 'weight').geometry
     across = inertial.mass * (3.0 * shape.radius**2 + shape.length**2) / 12.0
@@ -160,29 +162,29 @@ def test_contraction_lifts_the_load(y):
 
 
 def test_the_pair_is_the_default_one():
-    described, model = robot(FOLDER / 'antagonistic_pair.urdf'), JointModel()
-    (joint,), load = moving(described), PulleyArm()
+    described = robot(FOLDER / 'antagonistic_pair.urdf')
+    (joint,), load, radius = moving(described), PAIR.load, PAIR.transmission.radius
     assert joint.type == 'revolute'
-    assert (joint.limit.lower, joint.limit.upper) == pytest.approx(model.travel)
-    assert joint.limit.effort == pytest.approx(load.radius * model.muscles[0].force_max)
+    assert (joint.limit.lower, joint.limit.upper) == pytest.approx(statics.span(PAIR))
+    assert joint.limit.effort == pytest.approx(radius * PAIR.muscles[0].force_max)
     inertial = described.link_map['arm'].inertial
     com = np.array(inertial.origin.xyz)
     assert inertial.mass == load.mass
     np.testing.assert_allclose(com, [0.0, 0.0, -load.arm])
     about_pivot = inertial.inertia.iyy + inertial.mass * com @ com
-    assert about_pivot == pytest.approx(model.inertia)
+    assert about_pivot == pytest.approx(PAIR.inertia)
     # The ends of the muscles are drawn with a mass, though the model has none for them.
     ends = sum(described.link_map[f'end_{i}'].inertial.mass for i in (1, 2))
-    assert ends * load.radius**2 < 0.01 * model.inertia
+    assert ends * radius**2 < 0.01 * PAIR.inertia
 
 
 @pytest.mark.parametrize('angle', [-1.4, -0.3, 0.0, 0.8, 1.4])
 def test_the_pairs_muscles_have_their_lengths(angle):
-    described, model = robot(FOLDER / 'antagonistic_pair.urdf'), JointModel()
-    for i, muscle in enumerate(model.muscles):
+    described = robot(FOLDER / 'antagonistic_pair.urdf')
+    for i, muscle in enumerate(PAIR.muscles):
         hook = place(described, f'muscle_{i + 1}', angle)
         end = place(described, f'end_{i + 1}', angle)
-        length = muscle.l0 * (1.0 - statics.contraction(model, i, angle))
+        length = muscle.l0 * (1.0 - statics.contraction(PAIR, i, angle))
         np.testing.assert_allclose(hook[:3, 3] - end[:3, 3], [0.0, 0.0, length], atol=1e-12)
         limit = described.joint_map[f'contraction_{i + 1}'].limit
         assert limit.lower - 1e-9 <= (1 - 2 * i) * 0.04 * angle <= limit.upper + 1e-9

@@ -13,12 +13,13 @@ import numpy as np
 import pytest
 
 from pam_ros.compiled import HAVE_NUMBA
-from pam_ros.effects.base import Effect, EffectParameter
-from pam_ros.rig.bind import bind, bind_joints, fingerprint
-from pam_ros.rig.joints import JOINTS
+from pam_ros.effects.base import Compensation, Effect, EffectParameter
+from pam_ros.rig.bind import bind, fingerprint
+from pam_ros.rig.joint import one_muscle
 from pam_ros.rig.layout import layout_of
-from pam_ros.rig.model import Load, RigModel
+from pam_ros.rig.loads import Arm, Mass
 from pam_ros.rig.rig import Rig
+from pam_ros.rig.transmissions import Lever, Pulley, Straight
 
 ROOT = Path(__file__).parents[2]
 SOURCE = '''
@@ -45,7 +46,8 @@ def function_of(source):
 
 def effect_of(source, name='drag'):
     strength = EffectParameter('strength', 0.0, '', '', 0.0, 1e3, scale=1.0, strength=True)
-    return Effect(name, '', '', (strength,), '', '', (), outside=function_of(source))
+    text = (name, '', '', (strength,), '', '', (), {'strength': 1.0}, Compensation.MODEL)
+    return Effect(*text, outside=function_of(source))
 
 
 @pytest.mark.parametrize(
@@ -66,9 +68,9 @@ def test_the_fingerprint_changes_when_an_effects_code_changes(old, new, differs)
     assert same is not differs
 
 
-def loops(effects, active):
-    kernel = bind(layout_of(effects), active)
-    return [f.__qualname__ for f in (kernel.advance, kernel.outputs, kernel.simulate)]
+def loops(effects, active, transmission=Straight.equations, load=Mass.equations, muscles=1):
+    kernel = bind(layout_of(effects, transmission, load, muscles), active)
+    return [f.__qualname__ for f in vars(kernel).values()]
 
 
 @pytest.mark.skipif(not HAVE_NUMBA, reason='nothing is kept on disk without numba')
@@ -81,30 +83,38 @@ def test_kernels_on_disk_are_told_apart_by_code_and_place():
     assert loops((one,), ()) != names
     first = effect_of(SOURCE, 'first')
     assert loops((first, one), (one,)) != names  # the parameter is at another place
-    assert len(set(names)) == 3
+    assert len(set(names)) == 5
 
 
 @pytest.mark.skipif(not HAVE_NUMBA, reason='nothing is kept on disk without numba')
-def test_kernels_of_joints_on_disk_change_with_any_joint(monkeypatch):
-    def name():
-        bind_joints.cache_clear()
-        return bind_joints(layout_of(()), ()).advance_joints.__qualname__
+def test_kernels_on_disk_differ_by_transmission_load_and_number_of_muscles():
+    """A change of one function of the geometry, or of the load, is another kernel."""
+    before = loops((), (), Pulley.equations, Arm.equations, 2)
+    assert loops((), (), replace(Pulley.equations), Arm.equations, 2) == before  # the same code
+    others = [
+        loops((), (), Lever.equations, Arm.equations, 2),
+        loops((), (), replace(Pulley.equations, arm=twice), Arm.equations, 2),
+        loops((), (), Pulley.equations, replace(Arm.equations, fall=twice), 2),
+        loops((), (), Pulley.equations, Arm.equations, 1),
+        loops((), (), Pulley.equations, Arm.equations, 3),
+    ]
+    for i, one in enumerate(others):
+        for other in [before, *others[:i]]:
+            # Those that step; a joint that is held does not care how its load falls.
+            assert set(one[:3]).isdisjoint(other[:3])
 
-    before = name()
-    assert name() == before
-    changed = replace(JOINTS[-1], arm=lambda s, i, g: 0.5 * g[1])
-    monkeypatch.setattr('pam_ros.rig.bind.JOINTS', (*JOINTS[:-1], changed))
-    assert name() != before
-    bind_joints.cache_clear()
+
+def twice(s, *_):
+    return 2.0 * s
 
 
 @pytest.mark.skipif(not HAVE_NUMBA, reason='nothing is kept on disk without numba')
 def test_the_fingerprint_is_the_same_in_every_process():
     code = (
-        'from pam_ros.rig.model import RigModel; from pam_ros.rig.bind import bind; '
-        'm = RigModel(); print(bind(m.layout, m.library).advance.__qualname__)'
+        'from pam_ros.rig.joint import one_muscle; from pam_ros.rig.bind import bind; '
+        'm = one_muscle(); print(bind(m.layout, m.library).advance.__qualname__)'
     )
-    model = RigModel()
+    model = one_muscle()
     here = bind(model.layout, model.library).advance.__qualname__
     for seed in ('1', '2'):
         assert run(code, {'PYTHONHASHSEED': seed}) == here
@@ -128,10 +138,11 @@ import json, sys
 if {blocked}:
     sys.modules['numba'] = None  # as if it were not installed
 from pam_ros.compiled import HAVE_NUMBA
-from pam_ros.rig.joint_model import Actuator, JointModel
-from pam_ros.rig.model import Load, RigModel
+from pam_ros.rig.joint import Actuator, Joint, one_muscle
+from pam_ros.rig.loads import Arm, Mass
 from pam_ros.rig.rig import Rig
-from pam_ros.rig.run import simulate
+from pam_ros.rig.run import simulate, simulate_held
+from pam_ros.rig.transmissions import Lever, Pulley
 assert HAVE_NUMBA is not {blocked}
 effects = {{
     'pressure_lag': {{'fill': 0.05, 'vent': 0.1}},
@@ -140,7 +151,7 @@ effects = {{
     'coulomb_friction': {{'level': 5.0}},
 }}
 found = []
-for model in (RigModel(), RigModel(load=Load(mass=8.0), effects=effects)):
+for model in (one_muscle(), one_muscle(load=Mass(mass=8.0), effects=effects)):
     rig = Rig([model])
     for p in (4e5, 1e5, 6e5):
         rig.command(p)
@@ -150,14 +161,22 @@ for model in (RigModel(), RigModel(load=Load(mass=8.0), effects=effects)):
     found += [*run.position, *run.velocity, *run.force]
 in_muscle = {{name: effects[name] for name in ('pressure_lag', 'dead_time', 'creep')}}
 on_load = {{'coulomb_friction': {{'level': 0.3}}}}
-for model in (JointModel(), JointModel(actuators=(Actuator(effects=in_muscle), Actuator()),
-                                       effects=on_load)):
+two = Actuator(contraction=0.1), Actuator(contraction=0.1)
+lagging = Actuator(effects=in_muscle, contraction=0.1), two[1]
+for model in (
+    Joint(two, Arm(), Pulley()),
+    Joint(lagging, Arm(), Pulley(), on_load),
+    Joint(two, Arm(), Lever()),
+):
     rig = Rig([model])
     for p in ([4e5, 3e5], [1e5, 5e5]):
         rig.command(p)
         rig.advance(100)
         found += [*rig.position, *rig.velocity, *rig.pressure, *rig.outputs().ravel(),
                   *rig.joint_outputs()[0]]
+    run = simulate(model, [0.0, 0.05, 0.1], [0.0, 0.031], [[2e5, 3e5], [4e5, 2e5]])
+    held = simulate_held(model, [0.0, 0.1], [[2e5, 3e5], [4e5, 2e5]], [0.0, 0.2])
+    found += [*run.position, *run.velocity, *run.force.ravel(), *held.force.ravel()]
 print(json.dumps([float(each) for each in found]))
 """
 
@@ -165,16 +184,16 @@ print(json.dumps([float(each) for each in found]))
 @pytest.mark.skipif(not HAVE_NUMBA, reason='there is only plain Python here')
 def test_plain_python_gives_what_the_compiled_kernel_gives():
     compiled, plain = (json.loads(run(RUN.format(blocked=b))) for b in (False, True))
-    assert len(compiled) == 2 * (3 * 7 + 9) + 2 * 2 * (4 + 8 + 3)
+    assert len(compiled) == 2 * (3 * 7 + 9) + 3 * (2 * (4 + 8 + 3) + 12 + 4)
     np.testing.assert_allclose(plain, compiled, rtol=1e-12, atol=1e-12)
 
 
 def test_an_effect_of_ones_own_acts():
     """2 N s/m of drag for a strength of 1: a load that falls is slowed by just that."""
     drag = effect_of(SOURCE)
-    load = Load(mass=10.0)
+    load = Mass(mass=10.0)
     bare, slowed = (
-        Rig([RigModel(load=load, effects=effects, library=(drag,))])
+        Rig([one_muscle(load=load, effects=effects, library=(drag,))])
         for effects in ({}, {'drag': {'strength': 30.0}})
     )
     for rig in (bare, slowed):

@@ -7,9 +7,13 @@ import pytest
 from scipy.integrate import quad, solve_ivp
 
 from pam_ros.muscle.muscle import Muscle
-from pam_ros.rig.model import Load, RigModel
+from pam_ros.rig import layout as at
+from pam_ros.rig.joint import one_muscle
+from pam_ros.rig.loads import Mass
+from pam_ros.rig.rest import rest
 from pam_ros.rig.rig import Rig
 from pam_ros.rig.run import simulate
+from pam_ros.rig.start import start_state
 from support import paper, smooth_supply
 
 MASS, ZETA = 20.0, 0.15
@@ -27,7 +31,7 @@ def solve(p_of_t, start, t, g=paper.G, zeta=ZETA):
 
 def swinging(step=1e-3, t=None, position=0.1):
     """Run the rig under the smooth supply, from rest at a position; return its trajectory."""
-    model = RigModel(library=(smooth_supply.EFFECT,))
+    model = one_muscle(library=(smooth_supply.EFFECT,))
     t = np.linspace(0.0, 10.0, 2001) if t is None else t
     return simulate(model, t, [0.0], [0.0], position=position, step=step)
 
@@ -36,7 +40,7 @@ def swinging(step=1e-3, t=None, position=0.1):
 def test_the_papers_experiment_is_within_a_nanometre_of_dop853(position):
     """600 kPa, 20 kg, released; 10 s at the default step."""
     t = np.linspace(0.0, 10.0, 2001)
-    found = simulate(RigModel(), t, [0.0], [6e5], position=position)
+    found = simulate(one_muscle(), t, [0.0], [6e5], position=position)
     y, v = solve(lambda _: 6.0, (position, 0.0), t)
     assert np.max(np.abs(found.position - y)) < 1e-9
     assert np.max(np.abs(found.velocity - v)) < 3e-8
@@ -54,9 +58,9 @@ def test_a_smooth_command_is_within_a_nanometre_of_dop853():
 
 def test_a_staircase_of_commands_is_within_a_nanometre_of_dop853():
     """Commands at 50 Hz, each held to the next: the solver starts anew at each."""
-    model = RigModel()
+    model = one_muscle()
     rig = Rig([model])
-    rig.reset([3e5], [model.rest(3e5)], [0.0])
+    rig.reset([3e5], [rest(model, 3e5)], [0.0])
     state = np.array([rig.position[0], 0.0])
     for k in range(150):
         p = 3e5 + 2e5 * np.sin(0.13 * k)
@@ -92,9 +96,9 @@ def energy(rig):
 @pytest.mark.needs_numba
 def test_energy_without_damping_drifts_by_a_ten_millionth_in_a_minute():
     """Swinging by 75 mm with 9.7 J: the scheme takes 1.1e-8 J a second and gives none."""
-    model = RigModel(Muscle(zeta=0.0))
+    model = one_muscle(Muscle(zeta=0.0))
     rig = Rig([model])
-    rig.reset([6e5], [model.rest(6e5)], [0.0])
+    rig.reset([6e5], [rest(model, 6e5)], [0.0])
     bottom = energy(rig)
     rig.reset([6e5], [0.06], [0.0])
     start = energy(rig)
@@ -114,17 +118,17 @@ def test_energy_without_damping_drifts_by_a_ten_millionth_in_a_minute():
 
 
 def test_a_horizontal_load_feels_no_gravity():
-    model = RigModel(load=Load(mount='horizontal'))
+    model = one_muscle(load=Mass(mount='horizontal'))
     t = np.linspace(0.0, 3.0, 301)
     found = simulate(model, t, [0.0], [3e5], position=0.05)
     y, _ = solve(lambda _: 3.0, (0.05, 0.0), t, g=0.0)
     assert np.max(np.abs(found.position - y)) < 1e-9
-    assert found.position[-1] == pytest.approx(model.rest(3e5), abs=1e-5)
+    assert found.position[-1] == pytest.approx(rest(model, 3e5), abs=1e-5)
     assert found.force[-1] == pytest.approx(0.0, abs=0.1)
 
 
 def test_outputs_are_the_papers():
-    rig = Rig([RigModel()])
+    rig = Rig([one_muscle()])
     rig.reset([4e5], [0.05], [0.3])
     force, k, c, acceleration = rig.outputs()[0]
     assert force == pytest.approx(paper.force(4.0, 12.5), abs=1e-9)
@@ -136,14 +140,13 @@ def test_outputs_are_the_papers():
 def test_templates_run_as_they_stand():
     """Unbound and uncompiled they are the paper's rig, as their module says."""
     from pam_ros.rig import kernel
-    from pam_ros.rig.model import start_row
 
-    model = RigModel(library=())
-    q = model.row()
-    x = start_row(model.layout, q, 3e5, 0.02, 0.0)
-    scratch = x.copy()
+    model = one_muscle(library=())
+    q = model.parameters()
+    x = start_state(model.layout, q, [3e5], 0.02, 0.0)
+    scratch = model.layout.scratch()
     for i in range(50):
-        kernel.step(x, scratch, q, 3e5, i * 1e-3, 1e-3)
+        kernel.step(x, scratch, q, [3e5], i * 1e-3, 1e-3)
     y, v = solve(lambda _: 3.0, (0.02, 0.0), np.array([0.0, 0.05]))
-    assert x[0] == pytest.approx(y[-1], abs=1e-9)
-    assert x[1] == pytest.approx(v[-1], abs=3e-8)
+    assert x[at.JOINT, at.S] == pytest.approx(y[-1], abs=1e-9)
+    assert x[at.JOINT, at.V] == pytest.approx(v[-1], abs=3e-8)

@@ -9,19 +9,22 @@ from hypothesis import strategies as st
 
 from pam_ros.errors import ParameterError
 from pam_ros.muscle.muscle import Muscle
-from pam_ros.rig.model import Load, RigModel
+from pam_ros.rig.joint import one_muscle
+from pam_ros.rig.loads import Mass
+from pam_ros.rig.rest import rest
 from pam_ros.rig.rig import Rig
 from pam_ros.rig.run import simulate
+from pam_ros.rig.step_limit import longest_step
 
 # Effects with memory in the pressure path and in the force, and one that delays.
 LAG = {'pressure_lag': {'fill': 0.05, 'vent': 0.1}}
 DELAY = {'dead_time': {'delay': 0.0125}}
 CREEP = {'creep': {'stiffness': 300.0, 'time': 0.5}}
 MODELS = (
-    RigModel(),
-    RigModel(Muscle(zeta=0.3), Load(mass=5.0), LAG),
-    RigModel(load=Load(mount='horizontal'), effects=CREEP | LAG),
-    RigModel(load=Load(mass=8.0), effects=DELAY | CREEP),
+    one_muscle(),
+    one_muscle(Muscle(zeta=0.3), Mass(mass=5.0), LAG),
+    one_muscle(load=Mass(mount='horizontal'), effects=CREEP | LAG),
+    one_muscle(load=Mass(mass=8.0), effects=DELAY | CREEP),
 )
 
 
@@ -103,7 +106,7 @@ def test_a_plain_muscle_beside_one_with_effects_is_the_same_muscle():
 
 def test_it_is_what_simulate_gives():
     """The dead time is a whole number of steps: commands act at the same moments in both."""
-    model = RigModel(load=Load(mass=8.0), effects={'dead_time': {'delay': 0.012}} | CREEP)
+    model = one_muscle(load=Mass(mass=8.0), effects={'dead_time': {'delay': 0.012}} | CREEP)
     command = {0: 1e5, 100: 4e5, 250: 2e5}
     t = np.arange(401) * 1e-3
     found = simulate(model, t, t[list(command)], list(command.values()), position=0.03)
@@ -119,7 +122,7 @@ def test_it_is_what_simulate_gives():
 
 
 def test_time_is_counted():
-    rig = Rig([RigModel()], step=1e-3)
+    rig = Rig([one_muscle()], step=1e-3)
     for _ in range(1000):
         rig.advance(7)
     assert rig.time == 7.0
@@ -130,7 +133,7 @@ def test_time_is_counted():
 @pytest.mark.parametrize(('delay', 'late'), [(0.0, 0), (0.003, 3), (0.0031, 4), (1.0, 1000)])
 def test_a_command_acts_when_its_dead_time_is_over(delay, late):
     """At the first step that starts at or after that moment."""
-    rig = Rig([RigModel(effects={'dead_time': {'delay': delay}})])
+    rig = Rig([one_muscle(effects={'dead_time': {'delay': delay}})])
     rig.advance(5)
     rig.command(4e5)
     rig.advance(late)
@@ -141,7 +144,7 @@ def test_a_command_acts_when_its_dead_time_is_over(delay, late):
 
 def test_all_commands_of_a_long_dead_time_arrive_in_order():
     """A second of delay with a command at each step: a thousand are under way."""
-    rig = Rig([RigModel(effects={'dead_time': {'delay': 1.0}})] * 2)
+    rig = Rig([one_muscle(effects={'dead_time': {'delay': 1.0}})] * 2)
     heard = []
     for k in range(2200):
         rig.command([100.0 * k, 50.0 * k])
@@ -153,7 +156,7 @@ def test_all_commands_of_a_long_dead_time_arrive_in_order():
 
 
 def test_the_last_of_several_commands_at_one_moment_counts():
-    rig = Rig([RigModel(effects=DELAY)])
+    rig = Rig([one_muscle(effects=DELAY)])
     for p in range(5000):
         rig.command(float(p))
     rig.advance(14)
@@ -161,7 +164,7 @@ def test_the_last_of_several_commands_at_one_moment_counts():
 
 
 def test_reset_forgets_the_commands_under_way():
-    rig = Rig([RigModel(effects=DELAY)])
+    rig = Rig([one_muscle(effects=DELAY)])
     rig.command(4e5)
     rig.advance(3)
     rig.reset([1e5], [0.02], [0.0])
@@ -172,7 +175,7 @@ def test_reset_forgets_the_commands_under_way():
 def test_it_starts_at_rest_without_pressure():
     rig = Rig(MODELS)
     np.testing.assert_array_equal(rig.pressure, 0.0)
-    np.testing.assert_allclose(rig.position, [m.rest(0.0) for m in MODELS])
+    np.testing.assert_allclose(rig.position, [rest(m, 0.0) for m in MODELS])
     before = rig.position
     rig.advance(200)
     np.testing.assert_allclose(rig.position, before, atol=1e-12)
@@ -180,8 +183,8 @@ def test_it_starts_at_rest_without_pressure():
 
 def test_parameters_change_while_it_runs():
     """Half a second of one rig, then of another from the same state: as if started there."""
-    heavy = RigModel(load=Load(mass=35.0))
-    rig, other = Rig([RigModel()]), Rig([heavy])
+    heavy = one_muscle(load=Mass(mass=35.0))
+    rig, other = Rig([one_muscle()]), Rig([heavy])
     rig.command(4e5)
     rig.advance(130)
     other.reset(rig.pressure, rig.position, rig.velocity)
@@ -194,11 +197,11 @@ def test_parameters_change_while_it_runs():
 
 def test_an_effect_that_appears_starts_from_the_present_state():
     """Without that, the lag would start from the pressure of the last reset."""
-    rig = Rig([RigModel()])
+    rig = Rig([one_muscle()])
     rig.command(4e5)
     rig.advance(100)
     before = rig.position[0], rig.velocity[0]
-    with_lag = RigModel(effects=LAG | CREEP)
+    with_lag = one_muscle(effects=LAG | CREEP)
     rig.change([with_lag])
     rig.advance()
     assert rig.pressure[0] == pytest.approx(4e5)
@@ -208,18 +211,18 @@ def test_an_effect_that_appears_starts_from_the_present_state():
     rig.advance(20)
     lagging = rig.pressure[0]
     assert 2e5 < lagging < 4e5
-    rig.change([RigModel(load=Load(mass=21.0), effects=LAG | CREEP)])
+    rig.change([one_muscle(load=Mass(mass=21.0), effects=LAG | CREEP)])
     rig.advance()
     assert rig.pressure[0] == pytest.approx(2e5 + (lagging - 2e5) * np.exp(-1e-3 / 0.1))
 
 
 def test_a_change_that_is_refused_leaves_the_rig_as_it_was():
-    rig, other = Rig([RigModel()]), Rig([RigModel()])
+    rig, other = Rig([one_muscle()]), Rig([one_muscle()])
     for each in (rig, other):
         each.command(3e5)
         each.advance(50)
     with pytest.raises(ParameterError, match='physics step of 1 ms does not resolve a mass of'):
-        rig.change([RigModel(load=Load(mass=0.01))])
+        rig.change([one_muscle(load=Mass(mass=0.01))])
     for each in (rig, other):
         each.advance(50)
     np.testing.assert_array_equal(state(rig), state(other))
@@ -236,7 +239,7 @@ def test_a_change_that_is_refused_leaves_the_rig_as_it_was():
 )
 def test_a_step_that_resolves_nothing_is_refused(step, sentence):
     with pytest.raises(ParameterError) as error:
-        Rig([RigModel()], step)
+        Rig([one_muscle()], step)
     assert str(error.value).startswith(sentence)
 
 
@@ -264,11 +267,11 @@ def test_no_rig_that_is_accepted_gives_nan(a, zeta, l0, mass, mount, commands, s
     names = ('a1', 'a2', 'a3', 'a4', 'a5', 'a6')
     try:
         muscle = Muscle(**dict(zip(names, a, strict=True)), zeta=zeta, l0=l0)
-        model = RigModel(muscle, Load(mass=mass, mount=mount))
+        model = one_muscle(muscle, Mass(mass=mass, mount=mount))
     except ParameterError:
         return
-    rig = Rig([model], model.longest_step)
-    rig.reset([start], [model.rest(start)], [0.0])
+    rig = Rig([model], longest_step(model))
+    rig.reset([start], [rest(model, start)], [0.0])
     for p, steps in commands:
         rig.command(p)
         rig.advance(steps)
@@ -280,11 +283,11 @@ def test_no_rig_that_is_accepted_gives_nan(a, zeta, l0, mass, mount, commands, s
 @given(st.floats(0.0, 6e5), st.floats(0.0, 6e5), st.floats(0.01, 100.0), st.floats(0.03, 3.0))
 def test_nor_does_one_without_damping_after_a_step(p0, p1, mass, l0):
     try:
-        model = RigModel(Muscle(zeta=0.0, l0=l0), Load(mass=mass))
+        model = one_muscle(Muscle(zeta=0.0, l0=l0), Mass(mass=mass))
     except ParameterError:
         return
-    rig = Rig([model], model.longest_step)
-    rig.reset([p0], [model.rest(p0)], [0.0])
+    rig = Rig([model], longest_step(model))
+    rig.reset([p0], [rest(model, p0)], [0.0])
     rig.command(p1)
     rig.advance(2000)
     assert np.all(np.isfinite(state(rig)))

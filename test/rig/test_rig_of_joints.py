@@ -8,18 +8,20 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from pam_ros.errors import ParameterError
-from pam_ros.rig.model import RigModel
+from pam_ros.rig.joint import one_muscle
+from pam_ros.rig.rest import rest
 from pam_ros.rig.rig import Rig
 from support import joints
-from support.joint_models import UNEQUAL, pair, parallel
+from support.joint_models import UNEQUAL, lever, pair, parallel
 
 LAG = {'pressure_lag': {'fill': 0.05, 'vent': 0.1}}
 DELAY = {'dead_time': {'delay': 0.0125}}
 CREEP = {'creep': {'stiffness': 300.0, 'time': 0.5}}
 MODELS = (
     pair(effects=(LAG, DELAY), load={'viscous_friction': {'coefficient': 0.1}}),
-    RigModel(effects=CREEP | LAG),
+    one_muscle(effects=CREEP | LAG),
     parallel(50.0, effects=(CREEP, {})),
+    lever(effects=(DELAY, LAG)),
 )
 
 
@@ -38,7 +40,7 @@ def state(rig):
 
 def drive(split=(400,), look=False):
     rig = Rig(MODELS)
-    for row in np.random.default_rng(4).uniform(0.0, 6e5, (4, 5)):
+    for row in np.random.default_rng(4).uniform(0.0, 6e5, (4, 7)):
         rig.command(row)
         left = 100
         for piece in (*split, left):
@@ -61,10 +63,10 @@ def test_steps_may_be_split_into_any_calls_and_looked_at(split):
 
 def test_arrays_have_one_entry_a_joint_or_one_a_muscle():
     rig = Rig(MODELS)
-    assert rig.position.shape == rig.velocity.shape == (3,)
-    assert rig.pressure.shape == rig.contraction.shape == (5,)
-    assert rig.outputs().shape == (5, 4)
-    assert rig.joint_outputs().shape == (3, 3)
+    assert rig.position.shape == rig.velocity.shape == (4,)
+    assert rig.pressure.shape == rig.contraction.shape == (7,)
+    assert rig.outputs().shape == (7, 4)
+    assert rig.joint_outputs().shape == (4, 3)
 
 
 def test_what_was_read_stays_as_it_was():
@@ -79,7 +81,7 @@ def test_what_was_read_stays_as_it_was():
 
 
 def test_a_muscle_with_a_load_of_its_own_has_the_same_outputs_by_joint():
-    rig = Rig([RigModel(), RigModel(effects=LAG)])
+    rig = Rig([one_muscle(), one_muscle(effects=LAG)])
     rig.command([3e5, 5e5])
     rig.advance(50)
     out = rig.outputs()
@@ -89,7 +91,7 @@ def test_a_muscle_with_a_load_of_its_own_has_the_same_outputs_by_joint():
 
 def test_each_muscle_of_a_joint_hears_its_own_command_after_its_own_dead_time():
     late = pair(effects=({'dead_time': {'delay': 0.003}}, {'dead_time': {'delay': 0.005}}))
-    rig = Rig([RigModel(), late])
+    rig = Rig([one_muscle(), late])
     rig.command([1e5, 2e5, 3e5])
     heard = []
     for _ in range(7):
@@ -101,7 +103,7 @@ def test_each_muscle_of_a_joint_hears_its_own_command_after_its_own_dead_time():
 
 
 def test_one_muscle_can_be_commanded_alone():
-    rig = Rig([RigModel(), pair()])
+    rig = Rig([one_muscle(), pair()])
     rig.command([1e5, 2e5, 3e5])
     rig.advance()
     rig.command_one(2, 4e5)
@@ -114,7 +116,7 @@ def test_one_muscle_can_be_commanded_alone():
 
 
 def test_reset_goes_to_any_state_and_forgets_the_commands_under_way():
-    rig = Rig([pair(effects=(DELAY, LAG)), RigModel()])
+    rig = Rig([pair(effects=(DELAY, LAG)), one_muscle()])
     rig.command(4e5)
     rig.advance(3)
     rig.reset([1e5, 2e5, 3e5], [0.2, 0.05], [1.0, -0.1])
@@ -128,9 +130,9 @@ def test_reset_goes_to_any_state_and_forgets_the_commands_under_way():
 
 
 def test_it_starts_at_rest_without_pressure():
-    rig = Rig([pair(), RigModel(), parallel(50.0)])
+    rig = Rig([pair(), one_muscle(), parallel(50.0)])
     before = rig.position
-    np.testing.assert_allclose(before, [m.rest(0.0) for m in rig.models])
+    np.testing.assert_allclose(before, [rest(m, 0.0) for m in rig.joints])
     rig.advance(300)
     np.testing.assert_allclose(rig.position, before, atol=1e-12)
 
@@ -164,11 +166,17 @@ def test_an_effect_that_appears_starts_from_the_present_state():
 
 
 def test_a_rig_that_runs_keeps_its_joints():
-    rig = Rig([pair(), RigModel()])
+    rig = Rig([pair(), one_muscle()])
     rig.command(3e5)
     rig.advance(10)
     before = state(rig)
-    for others in ([RigModel(), pair()], [pair()], [parallel(50.0), RigModel()]):
+    for others in (
+        [one_muscle(), pair()],
+        [pair()],
+        [parallel(50.0), one_muscle()],
+        [lever(), one_muscle()],
+        [pair(), one_muscle(library=())],
+    ):
         with pytest.raises(ParameterError) as error:
             rig.change(others)
         assert str(error.value) == ('a rig that runs keeps its joints: make a new one for others')

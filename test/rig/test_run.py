@@ -9,7 +9,9 @@ from hypothesis import strategies as st
 
 from pam_ros.errors import ParameterError
 from pam_ros.muscle.muscle import Muscle
-from pam_ros.rig.model import Load, RigModel
+from pam_ros.rig.joint import one_muscle
+from pam_ros.rig.loads import Mass
+from pam_ros.rig.rest import rest
 from pam_ros.rig.run import simulate, simulate_held
 from support import paper
 
@@ -18,7 +20,7 @@ SOURCE = Muscle(
     a1=0.0, a2=0.0, a3=0.0, a4=0.0, a5=1.0, a6=0.0,
     pressure_unit='Pa', zeta=0.0, p_min=-1e3, p_max=1e3, force_max=1e3,
 )  # fmt: skip
-FREE = Load(mass=2.0, mount='horizontal')
+FREE = Mass(mass=2.0, mount='horizontal')
 
 
 def parabolas(t, command_t, command, y, v, delay=0.0):
@@ -46,7 +48,7 @@ stamps = st.lists(stamp, min_size=1, max_size=12).map(sorted)
 @given(stamps, stamps, st.integers(0, 2**32 - 1), st.sampled_from([0.0, 0.004, 0.0137]))
 def test_commands_act_at_their_very_stamps(t, command_t, seed, delay):
     command = np.random.default_rng(seed).uniform(-100.0, 100.0, len(command_t))
-    model = RigModel(SOURCE, FREE, {'dead_time': {'delay': delay}})
+    model = one_muscle(SOURCE, FREE, {'dead_time': {'delay': delay}})
     found = simulate(model, t, command_t, command, position=0.3, velocity=-0.1)
     y, v = parabolas(t, command_t, command, 0.3, -0.1, delay)
     np.testing.assert_allclose(found.position, y, rtol=0.0, atol=1e-12)
@@ -55,7 +57,7 @@ def test_commands_act_at_their_very_stamps(t, command_t, seed, delay):
 
 def test_a_sample_is_the_state_before_the_command_of_its_stamp():
     t = [0.0, 0.1, 0.2]
-    found = simulate(RigModel(SOURCE, FREE), t, [0.0, 0.1], [0.0, 40.0], position=0.0)
+    found = simulate(one_muscle(SOURCE, FREE), t, [0.0, 0.1], [0.0, 40.0], position=0.0)
     np.testing.assert_allclose(found.position, [0.0, 0.0, 0.1], atol=1e-15)
     np.testing.assert_array_equal(found.pressure, [0.0, 0.0, 40.0])
     np.testing.assert_array_equal(found.force, [0.0, 0.0, 40.0])
@@ -63,7 +65,7 @@ def test_a_sample_is_the_state_before_the_command_of_its_stamp():
 
 def test_viscous_friction_follows_its_exponential():
     """2 y'' = p - c y' with c = 5: v = p/c (1 - exp(-c t / m)); the step divides nothing."""
-    model = RigModel(SOURCE, FREE, {'viscous_friction': {'coefficient': 5.0}})
+    model = one_muscle(SOURCE, FREE, {'viscous_friction': {'coefficient': 5.0}})
     t = np.array([0.0, 0.0123, 0.5, 0.50031, 2.0])
     found = simulate(model, t, [0.0], [30.0], position=0.0)
     rate, end = 5.0 / 2.0, 30.0 / 5.0
@@ -76,21 +78,21 @@ def test_it_starts_at_rest_under_the_command_in_force():
     """Commands before the first sample: the last of them is in force, and a lag has followed."""
     lag = {'pressure_lag': {'fill': 0.1, 'vent': 0.1}}
     for effects in ({}, lag):
-        model = RigModel(effects=effects)
+        model = one_muscle(effects=effects)
         found = simulate(model, [5.0, 5.5], [1.0, 2.0, 6.0], [1e5, 3e5, 6e5])
         np.testing.assert_allclose(found.pressure, 3e5)
-        np.testing.assert_allclose(found.position, model.rest(3e5), atol=1e-12)
+        np.testing.assert_allclose(found.position, rest(model, 3e5), atol=1e-12)
 
 
 def test_a_late_command_is_not_yet_in_force_at_the_start():
-    model = RigModel(effects={'dead_time': {'delay': 0.3}})
+    model = one_muscle(effects={'dead_time': {'delay': 0.3}})
     found = simulate(model, [2.2, 2.3, 2.4], [1.0, 2.0], [1e5, 3e5])
     np.testing.assert_array_equal(found.pressure, [1e5, 1e5, 3e5])
 
 
 def test_force_is_the_pull_less_the_damping():
     t = np.linspace(0.0, 0.3, 31)
-    found = simulate(RigModel(), t, [0.0], [4e5], position=0.05, velocity=0.2)
+    found = simulate(one_muscle(), t, [0.0], [4e5], position=0.05, velocity=0.2)
     for i in range(len(t)):
         kappa = 100.0 * found.position[i] / paper.L0
         c = paper.damping(4.0, kappa, 20.0, 0.15)
@@ -100,7 +102,7 @@ def test_force_is_the_pull_less_the_damping():
 
 def test_a_step_that_is_too_long_is_refused_with_a_sentence():
     with pytest.raises(ParameterError) as error:
-        simulate(RigModel(), [0.0, 1.0], [0.0], [0.0], step=0.02)
+        simulate(one_muscle(), [0.0, 1.0], [0.0], [0.0], step=0.02)
     assert str(error.value) == (
         'a physics step of 20 ms does not resolve a mass of 20 kg on this muscle: give at least '
         '148 steps a second, or more mass'
@@ -112,7 +114,7 @@ def test_a_held_rig_gives_the_force_of_the_law():
     t = np.linspace(0.0, 2.0, 201)
     p = 3e5 + 1e5 * np.sin(3.0 * t)
     y = 0.05 + 0.02 * np.sin(2.0 * t)
-    found = simulate_held(RigModel(), t, p, y)
+    found = simulate_held(one_muscle(), t, p, y)
     v = np.gradient(y, t)
     for i in range(len(t)):
         kappa = 100.0 * y[i] / paper.L0
@@ -126,7 +128,7 @@ def test_a_held_rig_gives_the_force_of_the_law():
 
 def test_a_held_rig_takes_a_given_velocity():
     t, p, y = [0.0, 0.1], [2e5, 2e5], [0.02, 0.02]
-    still = simulate_held(RigModel(), t, p, y)
-    moving = simulate_held(RigModel(), t, p, y, velocity=[0.0, 0.5])
+    still = simulate_held(one_muscle(), t, p, y)
+    moving = simulate_held(one_muscle(), t, p, y, velocity=[0.0, 0.5])
     c = paper.damping(2.0, 5.0, 20.0, 0.15)
     np.testing.assert_allclose(moving.force - still.force, [0.0, -0.5 * c], atol=1e-9)

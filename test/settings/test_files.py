@@ -92,7 +92,7 @@ def test_every_muscle_of_the_package_is_found_and_makes_a_rig(name):
 def test_the_built_in_muscle_is_the_papers():
     model, _ = load_rig('dmsp_20_400n')
     declared = files.build_rig({})
-    assert (model.row() == declared.row()).all()
+    assert (model.parameters() == declared.parameters()).all()
 
 
 def test_an_unknown_muscle_is_refused_with_the_names_that_there_are():

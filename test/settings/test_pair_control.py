@@ -5,14 +5,14 @@
 from pathlib import Path
 
 import pytest
+from pam_ros.control.pair_law import PairLaw
+from pam_ros.rig.joints.antagonistic_pair import PulleyArm
+from pam_ros.settings.pair_control import ToldPair, settings_of
 
 from pam_ros.control.co_contraction import CoContraction
-from pam_ros.control.pair_law import PairLaw
 from pam_ros.control.shaping import Turn
 from pam_ros.errors import ParameterError, RangeError
-from pam_ros.rig.joints.antagonistic_pair import PulleyArm
 from pam_ros.settings.files import read
-from pam_ros.settings.pair_control import ToldPair, settings_of
 from pam_ros.settings.scene import Scene
 from pam_ros.settings.tables import checked, table_of
 

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from pam_ros.errors import ParameterError
-from pam_ros.rig.joint_model import JointModel
-from pam_ros.rig.model import RigModel
+from pam_ros.rig.joint import Joint, one_muscle
+from pam_ros.rig.rest import rest
+from pam_ros.rig.transmissions import Lever, Pulley
 from pam_ros.settings.scene import Scene
 from pam_ros.settings.tables import checked
 
@@ -25,16 +26,16 @@ def built(**given):
 def test_one_is_what_it_was():
     now = built(mass=12.0, joint_name='arm')
     assert (now.joint_names, now.muscle_names, now.is_one) == (('arm',), ('arm',), True)
-    assert now.models[0].load.mass == 12.0
+    assert now.joints[0].load.mass == 12.0
 
 
 def test_names_have_their_own_and_follow_in_the_rest():
     now = built(
         muscles=['a', 'b'], mass=12.0, b__mass=7.0, a__effects__coulomb_friction__level=5.0
     )
-    a, b = now.models
+    a, b = now.joints
     assert (a.load.mass, b.load.mass) == (12.0, 7.0)
-    assert [m.effects['coulomb_friction']['level'] for m in (a, b)] == [5.0, 0.0]
+    assert [joint.effects['coulomb_friction']['level'] for joint in (a, b)] == [5.0, 0.0]
     assert now.joint_names == now.muscle_names == ('a', 'b')
 
 
@@ -45,24 +46,24 @@ def test_only_what_a_name_is_given_is_declared_for_it():
 
 def test_a_preset_of_a_name_goes_before_everybodys_and_after_its_own():
     now = built(muscles=['a', 'b'], l0=0.6, b__muscle='dmsp_10', b__zeta=0.33)
-    a, b = (model.muscle for model in now.models)
+    a, b = (joint.muscle for joint in now.joints)
     assert (a.l0, b.l0, b.zeta) == (0.6, 0.25, 0.33)
 
 
 def test_of_a_preset_a_pair_takes_the_muscle_and_not_its_load():
     plain, preset = built(joint='antagonistic'), built(joint='antagonistic', muscle='dmsp_10')
-    assert preset.models[0].load == plain.models[0].load
+    assert preset.joints[0].load == plain.joints[0].load
     assert [m.l0 for m in preset.muscles] == [0.25, 0.25]
 
 
-def test_equal_muscles_are_one_model():
+def test_equal_muscles_are_one_joint():
     now = built(muscles=[f'm{i}' for i in range(64)], m3__mass=9.0)
-    assert len({id(model) for model in now.models}) == 2
+    assert len({id(joint) for joint in now.joints}) == 2
     pressure, position, velocity = now.initial
     assert pressure.shape == position.shape == velocity.shape == (64,)
-    rest = [RigModel().rest(0.0)] * 64
-    rest[3] = now.models[3].rest(0.0)
-    np.testing.assert_array_equal(position, rest)
+    at_rest = [rest(one_muscle(), 0.0)] * 64
+    at_rest[3] = rest(now.joints[3], 0.0)
+    np.testing.assert_array_equal(position, at_rest)
 
 
 def test_effects_of_a_pair_are_where_they_act():
@@ -72,8 +73,9 @@ def test_effects_of_a_pair_are_where_they_act():
         pam_1__effects__pressure_lag__fill=0.02,
         pam__hanging_at=0.2,
     )
-    (pair,) = now.models
-    assert isinstance(pair, JointModel)
+    (pair,) = now.joints
+    assert isinstance(pair, Joint)
+    assert pair.transmission == Pulley()
     assert pair.effects['coulomb_friction']['level'] == 0.5
     assert [a.effects['pressure_lag']['fill'] for a in pair.actuators] == [0.02, 0.0]
     assert pair.load.hanging_at == 0.2
@@ -83,7 +85,30 @@ def test_a_pair_starts_at_rest_under_its_own_pressures():
     now = built(joint='antagonistic', initial__pressure=2e5, pam_1__initial__pressure=3e5)
     pressure, position, _ = now.initial
     np.testing.assert_array_equal(pressure, [3e5, 2e5])
-    assert position[0] == now.models[0].rest((3e5, 2e5)) > 0.0
+    assert position[0] == rest(now.joints[0], (3e5, 2e5)) > 0.0
+
+
+@pytest.mark.parametrize(('kind', 'muscles'), [('lever', 2), ('crank', 1)])
+def test_a_lever_is_declared_by_its_geometry(kind, muscles):
+    now = built(
+        joint=kind,
+        joint_name='elbow',
+        crank=0.05,
+        angle=1.6,
+        contraction_1=0.08,
+        initial__pressure=2e5,
+        effects__end_stop__upper=0.9,
+        elbow__effects__payload__mass=0.2,
+    )
+    (joint,) = now.joints
+    assert joint.transmission == Lever(crank=0.05, angle=1.6)
+    assert [a.contraction for a in joint.actuators] == [0.08, 0.1][:muscles]
+    assert joint.effects['end_stop']['upper'] == 0.9
+    assert joint.moved_mass == joint.load.mass + 0.2
+    assert now.joint_names == ('elbow',)
+    assert len(now.muscle_names) == muscles
+    assert not now.is_one
+    np.testing.assert_array_equal(now.initial[1], [rest(joint, 2e5)])
 
 
 @pytest.mark.parametrize(
@@ -106,6 +131,7 @@ def test_a_pair_starts_at_rest_under_its_own_pressures():
             {'joint': 'antagonistic', 'initial.at_rest': False, 'initial.position': 5.0},
             'initial.position = 5 rad is no place of joint = antagonistic: give -3 to 3 rad',
         ),
+        ({'joint': 'lever', 'angle': 4.0}, 'angle = 4.0 is not allowed: give 0.1 to 3 rad'),
         ({'muscles': 'a'}, 'muscles = .a. is not allowed: give a list of texts'),
         ({'time_mode': 'lockstep', 'clock_rate': 2000.0}, 'clock_rate = 2000 Hz is above'),
     ],

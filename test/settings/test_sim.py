@@ -1,12 +1,13 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What the simulator is told, put together and checked as a whole."""
+"""What is declared to the simulator, put together and checked as a whole."""
 
 from pathlib import Path
 
 import pytest
 
 from pam_ros.errors import ParameterError
+from pam_ros.rig import statics
 from pam_ros.settings.files import read
 from pam_ros.settings.scene import simulation, table
 from pam_ros.settings.tables import checked, rig_table
@@ -31,15 +32,16 @@ def test_every_muscle_and_rig_of_the_package_can_be_simulated(name):
     now = simulation(checked(table(muscle=name), {}))
     ((pressure,), (position,), (velocity,)) = now.initial
     assert (pressure, velocity) == (0.0, 0.0)
-    (model,) = now.models
-    if not model.muscle.is_load_only:
-        kappa = position / model.muscle.l0
-        assert model.muscle.force(0.0, kappa) == pytest.approx(model.weight, rel=1e-9)
+    (joint,) = now.joints
+    if not joint.muscle.is_load_only:
+        kappa = position / joint.muscle.l0
+        weight = float(statics.weight(joint, 0.0))
+        assert joint.muscle.force(0.0, kappa) == pytest.approx(weight, rel=1e-9)
 
 
 def test_values_of_a_muscle_are_defaults_only():
     assert table(muscle='dmsp_10')['l0'][1] == 0.25
-    assert simulation(checked(table(muscle='dmsp_10'), {'l0': 0.3})).models[0].muscle.l0 == 0.3
+    assert simulation(checked(table(muscle='dmsp_10'), {'l0': 0.3})).joints[0].muscle.l0 == 0.3
 
 
 @pytest.mark.parametrize(

@@ -11,10 +11,12 @@ from hypothesis import strategies as st
 from pam_ros.effects import EFFECTS
 from pam_ros.errors import ParameterError
 from pam_ros.muscle.muscle import Muscle
-from pam_ros.rig.model import Load
+from pam_ros.rig.arrangements import ARRANGEMENTS
+from pam_ros.rig.loads import Mass
 from pam_ros.rig.sensors import Sensors
 from pam_ros.settings.tables import (
     build,
+    build_joint,
     build_rig,
     checked,
     effects_table,
@@ -39,7 +41,7 @@ def inside(about):
 
 def test_the_table_has_every_effect_parameter_and_no_name_twice():
     assert len(effects_table()) == sum(len(effect.parameters) for effect in EFFECTS)
-    assert len(TABLE) == len(table_of(Muscle)) + len(table_of(Load)) + len(effects_table())
+    assert len(TABLE) == len(table_of(Muscle)) + len(table_of(Mass)) + len(effects_table())
     assert {'a1', 'zeta', 'mass', 'mount', 'effects.payload.mass'} <= set(TABLE)
 
 
@@ -50,7 +52,24 @@ def test_no_name_is_so_like_another_that_it_would_be_taken_for_mistyped():
 
 def test_defaults_make_the_default_rig():
     assert build_rig(checked(TABLE, {})).muscle == Muscle()
-    assert build_rig({}).load == Load()
+    assert build_rig({}).load == Mass()
+
+
+@pytest.mark.parametrize('kind', ARRANGEMENTS, ids=lambda kind: kind.name)
+def test_each_arrangement_is_made_of_its_table(kind):
+    """Its defaults make its joint, with the units of its coordinate and a contraction a muscle."""
+    table = rig_table(kind)
+    values = checked(table, {})
+    joint = build_joint(kind, [values] * kind.muscles, values)
+    assert len(joint.actuators) == kind.muscles
+    assert [one.contraction for one in joint.actuators] == [kind.contraction] * kind.muscles
+    assert (joint.transmission, joint.load) == (kind.transmission(), kind.load())
+    mountings = [name for name in table if name.startswith('contraction_') and name[-1].isdigit()]
+    expected = [f'contraction_{i + 1}' for i in range(kind.muscles)] if kind.has_mounting else []
+    assert mountings == expected
+    friction = table['effects.viscous_friction.coefficient'][2].unit
+    assert friction == ('N m s/rad' if joint.is_revolute else 'N s/m')
+    assert not any(joint.present)
 
 
 @given(st.sampled_from(FLOATS).flatmap(lambda n: st.tuples(st.just(n), inside(TABLE[n][2]))))
@@ -91,7 +110,7 @@ def test_a_rig_goes_flat_and_comes_back(mass, zeta, mount):
     again = build_rig(flat_rig(model))
     assert again.muscle == model.muscle
     assert again.load == model.load
-    assert (again.row() == model.row()).all()
+    assert (again.parameters() == model.parameters()).all()
     assert type(again.load.mass) is float
 
 

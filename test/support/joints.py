@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Joints with two muscles written once more, in the units of the muscles' source: bar and percent.
+"""Joints written once more, in the units of the muscles' source: bar and percent.
 
 Nothing here uses the package. Angles in rad, positions in m, contraction positive.
 """
@@ -91,5 +91,67 @@ def parallel(p_of_t, strands, mass, offsets, zeta=ZETA):
             c = 2.0 * zeta * math.sqrt(0.5 * mass * strand.stiffness(p, y))
             force += strand.force(p, y) - c * v
         return v, force / mass
+
+    return rhs
+
+
+# A lever instead of the pulley: length of the crank, distance of the anchors from the pivot, and
+# the angle between both at angle 0. The crank and both anchors are points in a plane.
+GEOMETRY = CRANK, ANCHOR, AT_0 = 0.035, 0.4, 1.5
+
+
+def line(angle, i, geometry=GEOMETRY):
+    """Return the distance from the anchor of muscle i to the end of its crank, both as points.
+
+    A positive angle turns the crank of the first muscle towards its anchor, that of the second
+    away from it.
+    """
+    crank, anchor, at_0 = geometry
+    phi = at_0 - (-1) ** i * angle
+    return math.hypot(crank * math.cos(phi) - anchor, crank * math.sin(phi))
+
+
+def drawn(angle, i, geometry=GEOMETRY):
+    """Return how far muscle i has been drawn at an angle."""
+    return line(0.0, i, geometry) - line(angle, i, geometry)
+
+
+def lever_arm(angle, i, geometry=GEOMETRY):
+    """Return the distance of the pivot from the line of muscle i: a cross product, with a sign."""
+    crank, anchor, at_0 = geometry
+    phi = at_0 - (-1) ** i * angle
+    x, y = crank * math.cos(phi), crank * math.sin(phi)
+    area = x * (0.0 - y) - y * (anchor - x)  # of the crank and the way from its end to the anchor
+    return -((-1) ** i) * area / line(angle, i, geometry)
+
+
+def lever_torque(p, angle, strands, kappas=(KAPPA_1, KAPPA_2)):
+    """Return what the muscles pull the lever with at p bar each."""
+    total = 0.0
+    for i, (pressure, strand) in enumerate(zip(p, strands, strict=True)):
+        y = kappas[i] * strand.l0 + drawn(angle, i)
+        total += lever_arm(angle, i) * strand.force(pressure, y)
+    return total
+
+
+def lever_drag(p, angle, strands, zeta=ZETA, kappas=(KAPPA_1, KAPPA_2)):
+    """Return the muscles' damping in N m s/rad: of n muscles each moves J / (n r^2)."""
+    total = 0.0
+    for i, (pressure, strand) in enumerate(zip(p, strands, strict=True)):
+        r, y = lever_arm(angle, i), kappas[i] * strand.l0 + drawn(angle, i)
+        mass = J / (len(strands) * r**2)
+        total += r**2 * 2.0 * zeta * math.sqrt(mass * strand.stiffness(pressure, y))
+    return total
+
+
+def lever(p_of_t, strands, zeta=ZETA):
+    """Return the right-hand side for scipy: state (angle, rate), one muscle or two."""
+
+    def rhs(t, state):
+        angle, rate = state
+        p = p_of_t(t)
+        c = lever_drag(p, angle, strands, zeta) if zeta else 0.0
+        net = lever_torque(p, angle, strands) - c * rate - gravity(angle)
+        return rate, net / J
 
     return rhs

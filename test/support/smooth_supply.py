@@ -7,7 +7,7 @@ Commands are held between stamps; this is how the order of the integrator can be
 
 from math import sin
 
-from pam_ros.effects.base import Effect, EffectParameter
+from pam_ros.effects.base import Compensation, Effect, EffectParameter
 
 MEAN, AMPLITUDE, RATE = 350e3, 200e3, 5.0  # Pa, Pa, rad/s
 
@@ -38,5 +38,7 @@ EFFECT = Effect(
     signature='',
     experiment='',
     fit_starts=(),
+    example={'mean': MEAN},
+    compensation=Compensation.FEEDBACK,
     pressure=pressure,
 )

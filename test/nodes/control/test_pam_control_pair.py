@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from builtin_interfaces.msg import Duration
 from diagnostic_msgs.msg import DiagnosticStatus
+from pam_ros.rig.joint_model import JointModel
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64, Float64MultiArray
 from std_srvs.srv import SetBool
@@ -16,7 +17,6 @@ from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
 from pam_ros.control.signals import PAIR_TERMS
 from pam_ros.rig import statics
-from pam_ros.rig.joint_model import JointModel
 from support.control_watch import LOSE_NO_TERMS, Rig, Watch, columns
 from support.harness import Program
 

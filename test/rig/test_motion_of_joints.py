@@ -6,12 +6,13 @@ import numpy as np
 import pytest
 from scipy.integrate import quad, solve_ivp
 
-from pam_ros.effects import EFFECTS
 from pam_ros.rig import statics
-from pam_ros.rig.model import Load, RigModel
+from pam_ros.rig.joint import Actuator, Joint, one_muscle
+from pam_ros.rig.loads import Mass
+from pam_ros.rig.rest import rest
 from pam_ros.rig.rig import Rig
-from support import joint_models, joints, paper, smooth_supply
-from support.joint_models import BOTH_LONG, UNEQUAL, muscle, pair, parallel
+from support import joints, paper, smooth_supply
+from support.joint_models import BOTH_LONG, UNEQUAL, lever, muscle, pair, parallel
 
 BAR = 1e5
 MASS, OFFSETS = 50.0, (0.02, -0.01)
@@ -46,6 +47,21 @@ def test_a_pair_that_is_let_go_is_within_nanoradians_of_dop853(strands, start, s
     found = run(pair(strands), t, start, (4.2 * BAR, 2.9 * BAR), step)
     angle, rate = solve(joints.pair(lambda _: (4.2, 2.9), strands), start, t)
     assert np.ptp(angle) > 0.05
+    assert np.max(np.abs(found[0] - angle)) < bound
+    assert np.max(np.abs(found[1] - rate)) < 30.0 * bound
+
+
+@STEPS
+@pytest.mark.parametrize('strands', [UNEQUAL, UNEQUAL[:1]], ids=['two', 'one'])
+@pytest.mark.parametrize('start', [(0.0, 0.0), (0.5, 0.0), (-0.3, 2.0)])
+def test_a_lever_that_is_let_go_is_within_nanoradians_of_dop853(strands, start, step, bound):
+    """Two muscles, or one against the load, whose arms change with the angle."""
+    t = np.linspace(0.0, 5.0, 501)
+    bar = (3.2, 2.9) if len(strands) == 2 else (1.5,)
+    found = run(lever(strands), t, start, BAR * np.array(bar), step)
+    angle, rate = solve(joints.lever(lambda _: bar, strands), start, t)
+    assert np.ptp(angle) > 0.05
+    assert np.max(np.abs(angle)) < joints.AT_0 - 0.1
     assert np.max(np.abs(found[0] - angle)) < bound
     assert np.max(np.abs(found[1] - rate)) < 30.0 * bound
 
@@ -113,22 +129,33 @@ def test_the_order_of_convergence_is_four():
 
 
 @pytest.mark.needs_numba
-def test_energy_without_damping_drifts_by_a_millionth_in_a_minute():
+@pytest.mark.parametrize(
+    ('made', 'torque', 'p'),
+    [
+        (pair, joints.torque, (4.0, 3.0)),
+        (lever, joints.lever_torque, (4.0, 3.0)),
+        (lever, joints.lever_torque, (1.5,)),
+    ],
+    ids=['pair', 'lever', 'crank'],
+)
+def test_energy_without_damping_drifts_by_a_millionth_in_a_minute(made, torque, p):
     """Motion, muscles and gravity: what one loses, the others gain."""
-    p = 4.0, 3.0
+    strands = UNEQUAL[: len(p)]
 
     def energy(angle, rate):
         work, _ = quad(
-            lambda a: joints.torque(p, a, UNEQUAL) - joints.gravity(a), 0.0, angle, epsabs=1e-13
+            lambda a: torque(p, a, strands) - joints.gravity(a), 0.0, angle, epsabs=1e-13
         )
         return 0.5 * joints.J * rate**2 - work
 
-    rig = Rig([pair(zeta=0.0)])
-    rest = rig.models[0].rest(BAR * np.array(p))
-    rig.reset(BAR * np.array(p), [rest + 0.4], [0.0])
-    start = energy(rest + 0.4, 0.0)
-    swing = start - energy(rest, 0.0)
-    assert swing > 1.0
+    joint = made(strands, zeta=0.0)
+    rig = Rig([joint])
+    at_rest = rest(joint, BAR * np.array(p))
+    away = at_rest + (0.4 if len(p) == 2 else -0.5)
+    rig.reset(BAR * np.array(p), [away], [0.0])
+    start = energy(away, 0.0)
+    swing = start - energy(at_rest, 0.0)
+    assert swing > (1.0 if len(p) == 2 else 0.5)
     drift = []
     for _ in range(60):
         rig.advance(1000)
@@ -140,7 +167,8 @@ def test_energy_without_damping_drifts_by_a_millionth_in_a_minute():
 def test_two_equal_muscles_are_one_with_half_the_mass():
     t = np.linspace(0.0, 2.0, 201)
     two = run(parallel(30.0, BOTH_LONG), t, (0.03, 0.1), (4e5, 4e5))
-    one = run(RigModel(muscle(joints.LONG), Load(mass=15.0)), t, (0.03, 0.1), (4e5,))
+    alone = one_muscle(muscle(joints.LONG), Mass(mass=15.0))
+    one = run(alone, t, (0.03, 0.1), (4e5,))
     np.testing.assert_allclose(two, one, rtol=0.0, atol=1e-12)
 
 
@@ -180,6 +208,31 @@ def test_outputs_are_those_of_the_equations():
     np.testing.assert_allclose(found[:, 3], [joints.R * acceleration, -joints.R * acceleration])
     l0 = [strand.l0 for strand in UNEQUAL]
     np.testing.assert_allclose(rig.contraction, np.divide(y, l0), rtol=1e-14)
+
+
+def test_outputs_of_a_lever_are_those_of_the_equations():
+    """The ends of the muscles accelerate also because their arms change: arm' v^2."""
+    rig, angle, rate, h = Rig([lever()]), 0.3, 2.0, 1e-5
+    rig.reset([4.2e5, 2.9e5], [angle], [rate])
+    p, kappas = (4.2, 2.9), (joints.KAPPA_1, joints.KAPPA_2)
+    y = [kappas[i] * strand.l0 + joints.drawn(angle, i) for i, strand in enumerate(UNEQUAL)]
+    found, (effort, stiffness, acceleration) = rig.outputs(), rig.joint_outputs()[0]
+    drag = 0.0
+    for i, strand in enumerate(UNEQUAL):
+        r = joints.lever_arm(angle, i)
+        turn = (joints.lever_arm(angle + h, i) - joints.lever_arm(angle - h, i)) / (2.0 * h)
+        assert found[i, 0] == pytest.approx(strand.force(p[i], y[i]), abs=1e-8)
+        assert found[i, 1] == pytest.approx(strand.stiffness(p[i], y[i]), rel=1e-12)
+        c = 2.0 * joints.ZETA * np.sqrt(joints.J / (2.0 * r**2) * found[i, 1])
+        assert found[i, 2] == pytest.approx(c, rel=1e-12)
+        assert found[i, 3] == pytest.approx(r * acceleration + turn * rate**2, rel=1e-8)
+        drag += r**2 * c
+    assert effort == pytest.approx(joints.lever_torque(p, angle, UNEQUAL), abs=1e-9)
+    ends = (joints.lever_torque(p, angle + way, UNEQUAL) for way in (h, -h))
+    assert stiffness == pytest.approx((next(ends) - next(ends)) / (-2.0 * h), rel=1e-7)
+    net = effort - drag * rate - joints.gravity(angle)
+    assert acceleration == pytest.approx(net / joints.J, rel=1e-10)
+    np.testing.assert_allclose(rig.contraction, np.divide(y, [s.l0 for s in UNEQUAL]), rtol=1e-14)
 
 
 # Effects, each against equations of its own -------------------------------------------------
@@ -252,24 +305,24 @@ def test_friction_of_the_pivot_and_a_payload_on_the_arm():
 def test_dry_friction_of_the_pivot_holds_the_arm():
     """It stays where the muscles' torque and gravity differ by less than the friction."""
     rig = Rig([pair(load={'coulomb_friction': {'level': 0.8}})])
-    rest = rig.models[0].rest([4e5, 3e5])
+    at_rest = rest(rig.joints[0], [4e5, 3e5])
     k = joints.R**2 * sum(
         strand.stiffness(p, y)
-        for strand, p, y in zip(UNEQUAL, (4.0, 3.0), joints.ends(rest, UNEQUAL), strict=True)
+        for strand, p, y in zip(UNEQUAL, (4.0, 3.0), joints.ends(at_rest, UNEQUAL), strict=True)
     )
-    reach = 0.8 / (k + joints.M * paper.G * joints.ARM * np.cos(rest - joints.HANGING_AT))
-    rig.reset([4e5, 3e5], [rest + 0.9 * reach], [0.0])
+    reach = 0.8 / (k + joints.M * paper.G * joints.ARM * np.cos(at_rest - joints.HANGING_AT))
+    rig.reset([4e5, 3e5], [at_rest + 0.9 * reach], [0.0])
     rig.advance(3000)
-    assert rig.position[0] == pytest.approx(rest + 0.9 * reach, abs=2e-4)
-    rig.reset([4e5, 3e5], [rest + 3.0 * reach], [0.0])
+    assert rig.position[0] == pytest.approx(at_rest + 0.9 * reach, abs=2e-4)
+    rig.reset([4e5, 3e5], [at_rest + 3.0 * reach], [0.0])
     rig.advance(3000)
-    assert abs(rig.position[0] - rest) < 1.1 * reach
+    assert abs(rig.position[0] - at_rest) < 1.1 * reach
     assert abs(rig.velocity[0]) < 1e-6
 
 
 def test_a_stop_begins_at_its_angle():
     rig = Rig([pair(load={'end_stop': {'upper': 0.2, 'stiffness': 1e4}})])
-    assert statics.equilibrium(rig.models[0], [5e5, 1e5]) > 0.5
+    assert statics.equilibrium(rig.joints[0], [5e5, 1e5]) > 0.5
     rig.command([5e5, 1e5])
     rig.advance(3000)
     pressed = rig.position[0] - 0.2
@@ -283,12 +336,15 @@ def test_a_stop_begins_at_its_angle():
 
 IN_MUSCLE = {'creep': {'stiffness': 300.0, 'time': 0.5}, 'dead_time': {'delay': 0.0125}}
 ON_LOAD = {'coulomb_friction': {'level': 0.5}, 'payload': {'mass': 0.5}}
-MODELS = (
-    RigModel(effects=IN_MUSCLE | ON_LOAD),
+MIXED = (
+    one_muscle(effects=IN_MUSCLE | ON_LOAD),
     pair(effects=(IN_MUSCLE, {}), load=ON_LOAD),
     parallel(MASS, effects=({}, IN_MUSCLE)),
-    RigModel(load=Load(mount='horizontal'), effects={'hysteresis': {'slip': 3.0}}),
+    one_muscle(load=Mass(mount='horizontal'), effects={'hysteresis': {'slip': 3.0}}),
+    lever(effects=({}, IN_MUSCLE), load=ON_LOAD),
+    lever(UNEQUAL[:1], effects=(IN_MUSCLE,)),
     pair(BOTH_LONG, load=ON_LOAD, plane='horizontal'),
+    one_muscle(),
 )
 
 
@@ -313,45 +369,50 @@ def state(rig, joints_at, muscles_at):
     )
 
 
-def test_joints_of_all_kinds_together_are_each_what_it_is_alone():
-    """To the bit: also one muscle with its own load, which has a kernel of its own when alone."""
-    commands = np.random.default_rng(1).uniform(0.0, 6e5, (8, 8))
-    together = driven(MODELS, commands)
+def assert_each_is_what_it_is_alone(mixed, commands):
+    together = driven(mixed, commands)
     muscle_at = 0
-    for i, model in enumerate(MODELS):
-        n = 1 if isinstance(model, RigModel) else 2
+    for i, joint in enumerate(mixed):
+        n = len(joint.muscles)
         mine = slice(muscle_at, muscle_at + n)
-        alone = driven([model], commands[:, mine])
+        alone = driven([joint], commands[:, mine])
         expected = state(alone, slice(0, 1), slice(0, n))
         np.testing.assert_array_equal(state(together, slice(i, i + 1), mine), expected)
         muscle_at += n
     assert muscle_at == commands.shape[1]
 
 
-def test_plain_rigs_beside_a_plain_joint_are_what_they_are_alone_to_the_bit():
-    commands = np.random.default_rng(2).uniform(0.0, 6e5, (8, 3))
-    together, alone = driven([RigModel(), pair()], commands), driven([RigModel()], commands[:, :1])
-    first = slice(0, 1)
-    np.testing.assert_array_equal(state(together, first, first), state(alone, first, first))
+def test_joints_of_all_kinds_together_are_each_what_it_is_alone():
+    """To the bit, with effects and without, whatever stands beside them in the rig."""
+    commands = np.random.default_rng(1).uniform(0.0, 6e5, (8, 12))
+    assert_each_is_what_it_is_alone(MIXED, commands)
 
 
-def test_templates_run_as_they_stand():
-    """Unbound and uncompiled they are a mass on one muscle."""
-    from pam_ros.rig import joint_kernel, kernel
-    from pam_ros.rig.model import start_row
-
-    model = RigModel(library=())
-    q = model.row()
-    x = start_row(model.layout, q, 3e5, 0.02, 0.0)[None]
-    one, scratch = x[0].copy(), x.copy()
-    g, u = np.array([model.load.mass, model.load.gravity]), np.array([3e5])
-    for i in range(20):
-        joint_kernel.joint_step(x, scratch, q[None], g, u, 0, 0, 1, 0, i * 1e-3, 1e-3)
-        kernel.step(one, scratch[0].copy(), q, 3e5, i * 1e-3, 1e-3)
-    np.testing.assert_array_equal(x[0], one)
+def test_the_order_of_the_joints_does_not_matter():
+    """Neighbours of one kind are stepped in one call; others in calls of their own."""
+    commands = np.random.default_rng(3).uniform(0.0, 6e5, (8, 12))
+    ordered = sorted(MIXED, key=lambda joint: joint.transmission.equations.name)
+    assert_each_is_what_it_is_alone(ordered, commands)
 
 
-def test_all_effects_are_those_of_the_library():
-    """The joints here and the rigs of other tests have one library, as a rig must."""
-    assert {model.library for model in MODELS} == {EFFECTS}
-    assert joint_models.pair().library == EFFECTS
+def test_plain_joints_beside_each_other_are_what_they_are_alone_to_the_bit():
+    commands = np.random.default_rng(2).uniform(0.0, 6e5, (8, 6))
+    plain = (one_muscle(), pair(), lever(), lever(UNEQUAL[:1]))
+    assert_each_is_what_it_is_alone(plain, commands)
+
+
+def test_joints_with_other_effects_to_choose_from_stand_beside_each_other():
+    """Each kernel knows the effects of its own joints."""
+    swings = one_muscle(effects={'smooth_supply': {'mean': 3e5}}, library=(smooth_supply.EFFECT,))
+    commands = np.random.default_rng(4).uniform(0.0, 6e5, (8, 3))
+    assert_each_is_what_it_is_alone((swings, one_muscle(), swings), commands)
+
+
+def test_one_muscle_mounted_elsewhere_is_the_same_muscle():
+    """A contraction at position 0 only moves where the position is counted from."""
+    moved = Joint((Actuator(muscle(joints.LONG), {}, 0.1),), Mass())
+    t = np.linspace(0.0, 2.0, 201)
+    there = run(one_muscle(muscle(joints.LONG)), t, (0.06, 0.2), (3e5,))
+    here = run(moved, t, (0.06 - 0.1 * joints.LONG.l0, 0.2), (3e5,))
+    np.testing.assert_allclose(here[0] + 0.1 * joints.LONG.l0, there[0], atol=1e-12)
+    np.testing.assert_allclose(here[1], there[1], atol=1e-11)

@@ -1,0 +1,176 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""States after a long rest, and hidden states that begin away from it."""
+
+import numpy as np
+import pytest
+
+from pam_ros.effects import EFFECTS
+from pam_ros.errors import ParameterError
+from pam_ros.rig import layout as at
+from pam_ros.rig.joint import one_muscle
+from pam_ros.rig.rest import rest
+from pam_ros.rig.run import simulate
+from pam_ros.rig.start import start_joint, start_muscle, start_state
+from support import bench, joints
+from support.joint_models import UNEQUAL, lever, pair
+
+LAG = {'pressure_lag': {'fill': 0.1, 'vent': 0.2}}
+T = np.linspace(0.0, 1.0, 101)
+
+
+def test_a_start_is_a_long_rest():
+    """A lagging chamber is full, and what is downstream of an offset has got it."""
+    joint = one_muscle(effects=LAG | {'pressure_offset': {'offset': 5e3}})
+    x = start_state(joint.layout, joint.parameters(), [2e5], 0.03, 0.1)
+    assert list(x[at.JOINT, [at.S, at.V]]) == [0.03, 0.1]
+    assert x[at.MUSCLE, at.P] == 2.05e5
+    assert x[at.MUSCLE, joint.layout.state_at['pressure_lag']] == 2.05e5
+
+
+def test_one_effect_can_be_started_alone():
+    joint = one_muscle(effects=LAG)
+    layout, q = joint.layout, joint.parameters()
+    x = start_state(layout, q, [2e5], 0.03, 0.1)
+    before = x.copy()
+    lag = next(e for e in joint.library if e.name == 'pressure_lag')
+    start_muscle(layout, q, x, 0, 4e5, (lag,))
+    i = layout.state_at['pressure_lag']
+    assert x[at.MUSCLE, i] == x[at.MUSCLE, at.P] == 4e5
+    x[at.MUSCLE, [i, at.P]] = before[at.MUSCLE, [i, at.P]]
+    np.testing.assert_array_equal(x, before)
+    start_joint(layout, q, x, (lag,))  # it is none of the joint's
+    np.testing.assert_array_equal(x, before)
+
+
+@pytest.mark.parametrize(
+    ('joint', 'ends'),
+    [
+        (pair(effects=({}, {'hysteresis': {'slip': 3.0}})), joints.ends(0.3, UNEQUAL)),
+        (
+            lever(effects=({}, {'hysteresis': {'slip': 3.0}})),
+            [
+                kappa * strand.l0 + joints.drawn(0.3, i)
+                for i, (kappa, strand) in enumerate(
+                    zip((joints.KAPPA_1, joints.KAPPA_2), UNEQUAL, strict=True)
+                )
+            ],
+        ),
+    ],
+    ids=['pair', 'lever'],
+)
+def test_each_muscle_starts_at_its_own_place_and_pressure(joint, ends):
+    """Hysteresis remembers the contraction and the pressure that it was left at."""
+    layout = joint.layout
+    x = start_state(layout, joint.parameters(), [2e5, 3e5], 0.3, 0.0)
+    k = layout.state_at['hysteresis']
+    expected = [[y / strand.l0, p] for y, strand, p in zip(ends, UNEQUAL, (2e5, 3e5), strict=True)]
+    np.testing.assert_allclose(x[at.MUSCLE :, k + 1 : k + 3], expected, rtol=1e-13)
+
+
+# Away from rest -------------------------------------------------------------------------------
+
+
+def test_a_chamber_that_begins_away_from_the_command_comes_to_it_with_its_time_constant():
+    """From above with that of venting, from below with that of filling."""
+    for away, tau in ((4e4, 0.2), (-4e4, 0.1)):
+        hidden = {'pressure_lag': {'pressure': away}}
+        run = simulate(one_muscle(effects=LAG), T, [0.0], [3e5], hidden=hidden)
+        np.testing.assert_allclose(run.pressure, 3e5 + away * np.exp(-T / tau), rtol=1e-12)
+        # The force is that of the pressure, at the first sample, too.
+        muscle = one_muscle().muscle
+        pull = muscle.force(run.pressure[0], run.position[0] / muscle.l0)
+        assert run.force[0] == pytest.approx(float(pull), rel=1e-12)
+
+
+def test_the_coordinate_begins_at_rest_under_the_command():
+    joint = one_muscle(effects=LAG)
+    run = simulate(joint, T, [0.0], [3e5], hidden={'pressure_lag': {'pressure': -4e4}})
+    assert run.position[0] == rest(joint, 3e5)
+    assert np.ptp(run.position) > 1e-3
+
+
+def test_all_muscles_of_a_joint_begin_alike_away_from_rest():
+    joint = lever(effects=(LAG, LAG))
+    run = simulate(joint, T, [0.0], [[3e5, 2e5]], hidden={'pressure_lag': {'pressure': 3e4}})
+    falls = 3e4 * np.exp(-T / 0.2)
+    np.testing.assert_allclose(run.pressure, np.stack([3e5 + falls, 2e5 + falls], 1), rtol=1e-12)
+
+
+def test_what_creeps_begins_unrelaxed_and_relaxes():
+    """What follows the contraction begins 0.01 below it: the stiffness of so much is there."""
+    creep = {'stiffness': 5.0, 'time': 0.5}
+    away = {'creep': {'fast contraction': -0.01, 'slow contraction': -0.01}}
+    t = np.linspace(0.0, 2.0, 101)
+    held_at = 0.05
+    joint = bench.cart(mass=1e4, creep=creep)
+    run = simulate(joint, t, [0.0], [0.0], position=held_at, hidden=away)
+    # A cart of ten tons hardly moves: 5 N of 0.01 pull it back, and exp(-t/0.5) of them are left.
+    np.testing.assert_allclose(run.force, -0.05 * np.exp(-t / 0.5), atol=5e-5)
+
+
+def test_nothing_is_moved_where_nothing_is_said():
+    joint = one_muscle(effects=LAG)
+    bare, said = (simulate(joint, T, [0.0], [3e5], hidden=hidden) for hidden in (None, {}))
+    for one, other in zip(vars(bare).values(), vars(said).values(), strict=True):
+        np.testing.assert_array_equal(one, other)
+
+
+def test_an_absent_effect_may_begin_anywhere():
+    """Its hidden states are there but do nothing."""
+    hidden = {'pressure_lag': {'pressure': 5e4}, 'hysteresis': {'loop': 0.5}}
+    bare = simulate(one_muscle(effects={'payload': {'mass': 1.0}}), T, [0.0], [3e5])
+    moved = simulate(
+        one_muscle(effects={'payload': {'mass': 1.0}}), T, [0.0], [3e5], hidden=hidden
+    )
+    np.testing.assert_array_equal(bare.position, moved.position)
+    np.testing.assert_array_equal(bare.pressure, moved.pressure)
+
+
+@pytest.mark.parametrize(
+    ('hidden', 'sentence'),
+    [
+        (
+            {'payload': {'mass': 1.0}},
+            'effect payload has no hidden states: give one of '
+            + ', '.join(effect.name for effect in EFFECTS if effect.states),
+        ),
+        ({'magic': {}}, 'effect magic has no hidden states: give one of '),
+        (
+            {'pressure_lag': {'preasure': 1.0}},
+            'effect pressure_lag has no hidden state preasure: give one of pressure',
+        ),
+    ],
+)
+def test_a_name_that_nothing_has_is_refused_with_a_sentence(hidden, sentence):
+    with pytest.raises(ParameterError) as error:
+        simulate(one_muscle(), T, [0.0], [3e5], hidden=hidden)
+    assert str(error.value).startswith(sentence)
+
+
+WITH_SPREAD = [e for e in EFFECTS if any(state.spread > 0.0 for state in e.states)]
+
+
+@pytest.mark.parametrize('sign', [2.0, -2.0])
+@pytest.mark.parametrize('effect', WITH_SPREAD, ids=lambda effect: effect.name)
+def test_a_run_may_begin_with_every_hidden_state_two_spreads_away(effect, sign):
+    """It stays finite, and comes to move with the run that began at rest, or stays near it."""
+    hidden = {effect.name: {state.name: sign * state.spread for state in effect.states}}
+    joint = bench.hanging(**{effect.name: effect.example})
+    t = np.linspace(0.0, 5.0, 501)
+    commands = [0.0, 1.0, 2.5], [3e5, 2e5, 4e5]
+    moved, still = (simulate(joint, t, *commands, hidden=h) for h in (hidden, None))
+    for values in (moved.position, moved.velocity, moved.pressure, moved.force):
+        assert np.all(np.isfinite(values))
+    away = np.abs(moved.position - still.position)
+    assert np.max(away) > 1e-7
+    assert np.max(away) < 0.2 * bench.L0
+    assert away[-1] < 0.5 * np.max(away)
+
+
+def test_spreads_are_there_where_a_state_is_not_known_beforehand():
+    """Names of one effect's states differ; a spread of 0 says that a state is always known."""
+    for effect in EFFECTS:
+        names = [state.name for state in effect.states]
+        assert len(set(names)) == len(names)
+        assert all(state.spread >= 0.0 for state in effect.states)
