@@ -7,10 +7,11 @@ The solver's equations are written in each test; only the muscle's own are here,
 """
 
 import numpy as np
-from pam_ros.rig.model import Load, RigModel
 from scipy.integrate import solve_ivp
 
 from pam_ros.muscle.muscle import Muscle
+from pam_ros.rig.joint import one_muscle
+from pam_ros.rig.loads import Mass
 from support import paper
 
 L0 = paper.L0
@@ -21,7 +22,7 @@ ZETA = 0.15
 
 def hanging(mass=MASS, **effects):
     """Return the paper's muscle with a hanging load."""
-    return RigModel(Muscle(zeta=ZETA), Load(mass=mass), effects)
+    return one_muscle(Muscle(zeta=ZETA), Mass(mass=mass), effects)
 
 
 def cart(mass=MASS, **effects):
@@ -40,7 +41,7 @@ def cart(mass=MASS, **effects):
         p_min=-1e5,
         p_max=1e5,
     )
-    return RigModel(drawn, Load(mass=mass, mount='horizontal'), effects)
+    return one_muscle(drawn, Mass(mass=mass, mount='horizontal'), effects)
 
 
 def pull(p, y):
