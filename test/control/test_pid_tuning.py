@@ -12,9 +12,9 @@ from math import exp
 
 import numpy as np
 import pytest
+from pam_ros.control.inner_model import InnerModel
 from scipy.linalg import expm
 
-from pam_ros.control.inner_model import InnerModel
 from pam_ros.control.pid import PidGains
 from support.closed_loop import declared
 
