@@ -200,9 +200,12 @@ class Pid:
         return self.terms.pressures
 
     def _room(self, static: Pressures, signs: list[float]) -> tuple[float, float]:
-        """Return the least and the greatest output that keeps all pressures within the limits."""
-        low, high = -float('inf'), float('inf')
+        """Return the least and the greatest output that leave one of the pressures a way to go.
+
+        Where the static part has a muscle at a limit already, the others go on alone.
+        """
+        low, high = float('inf'), -float('inf')
         for limiter, sign, pressure in zip(self._limiters, signs, static, strict=True):
             ends = sorted((sign * (limiter.low - pressure), sign * (limiter.high - pressure)))
-            low, high = max(low, ends[0]), min(high, ends[1])
-        return low, max(low, high)
+            low, high = min(low, ends[0]), max(high, ends[1])
+        return low, high

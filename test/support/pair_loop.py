@@ -47,24 +47,24 @@ def declared(effects=None, load=None):
     return Joint((actuator, actuator), Arm(), Pulley(), load or {})
 
 
-def close_pair(law, plant, target, duration, stiffness=None, rate=500.0, begin=0.0, stream=STREAM):
+def close_pair(law, plant, target, duration, stiffness=None, *, rate=500.0, begin=0.0, shape=None):
     """Run *law* on *plant* along *target* (s -> rad), with *stiffness* (s -> N m/rad).
 
-    Both come as samples every *stream* s, as from topics; the angle is measured at *rate*.
+    Both come as samples every STREAM s, as from topics; the angle is measured at *rate*.
     """
     dt, count = 1.0 / rate, round(duration * rate)
     law.start(begin)
     plant.reset(begin, law.terms.pressures)
-    shaper = Shaper(Shape.turning())
+    shaper = Shaper(shape or Shape.turning())
     shaper.start(begin)
     measured, taken, wanted = plant.measure(), None, None
     rows, terms = np.zeros((count, 7)), np.zeros((count, len(TERMS)))
     for n in range(count):
         t = n * dt
-        sample = int(t / stream + 1e-9)
+        sample = int(t / STREAM + 1e-9)
         if sample != taken:
             taken = sample
-            shaper.take(target(sample * stream), t - sample * stream)
+            shaper.take(target(sample * STREAM), t - sample * STREAM)
             if stiffness and stiffness(t) != wanted:
                 wanted = stiffness(t)
                 law.stiffen(wanted)
