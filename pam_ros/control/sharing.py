@@ -171,12 +171,6 @@ class TwoSides(Sharing):
             (max(self.ranges[i][0] for i in side), min(self.ranges[i][1] for i in side))
             for side in self._sides
         )
-        for low, high in (one, two):
-            if low >= high:
-                raise ParameterError(
-                    'muscles that pull the same way have no pressure in common: mend p_min, p_max '
-                    'or the limits of pressure'
-                )
         self._within: tuple[pair.Limits, pair.Limits] = one, two
         (a, b), (c, d) = one, two
         spare = MARGIN * (b - a), MARGIN * (d - c)

@@ -1,27 +1,32 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The told stiffness, and the way to it."""
+"""The stiffness that is set, and the way to it."""
 
 import numpy as np
 import pytest
-from pam_ros.control.pair_model import PairModel
-from pam_ros.rig.joint_model import JointModel
 
 from pam_ros.control.co_contraction import SWIFT, CoContraction, StiffnessCourse
 from pam_ros.errors import ParameterError, RangeError
+from pam_ros.rig.joint import one_muscle
+from support.closed_loop import shared
+from support.pair_loop import declared
 
-RIG = PairModel(JointModel())
+SHARING = shared(declared())
 DT = 2e-3
 
 
-def test_without_a_word_it_is_in_the_middle_of_what_can_be_had():
-    assert CoContraction().wanted(RIG) == pytest.approx(0.5 * sum(RIG.stiffness_range(0.0)))
-    assert CoContraction(30.0).wanted(RIG) == 30.0
+def test_unless_it_is_set_it_is_in_the_middle_of_what_can_be_had():
+    assert CoContraction().wanted(SHARING) == pytest.approx(0.5 * sum(SHARING.stiffness_range(0)))
+    assert CoContraction(30.0).wanted(SHARING) == 30.0
+
+
+def test_where_the_effort_settles_the_stiffness_none_is_wanted():
+    assert CoContraction(30.0).wanted(shared(one_muscle())) == 0.0
 
 
 def test_one_that_cannot_be_had_is_refused():
     with pytest.raises(RangeError, match='co-contraction 90 N m/rad is out of reach'):
-        CoContraction(90.0).wanted(RIG)
+        CoContraction(90.0).wanted(SHARING)
     with pytest.raises(ParameterError, match='co_contraction_rate'):
         CoContraction(co_contraction_rate=0.0)
 
@@ -29,7 +34,7 @@ def test_one_that_cannot_be_had_is_refused():
 def test_another_is_approached_at_the_rate_and_without_a_jump():
     course = StiffnessCourse(20.0, 100.0)
     course.start(20.0)
-    course.tell(40.0)
+    course.set_goal(40.0)
     way = np.array([course.follow(DT) for _ in range(300)])
     slope = np.diff(way, prepend=20.0) / DT
     assert np.max(slope) == pytest.approx(100.0, rel=1e-6)
@@ -46,7 +51,7 @@ def test_a_new_goal_on_the_way_makes_no_jump():
     before = course.follow(DT)
     for n in range(200):
         if n % 7 == 0:
-            course.tell(20.0 + n % 3)
+            course.set_goal(20.0 + n % 3)
         now = course.follow(DT)
         assert abs(now - before) <= 1.01 * 100.0 * DT
         before = now

@@ -1,60 +1,129 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What declared effects take, against the rig that has them."""
+"""What declared effects take, against the rig that has them: of one muscle, and of a pair."""
+
+import math
 
 import numpy as np
 import pytest
-from pam_ros.control.inner_model import InnerModel
-from pam_ros.rig.model import RigModel
 
 from pam_ros.control.compensation import Losses, left_to_feedback
+from pam_ros.control.gains import Gains
+from pam_ros.control.model import ControlModel
 from pam_ros.control.signals import Reference
+from pam_ros.control.sliding_mode import SlidingMode
+from pam_ros.rig.joint import Actuator, one_muscle
+from pam_ros.rig.rig import Rig
 from pam_ros.rig.run import simulate_held
+from support.pair_loop import declared
 
 DT = 2e-3
 LOSSES = {
     'hysteresis': {'slip': 30.0, 'slip_width': 0.02},
     'creep': {'force': 0.04},
 }
+FRICTION = {'coulomb_friction': {'level': 0.3}}
+HYSTERESIS = {'hysteresis': {'slip': 20.0}}
+
+
+def losses_of(joint):
+    return Losses(ControlModel(joint))
 
 
 def test_losses_along_a_motion_are_what_the_rig_pulls_less():
-    model, bare = RigModel(effects=LOSSES), RigModel()
+    joint, bare = one_muscle(effects=LOSSES), one_muscle()
     t = np.arange(0.0, 4.0, DT)
     y = 0.05 + 0.02 * np.sin(2.0 * t) ** 2
     v = np.gradient(y, t)
     p = 300e3 + 50e3 * np.sin(3.0 * t)
-    with_effects = simulate_held(model, t, p, y, v, step=DT).force
+    with_effects = simulate_held(joint, t, p, y, v, step=DT).force
     without = simulate_held(bare, t, p, y, v, step=DT).force
-    losses, inner = Losses(model), InnerModel(model)
-    losses.start(y[0], p[0])
+    losses = losses_of(joint)
+    losses.start(y[0], p[:1])
     found = []
     for n in range(len(t)):
         reference = Reference(y[n], v[n])
-        found.append(losses.follow(DT, reference, p[n], inner.force(p[n], y[n])))
+        found.append(losses.follow(DT, reference, (p[n],)))
     expected = without - with_effects
     assert np.ptp(expected) > 40.0
     np.testing.assert_allclose(found[5:], expected[5:], atol=0.6)
 
 
 def test_friction_turns_over_with_the_motion():
-    losses = Losses(RigModel(effects={'coulomb_friction': {'level': 15.0}}))
-    losses.start(0.05, 300e3)
+    losses = losses_of(one_muscle(effects={'coulomb_friction': {'level': 15.0}}))
+    losses.start(0.05, (300e3,))
     for n in range(100):
-        up = losses.follow(DT, Reference(0.05 + 1e-4 * n, 0.05), 300e3, 200.0)
+        up = losses.follow(DT, Reference(0.05 + 1e-4 * n, 0.05), (300e3,))
     for n in range(100):
-        down = losses.follow(DT, Reference(0.06 - 1e-4 * n, -0.05), 300e3, 200.0)
+        down = losses.follow(DT, Reference(0.06 - 1e-4 * n, -0.05), (300e3,))
     assert up == pytest.approx(15.0)
     assert down == pytest.approx(-15.0)
+    assert losses.effort == down
 
 
 def test_without_effects_nothing_is_lost():
-    losses = Losses(RigModel())
-    assert losses.follow(DT, Reference(0.05, 0.1), 300e3, 200.0) == 0.0
+    losses = losses_of(one_muscle())
+    assert losses.follow(DT, Reference(0.05, 0.1), (300e3,)) == 0.0
 
 
 def test_it_says_what_it_leaves_to_feedback():
-    model = RigModel(
+    joint = one_muscle(
         effects={'payload': {'mass': 1.0}, 'leak': {'rate': 0.1}, 'hysteresis': {'slip': 3.0}}
     )
-    assert left_to_feedback(model) == ('leak',)
+    assert left_to_feedback(joint) == ('leak',)
+
+
+def test_what_one_muscle_of_several_has_is_said_as_well():
+    plain, leaks = Actuator(contraction=0.1), Actuator(effects={'leak': {'rate': 0.1}})
+    joint = declared()
+    assert left_to_feedback(joint) == ()
+    assert left_to_feedback(type(joint)((plain, leaks), joint.load, joint.transmission)) == (
+        'leak',
+    )
+
+
+# A pair ------------------------------------------------------------------------------------------
+
+
+def sine(t):
+    w, a = math.pi, 0.25
+    return Reference(a * math.sin(w * t), a * w * math.cos(w * t), -a * w * w * math.sin(w * t))
+
+
+def rms(believed, true, seconds=6.0):
+    """Return the error of a law that takes a joint for another one, and learns nothing."""
+    law, rig = SlidingMode(believed, Gains.turning(learning=False)), Rig([true])
+    law.start(0.0)
+    rig.reset(law.terms.pressures, [0.0], [0.0])
+    errors = []
+    for n in range(round(seconds / DT)):
+        now = sine(n * DT)
+        errors.append(now.position - rig.position[0])
+        rig.command(law.update(DT, now, float(rig.position[0])))
+        rig.advance(2)
+    return float(np.sqrt(np.mean(np.square(errors[-1000:]))))
+
+
+def test_nothing_is_lost_of_a_pair_where_nothing_is_declared():
+    losses = losses_of(declared())
+    losses.start(0.0, (3e5, 3e5))
+    assert losses.follow(DT, Reference(0.1, 1.0), (3e5, 3e5)) == 0.0
+
+
+def test_friction_of_the_load_is_a_torque_and_resists_the_motion():
+    losses = losses_of(declared(load=FRICTION))
+    losses.start(0.0, (3e5, 3e5))
+    for n in range(200):
+        lost = losses.follow(DT, Reference(0.5 * n * DT, 0.5), (3e5, 3e5))
+    assert lost == pytest.approx(0.3, rel=0.02)
+    for n in range(200):
+        lost = losses.follow(DT, Reference(0.2 - 0.5 * n * DT, -0.5), (3e5, 3e5))
+    assert lost == pytest.approx(-0.3, rel=0.02)
+
+
+@pytest.mark.parametrize('which', ['friction', 'hysteresis'])
+def test_what_is_declared_of_a_pair_is_compensated(which):
+    true = declared(load=FRICTION) if which == 'friction' else declared(HYSTERESIS)
+    known, unknown = rms(true, true), rms(declared(), true)
+    assert unknown > math.radians(0.05)
+    assert known < 0.35 * unknown

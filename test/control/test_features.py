@@ -7,7 +7,10 @@ from itertools import pairwise
 
 import pytest
 
-from pam_ros.control.features import CONSTANT, COUNT, REACHES, STROKE, Features
+from pam_ros.control.features import CONSTANT, COUNT, Features, FeatureTuning
+
+TUNING = FeatureTuning()
+REACHES, STROKE = TUNING.reaches, TUNING.stroke
 
 
 def along(features, path, dt=2e-3):
@@ -17,7 +20,7 @@ def along(features, path, dt=2e-3):
 
 
 def test_elements_slip_at_their_reach_and_turn_over_by_twice_that():
-    features = Features()
+    features = Features(TUNING)
     features.start(0.05)
     values = along(features, [0.05, 0.05 + 1e-3])
     bent = [min(1e-3 / reach, 1.0) for reach in REACHES]
@@ -30,7 +33,7 @@ def test_elements_slip_at_their_reach_and_turn_over_by_twice_that():
 
 
 def test_minor_loops_close():
-    features = Features()
+    features = Features(TUNING)
     features.start(0.0)
     along(features, [0.0, 10e-3])
     before = list(features.values)
@@ -39,7 +42,7 @@ def test_minor_loops_close():
 
 
 def test_the_rest_is_stribeck_stiffness_and_a_constant():
-    features = Features()
+    features = Features(TUNING)
     features.start(0.03)
     values = features.follow(1.0, 0.04, 0.01)
     assert values[len(REACHES)] == pytest.approx(math.exp(-1.0))
@@ -47,3 +50,8 @@ def test_the_rest_is_stribeck_stiffness_and_a_constant():
     assert values[CONSTANT] == 1.0
     assert len(values) == COUNT
     assert features.rates[CONSTANT - 1] == pytest.approx(0.01 / STROKE)
+
+
+def test_there_is_a_size_for_each_feature():
+    for sizes in (TUNING.spreads, TUNING.lows, TUNING.highs):
+        assert len(sizes) == COUNT

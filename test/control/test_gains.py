@@ -1,18 +1,21 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The gains' conditions, and the bound of the error that follows from them."""
+"""The gains' conditions, and the bound of the error that follows from them; those of a pair."""
 
 import math
 
 import numpy as np
 import pytest
-from pam_ros.rig.model import Load, RigModel
 from scipy.integrate import trapezoid
 from scipy.signal import TransferFunction, impulse
 
 from pam_ros.control.gains import Gains
 from pam_ros.errors import ParameterError
-from pam_ros.muscle.muscle import Muscle
+from pam_ros.rig.joint import one_muscle
+from support.closed_loop import shared
+from support.pair_loop import declared
+
+PAIR = shared(declared())
 
 
 @pytest.mark.parametrize(
@@ -39,12 +42,12 @@ def test_an_observer_that_is_off_needs_no_bandwidth():
 
 
 def test_gains_that_do_not_suit_a_rig_or_a_rate_are_refused():
-    model = RigModel(Muscle(), Load())
-    Gains().check(model, 0.002)
+    sharing = shared(one_muscle())
+    Gains().check(sharing, 0.002)
     with pytest.raises(ParameterError, match='too fast for a control rate of 50 Hz'):
-        Gains().check(model, 0.02)
+        Gains().check(sharing, 0.02)
     with pytest.raises(ParameterError, match='disturbance_bound = 5000 N cannot be overcome'):
-        Gains(disturbance_bound=5000.0).check(model, 0.002)
+        Gains(disturbance_bound=5000.0).check(sharing, 0.002)
 
 
 def test_width_and_gain_are_those_of_the_docstring():
@@ -64,3 +67,51 @@ def test_the_error_bound_is_the_absolute_area_of_the_impulse_response(damping):
     area = trapezoid(np.abs(h), t)
     expected = 50.0 / (20.0 * gains.bandwidth) * area
     assert gains.error_bound(50.0, 20.0, w) == pytest.approx(expected, rel=1e-4)
+
+
+# A joint that turns ------------------------------------------------------------------------------
+
+
+def test_a_joint_that_turns_has_defaults_of_its_own():
+    assert Gains.of(declared()) == Gains.turning()
+    assert Gains.of(one_muscle()) == Gains()
+    assert Gains.turning().is_turning
+    assert Gains.turning(bandwidth=30.0).bandwidth == 30.0
+    assert Gains.turning().disturbance_bound < Gains().disturbance_bound
+
+
+def test_the_defaults_suit_the_default_pair():
+    Gains.turning().check(PAIR, 2e-3)
+
+
+@pytest.mark.parametrize(
+    ('given', 'period', 'sentence'),
+    [
+        ({'disturbance_bound': 500.0}, 2e-3, 'disturbance_bound = 500 N m cannot be overcome'),
+        ({'velocity_bandwidth': 1000.0}, 2e-3, 'too fast for a control rate of 500 Hz'),
+        ({}, 0.05, 'too fast for a control rate of 20 Hz: give at most 30'),
+    ],
+)
+def test_what_does_not_suit_the_joint_is_refused(given, period, sentence):
+    with pytest.raises(ParameterError, match=sentence):
+        Gains.turning(**given).check(PAIR, period)
+
+
+@pytest.mark.parametrize(
+    ('given', 'sentence'),
+    [
+        ({'velocity_bandwidth': 50.0}, 'give at least 4 times as much'),
+        ({'observer_bandwidth': 40.0}, 'is above bandwidth = 25 1/s'),
+        ({'disturbance_bound': 0.0}, 'disturbance_bound = 0.0 is not allowed'),
+    ],
+)
+def test_bandwidths_out_of_order_are_refused_of_a_joint_that_turns(given, sentence):
+    with pytest.raises(ParameterError, match=sentence):
+        Gains.turning(**given)
+
+
+def test_the_switching_gains_are_those_of_one_muscle_with_inertia_for_mass():
+    mine = Gains.turning(disturbance_bound=4.0, disturbance_rate=6.0)
+    other = Gains(disturbance_bound=4.0, disturbance_rate=6.0)
+    assert mine.switching_gain(0.2) == other.switching_gain(0.2)
+    assert mine.super_twisting(0.2) == other.super_twisting(0.2)

@@ -5,12 +5,15 @@
 import numpy as np
 import pytest
 
-from pam_ros.control.features import REACHES
+from pam_ros.control.features import FeatureTuning
 from pam_ros.control.gains import Gains
+from pam_ros.control.learning import LearningTuning
 from pam_ros.control.sliding_mode import SlidingMode
 from support.closed_loop import LAG, close_loop, declared, sine_target, step_target, truth
 
 pytestmark = pytest.mark.needs_numba
+
+REACHES = FeatureTuning().reaches
 
 
 def swung(plant, seconds=14.0, effects=None, gains=None):
@@ -78,7 +81,5 @@ def test_declared_friction_is_not_learned_again():
 
 
 def test_what_is_fed_forward_is_bounded():
-    from pam_ros.control import learning
-
     _, run = swung('all', 10.0)
-    assert np.max(np.abs(run.terms['learned'])) <= learning.MOST
+    assert np.max(np.abs(run.terms['learned'])) <= LearningTuning().most

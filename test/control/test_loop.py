@@ -12,20 +12,25 @@ from pam_ros.control.signals import Terms
 PERIOD = 0.002
 
 
+def first(count):
+    """Return the commands of a law that has been called so many times."""
+    return (100e3 + count,)
+
+
 class Recorder:
-    """A law that writes down what it is told."""
+    """A law that writes down what it is called with."""
 
     def __init__(self):
         self.starts, self.calls = [], []
         self.terms = Terms()
 
-    def start(self, position, pressure=None):
-        self.starts.append((position, pressure))
+    def start(self, position, pressures=None):
+        self.starts.append((position, pressures))
 
     def update(self, dt, reference, position, velocity=None, age=0.0):
         self.calls.append((dt, reference.position, position, velocity, age))
         self.terms = Terms(position=reference.position)
-        return 100e3 + len(self.calls)
+        return first(len(self.calls))
 
 
 @pytest.fixture
@@ -40,10 +45,10 @@ def test_it_commands_nothing_before_it_sees(loop):
 
 
 def test_it_starts_where_the_load_is_at_the_pressure_that_is_there(loop):
-    loop.chamber = 123e3
+    loop.chambers = (123e3,)
     loop.see(Reading(1.0, 0.05, 0.001))
-    assert loop.tick(1.001) == 100e3 + 1
-    assert loop.law.starts == [(0.05, 123e3)]
+    assert loop.tick(1.001) == first(1)
+    assert loop.law.starts == [(0.05, (123e3,))]
     (call,) = loop.law.calls
     assert call == (pytest.approx(PERIOD), 0.05, 0.05, 0.001, pytest.approx(0.001))
     assert loop.state == RUNNING
@@ -54,20 +59,20 @@ def test_it_waits_for_the_pressure_that_is_there(loop):
     loop.see(Reading(1.0, 0.05))
     assert loop.tick(1.0) is None
     assert loop.state == WAITING
-    loop.chamber = 123e3
-    assert loop.tick(1.002) == 100e3 + 1
-    assert loop.law.starts == [(0.05, 123e3)]
+    loop.chambers = (123e3,)
+    assert loop.tick(1.002) == first(1)
+    assert loop.law.starts == [(0.05, (123e3,))]
 
 
 def test_seen_again_it_begins_at_what_is_measured_not_at_what_was_commanded(loop):
     loop.safe = VENT
     loop.see(Reading(1.0, 0.05))
     loop.tick(1.0)
-    assert loop.tick(1.2) == 0.0
+    assert loop.tick(1.2) == (0.0,)
     loop.see(Reading(1.3, 0.01))
-    loop.chamber = 40e3  # it has not vented yet
+    loop.chambers = (40e3,)  # it has not vented yet
     loop.tick(1.3)
-    assert loop.law.starts[-1] == (0.01, 40e3)
+    assert loop.law.starts[-1] == (0.01, (40e3,))
 
 
 def test_a_measurement_is_used_once_and_an_old_one_never(loop):
@@ -91,13 +96,13 @@ def test_steps_are_as_long_as_they_were(loop):
 
 def test_without_states_the_pressure_is_held_and_then_begun_anew(loop):
     loop.see(Reading(1.0, 0.05))
-    first = loop.tick(1.0)
-    assert loop.tick(1.09) == first + 1
-    assert loop.tick(1.11) == first + 1
+    assert loop.tick(1.0) == first(1)
+    assert loop.tick(1.09) == first(2)
+    assert loop.tick(1.11) == first(2)
     assert loop.state == BLIND
     loop.see(Reading(2.0, 0.03))
     loop.tick(2.0)
-    assert loop.law.starts[-1] == (0.03, first + 1)
+    assert loop.law.starts[-1] == (0.03, first(2))
     assert (loop.state, loop.starts) == (RUNNING, 2)
 
 
@@ -105,10 +110,10 @@ def test_without_states_it_vents_where_that_is_wished(loop):
     loop.safe = VENT
     loop.see(Reading(1.0, 0.05))
     loop.tick(1.0)
-    assert loop.tick(1.2) == 0.0
+    assert loop.tick(1.2) == (0.0,)
     loop.see(Reading(1.3, 0.01))
     loop.tick(1.3)
-    assert loop.law.starts[-1] == (0.01, 0.0)
+    assert loop.law.starts[-1] == (0.01, (0.0,))
 
 
 def test_disabled_it_is_silent_and_enabled_it_begins_anew(loop):
@@ -143,3 +148,16 @@ def test_another_law_takes_over_in_flight(loop):
     loop.change(other, Course(Shape(), (-1.0, 1.0)))
     assert other.starts == [(0.05, last)]
     assert loop.course.reference.position == 0.05
+
+
+def test_pressures_of_several_muscles_go_the_same_way():
+    class Two(Recorder):
+        def update(self, *args, **kwargs):
+            return 2 * super().update(*args, **kwargs)
+
+    loop = Loop(Two(), Course(Shape.turning(), (-1.0, 1.0), 'rad'), PERIOD)
+    loop.safe, loop.chambers = VENT, (123e3, 150e3)
+    loop.see(Reading(1.0, 0.05))
+    assert loop.tick(1.0) == loop.pressures == 2 * first(1)
+    assert loop.law.starts == [(0.05, (123e3, 150e3))]
+    assert loop.tick(1.2) == loop.pressures == (0.0, 0.0)

@@ -6,10 +6,12 @@ import math
 
 import numpy as np
 import pytest
-from pam_ros.control.inner_model import InnerModel
-from pam_ros.rig.model import Load, RigModel
 
+from pam_ros.control.model import ControlModel
 from pam_ros.control.observer import Observer
+from pam_ros.rig.joint import one_muscle
+from pam_ros.rig.loads import Mass
+from pam_ros.rig.rest import rest
 from pam_ros.rig.rig import Rig
 from support.bench import cart
 
@@ -17,17 +19,18 @@ DT = 2e-3
 
 
 def test_a_constant_force_is_found_and_leaves_no_bias():
-    model = RigModel(load=Load(mass=20.0))
-    rig, inner = Rig([model]), InnerModel(model)
-    rig.reset([300e3], [model.rest(300e3)], [0.0])
-    observer = Observer(inner)
+    joint = one_muscle(load=Mass(mass=20.0))
+    rig, model = Rig([joint]), ControlModel(joint)
+    rig.reset([300e3], [rest(joint, 300e3)], [0.0])
+    observer = Observer(model)
     observer.start(rig.position[0], 0.0)
     # The controller believes in 10 kPa more than there are: a force of -10 kPa dF/dp.
     for _ in range(3000):
-        observer.predict(DT, 310e3)
+        observer.predict(DT, (310e3,))
         rig.advance(2)
         observer.correct(rig.position[0], DT, 126.0, 4.0)
-    expected = inner.force(300e3, rig.position[0]) - inner.force(310e3, rig.position[0])
+    y = rig.position[0]
+    expected = model.effort((300e3,), y) - model.effort((310e3,), y)
     assert observer.disturbance == pytest.approx(expected, rel=1e-6)
     assert observer.position == pytest.approx(rig.position[0], abs=1e-9)
     assert observer.velocity == pytest.approx(0.0, abs=1e-9)
@@ -35,12 +38,12 @@ def test_a_constant_force_is_found_and_leaves_no_bias():
 
 @pytest.mark.parametrize(('fast', 'slow'), [(126.0, 4.0), (60.0, 60.0), (250.0, 14.0)])
 def test_the_poles_are_where_they_shall_be(fast, slow):
-    inner = InnerModel(cart())
+    model = ControlModel(cart())
 
     def one_step(state):
-        observer = Observer(inner)
+        observer = Observer(model)
         observer.position, observer.velocity, observer.disturbance = state
-        observer.predict(DT, 0.0)
+        observer.predict(DT, (0.0,))
         observer.correct(0.0, DT, fast, slow)
         return np.array([observer.position, observer.velocity, observer.disturbance])
 
@@ -51,14 +54,14 @@ def test_the_poles_are_where_they_shall_be(fast, slow):
 
 
 def test_velocity_lags_an_unforeseen_motion_by_the_stated_time():
-    inner = InnerModel(cart())
-    observer = Observer(inner)
+    model = ControlModel(cart())
+    observer = Observer(model)
     observer.start(0.0, 0.0)
     fast, a = 126.0, 0.4
     # With the third state slow, a constant acceleration that the model does not foresee shows as
     # a velocity that is behind by 2 / fast.
     for n in range(200):
-        observer.predict(DT, 0.0)
+        observer.predict(DT, (0.0,))
         t = (n + 1) * DT
         observer.correct(0.5 * a * t * t, DT, fast, 0.01)
     assert a * 200 * DT - observer.velocity == pytest.approx(a * 2.0 / fast, rel=0.1)

@@ -4,11 +4,11 @@
 
 import numpy as np
 import pytest
-from pam_ros.rig.model import RigModel
 
 from pam_ros.control.limits import Limits
 from pam_ros.control.pid import Pid, PidGains
 from pam_ros.control.signals import Reference
+from pam_ros.rig.joint import one_muscle
 from support.closed_loop import close_loop, declared, step_target, truth
 
 pytest.importorskip('simple_pid', reason='the PID law needs simple-pid')
@@ -31,22 +31,22 @@ def test_it_settles_at_all_places(goal):
 
 
 def test_it_starts_at_the_pressure_that_is_there():
-    law = Pid(RigModel(), PidGains())
-    law.start(0.0644, 310e3)
-    assert law.update(DT, Reference(0.0644), 0.0644) == pytest.approx(310e3)
+    law = Pid(one_muscle(), PidGains())
+    law.start(0.0644, (310e3,))
+    assert law.update(DT, Reference(0.0644), 0.0644) == pytest.approx((310e3,))
     law.start(0.0644)
-    held = law.update(DT, Reference(0.0644), 0.0644)
+    (held,) = law.update(DT, Reference(0.0644), 0.0644)
     assert held == pytest.approx(
-        RigModel().muscle.pressure_for_force(20 * 9.80665, 0.161), rel=1e-6
+        one_muscle().muscle.pressure_for_force(20 * 9.80665, 0.161), rel=1e-6
     )
 
 
 def test_it_does_not_wind_up_at_a_limit():
-    law = Pid(RigModel(), PidGains(), Limits(pressure_high=320e3))
-    law.start(0.06, 290e3)
+    law = Pid(one_muscle(), PidGains(), Limits(pressure_high=320e3))
+    law.start(0.06, (290e3,))
     for _ in range(2000):  # the load is held down by something
-        pressure = law.update(DT, Reference(0.07), 0.06)
+        (pressure,) = law.update(DT, Reference(0.07), 0.06)
     assert pressure == 320e3
     assert law.terms.saturated
-    freed = [law.update(DT, Reference(0.06), 0.0605) for _ in range(100)]
+    freed = [law.update(DT, Reference(0.06), 0.0605)[0] for _ in range(100)]
     assert min(freed) < 300e3

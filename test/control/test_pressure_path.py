@@ -6,9 +6,9 @@ import math
 
 import numpy as np
 import pytest
-from pam_ros.rig.model import RigModel
 
 from pam_ros.control.pressure_path import PressurePath
+from pam_ros.rig.joint import one_muscle
 from pam_ros.rig.rig import Rig
 
 DT = 2e-3
@@ -20,8 +20,8 @@ EFFECTS = {
 
 
 def test_it_knows_the_chamber_of_the_rig():
-    model = RigModel(effects=EFFECTS)
-    rig, path = Rig([model]), PressurePath(model, 0.02)
+    joint = one_muscle(effects=EFFECTS)
+    rig, path = Rig([joint]), PressurePath(joint, 0, 0.02)
     rig.reset([300e3], [0.06], [0.0])
     path.start(300e3)
     assert path.chamber.pressure == pytest.approx(rig.pressure[0])
@@ -35,7 +35,7 @@ def test_it_knows_the_chamber_of_the_rig():
 
 @pytest.mark.parametrize('effects', [{}, EFFECTS])
 def test_a_foreseen_pressure_arrives_without_lag(effects):
-    path = PressurePath(RigModel(effects=effects), 0.02)
+    path = PressurePath(one_muscle(effects=effects), 0, 0.02)
     start = path.command_at_rest(300e3)
     path.start(start)
     error = []
@@ -50,7 +50,7 @@ def test_a_foreseen_pressure_arrives_without_lag(effects):
 
 
 def test_at_rest_the_chamber_has_the_wanted_pressure():
-    path = PressurePath(RigModel(effects=EFFECTS), 0.02)
+    path = PressurePath(one_muscle(effects=EFFECTS), 0, 0.02)
     path.start(0.0)
     for _ in range(1000):
         path.follow(path.command_for(250e3, 0.0), DT)
@@ -58,7 +58,9 @@ def test_at_rest_the_chamber_has_the_wanted_pressure():
 
 
 def test_the_lag_of_what_is_not_foreseen_shrinks_to_the_quickest():
-    path = PressurePath(RigModel(effects={'pressure_lag': {'fill': 0.06, 'vent': 0.06}}), 0.02)
+    path = PressurePath(
+        one_muscle(effects={'pressure_lag': {'fill': 0.06, 'vent': 0.06}}), 0, 0.02
+    )
     path.start(100e3)
     for n in range(100):
         path.follow(path.command_for(200e3, 0.0), 1e-4)

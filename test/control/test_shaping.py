@@ -7,23 +7,24 @@ import math
 import numpy as np
 import pytest
 
-from pam_ros.control.shaping import PAUSE, Shape, Shaper
+from pam_ros.control.shaping import STREAM, Shape, Shaper
+from pam_ros.errors import ParameterError
 
 DT = 2e-3
 SHAPE = Shape(max_velocity=0.1, max_acceleration=0.5, max_jerk=6.0)
 
 
 def run(target, seconds, every=DT, late=0.0, shape=SHAPE, seed=0):
-    """Return times and references for a target told every so many s, some *late* s late."""
+    """Return times and references for a target that comes every so many s, some *late* s late."""
     rng = np.random.default_rng(seed)
     shaper, out = Shaper(shape), []
-    told = 0
+    count = 0
     waiting = []
     for n in range(round(seconds / DT)):
         t = n * DT
-        while told * every <= t + 1e-9:
-            waiting.append((told * every + abs(rng.normal()) * late, target(told * every)))
-            told += 1
+        while count * every <= t + 1e-9:
+            waiting.append((count * every + abs(rng.normal()) * late, target(count * every)))
+            count += 1
         for arrival, value in [one for one in waiting if one[0] <= t + 1e-9]:
             shaper.take(value, t - arrival)
             waiting.remove((arrival, value))
@@ -89,7 +90,7 @@ def test_a_stream_that_stops_does_not_run_on():
 def test_a_word_after_a_pause_is_a_step_however_small():
     shaper = Shaper(SHAPE)
     shaper.take(0.0)
-    for _ in range(round(2.0 * PAUSE / DT)):
+    for _ in range(round(2.0 * STREAM.pause / DT)):
         shaper.follow(DT)
     shaper.take(1e-4)
     speeds = [abs(shaper.follow(DT).velocity) for _ in range(500)]
@@ -117,3 +118,15 @@ def test_a_stop_comes_to_rest_without_going_back():
     assert np.all(np.diff(path) >= -1e-12)
     assert shaper.reference.velocity == 0.0
     assert path[-1] < 0.05
+
+
+def test_a_joint_that_turns_has_bounds_of_its_own():
+    assert Shape.turning().is_turning
+    assert Shape.turning().bounds == (2.0, 15.0, 300.0)
+    assert Shape.turning(max_velocity=1.5).max_velocity == 1.5
+    # 50 rad/s can be asked for, 50 m/s can not.
+    assert Shape.turning(max_velocity=50.0).bounds.velocity == 50.0
+    with pytest.raises(ParameterError, match=r'max_velocity = 50.0 .* at most 10 m/s'):
+        Shape(max_velocity=50.0)
+    with pytest.raises(ParameterError, match=r'max_velocity = 500.0 .* at most 100 rad/s'):
+        Shape.turning(max_velocity=500.0)

@@ -6,13 +6,16 @@ import math
 
 import numpy as np
 import pytest
-from pam_ros.rig.model import Load, RigModel
 
 from pam_ros.control.gains import SUPER_TWISTING, Gains
 from pam_ros.control.limits import Limits
 from pam_ros.control.signals import Reference
 from pam_ros.control.sliding_mode import SlidingMode
 from pam_ros.muscle.muscle import Muscle
+from pam_ros.rig import statics
+from pam_ros.rig.joint import one_muscle
+from pam_ros.rig.loads import Mass
+from pam_ros.rig.rest import rest
 from pam_ros.rig.rig import Rig
 from support.bench import cart
 from support.closed_loop import LAG, close_loop, declared, sine_target, step_target, truth
@@ -21,20 +24,20 @@ DT = 2e-3
 PLAIN = Gains(learning=False, observer=False, rest_factor=1.0)
 
 
-def on_rig(law, model, reference, seconds, force=lambda t: 0.0, p0=300e3):
+def on_rig(law, joint, reference, seconds, force=lambda t: 0.0, p0=300e3):
     """Run *law* on the package's own rig under an outside *force*; return t, e and s."""
-    rig = Rig([model])
-    y0 = model.rest(p0)
+    rig = Rig([joint])
+    y0 = rest(joint, p0)
     rig.reset([p0], [y0], [0.0])
-    law.start(y0, p0)
+    law.start(y0, (p0,))
     rows = []
     for n in range(round(seconds / DT)):
         t = n * DT
         now = reference(t, y0)
-        pressure = law.update(DT, now, float(rig.position[0]))
+        (pressure,) = law.update(DT, now, float(rig.position[0]))
         rows.append((t, now.position - rig.position[0], law.terms.surface, pressure))
         # An outside force is a change of pressure, as dF = (dF/dp) dp.
-        gain = law._rig.gain(float(rig.position[0]))
+        (gain,) = law.sharing.gains(float(rig.position[0]))
         rig.command([pressure + force(t) / gain])
         rig.advance(2)
     return np.array(rows).T
@@ -45,14 +48,14 @@ def held(t, y0):
 
 
 def test_the_error_stays_within_the_bound_of_the_boundary_layer():
-    model = RigModel(Muscle(zeta=0.15), Load(mass=20.0))
+    joint = one_muscle(Muscle(zeta=0.15), Mass(mass=20.0))
     gains = Gains(**{**PLAIN.__dict__, 'disturbance_bound': 60.0, 'velocity_bandwidth': 500.0})
-    law = SlidingMode(model, gains)
-    frequency = math.sqrt(law._rig.stiffness(300e3, model.rest(300e3)) / 20.0)
+    law = SlidingMode(joint, gains)
+    frequency = math.sqrt(law.model.stiffness((300e3,), rest(joint, 300e3)) / 20.0)
     disturbance = 30.0
     # The worst there is: it changes sign with the surface's own frequency.
     worst = lambda t: math.copysign(disturbance, math.sin(frequency * t))  # noqa: E731
-    _, e, s, _ = on_rig(law, model, held, 12.0, worst)
+    _, e, s, _ = on_rig(law, joint, held, 12.0, worst)
     width = gains.boundary_width(20.0) * disturbance / gains.disturbance_bound
     bound = gains.error_bound(disturbance, 20.0, frequency)
     assert np.max(np.abs(s)) < 1.1 * width
@@ -62,29 +65,29 @@ def test_the_error_stays_within_the_bound_of_the_boundary_layer():
 @pytest.mark.parametrize('scale', [0.5, 1.5])
 def test_coefficients_that_are_wrong_by_half_leave_no_error_at_rest(scale):
     # Lilly & Quesada 2004: the boundary layer holds under +-50 % of the model's coefficients.
-    true = RigModel(Muscle(zeta=0.15), Load(mass=20.0))
+    true = one_muscle(Muscle(zeta=0.15), Mass(mass=20.0))
     m = true.muscle
     wrong = Muscle(
         scale * m.a1, scale * m.a2, m.a3, scale * m.a4, scale * m.a5, scale * m.a6, zeta=0.15
     )
-    law = SlidingMode(RigModel(wrong, Load(mass=15.0)), Gains())
+    law = SlidingMode(one_muscle(wrong, Mass(mass=15.0)), Gains())
     _, e, _, pressure = on_rig(law, true, lambda t, y0: Reference(y0 + 0.005), 8.0)
     assert np.max(np.abs(e[-500:])) < 1e-6
     assert np.ptp(pressure[-500:]) < 100.0
 
 
 def test_integral_action_needs_no_observer():
-    model = RigModel(Muscle(zeta=0.15), Load(mass=20.0))
-    law = SlidingMode(model, Gains(observer=False, learning=False))
-    _, e, *_ = on_rig(law, model, held, 8.0, lambda t: -20.0 if t > 0.5 else 0.0)
+    joint = one_muscle(Muscle(zeta=0.15), Mass(mass=20.0))
+    law = SlidingMode(joint, Gains(observer=False, learning=False))
+    _, e, *_ = on_rig(law, joint, held, 8.0, lambda t: -20.0 if t > 0.5 else 0.0)
     assert np.max(np.abs(e)) > 0.1e-3
     assert np.max(np.abs(e[-500:])) < 5e-6
 
 
 def test_super_twisting_holds_and_follows():
-    model = RigModel(Muscle(zeta=0.15), Load(mass=20.0))
-    law = SlidingMode(model, Gains(switching=SUPER_TWISTING, learning=False))
-    _, e, _, pressure = on_rig(law, model, held, 6.0, lambda t: 10.0 * math.sin(2.0 * t))
+    joint = one_muscle(Muscle(zeta=0.15), Mass(mass=20.0))
+    law = SlidingMode(joint, Gains(switching=SUPER_TWISTING, learning=False))
+    _, e, _, pressure = on_rig(law, joint, held, 6.0, lambda t: 10.0 * math.sin(2.0 * t))
     late = slice(1500, None)
     assert np.max(np.abs(e[late])) < 0.3e-3
     assert np.max(np.abs(np.diff(pressure[late]))) < 500.0  # it does not chatter
@@ -92,35 +95,36 @@ def test_super_twisting_holds_and_follows():
 
 @pytest.mark.parametrize('observer', [True, False])
 def test_the_first_command_is_the_pressure_that_is_there(observer):
-    law = SlidingMode(RigModel(), Gains(observer=observer))
+    law = SlidingMode(one_muscle(), Gains(observer=observer))
     for pressure in (200e3, 300e3, 450e3):
-        law.start(0.06, pressure)
-        assert law.update(DT, Reference(0.06), 0.06) == pytest.approx(pressure, rel=1e-9)
+        law.start(0.06, (pressure,))
+        assert law.update(DT, Reference(0.06), 0.06) == pytest.approx((pressure,), rel=1e-9)
     law.start(0.06)
-    model = law.update(DT, Reference(0.06), 0.06)
-    assert law._rig.force(model, 0.06) == pytest.approx(law._rig.weight, rel=1e-9)
+    held = law.update(DT, Reference(0.06), 0.06)
+    weight = float(statics.weight(law.joint, 0.06))
+    assert law.model.effort(held, 0.06) == pytest.approx(weight, rel=1e-9)
 
 
 def test_commands_stay_within_limits_of_pressure_and_rate():
-    law = SlidingMode(RigModel(), Gains(), Limits(100e3, 400e3, 1e6))
-    law.start(0.06, 300e3)
+    law = SlidingMode(one_muscle(), Gains(), Limits(100e3, 400e3, 1e6))
+    law.start(0.06, (300e3,))
     rng, last = np.random.default_rng(0), 300e3
     for n in range(2000):
         goal = 0.3 * math.copysign(1.0, math.sin(0.01 * n))
-        pressure = law.update(DT, Reference(0.06 + goal), 0.06 + 1e-3 * rng.standard_normal())
+        (pressure,) = law.update(DT, Reference(0.06 + goal), 0.06 + 1e-3 * rng.standard_normal())
         assert 100e3 <= pressure <= 400e3
         assert abs(pressure - last) <= 1e6 * DT + 1e-6
         last = pressure
 
 
 def test_it_does_not_wind_up_at_a_limit():
-    model = RigModel(Muscle(zeta=0.15), Load(mass=20.0))
-    law = SlidingMode(model, Gains(learning=False), Limits(pressure_high=350e3))
+    joint = one_muscle(Muscle(zeta=0.15), Mass(mass=20.0))
+    law = SlidingMode(joint, Gains(learning=False), Limits(pressure_high=350e3))
 
     def too_high_for_a_while(t, y0):
         return Reference(y0 + (0.03 if 0.5 < t < 6.0 else 0.0))
 
-    t, e, _, pressure = on_rig(law, model, too_high_for_a_while, 9.0)
+    t, e, _, pressure = on_rig(law, joint, too_high_for_a_while, 9.0)
     stuck = (t > 2.0) & (t < 6.0)
     assert np.all(pressure[stuck] == 350e3)
     assert law.terms.cut == 0.0
@@ -132,14 +136,14 @@ def test_it_does_not_wind_up_at_a_limit():
 
 
 def test_a_load_without_a_spring_is_held_by_the_surface_alone():
-    model = cart(mass=10.0)
-    law = SlidingMode(model, Gains(learning=False, disturbance_bound=100.0))
-    rig = Rig([model])
+    joint = cart(mass=10.0)
+    law = SlidingMode(joint, Gains(learning=False, disturbance_bound=100.0))
+    rig = Rig([joint])
     rig.reset([0.0], [0.0], [0.0])
-    law.start(0.0, 0.0)
+    law.start(0.0, (0.0,))
     for n in range(6000):
         goal = Reference(0.01 if n > 250 else 0.0)
-        pressure = law.update(DT, goal, float(rig.position[0]))
+        (pressure,) = law.update(DT, goal, float(rig.position[0]))
         rig.command([pressure - 2.0])  # N: what pulls it back, as nothing here can push
         rig.advance(2)
     assert rig.position[0] == pytest.approx(0.01, abs=1e-6)
@@ -147,15 +151,15 @@ def test_a_load_without_a_spring_is_held_by_the_surface_alone():
 
 def test_measured_velocity_is_used_where_the_gains_say_so():
     for used, expected in ((True, 0.123), (False, 0.0)):
-        law = SlidingMode(RigModel(), Gains(use_measured_velocity=used))
-        law.start(0.06, 300e3)
+        law = SlidingMode(one_muscle(), Gains(use_measured_velocity=used))
+        law.start(0.06, (300e3,))
         law.update(DT, Reference(0.06), 0.06, 0.123)
         assert law.terms.velocity == pytest.approx(expected, abs=1e-9)
 
 
 def test_gains_can_change_in_flight_without_a_jump():
-    law = SlidingMode(RigModel(), Gains(learning=False))
-    law.start(0.06, 300e3)
+    law = SlidingMode(one_muscle(), Gains(learning=False))
+    law.start(0.06, (300e3,))
     for _ in range(500):
         before = law.update(DT, Reference(0.0601), 0.06)
     law.set_gains(Gains(learning=False, bandwidth=20.0))

@@ -56,7 +56,7 @@ def test_an_effect_is_named_and_measured(there, numbers):
     assert found.noise.sigma == pytest.approx(NOISE, rel=0.15)
     assert there.kind in found.sentence
     assert found.stages[2].model.all_effects.keys() == {there.kind}
-    assert found.stages[0].model.effects == {}
+    assert found.stages[0].model.all_effects == {}
 
 
 @pytest.mark.parametrize('rho', [0.0, 0.9])

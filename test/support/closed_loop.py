@@ -7,7 +7,10 @@ from math import pi, sin
 
 import numpy as np
 
+from pam_ros.control.limits import Limits
+from pam_ros.control.model import ControlModel
 from pam_ros.control.shaping import Shape, Shaper
+from pam_ros.control.sharing import sharing_of
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig.joint import one_muscle
 from pam_ros.rig.loads import Mass
@@ -51,6 +54,11 @@ def declared(mass=20.0, effects=None, **muscle):
     return one_muscle(Muscle(zeta=0.15, **muscle), Mass(mass=mass), effects or {})
 
 
+def shared(joint, limits=None):
+    """Return how the muscles of a joint share what a law wants."""
+    return sharing_of(ControlModel(joint), limits or Limits())
+
+
 def step_target(height, at=1.0):
     """Return a target that jumps by *height* m at a time, from where the load rests."""
     return lambda t: height if t >= at else 0.0
@@ -74,15 +82,15 @@ def close_loop(law, plant, target, duration, rate=500.0, shape=None, is_pressure
     shaper = Shaper(shape or Shape())
     shaper.start(origin)
     measured = plant.measure()
-    told = None
+    taken = None
     rows = np.zeros((count, 4))
     names = ('error', 'surface', 'equivalent', 'switching', 'observer', 'learned', 'bandwidth')
     terms = np.zeros((count, len(names)))
     for n in range(count):
         t = n * dt
         sample = int(t / STREAM + 1e-9)
-        if sample != told:
-            told = sample
+        if sample != taken:
+            taken = sample
             shaper.take(origin + target(sample * STREAM), t - sample * STREAM)
         (pressure,) = law.update(dt, shaper.reference, measured)
         measured = plant.step(pressure, dt)

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The law for an antagonistic pair in simulated time on the truth plant, without ROS."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -10,24 +10,26 @@ from pam_ros.control.shaping import Shape, Shaper
 from pam_ros.rig.joint import Actuator, Joint
 from pam_ros.rig.loads import Arm
 from pam_ros.rig.transmissions import Pulley
-from support.closed_loop import STREAM
+from support.closed_loop import LAG, STREAM
 
-LAG = {'pressure_lag': {'fill': 0.050, 'vent': 0.070}}
+__all__ = ['LAG', 'PairRun', 'close_pair', 'declared']
+TERMS = ('error', 'surface', 'switching', 'observer', 'learned', 'bandwidth')
 
 
 @dataclass
 class PairRun:
     """What a run left: s, target and true angle rad, true stiffness N m/rad, commands Pa (2, n).
 
-    ``told`` is the stiffness that the law wanted.
+    ``wanted`` is the stiffness that the law aimed at, ``terms`` are some of its terms.
     """
 
     t: np.ndarray
     target: np.ndarray
     angle: np.ndarray
     stiffness: np.ndarray
-    told: np.ndarray
+    wanted: np.ndarray
     pressure: np.ndarray
+    terms: dict[str, np.ndarray] = field(default_factory=dict)
 
     @property
     def error(self):
@@ -45,24 +47,24 @@ def declared(effects=None, load=None):
     return Joint((actuator, actuator), Arm(), Pulley(), load or {})
 
 
-def close_pair(law, plant, target, duration, stiffness=None, rate=500.0, begin=0.0, stream=STREAM):
-    """Run *law* on *plant*; *target* (s -> rad) and *stiffness* (s -> N m/rad) are told it.
+def close_pair(law, plant, target, duration, stiffness=None, *, rate=500.0, begin=0.0, shape=None):
+    """Run *law* on *plant* along *target* (s -> rad), with *stiffness* (s -> N m/rad).
 
-    Both come as samples every *stream* s, as from topics; the angle is measured at *rate*.
+    Both come as samples every STREAM s, as from topics; the angle is measured at *rate*.
     """
     dt, count = 1.0 / rate, round(duration * rate)
     law.start(begin)
     plant.reset(begin, law.terms.pressures)
-    shaper = Shaper(Shape.turning())
+    shaper = Shaper(shape or Shape.turning())
     shaper.start(begin)
-    measured, told, wanted = plant.measure(), None, None
-    rows = np.zeros((count, 7))
+    measured, taken, wanted = plant.measure(), None, None
+    rows, terms = np.zeros((count, 7)), np.zeros((count, len(TERMS)))
     for n in range(count):
         t = n * dt
-        sample = int(t / stream + 1e-9)
-        if sample != told:
-            told = sample
-            shaper.take(target(sample * stream), t - sample * stream)
+        sample = int(t / STREAM + 1e-9)
+        if sample != taken:
+            taken = sample
+            shaper.take(target(sample * STREAM), t - sample * STREAM)
             if stiffness and stiffness(t) != wanted:
                 wanted = stiffness(t)
                 law.stiffen(wanted)
@@ -72,5 +74,7 @@ def close_pair(law, plant, target, duration, stiffness=None, rate=500.0, begin=0
         end = (n + 1) * dt
         true = plant.stiffness()
         rows[n] = end, target(end), plant.angle, true, law.terms.co_contraction, *pressures
+        terms[n] = [getattr(law.terms, name) for name in TERMS]
     t, goal, angle, found, wish, *commands = rows.T
-    return PairRun(t, goal, angle, found, wish, np.array(commands))
+    named = dict(zip(TERMS, terms.T, strict=True))
+    return PairRun(t, goal, angle, found, wish, np.array(commands), named)

@@ -135,7 +135,7 @@ class TruthPair:
         sensor: Sensor | None = None,
         seed: int = 0,
     ) -> None:
-        self.dt, self.sensor = dt, sensor or Sensor()
+        self.dt, self.seed, self.sensor = dt, seed, sensor or Sensor()
         self._parameters = tuple(new_parameters() for _ in range(3))
         self._states = tuple(new_state() for _ in range(3))
         self._first = element(self._states[0])
@@ -153,11 +153,14 @@ class TruthPair:
         pivot = element(self._parameters[2])
         _give(pivot, at_pivot)
         pivot.bristle_ns_m = 0.4 * math.sqrt(pivot.bristle_n_m * G.inertia)
-        self.reset(0.0, (3e5, 3e5), seed)
+        self.reset(0.0, (3e5, 3e5))
 
-    def reset(self, angle: float, p0: tuple[float, float], seed: int = 0) -> None:
-        """Put it at an angle in rad, at rest, with chambers at p0 (Pa) and virgin memory."""
-        self.sensor.reset(seed)
+    def reset(self, angle: float, p0: tuple[float, float]) -> None:
+        """Put it at an angle in rad, at rest, with chambers at p0 (Pa) and virgin memory.
+
+        The noise begins anew with its seed.
+        """
+        self.sensor.reset(self.seed)
         G = self.state
         G.q, G.rate = angle, 0.0
         for i, p in enumerate((*p0, 0.0)):

@@ -87,6 +87,6 @@ def test_the_same_seed_is_the_same_run(name):
     ends = []
     for _ in range(2):
         plant = pair_plant(name, seed=4)
-        plant.reset(0.0, (3e5, 2e5), 4)
+        plant.reset(0.0, (3e5, 2e5))
         ends.append([plant.step((3e5, 2.5e5), 2e-3) for _ in range(50)])
     assert ends[0] == ends[1]

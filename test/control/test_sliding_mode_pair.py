@@ -6,17 +6,18 @@ import math
 
 import numpy as np
 import pytest
-from pam_ros.control.pair_gains import PairGains
-from pam_ros.control.pair_law import PairLaw
-from pam_ros.rig.joint_model import Actuator, JointModel
-from pam_ros.rig.joints.antagonistic_pair import PulleyArm
 
-from pam_ros.control.gains import SUPER_TWISTING
+from pam_ros.control.gains import SUPER_TWISTING, Gains
 from pam_ros.control.limits import Limits
 from pam_ros.control.signals import Reference
+from pam_ros.control.sliding_mode import SlidingMode
 from pam_ros.errors import RangeError
-from pam_ros.rig import statics
+from pam_ros.rig import co_contraction
+from pam_ros.rig.joint import Actuator, Joint
+from pam_ros.rig.loads import Arm
+from pam_ros.rig.rest import rest
 from pam_ros.rig.rig import Rig
+from pam_ros.rig.transmissions import Pulley
 from support.joint_models import pair
 from support.pair_loop import LAG, close_pair, declared
 from truth.pair import TruthPair, pair_plant
@@ -29,9 +30,9 @@ def sine(t):
     return 15.0 * DEGREE * math.sin(math.pi * t)
 
 
-def on_rig(law, model, reference, seconds, begin=0.0, torque=lambda t: 0.0):
+def on_rig(law, joint, reference, seconds, begin=0.0, torque=lambda t: 0.0):
     """Run *law* on the package's own rig; return t, error, sliding variable and commands."""
-    rig = Rig([model])
+    rig = Rig([joint])
     law.start(begin)
     rig.reset(law.terms.pressures, [begin], [0.0])
     rows = []
@@ -41,8 +42,8 @@ def on_rig(law, model, reference, seconds, begin=0.0, torque=lambda t: 0.0):
         p = law.update(DT, now, float(rig.position[0]))
         rows.append((t, now.position - rig.position[0], law.terms.surface, *p))
         # An outside torque is a change of both pressures against each other.
-        one, two = law.rig.lines(float(rig.position[0]))
-        share = torque(t) / (one.b - two.b)
+        one, two = law.sharing.gains(float(rig.position[0]))
+        share = torque(t) / (one - two)
         rig.command([p[0] + share, p[1] - share])
         rig.advance(2)
     return np.array(rows).T
@@ -61,7 +62,7 @@ def on_rig(law, model, reference, seconds, begin=0.0, torque=lambda t: 0.0):
     ],
 )
 def test_a_sine_is_tracked_within_a_fifth_of_a_degree(plant, effects):
-    law = PairLaw(declared(effects), PairGains())
+    law = SlidingMode(declared(effects), Gains.turning())
     run = close_pair(law, pair_plant(plant, seed=7), sine, 10.0)
     end = run.last(4.0)
     assert np.ptp(run.angle[end]) > 29.0 * DEGREE
@@ -70,8 +71,8 @@ def test_a_sine_is_tracked_within_a_fifth_of_a_degree(plant, effects):
 
 @pytest.mark.needs_numba
 @pytest.mark.parametrize('plant', ['nominal', 'payload', 'payload and friction', 'all'])
-def test_the_stiffness_is_what_is_told_while_the_angle_holds(plant):
-    law = PairLaw(declared(), PairGains())
+def test_the_stiffness_is_what_is_set_while_the_angle_holds(plant):
+    law = SlidingMode(declared(), Gains.turning())
 
     def stiffness(t):
         return 18.0 if t < 4.0 else 36.0
@@ -84,14 +85,14 @@ def test_the_stiffness_is_what_is_told_while_the_angle_holds(plant):
         assert run.stiffness[n] == pytest.approx(wanted, rel=1e-3)
         assert abs(run.error[n]) < 0.03 * DEGREE
     if plant == 'nominal':
-        expected = statics.pressures(declared(), goal, 36.0)
+        expected = co_contraction.pressures(declared(), goal, 36.0)
         np.testing.assert_allclose(run.pressure[:, -1], expected, rtol=2e-3)
     assert np.max(np.abs(run.error[run.t > 3.0])) < 0.03 * DEGREE
 
 
 @pytest.mark.needs_numba
 def test_it_is_calm_at_rest():
-    law = PairLaw(declared(), PairGains())
+    law = SlidingMode(declared(), Gains.turning())
     run = close_pair(law, pair_plant('payload and friction'), lambda t: 0.2, 10.0)
     end = run.last(2.0)
     assert np.max(np.abs(run.error[end])) < 0.01 * DEGREE
@@ -101,7 +102,7 @@ def test_it_is_calm_at_rest():
 @pytest.mark.needs_numba
 @pytest.mark.parametrize('rate', [200.0, 1000.0])
 def test_it_works_at_other_rates(rate):
-    law = PairLaw(declared(), PairGains())
+    law = SlidingMode(declared(), Gains.turning())
     run = close_pair(law, pair_plant('payload'), sine, 8.0, rate=rate)
     assert np.sqrt(np.mean(run.error[run.last(4.0)] ** 2)) < 0.2 * DEGREE
 
@@ -109,17 +110,17 @@ def test_it_works_at_other_rates(rate):
 @pytest.mark.needs_numba
 def test_a_heavier_arm_that_begins_away_from_rest_is_caught():
     plant = TruthPair(mass=2.0, seed=1)
-    law = PairLaw(declared(), PairGains())
+    law = SlidingMode(declared(), Gains.turning())
     run = close_pair(law, plant, lambda t: 0.4, 6.0, begin=0.4)
     assert np.max(np.abs(run.error)) < 3.0 * DEGREE
     assert np.max(np.abs(run.error[run.last(1.0)])) < 0.01 * DEGREE
 
 
 def test_a_torque_within_the_bound_keeps_the_surface_within_the_layer():
-    gains = PairGains(observer=False, rest_factor=1.0, velocity_bandwidth=500.0)
-    law = PairLaw(pair(), gains)
-    k = law.rig.stiffness(law.terms.pressures, 0.0) + law.rig.gravity_stiffness(0.0)
-    frequency = math.sqrt(k / law.rig.mass)
+    gains = Gains.turning(observer=False, rest_factor=1.0, velocity_bandwidth=500.0)
+    law = SlidingMode(pair(), gains)
+    k = law.model.stiffness(law.terms.pressures, 0.0) + law.model.gravity_stiffness(0.0)
+    frequency = math.sqrt(k / law.model.inertia)
     disturbance = 1.0
     _, e, s, *_ = on_rig(
         law,
@@ -129,13 +130,13 @@ def test_a_torque_within_the_bound_keeps_the_surface_within_the_layer():
         0.1,
         lambda t: math.copysign(disturbance, math.sin(frequency * t)),
     )
-    width = disturbance / (law.rig.mass * gains.bandwidth)
+    width = disturbance / (law.model.inertia * gains.bandwidth)
     assert np.max(np.abs(s)) < 1.1 * width
     assert np.max(np.abs(e)) > 0.1 * DEGREE
 
 
 def test_integral_action_needs_no_observer():
-    law = PairLaw(pair(), PairGains(observer=False))
+    law = SlidingMode(pair(), Gains.turning(observer=False))
     _, e, *_ = on_rig(
         law, pair(), lambda t: Reference(0.1), 8.0, 0.1, lambda t: 0.5 if t > 0.5 else 0.0
     )
@@ -144,7 +145,7 @@ def test_integral_action_needs_no_observer():
 
 
 def test_super_twisting_holds_and_follows():
-    law = PairLaw(pair(), PairGains(switching=SUPER_TWISTING))
+    law = SlidingMode(pair(), Gains.turning(switching=SUPER_TWISTING))
     _, e, _, p1, _ = on_rig(
         law, pair(), lambda t: Reference(0.1), 6.0, 0.1, lambda t: 0.3 * math.sin(2.0 * t)
     )
@@ -155,24 +156,24 @@ def test_super_twisting_holds_and_follows():
 
 @pytest.mark.parametrize('observer', [True, False])
 def test_the_first_commands_are_the_pressures_that_are_there(observer):
-    law = PairLaw(pair(), PairGains(observer=observer))
+    law = SlidingMode(pair(), Gains.turning(observer=observer))
     for pressures in ((2e5, 1.5e5), (3e5, 3e5), (4.5e5, 2e5)):
         law.start(0.05, pressures)
         found = law.update(DT, Reference(0.05), 0.05)
         np.testing.assert_allclose(found, pressures, atol=300.0)
     law.start(0.05)
     found = law.update(DT, Reference(0.05), 0.05)
-    assert law.rig.effort(found, 0.05) == pytest.approx(law.rig.gravity(0.05), abs=1e-6)
+    assert law.model.effort(found, 0.05) == pytest.approx(law.model.gravity(0.05), abs=1e-6)
 
 
 @pytest.mark.parametrize('hanging_at', [-0.8, 0.0, 0.6])
 def test_an_arm_that_hangs_on_vented_muscles_stays_where_it_is(hanging_at):
     # Slack muscles hold nothing, where the bare law would let them push.
-    slack = Actuator(effects={'slack': {'share': 1.0}})
-    model = JointModel(PulleyArm(hanging_at=hanging_at), (slack, slack))
-    begin = model.rest([0.0, 0.0])
+    slack = Actuator(effects={'slack': {'share': 1.0}}, contraction=0.1)
+    joint = Joint((slack, slack), Arm(hanging_at=hanging_at), Pulley())
+    begin = rest(joint, [0.0, 0.0])
     assert begin == pytest.approx(hanging_at, abs=0.01)
-    law, rig = PairLaw(model, PairGains()), Rig([model])
+    law, rig = SlidingMode(joint, Gains.turning()), Rig([joint])
     law.start(begin, (0.0, 0.0))
     rig.reset([0.0, 0.0], [begin], [0.0])
     errors = []
@@ -185,7 +186,7 @@ def test_an_arm_that_hangs_on_vented_muscles_stays_where_it_is(hanging_at):
 
 
 def test_commands_stay_within_limits_of_pressure_and_rate():
-    law = PairLaw(pair(), PairGains(), Limits(100e3, 400e3, 1e6))
+    law = SlidingMode(pair(), Gains.turning(), Limits(100e3, 400e3, 1e6))
     law.start(0.0)
     rng, last = np.random.default_rng(0), law.terms.pressures
     for n in range(2000):
@@ -198,14 +199,14 @@ def test_commands_stay_within_limits_of_pressure_and_rate():
 
 
 def test_it_does_not_wind_up_at_a_limit():
-    model = JointModel()
-    law = PairLaw(model, PairGains(), Limits(pressure_high=350e3))
-    far = law.rig.reach[1] + 0.5
+    joint = declared()
+    law = SlidingMode(joint, Gains.turning(), Limits(pressure_high=350e3))
+    far = law.sharing.reach[1] + 0.5
 
     def too_far_for_a_while(t):
         return Reference(far if 0.5 < t < 4.0 else 0.0)
 
-    t, e, _, p1, _ = on_rig(law, model, too_far_for_a_while, 6.0)
+    t, e, _, p1, _ = on_rig(law, joint, too_far_for_a_while, 6.0)
     stuck = (t > 2.0) & (t < 4.0)
     assert np.all(p1[stuck] == 350e3)
     # It leaves the limit at once, and is back as after a step.
@@ -214,7 +215,7 @@ def test_it_does_not_wind_up_at_a_limit():
 
 
 def test_a_stiffness_out_of_reach_is_refused_and_the_last_one_holds():
-    law = PairLaw(declared(), PairGains())
+    law = SlidingMode(declared(), Gains.turning())
     law.start(0.2)
     law.stiffen(20.0)
     for bad in (500.0, 0.0, -3.0, math.nan, math.inf):
@@ -226,8 +227,8 @@ def test_a_stiffness_out_of_reach_is_refused_and_the_last_one_holds():
 
 
 def test_a_stiffness_that_the_angle_does_not_leave_gives_way_and_comes_back():
-    law, model = PairLaw(declared(), PairGains()), declared()
-    most = law.rig.stiffness_range(0.0)[1]
+    law = SlidingMode(declared(), Gains.turning())
+    most = law.sharing.stiffness_range(0.0)[1]
     law.start(0.0)
     law.stiffen(most)
 
@@ -237,7 +238,7 @@ def test_a_stiffness_that_the_angle_does_not_leave_gives_way_and_comes_back():
             return Reference(0.0)
         return Reference(0.3 - 0.3 * math.cos(x), 0.3 * w * math.sin(x), 0.3 * w * w * math.cos(x))
 
-    rig = Rig([model])
+    rig = Rig([law.joint])
     rig.reset(law.terms.pressures, [0.0], [0.0])
     found, errors = [], []
     for n in range(round(4.0 / DT)):
@@ -252,11 +253,11 @@ def test_a_stiffness_that_the_angle_does_not_leave_gives_way_and_comes_back():
 
 
 def test_gains_and_stiffness_can_change_in_flight_without_a_jump():
-    law = PairLaw(declared(), PairGains())
+    law = SlidingMode(declared(), Gains.turning())
     law.start(0.2)
     for _ in range(500):
         before = law.update(DT, Reference(0.201), 0.2)
-    law.set_gains(PairGains(bandwidth=30.0))
+    law.set_gains(Gains.turning(bandwidth=30.0))
     law.stiffen(35.0)
     after = law.update(DT, Reference(0.201), 0.2)
     np.testing.assert_allclose(after, before, atol=2e3)
@@ -264,7 +265,7 @@ def test_gains_and_stiffness_can_change_in_flight_without_a_jump():
 
 def test_measured_velocity_is_used_where_the_gains_say_so():
     for used, expected in ((True, 0.123), (False, 0.0)):
-        law = PairLaw(declared(), PairGains(use_measured_velocity=used))
+        law = SlidingMode(declared(), Gains.turning(use_measured_velocity=used))
         law.start(0.1)
         law.update(DT, Reference(0.1), 0.1, 0.123)
         assert law.terms.velocity == pytest.approx(expected, abs=1e-9)
@@ -272,7 +273,9 @@ def test_measured_velocity_is_used_where_the_gains_say_so():
 
 def test_two_runs_are_the_same_to_the_bit():
     runs = [
-        close_pair(PairLaw(declared(), PairGains()), pair_plant('friction', seed=2), sine, 1.0)
+        close_pair(
+            SlidingMode(declared(), Gains.turning()), pair_plant('friction', seed=2), sine, 1.0
+        )
         for _ in range(2)
     ]
     assert runs[0].pressure.tobytes() == runs[1].pressure.tobytes()

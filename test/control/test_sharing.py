@@ -1,0 +1,222 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""How muscles share an effort: the reach, and pressures for torque and stiffness."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from pam_ros.control.limits import Limits
+from pam_ros.control.pressure_path import PressurePath
+from pam_ros.control.sharing import OneSide, TwoSides
+from pam_ros.errors import ParameterError, RangeError
+from pam_ros.muscle.muscle import Muscle
+from pam_ros.rig import co_contraction, statics
+from pam_ros.rig.joint import Actuator, Joint, one_muscle
+from pam_ros.rig.loads import Arm, Mass
+from pam_ros.rig.transmissions import Lever, Pulley, Straight
+from support.bench import cart, rest
+from support.closed_loop import shared
+from support.joint_models import pair
+
+# One side ----------------------------------------------------------------------------------------
+
+
+def test_the_reach_is_that_of_the_muscles_curve():
+    joint = one_muscle(Muscle(), Mass(mass=20.0))
+    weight = float(statics.weight(joint, 0.0))
+    low, high = shared(joint).reach
+    assert low == pytest.approx(rest(0.02 * 600e3, weight), abs=1e-6)
+    assert high == pytest.approx(rest(0.98 * 600e3, weight), abs=1e-6)
+    # A light load is bounded by the contraction that the maker permits.
+    assert shared(one_muscle(load=Mass(mass=2.0))).reach[1] == pytest.approx(0.25 * 0.4)
+    narrow = Limits(pressure_low=200e3, pressure_high=300e3)
+    low, high = shared(joint, narrow).reach
+    assert low == pytest.approx(rest(202e3, weight), abs=1e-6)
+    assert high == pytest.approx(rest(298e3, weight), abs=1e-6)
+
+
+def test_a_load_without_a_muscle_has_no_bounds():
+    assert shared(cart()).reach == (-float('inf'), float('inf'))
+
+
+def test_a_load_beyond_the_limits_of_pressure_is_refused():
+    heavy = one_muscle(load=Mass(mass=130.0))
+    with pytest.raises(ParameterError, match='cannot be held anywhere'):
+        shared(heavy, Limits(pressure_high=100e3))
+
+
+def parallel(**effects):
+    muscles = (Actuator(effects=effects), Actuator(Muscle(l0=0.38)))
+    return Joint(muscles, Mass(mass=40.0), Straight())
+
+
+def crank():
+    return Joint((Actuator(contraction=0.1),), Arm(hanging_at=-0.6), Lever())
+
+
+@pytest.mark.parametrize('joint', [one_muscle(), parallel(), crank()], ids=['one', 'two', 'crank'])
+def test_one_side_has_the_pressure_that_gives_the_effort(joint):
+    sharing = shared(joint)
+    assert isinstance(sharing, OneSide)
+    assert not sharing.can_stiffen
+    low, high = sharing.reach
+    bounds = statics.span(joint)
+    assert bounds[0] <= low < high <= bounds[1]
+    for s in np.linspace(low, high, 9).tolist():
+        effort = sharing.model.gravity(s) * 1.05
+        split = sharing.split(effort, 0.0, s)
+        assert split.short == 0.0
+        assert len(set(split.pressures)) == 1
+        assert sharing.model.effort(split.pressures, s) == pytest.approx(effort, rel=1e-9)
+        h = 1e-3
+        more = [p + h for p in split.pressures]
+        slope = (sharing.model.effort(more, s) - effort) / h
+        assert sum(sharing.gains(s)) == pytest.approx(slope, rel=1e-4)
+        # At rest, where the stiffness is settled by the load.
+        least, most = sharing.stiffness_range(s)
+        assert least == most
+        p = sharing.split(sharing.model.gravity(s), 0.0, s).pressures
+        assert least == pytest.approx(statics.stiffness(joint, p, s), rel=1e-9)
+
+
+@pytest.mark.parametrize('joint', [parallel(), crank()], ids=['two', 'crank'])
+def test_the_reach_of_one_side_is_where_its_limits_hold_the_load(joint):
+    sharing = shared(joint)
+    ends = [statics.equilibrium(joint, share * 600e3) for share in (0.02, 0.98)]
+    bounds = statics.span(joint)
+    assert sharing.reach[0] == pytest.approx(max(min(ends), bounds[0]))
+    assert sharing.reach[1] == pytest.approx(min(max(ends), bounds[1]))
+
+
+# Two sides ---------------------------------------------------------------------------------------
+
+SHARING = shared(pair())
+MODEL = SHARING.model
+
+
+def efforts(angle):
+    """Return the least and the greatest torque in N m that the muscles can give."""
+    found = []
+    for effort in (-1e4, 1e4):
+        found.append(effort - SHARING.split(effort, 20.0, angle).short)
+    return found
+
+
+def test_two_muscles_against_each_other_have_a_stiffness_to_choose():
+    assert isinstance(SHARING, TwoSides)
+    assert SHARING.can_stiffen
+
+
+@given(st.floats(-0.4, 0.4), st.floats(0.0, 1.0))
+def test_the_split_holds_the_load_with_any_stiffness_that_can_be_had(angle, share):
+    low, high = SHARING.stiffness_range(angle)
+    k = low + share * (high - low)
+    split = SHARING.split(MODEL.gravity(angle), k, angle)
+    assert split.short == 0.0
+    expected = co_contraction.pressures(MODEL.joint, angle, k)
+    np.testing.assert_allclose(split.pressures, expected, rtol=1e-6, atol=1e-3)
+    assert MODEL.effort(split.pressures, angle) == pytest.approx(MODEL.gravity(angle), abs=1e-9)
+    assert MODEL.stiffness(split.pressures, angle) == pytest.approx(k, rel=1e-9)
+
+
+def test_the_range_is_that_of_the_rig_less_the_margin():
+    low, high = SHARING.stiffness_range(0.1)
+    least, most = co_contraction.stiffness_range(MODEL.joint, 0.1)
+    assert least * (1.0 - 1e-9) <= low < high < most
+    with pytest.raises(RangeError, match=rf'99 N m/rad.*0.1 rad.*{low:.4g} to {high:.4g} N m/rad'):
+        SHARING.refuse_stiffness(99.0, 0.1)
+    with pytest.raises(RangeError, match='nan'):
+        SHARING.refuse_stiffness(float('nan'), 0.1)
+
+
+@pytest.mark.parametrize('k', [0.0, 1e3])
+@pytest.mark.parametrize('torque', [-5.0, 0.0, 5.0])
+def test_torque_comes_before_stiffness(torque, k):
+    split = SHARING.split(torque, k, 0.0)
+    assert split.short == 0.0
+    assert MODEL.effort(split.pressures, 0.0) == pytest.approx(torque, abs=1e-9)
+    for p, (low, high) in zip(split.pressures, SHARING.ranges, strict=True):
+        assert low <= p <= high
+
+
+def test_torque_beyond_reach_is_given_as_far_as_can_be():
+    least, most = efforts(0.0)
+    for wanted, end in ((most + 7.0, most), (least - 7.0, least)):
+        split = SHARING.split(wanted, 20.0, 0.0)
+        assert split.short == pytest.approx(wanted - end)
+        assert MODEL.effort(split.pressures, 0.0) == pytest.approx(end)
+    # One muscle with all its pressure, the other one at the pressure at which it is slack.
+    high = SHARING.ranges[0][1], SHARING.ranges[1][1]
+    slack = [line.slack for line in SHARING.lines(0.0)]
+    assert most == pytest.approx(MODEL.effort((high[0], max(slack[1], 0.0)), 0.0))
+    assert least == pytest.approx(MODEL.effort((max(slack[0], 0.0), high[1]), 0.0))
+
+
+def test_what_is_available_is_between_the_least_and_the_greatest_torque():
+    least, most = efforts(0.5 * sum(SHARING.reach))
+    assert SHARING.available() == pytest.approx(most - least)
+
+
+def test_no_muscle_is_given_a_pressure_at_which_it_pushes():
+    for torque in np.linspace(*efforts(0.2), 20):
+        pressures = SHARING.split(float(torque), 0.0, 0.2).pressures
+        for muscle, p in zip(MODEL.muscles, pressures, strict=True):
+            assert muscle.force_law(p, muscle.position(0.2)) >= -1e-6
+
+
+def test_within_its_reach_it_can_be_held_and_beyond_it_not():
+    low, high = SHARING.reach
+    travel = statics.span(MODEL.joint)
+    assert travel[0] <= low < high <= travel[1]
+    for angle in np.linspace(low, high, 50):
+        k = SHARING.stiffness_range(float(angle))
+        assert k[0] <= k[1]
+        assert SHARING.split(MODEL.gravity(float(angle)), k[1], float(angle)).short == 0.0
+    narrow = shared(pair(), Limits(pressure_high=3e5))
+    assert narrow.reach[0] >= low
+    assert narrow.reach[1] <= high
+
+
+def test_an_arm_that_cannot_be_held_is_refused():
+    hung = Actuator(contraction=0.1)
+    joint = Joint((hung, hung), Arm(mass=100.0, arm=0.5, hanging_at=-1.5), Pulley(radius=0.01))
+    with pytest.raises(ParameterError, match='cannot be held anywhere'):
+        shared(joint, Limits(pressure_high=50e3))
+
+
+def test_each_muscle_keeps_its_own_effects():
+    lag = {'pressure_lag': {'fill': 0.03, 'vent': 0.05}}
+    joint = pair(effects=({}, lag))
+    assert [one.effects for one in shared(joint).model.joint.actuators] == [{}, lag]
+    lever = Joint(joint.actuators, Arm(), Lever())
+    assert [PressurePath(lever, i, 0.02).is_lag_declared for i in (0, 1)] == [False, True]
+
+
+def test_a_lever_has_torque_and_stiffness_of_its_own_equations():
+    hung = Actuator(contraction=0.1)
+    sharing = shared(Joint((hung, hung), Arm(hanging_at=0.2), Lever()))
+    assert sharing.can_stiffen
+    for angle in (-0.3, 0.0, 0.4):
+        low, high = sharing.stiffness_range(angle)
+        k, torque = 0.5 * (low + high), sharing.model.gravity(angle)
+        pressures = sharing.split(torque, k, angle).pressures
+        assert sharing.model.effort(pressures, angle) == pytest.approx(torque, abs=1e-9)
+        assert statics.stiffness(sharing.model.joint, pressures, angle) == pytest.approx(k)
+
+
+# Several on each side ----------------------------------------------------------------------------
+
+
+def test_muscles_of_one_side_have_one_pressure():
+    hung = Actuator(contraction=0.1)
+    joint = Joint((hung,) * 4, Arm(mass=2.0), Pulley())
+    sharing, two = shared(joint), shared(Joint((hung, hung), Arm(mass=2.0), Pulley()))
+    split = sharing.split(3.0, 60.0, 0.1)
+    one, other, third, fourth = split.pressures
+    assert (one, other) == (third, fourth)
+    assert sharing.model.effort(split.pressures, 0.1) == pytest.approx(3.0, abs=1e-9)
+    assert sharing.model.stiffness(split.pressures, 0.1) == pytest.approx(60.0)
+    # Twice the muscles do the same with half of it each.
+    np.testing.assert_allclose(two.split(1.5, 30.0, 0.1).pressures, split.pressures[:2])
