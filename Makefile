@@ -39,7 +39,7 @@ ifdef ARGS
 	$(PY) -m pytest $(ARGS)
 else
 	$(PY) -m pytest -n auto --dist loadfile -m 'not keeps_rate'
-	$(PY) -m pytest -n 2 --dist loadfile -m keeps_rate test/nodes
+	$(PY) -m pytest -m keeps_rate test/nodes
 endif
 
 test-fast: warm

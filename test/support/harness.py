@@ -17,11 +17,18 @@ from pam_ros.nodes.common.rig_log import lose_nothing
 from pam_ros.processes.children import PATIENCE as DEADLINE
 from pam_ros.processes.children import Program
 
+# s; it only bounds how long a broken program may hang a test, also beside busy programs.
+PEER_DEADLINE = 240.0
+
 __all__ = ['DEADLINE', 'Peer', 'Program', 'has_loaded', 'lose_nothing']
 
 
 class Peer(Client):
     """A client that also looks at a node's parameters as the command line does."""
+
+    def __init__(self, namespace: str = '', patience: float = PEER_DEADLINE) -> None:
+        """Make the node; see ``Client``."""
+        super().__init__(namespace, patience)
 
     def set_one(self, node: str, **value: Any) -> Any:
         """Set one parameter as ``ros2 param set`` does."""

@@ -46,6 +46,7 @@ def written(bag):
     return yaml.safe_load(file.read_text())['rosbag2_bagfile_information']['message_count']
 
 
+@pytest.mark.at_any_pace
 @pytest.mark.parametrize('kind', [signal.SIGINT, signal.SIGTERM])
 def test_all_messages_of_a_rig_are_in_the_bag(peer, tmp_path, kind):
     count = 3000
@@ -165,6 +166,7 @@ def test_what_was_published_before_is_there_where_the_publisher_keeps_it(peer, t
         peer.until(lambda: written(bag) == 1, 'the message from before')
 
 
+@pytest.mark.at_any_pace
 def test_a_recorder_that_is_killed_leaves_a_whole_bag(peer, tmp_path):
     bag = tmp_path / 'rig'
     sent = 0

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """``pam_sim`` with ``use_sim_time``: simulated time is that of ``/clock``."""
 
+import pytest
 from diagnostic_msgs.msg import DiagnosticArray
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
@@ -13,6 +14,7 @@ def stamp(message):
     return message.header.stamp.sec * 1000 + message.header.stamp.nanosec // 1_000_000
 
 
+@pytest.mark.at_any_pace
 def test_it_follows_the_clock_and_survives_a_jump_back(peer):
     states = peer.collect(JointState, 'joint_states')
     diagnostics = peer.collect(DiagnosticArray, '/diagnostics')
