@@ -13,13 +13,14 @@ export ROS_AUTOMATIC_DISCOVERY_RANGE := LOCALHOST
 export PYTHON
 
 .DEFAULT_GOAL := help
-.PHONY: help environment warm demo test test-fast lint bench clean
+.PHONY: help environment warm demo test test-fast lint docs bench clean
 
 help:
 	@echo 'make demo       the experiment of the paper, controllers and the closed loop, over ROS topics: see demo/'
 	@echo 'make test       all tests (make test ARGS="test/muscle -x" for some)'
 	@echo 'make test-fast  those of them that start no node and build nothing, in 90 s'
 	@echo 'make lint       style and types'
+	@echo 'make docs       write the tables of docs/effects.md anew, from the library of effects'
 	@echo 'make bench      the speed claims, measured on this machine (ARGS=plant for one)'
 	@echo 'make clean      remove what these commands made'
 	@echo 'The first of them sets up the environment $(VENV); PYTHON=python3.12 chooses its Python.'
@@ -49,6 +50,9 @@ lint: environment
 	$(PY) -m ruff check .
 	$(PY) -m ruff format --check .
 	$(PY) -m mypy
+
+docs: environment
+	$(PY) tools/tables.py
 
 bench: warm
 	$(PY) -m benchmarks $(ARGS)

@@ -68,6 +68,9 @@ class Compensation(Enum):
     FEEDBACK = 'left to the feedback'
 
 
+WITHOUT_MEMORY = (Compensation.PATH, Compensation.MODEL)  # what is inverted, but for a lag
+
+
 @dataclass(frozen=True)
 class EffectParameter:
     """One parameter of an effect, in SI.
@@ -152,7 +155,7 @@ class Effect:
     moves_by_itself: bool = False
 
     def __post_init__(self) -> None:
-        """Refuse an effect that could never act or never be absent, or that acts in two rows."""
+        """Refuse what could never act or be absent, acts in two rows, or cannot be inverted."""
         acts = [place for place in PLACES if getattr(self, place)]
         if not acts:
             raise ParameterError(f'effect {self.name} acts nowhere: give it a function')
@@ -163,6 +166,11 @@ class Effect:
             )
         if not any(p.strength for p in self.parameters):
             raise ParameterError(f'effect {self.name} has no strength parameter to be absent by')
+        if self.states and self.lag is None and self.compensation in WITHOUT_MEMORY:
+            raise ParameterError(
+                f'effect {self.name} has hidden states, which {self.compensation} does not '
+                'follow: give lag, or Compensation.FEED_FORWARD or FEEDBACK'
+            )
 
     @property
     def acts_on_joint(self) -> bool:

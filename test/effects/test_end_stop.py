@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from pam_ros.effects.end_stop import EFFECT
-from pam_ros.rig.layout import EFFECTS_FROM, L0, MASS
+from pam_ros.effects.rows import INERTIA, LENGTH
 from pam_ros.rig.run import simulate
 from support import bench
 
@@ -49,10 +49,10 @@ def test_load_rests_on_the_lower_pad():
     step=st.floats(1e-4, 1e-2),
 )
 def test_pads_push_apart_and_never_pull(y, v, stiffness, damping, step):
-    q = np.ones(EFFECTS_FROM + 5)
-    q[MASS], q[L0] = 2.0, 1.0
-    q[EFFECTS_FROM:] = 0.1, stiffness, -0.1, stiffness, damping
-    f = EFFECT.outside(0.0, 0.0, y, v, 0.0, 0.0, [step], 0, [0.0], q, EFFECTS_FROM)
+    q = np.ones(7)
+    q[INERTIA], q[LENGTH] = 2.0, 1.0
+    q[2:] = 0.1, stiffness, -0.1, stiffness, damping
+    f = EFFECT.outside(0.0, 0.0, y, v, 0.0, 0.0, [step], 0, [0.0], q, 2)
     if y > 0.1:
         assert f <= 0.0
     elif y < -0.1:

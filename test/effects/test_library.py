@@ -2,54 +2,26 @@
 # SPDX-License-Identifier: Apache-2.0
 """What all effects share: absent they change nothing, and any of them work together."""
 
+import re
+from pathlib import Path
+
 import numpy as np
 import pytest
 from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
-from pam_ros.rig.model import start_row
 
+from pam_ros import effects as effects_room
 from pam_ros.effects import EFFECTS
-from pam_ros.effects.base import PLACES
+from pam_ros.effects.base import PLACES, Compensation
 from pam_ros.rig.bind import bind
-from pam_ros.rig.layout import layout_of
-from pam_ros.rig.run import simulate, simulate_held
+from pam_ros.rig.joint import one_muscle
+from pam_ros.rig.rest import rest
+from pam_ros.rig.run import acting_commands, delays_of, simulate, simulate_held
+from pam_ros.rig.start import start_state
+from pam_ros.rig.step_limit import longest_step
 from support import bench
 
-NAMES = {
-    'slack',
-    'hysteresis',
-    'coulomb_friction',
-    'viscous_friction',
-    'creep',
-    'softening',
-    'pressure_lag',
-    'dead_time',
-    'pressure_offset',
-    'payload',
-    'pressure_dependent_damping',
-    'end_stop',
-    'leak',
-    'periodic_disturbance',
-    'length_offset',
-}
-# Each clearly there, on the rig of ``bench.hanging`` between 150 and 350 kPa.
-CLEAR = {
-    'dead_time': {'delay': 0.0153},
-    'pressure_offset': {'offset': 6e3, 'gain': -0.03},
-    'pressure_lag': {'fill': 0.05, 'vent': 0.09},
-    'leak': {'rate': 0.1},
-    'length_offset': {'offset': 0.015},
-    'softening': {'limit': 0.06, 'per_pressure': 5e-7, 'per_second': 0.05},
-    'creep': {'force': -0.03, 'stiffness': 600.0, 'time': 0.8, 'spread': 2.0},
-    'hysteresis': {'amplitude': 9.0, 'slip': 5.0, 'pressure': 4e3},
-    'slack': {'share': 1.0, 'toe': 20.0},
-    'pressure_dependent_damping': {'inflating': 3e-4, 'deflating': 1e-4},
-    'periodic_disturbance': {'force_sin': 3.0, 'pressure_cos': 2e3, 'frequency': 2.3},
-    'payload': {'mass': 1.5},
-    'viscous_friction': {'coefficient': 30.0},
-    'coulomb_friction': {'level': 4.0, 'breakaway': 5.0},
-    'end_stop': {'upper': 0.2, 'stiffness': 3e4},
-}
+NAMES = [effect.name for effect in EFFECTS]
 T = np.linspace(0.0, 2.0, 201)
 AT = np.array([0.0, 0.1, 0.6, 1.1003, 1.5])
 U = np.array([2e5, 3.3e5, 1.6e5, 2.6e5, 2.0e5])
@@ -67,32 +39,45 @@ def held(effects, step=1e-3):
     return simulate_held(bench.hanging(**effects), T, p, y, step=step)
 
 
+def clear(effect):
+    """Return the values with which the effect is clearly there on the rig of ``hanging``."""
+    return {effect.name: effect.example}
+
+
 def run_bound(active, effects, step=1e-3, mass=bench.MASS):
     """Run the free rig on the kernel into which only *active* are bound."""
-    model = bench.hanging(mass, **effects)
-    q = model.row()
-    x = start_row(model.layout, q, U[0], model.rest(U[0]), 0.0)
-    out = np.empty((T.size, 4))
-    kernel = bind(layout_of(EFFECTS), active)
-    kernel.simulate(x, np.empty_like(x), q, T, AT, U, step, out, True)
+    joint = bench.hanging(mass, **effects)
+    layout, q = joint.layout, joint.parameters()
+    x = start_state(layout, q, U[:1], rest(joint, U[0]), 0.0)
+    out = np.empty((T.size, layout.run_columns))
+    at, u = acting_commands(AT, U[:, None], delays_of(layout, q))
+    bind(layout, active).simulate(x, layout.scratch(), q, T, at, u, step, out, True)
     return out
 
 
-def test_library_is_complete():
-    assert {effect.name for effect in EFFECTS} == NAMES
-    assert len(EFFECTS) == len(NAMES)
-    assert set(CLEAR) == NAMES
+def test_every_file_of_an_effect_is_in_the_library_once():
+    """A file of its own ends in an EFFECT; it is named as the effect is."""
+    files = {
+        path.stem
+        for path in Path(effects_room.__file__).parent.glob('*.py')
+        if re.search('^EFFECT = ', path.read_text(encoding='utf-8'), re.MULTILINE)
+    }
+    assert files == set(NAMES)
+    assert len(EFFECTS) == len(files)
 
 
 @BY_EFFECT
 def test_effect_says_all_that_is_asked_of_it(effect):
     for text in (effect.text, effect.source, effect.signature, effect.experiment):
         assert len(text) > 10
-    assert set(effect.rivals) <= NAMES - {effect.name}
+    assert set(effect.rivals) <= set(NAMES) - {effect.name}
+    assert set(effect.contains) <= set(NAMES) - {effect.name}
     assert effect.fit_starts
     for start in effect.fit_starts:
         effect.values(start)
         assert effect.is_present(start)
+    effect.values(effect.example)
+    assert effect.is_present(effect.example)
     assert not effect.is_present({})
     for p in effect.parameters:
         assert p.text
@@ -102,6 +87,27 @@ def test_effect_says_all_that_is_asked_of_it(effect):
         if p.strength:
             assert p.default == 0.0
     assert (effect.start is not None) == bool(effect.states)
+    if effect.start is not None:
+        assert len(effect.start(np.ones(50), 8, 2e5, 0.1, 0.04)) == len(effect.states)
+    assert len({state.name for state in effect.states}) == len(effect.states)
+
+
+@BY_EFFECT
+def test_what_a_controller_does_about_it_is_what_it_can_do(effect):
+    """It inverts what has no memory, or a lag; it feeds forward what acts on forces."""
+    by_pressure = effect.delay is not None or effect.pressure is not None
+    if effect.compensation is Compensation.PATH:
+        assert by_pressure
+        assert effect.lag is not None or not effect.states
+    elif effect.compensation is Compensation.MODEL:
+        assert not effect.states
+        assert effect.pressure is None
+    elif effect.compensation is Compensation.FEED_FORWARD:
+        assert effect.force is not None or effect.outside is not None
+    if effect.lag is not None:
+        layout = one_muscle().layout
+        q = one_muscle(effects=clear(effect)).parameters()[1]
+        assert min(effect.lag(q, layout.parameter_at[effect.name])) > 0.0
 
 
 @BY_EFFECT
@@ -116,27 +122,36 @@ def test_all_absent_are_absent_to_the_bit():
 
 @BY_EFFECT
 def test_effect_alone_is_the_same_in_either_kernel(effect):
-    effects = {effect.name: CLEAR[effect.name]}
+    effects = clear(effect)
     alone, among_all = run_bound((effect,), effects), run_bound(EFFECTS, effects)
     np.testing.assert_allclose(alone, among_all, rtol=1e-12, atol=1e-12)
     assert np.max(np.abs(alone - run_bound((), {}))[:, 0]) > 1e-5
 
 
-@pytest.mark.parametrize('name', sorted(NAMES - {'periodic_disturbance'}))
-def test_rig_at_rest_stays_at_rest(name):
-    # With the valve open, and softened by cycles: else there is no rest.
-    rest = {'leak': {'refill': 0.2}, 'softening': {'per_second': 0.0}}
-    model = bench.hanging(**{name: {**CLEAR[name], **rest.get(name, {})}})
+@BY_EFFECT
+def test_rig_at_rest_stays_at_rest(effect):
+    if effect.moves_by_itself:
+        pytest.skip('with it a load never rests')
+    model = bench.hanging(**clear(effect))
     end = simulate(model, [0.0, 30.0], [0.0], [3e5])
     again = simulate(model, [0.0, 5.0], [0.0], [3e5], position=end.position[1])
     assert abs(again.position[1] - again.position[0]) < 1e-7
     assert abs(again.velocity[1]) < 1e-7
 
 
+@BY_EFFECT
+def test_only_what_moves_by_itself_keeps_a_load_moving(effect):
+    end = simulate(
+        bench.hanging(**clear(effect)), [0.0, *np.linspace(30.0, 31.0, 101)], [0.0], [3e5]
+    )
+    moving = np.ptp(end.position[1:])
+    assert bool(moving > 1e-5) is effect.moves_by_itself
+
+
 @pytest.mark.needs_numba
 @BY_EFFECT
 def test_answer_converges_as_the_step_shrinks(effect):
-    effects = {effect.name: CLEAR[effect.name]}
+    effects = clear(effect)
     exact = free(effects, 1e-3 / 32).position
     coarse, usual, fine = (
         np.abs(free(effects, h).position - exact).max() for h in (4e-3, 1e-3, 2.5e-4)
@@ -148,7 +163,7 @@ def test_answer_converges_as_the_step_shrinks(effect):
 
 @BY_EFFECT
 def test_held_answer_converges_as_the_step_shrinks(effect):
-    effects = {effect.name: CLEAR[effect.name]}
+    effects = clear(effect)
     exact = held(effects, 1e-3 / 16)
     errors = [np.abs(held(effects, h).force - exact.force).max() for h in (1e-2, 1e-3)]
     assert errors[1] < 3.0
@@ -201,7 +216,7 @@ LIGHT_BETWEEN_PADS = {
 @given(effects=subsets())
 @example(effects=LIGHT_BETWEEN_PADS)
 def test_any_subset_works_together(effects):
-    assume(bench.hanging(**effects).longest_step >= 1e-3)
+    assume(longest_step(bench.hanging(**effects)) >= 1e-3)
     first, second = free(effects), free(effects)
     for a, b in zip(vars(first).values(), vars(second).values(), strict=True):
         np.testing.assert_array_equal(a, b)
@@ -220,8 +235,8 @@ def test_those_left_out_change_nothing(effects):
         for e in EFFECTS
     }
     model, bare = bench.hanging(**spelled), bench.hanging(**effects)
-    assume(bare.longest_step >= 1e-3)
-    assert model.present == bare.present == active
+    assume(longest_step(bare) >= 1e-3)
+    assert model.all_present == bare.all_present == active
     np.testing.assert_array_equal(
         simulate(model, T, AT, U).position, simulate(bare, T, AT, U).position
     )
@@ -231,8 +246,8 @@ def test_those_left_out_change_nothing(effects):
 def test_dissipation_never_adds_to_the_energy(name):
     # At constant pressure the muscle is a spring: kinetic and potential energy only fall,
     # but for what a hidden spring lends and returns.
-    values = dict(CLEAR[name])
-    model = bench.hanging(**{name: values})
+    (effect,) = (effect for effect in EFFECTS if effect.name == name)
+    model = bench.hanging(**clear(effect))
     p, y0 = 3e5, bench.rest(3e5) + 0.025
     t = np.linspace(0.0, 4.0, 4001)
     run = simulate(model, t, [0.0], [p], position=y0)

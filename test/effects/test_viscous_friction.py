@@ -7,6 +7,7 @@ import pytest
 
 from pam_ros.errors import ParameterError
 from pam_ros.rig.run import simulate, simulate_held
+from pam_ros.rig.step_limit import longest_step
 from support import bench
 
 C = 40.0
@@ -59,6 +60,6 @@ def test_drag_that_the_step_cannot_resolve_is_refused(effect):
 
 def test_drag_up_to_that_is_stepped_as_it_is():
     model = bench.cart(0.5, viscous_friction={'coefficient': 400.0})
-    assert model.longest_step == pytest.approx(0.5 / 400.0)
+    assert longest_step(model) == pytest.approx(0.5 / 400.0)
     run = simulate(model, [0.0, 0.1], [0.0], [20.0], position=0.0)
     np.testing.assert_allclose(run.velocity[1], 20.0 / 400.0, rtol=1e-9)

@@ -1,0 +1,104 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""A new effect is one file and one line: all that uses effects knows it then.
+
+The example of docs/effects.md is written into a copy of the sources, and looked for there by a
+Python of its own.
+"""
+
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+PARTS = ('pam_ros', 'config', 'docs', 'tools')
+NEW, LINE = Path('pam_ros/effects/choked_valve.py'), Path('pam_ros/effects/__init__.py')
+ASKED = """
+import json, runpy, sys
+sys.modules['numba'] = None  # some steps as plain Python take less than to compile the kernel
+import numpy as np
+from pam_ros.control.compensation import left_to_feedback
+from pam_ros.effects import EFFECTS
+from pam_ros.identification.unknowns import of_effect
+from pam_ros.rig.arrangements import ARRANGEMENTS
+from pam_ros.rig.joint import one_muscle
+from pam_ros.rig.run import simulate
+from pam_ros.settings.scene import Scene, table
+from pam_ros.settings.tables import checked, rig_table
+
+given = {'effects.choked_valve.slowness': 2e-6}
+(joint,) = Scene(given).build(checked(table(**given), given)).joints
+t = np.array([0.0, 0.1, 0.2, 0.3])
+run = simulate(joint, t, [0.0, 0.1], [2e5, 3e5])
+beside = simulate(
+    joint, t, [0.0, 0.1], [2e5, 3e5], hidden={'choked_valve': {'pressure': -1e4}}
+)
+tables = runpy.run_path('tools/tables.py')
+text = tables['with_tables'](tables['GUIDE'].read_text())
+print(json.dumps({
+    'library': [effect.name for effect in EFFECTS],
+    'arrangements': [
+        'effects.choked_valve.slowness' in rig_table(kind) for kind in ARRANGEMENTS
+    ],
+    'pressure': list(run.pressure),
+    'hidden': beside.pressure[0],
+    'candidates': [effect.name for effect in one_muscle().library],
+    'unknown': [u.name for u in of_effect(joint, EFFECTS[-1])],
+    'feedback': list(left_to_feedback(joint)),
+    'rows': [line for line in text.splitlines() if line.startswith('| `choked_valve')],
+    'parameters': [line for line in text.splitlines() if 'effects.choked_valve.' in line],
+}))
+"""
+
+
+def contents(folder):
+    return {
+        path.relative_to(folder): path.read_bytes()
+        for part in PARTS
+        for path in (folder / part).rglob('*')
+        if path.is_file() and '__pycache__' not in path.parts
+    }
+
+
+@pytest.fixture(scope='module')
+def found(tmp_path_factory):
+    """Return what is known of the new effect, and which files were touched for that."""
+    folder = tmp_path_factory.mktemp('sources')
+    for part in PARTS:
+        ignored = shutil.ignore_patterns('__pycache__')
+        shutil.copytree(ROOT / part, folder / part, ignore=ignored)
+    before = contents(folder)
+    guide = (ROOT / 'docs' / 'effects.md').read_text(encoding='utf-8')
+    example, _ = re.findall(r'^```python\n(.*?)^```', guide, re.MULTILINE | re.DOTALL)
+    (folder / NEW).write_text(example, encoding='utf-8')
+    lines = (folder / LINE).read_text(encoding='utf-8')
+    (line,) = re.findall(r'^```text\n(    choked_valve\.EFFECT,\n)```', guide, re.MULTILINE)
+    lines = lines.replace(')\n', f'{line})\n') if lines.endswith(')\n') else lines
+    lines = lines.replace(
+        '    coulomb_friction,\n', '    choked_valve,\n    coulomb_friction,\n', 1
+    )
+    (folder / LINE).write_text(lines, encoding='utf-8')
+    after = contents(folder)
+    touched = {path: before.get(path) for path, text in after.items() if before.get(path) != text}
+    done = subprocess.run(
+        [sys.executable, '-c', ASKED],
+        cwd=folder,
+        env={**os.environ, 'PYTHONPATH': str(folder)},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    return touched, json.loads(done.stdout)
+
+
+def test_one_file_is_new_and_one_has_its_line(found):
+    touched, _ = found
+    assert set(touched) == {NEW, LINE}
+    assert touched[NEW] is None

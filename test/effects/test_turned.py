@@ -1,0 +1,130 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Units of effects on a joint that turns: none is missing; one that is not known is refused."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from pam_ros.effects import EFFECTS
+from pam_ros.effects.base import ON_JOINT, Compensation, Effect, EffectParameter
+from pam_ros.effects.turned import turned
+from pam_ros.errors import ParameterError
+from pam_ros.rig.joint import one_muscle
+from pam_ros.rig.rig import Rig
+from pam_ros.units import TURNED, turned_unit
+from support.joint_models import lever, pair
+
+ON_LOAD = [effect for effect in EFFECTS if effect.acts_on_joint]
+BY_EFFECT = pytest.mark.parametrize('effect', ON_LOAD, ids=lambda effect: effect.name)
+
+
+def described(effect):
+    return {p.name: (p.unit, p.low, p.high) for p in turned(effect).parameters}
+
+
+def test_effects_on_a_joint_that_turns_have_its_units():
+    effects = {effect.name: effect for effect in EFFECTS}
+    stop = described(effects['end_stop'])
+    assert stop['upper'] == stop['lower'] == ('rad', -math.pi, math.pi)
+    assert stop['stiffness'][0] == 'N m/rad'
+    friction = described(effects['coulomb_friction'])
+    assert [unit for unit, _, _ in friction.values()] == [
+        'N m', 'N m', 'rad/s', 'N m/Pa', '', 'rad',
+    ]  # fmt: skip
+    assert described(effects['viscous_friction'])['coefficient'][0] == 'N m s/rad'
+    assert described(effects['payload'])['mass'][0] == 'kg'  # at the end of the arm
+
+
+@BY_EFFECT
+def test_nothing_else_about_it_differs(effect):
+    """Its equations, its states and its example are the same."""
+    other = turned(effect)
+    for name in vars(effect):
+        if name != 'parameters':
+            assert getattr(other, name) is getattr(effect, name)
+    for one, this in zip(other.parameters, effect.parameters, strict=True):
+        assert one.unit == TURNED[this.unit]
+        if this.unit != 'fraction':
+            assert replace(one, unit=this.unit) == this
+
+
+def test_every_effect_acts_in_a_muscle_or_on_the_joint():
+    for effect in EFFECTS:
+        on_joint = [bool(getattr(effect, place)) for place in ON_JOINT]
+        assert effect.acts_on_joint is any(on_joint)
+    assert len(ON_LOAD) < len(EFFECTS)
+
+
+def test_no_unit_of_the_library_is_missing():
+    """Of parameters and of hidden states, each of which is known where it is turned."""
+    for effect in ON_LOAD:
+        for p in (*effect.parameters, *effect.states):
+            assert turned_unit(p.unit, p.name) == TURNED[p.unit]
+
+
+def test_a_unit_turned_twice_has_a_meaning_only_where_it_stays():
+    stays = {unit for unit, other in TURNED.items() if unit == other}
+    assert stays == {'', 'kg', 's', '1/s', 'rad/s', 'Hz', 'Pa'}
+
+
+def outside(f, p, y, v, t, h, x, i, xn, q, j):
+    """Return a drag that grows with the square of the speed."""
+    return f - q[j] * v * abs(v)
+
+
+DRAG = Effect(
+    'air_drag', 'drag of the air', '',
+    (EffectParameter('strength', 0.0, 'drag', 'N s^2/m^2', 0.0, 1e3, 1.0, strength=True),),
+    '', '', (), {'strength': 1.0}, Compensation.FEEDBACK, outside=outside,
+)  # fmt: skip
+
+
+def test_a_unit_of_which_nobody_has_said_what_it_is_there_is_refused():
+    sentence = (
+        'effects.air_drag.strength is in N s^2/m^2: what that is on a joint that turns is not '
+        'known; add the unit to TURNED in pam_ros/units.py'
+    )
+    with pytest.raises(ParameterError) as error:
+        turned(DRAG)
+    assert str(error.value) == sentence
+    library = (DRAG,)
+    one_muscle(effects={'air_drag': {'strength': 1.0}}, library=library)  # it slides
+    with pytest.raises(ParameterError) as error:
+        pair(load={'air_drag': {'strength': 1.0}}, library=library)
+    assert str(error.value) == sentence
+
+
+def test_with_its_unit_named_it_acts_there(monkeypatch):
+    monkeypatch.setitem(TURNED, 'N s^2/m^2', 'N m s^2/rad^2')
+    assert described(DRAG)['strength'][0] == 'N m s^2/rad^2'
+    joint = pair(load={'air_drag': {'strength': 0.3}}, library=(DRAG,))
+    bare = pair(library=(DRAG,))
+    found = []
+    for one in (joint, bare):
+        rig = Rig([one])
+        rig.reset([3e5, 3e5], [0.1], [-2.0])
+        found.append(rig.joint_outputs()[0, 2])
+    assert found[0] - found[1] == pytest.approx(0.3 * 2.0**2 / joint.inertia, rel=1e-9)
+
+
+@pytest.mark.parametrize('made', [pair, lever], ids=['pair', 'lever'])
+@pytest.mark.parametrize(
+    ('load', 'effort'),
+    [
+        ({'viscous_friction': {'coefficient': 0.3}}, -0.3 * 2.0),
+        ({'end_stop': {'upper': 0.1, 'stiffness': 50.0, 'damping': 0.0}}, -50.0 * 0.2),
+        ({'end_stop': {'lower': 0.7, 'lower_stiffness': 20.0, 'damping': 0.0}}, 20.0 * 0.4),
+    ],
+    ids=['friction', 'above', 'below'],
+)
+def test_what_is_given_in_these_units_acts_in_them(made, load, effort):
+    """At 0.3 rad and 2 rad/s; a step of 1 ms softens a stop of 50 N m/rad by a billionth."""
+    found = []
+    for one in (made(load=load), made()):
+        rig = Rig([one])
+        rig.reset([3e5, 3e5], [0.3], [2.0])
+        found.append(rig.joint_outputs()[0, 2])
+    np.testing.assert_allclose((found[0] - found[1]) * made().inertia, effort, rtol=1e-6)

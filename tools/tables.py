@@ -1,0 +1,63 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Write the tables of docs/effects.md anew, from the library of effects: ``make docs``."""
+
+from pathlib import Path
+
+from pam_ros.effects import EFFECTS
+from pam_ros.effects.base import PLACES, Effect
+
+GUIDE = Path(__file__).parents[1] / 'docs' / 'effects.md'
+
+
+def names(effects: tuple[str, ...]) -> str:
+    """Return names of effects as Markdown shows them."""
+    return ', '.join(f'`{name}`' for name in effects) or '-'
+
+
+def acts_on(effect: Effect) -> str:
+    """Return in what it acts, and at which places of the kernel."""
+    places = ', '.join(place for place in PLACES if getattr(effect, place))
+    return f'{"joint" if effect.acts_on_joint else "muscle"}: {places}'
+
+
+def effects_table(library: tuple[Effect, ...] = EFFECTS) -> str:
+    """Return the table of effects in Markdown."""
+    rows = [
+        '| effect | what it is | acts on | source | trace in the residual | mistaken for | '
+        'distinguished by | a controller |',
+        '|---|---|---|---|---|---|---|---|',
+    ]
+    rows += [
+        f'| `{e.name}` | {e.text} | {acts_on(e)} | {e.source} | {e.signature} | '
+        f'{names(e.rivals)} | {e.experiment} | {e.compensation.value} |'
+        for e in library
+    ]
+    return '\n'.join(rows)
+
+
+def parameters_table(library: tuple[Effect, ...] = EFFECTS) -> str:
+    """Return the table of parameters in Markdown, strengths in bold."""
+    rows = ['| parameter | unit | range | default | meaning |', '|---|---|---|---|---|']
+    for e in library:
+        for p in e.parameters:
+            name = f'`effects.{e.name}.{p.name}`'
+            if p.strength:
+                name = f'**{name}**'
+            span = f'{p.low:g} to {p.high:g}'
+            rows.append(f'| {name} | {p.unit or "-"} | {span} | {p.default:g} | {p.text} |')
+    return '\n'.join(rows)
+
+
+def with_tables(text: str, library: tuple[Effect, ...] = EFFECTS) -> str:
+    """Return the guide *text* with both tables as they must be."""
+    tables = {'effects': effects_table(library), 'parameters': parameters_table(library)}
+    for name, table in tables.items():
+        marks = f'<!-- {name} -->', f'<!-- /{name} -->'
+        begin = text.index(marks[0]) + len(marks[0])
+        text = f'{text[:begin]}\n{table}\n{text[text.index(marks[1]) :]}'
+    return text
+
+
+if __name__ == '__main__':
+    GUIDE.write_text(with_tables(GUIDE.read_text(encoding='utf-8')), encoding='utf-8')
