@@ -30,7 +30,7 @@ SPACING = 0.05  # s between the points of the sine
 
 @dataclass(frozen=True)
 class Series:
-    """Since a motion was told: t s and error m (n,), pressure_t s and pressure Pa (k,)."""
+    """Since a motion was asked for: t s and error m (n,), pressure_t s and pressure Pa (k,)."""
 
     t: np.ndarray
     error: np.ndarray
@@ -39,7 +39,7 @@ class Series:
 
 
 class Pair:
-    """Both programs in a namespace of this process, and a client that has heard what they say."""
+    """Both programs in a namespace of this process, and a client that has heard both."""
 
     def __init__(self, client: Client) -> None:
         """Listen."""
@@ -48,7 +48,7 @@ class Pair:
         self.terms = client.collect(JointState, 'pam_control/state')
 
     def wait(self, end: float) -> None:
-        """Wait until both have told of a time after *end* s."""
+        """Wait until both have published a time after *end* s."""
         self.client.until(
             lambda: min(seconds(self.states[-1]), seconds(self.terms[-1])) > end, 'the motion'
         )
@@ -58,11 +58,11 @@ class Pair:
         t = np.array([seconds(m) for m in self.states]) - begin
         y = np.array([m.position[0] for m in self.states])
         inside = (t > 0.0) & (t < duration)
-        told = np.array([seconds(m) for m in self.terms]) - begin
+        terms_t = np.array([seconds(m) for m in self.terms]) - begin
         pressure = np.array([m.position[TERMS.index('pressure')] for m in self.terms])
-        within = (told > 0.0) & (told < duration)
+        within = (terms_t > 0.0) & (terms_t < duration)
         error = np.array([target(now) for now in t[inside]]) - y[inside]
-        return Series(t[inside], error, told[within], pressure[within])
+        return Series(t[inside], error, terms_t[within], pressure[within])
 
 
 def sine_points(middle: float, swing: float, frequency: float, end: float) -> JointTrajectory:
@@ -89,13 +89,13 @@ def step_and_sine(
     space = f'/control_{os.getpid()}'
     where = ('-r', f'__ns:={space}')
     rig = {'mass': MASS + payload, 'initial.pressure': PRESSURE}
-    told = {'mass': MASS, 'controller': controller}
+    believed = {'mass': MASS, 'controller': controller}
     # Nobody else's nodes are to be heard.
     os.environ.setdefault('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
     with (
         Client(space) as client,
         Program('pam_sim', *where, parameters=rig),
-        Program('pam_control', *where, parameters=told),
+        Program('pam_control', *where, parameters=believed),
     ):
         pair = Pair(client)
         client.until(lambda: len(pair.terms) > 1 and len(pair.states) > 1, 'control')

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Position control on the truth plant: a 20 mm step and a 0.5 Hz sine, in simulated time.
 
-Both laws have one set of gains for all plants. Feedback is noisy (20 um) at 500 Hz; the target is
-told as samples at 100 Hz. The plants are those of ``test/truth``: own equations, own integrator.
+Both laws have one set of gains for all plants. Feedback is noisy (20 um) at 500 Hz; the target
+comes as samples at 100 Hz. The plants are those of ``test/truth``: own equations, own integrator.
 Then the same over DDS in real time, ``pam_sim`` and ``pam_control`` as processes, beside a
 simulated run as noiseless: the difference is what real time and the messages cost.
 Options: ``--seeds N`` (default 3, the worst of them counts), ``--picture FILE``, ``--no-dds``.
@@ -19,8 +19,7 @@ from matplotlib.figure import Figure
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / 'test'))
 
-from pam_ros.control.gains import Gains
-from pam_ros.control.pid import Pid, PidGains
+from pam_ros.control.pid import Pid
 from pam_ros.control.sliding_mode import SlidingMode
 from support.closed_loop import LAG, Run, close_loop, declared, sine_target, step_target, truth
 from truth import TruthPlant
@@ -36,10 +35,7 @@ ROWS = {
     'valve lag, declared': ('lag', LAG, 0.01, 0.05),
     'all, and 10 ms dead time': ('all', None, 0.06, 0.6),
 }
-LAWS = {
-    'sliding mode': lambda model: SlidingMode(model, Gains()),
-    'PID': lambda model: Pid(model, PidGains()),
-}
+LAWS = {'sliding mode': SlidingMode, 'PID': Pid}
 OVER_DDS = {'nominal': 0.0, 'payload +5 kg': 5.0}  # kg that are not declared
 CONTROLLERS = {'sliding mode': 'sliding_mode', 'PID': 'pid'}
 STEP, SWING = 12.0, 20.0  # s
@@ -71,13 +67,13 @@ def figures(
 def trial(law: str, row: str, seed: int, noise: float = NOISE) -> tuple[Figures, Run, Run]:
     """Return what was reached in simulated time, and both runs."""
     name, effects, _, _ = ROWS[row]
-    make, model = LAWS[law], declared(effects=effects)
+    make, joint = LAWS[law], declared(effects=effects)
 
     def plant() -> TruthPlant:
         return truth(name, seed=seed, noise=noise)
 
-    step = close_loop(make(model), plant(), step_target(HEIGHT), STEP)
-    sine = close_loop(make(model), plant(), sine_target(SWAY, FREQUENCY), SWING)
+    step = close_loop(make(joint), plant(), step_target(HEIGHT), STEP)
+    sine = close_loop(make(joint), plant(), sine_target(SWAY, FREQUENCY), SWING)
     pressure, error = step.pressure[step.last(REST)], sine.error[sine.last(JUDGED)]
     return figures(step.t - 1.0, step.error, pressure, error), step, sine
 

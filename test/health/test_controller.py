@@ -7,7 +7,7 @@ import pytest
 from pam_ros.control.loop import BLIND, DISABLED, RUNNING, WAITING, Loop
 from pam_ros.health.controller import Heard, control, timing
 from pam_ros.health.health import Level
-from pam_ros.settings.control import build_told, table
+from pam_ros.settings.control import settings_of
 from pam_ros.settings.tables import checked
 from pam_ros.timing.ticker import Punctuality
 
@@ -15,9 +15,18 @@ WELL = Heard(age=0.01, blindness='', refused=0, refusal='', is_refusal_new=False
 NO_JOINT = 'joint_states has no joint pam'
 
 
+def setup_of(**given):
+    table, build = settings_of(given)
+    return build(checked(table, given))
+
+
+def loop_of(setup):
+    return Loop(setup.make_law(), setup.make_course(), 0.002)
+
+
 @pytest.fixture(scope='module')
-def told():
-    return build_told(checked(table({}), {}))
+def setup():
+    return setup_of()
 
 
 @pytest.mark.parametrize(
@@ -40,10 +49,10 @@ def told():
         (DISABLED, {}, 'the law gave no number', Level.ERROR, 'the law gave no number'),
     ],
 )
-def test_the_worst_of_the_control_is_said(told, state, heard, fault, level, message):
-    loop = Loop(told.make_law(), told.make_course(), 0.002)
+def test_the_worst_of_the_control_is_said(setup, state, heard, fault, level, message):
+    loop = loop_of(setup)
     loop.state = state
-    health = control(loop, told, WELL._replace(**heard), fault)
+    health = control(loop, setup, WELL._replace(**heard), fault)
     assert (health.level, health.message) == (level, message)
     assert (health.values['error (m)'] is None) == (state != RUNNING)
     assert health.values['last reason'] == heard.get('refusal', '')
@@ -61,3 +70,50 @@ def test_the_rate_is_said_where_there_is_one(ticks, wanted, level, message):
     health = timing(Punctuality(2.0, ticks, 0, 0.0), 10, wanted)
     assert (health.level, health.message) == (level, message)
     assert health.values['command rate (Hz)'] == 5.0
+
+
+# What it says of the joint -----------------------------------------------------------------------
+
+LEFT = 'declared and left to the feedback'
+
+
+def values_of(**given):
+    now = setup_of(**given)
+    loop = loop_of(now)
+    loop.state = RUNNING
+    return control(loop, now, WELL, '').values
+
+
+def test_declared_effects_that_nothing_compensates_ahead_are_named():
+    assert LEFT not in values_of()
+    compensated = {'effects.pressure_lag.fill': 0.05, 'effects.coulomb_friction.level': 5.0}
+    assert LEFT not in values_of(**compensated)
+    assert values_of(**{**compensated, 'effects.leak.rate': 0.1})[LEFT] == 'leak'
+    stop = {'effects.end_stop.stiffness': 1e4, 'effects.end_stop.upper': 0.09}
+    assert values_of(**stop, **{'effects.leak.rate': 0.1})[LEFT] == 'leak, end_stop'
+
+
+@pytest.mark.parametrize('kind', ['antagonistic', 'parallel'])
+def test_they_are_named_of_joints_of_several_muscles_too(kind):
+    one = {'joint': kind, 'muscles': ('first', 'second'), 'second.effects.leak.rate': 0.1}
+    assert values_of(**one)[LEFT] == 'leak'
+    assert LEFT not in values_of(joint=kind)
+
+
+def test_a_pair_says_its_stiffness_and_a_parallel_joint_has_none_to_choose():
+    values = values_of(joint='antagonistic')
+    low, high = (values[f'{which} co-contraction (N m/rad)'] for which in ('lowest', 'highest'))
+    assert low < high
+    assert values['error (rad)'] == 0.0
+    assert 'co-contraction (N m/rad)' in values
+    assert not [name for name in values_of(joint='parallel') if 'co-contraction' in name]
+
+
+def test_commands_are_a_number_of_one_muscle_and_all_of_several():
+    for given, commands in (({}, (2e5,)), ({'joint': 'antagonistic'}, (2e5, 1e5))):
+        now = setup_of(**given)
+        loop = loop_of(now)
+        assert control(loop, now, WELL, '').values['command (Pa)'] is None
+        loop.pressures = commands
+        shown = control(loop, now, WELL, '').values['command (Pa)']
+        assert shown == (commands if len(commands) > 1 else commands[0])

@@ -2,14 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs are those that version 0.1.0 made, to the bit.
 
-``runs.npz`` holds what it simulated of the cases in ``cases.py``. The same bits come out where
-the mathematical functions of the platform give the same bits, which a hash in the file says; else
-the runs agree to a billionth of the motion.
+``runs.npz`` holds what it simulated of the cases in ``cases.py``; see ``platform.py`` for other
+platforms.
 """
-
-import hashlib
-import math
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -26,33 +21,10 @@ from pam_ros.rig.start import start_state
 from pam_ros.rig.step_limit import longest_step
 from pam_ros.rig.transmissions import Pulley, Straight
 from recorded import cases
+from recorded.platform import compare
 
-RECORDED = np.load(Path(__file__).with_name('runs.npz'))
 RIGS = cases.one_muscle()
 BY_RIG = pytest.mark.parametrize('name', RIGS)
-
-
-def platform():
-    """Return a hash of what the platform's mathematical functions give."""
-    x = np.linspace(-30.0, 3.0, 400)
-    digest = hashlib.sha256()
-    for f in (math.exp, math.expm1, math.sin, math.cos):
-        digest.update(np.array([f(a) for a in x]).tobytes())
-    for f in (math.log1p, math.sqrt, math.log):
-        digest.update(np.array([f(abs(a) + 0.1) for a in x]).tobytes())
-    return digest.hexdigest()
-
-
-HAS_SAME_BITS = platform() == str(RECORDED['libm'])
-
-
-def compare(key, found):
-    recorded = RECORDED[key]
-    if HAS_SAME_BITS:
-        np.testing.assert_array_equal(found, recorded)
-    else:
-        scale = np.max(np.abs(recorded), axis=0)
-        assert np.max(np.abs(found - recorded) / np.where(scale > 0.0, scale, 1.0)) < 1e-9
 
 
 def model(name):

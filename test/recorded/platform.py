@@ -1,0 +1,42 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""What was recorded with version 0.1.0, and how results of today are compared with it.
+
+The same bits come out where the mathematical functions of the platform give the same bits, which
+a hash in the file says; else results agree to a billionth of the motion.
+"""
+
+import hashlib
+import math
+from pathlib import Path
+
+import numpy as np
+
+RECORDED = np.load(Path(__file__).with_name('runs.npz'))
+
+
+def probe():
+    """Return a hash of what the platform's mathematical functions give."""
+    x = np.linspace(-30.0, 3.0, 400)
+    digest = hashlib.sha256()
+    for f in (math.exp, math.expm1, math.sin, math.cos):
+        digest.update(np.array([f(a) for a in x]).tobytes())
+    for f in (math.log1p, math.sqrt, math.log):
+        digest.update(np.array([f(abs(a) + 0.1) for a in x]).tobytes())
+    return digest.hexdigest()
+
+
+HAS_SAME_BITS = probe() == str(RECORDED['libm'])
+
+
+def compare(key, found, close=1e-9, axis=0):
+    """Compare *found* with what is recorded as *key*: to the bit, else as *close*.
+
+    On a platform with other bits *close* is a share of the largest value along *axis*.
+    """
+    recorded = RECORDED[key]
+    if HAS_SAME_BITS:
+        np.testing.assert_array_equal(found, recorded)
+    else:
+        scale = np.max(np.abs(recorded), axis=axis, keepdims=True)
+        assert np.max(np.abs(found - recorded) / np.where(scale > 0.0, scale, 1.0)) < close

@@ -1,0 +1,134 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Parameters of the nodes in version 0.1.0 are still there, and its files make the same joint.
+
+``parameters.json`` holds its tables: what it declared when it was started with what GIVEN says.
+``identified.yaml`` was written by its ``pam_identify``.
+"""
+
+import json
+from pathlib import Path
+
+import pytest
+import yaml
+
+from pam_ros.settings import excite, scene
+from pam_ros.settings.control import settings_of
+from pam_ros.settings.files import load_rig, read
+from pam_ros.settings.tables import checked
+
+HERE = Path(__file__).parent
+RECORDED = json.loads((HERE / 'parameters.json').read_text(encoding='utf-8'))
+IDENTIFIED = HERE / 'identified.yaml'
+SEVERAL = {'muscles': ['left', 'right'], 'left.mass': 10.0, 'right.effects.leak.rate': 0.1}
+PAIRS = {
+    'joint': 'antagonistic',
+    'muscles': ['a', 'b', 'c', 'd'],
+    'joint_names': ['elbow', 'wrist'],
+    'elbow.radius': 0.05,
+    'a.l0': 0.3,
+}
+NOW = {
+    'pam_sim': scene.table(),
+    'pam_sim several': scene.table(**SEVERAL),
+    'pam_sim antagonistic': scene.table(joint='antagonistic'),
+    'pam_sim parallel': scene.table(joint='parallel'),
+    'pam_sim two pairs': scene.table(**PAIRS),
+    'pam_control': settings_of({})[0],
+    'pam_control antagonistic': settings_of({'joint': 'antagonistic'})[0],
+    'pam_excite': excite.table(),
+}
+THEN = [(table, name) for table, names in RECORDED.items() for name in names]
+
+
+def test_each_table_is_looked_at():
+    assert NOW.keys() == RECORDED.keys()
+    assert min(map(len, RECORDED.values())) > 90
+
+
+@pytest.mark.parametrize(('table', 'name'), THEN, ids=' '.join)
+def test_a_parameter_is_as_it_was(table, name):
+    kind, default, _, unit, low, high, choices, live, above_low = RECORDED[table][name]
+    now_kind, now_default, about = NOW[table][name]
+    assert now_kind.__name__ == kind
+    assert (list(now_default) if kind == 'tuple' else now_default) == default
+    assert type(now_default) is now_kind
+    assert about.unit == unit
+    assert (about.low, about.high, about.above_low) == (low, high, above_low)
+    assert set(choices) <= set(about.choices)
+    assert bool(choices) is bool(about.choices)
+    assert about.live is live
+    assert about.text
+
+
+# What pam_identify wrote -----------------------------------------------------------------------
+
+
+def written():
+    """Return the values of the file, read without the package."""
+    found = {}
+
+    def flatten(table, prefix):
+        for name, value in table.items():
+            if isinstance(value, dict):
+                flatten(value, f'{prefix}{name}.')
+            else:
+                found[f'{prefix}{name}'] = value
+
+    (content,) = yaml.safe_load(IDENTIFIED.read_text(encoding='utf-8')).values()
+    flatten(content['ros__parameters'], '')
+    return found
+
+
+def by_pam_sim():
+    (joint,) = scene.simulation(checked(scene.table(), read(IDENTIFIED, 'pam_sim'))).joints
+    return joint
+
+
+def by_pam_control():
+    table, build = settings_of({})
+    return build(checked(table, read(IDENTIFIED, 'pam_control'))).joint
+
+
+def by_preset():
+    """Return what ``muscle:=identified.yaml`` makes."""
+    given = {'muscle': str(IDENTIFIED)}
+    (joint,) = scene.simulation(checked(scene.table(**given), given)).joints
+    return joint
+
+
+def by_preset_of_control():
+    given = {'muscle': str(IDENTIFIED)}
+    table, build = settings_of(given)
+    return build(checked(table, given)).joint
+
+
+READERS = [by_pam_sim, by_pam_control, by_preset, by_preset_of_control]
+
+
+@pytest.mark.parametrize('reader', READERS, ids=lambda reader: reader.__name__)
+def test_an_identified_file_makes_its_joint_to_the_bit(reader):
+    joint, values = reader(), written()
+    for name in ('a1', 'a2', 'a3', 'a4', 'a5', 'a6', 'zeta', 'l0', 'p_min', 'p_max', 'source'):
+        assert getattr(joint.muscle, name) == values[name], name
+    for name in ('kappa_min', 'kappa_max', 'force_max', 'inside_diameter', 'pressure_unit'):
+        assert getattr(joint.muscle, name) == values[name], name
+    assert (joint.load.mass, joint.load.mount) == (values['mass'], values['mount'])
+    row = {effect.name: effect for effect in joint.all_present}
+    assert list(row) == ['pressure_lag', 'coulomb_friction']
+    (lag, friction) = (
+        {
+            name.rpartition('.')[2]: value
+            for name, value in values.items()
+            if name.startswith(f'effects.{effect}.')
+        }
+        for effect in row
+    )
+    assert {**joint.actuators[0].effects['pressure_lag']}.items() >= lag.items()
+    assert {**joint.effects['coulomb_friction']}.items() >= friction.items()
+
+
+def test_both_programs_make_the_same_joint_of_it():
+    joints = [reader() for reader in READERS]
+    assert all(joint == joints[0] for joint in joints)
+    assert load_rig(str(IDENTIFIED))[0].parameters().tobytes() == joints[0].parameters().tobytes()
