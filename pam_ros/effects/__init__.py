@@ -5,42 +5,30 @@
 To add one, write its file and add its line here; ``docs/effects.md`` shows how.
 """
 
-from pam_ros.effects import (
-    coulomb_friction,
-    creep,
-    dead_time,
-    end_stop,
-    hysteresis,
-    leak,
-    length_offset,
-    payload,
-    periodic_disturbance,
-    pressure_dependent_damping,
-    pressure_lag,
-    pressure_offset,
-    slack,
-    softening,
-    viscous_friction,
-)
+from importlib import import_module
+
 from pam_ros.effects.base import Effect
 
-EFFECTS: tuple[Effect, ...] = (
+# Each is the file of that name in this folder.
+_ORDER = (
     # From the command to the chamber.
-    dead_time.EFFECT,
-    pressure_offset.EFFECT,
-    pressure_lag.EFFECT,
-    leak.EFFECT,
+    'dead_time',
+    'pressure_offset',
+    'pressure_lag',
+    'leak',
     # The muscle.
-    length_offset.EFFECT,
-    softening.EFFECT,
-    creep.EFFECT,
-    hysteresis.EFFECT,
-    slack.EFFECT,
-    pressure_dependent_damping.EFFECT,
+    'length_offset',
+    'softening',
+    'creep',
+    'hysteresis',
+    'slack',
+    'pressure_dependent_damping',
     # The load and what it meets.
-    periodic_disturbance.EFFECT,
-    payload.EFFECT,
-    viscous_friction.EFFECT,
-    coulomb_friction.EFFECT,
-    end_stop.EFFECT,
+    'periodic_disturbance',
+    'payload',
+    'viscous_friction',
+    'coulomb_friction',
+    'end_stop',
 )
+
+EFFECTS: tuple[Effect, ...] = tuple(import_module(f'{__name__}.{name}').EFFECT for name in _ORDER)

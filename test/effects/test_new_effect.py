@@ -25,7 +25,7 @@ sys.modules['numba'] = None  # some steps as plain Python take less than to comp
 import numpy as np
 from pam_ros.control.compensation import left_to_feedback
 from pam_ros.effects import EFFECTS
-from pam_ros.identification.unknowns import of_effect
+from pam_ros.identification.unknowns import effect_unknowns
 from pam_ros.rig.arrangements import ARRANGEMENTS
 from pam_ros.rig.joint import one_muscle
 from pam_ros.rig.run import simulate
@@ -39,6 +39,7 @@ run = simulate(joint, t, [0.0, 0.1], [2e5, 3e5])
 beside = simulate(
     joint, t, [0.0, 0.1], [2e5, 3e5], hidden={'choked_valve': {'pressure': -1e4}}
 )
+(new,) = (effect for effect in EFFECTS if effect.name == 'choked_valve')
 tables = runpy.run_path('tools/tables.py')
 text = tables['with_tables'](tables['GUIDE'].read_text())
 print(json.dumps({
@@ -49,10 +50,10 @@ print(json.dumps({
     'pressure': list(run.pressure),
     'hidden': beside.pressure[0],
     'candidates': [effect.name for effect in one_muscle().library],
-    'unknown': [u.name for u in of_effect(joint, EFFECTS[-1])],
+    'unknown': [u.name for u in effect_unknowns(joint, new, new.example)],
     'feedback': list(left_to_feedback(joint)),
     'rows': [line for line in text.splitlines() if line.startswith('| `choked_valve')],
-    'parameters': [line for line in text.splitlines() if 'effects.choked_valve.' in line],
+    'parameters': [line for line in text.splitlines() if line.startswith('| **`effects.choked_valve')],
 }))
 """
 
@@ -77,15 +78,17 @@ def found(tmp_path_factory):
     guide = (ROOT / 'docs' / 'effects.md').read_text(encoding='utf-8')
     example, _ = re.findall(r'^```python\n(.*?)^```', guide, re.MULTILINE | re.DOTALL)
     (folder / NEW).write_text(example, encoding='utf-8')
-    lines = (folder / LINE).read_text(encoding='utf-8')
-    (line,) = re.findall(r'^```text\n(    choked_valve\.EFFECT,\n)```', guide, re.MULTILINE)
-    lines = lines.replace(')\n', f'{line})\n') if lines.endswith(')\n') else lines
-    lines = lines.replace(
-        '    coulomb_friction,\n', '    choked_valve,\n    coulomb_friction,\n', 1
-    )
-    (folder / LINE).write_text(lines, encoding='utf-8')
+    (line,) = re.findall(r"^```text\n(    '\w+',\n)```", guide, re.MULTILINE)
+    library = (folder / LINE).read_text(encoding='utf-8')
+    before_it = "    'pressure_lag',\n"
+    assert before_it in library
+    (folder / LINE).write_text(library.replace(before_it, before_it + line), encoding='utf-8')
     after = contents(folder)
-    touched = {path: before.get(path) for path, text in after.items() if before.get(path) != text}
+    touched = {
+        path: (before.get(path, b'').decode().splitlines(), text.decode().splitlines())
+        for path, text in after.items()
+        if before.get(path) != text
+    }
     done = subprocess.run(
         [sys.executable, '-c', ASKED],
         cwd=folder,
@@ -98,7 +101,36 @@ def found(tmp_path_factory):
     return touched, json.loads(done.stdout)
 
 
-def test_one_file_is_new_and_one_has_its_line(found):
+def test_one_file_is_new_and_one_has_one_more_line(found):
     touched, _ = found
     assert set(touched) == {NEW, LINE}
-    assert touched[NEW] is None
+    assert touched[NEW][0] == []
+    was, now = touched[LINE]
+    new = [line for line in now if line not in was]
+    assert new == ["    'choked_valve',"]
+    assert [line for line in now if line not in new] == was
+
+
+def test_it_acts_where_its_line_stands_and_every_joint_can_have_it(found):
+    _, known = found
+    library = known['library']
+    assert library[library.index('pressure_lag') + 1] == 'choked_valve'
+    assert known['candidates'] == library
+    assert all(known['arrangements'])
+
+
+def test_it_is_simulated_and_its_hidden_state_can_be_set(found):
+    _, known = found
+    # 1 Pa in 2 us is 50 kPa in 0.1 s.
+    assert known['pressure'] == pytest.approx([2e5, 2e5, 2.5e5, 3e5])
+    assert known['hidden'] == pytest.approx(1.9e5)
+
+
+def test_identification_control_and_page_know_it(found):
+    _, known = found
+    assert known['unknown'] == ['effects.choked_valve.slowness']
+    assert known['feedback'] == ['choked_valve']
+    (row,) = known['rows']
+    assert 'ISO 6358, sonic flow' in row
+    (parameter,) = known['parameters']
+    assert 'time for each Pa of change' in parameter
