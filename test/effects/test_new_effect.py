@@ -42,6 +42,7 @@ beside = simulate(
 (new,) = (effect for effect in EFFECTS if effect.name == 'choked_valve')
 tables = runpy.run_path('tools/tables.py')
 text = tables['with_tables'](tables['GUIDE'].read_text())
+cell = '| **`effects.choked_valve.'
 print(json.dumps({
     'library': [effect.name for effect in EFFECTS],
     'arrangements': [
@@ -53,7 +54,7 @@ print(json.dumps({
     'unknown': [u.name for u in effect_unknowns(joint, new, new.example)],
     'feedback': list(left_to_feedback(joint)),
     'rows': [line for line in text.splitlines() if line.startswith('| `choked_valve')],
-    'parameters': [line for line in text.splitlines() if line.startswith('| **`effects.choked_valve')],
+    'parameters': [line for line in text.splitlines() if line.startswith(cell)],
 }))
 """
 
