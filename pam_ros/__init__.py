@@ -26,14 +26,25 @@ if TYPE_CHECKING:
     from pam_ros.identification.result import Trace
     from pam_ros.muscle.fit import fit_static_map
     from pam_ros.muscle.muscle import Muscle
+    from pam_ros.parameters import parameter
+    from pam_ros.recording.csv_file import write_csv
+    from pam_ros.recording.mapping import read_mapping
     from pam_ros.recording.read import read_recording
     from pam_ros.recording.recording import Recording
+    from pam_ros.rig.co_contraction import pressures, stiffness_range
     from pam_ros.rig.joint import Actuator, Joint, one_muscle
-    from pam_ros.rig.loads import Arm, Mass
+    from pam_ros.rig.loads import Arm, Load, LoadEquations, Mass
     from pam_ros.rig.rest import rest
     from pam_ros.rig.rig import Rig
     from pam_ros.rig.run import Trajectory, simulate, simulate_held
-    from pam_ros.rig.transmissions import Lever, Pulley, Straight
+    from pam_ros.rig.statics import stiffness
+    from pam_ros.rig.transmissions import (
+        Lever,
+        Pulley,
+        Straight,
+        Transmission,
+        TransmissionEquations,
+    )
     from pam_ros.settings.files import load_rig
 
 __all__ = [
@@ -46,6 +57,8 @@ __all__ = [
     'Joint',
     'Lever',
     'Limits',
+    'Load',
+    'LoadEquations',
     'Mass',
     'Muscle',
     'PamError',
@@ -59,15 +72,23 @@ __all__ = [
     'Straight',
     'Trace',
     'Trajectory',
+    'Transmission',
+    'TransmissionEquations',
     '__version__',
     'fit_static_map',
     'load_rig',
     'one_muscle',
+    'parameter',
+    'pressures',
+    'read_mapping',
     'read_recording',
     'rest',
     'simulate',
     'simulate_held',
+    'stiffness',
+    'stiffness_range',
     'trace',
+    'write_csv',
 ]
 
 _PLACES = {
@@ -84,14 +105,25 @@ _PLACES = {
     'identification.result': ('Trace',),
     'muscle.fit': ('fit_static_map',),
     'muscle.muscle': ('Muscle',),
+    'parameters': ('parameter',),
+    'recording.csv_file': ('write_csv',),
+    'recording.mapping': ('read_mapping',),
     'recording.read': ('read_recording',),
     'recording.recording': ('Recording',),
+    'rig.co_contraction': ('pressures', 'stiffness_range'),
     'rig.joint': ('Actuator', 'Joint', 'one_muscle'),
-    'rig.loads': ('Arm', 'Mass'),
+    'rig.loads': ('Arm', 'Load', 'LoadEquations', 'Mass'),
     'rig.rest': ('rest',),
     'rig.rig': ('Rig',),
     'rig.run': ('Trajectory', 'simulate', 'simulate_held'),
-    'rig.transmissions': ('Lever', 'Pulley', 'Straight'),
+    'rig.statics': ('stiffness',),
+    'rig.transmissions': (
+        'Lever',
+        'Pulley',
+        'Straight',
+        'Transmission',
+        'TransmissionEquations',
+    ),
     'settings.files': ('load_rig',),
 }
 _PLACE_OF = {name: place for place, names in _PLACES.items() for name in names}

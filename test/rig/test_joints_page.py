@@ -1,0 +1,86 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The page on joints: its examples run, and the transmission that it adds moves as it must."""
+
+import importlib
+import re
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.integrate import quad, solve_ivp
+
+from pam_ros import Arm, Joint, Rig, rest
+from support import joints, paper
+from support.joint_models import UNEQUAL, actuators
+
+PAGE = Path(__file__).parents[2] / 'docs' / 'joints.md'
+EXAMPLES = re.findall(r'```python\n(.*?)```', PAGE.read_text(encoding='utf-8'), re.DOTALL)
+USE, AT_REST, OWN, OWN_USE = EXAMPLES
+
+
+@pytest.fixture
+def cam(monkeypatch, tmp_path):
+    """Return the page's transmission as a file of a user."""
+    (tmp_path / 'cam.py').write_text(OWN, encoding='utf-8')
+    monkeypatch.syspath_prepend(tmp_path)
+    monkeypatch.delitem(sys.modules, 'cam', raising=False)
+    return importlib.import_module('cam')
+
+
+@pytest.mark.needs_numba
+@pytest.mark.parametrize('example', [USE, AT_REST, OWN_USE])
+def test_examples_run_and_print_what_their_comments_say(example, cam, capsys):
+    exec(compile(example, str(PAGE), 'exec'), {'Cam': cam.Cam})
+    wanted = re.findall(r'^print\(.*\)  # (.*)$', example, re.MULTILINE)
+    assert len(wanted) >= 2
+    assert capsys.readouterr().out.splitlines() == wanted
+
+
+def test_examples_import_from_the_face_alone():
+    for example in EXAMPLES:
+        for module in re.findall(r'^from (pam_ros\S*) import', example, re.MULTILINE):
+            assert module == 'pam_ros'
+
+
+# The cam by itself: its radius over the angle; how far it has drawn is an integral of that.
+RADIUS, GROWTH = 0.035, 0.4
+
+
+def radius(angle):
+    return RADIUS * np.exp(GROWTH * angle)
+
+
+def test_a_transmission_of_ones_own_moves_as_its_equations_say(cam):
+    zeta, sides = 0.15, (1.0, -1.0)
+    at_zero = [0.09 * UNEQUAL[0].l0, 0.12 * UNEQUAL[1].l0]
+    joint = Joint(
+        actuators(UNEQUAL, (0.09, 0.12), zeta=zeta),
+        Arm(inertia=joints.OF_PULLEY, mass=joints.M, arm=joints.ARM, hanging_at=-0.4),
+        cam.Cam(RADIUS, GROWTH),
+    )
+    bar = (4.0, 3.0)
+
+    def rhs(_, state):
+        angle, rate = state
+        tau = -joints.M * paper.G * joints.ARM * np.sin(angle + 0.4)
+        for i, side in enumerate(sides):
+            r = side * radius(side * angle)
+            y = at_zero[i] + quad(radius, 0.0, side * angle, epsabs=1e-13)[0]
+            k, m = UNEQUAL[i].stiffness(bar[i], y), joints.J / (2.0 * r * r)
+            tau += r * (UNEQUAL[i].force(bar[i], y) - 2.0 * zeta * np.sqrt(m * k) * r * rate)
+        return rate, tau / joints.J
+
+    t = np.linspace(0.0, 1.0, 51)
+    found = solve_ivp(rhs, (0.0, 1.0), (0.25, 0.0), 'DOP853', t, rtol=1e-9, atol=1e-11)
+    rig = Rig([joint], 5e-4)
+    rig.reset([4e5, 3e5], [0.25], [0.0])
+    angle = [0.25]
+    for _ in t[1:]:
+        rig.advance(40)
+        angle.append(rig.position[0])
+    assert np.ptp(angle) > 0.05
+    np.testing.assert_allclose(angle, found.y[0], atol=1e-8)
+    rig.advance(20_000)
+    assert rig.position[0] == pytest.approx(rest(joint, [4e5, 3e5]), abs=1e-9)
