@@ -153,9 +153,9 @@ class Learner:
             one.theta[beside.CONSTANT] = -disturbance
         # Three equal poles, like the observer's: of the features, and of the force by which the
         # learned chamber differs from the declared one.
-        self._filter = np.zeros((3, _N + 5))
+        self._filter = np.zeros((3, _N + 6))
         self._filter[:, beside.CONSTANT] = 1.0
-        self._input = np.zeros(_N + 5)
+        self._input = np.zeros(_N + 6)
         self._plain_error = self._lagged_error = self._whole = 1.0
         self._plain_miss = self._lagged_miss = 1.0
         self._centre, self._has_learned = 0.0, False
@@ -242,7 +242,7 @@ class Learner:
             return
         fill, vent = self._lagged.theta[_N:].tolist()
         pressures = []
-        by_fill = by_vent = less = 0.0
+        by_fill = by_vent = less = late = 0.0
         for i, gain in enumerate(gains):
             chamber, sensitivity = self._chambers[i], self._sensitivities[i]
             chamber.fill, chamber.vent = fill, vent
@@ -254,7 +254,9 @@ class Learner:
             by_fill += -gain * sensitivity.fill
             by_vent += -gain * sensitivity.vent
             less += gain * (pressures[i] - means[i])
+            late += gain * (pressures[i] - inflows[i])
         self._input[_N], self._input[_N + 1], self._input[_N + 2] = by_fill, by_vent, less
+        self._input[_N + 5] = late
         observer.predict(dt, pressures, -losses)
 
     def _learn(self, span: float) -> None:
@@ -262,6 +264,8 @@ class Learner:
         phi = self._filter[2, : _N + 2]
         missing = -self._observer.disturbance
         as_declared = missing - self._filter[2, _N + 2]
+        # What would be missing if no lag were inverted: all that there is to explain.
+        unlearned = missing - self._filter[2, _N + 5]
         plain = as_declared - float(phi[:_N] @ self._plain.theta[:_N])
         lagged = missing - float(phi[:_N] @ self._lagged.theta[:_N])
         share = min(span / self._tuning.judge, 1.0)
@@ -272,10 +276,10 @@ class Learner:
         )
         self._lagged_miss += share * ((missing - self._filter[2, _N + 4]) ** 2 - self._lagged_miss)
         if not self._has_learned:
-            # A load that nobody declared is no evidence of anything else.
-            self._centre, self._has_learned = as_declared, True
-        self._centre += min(span / self._tuning.centre, 1.0) * (as_declared - self._centre)
-        self._whole += share * ((as_declared - self._centre) ** 2 - self._whole)
+            # An undeclared load is no evidence of anything else.
+            self._centre, self._has_learned = unlearned, True
+        self._centre += min(span / self._tuning.centre, 1.0) * (unlearned - self._centre)
+        self._whole += share * ((unlearned - self._centre) ** 2 - self._whole)
         self._choose(span)
         forgotten = self._tuning.forgotten * span
         # What was seen while the lag was thought to be another one said where to go from there.
@@ -311,6 +315,7 @@ class Learner:
         self._lagged.covariance = self._plain.covariance.copy()
         self._lagged.covariance[_N:, _N:] = np.diag(self._spread[_N:] ** 2)
         self._observer.disturbance += float(self._filter[2, _N + 2])
+        self._filter[:, _N + 5] -= self._filter[:, _N + 2]
         self._filter[:, _N + 2] = 0.0
         self._input[_N:] = 0.0
         for chamber, pressure in zip(self._chambers, self._declared, strict=True):
