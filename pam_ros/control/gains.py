@@ -155,7 +155,7 @@ class Gains:
         turning=OnTurning(2e-4, 1.0),
     )
     learning: bool = parameter(
-        True, 'whether friction, hysteresis and lag that nobody declared are learned from motion'
+        True, 'whether undeclared friction, hysteresis and lag are learned from motion'
     )
     pressure_time: float = parameter(
         0.02,

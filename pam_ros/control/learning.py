@@ -4,7 +4,7 @@
 
 A second, fast observer estimates the whole force that the model misses. It is explained by two
 hypotheses, side by side: friction, hysteresis and stiffness alone (:mod:`.features`), or these
-and a lag of the pressure that nobody declared. Both are linear regressions over the same filter
+and an undeclared lag of the pressure. Both are linear regressions over the same filter
 as the observer's, the lag's time constants by their sensitivities (Ljung 1999, chapter 11). The
 one that predicts better is used, weighed by how much of the missing force it explains; nothing
 is used before the load has moved for a while.
@@ -272,7 +272,7 @@ class Learner:
         )
         self._lagged_miss += share * ((missing - self._filter[2, _N + 4]) ** 2 - self._lagged_miss)
         if not self._has_learned:
-            # A load that nobody declared is no evidence of anything else.
+            # An undeclared load is no evidence of any other effect.
             self._centre, self._has_learned = as_declared, True
         self._centre += min(span / self._tuning.centre, 1.0) * (as_declared - self._centre)
         self._whole += share * ((as_declared - self._centre) ** 2 - self._whole)
