@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The gains of the sliding-mode law, in what a user can think in, and the conditions on them."""
+"""The gains of the sliding-mode law, as bandwidths and bounds, and the conditions on them."""
 
 from dataclasses import dataclass
 from math import acos, exp, log, pi, sqrt

@@ -47,7 +47,7 @@ class Loop:
         self.state = WAITING
         self.pressures: Pressures | None = None
         self.chambers: Pressures | None = None  # commands in Pa that would hold what is measured
-        self.awaits_chamber = False  # whether such a measurement is worth waiting for
+        self.awaits_chamber = False  # whether to wait for such a measurement
         self.starts = 0
         self._seen: Reading | None = None
         self._is_new = False

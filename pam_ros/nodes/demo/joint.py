@@ -83,7 +83,7 @@ def record(stage: Stage) -> JointCourse:
 
 
 def sine() -> JointTrajectory:
-    """Return the sine as a trajectory around 0; it swells over a cycle and fades over the last."""
+    """Return the sine as a trajectory around 0; it grows over a cycle and decays over the last."""
     turn, end = 2.0 * math.pi * FREQUENCY, CYCLES / FREQUENCY
     message = JointTrajectory(joint_names=['pam'])
     for k in range(1, round(end / SPACING) + 1):

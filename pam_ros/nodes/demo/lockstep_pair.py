@@ -97,7 +97,7 @@ class LockstepPair:
 
     def begin(self, *received: list[Any]) -> None:
         """Wait until it is controlled, and something has come into each of *received*."""
-        # Not the terms: they come once with the first command, perhaps before the subscription.
+        # Not the terms: they come once with the first command, which may be too early for us.
         lists = (self.states, *received)
         self._until(lambda: self._held is not None and all(lists), 'the first command')
 

@@ -77,7 +77,7 @@ def sine(middle: float) -> JointTrajectory:
     message = JointTrajectory(joint_names=['pam'])
     for k in range(1, round(end / SPACING) + 1):
         t = k * SPACING
-        # It swells over the first cycle and fades over the last.
+        # Its amplitude grows over the first cycle and decays over the last.
         share = min(t * FREQUENCY, (end - t) * FREQUENCY, 1.0)
         swing = SWING * math.sin(0.5 * math.pi * max(share, 0.0)) ** 2
         message.points.append(

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""How a recorder listens to publishers of all kinds, and how a bag says what they were."""
+"""The quality of service of a recorder's subscriptions, and of publishers in a bag."""
 
 from typing import Any
 
