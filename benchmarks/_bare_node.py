@@ -102,8 +102,8 @@ def listen(seconds: float, file: str, stop: StopRequest) -> None:
     gc.freeze()
     while not stop.is_made and (not arrival or arrival[-1] - arrival[0] < SETTLE):
         executor.spin_once(timeout_sec=0.1)
-    for heard in (arrival, stamp, position):
-        heard.clear()
+    for received in (arrival, stamp, position):
+        received.clear()
     print('begin', flush=True)
     end = monotonic_ns() + round(seconds * 1e9)
     while not stop.is_made and monotonic_ns() < end:

@@ -39,7 +39,7 @@ class Series:
 
 
 class Pair:
-    """Both programs in a namespace of this process, and a client that has heard both."""
+    """Both programs in a namespace of this process, and a client that collects their messages."""
 
     def __init__(self, client: Client) -> None:
         """Listen."""
@@ -90,7 +90,7 @@ def step_and_sine(
     where = ('-r', f'__ns:={space}')
     rig = {'mass': MASS + payload, 'initial.pressure': PRESSURE}
     believed = {'mass': MASS, 'controller': controller}
-    # Nobody else's nodes are to be heard.
+    # Nodes of other machines are not to take part.
     os.environ.setdefault('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
     with (
         Client(space) as client,

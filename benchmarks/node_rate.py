@@ -20,7 +20,7 @@ RATE = 1000.0  # Hz
 SECONDS = 30.0
 TICK = os.sysconf('SC_CLK_TCK')
 BARE = [sys.executable, '-m', 'benchmarks._bare_node']
-# Nobody else's nodes are to be heard.
+# Nodes of other programs are not to take part.
 NAMESPACE = ['--ros-args', '-r', f'__ns:=/node_rate_{os.getpid()}']
 PUBLISHERS = {
     # rclpy's timer leaves out the periods that it is late for, so that its lateness means little.
@@ -62,7 +62,7 @@ def measure(command: list[str]) -> Measured:
     """Run one publisher with one subscriber."""
     env = {**os.environ, 'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST'}
     with tempfile.TemporaryDirectory() as folder:
-        file = str(Path(folder, 'heard.npz'))
+        file = str(Path(folder, 'received.npz'))
         listen = [*BARE, 'listen', str(SECONDS), file, *NAMESPACE]
         with (
             subprocess.Popen([*command, *NAMESPACE], env=env, start_new_session=True) as publisher,
@@ -75,8 +75,10 @@ def measure(command: list[str]) -> Measured:
             used = cpu_seconds(publisher.pid) - begin
             listener.wait()
             publisher.send_signal(signal.SIGINT)
-        with np.load(file) as heard:
-            arrival, stamp, position = (heard[name] for name in ('arrival', 'stamp', 'position'))
+        with np.load(file) as received:
+            arrival, stamp, position = (
+                received[name] for name in ('arrival', 'stamp', 'position')
+            )
     # The simulator's stamps count its periods, the bare node's position does.
     is_bare = command[:3] == BARE
     number = position if is_bare else np.round((stamp - stamp[0]) * RATE * 1e-9)

@@ -54,10 +54,10 @@ def end(process: subprocess.Popen[bytes]) -> None:
 
 
 def values(diagnostics: list[DiagnosticArray], name: str) -> dict[str, str]:
-    """Return what the simulator of this name told last of its timing."""
+    """Return what the simulator of this name published last of its timing."""
     full = f'{NAMESPACE[1:]}/{name}: timing'
-    told = (s for m in reversed(diagnostics) for s in m.status if s.name == full)
-    status = next(told, None)
+    found = (s for m in reversed(diagnostics) for s in m.status if s.name == full)
+    status = next(found, None)
     return {v.key: v.value for v in status.values} if status else {}
 
 
@@ -116,7 +116,7 @@ def many(client: Client, diagnostics: list[DiagnosticArray]) -> None:
         (JointState, 'joint_states'),
         *((Float64MultiArray, name) for name in ARRAYS),
     ):
-        # Somebody listens to each topic, so that messages are sent.
+        # Each topic has a subscriber, so that messages are sent.
         client.node.create_subscription(kind, topic, lambda message: None, 10, raw=True)
     for count in MUSCLES:
         names = [f'm{i}' for i in range(count)]

@@ -22,12 +22,12 @@ ARGUMENTS = (
     DeclareLaunchArgument(
         'joint',
         default_value='load',
-        description='load: one muscle; antagonistic: two on a pulley, as joint_params declares',
+        description='load: one muscle; parallel, antagonistic, lever, crank: see joint_params',
     ),
     DeclareLaunchArgument(
         'joint_params',
         default_value=str(CONFIG / 'antagonistic.yaml'),
-        description='ROS parameter file of both programs where joint is antagonistic',
+        description='ROS parameter file of both programs where joint is not load',
     ),
     DeclareLaunchArgument(
         'mass', default_value='', description="kg of the load, for both; none: the muscle's"

@@ -27,7 +27,7 @@ ARGUMENTS = (
 
 
 def start(context: LaunchContext) -> list[Node]:
-    """Return the node, told only what the command line gives: the file may say the rest."""
+    """Return the node with what the command line gives: the parameter file may set the rest."""
     given = {name: LaunchConfiguration(name).perform(context) for name in ('muscle', 'params')}
     parameters: list[object] = [
         {'use_sim_time': ParameterValue(LaunchConfiguration('use_sim_time'), value_type=bool)}

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Compile plain scalar functions with numba where it is installed, else leave them as they are.
 
-The same source runs both ways: rooms write scalar Python with ``math`` and decorate it.
+The same source runs both ways: packages write scalar Python with ``math`` and decorate it.
 """
 
 from collections.abc import Callable

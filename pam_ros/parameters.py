@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Declarative parameters: a dataclass field that carries unit, range and text.
 
-One table per room feeds everything: checks here, ROS parameters in ``nodes/``, the
+One table per package serves everything: checks here, ROS parameters in ``nodes/``, the
 documentation, and the YAML files.
 """
 

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""``pam_control``: move the load of one muscle to a position, or a pair to an angle.
+"""``pam_control``: move the load of a joint to a position or an angle.
 
 Subscribes
     ``joint_states`` (sensor_msgs/JointState): contraction in m, of the joint joint_name
@@ -13,9 +13,11 @@ Publishes
 Services
     ``~/enable`` (std_srvs/SetBool): control from where the joint is, or command nothing
 
-With ``joint`` antagonistic two muscles turn a pulley: rad for m; it subscribes
-``co_contraction_reference`` (Float64, stiffness of the joint in N m/rad) as well, and publishes
-``pressure_commands`` (std_msgs/Float64MultiArray), or ``<muscle>/pressure_command`` of each.
+The same law serves every kind of ``joint``: load (one muscle, the default), parallel,
+antagonistic, lever and crank. The last three turn: rad for m. With any but load it publishes
+``pressure_commands`` (std_msgs/Float64MultiArray), or ``<muscle>/pressure_command`` of each. With
+antagonistic and lever it subscribes ``co_contraction_reference`` (Float64, stiffness of the joint
+in N m/rad) as well.
 
 Contraction is positive: the load moves up. Parameters say what they are:
 ``ros2 param describe /pam_control <name>``. It begins by holding the load where it is. A reference

@@ -27,9 +27,9 @@ def main() -> None:
     for name in given.chapters:
         if name not in CHAPTERS:
             parser.error(f'there is no chapter {name}: give one of ' + ', '.join(CHAPTERS))
-    # A polite kill stops the programs that a chapter has started, as Ctrl-C does.
+    # SIGTERM stops the programs that a chapter has started, as Ctrl-C does.
     heed()
-    # Nothing of the demonstration needs another machine, and none should hear it.
+    # The demonstration needs no other machine, and no other should receive its messages.
     os.environ.setdefault('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
     try:
         stage = import_module('pam_ros.nodes.demo.stage').Stage(given.out)

@@ -28,7 +28,7 @@ class _Parser(argparse.ArgumentParser):
 
     def error(self, message: str) -> NoReturn:
         """Print the sentence and exit."""
-        self.exit(BAD_INPUT, f'{self.prog}: {message} (--help tells more)\n')
+        self.exit(BAD_INPUT, f'{self.prog}: {message} (--help says more)\n')
 
 
 def parser() -> argparse.ArgumentParser:
@@ -85,7 +85,7 @@ def parser() -> argparse.ArgumentParser:
 
 
 class Progress:
-    """Tells what runs: a bar on a terminal, else a line whenever something else begins."""
+    """Shows what runs: a bar on a terminal, else a line whenever something else begins."""
 
     def __init__(self) -> None:
         """Begin at nothing."""

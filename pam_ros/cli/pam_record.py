@@ -3,7 +3,7 @@
 """``pam_record``: write the topics of a rig to a rosbag2, for machines without ``ros2 bag``.
 
 Records ``joint_states``, ``pressure_command``, ``force``, ``stiffness``, ``damping`` and
-``pressure``, and the topics that are named, each as soon as somebody publishes it. Messages are
+``pressure``, and the topics that are named, each as soon as it is published. Messages are
 kept as they came, with the time at which the middleware received them. The bag (MCAP, with
 metadata.yaml) is whole at every moment: when the recorder is killed, what is lost is the last
 second. Ctrl-C ends it.

@@ -8,7 +8,7 @@ from pam_ros.control.profile import Bounds, Rest
 from pam_ros.control.sharing import Sharing
 from pam_ros.parameters import check_all, parameter
 
-SWIFT = 0.05  # s in which the rate is reached, and its change: some three samples of a 50 Hz topic
+RISE = 0.05  # s in which the rate is reached, and its change: some three samples of a 50 Hz topic
 
 
 @dataclass(frozen=True)
@@ -55,7 +55,7 @@ class CoContraction:
 
 
 class StiffnessCourse:
-    """Leads the stiffness to what was set last, within bounds; N/m or N m/rad."""
+    """Moves the stiffness to the value that was set last, within bounds; N/m or N m/rad."""
 
     def __init__(self, goal: float, rate: float) -> None:
         """Rest at *goal*; approach others at *rate* a second."""
@@ -84,8 +84,8 @@ class StiffnessCourse:
         """Return the stiffness *dt* s on."""
         if self._is_new:
             # However often it is set, the way is sought once a step.
-            slope = self.rate / SWIFT
-            self._offset.begin(self._offset.state, Bounds(self.rate, slope, slope / SWIFT))
+            slope = self.rate / RISE
+            self._offset.begin(self._offset.state, Bounds(self.rate, slope, slope / RISE))
             self._is_new = False
         self._offset.follow(dt)
         return self.stiffness

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Where the load shall go: held, told by positions, or on a trajectory, always without a jump."""
+"""Where the load shall go: hold, follow set positions or a trajectory, always without a jump."""
 
 from collections.abc import Sequence
 from math import isfinite
@@ -13,7 +13,7 @@ from pam_ros.errors import RangeError
 
 
 class Course:
-    """Makes one reference of all that the load is told; the newest word counts."""
+    """Makes one reference of all targets that are set; the newest target counts."""
 
     def __init__(self, shape: Shape, reach: tuple[float, float], unit: str = 'm') -> None:
         """Make it for a load that can be held within *reach* (lowest, highest), in *unit*."""
@@ -30,7 +30,7 @@ class Course:
         low, high = min(self.reach[0], self._start), max(self.reach[1], self._start)
         if low <= reference.position <= high:
             return reference
-        # What a stream of positions seems to lead to is more than it has told.
+        # A stream of positions is extrapolated, which can go beyond the positions that were set.
         return Reference(min(max(reference.position, low), high))
 
     @property
@@ -39,7 +39,7 @@ class Course:
         return self._trajectory is not None
 
     def start(self, position: float) -> None:
-        """Hold the load at *position* m, whatever it was told before."""
+        """Hold the load at *position* m, whatever target was set before."""
         self._trajectory = None
         self._start = position
         self._shaper.start(position)
@@ -48,8 +48,8 @@ class Course:
         """Go on within other bounds."""
         self._shaper.set_shape(shape)
 
-    def tell(self, position: float, ago: float = 0.0) -> None:
-        """Take a position in m that was told *ago* s ago; raises RangeError out of reach."""
+    def set_target(self, position: float, ago: float = 0.0) -> None:
+        """Take a target in m that was set *ago* s ago; raises RangeError out of reach."""
         if not isfinite(position):
             raise RangeError(f'reference {position} is no position')
         refuse_unreachable(position, self.reach, self.unit)
@@ -58,7 +58,7 @@ class Course:
         self._shaper.take(position, ago)
 
     def play(self, points: Sequence[Point], wait: float = 0.0) -> None:
-        """Follow *points* from *wait* s from now on, in the midst of them where that is negative.
+        """Follow *points* from *wait* s from now on, from between them where that is negative.
 
         Without points, stop where it is. Raises RangeError for points that make no motion within
         reach; then all stays as it was.

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The gains of the sliding-mode law, in what a user can think in, and the conditions on them."""
+"""The gains of the sliding-mode law, as bandwidths and bounds, and the conditions on them."""
 
 from dataclasses import dataclass
 from math import acos, exp, log, pi, sqrt
@@ -155,7 +155,7 @@ class Gains:
         turning=OnTurning(2e-4, 1.0),
     )
     learning: bool = parameter(
-        True, 'whether friction, hysteresis and lag that nobody declared are learned from motion'
+        True, 'whether undeclared friction, hysteresis and lag are learned from motion'
     )
     pressure_time: float = parameter(
         0.02,

@@ -4,7 +4,7 @@
 
 A second, fast observer estimates the whole force that the model misses. It is explained by two
 hypotheses, side by side: friction, hysteresis and stiffness alone (:mod:`.features`), or these
-and a lag of the pressure that nobody declared. Both are linear regressions over the same filter
+and an undeclared lag of the pressure. Both are linear regressions over the same filter
 as the observer's, the lag's time constants by their sensitivities (Ljung 1999, chapter 11). The
 one that predicts better is used, weighed by how much of the missing force it explains; nothing
 is used before the load has moved for a while.

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """A law in service: it starts where the load is, and does what is safe when nothing is seen.
 
-All times are seconds of one clock that is told with each call; measurements carry the time at
-which they were taken.
+All times are seconds of one clock, whose time is given with each call; measurements carry the
+time at which they were taken.
 """
 
 from dataclasses import dataclass
@@ -16,7 +16,7 @@ from pam_ros.control.trajectory import Point, Trajectory
 HOLD, VENT = 'hold', 'vent'
 WAITING, RUNNING, BLIND, DISABLED = 'waiting', 'running', 'blind', 'disabled'
 # Shortest step in periods, since a law divides by it, and longest in s: what passes in a longer
-# one is not steered, and a law that took it for one step would overshoot.
+# one is not controlled, and a law that took it for one step would overshoot.
 LEAST, MOST = 0.1, 0.1
 
 
@@ -30,7 +30,7 @@ class Reading:
 
 
 class Loop:
-    """Runs a law at a period, on what is seen and told.
+    """Runs a law at a period, on measurements and set targets.
 
     state
         WAITING for a first measurement, RUNNING, BLIND without fresh measurements, DISABLED
@@ -47,7 +47,7 @@ class Loop:
         self.state = WAITING
         self.pressures: Pressures | None = None
         self.chambers: Pressures | None = None  # commands in Pa that would hold what is measured
-        self.awaits_chamber = False  # whether such a measurement is worth waiting for
+        self.awaits_chamber = False  # whether to wait for such a measurement
         self.starts = 0
         self._seen: Reading | None = None
         self._is_new = False
@@ -59,7 +59,7 @@ class Loop:
         return self.state != DISABLED
 
     def enable(self, is_enabled: bool) -> None:
-        """Begin anew from wherever the load is, or fall silent."""
+        """Begin anew from wherever the load is, or command nothing."""
         if is_enabled != self.is_enabled:
             self.state = WAITING if is_enabled else DISABLED
             self._seen = None

@@ -22,8 +22,8 @@ from pam_ros.rig.joint import Joint
 class PidGains:
     """Gains of the PID law.
 
-    The defaults are the best that one set can be for all rigs of ``benchmarks/control.py`` whose
-    lag or load nobody declared: of all gains, by differential evolution, those with the least
+    The defaults are the best that one set can be for all rigs of ``benchmarks/control.py`` with an
+    undeclared lag or load: of all gains, by differential evolution, those with the least
     integral of the absolute error after a load of 50 N, at the worst place from 45 to 85 mm,
 
     - with a largest sensitivity of 1.6 at most on the nominal rig, at each place, and of 2.0 with

@@ -80,10 +80,10 @@ class PressurePath:
     def command_for(self, pressure: float, rate: float) -> float:
         """Return the command in Pa that brings the chamber to *pressure*, which goes at *rate*.
 
-        The part of *pressure* that is foreseen has its known *rate* in Pa/s and is led by what
-        the path will take: dead time and lag, the lag down to ``quickest``. The rest of a longer
-        lag is driven out by ``u = p + r (p - chamber)``, which closes a loop of that time around
-        the lag.
+        The part of *pressure* that is foreseen has its known *rate* in Pa/s and is commanded
+        ahead of time by the delay of the path: dead time and lag, the lag down to ``quickest``.
+        The rest of a longer lag is driven out by ``u = p + r (p - chamber)``, which closes a loop
+        of that time around the lag.
         """
         chamber = self.chamber
         lag = min(0.5 * (chamber.fill + chamber.vent), self.quickest)

@@ -29,7 +29,7 @@ class Piece(NamedTuple):
 
 
 def change(velocity: float, acceleration: float, wanted: float, bounds: Bounds) -> list[Piece]:
-    """Return the pieces that lead to the *wanted* velocity at no acceleration."""
+    """Return the pieces to the *wanted* velocity at no acceleration."""
     j, most = bounds.jerk, bounds.acceleration
     # Where the velocity ends when the acceleration is taken away at once decides the direction.
     straight = velocity + acceleration * abs(acceleration) / (2.0 * j)
@@ -73,7 +73,7 @@ def _ways(
 
 
 def to_rest(state: tuple[float, float, float], bounds: Bounds) -> list[Piece]:
-    """Return the pieces that lead from *state* (m, m/s, m/s^2) to rest at 0."""
+    """Return the pieces from *state* (m, m/s, m/s^2) to rest at 0."""
     for peak in (bounds.velocity, -bounds.velocity):
         to, back, end = _ways(state, peak, bounds)
         if end * peak <= 0.0:

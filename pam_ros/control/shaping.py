@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""From where the load is told to be to a reference that it can follow.
+"""From the target that is set for the load to a reference that it can follow.
 
 A target that jumps is approached within bounds of velocity, acceleration and jerk. A target that
 moves smoothly is passed on with its derivatives and without lag, whatever the bounds: what is
@@ -19,7 +19,7 @@ from pam_ros.parameters import OnTurning, check_all, parameter, turning_defaults
 
 @dataclass(frozen=True)
 class StreamTuning:
-    """How a target that is set again and again is told from one that jumps."""
+    """How a target that is set again and again is distinguished from one that jumps."""
 
     quick: float = number(
         80.0, 'rad/s', 'of the tracker: a sine of 0.5 Hz is followed to 6e-5 of its amplitude'
@@ -90,7 +90,7 @@ class Shape:
 
 
 class Tracker:
-    """Velocity and acceleration of a target that is only told as positions, sample by sample.
+    """Velocity and acceleration of a target that is only given as positions, sample by sample.
 
     An alpha-beta-gamma filter with three equal poles at ``StreamTuning.quick``: it follows a
     constant acceleration without error, a sine of amplitude A and w rad/s with one of
@@ -177,7 +177,7 @@ class Shaper:
         self._tracker.bounds = shape.bounds
 
     def take(self, position: float, ago: float = 0.0) -> None:
-        """Take in a target in m that was told *ago* s ago."""
+        """Take in a target in m that was set *ago* s ago."""
         if self._tracker.take(position, ago):
             self._set_out(*self._tracker.state)
 
@@ -185,7 +185,7 @@ class Shaper:
         """Let the target go on from the motion *target*, as that of a trajectory.
 
         Its acceleration is taken at once, as at all of its points: what the bounds of jerk would
-        add to a quick beginning could lead out of reach.
+        add to a quick beginning could go beyond the reach.
         """
         self._set_out(target.position, target.velocity, self.reference.acceleration)
 

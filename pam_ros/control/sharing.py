@@ -53,7 +53,7 @@ class Sharing(ABC):
     def rates(
         self, dt: float, foreseen: float, rate: float, stiffness: float, s: float
     ) -> tuple[float, ...]:
-        """Return how fast the pressures go, Pa/s, where the joint is led along its reference.
+        """Return how fast the pressures go, Pa/s, while the joint moves along its reference.
 
         *foreseen* is the effort that the reference needs, and *rate* how fast the muscles' efforts
         at constant length would have to change, which their spring along the reference adds to.

@@ -117,7 +117,7 @@ def term_names(muscles: int) -> tuple[str, ...]:
 
 
 class PositionLaw(Protocol):
-    """A law that turns positions into pressures; it has no clock and knows no ROS.
+    """A law that turns positions into pressures; it has no clock and does not depend on ROS.
 
     For a joint that turns, read rad for m, and N m for N.
     """

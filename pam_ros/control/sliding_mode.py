@@ -334,7 +334,7 @@ class SlidingMode:
             most = max(abs(spring), self._tuning.stuck_rate / (inertia * self._bandwidth))
             spring = min(max(spring * standstill.stiffness, -most), most)
         growth = (self._decay * self._error_rate + spring) * dt
-        # Anti-windup: at a limit the integral may only lead away from it.
+        # Anti-windup: at a limit the integral may only change away from it.
         if growth * cut <= 0.0 and self._pushed is None:
             self._surface.integral += growth
         standstill.see_force(dt, effort, self._seen, self._k)

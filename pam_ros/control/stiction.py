@@ -4,11 +4,11 @@
 
 Friction that falls when the load begins to slide makes every integral hunt: the load sticks
 beside the goal, is pulled until it breaks loose, slips past and sticks on the other side. Such
-breaks, in turn each way, tell what the hunt is about: the force in their middle, at which the load
-would stay in peace, and the force that breaks it loose. From then on the load is pushed from the
-middle force until it breaks loose, and the push is taken back as soon as what the load will still
-slide brings it to the goal (after Popovic, Gorinevsky & Goldenberg 2000, who fix the pushes
-beforehand). In the end it rests at the middle force, where nothing pulls at it.
+breaks, in turn each way, show the forces of this limit cycle: the force in their middle, at which
+the load would stay at rest, and the force that breaks it loose. From then on the load is pushed
+from the middle force until it breaks loose, and the push is taken back as soon as what the load
+will still slide brings it to the goal (after Popovic, Gorinevsky & Goldenberg 2000, who fix the
+pushes beforehand). In the end it rests at the middle force, where nothing pulls at it.
 """
 
 from dataclasses import dataclass
@@ -19,7 +19,7 @@ from pam_ros.control.tuning import number
 
 @dataclass(frozen=True)
 class StictionTuning:
-    """How sticking and slipping are told from other motion, and how pushes are made."""
+    """How sticking and slipping are distinguished from other motion, and how pushes are made."""
 
     tolerance: float = number(
         1.5, '', 'rest tolerances that a load which sticks and slips may be off: control, friction'
@@ -27,7 +27,7 @@ class StictionTuning:
     loose_way: float = number(
         60e-6,
         'm',
-        'way that tells a slip from a bent contact: three times the noise, and beyond '
+        'way that distinguishes a slip from a bent contact: three times the noise, and beyond '
         'the default presliding of 10 um',
     )
     loose_speed: float = number(

@@ -15,7 +15,7 @@ class SuperTwisting:
 
         s' = -k1 sqrt|s| sign s + w + d,    w' = -k2 sign s
 
-    The root is taken of the s that it leads to at the end of the step, and sign s is s itself
+    The root is taken of the s that results at the end of the step, and sign s is s itself
     where a whole step of w would overshoot (after the implicit schemes of Brogliato, Polyakov &
     Efimov 2020). At rest w is -d of the step before, and |s| is what d changed since, times dt.
     """

@@ -42,7 +42,7 @@ class Trajectory:
         reach: tuple[float, float],
         unit: str = 'm',
     ) -> None:
-        """Lead through *points*, in order; one at time 0 takes the place of *start*."""
+        """Pass through *points*, in order; one at time 0 takes the place of *start*."""
         _refuse_bad(points)
         if points[0].time > 0.0:
             first = Point(0.0, start.position, start.velocity, start.acceleration)
@@ -81,7 +81,7 @@ class Trajectory:
 def _refuse_bad(points: Sequence[Point]) -> None:
     """Raise RangeError where there are no points, or stamps or values make no motion."""
     if not points:
-        raise RangeError('a trajectory without points leads nowhere')
+        raise RangeError('a trajectory without points makes no motion')
     last = -1.0
     for n, p in enumerate(points):
         values = (p.time, p.position, p.velocity or 0.0, p.acceleration or 0.0)

@@ -22,7 +22,7 @@ from pam_ros.report.wording import Scale, interval, number
 Array = NDArray[np.float64]
 
 MUSCLE = 'dmsp_20_400n'
-# What the rig has and nobody tells the finder: friction of its guide, a valve that takes its
+# What the rig has and is not declared to the finder: friction of its guide, a valve that takes its
 # time, a specimen that is not quite the maker's, and a sensor that is not perfect.
 HIDDEN: dict[str, Any] = {
     'muscle': MUSCLE,

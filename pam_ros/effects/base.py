@@ -91,7 +91,7 @@ class EffectParameter:
     sign: int = 0
 
     def described(self) -> Parameter:
-        """Return the description that the parameter tools of every room share."""
+        """Return the description that :mod:`pam_ros.parameters` checks values against."""
         return Parameter(self.text, self.unit, self.low, self.high)
 
 

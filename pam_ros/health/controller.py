@@ -12,8 +12,8 @@ from pam_ros.settings.control import ControlSetup
 from pam_ros.timing.ticker import Punctuality
 
 
-class Heard(NamedTuple):
-    """What a controller hears."""
+class Received(NamedTuple):
+    """What a controller has received."""
 
     age: float | None  # s of the newest joint states
     blindness: str  # why the last of them was not usable
@@ -72,21 +72,21 @@ def trouble(loop: Loop, on_timeout: str, blindness: str, fault: str) -> str:
     }[loop.state]
 
 
-def control(loop: Loop, setup: ControlSetup, heard: Heard, fault: str) -> Health:
+def control(loop: Loop, setup: ControlSetup, received: Received, fault: str) -> Health:
     """Return the health of the control; *fault* is why the law was given up."""
     state = loop.state
-    why = trouble(loop, setup.settings.on_timeout, heard.blindness, fault)
-    values = values_of(loop, setup, heard.age)
-    values |= {'refused': heard.refused, 'last reason': heard.refusal}
-    is_blind = state == BLIND or (state == WAITING and bool(heard.blindness))
+    why = trouble(loop, setup.settings.on_timeout, received.blindness, fault)
+    values = values_of(loop, setup, received.age)
+    values |= {'refused': received.refused, 'last reason': received.refusal}
+    is_blind = state == BLIND or (state == WAITING and bool(received.blindness))
     if is_blind or fault:
         return Health(Level.ERROR, why, values)
-    if heard.is_refusal_new:
-        return Health(Level.WARN, heard.refusal, values)
+    if received.is_refusal_new:
+        return Health(Level.WARN, received.refusal, values)
     if state == WAITING:
         return Health(Level.WARN, why, values)
-    if state == RUNNING and heard.blindness:
-        return Health(Level.WARN, heard.blindness, values)
+    if state == RUNNING and received.blindness:
+        return Health(Level.WARN, received.blindness, values)
     return Health(Level.OK, why or 'controlling', values)
 
 

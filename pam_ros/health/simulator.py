@@ -15,8 +15,8 @@ from pam_ros.timing.ticker import Punctuality
 def commands(plant: Plant, last: int) -> Health:
     """Return the health of the commands, *last* being the muscle that had a bad one last."""
     inputs = plant.inputs
-    heard = plant.heard[~np.isnan(plant.heard)]
-    age = plant.time - float(heard.min()) if heard.size else None
+    commanded = plant.commanded_at[~np.isnan(plant.commanded_at)]
+    age = plant.time - float(commanded.min()) if commanded.size else None
     values = {
         'command age (s)': age,
         'last command (Pa)': inputs[0].last if len(inputs) == 1 else None,
@@ -27,7 +27,7 @@ def commands(plant: Plant, last: int) -> Health:
     }
     if len(inputs) > 1:
         del values['last command (Pa)']
-        values['muscles commanded'] = int(heard.size)
+        values['muscles commanded'] = int(commanded.size)
     if age is None:
         return Health(Level.OK, 'no command yet', values)
     if np.any(plant.is_silent):

@@ -13,7 +13,7 @@ from pam_ros.rig.joint import Joint
 from pam_ros.rig.start import start_joint, start_muscle, start_state
 
 Array = NDArray[np.float64]
-ROOM = 16  # commands of a muscle that may be under way before the queues grow
+QUEUE_LENGTH = 16  # commands of a muscle that may be under way before the queues grow
 
 
 class Group:
@@ -29,8 +29,8 @@ class Group:
         self._scratch = np.array([layout.scratch() for _ in joints])
         self.u = np.zeros((n, self.muscles))  # commands in force, Pa
         # Commands under way in the pressure path: stamps and values, grown as they are needed.
-        self._at = np.zeros((n, self.muscles, ROOM))
-        self._queue = np.zeros((n, self.muscles, ROOM))
+        self._at = np.zeros((n, self.muscles, QUEUE_LENGTH))
+        self._queue = np.zeros((n, self.muscles, QUEUE_LENGTH))
         self._count = np.zeros((n, self.muscles), dtype=np.int64)
         self._done = np.zeros_like(self._count)
         self.out = np.zeros((n, self.muscles, 4))

@@ -109,7 +109,7 @@ class ControlParameters(RigParameters):
 
     @property
     def common(self) -> Table:
-        """The table of what is everybody's beside the rig, in the units of this kind of joint."""
+        """The table of the common parameters beside the rig, in the units of this joint."""
         turning = self.kind.transmission.equations.revolute
         gains, names = table_of(Gains, 'gains.', turning=turning), table_of(SimSettings)
         del gains[f'gains.{MEASURED}']

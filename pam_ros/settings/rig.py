@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Which muscles and joints there are, and which parameters each of them has.
 
-A parameter without a name before it is everybody's; ``<name>.<parameter>`` is that of one muscle
-or joint alone. A name has those of its own that it was given at the start, itself or by a preset
-``<name>.muscle``; in all else it follows what is everybody's.
+A parameter without a name before it is common to all; ``<name>.<parameter>`` is that of one
+muscle or joint alone. A name has those of its own that it was given at the start, itself or by a
+preset ``<name>.muscle``; in all else it follows the common parameters.
 """
 
 import re
@@ -51,7 +51,7 @@ class RigParameters:
 
     @property
     def common(self) -> Table:
-        """The table of the parameters that are everybody's beside the rig."""
+        """The table of the parameters that are common to all beside the rig."""
         return {}
 
     def __init__(self, given: Values) -> None:
@@ -121,7 +121,7 @@ class RigParameters:
         }
 
     def base(self) -> Table:
-        """Return the table of the parameters that are everybody's."""
+        """Return the table of the common parameters."""
         plain = {
             **MUSCLE,
             **muscle_table(),
@@ -140,7 +140,7 @@ class RigParameters:
         return {name: value for name, value in values.items() if name in here}
 
     def table(self) -> Table:
-        """Return the table of everybody's parameters and of each name's own."""
+        """Return the table of the common parameters and of each name's own."""
         names = dict.fromkeys(chain(self.muscles, self.joints))
         own: dict[str, dict[str, Any]] = {}
         for flat, value in self._given.items():
@@ -162,14 +162,14 @@ class RigParameters:
     # Joints ----------------------------------------------------------------------------------
 
     def of_muscle(self, values: Values, i: int) -> dict[str, Any]:
-        """Return the values of muscle number i: its own, or everybody's."""
+        """Return the values of muscle number i: its own, or the common ones."""
         names = [self.muscles[i]]
         if self.kind.muscles == 1:
             names.append(self.joints[i])
         return _found(values, self._of_muscle, names)
 
     def of_joint(self, values: Values, k: int) -> dict[str, Any]:
-        """Return the values of joint number k beside its muscles: its own, or everybody's."""
+        """Return the values of joint number k beside its muscles: its own, or the common ones."""
         names = [self.joints[k]]
         if self.kind.muscles == 1:
             names.append(self.muscles[k])

@@ -33,7 +33,7 @@ class Scene(RigParameters):
 
     @property
     def common(self) -> Table:
-        """The table of the parameters that are everybody's beside the rig."""
+        """The table of the parameters that are common to all beside the rig."""
         return {**table_of(Sensors, 'sensor.'), **table_of(SimSettings)}
 
     def build(self, values: Values) -> 'Simulation':

@@ -32,7 +32,7 @@ ALIKE = 0.8  # likeness from which an unknown name is taken for a mistyped one
 
 
 def table_of(cls: type, prefix: str = '', *, turning: bool = False) -> Table:
-    """Return the table of a described dataclass, each name led by *prefix*.
+    """Return the table of a described dataclass, each name after *prefix*.
 
     With *turning* it is that of a joint that turns.
     """

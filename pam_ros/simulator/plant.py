@@ -62,7 +62,8 @@ class Plant:
         self._gauges = Feedback(self._gauge_sensors(simulation), len(pressures))
         self.step = 0
         self._ordered = pressures.copy()  # Pa, the last commands of the valves
-        self.heard = np.full(len(pressures), np.nan)  # simulated time of the last good command
+        # Simulated time of each muscle's last good command, NaN before there was one.
+        self.commanded_at = np.full(len(pressures), np.nan)
         self.is_silent = np.zeros(len(pressures), dtype=bool)
         self._deadline = math.inf  # simulated time of the first silence to come
 
@@ -103,7 +104,7 @@ class Plant:
         if pressure is None:
             return self._bad(muscle, is_refused=True)
         self._order(muscle, pressure)
-        self.heard[muscle] = self._rig.time
+        self.commanded_at[muscle] = self._rig.time
         self.is_silent[muscle] = False
         self._set_deadline()
         return None if pressure == value else self._bad(muscle)
@@ -121,7 +122,7 @@ class Plant:
                 bad = self._bad(i, is_refused=pressure is None)
             if pressure is not None:
                 ordered[i] = pressure
-                self.heard[i] = now
+                self.commanded_at[i] = now
                 self.is_silent[i] = False
         self._rig.command(ordered)
         self._set_deadline()
@@ -137,18 +138,19 @@ class Plant:
 
     def _set_deadline(self) -> None:
         timeout = self.simulation.settings.command_timeout
-        if len(self.heard) == 1:
-            heard = self.heard.item()
-            hears = timeout and not (math.isnan(heard) or self.is_silent.item())
-            self._deadline = heard + timeout if hears else math.inf
+        if len(self.commanded_at) == 1:
+            last = self.commanded_at.item()
+            is_watched = timeout and not (math.isnan(last) or self.is_silent.item())
+            self._deadline = last + timeout if is_watched else math.inf
             return
-        heard = self.heard[~np.isnan(self.heard) & ~self.is_silent]
-        self._deadline = float(heard.min()) + timeout if timeout and heard.size else math.inf
+        last = self.commanded_at[~np.isnan(self.commanded_at) & ~self.is_silent]
+        self._deadline = float(last.min()) + timeout if timeout and last.size else math.inf
 
     def _fall_silent(self) -> None:
         settings = self.simulation.settings
         for i in self._all:
-            if self._rig.time - self.heard[i] > settings.command_timeout and not self.is_silent[i]:
+            age = self._rig.time - self.commanded_at[i]
+            if age > settings.command_timeout and not self.is_silent[i]:
                 self.is_silent[i] = True
                 if settings.on_timeout == 'vent':
                     self._order(i, self.inputs[i].within_limits(0.0))

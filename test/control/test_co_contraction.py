@@ -5,7 +5,7 @@
 import numpy as np
 import pytest
 
-from pam_ros.control.co_contraction import SWIFT, CoContraction, StiffnessCourse
+from pam_ros.control.co_contraction import RISE, CoContraction, StiffnessCourse
 from pam_ros.errors import ParameterError, RangeError
 from pam_ros.rig.joint import one_muscle
 from support.closed_loop import shared
@@ -39,9 +39,9 @@ def test_another_is_approached_at_the_rate_and_without_a_jump():
     slope = np.diff(way, prepend=20.0) / DT
     assert np.max(slope) == pytest.approx(100.0, rel=1e-6)
     assert np.min(slope) >= -1e-9
-    assert np.max(np.abs(np.diff(slope, prepend=0.0))) / DT <= 1.001 * 100.0 / SWIFT
+    assert np.max(np.abs(np.diff(slope, prepend=0.0))) / DT <= 1.001 * 100.0 / RISE
     # Two ramps of jerk and the way at the rate between them.
-    assert np.argmax(way >= 40.0 - 1e-9) * DT == pytest.approx(20.0 / 100.0 + 2 * SWIFT, abs=0.01)
+    assert np.argmax(way >= 40.0 - 1e-9) * DT == pytest.approx(20.0 / 100.0 + 2 * RISE, abs=0.01)
     assert way[-1] == 40.0
 
 

@@ -31,18 +31,18 @@ def is_smooth(path, most=20.0):
     return np.max(np.abs(np.diff(path[:, 1]))) <= most * SHAPE.max_acceleration * DT
 
 
-def test_it_holds_until_it_is_told():
+def test_it_holds_until_a_target_is_set():
     assert np.all(follow(a_course(), 0.1) == [0.02, 0.0, 0.0, 0.0])
 
 
 def test_a_trajectory_interrupts_a_step_and_a_step_a_trajectory():
     course = a_course()
-    course.tell(0.08)
+    course.set_target(0.08)
     first = follow(course, 0.2)
     course.play([Point(1.0, 0.05), Point(2.0, 0.03)])
     second = follow(course, 1.3)
     assert course.is_on_trajectory
-    course.tell(0.06)
+    course.set_target(0.06)
     third = follow(course, 2.0)
     assert not course.is_on_trajectory
     assert is_smooth(np.vstack([first, second, third]))
@@ -88,7 +88,7 @@ def test_a_trajectory_goes_on_while_nobody_looks():
 def test_a_step_waits_while_nobody_looks():
     course, other = a_course(), a_course()
     for one in (course, other):
-        one.tell(0.05)
+        one.set_target(0.05)
     course.follow(DT, 0.3)
     assert course.reference == other.follow(DT)
 
@@ -109,7 +109,7 @@ def test_what_cannot_be_is_refused_and_changes_nothing():
     course.play([Point(2.0, 0.05)])
     for bad in (0.2, -0.5, math.nan, math.inf):
         with pytest.raises(RangeError):
-            course.tell(bad)
+            course.set_target(bad)
     with pytest.raises(RangeError):
         course.play([Point(1.0, 0.3)])
     assert course.is_on_trajectory

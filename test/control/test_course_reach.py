@@ -31,9 +31,9 @@ def follow(course, seconds):
 @pytest.mark.parametrize('gap', [0.15, 0.3, 0.6, 2.5])
 @pytest.mark.parametrize('goal', [0.072, 0.085])
 def test_set_points_one_after_the_other_are_not_taken_for_a_motion(course, gap, goal):
-    course.tell(0.07)
+    course.set_target(0.07)
     follow(course, gap)
-    course.tell(goal)
+    course.set_target(goal)
     way = follow(course, 4.0)
     assert np.max(way) < goal + 1e-3
     assert way[-1] == pytest.approx(goal, abs=1e-9)
@@ -41,9 +41,9 @@ def test_set_points_one_after_the_other_are_not_taken_for_a_motion(course, gap, 
 
 @pytest.mark.parametrize('gap', [0.02, 0.05, 0.09])
 def test_what_seems_a_motion_does_not_lead_out_of_reach(course, gap):
-    course.tell(0.08)
+    course.set_target(0.08)
     follow(course, gap)
-    course.tell(0.089)
+    course.set_target(0.089)
     way = follow(course, 4.0)
     assert np.max(way) <= REACH[1]
     assert way[-1] == pytest.approx(0.089, abs=1e-9)
@@ -59,7 +59,7 @@ def test_a_stream_is_followed_without_lag(course, rate, most):
     way, told = [], []
     for n in range(2000):
         if n % (500 // rate) == 0:
-            course.tell(REST + SWING * math.sin(TURN * n * DT))
+            course.set_target(REST + SWING * math.sin(TURN * n * DT))
         way.append(course.follow(DT).position)
         told.append(REST + SWING * math.sin(TURN * (n + 1) * DT))
     assert np.max(np.abs(np.subtract(way, told)[1000:])) < most
@@ -80,5 +80,5 @@ def test_a_trajectory_that_begins_in_motion_is_followed_at_once(course):
 def test_a_refused_position_changes_nothing(course):
     for bad in (0.1, math.nan, math.inf):
         with pytest.raises(RangeError):
-            course.tell(bad)
+            course.set_target(bad)
     np.testing.assert_array_equal(follow(course, 0.1), REST)

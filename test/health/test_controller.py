@@ -5,13 +5,13 @@
 import pytest
 
 from pam_ros.control.loop import BLIND, DISABLED, RUNNING, WAITING, Loop
-from pam_ros.health.controller import Heard, control, timing
+from pam_ros.health.controller import Received, control, timing
 from pam_ros.health.health import Level
 from pam_ros.settings.control import settings_of
 from pam_ros.settings.tables import checked
 from pam_ros.timing.ticker import Punctuality
 
-WELL = Heard(age=0.01, blindness='', refused=0, refusal='', is_refusal_new=False)
+WELL = Received(age=0.01, blindness='', refused=0, refusal='', is_refusal_new=False)
 NO_JOINT = 'joint_states has no joint pam'
 
 
@@ -30,7 +30,7 @@ def setup():
 
 
 @pytest.mark.parametrize(
-    ('state', 'heard', 'fault', 'level', 'message'),
+    ('state', 'received', 'fault', 'level', 'message'),
     [
         (RUNNING, {}, '', Level.OK, 'controlling'),
         (RUNNING, {'refusal': 'too far', 'refused': 1}, '', Level.OK, 'controlling'),
@@ -49,13 +49,13 @@ def setup():
         (DISABLED, {}, 'the law gave no number', Level.ERROR, 'the law gave no number'),
     ],
 )
-def test_the_worst_of_the_control_is_said(setup, state, heard, fault, level, message):
+def test_the_worst_of_the_control_is_said(setup, state, received, fault, level, message):
     loop = loop_of(setup)
     loop.state = state
-    health = control(loop, setup, WELL._replace(**heard), fault)
+    health = control(loop, setup, WELL._replace(**received), fault)
     assert (health.level, health.message) == (level, message)
     assert (health.values['error (m)'] is None) == (state != RUNNING)
-    assert health.values['last reason'] == heard.get('refusal', '')
+    assert health.values['last reason'] == received.get('refusal', '')
 
 
 @pytest.mark.parametrize(

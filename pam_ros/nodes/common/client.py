@@ -89,7 +89,7 @@ class Client:
         self.until(lambda: len(messages) >= wanted, f'{count} messages more')
 
     def publish(self, message: Any, topic: str) -> None:
-        """Publish, the first time once somebody listens."""
+        """Publish; the first time, wait for a subscriber of *topic* before."""
         if topic not in self._publishers:
             self._publishers[topic] = self.node.create_publisher(type(message), topic, 10)
             self.until(self._publishers[topic].get_subscription_count, f'a subscriber of {topic}')

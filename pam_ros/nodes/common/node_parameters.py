@@ -47,7 +47,7 @@ class NodeParameters(Generic[T]):
         for name, (kind, _, about) in table.items():
             descriptor, value = describe(about, kind), self.values[name]
             if kind is tuple:
-                # An empty list tells rclpy no type: there is no public way to declare one.
+                # rclpy finds no type in an empty list: there is no public way to declare one.
                 texts = RosParameter.Type.STRING_ARRAY
                 descriptor.type = texts.value
                 node._declare_parameter_common(

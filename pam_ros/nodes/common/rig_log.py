@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Hear all that a simulated muscle publishes, and put it in step."""
+"""Collect all that a simulated muscle publishes, and match it by time."""
 
 import numpy as np
 from sensor_msgs.msg import FluidPressure, JointState
@@ -12,12 +12,12 @@ from pam_ros.nodes.common.client import Client
 from pam_ros.nodes.common.stamps import seconds
 
 TOPICS = ('joint_states', 'pressure', 'force', 'stiffness', 'damping')
-HISTORY = 5000  # messages that the simulator keeps for a listener who is late: 10 s at 500 Hz
+HISTORY = 5000  # messages that the simulator keeps for a late subscriber: 10 s at 500 Hz
 QUIET = 0.3  # s without a message after which none is under way any more
 
 
 def lose_nothing(namespace: str = '') -> dict[str, int]:
-    """Return the parameters with which a ``pam_sim`` keeps messages until they are heard."""
+    """Return the parameters with which a ``pam_sim`` keeps messages until they are received."""
     return {f'qos_overrides.{namespace}/{topic}.publisher.depth': HISTORY for topic in TOPICS}
 
 

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What pressure there is in the muscles before control begins, where the rig tells it.
+"""What pressure there is in the muscles before control begins, where the rig publishes it.
 
 A controller that begins at the pressure that holds the load moves nothing, whatever the load is.
 """
@@ -21,15 +21,17 @@ from pam_ros.timing.pace import SECOND
 FRESH = SECOND  # ns that a pressure may be older than the state that control begins at
 LONGEST = SECOND // 10  # ns of one turn that count as waiting: else this process was held up
 
-Hear = Callable[[type, str, Callable[..., None]], None]
+Subscribe = Callable[[type, str, Callable[..., None]], None]
 
 
 class ChamberInput:
-    """Takes absolute pressures in Pa from the topics on which ``pam_sim`` tells them."""
+    """Takes absolute pressures in Pa from the topics on which ``pam_sim`` publishes them."""
 
-    def __init__(self, setup: ControlSetup, hear: Hear, heard: Callable[[], None]) -> None:
-        """Subscribe by *hear*(type, topic, callback); *heard* is called for all that comes."""
-        self._heard = heard
+    def __init__(
+        self, setup: ControlSetup, subscribe: Subscribe, on_pressure: Callable[[], None]
+    ) -> None:
+        """Use *subscribe*(type, topic, callback); *on_pressure* is called after each pressure."""
+        self._on_pressure = on_pressure
         self._found: list[tuple[int, int, float] | None] = [None] * len(setup.muscles)
         self._waited = 0
         self._looked = monotonic_ns()
@@ -37,19 +39,19 @@ class ChamberInput:
             return
         for i, topic in enumerate(setup.pressure_topics):
             if setup.has_arrays:
-                hear(Float64MultiArray, topic, self._take_all)
+                subscribe(Float64MultiArray, topic, self._take_all)
             else:
-                hear(FluidPressure, topic, partial(self._take, i))
+                subscribe(FluidPressure, topic, partial(self._take, i))
 
     def _take(self, muscle: int, message: FluidPressure) -> None:
         self._note(muscle, stamp_of(message), message.fluid_pressure)
-        self._heard()
+        self._on_pressure()
 
     def _take_all(self, message: Float64MultiArray) -> None:
         if len(message.data) == len(self._found):
             for muscle, pressure in enumerate(message.data):
                 self._note(muscle, 0, pressure)
-            self._heard()
+            self._on_pressure()
 
     def _note(self, muscle: int, stamp: int, pressure: float) -> None:
         self._found[muscle] = (stamp, monotonic_ns(), pressure) if isfinite(pressure) else None

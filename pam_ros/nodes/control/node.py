@@ -16,7 +16,7 @@ from pam_ros.control.loop import BLIND, RUNNING, WAITING, Loop, Reading, warm_up
 from pam_ros.control.signals import Pressures, term_names
 from pam_ros.errors import RangeError
 from pam_ros.health import controller as control_health
-from pam_ros.health.controller import Heard
+from pam_ros.health.controller import Received
 from pam_ros.health.health import Health
 from pam_ros.nodes.common.diagnostics import Diagnostics
 from pam_ros.nodes.common.node_parameters import NodeParameters, given
@@ -79,22 +79,26 @@ class PamControl(TickingNode):
         return loop
 
     def _open_topics(self) -> None:
-        def hear(kind: type, topic: str, callback, reliability=ReliabilityPolicy.RELIABLE) -> None:
+        def subscribe(
+            kind: type, topic: str, callback, reliability=ReliabilityPolicy.RELIABLE
+        ) -> None:
             quality = QoSProfile(depth=DEPTH, reliability=reliability)
             self.create_subscription(
                 kind, topic, callback, quality, qos_overriding_options=open_qos()
             )
 
         # Where states make the time, one that is lost is one that is waited for. A rig in real
-        # time tells the next one soon, and may publish either way: best effort hears both.
+        # time publishes the next one soon, reliably or not: best effort receives from both.
         followed = ReliabilityPolicy.RELIABLE
         states = followed if self._is_followed else ReliabilityPolicy.BEST_EFFORT
-        hear(JointState, 'joint_states', self._see, states)
-        hear(Float64, 'position_reference', self._take_reference)
-        hear(JointTrajectory, 'joint_trajectory', self._take_trajectory)
-        self._chambers = ChamberInput(self._setup, partial(hear, reliability=states), self._begin)
+        subscribe(JointState, 'joint_states', self._see, states)
+        subscribe(Float64, 'position_reference', self._take_reference)
+        subscribe(JointTrajectory, 'joint_trajectory', self._take_trajectory)
+        self._chambers = ChamberInput(
+            self._setup, partial(subscribe, reliability=states), self._begin
+        )
         if self._setup.can_stiffen:
-            hear(Float64, 'co_contraction_reference', self._take_co_contraction)
+            subscribe(Float64, 'co_contraction_reference', self._take_co_contraction)
         self._states = StateTopic(self, term_names(len(self._setup.muscles)))
         self._commands = commands_of(self, self._setup)
 
@@ -115,14 +119,14 @@ class PamControl(TickingNode):
         longest = max(0.5 * settings.state_timeout, 3.0 / settings.rate) * SECOND
         was_held_up = now - self._ticked > longest and not self._has_waited
         self._ticked, self._has_waited = now, was_held_up
-        if not was_held_up:  # else what came meanwhile is to be heard first
+        if not was_held_up:  # else what came meanwhile is to be received first
             self._step(now / SECOND, self.get_clock().now().nanoseconds)
 
     def _watch(self, steady: int) -> None:
         if self._stamp is None:
             return
         now = self.get_clock().now().nanoseconds
-        # By both clocks: /clock may be heard before the states that belong to it.
+        # By both clocks: /clock may arrive before the states that belong to it.
         age = min(now - self._stamp, steady - self._seen) / SECOND
         if age > self._setup.settings.state_timeout:
             self._step(now / SECOND, now)
@@ -192,7 +196,7 @@ class PamControl(TickingNode):
         self._step(self._last.time, sight.stamp)
 
     def _see_again(self) -> None:
-        """Answer a state that is told again: in lockstep the answer was not heard."""
+        """Answer a state that is published again: in lockstep the answer was not received."""
         last = self._loop.pressures
         is_due = monotonic_ns() - self._answered > REPEAT
         if self._is_followed and self._loop.state == RUNNING and last is not None and is_due:
@@ -201,7 +205,7 @@ class PamControl(TickingNode):
     def _take_reference(self, message: Float64) -> None:
         if self._is_ready('position_reference'):
             try:
-                self._loop.course.tell(message.data)
+                self._loop.course.set_target(message.data)
             except RangeError as error:
                 self._refuse(str(error))
 
@@ -247,7 +251,7 @@ class PamControl(TickingNode):
             if self._is_followed and self._last:
                 self._loop.see(self._last)  # which may wait for an answer: no other would come
         else:
-            self._loop.pressures = None  # somebody else may command from now on
+            self._loop.pressures = None  # another node may command from now on
         response.success = True
         response.message = self._trouble() or 'controlling'
         return response
@@ -278,8 +282,8 @@ class PamControl(TickingNode):
     def _control(self) -> Health:
         age = None if self._stamp is None else (monotonic_ns() - self._seen) / SECOND
         is_new, self._is_refusal_new = self._is_refusal_new, False
-        heard = Heard(age, self._blindness, self._refused, self._refusal, is_new)
-        return control_health.control(self._loop, self._setup, heard, self._fault)
+        received = Received(age, self._blindness, self._refused, self._refusal, is_new)
+        return control_health.control(self._loop, self._setup, received, self._fault)
 
     def _timing(self) -> Health:
         commanded, self._commanded = self._commanded, 0

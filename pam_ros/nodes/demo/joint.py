@@ -1,10 +1,10 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""An antagonistic joint over topics: ``pam_control`` leads angle and stiffness of ``pam_sim``.
+"""An antagonistic joint over topics: ``pam_control`` controls angle and stiffness.
 
-The arm carries more than is declared to the controller. The angle swings by
-``joint_trajectory``; the stiffness is set on ``co_contraction_reference``, in the midst of the
-swing and at rest.
+The joint is simulated by ``pam_sim``, and its arm carries more than is declared to the controller.
+The angle follows a sine on ``joint_trajectory``; the stiffness is set on
+``co_contraction_reference``, during the sine and at rest.
 """
 
 import math
@@ -19,7 +19,7 @@ from pam_ros.control.signals import term_names
 from pam_ros.demo import joint
 from pam_ros.demo.joint import JointCourse
 from pam_ros.nodes.common.stamps import seconds
-from pam_ros.nodes.demo.duet import Duet
+from pam_ros.nodes.demo.lockstep_pair import LockstepPair
 from pam_ros.nodes.demo.stage import Stage
 
 MUSCLE = 'dmsp_20_400n'
@@ -33,7 +33,7 @@ SPACING = 0.02  # s between the points of the trajectory
 
 
 def play(stage: Stage) -> None:
-    """Lead the joint, and leave a plot and a table."""
+    """Control the joint, and leave a plot and a table."""
     stage.say(
         f'An antagonistic joint over ROS topics: two {MUSCLE}, an arm declared with '
         f'{DECLARED:g} kg, in truth with {TRUE:g} kg'
@@ -62,28 +62,28 @@ def record(stage: Stage) -> JointCourse:
     rig = {**both, 'mass': TRUE, 'initial.pressure': 250e3, 'sensor.position_noise': NOISE}
     controller = {**both, 'mass': DECLARED, 'co_contraction': SOFT}
     commands = (Float64MultiArray, 'pressure_commands')
-    with Duet(stage, rig, controller, commands, ('stiffnesses',)) as duet:
-        arrays = duet.client.collect(Float64MultiArray, 'stiffnesses')
-        duet.begin(arrays)
+    with LockstepPair(stage, rig, controller, commands, ('stiffnesses',)) as pair:
+        arrays = pair.client.collect(Float64MultiArray, 'stiffnesses')
+        pair.begin(arrays)
         before = len(arrays)
-        duet.stop_after(REST)
+        pair.stop_after(REST)
         stage.say(f'  a sine of {math.degrees(SWING):.0f} degrees at {FREQUENCY:g} Hz')
-        duet.publish(sine(), 'joint_trajectory')
-        begin = seconds(duet.terms[-1])
-        duet.stop_after(0.5 * CYCLES / FREQUENCY)
+        pair.publish(sine(), 'joint_trajectory')
+        begin = seconds(pair.terms[-1])
+        pair.stop_after(0.5 * CYCLES / FREQUENCY)
         stage.say(f'  co-contraction from {SOFT:g} to {STIFF:g} N m/rad')
-        duet.publish(Float64(data=STIFF), 'co_contraction_reference', 'co_contraction')
-        duet.stop_after(begin + CYCLES / FREQUENCY + REST - seconds(duet.states[-1]))
+        pair.publish(Float64(data=STIFF), 'co_contraction_reference', 'co_contraction')
+        pair.stop_after(begin + CYCLES / FREQUENCY + REST - seconds(pair.states[-1]))
         stage.say(f'  and back to {SOFT:g} N m/rad')
-        duet.publish(Float64(data=SOFT), 'co_contraction_reference', 'co_contraction')
-        duet.stop_after(REST)
-        periods = len({seconds(state) for state in duet.states}) - 1
-        duet.client.until(lambda: len(arrays) >= before + periods, 'an array for each state')
-        return put_together(duet.states, duet.terms, arrays)
+        pair.publish(Float64(data=SOFT), 'co_contraction_reference', 'co_contraction')
+        pair.stop_after(REST)
+        periods = len({seconds(state) for state in pair.states}) - 1
+        pair.client.until(lambda: len(arrays) >= before + periods, 'an array for each state')
+        return put_together(pair.states, pair.terms, arrays)
 
 
 def sine() -> JointTrajectory:
-    """Return the sine as a trajectory around 0; it swells over a cycle and fades over the last."""
+    """Return the sine as a trajectory around 0; it grows over a cycle and decays over the last."""
     turn, end = 2.0 * math.pi * FREQUENCY, CYCLES / FREQUENCY
     message = JointTrajectory(joint_names=['pam'])
     for k in range(1, round(end / SPACING) + 1):

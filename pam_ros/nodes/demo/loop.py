@@ -6,7 +6,7 @@
 plays its programme, ``pam_record`` writes a rosbag2, ``pam_identify`` finds what the declared
 model lacks.
 Then the rig runs once more, beside it a simulator as declared and one that was started with
-``identified.yaml``; all three hear the same commands.
+``identified.yaml``; all three receive the same commands.
 """
 
 import json
@@ -38,7 +38,7 @@ EXCITATION = {
     'pressure_max': 400e3,
     'countdown': 2.0,
     'rate': 100.0,
-    'silence': 3.0,  # nobody stands beside this rig
+    'silence': 3.0,  # s; long, since a simulated rig endangers no person
 }
 RATE = 200.0  # states per second
 LATE = 0.1  # s by which a simulator may be late
@@ -96,18 +96,18 @@ def record_in_time(stage: Stage, bag: Path, rigs: Mapping[str, Mapping[str, Any]
 def record(stage: Stage, bag: Path, rigs: Mapping[str, Mapping[str, Any]]) -> float:
     """Record simulated *rigs* (name -> parameters), the first of them excited, to *bag*.
 
-    All hear the same commands. Return the time in s by which one of them was late at worst.
+    All receive the same commands. Return the time in s by which one of them was late at worst.
     Raises PamError where the excitation stopped early.
     """
     space = stage.namespace
     states = [f'{space}/{name}/joint_states' for name in rigs]
-    hear = ('-r', f'pressure_command:={space}/pressure_command')
+    commands = ('-r', f'pressure_command:={space}/pressure_command')
     with ExitStack() as programs, Client(space) as client:
         running = []
         for name, given in rigs.items():
             where = ('-r', f'__ns:={space}/{name}')
             parameters = {**given, 'publish_rate': RATE}
-            running.append(Program('pam_sim', *where, *hear, parameters=parameters))
+            running.append(Program('pam_sim', *where, *commands, parameters=parameters))
             programs.enter_context(running[-1])
         recorder = Program('pam_record', '-r', f'__ns:={space}', '--', *states, '-o', str(bag))
         running.append(programs.enter_context(recorder))

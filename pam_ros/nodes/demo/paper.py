@@ -54,11 +54,11 @@ def record(stage: Stage) -> tuple[PublishedRun, list[PublishedRun]]:
     with Program('pam_sim', *remap, parameters=given) as sim, Client(stage.namespace) as client:
         log = RigLog(client)
         client.until(lambda: log.states or not sim.is_running, 'the first state of pam_sim')
-        heard = len(log.states)
+        received = len(log.states)
         client.call(Trigger, 'pam_sim/reset')
 
         def released() -> list[float]:
-            return [seconds(m) for m in log.states[heard:] if m.position[0] == 0.0]
+            return [seconds(m) for m in log.states[received:] if m.position[0] == 0.0]
 
         (begin, *_) = client.until(released, 'the release')
         hold_pressure(client, paper.PRESSURE, RELEASE, lambda: log.now, 'released at 600 kPa')

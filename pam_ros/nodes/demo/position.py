@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Position control over topics: ``pam_control`` leads the load of ``pam_sim``.
+"""Position control over topics: ``pam_control`` moves the load of ``pam_sim``.
 
 The load is heavier than is declared to the controller. Set-points come on
 ``position_reference``, a sine as ``joint_trajectory``. Both programs run in lockstep, so that a
@@ -19,7 +19,7 @@ from pam_ros.control.signals import TERMS
 from pam_ros.demo import position
 from pam_ros.demo.position import Course
 from pam_ros.nodes.common.stamps import seconds
-from pam_ros.nodes.demo.duet import STILL, Duet
+from pam_ros.nodes.demo.lockstep_pair import STILL, LockstepPair
 from pam_ros.nodes.demo.stage import Stage
 
 MUSCLE = 'dmsp_20_400n'
@@ -31,7 +31,7 @@ SPACING = 0.05  # s between the points of its trajectory
 
 
 def play(stage: Stage) -> None:
-    """Lead the load, and leave a plot and a table."""
+    """Move the load, and leave a plot and a table."""
     stage.say(
         f'Position control over ROS topics: {MUSCLE}, declared with {DECLARED:g} kg, '
         f'in truth with {TRUE:g} kg'
@@ -57,17 +57,17 @@ def record(stage: Stage) -> tuple[Course, list[float]]:
     """Return what happened, and the times in s at which it set out to each goal and the sine."""
     rig = {'muscle': MUSCLE, 'mass': TRUE, 'initial.pressure': 300e3}
     controller = {'muscle': MUSCLE, 'mass': DECLARED}
-    with Duet(stage, rig, controller, (Float64, 'pressure_command')) as duet:
-        duet.begin()
-        stops = [duet.stop_after(1.5)]
+    with LockstepPair(stage, rig, controller, (Float64, 'pressure_command')) as pair:
+        pair.begin()
+        stops = [pair.stop_after(1.5)]
         for goal in GOALS:
             stage.say(f'  to {1e3 * goal:.0f} mm')
-            duet.publish(Float64(data=goal), 'position_reference')
-            stops.append(duet.stop_after(HOLD))
+            pair.publish(Float64(data=goal), 'position_reference')
+            stops.append(pair.stop_after(HOLD))
         stage.say(f'  a sine of {1e3 * SWING:.0f} mm at {FREQUENCY:g} Hz')
-        duet.publish(sine(GOALS[-1]), 'joint_trajectory')
-        duet.stop_after(CYCLES / FREQUENCY + 0.5)
-        course = put_together(duet.states, duet.terms)
+        pair.publish(sine(GOALS[-1]), 'joint_trajectory')
+        pair.stop_after(CYCLES / FREQUENCY + 0.5)
+        course = put_together(pair.states, pair.terms)
     return course, [course.departure(stop, STILL) for stop in stops]
 
 
@@ -77,7 +77,7 @@ def sine(middle: float) -> JointTrajectory:
     message = JointTrajectory(joint_names=['pam'])
     for k in range(1, round(end / SPACING) + 1):
         t = k * SPACING
-        # It swells over the first cycle and fades over the last.
+        # Its amplitude grows over the first cycle and decays over the last.
         share = min(t * FREQUENCY, (end - t) * FREQUENCY, 1.0)
         swing = SWING * math.sin(0.5 * math.pi * max(share, 0.0)) ** 2
         message.points.append(

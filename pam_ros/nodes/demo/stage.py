@@ -16,7 +16,7 @@ COMMAND_PERIOD = 0.02  # s
 
 
 class Stage:
-    """A folder for what a chapter leaves, a namespace for its nodes, and a voice."""
+    """A folder for the files of a chapter, a namespace for its nodes, and its printed text."""
 
     def __init__(self, folder: Path) -> None:
         """Make *folder*."""
@@ -46,7 +46,7 @@ def hold_pressure(
 ) -> None:
     """Command *pressure* in Pa for some seconds of simulated time, with a progress bar.
 
-    *now* tells the time; commands go on, so that no time-out vents the muscle.
+    *now* returns the time; commands go on, so that no time-out vents the muscle.
     """
     begin = passed = now()
     form = '  {desc:<20} {bar:30} {n:4.1f} of {total:g} s'

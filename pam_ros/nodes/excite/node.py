@@ -83,7 +83,7 @@ class PamExcite(TickingNode):
             self.exit_code = 0
             return
         self._begun = time.monotonic()
-        self._heard = self._begun  # steady time of the newest joint state, s
+        self._received = self._begun  # steady time of the newest joint state, s
         self._seen = self._ros_time()  # and its time by the clock of the programme, s
         self._guard = Guard(*self._now.window, self._now.settings.silence, self._seen)
         self._misread = ''
@@ -119,7 +119,7 @@ class PamExcite(TickingNode):
             self._misread = 'joint_states carries no positions'
         else:
             at = names.index(wanted) if wanted else 0
-            before, self._heard = self._stamp, time.monotonic()
+            before, self._received = self._stamp, time.monotonic()
             self._stamp = stamp_of(message) / SECOND if self._is_followed else 0.0
             self._seen = now = self._stamp or self._ros_time()
             self._guard.see(message.position[at], now)
@@ -145,7 +145,7 @@ class PamExcite(TickingNode):
             self._refuse(f'{" and ".join(rivals)} commands pressures as well: stop it first')
             return
         missing = {
-            'nobody subscribes to pressure_command': not self._publisher.get_subscription_count(),
+            'pressure_command has no subscriber': not self._publisher.get_subscription_count(),
             'joint_states is silent': self._guard.position is None,
             'use_sim_time is set and /clock is silent': self._ros_time() == 0.0,
             'another node commands pressures': bool(rivals),
@@ -187,10 +187,10 @@ class PamExcite(TickingNode):
         """Return why to stop, or ''."""
         now = self._ros_time()
         if self._is_followed:
-            silent = time.monotonic() - self._heard
+            silent = time.monotonic() - self._received
             if silent > self._now.settings.patience:
                 return f'joint_states has been silent for {silent:.1f} s, whatever /clock says'
-            # By both clocks: time may stand still, and /clock be heard before its states.
+            # By both clocks: time may stand still, and /clock may arrive before its states.
             now = min(now, self._seen + silent)
         return self._misread or self._guard.problem(now)
 

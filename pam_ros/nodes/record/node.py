@@ -30,7 +30,7 @@ from pam_ros.timing.ticker import Ticker
 TOPICS = ('joint_states', 'pressure_command', 'force', 'stiffness', 'damping', 'pressure')
 LOOK = 5.0  # Hz, for new topics
 TAKE = 0.01  # s between two rounds of taking messages
-UNTOLD = SECOND // 2  # ns that a message waits for /clock to go on beyond it
+CLOCK_WAIT = SECOND // 2  # ns that a message waits for /clock to go on beyond it
 SEAL = 0.5  # s between two seals: what a kill can lose
 REPORT, REPORT_LOGGED = 1.0, 10.0  # s between lines of progress, on a terminal and in a log
 
@@ -51,12 +51,12 @@ class PamRecord(TickingNode):
         self._group = Taken()
         self._time = SimulatedTime()
         self._is_simulated = bool(self.get_parameter('use_sim_time').value)
-        self._clock_heard: Subscription | None = None
+        self._clock_subscription: Subscription | None = None
         self._lock = threading.Lock()  # of the writer and of what is recorded
         self._is_closing = threading.Event()
         self._problem = ''
         self._begun = monotonic_ns()
-        self._told = self._begun
+        self._reported = self._begun
         self._thread = threading.Thread(target=self._work, name='recorder')
         self.ticker = Ticker(LOOK)
 
@@ -101,10 +101,10 @@ class PamRecord(TickingNode):
             return
         kinds = dict(self.get_topic_names_and_types())
         clocks = self.get_publishers_info_by_topic('/clock') if self._is_simulated else []
-        if clocks and self._clock_heard is None:
+        if clocks and self._clock_subscription is None:
             clock = self._subscribe(Clock, '/clock', clocks, raw=False)
             with self._lock:
-                self._clock_heard = clock
+                self._clock_subscription = clock
         for topic in self._wanted:
             publishers = self.get_publishers_info_by_topic(topic)
             if publishers and topic not in self._recorded and topic not in self._refused:
@@ -114,9 +114,9 @@ class PamRecord(TickingNode):
             elif publishers:
                 self._sole.discard(topic)
         pause = REPORT if sys.stdout.isatty() else REPORT_LOGGED
-        if monotonic_ns() - self._told > pause * 1e9:
-            self._told = monotonic_ns()
-            self._tell()
+        if monotonic_ns() - self._reported > pause * 1e9:
+            self._reported = monotonic_ns()
+            self._report()
 
     def _add(self, topic: str, kinds: list[str], publishers: list[Any]) -> None:
         kind = publishers[0].topic_type
@@ -144,7 +144,7 @@ class PamRecord(TickingNode):
     def _subscribe(
         self, kind: Any, topic: str, publishers: list[Any], *, raw: bool = True
     ) -> Subscription:
-        """Subscribe as well as these publishers can be heard."""
+        """Subscribe with the best quality of service that these publishers offer."""
         return self.create_subscription(
             kind,
             topic,
@@ -186,8 +186,8 @@ class PamRecord(TickingNode):
                         received = sent = self.get_clock().now().nanoseconds
                     self._writer.write(recorded.channel, received, sent, data)
                 recorded.count_lost(info['publication_sequence_number'], topic in self._sole)
-        if self._clock_heard:
-            for message, info in all_of(self._clock_heard):
+        if self._clock_subscription:
+            for message, info in all_of(self._clock_subscription):
                 now = message.clock.sec * SECOND + message.clock.nanosec
                 self._time.tell(info['source_timestamp'], now)
         for recorded in self._recorded.values():
@@ -200,7 +200,7 @@ class PamRecord(TickingNode):
             data, sent, taken = waiting[0]
             time = self._time.at(sent)
             if time is None:
-                if not is_last and now - taken < UNTOLD:
+                if not is_last and now - taken < CLOCK_WAIT:
                     return
                 time = self._time.before(sent)
             self._writer.write(recorded.channel, time, time, data)
@@ -208,13 +208,13 @@ class PamRecord(TickingNode):
 
     # Saying how it is ----------------------------------------------------------------------
 
-    def _tell(self) -> None:
+    def _report(self) -> None:
         elapsed = (monotonic_ns() - self._begun) * 1e-9
         counts = self._writer.counts
         missing = [topic for topic in self._wanted if topic not in counts]
         line = f'{elapsed:.0f} s, {sum(counts.values())} messages on {len(counts)} topics'
         if missing:
-            line += ', nobody publishes ' + ', '.join(missing)
+            line += ', without a publisher: ' + ', '.join(missing)
         if sys.stdout.isatty():
             print(f'\r\x1b[K{line}', end='', flush=True)
         else:

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""How a recorder listens to publishers of all kinds, and how a bag says what they were."""
+"""The quality of service of a recorder's subscriptions, and of publishers in a bag."""
 
 from typing import Any
 
@@ -11,7 +11,7 @@ DEPTH = 20_000  # messages of a topic that the middleware keeps while the disk i
 
 
 def matching(offered: list[QoSProfile]) -> QoSProfile:
-    """Return a profile that hears all publishers, as well as they can be heard."""
+    """Return the best profile with which messages of all publishers are received."""
     reliable = all(q.reliability == ReliabilityPolicy.RELIABLE for q in offered)
     lasting = all(q.durability == DurabilityPolicy.TRANSIENT_LOCAL for q in offered)
     return QoSProfile(

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The topics on which the simulator hears commands: of one muscle, of all, of each."""
+"""The topics on which the simulator receives commands: of one muscle, of all, of each."""
 
 from collections.abc import Callable
 from functools import partial
@@ -14,7 +14,7 @@ from pam_ros.nodes.sim.lockstep import Turns
 from pam_ros.settings.scene import Simulation
 
 
-def hear_commands(
+def subscribe_commands(
     node: Node,
     simulation: Simulation,
     turns: Turns,
@@ -26,7 +26,7 @@ def hear_commands(
     *turns* watches who commands.
     """
 
-    def hear(kind: type, topic: str, callback: Callable[..., None]) -> None:
+    def subscribe(kind: type, topic: str, callback: Callable[..., None]) -> None:
         quality = QoSProfile(depth=DEPTH)
         subscription = node.create_subscription(
             kind, topic, callback, quality, qos_overriding_options=open_qos()
@@ -34,9 +34,9 @@ def hear_commands(
         turns.watch(subscription)
 
     if simulation.is_one:
-        hear(Float64, 'pressure_command', partial(take, 0))
+        subscribe(Float64, 'pressure_command', partial(take, 0))
         return
-    hear(Float64MultiArray, 'pressure_commands', take_all)
+    subscribe(Float64MultiArray, 'pressure_commands', take_all)
     if simulation.settings.muscle_topics:
         for i, name in enumerate(simulation.muscle_names):
-            hear(Float64, f'{name}/pressure_command', partial(take, i))
+            subscribe(Float64, f'{name}/pressure_command', partial(take, i))

@@ -9,19 +9,18 @@ from rclpy.subscription import Subscription
 
 from pam_ros.timing.pace import SECOND
 
-REPEAT = (
-    SECOND // 2
-)  # ns after which the state is published again for a controller that was not heard
-PATIENCE = SECOND  # ns of waiting that is worth a word
+# ns after which the state is published again for a controller that has not answered
+REPEAT = SECOND // 2
+PATIENCE = SECOND  # ns of waiting after which the diagnostics report it
 SETTLE = SECOND // 4  # ns in which answers to a state that was published more than once come in
 
 
 class Turns:
     """Counts the muscles that were commanded in this period, and watches who commands.
 
-    A controller that comes late, or takes the place of one that died, has not heard the state
-    that waits for an answer: it is to be published again, until something is heard of it. For
-    one that was heard it is never published twice, however long it computes.
+    A controller that comes late, or takes the place of one that died, has not received the
+    state that waits for an answer: it is to be published again, until an answer comes. For a
+    controller that has answered it is never published twice, however long it computes.
 
     Where a controller may have more than one command under way (it was just found, time goes on
     after a pause, the rig was reset) all that comes within SETTLE is one answer: the last counts.
@@ -33,7 +32,7 @@ class Turns:
         self._topics: list[str] = []
         self._answered: set[int] = set()
         self._known: frozenset[bytes] = frozenset()
-        self._is_heard = False
+        self._has_answered = False
         self._settled = 0  # steady time until which answers are gathered
         self.begin()
 
@@ -48,9 +47,9 @@ class Turns:
 
     def take(self, muscle: int | None) -> None:
         """Note the command of one muscle, or of all."""
-        if not self._is_heard:
+        if not self._has_answered:
             self.settle()
-        self._is_heard = True
+        self._has_answered = True
         if muscle is None:
             self._answered.update(range(self._muscles))
         else:
@@ -90,9 +89,9 @@ class Turns:
         is_new = bool(known - self._known)
         self._known = known
         if is_new or not known:
-            self._is_heard = False
+            self._has_answered = False
         now = monotonic_ns()
-        if self._is_heard or not (is_new or now - self._simulation > REPEAT):
+        if self._has_answered or not (is_new or now - self._simulation > REPEAT):
             return False
         self._simulation = now
         return True

@@ -15,7 +15,7 @@ from pam_ros.health.simulator import Progress
 from pam_ros.nodes.common.diagnostics import Diagnostics
 from pam_ros.nodes.common.node_parameters import NodeParameters, given
 from pam_ros.nodes.common.spin import TickingNode
-from pam_ros.nodes.sim.commands import hear_commands
+from pam_ros.nodes.sim.commands import subscribe_commands
 from pam_ros.nodes.sim.lockstep import Turns
 from pam_ros.nodes.sim.output import Output
 from pam_ros.nodes.sim.sim_time import FollowedTime, OwnTime
@@ -26,13 +26,13 @@ from pam_ros.timing.pace import SECOND
 from pam_ros.timing.ticker import Ticker
 
 SLICE = 5_000_000  # ns of simulating after which commands and services get their turn
-BREATH = 200_000  # ns that they get where everything is due at once
-IDLE_RATE = 10.0  # Hz at which a simulator whose time stands still tells its state
+GAP = 200_000  # ns that they get where everything is due at once
+IDLE_RATE = 10.0  # Hz at which a simulator whose time stands still publishes its state
 FASTEST_TICK = 1000.0  # Hz
 
 
 class PamSim(TickingNode):
-    """A rig that is simulated in the declared time; it hears commands and publishes its state."""
+    """A rig that is simulated in the declared time; it takes commands and publishes its state."""
 
     def __init__(self) -> None:
         """Make the rig that the parameters describe, at its initial state."""
@@ -58,7 +58,7 @@ class PamSim(TickingNode):
         self._one = self._simulation.is_one
         self._output = Output(self, self._simulation)
         self._turns = Turns(self, len(self._simulation.muscles))
-        hear_commands(self, self._simulation, self._turns, self._command, self._command_all)
+        subscribe_commands(self, self._simulation, self._turns, self._command, self._command_all)
         self._begin()
         self.create_service(Trigger, '~/reset', self._reset)
         self.create_service(SetBool, '~/pause', self._pause)
@@ -116,7 +116,7 @@ class PamSim(TickingNode):
         return min(rate, FASTEST_TICK) if rate else FASTEST_TICK
 
     def tick(self) -> None:
-        """Simulate what is due and publish; tell the state where time stands still."""
+        """Simulate what is due and publish it; where time stands still, repeat the last state."""
         if self._is_paused:
             self._publish_again()
         elif self._is_lockstep:
@@ -129,7 +129,7 @@ class PamSim(TickingNode):
             if not self._time.follows_clock:
                 # Wake up when the next sample is due: its grid moves with ROS time and resets.
                 next_one = self._time.steady_time(min(self._samples.next, self._clock_ticks.next))
-                self.ticker.aim(next_one if self._time_is_paced else monotonic_ns() + BREATH)
+                self.ticker.aim(next_one if self._time_is_paced else monotonic_ns() + GAP)
 
     @property
     def _time_is_paced(self) -> bool:

@@ -13,7 +13,7 @@ FIRST = SECOND  # ROS time at the first step of a time of one's own: 0 would mea
 
 
 class FollowedTime:
-    """ROS time: the system's, or that of somebody's ``/clock``."""
+    """ROS time: the system's, or that of another node's ``/clock``."""
 
     def __init__(self, rate: float, clock: Clock) -> None:
         """Begin at step 0 now, with *rate* steps a second."""

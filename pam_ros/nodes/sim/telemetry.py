@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The topics on which a simulated muscle tells its state."""
+"""The topics on which a simulated muscle publishes its state."""
 
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
@@ -18,7 +18,7 @@ class Telemetry:
     def __init__(self, node: Node, joint: str, below: str = '', *, has_joint: bool = True) -> None:
         """Create the publishers on *node*; *joint* names the joint, where there is one.
 
-        *below* leads the names of the topics.
+        *below* is the prefix of the names of the topics.
         """
         self._joint = JointState(name=[joint], position=[0.0], velocity=[0.0], effort=[0.0])
         self._fluid = FluidPressure(header=self._joint.header)

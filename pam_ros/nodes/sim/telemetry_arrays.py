@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The topics on which several muscles tell their state: arrays, and each muscle's own."""
+"""The topics on which several muscles publish their state: arrays, and each muscle's own."""
 
 from array import array
 from collections.abc import Sequence

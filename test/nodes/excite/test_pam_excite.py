@@ -180,7 +180,7 @@ def test_without_a_rig_it_gives_up():
     with excite({**SHORT, 'patience': 0.1}) as program:
         assert program.wait() == 1
         assert (
-            'nobody subscribes to pressure_command, joint_states is silent: is the rig running?'
+            'pressure_command has no subscriber, joint_states is silent: is the rig running?'
             in program.output
         )
 

@@ -1,9 +1,10 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""``pam_sim`` and ``pam_control`` in lockstep, each a process, and a listener who misses nothing.
+"""``pam_sim`` and ``pam_control`` in lockstep, each a process, and a client between them.
 
-The listener passes each command on. So simulated time waits for who watches, too, and stands still
-where he says: what a busy machine does to any of the three changes nothing.
+The client receives each state and passes each command on. So simulated time waits for the client,
+too, and stands still while the client holds a command back: the load of the machine changes
+nothing in the result.
 """
 
 import math
@@ -20,13 +21,13 @@ from pam_ros.nodes.common.stamps import seconds
 from pam_ros.nodes.demo.stage import Stage
 from pam_ros.processes.children import Program
 
-STILL = 1e-6  # change of a term by which nothing has begun yet
-HISTORY = 30_000  # messages kept for a listener who is late: a minute at 500 Hz
+STILL = 1e-6  # change of a term up to which it counts as at rest
+HISTORY = 30_000  # messages kept for a late subscriber: a minute at 500 Hz
 PATIENCE = 600.0  # s that a busy machine may take for one of the moves
 
 
-class Duet:
-    """Both programs in the namespace of a stage; ``states`` and ``terms`` are what they say."""
+class LockstepPair:
+    """Both programs in the namespace of a stage; ``states`` and ``terms`` are their messages."""
 
     def __init__(
         self,
@@ -52,9 +53,9 @@ class Duet:
         self._end = 0.0  # simulated time in s from which on time stands still
         self._held: Any = None  # the command that is not passed on meanwhile
 
-    def __enter__(self) -> 'Duet':
+    def __enter__(self) -> 'LockstepPair':
         """Start them."""
-        # Their /clock is nobody else's business.
+        # Their /clock is in their namespace: no other node follows it.
         space, (kind, topic) = self._space, self._command
         where = ('-r', f'__ns:={space}', '-r', f'/clock:={space}/clock')
         asked = ('-r', f'{topic}:=asked')
@@ -94,10 +95,10 @@ class Duet:
 
         self.client.until(is_so, what)
 
-    def begin(self, *heard: list[Any]) -> None:
-        """Wait until it is controlled, and something has come into each of *heard*."""
-        # Not the terms: they come once with the first command, for whom was there then.
-        lists = (self.states, *heard)
+    def begin(self, *received: list[Any]) -> None:
+        """Wait until it is controlled, and something has come into each of *received*."""
+        # Not the terms: they come once with the first command, which may be too early for us.
+        lists = (self.states, *received)
         self._until(lambda: self._held is not None and all(lists), 'the first command')
 
     def stop_after(self, duration: float) -> float:
@@ -107,7 +108,7 @@ class Duet:
         return seconds(self.states[-1])
 
     def publish(self, message: Any, topic: str, term: str = 'reference') -> None:
-        """Tell what sets *term* in motion, and let time go on until it moves."""
+        """Publish what sets *term* in motion, and let time go on until it moves."""
         k = list(self.terms[-1].name).index(term)
         rest = self.terms[-1].position[k]
         self.client.publish(message, topic)
