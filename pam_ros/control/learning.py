@@ -54,12 +54,14 @@ class LearningTuning:
         0.01, '1/s', 'share of the prior variance a second: a muscle warms in minutes'
     )
     early: float = number(
-        0.3,
+        1.0,
         '1/s',
         'the same of a lag in the beginning, whose sensitivities change with itself (Ljung & '
-        'Soderstrom 1983, section 5.5): pair_control, lag; more of it costs control, friction',
+        'Soderstrom 1983, section 5.5): pair_control, lag; twice as much is less repeatable',
     )
-    settled: float = number(3.0, 's', 'of motion in which that falls to 1/e: likewise')
+    settled: float = number(
+        2.0, 's', 'of motion in which that falls to 1/e: longer costs control, friction'
+    )
     lag_spread: float = number(0.05, 's', 'expected lag: servo valves have 20 to 130 ms')
     lag_high: float = number(0.2, 's', 'largest lag that is inverted: slower ones are no control')
     judge: float = number(1.0, 's', 'average of prediction errors: half a period of control')
