@@ -124,12 +124,12 @@ def test_pressures_are_one_a_muscle_or_one_for_all():
 
 def test_a_joint_without_an_equilibrium_says_what_is_left_over():
     class Heavy:
-        """A mechanism that nobody has checked: a thousand times the weight."""
+        """A mechanism that is not checked as a joint is: a thousand times the weight."""
 
         def __init__(self, joint):
             self.muscles, self.at_zero = joint.muscles, joint.at_zero
             self.transmission, self.load = joint.transmission, joint.load
-            self.moved_mass, self.inertia = 1000.0 * joint.moved_mass, joint.inertia
+            self.moved_mass, self.inertia = 1000.0 * joint.moved_mass, 1000.0 * joint.inertia
 
     with pytest.raises(RangeError, match=r'no equilibrium: with 0 and 0 kPa the effort left over'):
         statics.equilibrium(Heavy(parallel(50.0)), 0.0)

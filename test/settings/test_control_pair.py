@@ -96,7 +96,6 @@ def test_of_several_joints_one_is_controlled():
         ({'mass': 1.5}, True),
         ({'limits__pressure_high': 5e5}, True),
         ({'pid__integral': 1e6}, True),
-        ({'controller': 'pid'}, True),
     ],
 )
 def test_only_another_joint_or_other_limits_need_a_new_law(change, needs):
@@ -143,7 +142,8 @@ def test_the_baseline_is_for_a_pair_too():
     assert law.gains == PidGains.turning()
     law.start(0.1)
     assert law.model.stiffness(law.terms.pressures, 0.1) == pytest.approx(30.0)
-    # It takes another stiffness as a new law.
+    # It takes another stiffness as a new law, as it takes the place of another one.
+    assert now.needs_new_law(setup(co_contraction=30.0))
     assert setup(controller='pid', co_contraction=33.0).needs_new_law(now)
     with pytest.raises(RangeError, match='co-contraction 90 N m/rad'):
         setup(controller='pid', co_contraction=90.0)
