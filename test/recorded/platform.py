@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """What was recorded with version 0.1.0, and how results of today are compared with it.
 
-The same bits come out of the compiled kernels where the mathematical functions of the platform
-give the same bits, which a hash in the file says. Elsewhere, and as plain Python, which rounds some
-sums in another order, results agree to a billionth of the motion.
+The compiled kernels give the same bits where the mathematical functions of the platform do, which
+a hash in the file says. Elsewhere, and as plain Python, which rounds some sums in another order,
+results agree to a billionth of the motion.
 """
 
 import hashlib
