@@ -192,6 +192,7 @@ def bind(layout: Layout, active: tuple[Effect, ...]) -> Kernel:
         **_chains(layout, active),
         **_memories(layout, active),
         'MUSCLES': layout.muscles,
+        'HAS_OUTSIDE': any(effect.outside is not None for effect in active),
         'MEMORY_FROM': layout.memory_from,
         'WIDTH': layout.width,
         'LOAD': layout.load_at,

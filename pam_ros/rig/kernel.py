@@ -55,6 +55,7 @@ Row = Any  # float64 array; numba's and numpy's types differ, both index to floa
 
 # Bound to the joint's layout.
 MUSCLES = 1
+HAS_OUTSIDE = True  # whether an effect that acts from outside the muscles is in use
 MEMORY_FROM = 1  # first hidden state of a muscle that is not of its pressure path
 WIDTH = 2  # of a state
 LOAD, TRANSMISSION = NUMBERS, NUMBERS + 1  # where the numbers of both begin
@@ -210,7 +211,8 @@ def acceleration(
         p = xn[MUSCLE + i, WIDTH + stage]
         f += effort(s, v, i, p, t, h, inertia, x, xn, q)
         mean += p
-    f += outside_chain(0.0, mean / MUSCLES, s, v, t, h, x[JOINT], xn[JOINT], q[JOINT])
+    if HAS_OUTSIDE:  # not even a sum with 0 otherwise: each stage would wait for it
+        f += outside_chain(0.0, mean / MUSCLES, s, v, t, h, x[JOINT], xn[JOINT], q[JOINT])
     net: float = f * (1.0 / inertia) - fall_of(s, m, inertia, q[JOINT], LOAD)
     return net
 
