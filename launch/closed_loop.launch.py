@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Close the loop: ``ros2 launch pam_ros closed_loop.launch.py mass:=10.0``.
 
-With ``joint:=antagonistic`` it is that of two muscles that turn a pulley against each other.
+With ``joint:=antagonistic`` two muscles turn a pulley against each other.
 """
 
 from pathlib import Path
@@ -22,12 +22,12 @@ ARGUMENTS = (
     DeclareLaunchArgument(
         'joint',
         default_value='load',
-        description='load: one muscle; parallel, antagonistic, lever, crank: see joint_params',
+        description='load, parallel, antagonistic, lever or crank, for both programs',
     ),
     DeclareLaunchArgument(
         'joint_params',
-        default_value=str(CONFIG / 'antagonistic.yaml'),
-        description='ROS parameter file of both programs where joint is not load',
+        default_value='',
+        description='ROS parameter file of both programs; none: antagonistic.yaml for that joint',
     ),
     DeclareLaunchArgument(
         'mass', default_value='', description="kg of the load, for both; none: the muscle's"
@@ -63,7 +63,9 @@ def start(context: LaunchContext) -> list[Node]:
     }
     both: dict[str, object] = {'muscle': given['muscle'], 'joint': given['joint']}
     # What the joint is comes after each program's own file.
-    joint = [given['joint_params']] if given['joint'] != 'load' else []
+    joint = [given['joint_params']] if given['joint_params'] else []
+    if given['joint'] == 'antagonistic' and not joint:
+        joint = [str(CONFIG / 'antagonistic.yaml')]
     if given['mass']:
         both['mass'] = float(given['mass'])
     sim, control = dict(both), dict(both)
