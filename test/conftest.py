@@ -3,6 +3,7 @@
 """What every test run has: checked messages, plots without a screen; and for nodes a domain."""
 
 import os
+import signal
 from pathlib import Path
 
 import numpy as np
@@ -20,6 +21,8 @@ NOT_PURE = {*DOMAINS, 'browser', 'clean_environment', 'sources'}
 
 
 def pytest_configure():
+    # Shells start programs in the background with interrupts ignored, which programs inherit.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     os.environ['ROS_DOMAIN_ID'] = NOT_CLAIMED
     os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'] = 'LOCALHOST'
     os.environ.pop('ROS_STATIC_PEERS', None)

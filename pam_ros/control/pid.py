@@ -157,6 +157,7 @@ class Pid:
         self._error = self._filtered = 0.0
         self._seen = position
         self.terms = Terms(reference=position, position=position, pressures=commands)
+        self._note_stiffness()
 
     def update(
         self,
@@ -194,10 +195,22 @@ class Pid:
             switching=gain * (p + d),
             observer=gain * i,
             pressures=tuple(commands),
-            co_contraction=self._stiffness,
             cut=cut,
         )
+        self._note_stiffness()
         return self.terms.pressures
+
+    def _note_stiffness(self) -> None:
+        """Put the stiffness that is set, and the one that the commands give, into the terms."""
+        if not self.sharing.can_stiffen:
+            return
+        terms = self.terms
+        chambers = [
+            path.reached(command)
+            for path, command in zip(self._paths, terms.pressures, strict=True)
+        ]
+        terms.co_contraction = self._stiffness
+        terms.stiffness = self.model.stiffness(chambers, terms.position)
 
     def _room(self, static: Pressures, signs: list[float]) -> tuple[float, float]:
         """Return the least and the greatest output that leave one of the pressures a way to go.

@@ -39,8 +39,12 @@ def values_of(loop: Loop, setup: ControlSetup, age: float | None) -> dict[str, A
         'age of joint_states (s)': age,
     }
     if setup.settings.controller == 'sliding_mode':
-        width = setup.gains.boundary_width(setup.joint.inertia)
-        values[f'half width of the boundary layer ({unit}/s)'] = width
+        gains, inertia = setup.gains, setup.joint.inertia
+        values[f'half width of the boundary layer ({unit}/s)'] = gains.boundary_width(inertia)
+        # No joint is softer than the least bandwidth of the surface lets it be.
+        values[f'largest error within the disturbance bound ({unit})'] = gains.error_bound(
+            gains.disturbance_bound, inertia, gains.surface_bandwidth
+        )
     feedback = left_to_feedback(setup.joint)
     if feedback:
         values['declared and left to the feedback'] = ', '.join(feedback)

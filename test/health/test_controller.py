@@ -2,8 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """What the controller says of its control."""
 
+import numpy as np
 import pytest
+from scipy.integrate import trapezoid
+from scipy.signal import impulse
 
+from pam_ros.control.gains import Gains
 from pam_ros.control.loop import BLIND, DISABLED, RUNNING, WAITING, Loop
 from pam_ros.health.controller import Received, control, timing
 from pam_ros.health.health import Level
@@ -117,3 +121,18 @@ def test_commands_are_a_number_of_one_muscle_and_all_of_several():
         loop.pressures = commands
         shown = control(loop, now, WELL, '').values['command (Pa)']
         assert shown == (commands if len(commands) > 1 else commands[0])
+
+
+def test_the_bounds_of_the_surface_are_shown_and_pid_has_none():
+    values = values_of(mass=20.0)
+    width = 200.0 / (20.0 * 14.0)
+    assert values['half width of the boundary layer (m/s)'] == pytest.approx(width)
+    gains = Gains()
+    z, w = gains.surface_damping, gains.surface_bandwidth
+    t = np.linspace(0.0, 40.0 / (z * w), 400_001)
+    _, answer = impulse(([1.0, 0.0], [1.0, 2.0 * z * w, w * w]), T=t)
+    area = trapezoid(np.abs(answer), t)
+    bound = 'largest error within the disturbance bound (m)'
+    assert values[bound] == pytest.approx(width * area, rel=1e-3)
+    pytest.importorskip('simple_pid', reason='the baseline needs simple-pid')
+    assert bound not in values_of(controller='pid')

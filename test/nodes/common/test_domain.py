@@ -3,7 +3,6 @@
 """A domain that a test has claimed: nobody else claims it, and nobody else is heard in it."""
 
 import os
-import signal
 import socket
 import subprocess
 import sys
@@ -228,7 +227,7 @@ def test_strangers_in_the_same_domain_are_not_heard(domain, peer, monkeypatch):
             }
             assert neighbour.poll() is None
     finally:
-        neighbour.send_signal(signal.SIGINT)
+        neighbour.kill()
         neighbour.communicate()
     # Nor do they hear the test, though they hear each other.
     assert heard.split() == ['stranger', 'pam_sim_stranger']

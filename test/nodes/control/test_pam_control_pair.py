@@ -9,17 +9,18 @@ import numpy as np
 import pytest
 from builtin_interfaces.msg import Duration
 from diagnostic_msgs.msg import DiagnosticStatus
-from pam_ros.rig.joint_model import JointModel
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64, Float64MultiArray
 from std_srvs.srv import SetBool
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
-from pam_ros.control.signals import PAIR_TERMS
+from pam_ros.control.signals import term_names
 from pam_ros.rig import statics
 from support.control_watch import LOSE_NO_TERMS, Rig, Watch, columns
 from support.harness import Program
+from support.pair_loop import declared
 
+PAIR_TERMS = term_names(2)
 PAIR = {'joint': 'antagonistic'}
 RIG = {**PAIR, 'time_mode': 'lockstep', 'initial.pressure': 250e3}
 FOLLOWING = {**PAIR, 'use_sim_time': True, 'state_rate': 500.0, **LOSE_NO_TERMS}
@@ -65,15 +66,15 @@ def test_angle_and_stiffness_are_led_in_lockstep(watch):
         assert np.sqrt(np.mean(seen['error'][swung] ** 2)) < 0.2 * DEGREE
 
         watch.lead(lambda: watch.refer(10.0 * DEGREE), 2.0)
-        for told in (18.0, 38.0):
-            heard = watch.lead(lambda told=told: stiffen(watch, told), 2.0, 'co_contraction')
+        for wanted in (18.0, 38.0):
+            heard = watch.lead(lambda wanted=wanted: stiffen(watch, wanted), 2.0, 'co_contraction')
             _, seen = columns(heard, PAIR_TERMS)
             assert np.max(np.abs(seen['error'])) < 0.1 * DEGREE  # the angle holds meanwhile
-            assert seen['co_contraction'][-1] == pytest.approx(told)
+            assert seen['co_contraction'][-1] == pytest.approx(wanted)
             # By the closed form, at the pressures that are commanded.
             p = seen['pressure_1'][-1], seen['pressure_2'][-1]
-            found = statics.stiffness(JointModel(), p, seen['position'][-1])
-            assert found == pytest.approx(told, rel=1e-3)
+            found = statics.stiffness(declared(), p, seen['position'][-1])
+            assert found == pytest.approx(wanted, rel=1e-3)
             (dim,) = watch.commands[-1].layout.dim
             assert dim.label == 'pam_1,pam_2'
 
@@ -102,8 +103,8 @@ def test_a_set_point_is_reached_in_real_time(watch):
 @pytest.mark.parametrize('action', ['vent', 'hold'])
 def test_silence_of_the_joint_is_answered_safely(watch, action):
     rig = Rig(watch.peer)
-    told = {**PAIR, 'on_timeout': action, 'state_timeout': 0.2}
-    with Program('pam_control', parameters=told):
+    given = {**PAIR, 'on_timeout': action, 'state_timeout': 0.2}
+    with Program('pam_control', parameters=given):
         rig.tell_until(lambda: len(watch.terms) > 10, 'control', 0.1)
         status = watch.status(lambda s: 'stay away' in s.message, 'the time-out')
         assert status.level == DiagnosticStatus.ERROR
@@ -171,9 +172,6 @@ def test_parameters_change_while_it_runs_or_are_refused_as_a_whole(watch):
         bad = watch.peer.set_one('pam_control', co_contraction=900.0)
         assert not bad.successful
         assert 'co-contraction 900 N m/rad is out of reach' in bad.reason
-        bad = watch.peer.set_one('pam_control', controller='pid')
-        assert not bad.successful
-        assert 'one muscle' in bad.reason
         assert watch.peer.set_one('pam_control', gains__bandwidth=20.0).successful
         watch.lead(
             lambda: watch.peer.set_one('pam_control', co_contraction=33.0), 1.6, 'co_contraction'
@@ -184,6 +182,30 @@ def test_parameters_change_while_it_runs_or_are_refused_as_a_whole(watch):
         watch.peer.more(watch.terms, 800)
         _, seen = columns(watch.terms[sent:], PAIR_TERMS)
         assert np.max(np.abs(seen['error'])) < 0.1 * DEGREE
+        sent = len(watch.terms)
+        assert watch.peer.set_one('pam_control', controller='pid').successful
+        watch.lead(lambda: watch.refer(5.0 * DEGREE), 3.0)
+        _, seen = columns(watch.terms[sent:], PAIR_TERMS)
+        assert watch.latest('error') == pytest.approx(0.0, abs=0.1 * DEGREE)
+        assert watch.latest('stiffness') == pytest.approx(33.0, rel=0.05)
+        assert np.ptp(seen['position']) > 4.0 * DEGREE
+
+
+@pytest.mark.at_any_pace
+@pytest.mark.parametrize(
+    ('kind', 'muscles', 'way', 'close'),
+    [('parallel', 2, 0.01, 1e-4), ('lever', 2, 0.2, 2e-3), ('crank', 1, 0.1, 2e-3)],
+)
+def test_every_kind_of_joint_is_moved_to_a_position(peer, kind, muscles, way, close):
+    watch = Watch(peer, term_names(muscles), Float64MultiArray, 'pressure_commands')
+    rig = {'joint': kind, 'time_mode': 'lockstep', 'initial.pressure': 250e3}
+    following = {**FOLLOWING, 'joint': kind}
+    with Program('pam_sim', parameters=rig), Program('pam_control', parameters=following):
+        begin = watch.begin()
+        assert list(watch.terms[0].name) == list(term_names(muscles))
+        watch.lead(lambda: watch.refer(begin + way), 3.0)
+        assert watch.latest('position') == pytest.approx(begin + way, abs=close)
+        assert len(watch.commands[-1].data) == muscles
 
 
 ONE_FILE = """
@@ -262,8 +284,7 @@ def test_of_several_joints_each_has_a_controller(peer):
 @pytest.mark.parametrize(
     ('arguments', 'named'),
     [
-        (['joint:=parallel'], ['joint', 'parallel', 'antagonistic']),
-        (['joint:=antagonistic', 'controller:=pid'], ['controller = pid', 'one muscle']),
+        (['joint:=knee'], ['joint', 'knee', 'load, parallel, antagonistic, lever, crank']),
         (['joint:=antagonistic', 'co_contraction:=900.0'], ['co-contraction 900', 'N m/rad']),
         (['joint:=antagonistic', 'muscles:=[a, b, c]'], ['3 names', 'give 2']),
         (['joint:=antagonistic', 'muscles:=[a, b, c, d]'], ['joint_name = pam', 'pam_1, pam_2']),
