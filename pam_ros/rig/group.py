@@ -26,6 +26,9 @@ class Group:
         self.joints: tuple[Joint, ...] = tuple(joints)
         self.q = np.array([joint.parameters() for joint in joints])
         self.x = np.array([layout.state() for _ in joints])
+        # Parts of the state: joints' coordinates and velocities, muscles' pressures.
+        self.s, self.v = self.x[:, at.JOINT, at.S], self.x[:, at.JOINT, at.V]
+        self.p = self.x[:, at.MUSCLE :, at.P]
         self._scratch = np.array([layout.scratch() for _ in joints])
         self.u = np.zeros((n, self.muscles))  # commands in force, Pa
         # Commands under way in the pressure path: stamps and values, grown as they are needed.
@@ -40,6 +43,10 @@ class Group:
     def _bind(self) -> None:
         active = max((joint.active for joint in self.joints), key=len)
         self._kernel = bind(self.layout, active)
+        # Python looks into lists of numbers faster than into arrays.
+        self._of_joints = self.q[:, at.JOINT].tolist()
+        self._at_zero = self.q[:, at.MUSCLE :, at.AT_ZERO].tolist()
+        self._l0 = self.q[:, at.MUSCLE :, at.L0].tolist()
 
     def change(self, joints: Sequence[Joint]) -> None:
         """Go on from the present state as *joints*, which have the same layout.
@@ -97,12 +104,14 @@ class Group:
         self._kernel.outputs(self.x, self._scratch, self.q, time, self.out, self.joint_out)
 
     @property
-    def ends(self) -> Array:
-        """Positions of the muscles' ends in m, (joints, muscles)."""
-        j = self.layout.transmission_at
-        travel = self.layout.transmission.travel
-        travels = [
-            [travel(x[at.JOINT, at.S], i, q[at.JOINT], j) for i in range(self.muscles)]
-            for x, q in zip(self.x, self.q, strict=True)
+    def contraction(self) -> Array:
+        """Contractions as fractions, (joints x muscles,)."""
+        j, travel = self.layout.transmission_at, self.layout.transmission.travel
+        found = [
+            (zero + travel(s, i, q, j)) / l0
+            for s, q, zeros, lengths in zip(
+                self.s.tolist(), self._of_joints, self._at_zero, self._l0, strict=True
+            )
+            for i, (zero, l0) in enumerate(zip(zeros, lengths, strict=True))
         ]
-        return np.asarray(self.q[:, at.MUSCLE :, at.AT_ZERO] + np.array(travels))
+        return np.array(found)

@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pam_ros.errors import ParameterError
-from pam_ros.rig import layout as at
 from pam_ros.rig.group import Group
 from pam_ros.rig.joint import Joint
 from pam_ros.rig.layout import Layout
@@ -108,24 +107,22 @@ class Rig:
     @property
     def position(self) -> Array:
         """Position in m, contraction positive, or angle in rad (joints,)."""
-        return _joined([group.x[:, at.JOINT, at.S] for group in self._groups])
+        return _joined([group.s for group in self._groups])
 
     @property
     def velocity(self) -> Array:
         """Velocity in m/s or rad/s (joints,)."""
-        return _joined([group.x[:, at.JOINT, at.V] for group in self._groups])
+        return _joined([group.v for group in self._groups])
 
     @property
     def contraction(self) -> Array:
         """Contraction as a fraction of the length at rest (muscles,)."""
-        return _joined(
-            [(group.ends / group.q[:, at.MUSCLE :, at.L0]).ravel() for group in self._groups]
-        )
+        return _joined([group.contraction for group in self._groups])
 
     @property
     def pressure(self) -> Array:
         """Gauge pressure in the chamber in Pa (muscles,)."""
-        return _joined([group.x[:, at.MUSCLE :, at.P].ravel() for group in self._groups])
+        return _joined([group.p.ravel() for group in self._groups])
 
     def outputs(self) -> Array:
         """Return force N, stiffness N/m, damping N s/m, acceleration m/s^2 as (muscles, 4).
