@@ -11,6 +11,7 @@ from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
 from pam_ros import effects as effects_room
+from pam_ros.compiled import HAVE_NUMBA
 from pam_ros.effects import EFFECTS
 from pam_ros.effects.base import PLACES, Compensation
 from pam_ros.rig.bind import bind
@@ -128,6 +129,7 @@ def test_effect_alone_is_the_same_in_either_kernel(effect):
     assert np.max(np.abs(alone - run_bound((), {}))[:, 0]) > 1e-5
 
 
+@pytest.mark.needs_numba
 @BY_EFFECT
 def test_rig_at_rest_stays_at_rest(effect):
     if effect.moves_by_itself:
@@ -139,6 +141,7 @@ def test_rig_at_rest_stays_at_rest(effect):
     assert abs(again.velocity[1]) < 1e-7
 
 
+@pytest.mark.needs_numba
 @BY_EFFECT
 def test_only_what_moves_by_itself_keeps_a_load_moving(effect):
     end = simulate(
@@ -212,7 +215,7 @@ LIGHT_BETWEEN_PADS = {
 }
 
 
-@settings(max_examples=150)
+@settings(max_examples=150 if HAVE_NUMBA else 30)
 @given(effects=subsets())
 @example(effects=LIGHT_BETWEEN_PADS)
 def test_any_subset_works_together(effects):
@@ -226,7 +229,7 @@ def test_any_subset_works_together(effects):
     assert np.all(np.isfinite(cell.force))
 
 
-@settings(max_examples=30)
+@settings(max_examples=30 if HAVE_NUMBA else 10)
 @given(effects=subsets())
 def test_those_left_out_change_nothing(effects):
     active = tuple(e for e in EFFECTS if e.is_present(effects.get(e.name, {})))

@@ -31,14 +31,22 @@ SECONDS = 20.0
 BEGIN, TOLD = 2, 12.0  # s, when a trajectory begins that pam_control is told, and how long it is
 # What pam_control is told: where to be at rest, every 2 s.
 PLACES = (0.05, 0.07, 0.03, 0.06, 0.045, 0.05)  # m
-BUSY = [sys.executable, '-c', 'while True: pass']
+# Works and pauses for times that differ, so that all programs wait for a core now and then.
+BUSY = """
+import random, time
+while True:
+    until = time.monotonic() + random.uniform(0.0, 0.02)
+    while time.monotonic() < until:
+        pass
+    time.sleep(random.uniform(0.0, 0.02))
+"""
 RIG = {'time_mode': 'lockstep', 'sensor.position_noise': 5e-6}
 
 
 def keep_busy(stack, count):
-    """Let so many programs take all the time that they get, for the time of *stack*."""
+    """Let so many programs compete for the cores, for the time of *stack*."""
     for _ in range(count):
-        other = stack.enter_context(subprocess.Popen(BUSY))
+        other = stack.enter_context(subprocess.Popen([sys.executable, '-c', BUSY]))
         stack.callback(other.kill)
 
 

@@ -23,6 +23,8 @@ from pam_ros.rig.transmissions import Pulley, Straight
 from recorded import cases
 from recorded.platform import compare
 
+# Plain Python is compared with what is compiled elsewhere.
+pytestmark = pytest.mark.needs_numba
 RIGS = cases.one_muscle()
 BY_RIG = pytest.mark.parametrize('name', RIGS)
 
