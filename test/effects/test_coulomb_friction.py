@@ -34,6 +34,7 @@ def test_coasting_load_brakes_evenly_and_then_stands(v0, level):
     assert np.all(np.abs(run.velocity[-100:]) < 1e-12)
 
 
+@pytest.mark.needs_numba
 @pytest.mark.parametrize('mass', [0.5, 2.0, 10.0, 100.0])
 @pytest.mark.parametrize('level', [0.5, 5.0, 50.0])
 def test_stuck_load_stays_where_it_is(mass, level):

@@ -119,6 +119,7 @@ def test_loop_grows_with_pressure(effect, growth, p, share):
     np.testing.assert_allclose(grown, share * loop(effect, path(), p), atol=1e-9)
 
 
+@pytest.mark.needs_numba
 @pytest.mark.parametrize('effect', [BOUC_WEN, {**BOUC_WEN, 'unloading': 0.0}, SLIP])
 @given(turns=st.lists(st.floats(-0.03, 0.2), min_size=1, max_size=8))
 def test_a_path_repeated_never_gains_work(effect, turns):

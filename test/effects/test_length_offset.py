@@ -9,6 +9,7 @@ from pam_ros.rig.run import simulate, simulate_held
 from support import bench
 
 
+@pytest.mark.needs_numba
 @pytest.mark.parametrize('offset', [-0.03, 0.05])
 def test_held_force_is_that_of_the_felt_contraction(offset):
     y = np.linspace(0.0, 0.2 * bench.L0, 50)

@@ -39,6 +39,7 @@ def run(model, t, start, pressure=(0.0, 0.0), step=1e-3):
 STEPS = pytest.mark.parametrize(('step', 'bound'), [(1e-3, 4e-9), (5e-4, 3e-10)])
 
 
+@pytest.mark.needs_numba
 @STEPS
 @pytest.mark.parametrize('strands', [BOTH_LONG, UNEQUAL])
 @pytest.mark.parametrize('start', [(0.0, 0.0), (0.5, 0.0), (-0.3, 4.0)])
@@ -51,6 +52,7 @@ def test_a_pair_that_is_let_go_is_within_nanoradians_of_dop853(strands, start, s
     assert np.max(np.abs(found[1] - rate)) < 30.0 * bound
 
 
+@pytest.mark.needs_numba
 @STEPS
 @pytest.mark.parametrize('strands', [UNEQUAL, UNEQUAL[:1]], ids=['two', 'one'])
 @pytest.mark.parametrize('start', [(0.0, 0.0), (0.5, 0.0), (-0.3, 2.0)])

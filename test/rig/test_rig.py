@@ -51,6 +51,7 @@ def test_same_inputs_give_same_bits():
     np.testing.assert_array_equal(drive(MODELS), drive(MODELS))
 
 
+@pytest.mark.needs_numba
 @settings(deadline=None, max_examples=30)
 @given(st.lists(st.integers(0, 60), max_size=8))
 def test_steps_may_be_split_into_any_calls(split):

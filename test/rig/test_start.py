@@ -151,6 +151,7 @@ def test_a_name_that_nothing_has_is_refused_with_a_sentence(hidden, sentence):
 WITH_SPREAD = [e for e in EFFECTS if any(state.spread > 0.0 for state in e.states)]
 
 
+@pytest.mark.needs_numba
 @pytest.mark.parametrize('sign', [2.0, -2.0])
 @pytest.mark.parametrize('effect', WITH_SPREAD, ids=lambda effect: effect.name)
 def test_a_run_may_begin_with_every_hidden_state_two_spreads_away(effect, sign):
