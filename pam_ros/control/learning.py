@@ -82,7 +82,13 @@ class LearningTuning:
     most: float = number(200.0, 'N', 'that is fed forward at most: the disturbance bound')
 
 
+# Columns of the filter: the features, how the missing force depends on both time constants, and
+# efforts: by which the learned chambers differ from those of the law and from those without a
+# lag, and which both hypotheses see along the reference.
 _N = beside.COUNT
+_FILL, _VENT, _FROM_LAW, _FROM_NO_LAG, _PLAIN, _LAGGED, _COLUMNS = range(_N, _N + 7)
+_LAGS = slice(_FILL, _VENT + 1)  # of a column or of a parameter
+_UNKNOWNS = _VENT + 1
 
 
 class _Sensitivity:
@@ -148,16 +154,16 @@ class Learner:
         self._declared = list(pressures)
         self._sensitivities = [_Sensitivity() for _ in pressures]
         plain, noise = self._spread.copy(), self._tuning.noise
-        plain[_N:] = 0.0
+        plain[_LAGS] = 0.0
         self._plain = Regression(plain, self._low, self._high, noise)
         self._lagged = Regression(self._spread, self._low, self._high, noise)
         for one in (self._plain, self._lagged):
             one.theta[beside.CONSTANT] = -disturbance
         # Three equal poles, like the observer's: of the features, and of the force by which the
         # learned chamber differs from the declared one.
-        self._filter = np.zeros((3, _N + 6))
+        self._filter = np.zeros((3, _COLUMNS))
         self._filter[:, beside.CONSTANT] = 1.0
-        self._input = np.zeros(_N + 6)
+        self._input = np.zeros(_COLUMNS)
         self._plain_error = self._lagged_error = self._whole = 1.0
         self._plain_miss = self._lagged_miss = 1.0
         self._centre, self._has_learned = 0.0, False
@@ -177,8 +183,8 @@ class Learner:
         most = self._tuning.most
         self._wanted.follow(dt, reference.position, reference.velocity)
         values = self._wanted.values
-        self._input[_N + 3] = self._plain.theta[:_N].dot(values)
-        self._input[_N + 4] = self._lagged.theta[:_N].dot(values)
+        self._input[_PLAIN] = self._plain.theta[:_N].dot(values)
+        self._input[_LAGGED] = self._lagged.theta[:_N].dot(values)
         self._share += dt / self._tuning.blend * (self._prefers_lag - self._share)
         weights = self._weights.tolist()
         force = rate = 0.0
@@ -188,7 +194,7 @@ class Learner:
                 force += weight * self._wanted.values[n]
                 rate += weight * self._wanted.rates[n]
         used = self.trust * self._share
-        self.lag = (used * weights[_N], used * weights[_N + 1])
+        self.lag = (used * weights[_FILL], used * weights[_VENT])
         self._let_grow(dt)
         if abs(force) > most:
             return (most if force > 0.0 else -most), 0.0
@@ -199,7 +205,7 @@ class Learner:
         low, high = self.gains.bandwidth, self.gains.fast_bandwidth
         wanted = low
         if self.trust > 0.0 and not self._lag_is_declared:
-            lag = float(self._lagged.theta[_N:].max())
+            lag = float(self._lagged.theta[_LAGS].max())
             decay = (
                 self.trust * max(self._tuning.margin * lag, 1.0 / high) + (1.0 - self.trust) / low
             )
@@ -242,7 +248,7 @@ class Learner:
         if self._lag_is_declared:
             observer.predict(dt, means, -losses)
             return
-        fill, vent = self._lagged.theta[_N:].tolist()
+        fill, vent = self._lagged.theta[_LAGS].tolist()
         pressures = []
         by_fill = by_vent = less = late = 0.0
         for i, gain in enumerate(gains):
@@ -257,26 +263,28 @@ class Learner:
             by_vent += -gain * sensitivity.vent
             less += gain * (pressures[i] - means[i])
             late += gain * (pressures[i] - inflows[i])
-        self._input[_N], self._input[_N + 1], self._input[_N + 2] = by_fill, by_vent, less
-        self._input[_N + 5] = late
+        self._input[_FILL], self._input[_VENT] = by_fill, by_vent
+        self._input[_FROM_LAW], self._input[_FROM_NO_LAG] = less, late
         observer.predict(dt, pressures, -losses)
 
     def _learn(self, span: float) -> None:
         """Let both hypotheses take in the force that is missing now, *span* s after the last."""
-        phi = self._filter[2, : _N + 2]
+        phi = self._filter[2, :_UNKNOWNS]
         missing = -self._observer.disturbance
-        as_declared = missing - self._filter[2, _N + 2]
+        as_declared = missing - self._filter[2, _FROM_LAW]
         # What would be missing if no lag were inverted: all that there is to explain.
-        unlearned = missing - self._filter[2, _N + 5]
+        unlearned = missing - self._filter[2, _FROM_NO_LAG]
         plain = as_declared - float(phi[:_N] @ self._plain.theta[:_N])
         lagged = missing - float(phi[:_N] @ self._lagged.theta[:_N])
         share = min(span / self._tuning.judge, 1.0)
         self._plain_error += share * (plain * plain - self._plain_error)
         self._lagged_error += share * (lagged * lagged - self._lagged_error)
         self._plain_miss += share * (
-            (as_declared - self._filter[2, _N + 3]) ** 2 - self._plain_miss
+            (as_declared - self._filter[2, _PLAIN]) ** 2 - self._plain_miss
         )
-        self._lagged_miss += share * ((missing - self._filter[2, _N + 4]) ** 2 - self._lagged_miss)
+        self._lagged_miss += share * (
+            (missing - self._filter[2, _LAGGED]) ** 2 - self._lagged_miss
+        )
         if not self._has_learned:
             # An undeclared load is no evidence of anything else.
             self._centre, self._has_learned = unlearned, True
@@ -286,8 +294,8 @@ class Learner:
         forgotten = self._tuning.forgotten * span
         # What was seen while the lag was thought to be another one said where to go from there.
         early = self._tuning.early * span * exp(-self._moved / self._tuning.settled)
-        by_parameter = np.full(_N + 2, forgotten)
-        by_parameter[_N:] += early
+        by_parameter = np.full(_UNKNOWNS, forgotten)
+        by_parameter[_LAGS] += early
         self._plain.update(phi, plain, forgotten)
         self._lagged.update(phi, lagged, by_parameter)
 
@@ -315,10 +323,10 @@ class Learner:
         self._lagged_error = self._plain_error
         self._lagged.theta = self._plain.theta.copy()
         self._lagged.covariance = self._plain.covariance.copy()
-        self._lagged.covariance[_N:, _N:] = np.diag(self._spread[_N:] ** 2)
-        self._observer.disturbance += float(self._filter[2, _N + 2])
-        self._filter[:, _N + 5] -= self._filter[:, _N + 2]
-        self._filter[:, _N + 2] = 0.0
+        self._lagged.covariance[_LAGS, _LAGS] = np.diag(self._spread[_LAGS] ** 2)
+        self._observer.disturbance += float(self._filter[2, _FROM_LAW])
+        self._filter[:, _FROM_NO_LAG] -= self._filter[:, _FROM_LAW]
+        self._filter[:, _FROM_LAW] = 0.0
         self._input[_N:] = 0.0
         for chamber, pressure in zip(self._chambers, self._declared, strict=True):
             chamber.pressure = pressure

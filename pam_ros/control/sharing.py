@@ -59,9 +59,9 @@ class Sharing(ABC):
         at constant length would have to change, which their spring along the reference adds to.
         """
 
-    @abstractmethod
     def gains(self, s: float) -> tuple[float, ...]:
-        """Return the effort per pressure of each muscle, with its sign."""
+        """Return the effort per pressure of each muscle, arm dF/dp with its sign."""
+        return tuple(m.arm(s) * m.gain(m.position(s)) for m in self.model.muscles)
 
     @abstractmethod
     def available(self) -> float:
@@ -98,6 +98,7 @@ class OneSide(Sharing):
     def split(self, effort: float, stiffness: float, s: float) -> Split:
         """Return the pressure for *effort*; the stiffness is settled by it."""
         if len(self.model.muscles) == 1:
+            # The law's own inverse: the sums below round differently.
             muscle = self.model.muscles[0]
             p = muscle.pressure_for(effort / muscle.arm(s), muscle.position(s))
             return Split((p,), 0.0)
@@ -114,10 +115,6 @@ class OneSide(Sharing):
         """Return the rate of the effort over the gain."""
         gains = self.gains(s)
         return (rate / sum(gains),) * len(gains)
-
-    def gains(self, s: float) -> tuple[float, ...]:
-        """Return arm dF/dp of each muscle."""
-        return tuple(m.arm(s) * m.gain(m.position(s)) for m in self.model.muscles)
 
     def available(self) -> float:
         """Return gain times range of pressure where the muscles are contracted by half."""
@@ -246,10 +243,6 @@ class TwoSides(Sharing):
         ahead = self.split(foreseen, stiffness, s).pressures
         before, self._before = self._before or ahead, ahead
         return tuple((now - then) / dt for now, then in zip(ahead, before, strict=True))
-
-    def gains(self, s: float) -> tuple[float, ...]:
-        """Return arm dF/dp of each muscle."""
-        return tuple(m.arm(s) * m.gain(m.position(s)) for m in self.model.muscles)
 
     def available(self) -> float:
         """Return greatest less least effort in the middle of the reach."""

@@ -57,12 +57,8 @@ def scaled(tuning: T, length: float, force: float) -> T:
     changes = {}
     for name, (_, about) in numbers_of(type(tuning)).items():
         lengths, forces = _POWERS[about.unit]
-        value, scale = getattr(tuning, name), length**lengths * force**forces
-        changes[name] = tuple(scale * v for v in value) if _is_many(value) else scale * value
-        if not lengths and not forces:
-            changes[name] = value
+        if lengths or forces:  # else it may be a count, and stays a whole number
+            value, scale = getattr(tuning, name), length**lengths * force**forces
+            is_many = isinstance(value, tuple)
+            changes[name] = tuple(scale * v for v in value) if is_many else scale * value
     return replace(tuning, **changes)  # type: ignore[type-var]
-
-
-def _is_many(value: Any) -> bool:
-    return isinstance(value, tuple)

@@ -29,14 +29,14 @@ _INNER = (
     'share',
     'pull',
     'coefficient',
-    'effort',
+    'net_force',
     'acceleration',
     'remembers',
     'keep_memories',
     'begin',
     'step',
 )
-_INNER_OF_RUNS = ('in_force', 'held_until', 'first_command', 'cell_force')
+_INNER_OF_RUNS = ('in_force', 'held_until', 'first_command')
 _LOOPS = ('advance', 'outputs')
 _LOOPS_OF_RUNS = ('simulate', 'simulate_held', 'simulate_along')
 _STATELESS = ('delay', 'contraction', 'mass', 'damping')

@@ -169,7 +169,7 @@ def coefficient(kappa: float, e: float, v: float, p: float, m: float, q: Row) ->
     return damping_chain(damping(k, m, q[ZETA]), p, kappa, v, q)
 
 
-def effort(
+def net_force(
     s: float,
     v: float,
     i: int,
@@ -181,15 +181,14 @@ def effort(
     xn: Row,
     q: Row,
 ) -> float:
-    """Return what muscle i at *p* Pa moves the joint with, less its damping."""
+    """Return the force of muscle i at *p* Pa less its damping, in N: what its end transmits."""
     r = MUSCLE + i
     arm = arm_of(s, i, q[JOINT], TRANSMISSION)
     w = arm * v
     kappa = felt(s, i, q)
     e = exp(q[r, A3] * kappa)
     force = pull(kappa, e, w, p, t, h, x[r], xn[r], q[r])
-    net = force - coefficient(kappa, e, w, p, share(arm, inertia), q[r]) * w
-    return arm * net
+    return force - coefficient(kappa, e, w, p, share(arm, inertia), q[r]) * w
 
 
 def acceleration(
@@ -206,10 +205,12 @@ def acceleration(
 ) -> float:
     """Return s'' for the moved mass m; *stage* says which of the kept pressures acts."""
     mean = xn[MUSCLE, WIDTH + stage]
-    f = effort(s, v, 0, mean, t, h, inertia, x, xn, q)
+    arm = arm_of(s, 0, q[JOINT], TRANSMISSION)
+    f = arm * net_force(s, v, 0, mean, t, h, inertia, x, xn, q)
     for i in range(1, MUSCLES):
         p = xn[MUSCLE + i, WIDTH + stage]
-        f += effort(s, v, i, p, t, h, inertia, x, xn, q)
+        arm = arm_of(s, i, q[JOINT], TRANSMISSION)
+        f += arm * net_force(s, v, i, p, t, h, inertia, x, xn, q)
         mean += p
     if HAS_OUTSIDE:  # not even a sum with 0 otherwise: each stage would wait for it
         f += outside_chain(0.0, mean / MUSCLES, s, v, t, h, x[JOINT], xn[JOINT], q[JOINT])

@@ -39,6 +39,7 @@ class Rig:
         # Neighbours of one kind are stepped in one call.
         self._groups = [Group(tuple(alike)) for _, alike in groupby(joints, _kind)]
         self._k = 0
+        self._has_looked = False  # at the outputs of the present state
         # Of each muscle: its group, its joint in that, and its number in the joint.
         self._muscles = [
             (group, a, i)
@@ -62,6 +63,7 @@ class Rig:
         left = iter(joints)
         for group in self._groups:
             group.change([next(left) for _ in group.joints])
+        self._has_looked = False
 
     def reset(self, pressure: ArrayLike, position: ArrayLike, velocity: ArrayLike) -> None:
         """Set time to 0 and the state to these arrays, after a long rest at *pressure* there.
@@ -81,6 +83,7 @@ class Rig:
             pressures = p[m : m + n * group.muscles].reshape(n, group.muscles)
             group.reset(pressures, s[a : a + n], v[a : a + n])
             a, m = a + n, m + n * group.muscles
+        self._has_looked = False
 
     def command(self, pressure: ArrayLike) -> None:
         """Command these gauge pressures in Pa, (muscles,) or one for all, from now on."""
@@ -98,6 +101,7 @@ class Rig:
         for group in self._groups:
             group.advance(self._k, steps, self.step)
         self._k += steps
+        self._has_looked = False
 
     @property
     def time(self) -> float:
@@ -144,8 +148,10 @@ class Rig:
         return _joined([group.joint_out for group in self._groups])
 
     def _look(self) -> None:
-        for group in self._groups:
-            group.look(self.time)
+        if not self._has_looked:
+            for group in self._groups:
+                group.look(self.time)
+            self._has_looked = True
 
 
 def _kind(joint: Joint) -> Layout:

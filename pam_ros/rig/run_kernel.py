@@ -24,6 +24,7 @@ from pam_ros.rig.kernel import (
     inertia_of,
     keep_memories,
     mass_chain,
+    net_force,
     pressure_chain,
     pull,
     remembers,
@@ -72,20 +73,6 @@ def first_command(at: Row, begin_at: float) -> int:
     return i
 
 
-def cell_force(
-    s: float, v: float, i: int, t: float, h: float, inertia: float, x: Row, xn: Row, q: Row
-) -> float:
-    """Return what a force cell at the end of muscle i reads: its pull less its damping, in N."""
-    r = MUSCLE + i
-    arm = arm_of(s, i, q[JOINT], TRANSMISSION)
-    w = arm * v
-    p = x[r, P]
-    kappa = felt(s, i, q)
-    e = exp(q[r, A3] * kappa)
-    f = pull(kappa, e, w, p, t, h, x[r], xn[r], q[r])
-    return f - coefficient(kappa, e, w, p, share(arm, inertia), q[r]) * w
-
-
 def simulate(
     x: Row, xn: Row, q: Row, t: Row, at: Row, u: Row, longest: float, out: Row, forces: bool
 ) -> None:
@@ -116,7 +103,8 @@ def simulate(
         for i in range(MUSCLES):
             out[n, RUN_P + 2 * i] = x[MUSCLE + i, P]
             if forces:
-                out[n, RUN_F + 2 * i] = cell_force(s, v, i, now, 0.0, inertia, x, xn, q)
+                p = x[MUSCLE + i, P]
+                out[n, RUN_F + 2 * i] = net_force(s, v, i, p, now, 0.0, inertia, x, xn, q)
 
 
 def simulate_held(

@@ -50,8 +50,7 @@ def start_muscle(
         k, j = layout.state_at[effect.name], layout.parameter_at[effect.name]
         if effect.start is not None:
             x[row, k : k + len(effect.states)] = effect.start(own, j, pressure, kappa, y)
-        if effect.pressure is not None:
-            pressure = effect.pressure(pressure, 0.0, 0.0, x[row], k, x[row].copy(), own, j)
+        pressure = _behind(effect, pressure, x[row], k, own, j)
     x[row, at.P] = pressure
 
 
@@ -110,7 +109,13 @@ def _in_chamber(layout: Layout, q: Array, x: Array, i: int, pressure: float) -> 
     """Return what is in the chamber of muscle i now, with *pressure* Pa fed to its path."""
     row, own = at.MUSCLE + i, q[at.MUSCLE + i]
     for effect in layout.library:
-        if effect.pressure is not None:
-            k, j = layout.state_at[effect.name], layout.parameter_at[effect.name]
-            pressure = effect.pressure(pressure, 0.0, 0.0, x[row], k, x[row].copy(), own, j)
+        k, j = layout.state_at[effect.name], layout.parameter_at[effect.name]
+        pressure = _behind(effect, pressure, x[row], k, own, j)
     return pressure
+
+
+def _behind(effect: Effect, pressure: float, x: Array, k: int, q: Array, j: int) -> float:
+    """Return the pressure behind an effect of the path with *pressure* Pa before it, now."""
+    if effect.pressure is None:
+        return pressure
+    return effect.pressure(pressure, 0.0, 0.0, x, k, x.copy(), q, j)

@@ -7,6 +7,7 @@ Muscles, joints and their effects are declared as to ``pam_sim``, so that one fi
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any, ClassVar
 
 from pam_ros.control.co_contraction import CoContraction
@@ -150,22 +151,26 @@ class ControlParameters(RigParameters):
             build(Gains, values, 'gains.', is_turning=is_turning),
             use_measured_velocity=settings.velocity_source == 'measured',
         )
+        pid = build(PidGains, values, 'pid.', is_turning=is_turning)
+        limits = build(Limits, values, 'limits.')
+        shape = build(Shape, values, 'shape.', is_turning=is_turning)
+        co_contraction = build(CoContraction, values)
+        sharing = sharing_of(ControlModel(joint), limits)
+        gains.check(sharing, 1.0 / settings.rate)
+        co_contraction.wanted(sharing)
         setup = ControlSetup(
             joint,
             settings,
             gains,
-            build(PidGains, values, 'pid.', is_turning=is_turning),
-            build(Limits, values, 'limits.'),
-            build(Shape, values, 'shape.', is_turning=is_turning),
-            build(CoContraction, values),
-            (0.0, 0.0),
+            pid,
+            limits,
+            shape,
+            co_contraction,
+            sharing.reach,
+            sharing.can_stiffen,
             self.muscles[n * (k or 0) : n * (k or 0) + n],
             has_topics,
         )
-        sharing = sharing_of(ControlModel(joint), setup.limits)
-        gains.check(sharing, 1.0 / settings.rate)
-        setup.co_contraction.wanted(sharing)
-        setup = replace(setup, reach=sharing.reach)
         setup.make_law()  # which says what it lacks
         return setup
 
@@ -185,7 +190,11 @@ class ControlParameters(RigParameters):
 
 @dataclass(frozen=True)
 class ControlSetup:
-    """All that is declared to the node, checked against each other."""
+    """All that is declared to the node, checked against each other.
+
+    ``reach`` are the coordinates at which the load can be held, ``can_stiffen`` says whether a
+    stiffness can be chosen beside the position.
+    """
 
     joint: Joint
     settings: ControlSettings
@@ -195,6 +204,7 @@ class ControlSetup:
     shape: Shape
     co_contraction: CoContraction
     reach: tuple[float, float]
+    can_stiffen: bool
     muscles: tuple[str, ...]
     muscle_topics: bool
 
@@ -202,11 +212,6 @@ class ControlSetup:
     def unit(self) -> str:
         """Unit of the coordinate."""
         return self.joint.transmission.equations.unit
-
-    @property
-    def can_stiffen(self) -> bool:
-        """Whether a stiffness can be chosen beside the position."""
-        return self.joint.is_revolute and len(self.muscles) > 1
 
     @property
     def has_arrays(self) -> bool:
@@ -246,9 +251,13 @@ class ControlSetup:
     def command_at(self, chambers: Sequence[float]) -> Pressures:
         """Return the commands in Pa under which chambers rest at gauge pressures in Pa."""
         return tuple(
-            PressurePath(self.joint, i, 1.0).command_at_rest(chamber)
-            for i, chamber in enumerate(chambers)
+            path.command_at_rest(chamber)
+            for path, chamber in zip(self._paths, chambers, strict=True)
         )
+
+    @cached_property
+    def _paths(self) -> tuple[PressurePath, ...]:
+        return tuple(PressurePath(self.joint, i, 1.0) for i in range(len(self.muscles)))
 
     def take_over(self, law: PositionLaw, before: 'ControlSetup') -> None:
         """Let *law*, which was made by *before*, go on with other gains and stiffness."""

@@ -5,7 +5,7 @@
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -150,13 +150,3 @@ class Simulation:
                 positions.append(start.position)
                 velocities.append(start.velocity)
         return np.array(self.pressures), np.array(positions), np.array(velocities)
-
-
-def table(**given: Any) -> Table:
-    """Return the table of all parameters of a node that is started with *given*."""
-    return Scene(given).table()
-
-
-def simulation(values: Values) -> Simulation:
-    """Make the simulation of a complete set of flat, checked values."""
-    return Scene(values).build(values)

@@ -29,11 +29,12 @@ from pam_ros.identification.unknowns import effect_unknowns
 from pam_ros.rig.arrangements import ARRANGEMENTS
 from pam_ros.rig.joint import one_muscle
 from pam_ros.rig.run import simulate
-from pam_ros.settings.scene import Scene, table
+from pam_ros.settings.scene import Scene
 from pam_ros.settings.tables import checked, rig_table
 
 given = {'effects.choked_valve.slowness': 2e-6}
-(joint,) = Scene(given).build(checked(table(**given), given)).joints
+scene = Scene(given)
+(joint,) = scene.build(checked(scene.table(), given)).joints
 t = np.array([0.0, 0.1, 0.2, 0.3])
 run = simulate(joint, t, [0.0, 0.1], [2e5, 3e5])
 beside = simulate(

@@ -14,7 +14,7 @@ import pytest
 from benchmarks.__main__ import names as benchmarks
 from pam_ros.cli import pam_identify
 from pam_ros.settings.files import load_rig
-from pam_ros.settings.scene import table as sim_table
+from pam_ros.settings.scene import Scene
 from support.domain import claimed
 from support.pages import (
     PAGES,
@@ -111,7 +111,7 @@ def check(words):
         assert words[3].lstrip('/') in PROGRAMS
     elif words[:3] == ['ros2', 'param', 'set']:
         assert words[3] == '/pam_sim'
-        assert words[4] in sim_table()
+        assert words[4] in Scene({}).table()
     elif words[:3] == ['ros2', 'service', 'call']:
         services = {'pause': 'SetBool', 'step': 'Trigger', 'reset': 'Trigger'}
         assert words[4] == f'std_srvs/srv/{services[words[3].removeprefix("/pam_sim/")]}'

@@ -12,9 +12,10 @@ from pathlib import Path
 import pytest
 import yaml
 
-from pam_ros.settings import excite, scene
+from pam_ros.settings import excite
 from pam_ros.settings.control import settings_of
 from pam_ros.settings.files import load_rig, read
+from pam_ros.settings.scene import Scene
 from pam_ros.settings.tables import checked
 
 HERE = Path(__file__).parent
@@ -29,11 +30,11 @@ PAIRS = {
     'a.l0': 0.3,
 }
 NOW = {
-    'pam_sim': scene.table(),
-    'pam_sim several': scene.table(**SEVERAL),
-    'pam_sim antagonistic': scene.table(joint='antagonistic'),
-    'pam_sim parallel': scene.table(joint='parallel'),
-    'pam_sim two pairs': scene.table(**PAIRS),
+    'pam_sim': Scene({}).table(),
+    'pam_sim several': Scene(SEVERAL).table(),
+    'pam_sim antagonistic': Scene({'joint': 'antagonistic'}).table(),
+    'pam_sim parallel': Scene({'joint': 'parallel'}).table(),
+    'pam_sim two pairs': Scene(PAIRS).table(),
     'pam_control': settings_of({})[0],
     'pam_control antagonistic': settings_of({'joint': 'antagonistic'})[0],
     'pam_excite': excite.table(),
@@ -81,7 +82,8 @@ def written():
 
 
 def by_pam_sim():
-    (joint,) = scene.simulation(checked(scene.table(), read(IDENTIFIED, 'pam_sim'))).joints
+    scene = Scene({})
+    (joint,) = scene.build(checked(scene.table(), read(IDENTIFIED, 'pam_sim'))).joints
     return joint
 
 
@@ -93,7 +95,8 @@ def by_pam_control():
 def by_preset():
     """Return what ``muscle:=identified.yaml`` makes."""
     given = {'muscle': str(IDENTIFIED)}
-    (joint,) = scene.simulation(checked(scene.table(**given), given)).joints
+    scene = Scene(given)
+    (joint,) = scene.build(checked(scene.table(), given)).joints
     return joint
 
 

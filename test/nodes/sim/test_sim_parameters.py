@@ -7,7 +7,7 @@ from rcl_interfaces.srv import ListParameters
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64
 
-from pam_ros.settings.scene import table
+from pam_ros.settings.scene import Scene
 from support.harness import Peer, Program
 
 pytestmark = pytest.mark.at_any_pace
@@ -26,9 +26,9 @@ def test_every_parameter_is_declared_described_and_has_its_default(sim):
     response = sim.call(ListParameters, f'{NODE}/list_parameters')
     names = [n for n in response.result.names if not n.startswith('qos_overrides.')]
     own = [n for n in names if n not in ('use_sim_time', 'start_type_description_service')]
-    assert set(own) == set(table())
+    assert set(own) == set(Scene({}).table())
     for name, description in zip(own, sim.describe(NODE, *own), strict=True):
-        kind, default, about = table()[name]
+        kind, default, about = Scene({}).table()[name]
         assert about.text in description.description
         assert about.unit in description.description
         assert description.read_only is not about.live
@@ -65,12 +65,12 @@ def test_mass_is_described_with_unit_and_bounds(sim):
     ],
 )
 def test_what_makes_no_model_is_refused_with_the_reason(sim, values, named):
-    before = sim.get(NODE, *table())
+    before = sim.get(NODE, *Scene({}).table())
     result = sim.set_together(NODE, **values)
     assert not result.successful
     for word in named:
         assert word in result.reason
-    assert sim.get(NODE, *table()) == before
+    assert sim.get(NODE, *Scene({}).table()) == before
 
 
 @pytest.mark.parametrize('name', ['physics_rate', 'pressure_unit', 'joint_name', 'muscle'])
