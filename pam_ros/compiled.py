@@ -43,6 +43,19 @@ def scalar(function: F) -> F:
     return compiled
 
 
+def inner(function: F) -> F:
+    """As :func:`scalar`, for what only compiled functions call: it cannot be called from Python.
+
+    Nothing that Python needs for a call is compiled.
+    """
+    if numba is None:
+        return function
+    compiled: F = numba.njit(
+        **_OPTIONS, forceinline=True, no_cpython_wrapper=True, no_cfunc_wrapper=True
+    )(function)
+    return compiled
+
+
 def cached(function: F) -> F:
     """As :func:`scalar`, with the machine code kept on disk between runs.
 

@@ -9,8 +9,8 @@ import numpy as np
 from pam_ros import compiled
 
 
-@compiled.scalar
-def inner(x: float) -> float:
+@compiled.inner
+def bell(x: float) -> float:
     """Return a bell."""
     return exp(-x * x)
 
@@ -18,7 +18,7 @@ def inner(x: float) -> float:
 @compiled.scalar
 def outer(x: float, scale: float) -> float:
     """Return a scaled bell that calls another function."""
-    return scale * sqrt(inner(max(x, 0.0)))
+    return scale * sqrt(bell(max(x, 0.0)))
 
 
 def test_broadcast_runs_the_same_source_over_arrays():
@@ -36,5 +36,6 @@ def test_without_numba_functions_stay_as_they_are(monkeypatch):
         return 2.0 * x
 
     assert compiled.scalar(double) is double
+    assert compiled.inner(double) is double
     assert compiled.cached(double) is double
     np.testing.assert_array_equal(compiled.broadcast(double)(np.arange(3.0)), [0.0, 2.0, 4.0])

@@ -101,7 +101,7 @@ def figure(replay: Replay) -> Figure:
 
 def table(replay: Replay, report: Mapping[str, Any]) -> str:
     """Return the errors before and after, and what was found beside what is hidden."""
-    lines = [f'{"the same commands again":<26}{"RMSE, mm":>10}{"max, mm":>10}{"fit, %":>10}']
+    lines = [f'{"commands not used to fit":<26}{"RMSE, mm":>10}{"max, mm":>10}{"fit, %":>10}']
     sizes = [(curve.label, replay.size(curve.stage)) for curve in CURVES]
     for label, size in sizes:
         lines.append(

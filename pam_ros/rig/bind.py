@@ -23,6 +23,8 @@ from pam_ros.rig import run_kernel
 from pam_ros.rig.layout import Layout
 
 Function = Callable[..., Any]
+# Effects, each with the offsets of its states and its parameters.
+Offsets = tuple[tuple[Effect, int, int], ...]
 # Inner templates in the order in which they call each other, then the loops, which are cached.
 _INNER = (
     'felt',
@@ -102,7 +104,7 @@ def _or_present(inner: Function, strengths: tuple[int, ...]) -> Function:
     def chain(q):  # type: ignore[no-untyped-def]
         return inner(q) or q[first] != 0.0
 
-    return _or_present(compiled.scalar(chain), rest)
+    return _or_present(compiled.inner(chain), rest)
 
 
 _CHAINED: dict[str, Callable[..., Function]] = {
@@ -116,35 +118,40 @@ _CHAINED: dict[str, Callable[..., Function]] = {
 }
 
 
-def _chains(layout: Layout, active: tuple[Effect, ...]) -> dict[str, Function]:
-    """Return the compiled chain of every place, by the name that the templates call."""
+@lru_cache(maxsize=32)
+def _chains(offsets: Offsets) -> dict[str, Function]:
+    """Return the compiled chain of every place, by the name that the templates call.
+
+    The offsets are the same in joints of all kinds, whose kernels in one process share the chains
+    and so compile them once.
+    """
     chains = {
-        f'{place}_chain': compiled.scalar(getattr(templates, f'{place}_chain'))
+        f'{place}_chain': compiled.inner(getattr(templates, f'{place}_chain'))
         for place in (*_STATELESS, *_WITH_MEMORY)
     }
-    for effect in active:
-        i, j = layout.state_at[effect.name], layout.parameter_at[effect.name]
+    for effect, i, j in offsets:
         for place, make in _CHAINED.items():
             f = getattr(effect, place)
             if f is not None:
-                inner, own = chains[f'{place}_chain'], compiled.scalar(f)
-                offsets = (j,) if place in _STATELESS else (i, j)
-                chains[f'{place}_chain'] = compiled.scalar(make(inner, own, *offsets))
+                inner, own = chains[f'{place}_chain'], compiled.inner(f)
+                at = (j,) if place in _STATELESS else (i, j)
+                chains[f'{place}_chain'] = compiled.inner(make(inner, own, *at))
     return chains
 
 
-def _memories(layout: Layout, active: tuple[Effect, ...]) -> dict[str, Function]:
+@lru_cache(maxsize=32)
+def _memories(offsets: Offsets) -> dict[str, Function]:
     """Return the functions that say whether a row has an effect with a memory of its own."""
     found = {}
     for name, on_joint in (('muscle_remembers', False), ('joint_remembers', True)):
         strengths = tuple(
-            layout.parameter_at[effect.name] + k
-            for effect in active
+            j + k
+            for effect, _, j in offsets
             if effect.states and effect.pressure is None and effect.acts_on_joint is on_joint
             for k, p in enumerate(effect.parameters)
             if p.strength
         )
-        found[name] = _or_present(compiled.scalar(getattr(templates, name)), strengths)
+        found[name] = _or_present(compiled.inner(getattr(templates, name)), strengths)
     return found
 
 
@@ -156,7 +163,7 @@ def fingerprint(function: Function) -> str:
     """
     digest = hashlib.sha256()
     seen: set[FunctionType] = set()
-    for root in (function, compiled.scalar, compiled.cached):
+    for root in (function, compiled.scalar, compiled.inner, compiled.cached):
         for part in _parts(root, seen):
             digest.update(repr(part).encode())
     return digest.hexdigest()[:16]
@@ -187,21 +194,22 @@ def bind(layout: Layout, active: tuple[Effect, ...]) -> Kernel:
     each loop, or comes from disk.
     """
     transmission, load = layout.transmission, layout.load
+    offsets = tuple((e, layout.state_at[e.name], layout.parameter_at[e.name]) for e in active)
     names: dict[str, Any] = {
         **vars(templates),
-        **_chains(layout, active),
-        **_memories(layout, active),
+        **_chains(offsets),
+        **_memories(offsets),
         'MUSCLES': layout.muscles,
         'HAS_OUTSIDE': any(effect.outside is not None for effect in active),
         'MEMORY_FROM': layout.memory_from,
         'WIDTH': layout.width,
         'LOAD': layout.load_at,
         'TRANSMISSION': layout.transmission_at,
-        'travel_of': compiled.scalar(transmission.travel),
-        'arm_of': compiled.scalar(transmission.arm),
-        'arm_slope_of': compiled.scalar(transmission.arm_slope),
-        'inertia_of': compiled.scalar(load.inertia),
-        'fall_of': compiled.scalar(load.fall),
+        'travel_of': compiled.inner(transmission.travel),
+        'arm_of': compiled.inner(transmission.arm),
+        'arm_slope_of': compiled.inner(transmission.arm_slope),
+        'inertia_of': compiled.inner(load.inertia),
+        'fall_of': compiled.inner(load.fall),
     }
     _bind_inner(templates, _INNER, names)
     loops = _bind_loops(templates, _LOOPS, names)
@@ -214,7 +222,7 @@ def bind(layout: Layout, active: tuple[Effect, ...]) -> Kernel:
 def _bind_inner(module: Any, inner: tuple[str, ...], names: dict[str, Any]) -> None:
     """Bind the functions *inner* of a module of templates to *names*, and put them there."""
     for name in inner:
-        names[name] = compiled.scalar(_rebound(getattr(module, name), names, name))
+        names[name] = compiled.inner(_rebound(getattr(module, name), names, name))
 
 
 def _bind_loops(module: Any, loops: tuple[str, ...], names: dict[str, Any]) -> dict[str, Function]:

@@ -38,12 +38,12 @@ from pam_ros.rig.layout import (
     AT_ZERO,
     END,
     JOINT,
+    JOINT_EFFECTS,
     JOINT_HIDDEN,
     L0,
     MASS,
     MIDDLE,
     MUSCLE,
-    NUMBERS,
     START,
     ZETA,
     P,
@@ -58,7 +58,7 @@ MUSCLES = 1
 HAS_OUTSIDE = True  # whether an effect that acts from outside the muscles is in use
 MEMORY_FROM = 1  # first hidden state of a muscle that is not of its pressure path
 WIDTH = 2  # of a state
-LOAD, TRANSMISSION = NUMBERS, NUMBERS + 1  # where the numbers of both begin
+LOAD, TRANSMISSION = JOINT_EFFECTS, JOINT_EFFECTS + 1  # where the numbers of both begin
 
 
 def delay_chain(q: Row) -> float:

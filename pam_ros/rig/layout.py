@@ -34,7 +34,7 @@ JOINT, MUSCLE = 0, 1  # rows: the joint's, and that of its first muscle
 S, V, JOINT_HIDDEN = 0, 1, 2
 P, HIDDEN = 0, 1
 # Parameters of the joint and of a muscle, behind those that effects read.
-MASS, NUMBERS = LENGTH + 1, LENGTH + 2
+MASS, JOINT_EFFECTS = LENGTH + 1, LENGTH + 2
 AT_ZERO, MUSCLE_EFFECTS = L0 + 1, L0 + 2
 # Scratch of a muscle, counted from the width of a state: the chamber pressure at the start, in the
 # middle and at the end of a step.
@@ -108,22 +108,20 @@ def layout_of(
     """Lay out joints of *muscles* muscles, with these equations and effects.
 
     In a muscle the states of the pressure path come first, for they are settled before a step's
-    forces; otherwise states and parameters are in the order of the library.
+    forces; otherwise states and parameters are in the order of the library. In a joint the effects
+    come before its load and transmission, so that their places are those of every kind of joint.
     """
     on_joint = [effect for effect in library if effect.acts_on_joint]
     in_muscle = [effect for effect in library if not effect.acts_on_joint]
     path = [effect for effect in in_muscle if effect.pressure is not None]
     forces = [effect for effect in in_muscle if effect.pressure is None]
-    load_at = NUMBERS
-    transmission_at = load_at + load.numbers
     state_at: dict[str, int] = {}
     parameter_at: dict[str, int] = {}
     joint_width = _place(state_at, on_joint, JOINT_HIDDEN, 'states')
     memory_from = _place(state_at, path, HIDDEN, 'states')
     muscle_width = _place(state_at, forces, memory_from, 'states')
-    joint_row = _place(
-        parameter_at, on_joint, transmission_at + transmission.numbers, 'parameters'
-    )
+    load_at = _place(parameter_at, on_joint, JOINT_EFFECTS, 'parameters')
+    transmission_at = load_at + load.numbers
     muscle_row = _place(parameter_at, in_muscle, MUSCLE_EFFECTS, 'parameters')
     return Layout(
         library,
@@ -136,7 +134,7 @@ def layout_of(
         load_at,
         transmission_at,
         max(joint_width, muscle_width),
-        max(joint_row, muscle_row),
+        max(transmission_at + transmission.numbers, muscle_row),
     )
 
 

@@ -100,9 +100,9 @@ def test_data_are_described(tested):
     assert (first['role'], second['role']) == ('fit', 'test')
     assert first['rate'] == pytest.approx(200.0)
     assert first['jitter'] < 1e-9
-    assert first['duration'] == pytest.approx(40.0 - 1 / 200.0)
+    assert first['duration'] == pytest.approx(20.0 - 1 / 200.0)
     ((start, end),) = first['gaps']
-    assert (start, end) == pytest.approx((16.0, 16.8), abs=0.011)
+    assert (start, end) == pytest.approx((8.0, 8.4), abs=0.011)
     low, high = first['ranges']['pressure_command']
     assert 2.0e5 < low < high < 5.0e5
     assert report['data']['segments'] == 3

@@ -175,7 +175,7 @@ def test_a_model_that_diverges_is_drawn_and_its_numbers_stay_finite(clean, value
     trace, source, _ = clean
     declared = trace.stages[0]
     simulated = declared.simulated[0].copy()
-    simulated[3000:] = value
+    simulated[1500:] = value
     broken = replace(declared, simulated=(simulated,), fit_error=value, held_error=value)
     changed = replace(trace, stages=(broken, *trace.stages[1:]))
     runs = runs_of(changed)

@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 
 from pam_ros.compiled import HAVE_NUMBA
+from pam_ros.effects import EFFECTS
 from pam_ros.effects.base import Compensation, Effect, EffectParameter
 from pam_ros.rig.bind import bind, fingerprint
 from pam_ros.rig.joint import one_muscle
@@ -186,6 +187,25 @@ def test_plain_python_gives_what_the_compiled_kernel_gives():
     compiled, plain = (json.loads(run(RUN.format(blocked=b))) for b in (False, True))
     assert len(compiled) == 2 * (3 * 7 + 9) + 3 * (2 * (4 + 8 + 3) + 12 + 4)
     np.testing.assert_allclose(plain, compiled, rtol=1e-12, atol=1e-12)
+
+
+def test_joints_of_all_kinds_share_the_chains_of_their_effects():
+    """What a process has compiled for a muscle, a joint of two needs no more."""
+    alone, pair = (
+        bind(layout_of(EFFECTS, transmission, load, muscles), EFFECTS).advance
+        for transmission, load, muscles in (
+            (Straight.equations, Mass.equations, 1),
+            (Pulley.equations, Arm.equations, 2),
+        )
+    )
+    names = {name for name in names_of(alone) if name.endswith('_chain')}
+    assert len(names) == 7
+    for name in names:
+        assert names_of(alone)[name] is names_of(pair)[name]
+
+
+def names_of(function):
+    return getattr(function, 'py_func', function).__globals__
 
 
 def test_an_effect_of_ones_own_acts():

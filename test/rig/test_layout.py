@@ -29,16 +29,17 @@ def test_every_effect_has_its_own_places_in_its_row(joint):
         first = at.JOINT_HIDDEN if on_joint else at.HIDDEN
         assert sorted(states) == list(range(first, first + len(states)))
         assert first + len(states) <= layout.width
-        numbers = len(joint.load.numbers) + len(joint.transmission.numbers)
-        first = at.NUMBERS + numbers if on_joint else at.MUSCLE_EFFECTS
+        first = at.JOINT_EFFECTS if on_joint else at.MUSCLE_EFFECTS
         assert sorted(parameters) == list(range(first, first + len(parameters)))
         assert first + len(parameters) <= layout.parameters
 
 
-def test_the_numbers_of_load_and_transmission_stand_behind_each_other():
+def test_load_and_transmission_stand_behind_the_effects_of_the_joint():
     layout = lever().layout
-    assert layout.load_at == at.NUMBERS
-    assert layout.transmission_at == at.NUMBERS + 4
+    effects = sum(len(e.parameters) for e in layout.library if e.acts_on_joint)
+    assert layout.load_at == at.JOINT_EFFECTS + effects
+    assert layout.transmission_at == layout.load_at + 4
+    assert layout.parameters >= layout.transmission_at + 3
     assert layout.rows == 3
     assert layout.run_columns == 2 + 2 * 2
 

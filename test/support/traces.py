@@ -17,6 +17,7 @@ from pam_ros.rig.run import simulate, simulate_held
 from pam_ros.settings.tables import build_rig
 
 NOISE = 5e-5  # m
+SECONDS = 20.0  # long enough to see all that a report shows, also as plain Python
 DECLARED = {'mass': 20.0, 'zeta': 0.15}
 FRICTION = {'effects.coulomb_friction.level': 14.0}
 PRESET = 'dmsp_20_400n'
@@ -35,7 +36,7 @@ def commands(seconds, rate, seed=0):
     return t, np.concatenate([steps[:third], triangle, 3.5e5 + 3e4 * sines])
 
 
-def free_recording(model, seconds=40.0, rate=200.0, seed=0, name='bench.csv', gap=False):
+def free_recording(model, seconds=SECONDS, rate=200.0, seed=0, name='bench.csv', gap=False):
     """Return a recording of a free rig with white noise on its position."""
     t, command = commands(seconds, rate, seed)
     y = simulate(model, t, t, command).position
@@ -48,7 +49,7 @@ def free_recording(model, seconds=40.0, rate=200.0, seed=0, name='bench.csv', ga
     return replace(whole, t=t[keep], position=y[keep], gaps=gaps, warnings=('1 gap(s)',))
 
 
-def held_recording(model, kappa, seconds=30.0, rate=100.0, seed=0):
+def held_recording(model, kappa, seconds=SECONDS, rate=100.0, seed=0):
     """Return a recording of a muscle held at *kappa*, with white noise on its force."""
     t, pressure = commands(seconds, rate, seed)
     y = np.full(t.size, kappa * model.muscle.l0)
@@ -176,11 +177,11 @@ FRICTION_FOUND = Finding(
 )
 
 
-def friction_trace(test=False, gap=False, seconds=40.0, rate=200.0):
+def friction_trace(test=False, gap=False, seconds=SECONDS, rate=200.0):
     """Return (trace, provenance) of a free rig with friction that was found."""
     truth = rig(**{'effects.coulomb_friction.level': 14.0, 'a5': 303.5, 'zeta': 0.2})
     recordings = [free_recording(truth, seconds, rate, gap=gap)]
-    others = [free_recording(truth, 0.5 * seconds, rate, 5, 'other.csv')] if test else []
+    others = [free_recording(truth, seconds, rate, 5, 'other.csv')] if test else []
     declared, retuned = rig(), rig(a5=303.4, zeta=0.24)
     augmented = rig(**{'effects.coulomb_friction.level': 14.02, 'a5': 303.502, 'zeta': 0.201})
     trace = trace_of(

@@ -5,8 +5,8 @@
 ``pam_sim`` stands in for the rig, with effects that are declared to no program. ``pam_excite``
 plays its programme, ``pam_record`` writes a rosbag2, ``pam_identify`` finds what the declared
 model lacks.
-Then the rig runs once more, beside it a simulator as declared and one that was started with
-``identified.yaml``; all three receive the same commands.
+Then the rig runs once more with commands that the fit has not seen, beside it a simulator as
+declared and one that was started with ``identified.yaml``; all three receive the same commands.
 """
 
 import json
@@ -30,16 +30,16 @@ from pam_ros.nodes.common.client import Client
 from pam_ros.nodes.demo.stage import Stage
 from pam_ros.processes.children import Program
 
-DURATION = 45.0  # s
-EXCITATION = {
+EXCITATION: Mapping[str, Any] = {
     'muscle': loop.MUSCLE,
-    'duration': DURATION,
+    'duration': 45.0,  # s
     'pressure_min': 150e3,
     'pressure_max': 400e3,
     'countdown': 2.0,
     'rate': 100.0,
     'silence': 3.0,  # s; long, since a simulated rig endangers no person
 }
+UNSEEN = {**EXCITATION, 'duration': 30.0, 'seed': 1}
 RATE = 200.0  # states per second
 LATE = 0.1  # s by which a simulator may be late
 TOO_BUSY = 'this machine is too busy for real time'
@@ -50,16 +50,16 @@ def play(stage: Stage) -> None:
     folder = stage.folder / 'loop'
     folder.mkdir(parents=True, exist_ok=True)
     stage.say(f'Closing the loop: what does a rig have that {loop.MUSCLE} has not?')
-    record_in_time(stage, folder / 'recording', {'rig': loop.HIDDEN})
+    record_in_time(stage, folder / 'recording', {'rig': loop.HIDDEN}, EXCITATION)
     report = identify(stage, folder)
-    stage.say('The rig once more, beside it pam_sim as declared and with identified.yaml')
+    stage.say('Commands that the fit has not seen: the rig, pam_sim as declared and as identified')
     identified = {'muscle': str(folder / 'report' / 'identified.yaml')}
     again = {
         'rig': {**loop.HIDDEN, 'sensor.seed': 1},
         'declared': {'muscle': loop.MUSCLE},
         'identified': identified,
     }
-    record_in_time(stage, folder / 'replay', again)
+    record_in_time(stage, folder / 'replay', again, UNSEEN)
     command, *spaces = (f'{stage.namespace}/{name}' for name in ('pressure_command', *again))
     replay = loop.read_replay(folder / 'replay', command, *spaces)
     from pam_ros.demo import figures
@@ -69,21 +69,23 @@ def play(stage: Stage) -> None:
     stage.text('loop/before_and_after.txt', loop.table(replay, report))
 
 
-def record_in_time(stage: Stage, bag: Path, rigs: Mapping[str, Mapping[str, Any]]) -> None:
+def record_in_time(
+    stage: Stage, bag: Path, rigs: Mapping[str, Mapping[str, Any]], excitation: Mapping[str, Any]
+) -> None:
     """Record as :func:`record` does, once more where the machine was too busy for real time.
 
     A rig that takes its commands late is another rig than the one that was recorded. The better
     of the two recordings is kept.
     """
     shutil.rmtree(bag, ignore_errors=True)
-    late = record(stage, bag, rigs)
+    late = record(stage, bag, rigs, excitation)
     if late > LATE:
         stage.say(
             f'  this machine is busy: a simulator stood still for {1e3 * late:.0f} ms; again'
         )
         with TemporaryDirectory(dir=bag.parent) as folder:
             again = Path(folder) / bag.name
-            late_again = record(stage, again, rigs)
+            late_again = record(stage, again, rigs, excitation)
             if late_again < late:
                 shutil.rmtree(bag)
                 again.rename(bag)
@@ -93,10 +95,13 @@ def record_in_time(stage: Stage, bag: Path, rigs: Mapping[str, Mapping[str, Any]
     stage.wrote(bag)
 
 
-def record(stage: Stage, bag: Path, rigs: Mapping[str, Mapping[str, Any]]) -> float:
+def record(
+    stage: Stage, bag: Path, rigs: Mapping[str, Mapping[str, Any]], excitation: Mapping[str, Any]
+) -> float:
     """Record simulated *rigs* (name -> parameters), the first of them excited, to *bag*.
 
-    All receive the same commands. Return the time in s by which one of them was late at worst.
+    All receive the same commands, those of pam_excite with the parameters *excitation*. Return
+    the time in s by which one of them was late at worst.
     Raises PamError where the excitation stopped early.
     """
     space = stage.namespace
@@ -126,8 +131,8 @@ def record(stage: Stage, bag: Path, rigs: Mapping[str, Mapping[str, Any]]) -> fl
         client.node.destroy_publisher(publisher)
         watch = ('-r', f'__ns:={space}', '-r', f'joint_states:={states[0]}')
         reports = client.collect(DiagnosticArray, '/diagnostics')
-        with Program('pam_excite', *watch, parameters=EXCITATION) as excite:
-            show(client, excite)
+        with Program('pam_excite', *watch, parameters=excitation) as excite:
+            show(client, excite, excitation['duration'])
             if excite.wait():
                 raise PamError(f'pam_excite stopped: {excite.output.splitlines()[-1]}')
         recorder.stop()
@@ -147,15 +152,15 @@ def worst_lateness(reports: list[DiagnosticArray], space: str) -> float:
     return max(values, default=0.0)
 
 
-def show(client: Client, excite: Program) -> None:
+def show(client: Client, excite: Program, duration: float) -> None:
     """Show how far the excitation is, until it ends."""
     pause = 0.1 if sys.stderr.isatty() else 5.0
     form = '  {desc:<20} {bar:30} {n:4.1f} of {total:g} s'
-    with tqdm(total=DURATION, desc='exciting', bar_format=form, mininterval=pause) as bar:
+    with tqdm(total=duration, desc='exciting', bar_format=form, mininterval=pause) as bar:
         while excite.is_running:
             client.work(0.2)
             if 'vented' in excite.output:
-                bar.update(min(0.2, DURATION - bar.n))
+                bar.update(min(0.2, duration - bar.n))
 
 
 def identify(stage: Stage, folder: Path) -> dict[str, Any]:
