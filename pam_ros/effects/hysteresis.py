@@ -11,7 +11,7 @@ vented, whether its ends move or not, and the loop is so many Pa wide (Hunt et a
 
 from math import exp, expm1, log1p
 
-from pam_ros.compiled import scalar
+from pam_ros.compiled import plain, scalar
 from pam_ros.effects.base import Compensation, Effect, EffectParameter, HiddenState, Row
 from pam_ros.effects.rows import A1, A3, A4, A5
 from pam_ros.muscle.law import gain
@@ -102,9 +102,9 @@ def force(
 
 def start(q: Row, j: int, p: float, kappa: float, y: float) -> tuple[float, ...]:
     """Return all loops at the share q[j + 10] of their height: from -1 to 1, 0 in the middle."""
-    every = range(ELEMENTS)
-    slip = [q[j + 10] * q[j + 4] * threshold(n, q[j + 5], q[j + 11]) for n in every]
-    over_p = [q[j + 10] * q[j + 8] * threshold(n, q[j + 9], q[j + 12]) for n in every]
+    every, share_of = range(ELEMENTS), plain(threshold)
+    slip = [q[j + 10] * q[j + 4] * share_of(n, q[j + 5], q[j + 11]) for n in every]
+    over_p = [q[j + 10] * q[j + 8] * share_of(n, q[j + 9], q[j + 12]) for n in every]
     return (q[j + 10], kappa, p, *slip, *over_p)
 
 

@@ -27,6 +27,39 @@ for kind in (LOAD, PARALLEL, ANTAGONISTIC):
 """
 
 
+COMPILED_AFTERWARDS = """
+from numba.core import event
+from pam_ros.rig.arrangements import ANTAGONISTIC, LOAD, PARALLEL
+from pam_ros.rig.joint import Actuator, Joint
+from pam_ros.rig.rig import Rig
+
+class Listener(event.Listener):
+    def on_start(self, event):
+        print(event.data['dispatcher'].py_func.__qualname__)
+
+    def on_end(self, event):
+        pass
+
+event.register('numba:compile', Listener())
+for kind in (LOAD, PARALLEL, ANTAGONISTIC):
+    muscles = (Actuator(contraction=kind.contraction),) * kind.muscles
+    for effects in ({}, {'viscous_friction': {'coefficient': 0.1}}):
+        rig = Rig([Joint(muscles, kind.load(), kind.transmission(), effects)])
+        rig.command([2e5] * kind.muscles)
+        rig.advance(10)
+        rig.outputs()
+"""
+
+
+@pytest.mark.needs_numba
+def test_a_program_that_starts_later_compiles_nothing():
+    """Not even a small function: the first one costs half a second, more than all imports."""
+    asked = [sys.executable, '-c', COMPILED_AFTERWARDS]
+    subprocess.run([sys.executable, '-m', 'pam_ros.rig.warm'], capture_output=True, check=True)
+    done = subprocess.run(asked, capture_output=True, text=True, check=True)
+    assert done.stdout == ''
+
+
 @pytest.mark.needs_numba
 def test_every_loop_is_compiled_at_set_up():
     """Those that are stepped, of each of these; those over recordings, of one muscle alone."""
