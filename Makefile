@@ -18,7 +18,7 @@ export PYTHON
 help:
 	@echo 'make demo       the experiment of the paper, controllers and the closed loop, over ROS topics: see demo/'
 	@echo 'make test       all tests (make test ARGS="test/muscle -x" for some)'
-	@echo 'make test-fast  those of them that start no node and build nothing, in 90 s'
+	@echo 'make test-fast  those of them that start no node and build nothing'
 	@echo 'make lint       style and types'
 	@echo 'make docs       write the tables of docs/effects.md anew, from the library of effects'
 	@echo 'make bench      the speed claims, measured on this machine (ARGS=plant for one)'
