@@ -37,10 +37,7 @@ def scalar(function: F) -> F:
 
     Callers that pass it on to another compiled function pay nothing: it is inlined.
     """
-    if numba is None:
-        return function
-    compiled: F = numba.njit(**_OPTIONS, forceinline=True)(function)
-    return compiled
+    return _compiled(function, forceinline=True)
 
 
 def inner(function: F) -> F:
@@ -48,12 +45,7 @@ def inner(function: F) -> F:
 
     Nothing that Python needs for a call is compiled.
     """
-    if numba is None:
-        return function
-    compiled: F = numba.njit(
-        **_OPTIONS, forceinline=True, no_cpython_wrapper=True, no_cfunc_wrapper=True
-    )(function)
-    return compiled
+    return _compiled(function, forceinline=True, no_cpython_wrapper=True, no_cfunc_wrapper=True)
 
 
 def cached(function: F) -> F:
@@ -62,9 +54,13 @@ def cached(function: F) -> F:
     numba's cache sees changes of the function's own file only. A caller that binds other
     functions into it must give it a name that changes with them (see ``rig/bind.py``).
     """
+    return _compiled(function, cache=True)
+
+
+def _compiled(function: F, **more: bool) -> F:
     if numba is None:
         return function
-    compiled: F = numba.njit(**_OPTIONS, cache=True)(function)
+    compiled: F = numba.njit(**_OPTIONS, **more)(function)
     return compiled
 
 

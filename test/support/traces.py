@@ -201,9 +201,6 @@ def clean_trace():
 
 def held_trace():
     """Return (trace, provenance) of a muscle held at three lengths, with hysteresis found."""
-    values = {'effects.hysteresis.amplitude': 30.0}
-    name = next(iter(EFFECTS[0].parameters)).name
-    del name
     hysteresis = next(e for e in EFFECTS if e.name == 'hysteresis')
     strength = next(p for p in hysteresis.parameters if p.strength)
     values = {f'effects.hysteresis.{strength.name}': 3.0 * strength.scale}
