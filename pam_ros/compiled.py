@@ -37,7 +37,7 @@ def scalar(function: F) -> F:
 
     Callers that pass it on to another compiled function pay nothing: it is inlined.
     """
-    return _compiled(function, forceinline=True)
+    return _inlined(function)
 
 
 def inner(function: F) -> F:
@@ -45,7 +45,7 @@ def inner(function: F) -> F:
 
     Nothing that Python needs for a call is compiled.
     """
-    return _compiled(function, forceinline=True, no_cpython_wrapper=True, no_cfunc_wrapper=True)
+    return _inlined(function, no_cpython_wrapper=True, no_cfunc_wrapper=True)
 
 
 def cached(function: F) -> F:
@@ -54,14 +54,40 @@ def cached(function: F) -> F:
     numba's cache sees changes of the function's own file only. A caller that binds other
     functions into it must give it a name that changes with them (see ``rig/bind.py``).
     """
-    return _compiled(function, cache=True)
+    return function if numba is None else _compiled(function, cache=True)
+
+
+def _inlined(function: F, **more: bool) -> F:
+    if numba is None:
+        return function
+    return _compiled(_of_this_module(function), forceinline=True, **more)
 
 
 def _compiled(function: F, **more: bool) -> F:
-    if numba is None:
-        return function
     compiled: F = numba.njit(**_OPTIONS, **more)(function)
     return compiled
+
+
+def _of_this_module(function: F) -> F:
+    """Return a copy of *function* whose module is this one, by name.
+
+    With a cached function numba keeps the name of the module of each function that was compiled
+    into it, and imports these modules when it loads the machine code, which needs none of them.
+    The file of a user may have another name or place by then; this module is always there.
+    """
+    source = plain(function)
+    copy: Any = FunctionType(
+        source.__code__,
+        source.__globals__,
+        source.__name__,
+        source.__defaults__,
+        source.__closure__,
+    )
+    copy.__kwdefaults__ = source.__kwdefaults__
+    copy.__qualname__ = f'{source.__module__}.{source.__qualname__}'
+    copy.__module__ = __name__
+    own: F = copy
+    return own
 
 
 def plain(function: F) -> F:

@@ -5,21 +5,21 @@
 The templates of :mod:`pam_ros.rig.kernel` call chains by name. Here each chain becomes a
 function that passes the value through the effects in their order, the geometry becomes that of the
 joint, and each template is made anew with these as its globals. numba inlines them, and keeps
-the machine code of the loops on disk under a name that holds a hash of all code that went in:
-numba itself notices changes of one file only.
+the machine code of the loops on disk under a name that holds their fingerprint: numba itself
+notices changes of one file only.
 """
 
-import hashlib
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
-from types import CodeType, FunctionType
+from types import FunctionType
 from typing import Any
 
 from pam_ros import compiled
 from pam_ros.effects.base import Effect
 from pam_ros.rig import kernel as templates
 from pam_ros.rig import run_kernel
+from pam_ros.rig.fingerprint import fingerprint
 from pam_ros.rig.layout import Layout
 
 Function = Callable[..., Any]
@@ -153,37 +153,6 @@ def _memories(offsets: Offsets) -> dict[str, Function]:
         )
         found[name] = _or_present(compiled.inner(getattr(templates, name)), strengths)
     return found
-
-
-def fingerprint(function: Function) -> str:
-    """Hash what the machine code of *function* depends on.
-
-    That is the bytecode of all functions that it reaches, in whatever files they are, and the
-    constants that they read, offsets in the rows among them.
-    """
-    digest = hashlib.sha256()
-    seen: set[FunctionType] = set()
-    for root in (function, compiled.scalar, compiled.inner, compiled.cached):
-        for part in _parts(root, seen):
-            digest.update(repr(part).encode())
-    return digest.hexdigest()[:16]
-
-
-def _parts(value: Any, seen: set[FunctionType]) -> Iterator[Any]:
-    plain = getattr(value, 'py_func', value)
-    if isinstance(plain, FunctionType):
-        code = plain.__code__
-        yield code.co_name
-        if plain not in seen:
-            seen.add(plain)
-            yield code.co_code, code.co_names, code.co_varnames, plain.__defaults__
-            yield [c for c in code.co_consts if not isinstance(c, CodeType)]
-            for cell in plain.__closure__ or ():
-                yield from _parts(cell.cell_contents, seen)
-            for name in code.co_names:
-                yield from _parts(plain.__globals__.get(name), seen)
-    elif isinstance(plain, (bool, int, float, str, tuple, dict)):
-        yield plain
 
 
 @lru_cache(maxsize=32)
