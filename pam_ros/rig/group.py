@@ -65,6 +65,15 @@ class Group:
             start_joint(self.layout, q, x, on_joint)
         self._bind()
 
+    def prepare(self) -> None:
+        """Call the kernels of these joints, without effects and with all, for no step."""
+        present = self._kernel
+        for active in ((), self.layout.library):
+            self._kernel = bind(self.layout, active)
+            self.advance(0, 0, 1e-3)
+            self.look(0.0)
+        self._kernel = present
+
     def reset(self, pressures: Array, s: Array, v: Array) -> None:
         """Set the state as after a long rest; *pressures* (joints, muscles) are commands, too."""
         self.u[:] = pressures

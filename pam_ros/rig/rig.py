@@ -49,6 +49,16 @@ class Rig:
         ]
         self.reset(np.zeros(len(self._muscles)), [rest(joint, 0.0) for joint in joints], 0.0)
 
+    def prepare(self) -> None:
+        """Load all machine code that these joints and any :meth:`change` of them can need.
+
+        What is not on disk is compiled, which takes many seconds; afterwards neither
+        :meth:`advance` nor :meth:`outputs` waits for it.
+        """
+        for group in self._groups:
+            group.prepare()
+        self._has_looked = False
+
     def change(self, joints: Sequence[Joint]) -> None:
         """Go on from the present state with other parameters; with these errors, with the old.
 

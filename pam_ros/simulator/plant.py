@@ -49,8 +49,7 @@ class Plant:
         self._rig = Rig(simulation.joints, 1.0 / simulation.settings.physics_rate)
         self._all = range(len(self.inputs))
         self.begin()
-        self._rig.outputs()  # compiled code is loaded at its first call
-        self._rig.advance(0)
+        self._rig.prepare()  # so that neither the first step nor a change of effects waits for it
 
     def begin(self) -> None:
         """Go to the initial state; noise begins anew."""

@@ -7,31 +7,17 @@ import sys
 
 import pytest
 
-LOOPS_NOT_COMPILED = """
-from dataclasses import fields
-from pam_ros.effects import EFFECTS
-from pam_ros.rig.arrangements import ANTAGONISTIC, LOAD, PARALLEL
-from pam_ros.rig.bind import Kernel, bind
-from pam_ros.rig.layout import layout_of
-from pam_ros.rig.warm import warm
-
-warm()
-for kind in (LOAD, PARALLEL, ANTAGONISTIC):
-    layout = layout_of(EFFECTS, kind.transmission.equations, kind.load.equations, kind.muscles)
-    wanted = [loop.name for loop in fields(Kernel)] if kind is LOAD else ['advance', 'outputs']
-    for active in ((), EFFECTS):
-        kernel = bind(layout, active)
-        for name in wanted:
-            if not getattr(kernel, name).signatures:
-                print(kind.name, len(active), name)
-"""
-
-
 COMPILED_AFTERWARDS = """
+import numpy as np
 from numba.core import event
-from pam_ros.rig.arrangements import ANTAGONISTIC, LOAD, PARALLEL
-from pam_ros.rig.joint import Actuator, Joint
-from pam_ros.rig.rig import Rig
+from pam_ros.rig.arrangements import ARRANGEMENTS
+from pam_ros.rig.bind import bind
+from pam_ros.rig.joint import one_muscle
+from pam_ros.rig.run import simulate, simulate_held
+from pam_ros.rig.start import start_state
+from pam_ros.settings.scene import Scene
+from pam_ros.settings.tables import checked
+from pam_ros.simulator.plant import Plant
 
 class Listener(event.Listener):
     def on_start(self, event):
@@ -41,29 +27,32 @@ class Listener(event.Listener):
         pass
 
 event.register('numba:compile', Listener())
-for kind in (LOAD, PARALLEL, ANTAGONISTIC):
-    muscles = (Actuator(contraction=kind.contraction),) * kind.muscles
-    for effects in ({}, {'viscous_friction': {'coefficient': 0.1}}):
-        rig = Rig([Joint(muscles, kind.load(), kind.transmission(), effects)])
-        rig.command([2e5] * kind.muscles)
-        rig.advance(10)
-        rig.outputs()
+for kind in ARRANGEMENTS:
+    for effects in ({}, {'effects.viscous_friction.coefficient': 0.1}):
+        given = {'joint': kind.name, **effects}
+        scene = Scene(given)
+        plant = Plant(scene.build(checked(scene.table(), given)))
+        plant.take(0, 2e5)
+        plant.advance(10)
+        plant.read()
+t, p = np.array([0.0, 0.01]), np.array([1e5, 2e5])
+for effects in ({}, {'viscous_friction': {'coefficient': 0.1}}):
+    alone = one_muscle(effects=effects)
+    simulate(alone, t, t, p)
+    simulate_held(alone, t, p, t)
+    layout, q, out = alone.layout, alone.parameters(), np.empty((1, 2))
+    x, xn = start_state(layout, q, p[:1], 0.0, 0.0), layout.scratch()
+    bind(layout, alone.active).simulate_along(x, xn, q, t, t, t, t, p[:, None], out)
 """
 
 
 @pytest.mark.needs_numba
 def test_a_program_that_starts_later_compiles_nothing():
-    """Not even a small function: the first one costs half a second, more than all imports."""
+    """Any kind of joint is stepped, one muscle run over recordings; without effects, and with.
+
+    Not even a small function: the first one costs half a second, more than all imports.
+    """
     asked = [sys.executable, '-c', COMPILED_AFTERWARDS]
     subprocess.run([sys.executable, '-m', 'pam_ros.rig.warm'], capture_output=True, check=True)
-    done = subprocess.run(asked, capture_output=True, text=True, check=True)
-    assert done.stdout == ''
-
-
-@pytest.mark.needs_numba
-def test_every_loop_is_compiled_at_set_up():
-    """Those that are stepped, of each of these; those over recordings, of one muscle alone."""
-    # In a process of its own: other tests have called some of them.
-    asked = [sys.executable, '-c', LOOPS_NOT_COMPILED]
     done = subprocess.run(asked, capture_output=True, text=True, check=True)
     assert done.stdout == ''
