@@ -21,7 +21,7 @@ help:
 	@echo 'make test-fast  those of them that start no node and build nothing'
 	@echo 'make lint       style and types'
 	@echo 'make docs       write the tables of docs/effects.md anew, from the library of effects'
-	@echo 'make bench      the speed claims, measured on this machine (ARGS=plant for one)'
+	@echo 'make bench      the speed claims, measured on this machine (ARGS=plant_step for one)'
 	@echo 'make clean      remove what these commands made'
 	@echo 'The first of them sets up the environment $(VENV); PYTHON=python3.12 chooses its Python.'
 

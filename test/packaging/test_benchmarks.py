@@ -3,6 +3,7 @@
 """The runner of the benchmarks: finds them by file, runs them apart, says which failed."""
 
 import ast
+import re
 import shutil
 import subprocess
 import sys
@@ -41,6 +42,14 @@ def test_each_benchmark_states_its_claim_and_has_a_main(path):
     tree = ast.parse(path.read_text(encoding='utf-8'))
     assert ast.get_docstring(tree)
     assert 'main' in {node.name for node in tree.body if isinstance(node, ast.FunctionDef)}
+
+
+def test_the_help_of_make_names_a_benchmark():
+    done = subprocess.run(
+        ['make', 'help'], cwd=FOLDER.parent, capture_output=True, text=True, check=True
+    )
+    (named,) = re.findall(r'^make bench .*\(ARGS=(\w+) ', done.stdout, re.MULTILINE)
+    assert named in {path.stem for path in BENCHMARKS}
 
 
 def test_runs_all_in_order_but_helpers(run):
