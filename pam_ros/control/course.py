@@ -16,7 +16,11 @@ class Course:
     """Makes one reference of all targets that are set; the newest target counts."""
 
     def __init__(self, shape: Shape, reach: tuple[float, float], unit: str = 'm') -> None:
-        """Make it for a load that can be held within *reach* (lowest, highest), in *unit*."""
+        """Make it for a load that can be held within *reach* (lowest, highest), in *unit*.
+
+        Raises ParameterError where *shape* is in the other unit, m or rad.
+        """
+        shape.require(turning=unit == 'rad')
         self.reach, self.unit = reach, unit
         self._shaper = Shaper(shape)
         self._trajectory: Trajectory | None = None
@@ -45,7 +49,8 @@ class Course:
         self._shaper.start(position)
 
     def set_shape(self, shape: Shape) -> None:
-        """Go on within other bounds."""
+        """Go on within other bounds; ParameterError as for a new one."""
+        shape.require(turning=self.unit == 'rad')
         self._shaper.set_shape(shape)
 
     def set_target(self, position: float, ago: float = 0.0) -> None:

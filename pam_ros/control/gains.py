@@ -4,13 +4,12 @@
 
 from dataclasses import dataclass
 from math import acos, exp, log, pi, sqrt
-from typing import Any
 
+from pam_ros.control.joint_settings import JointSettings
 from pam_ros.control.sharing import Sharing
 from pam_ros.control.tuning import number
 from pam_ros.errors import ParameterError
-from pam_ros.parameters import OnTurning, check_all, parameter, turning_defaults
-from pam_ros.rig.joint import Joint
+from pam_ros.parameters import OnTurning, parameter
 
 BOUNDARY_LAYER, SUPER_TWISTING = 'boundary_layer', 'super_twisting'
 
@@ -37,12 +36,12 @@ ORDER = OrderTuning()
 
 
 @dataclass(frozen=True)
-class Gains:
+class Gains(JointSettings):
     """Gains of :class:`pam_ros.control.sliding_mode.SlidingMode`.
 
     Units are those of a load that slides; for one that turns, m is rad and N is N m, and the
-    defaults are others (:meth:`turning`). What follows from them, for a moved mass m (or a moment
-    of inertia):
+    defaults are others (:meth:`for_joint`). What follows from them, for a moved mass m (or a
+    moment of inertia):
 
     switching gain
         K = disturbance_bound / m. Reaching condition (Slotine & Li 1991, section 7.1): with
@@ -165,21 +164,9 @@ class Gains:
         high=1.0,
     )
 
-    is_turning: bool = False
-
-    @classmethod
-    def turning(cls, **given: Any) -> 'Gains':
-        """Return the gains of a joint that turns: its defaults, with those *given*."""
-        return cls(**{**turning_defaults(cls), 'is_turning': True, **given})
-
-    @classmethod
-    def of(cls, joint: Joint) -> 'Gains':
-        """Return the default gains of *joint*."""
-        return cls.turning() if joint.is_revolute else cls()
-
     def __post_init__(self) -> None:
         """Check every field, then what must hold between them."""
-        check_all(self, turning=self.is_turning)
+        super().__post_init__()
         if self.fast_bandwidth < self.bandwidth:
             raise ParameterError(
                 f'fast_bandwidth = {self.fast_bandwidth:g} 1/s is below bandwidth = '

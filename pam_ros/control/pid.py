@@ -8,18 +8,19 @@ from math import exp
 from typing import Any
 
 from pam_ros.control.co_contraction import CoContraction
+from pam_ros.control.joint_settings import JointSettings
 from pam_ros.control.limits import Limiter, Limits
 from pam_ros.control.model import ControlModel
 from pam_ros.control.pressure_path import PressurePath
 from pam_ros.control.sharing import sharing_of
 from pam_ros.control.signals import Pressures, Reference, Terms
 from pam_ros.errors import ParameterError
-from pam_ros.parameters import OnTurning, check_all, parameter, turning_defaults
+from pam_ros.parameters import OnTurning, parameter
 from pam_ros.rig.joint import Joint
 
 
 @dataclass(frozen=True)
-class PidGains:
+class PidGains(JointSettings):
     """Gains of the PID law.
 
     The defaults are the best that one set can be for all rigs of ``benchmarks/control.py`` with an
@@ -75,21 +76,6 @@ class PidGains:
         high=1e4,
         turning=OnTurning(326.0, 1e4),
     )
-    is_turning: bool = False
-
-    @classmethod
-    def turning(cls, **given: Any) -> 'PidGains':
-        """Return the gains of a joint that turns: its defaults, with those *given*."""
-        return cls(**{**turning_defaults(cls), 'is_turning': True, **given})
-
-    @classmethod
-    def of(cls, joint: Joint) -> 'PidGains':
-        """Return the default gains of *joint*."""
-        return cls.turning() if joint.is_revolute else cls()
-
-    def __post_init__(self) -> None:
-        """Check every field."""
-        check_all(self, turning=self.is_turning)
 
 
 class Pid:
@@ -108,13 +94,18 @@ class Pid:
         limits: Limits | None = None,
         co_contraction: CoContraction | None = None,
     ) -> None:
-        """Make it for a declared joint; raises ParameterError where simple-pid is missing."""
+        """Make it for a declared joint.
+
+        Raises ParameterError where simple-pid is missing, or the gains are for the other kind of
+        joint.
+        """
         try:
             maker: Any = import_module('simple_pid').PID
         except ImportError as error:
             raise ParameterError('the PID law needs simple-pid: pip install simple-pid') from error
         limits = limits or Limits()
-        self.gains = gains = gains or PidGains.of(joint)
+        self.gains = gains = gains or PidGains.for_joint(joint)
+        gains.require(turning=joint.is_revolute)
         self.terms = Terms()
         self.model = ControlModel(joint)
         self.sharing = sharing_of(self.model, limits)

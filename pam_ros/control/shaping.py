@@ -9,12 +9,12 @@ added to it is an offset that goes to zero within the bounds and is nothing once
 
 from dataclasses import dataclass
 from math import exp
-from typing import Any
 
+from pam_ros.control.joint_settings import JointSettings
 from pam_ros.control.profile import Bounds, Rest, advance, change
 from pam_ros.control.signals import Reference
 from pam_ros.control.tuning import number
-from pam_ros.parameters import OnTurning, check_all, parameter, turning_defaults
+from pam_ros.parameters import OnTurning, parameter
 
 
 @dataclass(frozen=True)
@@ -42,7 +42,7 @@ STREAM = StreamTuning()
 
 
 @dataclass(frozen=True)
-class Shape:
+class Shape(JointSettings):
     """Bounds of the motion to a target that jumps; in rad of a joint that turns."""
 
     max_velocity: float = parameter(
@@ -72,16 +72,6 @@ class Shape:
         above_low=True,
         turning=OnTurning(300.0, 1e7),
     )
-    is_turning: bool = False
-
-    @classmethod
-    def turning(cls, **given: Any) -> 'Shape':
-        """Return the bounds of a joint that turns: its defaults, with those *given*."""
-        return cls(**{**turning_defaults(cls), 'is_turning': True, **given})
-
-    def __post_init__(self) -> None:
-        """Check every field."""
-        check_all(self, turning=self.is_turning)
 
     @property
     def bounds(self) -> Bounds:

@@ -82,10 +82,14 @@ class SlidingMode:
         limits: Limits | None = None,
         co_contraction: CoContraction | None = None,
     ) -> None:
-        """Make it for a declared joint, at rest in the middle of its reach; see :meth:`start`."""
+        """Make it for a declared joint, at rest in the middle of its reach; see :meth:`start`.
+
+        Raises ParameterError for gains of the other kind of joint (``Gains.for_joint``).
+        """
         limits, wanted = limits or Limits(), co_contraction or CoContraction()
-        self.joint, self.gains = joint, gains or Gains.of(joint)
+        self.joint, self.gains = joint, gains or Gains.for_joint(joint)
         gains = self.gains
+        gains.require(turning=joint.is_revolute)
         self.model = model = ControlModel(joint)
         self.sharing = sharing_of(model, limits)
         self.terms = Terms()
@@ -117,7 +121,8 @@ class SlidingMode:
         self.start(0.5 * (low + high) if high < float('inf') else 0.0)
 
     def set_gains(self, gains: Gains) -> None:
-        """Go on from the present state with other gains."""
+        """Go on from the present state with other gains; ParameterError as for a new law."""
+        gains.require(turning=self.joint.is_revolute)
         self.gains = self._learner.gains = gains
         for path in self._paths:
             path.quickest = gains.pressure_time

@@ -73,8 +73,8 @@ def test_the_error_bound_is_the_absolute_area_of_the_impulse_response(damping):
 
 
 def test_a_joint_that_turns_has_defaults_of_its_own():
-    assert Gains.of(declared()) == Gains.turning()
-    assert Gains.of(one_muscle()) == Gains()
+    assert Gains.for_joint(declared()) == Gains.turning()
+    assert Gains.for_joint(one_muscle()) == Gains()
     assert Gains.turning().is_turning
     assert Gains.turning(bandwidth=30.0).bandwidth == 30.0
     assert Gains.turning().disturbance_bound < Gains().disturbance_bound

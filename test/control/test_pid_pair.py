@@ -28,8 +28,8 @@ def sine(t):
 
 
 def test_a_joint_that_turns_has_gains_of_its_own():
-    assert PidGains.of(declared()) == PidGains.turning() == Pid(declared()).gains
-    assert PidGains.of(one_muscle()) == PidGains()
+    assert PidGains.for_joint(declared()) == PidGains.turning() == Pid(declared()).gains
+    assert PidGains.for_joint(one_muscle()) == PidGains()
     assert PidGains.turning(integral=0.0).integral == 0.0
 
 

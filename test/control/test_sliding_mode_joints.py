@@ -38,7 +38,7 @@ def heavier(joint):
 @BY_JOINT
 def test_the_default_gains_suit_every_joint(name):
     joint = JOINTS[name]
-    Gains.of(joint).check(shared(joint), 2e-3)
+    Gains.for_joint(joint).check(shared(joint), 2e-3)
 
 
 @BY_JOINT

@@ -1,0 +1,62 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Gains and bounds know whether the joint slides or turns, and fit no other."""
+
+import pytest
+
+from pam_ros.control.course import Course
+from pam_ros.control.gains import Gains
+from pam_ros.control.pid import Pid, PidGains
+from pam_ros.control.shaping import Shape
+from pam_ros.control.sliding_mode import SlidingMode
+from pam_ros.errors import ParameterError
+from pam_ros.rig.joint import one_muscle
+from support.pair_loop import declared as elbow
+
+KINDS = (Gains, PidGains, Shape)
+
+
+@pytest.mark.parametrize('kind', KINDS)
+def test_the_joint_says_which_defaults_hold(kind):
+    assert kind.for_joint(one_muscle()) == kind()
+    assert kind.for_joint(elbow()) == kind.turning() != kind()
+    assert kind.for_joint(elbow()).is_turning
+
+
+@pytest.mark.parametrize(
+    ('kind', 'given'),
+    [(Gains, {'bandwidth': 30.0}), (PidGains, {'integral': 1e6}), (Shape, {'max_velocity': 50.0})],
+)
+def test_what_is_given_goes_before_the_defaults_of_the_joint(kind, given):
+    ((name, value),) = given.items()
+    made = kind.for_joint(elbow(), **given)
+    assert getattr(made, name) == value
+    assert made.is_turning
+
+
+def test_values_are_checked_in_the_units_of_the_joint():
+    with pytest.raises(ParameterError, match=r'max_velocity = 50\.0'):
+        Shape.for_joint(one_muscle(), max_velocity=50.0)
+
+
+SLIDES = 'the joint slides .m, N. and {} has the units of one that turns .rad, N m.'
+TURNS = 'the joint turns .rad, N m. and {} has the units of one that slides .m, N.'
+
+
+@pytest.mark.parametrize(
+    ('make', 'sentence'),
+    [
+        (lambda: SlidingMode(elbow(), Gains(bandwidth=20.0)), TURNS.format('Gains')),
+        (lambda: SlidingMode(one_muscle(), Gains.turning()), SLIDES.format('Gains')),
+        (lambda: SlidingMode(elbow()).set_gains(Gains()), TURNS.format('Gains')),
+        (lambda: Pid(elbow(), PidGains()), TURNS.format('PidGains')),
+        (lambda: Pid(one_muscle(), PidGains.turning()), SLIDES.format('PidGains')),
+        (lambda: Course(Shape(), (-1.0, 1.0), 'rad'), TURNS.format('Shape')),
+        (lambda: Course(Shape.turning(), (0.0, 0.1)), SLIDES.format('Shape')),
+        (lambda: Course(Shape(), (0.0, 0.1)).set_shape(Shape.turning()), SLIDES.format('Shape')),
+    ],
+)
+def test_those_of_the_other_kind_are_refused(make, sentence):
+    pytest.importorskip('simple_pid', reason='the PID law needs simple-pid')
+    with pytest.raises(ParameterError, match=sentence):
+        make()
