@@ -44,6 +44,7 @@ class NodeParameters(Generic[T]):
         self._build, self._apply = build, apply
         self.values = checked(table, given(node))
         self.built = build(self.values)
+        self._last = self.values, self.built  # that were checked
         for name, (kind, _, about) in table.items():
             descriptor, value = describe(about, kind), self.values[name]
             if kind is tuple:
@@ -89,16 +90,22 @@ class NodeParameters(Generic[T]):
     def _check(self, parameters: list[RosParameter]) -> SetParametersResult:
         if self._are_ours(parameters):
             try:
-                self._build(checked(self._table, self._changed(parameters)))
+                self._make(parameters)
             except PamError as error:
                 return SetParametersResult(successful=False, reason=str(error))
         return SetParametersResult(successful=True)
 
     def _take(self, parameters: list[RosParameter]) -> None:
         if self._are_ours(parameters):
-            self.values = checked(self._table, self._changed(parameters))
-            self.built = self._build(self.values)
+            self.values, self.built = self._make(parameters)
             self._apply(self.built)
+
+    def _make(self, parameters: list[RosParameter]) -> tuple[dict[str, Any], T]:
+        """Return the values after a change and what they make: once, to check and to take it."""
+        values = checked(self._table, self._changed(parameters))
+        if values != self._last[0]:
+            self._last = values, self._build(values)
+        return self._last
 
 
 def given(node: Node) -> dict[str, Any]:
