@@ -13,12 +13,13 @@ export ROS_AUTOMATIC_DISCOVERY_RANGE := LOCALHOST
 export PYTHON
 
 .DEFAULT_GOAL := help
-.PHONY: help environment warm demo test test-fast lint docs bench clean
+.PHONY: help environment warm demo test test-fast test-oldest test-all lint docs bench clean
 
 help:
 	@echo 'make demo       the experiment of the paper, controllers and the closed loop, over ROS topics: see demo/'
-	@echo 'make test       all tests (make test ARGS="test/muscle -x" for some)'
+	@echo 'make test       the tests (make test ARGS="test/muscle -x" for some)'
 	@echo 'make test-fast  those of them that start no node and build nothing'
+	@echo 'make test-all   before a release: the tests, the oldest libraries, the demonstration'
 	@echo 'make lint       style and types'
 	@echo 'make docs       write the tables of docs/effects.md anew, from the library of effects'
 	@echo 'make bench      the speed claims, measured on this machine (ARGS=plant_step for one)'
@@ -39,12 +40,19 @@ test: warm
 ifdef ARGS
 	$(PY) -m pytest $(ARGS)
 else
-	$(PY) -m pytest -n auto --dist loadfile -m 'not keeps_rate'
-	$(PY) -m pytest -m keeps_rate test/nodes
+	$(PY) -m pytest -n auto --dist loadfile -m 'not keeps_rate and not release'
+	$(PY) -m pytest -m 'keeps_rate and not release' test/nodes
 endif
 
 test-fast: warm
 	$(PY) -m pytest -n auto --dist loadfile -m 'pure and not long_search' $(ARGS)
+
+# The pure rooms with the oldest numpy and scipy that are supported, without numba and ROS.
+test-oldest: environment
+	$(PY) -m pytest test/packaging/test_oldest.py
+
+test-all: test
+	$(PY) -m pytest -m release
 
 lint: environment
 	$(PY) -m ruff check .

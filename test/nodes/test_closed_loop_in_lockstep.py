@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""A controller's test as a CI runs it: 20 s of a closed loop in lockstep, the same to the bit.
+"""A controller's test as a CI runs it: 6 s of a closed loop in lockstep, the same to the bit.
 
 ``docs/ros2_control.md`` explains it. Three controllers: ``test/support/example_controller.py``,
 and ``pam_control`` of one muscle and of a pair, with a trajectory that it is told while time
@@ -27,10 +27,10 @@ from support.harness import Peer, Program, lose_nothing
 pytestmark = [pytest.mark.at_any_pace, pytest.mark.usefixtures('module_domain')]
 
 CONTROLLER = Path(__file__).parents[1] / 'support' / 'example_controller.py'
-SECONDS = 20.0
-BEGIN, TOLD = 2, 12.0  # s, when a trajectory begins that pam_control is told, and how long it is
+SECONDS = 6.0
+BEGIN, TOLD = 1, 6.0  # s, when the trajectory of pam_control begins, and how long it is
 # What pam_control is told: where to be at rest, every 2 s.
-PLACES = (0.05, 0.07, 0.03, 0.06, 0.045, 0.05)  # m
+PLACES = (0.05, 0.07, 0.045)  # m
 # Works and pauses for times that differ, so that all programs wait for a core now and then.
 BUSY = """
 import random, time
@@ -41,6 +41,7 @@ while True:
     time.sleep(random.uniform(0.0, 0.02))
 """
 RIG = {'time_mode': 'lockstep', 'sensor.position_noise': 5e-6}
+BUSY_BESIDE = (0, os.cpu_count() or 1)  # programs that compete for the cores, in each run
 
 
 def keep_busy(stack, count):
@@ -62,8 +63,7 @@ def run(file, busy=0):
 @pytest.fixture(scope='module')
 def runs(module_domain, tmp_path_factory):
     folder = tmp_path_factory.mktemp('runs')
-    busy = (0, 0, os.cpu_count() or 1)
-    return [run(folder / f'{i}.npz', n) for i, n in enumerate(busy)]
+    return [run(folder / f'{i}.npz', n) for i, n in enumerate(BUSY_BESIDE)]
 
 
 def test_the_reference_is_tracked(runs):
@@ -76,10 +76,10 @@ def test_the_reference_is_tracked(runs):
     assert np.ptp(runs[0]['position'][t > 4.0]) > 0.038
 
 
-def test_three_runs_are_the_same_to_the_bit_one_of_them_on_a_busy_machine(runs):
-    for other in runs[1:]:
-        for name in ('t', 'reference', 'position', 'pressure'):
-            assert runs[0][name].tobytes() == other[name].tobytes(), name
+def test_two_runs_are_the_same_to_the_bit_one_of_them_on_a_busy_machine(runs):
+    first, other = runs
+    for name in ('t', 'reference', 'position', 'pressure'):
+        assert first[name].tobytes() == other[name].tobytes(), name
 
 
 def seconds(message):
@@ -150,13 +150,13 @@ def run_pam_control(busy, rig, told, points, commands_on):
     return {seconds(m): m.position[0] for m in states}
 
 
-def three_runs(*scenario):
-    return [run_pam_control(n, *scenario) for n in (0, 0, os.cpu_count() or 1)]
+def two_runs(*scenario):
+    return [run_pam_control(n, *scenario) for n in BUSY_BESIDE]
 
 
 @pytest.fixture(scope='module')
 def runs_of_pam_control(module_domain):
-    return three_runs(lose_nothing(), {}, places(), (Float64, 'pressure_command'))
+    return two_runs(lose_nothing(), {}, places(), (Float64, 'pressure_command'))
 
 
 @pytest.fixture(scope='module')
@@ -165,13 +165,13 @@ def runs_of_a_pair(module_domain):
     # An arm that is heavier than the controller is told, and a sensor with noise.
     rig = {**both, 'mass': 1.3, 'sensor.position_noise': float(np.radians(0.02))}
     rig['qos_overrides./joint_states.publisher.depth'] = 5000
-    return three_runs(rig, both, sine(), (Float64MultiArray, 'pressure_commands'))
+    return two_runs(rig, both, sine(), (Float64MultiArray, 'pressure_commands'))
 
 
 def test_pam_control_is_where_it_is_told(runs_of_pam_control):
     heard = runs_of_pam_control[0]
     for i, place in enumerate(PLACES):
-        due = 4.0 + 2.0 * i
+        due = BEGIN + 2.0 * (i + 1)
         t = min(heard, key=lambda t: abs(t - due))
         assert abs(t - due) < 0.1
         assert abs(heard[t] - place) < 1e-3, f'at {t:.3f} s'
@@ -179,8 +179,8 @@ def test_pam_control_is_where_it_is_told(runs_of_pam_control):
 
 def test_pam_control_tracks_the_angle_of_a_pair(runs_of_a_pair):
     t, angle = (np.array(each) for each in zip(*runs_of_a_pair[0].items(), strict=True))
-    swung = (t > BEGIN + 3.0) & (t < BEGIN + TOLD - 3.0)
-    assert np.sum(swung) > 1000
+    swung = (t > BEGIN + 2.0) & (t < BEGIN + TOLD - 2.0)
+    assert np.sum(swung) > 500
     error = angle[swung] - swing(t[swung] - BEGIN)
     assert np.ptp(angle[swung]) > np.radians(29.0)
     assert np.sqrt(np.mean(error**2)) < np.radians(0.2)
@@ -188,8 +188,7 @@ def test_pam_control_tracks_the_angle_of_a_pair(runs_of_a_pair):
 
 @pytest.mark.parametrize('scenario', ['runs_of_pam_control', 'runs_of_a_pair'])
 def test_pam_control_runs_are_the_same_to_the_bit(scenario, request):
-    first, *others = request.getfixturevalue(scenario)
-    for other in others:
-        both = first.keys() & other.keys()
-        assert len(both) > 2000
-        assert [first[t] for t in both] == [other[t] for t in both]
+    first, other = request.getfixturevalue(scenario)
+    both = first.keys() & other.keys()
+    assert len(both) > 2000
+    assert [first[t] for t in both] == [other[t] for t in both]

@@ -19,10 +19,13 @@ NOT_PURE = ('nodes', 'packaging', 'truth')
 INSTALLATION_DEADLINE = 600.0  # s; both only bound how long something broken may hang
 TESTS_DEADLINE = 1200.0
 
-pytestmark = pytest.mark.skipif(
-    Path(sys.prefix) != ROOT / '.venv',
-    reason='downloads packages, so it is left to the environment of the Makefile',
-)
+pytestmark = [
+    pytest.mark.release,
+    pytest.mark.skipif(
+        Path(sys.prefix) != ROOT / '.venv',
+        reason='downloads packages, so it is left to the environment of the Makefile',
+    ),
+]
 
 
 def base_python():

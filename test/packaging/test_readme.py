@@ -7,14 +7,20 @@ import re
 import subprocess
 import sys
 from functools import cache
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
+import yaml
 
 from benchmarks.__main__ import names as benchmarks
 from pam_ros.cli import pam_identify
+from pam_ros.errors import ParameterError
+from pam_ros.settings import excite
+from pam_ros.settings.control import settings_of
 from pam_ros.settings.files import load_rig
 from pam_ros.settings.scene import Scene
+from pam_ros.settings.tables import checked, override
 from support.domain import claimed
 from support.pages import (
     PAGES,
@@ -73,10 +79,39 @@ def check_make(words):
             assert all((ROOT / path).exists() for path in value.split())
 
 
+# What makes of the parameters that a program is started with the table of all that it has.
+TABLES = {
+    'pam_sim': lambda given: Scene(given).table(),
+    'pam_control': lambda given: settings_of(given)[0],
+    'pam_excite': lambda given: excite.table(given.get('muscle', '')),
+}
+BUILDERS = {
+    'pam_sim': lambda given, values: Scene(given).build(values),
+    'pam_control': lambda given, values: settings_of(given)[1](values),
+    'pam_excite': lambda given, values: excite.experiment(values),
+}
+
+
+def check_parameters(name, words):
+    """Check that a program starts with the parameters of a command."""
+    told = [word.partition(':=') for flag, word in pairwise(words) if flag == '-p']
+    given = {parameter: yaml.safe_load(value) for parameter, _, value in told}
+    table = TABLES[name](given)
+    for parameter, _, value in told:
+        if not isinstance(given[parameter], list):
+            given.update([override(f'{parameter}={value}', table)])
+    assert given.keys() <= table.keys()
+    BUILDERS[name](given, checked(table, given))
+
+
 def check_program(name, words):
-    """Check that a program understands its options; those of ROS are tried over topics."""
+    """Check that a program understands its options, and its parameters."""
     assert name in PROGRAMS
-    own = words[: words.index('--ros-args')] if '--ros-args' in words else words
+    own, ros = words, []
+    if '--ros-args' in words:
+        own, ros = words[: words.index('--ros-args')], words[words.index('--ros-args') :]
+    if '-p' in ros:
+        check_parameters(name, ros)
     if name == 'pam_identify':
         given = pam_identify.parser().parse_args(own)
         known = not given.params.startswith(('MUSCLE', 'FILE'))
@@ -152,6 +187,13 @@ def test_a_wrong_command_would_be_found():
         'ros2 launch pam_ros sim.launch.py muscel:=dmsp_10',
     ):
         with pytest.raises(AssertionError):
+            check(command.split())
+    for command in (
+        'ros2 run pam_ros pam_sim --ros-args -p mas:=3.0',
+        'ros2 run pam_ros pam_control --ros-args -p joint:=knee',
+        'ros2 run pam_ros pam_excite --ros-args -p muscle:=dmsp_99',
+    ):
+        with pytest.raises(ParameterError):
             check(command.split())
     with pytest.raises(SystemExit):
         check(['pam_identify', 'monday', '--parms', 'dmsp_10', '--out', 'report'])

@@ -4,8 +4,6 @@
 
 from pathlib import Path
 
-import pytest
-
 ROOT = Path(__file__).parents[2]
 HEADER = ['# Copyright 2026 The pam_ros authors', '# SPDX-License-Identifier: Apache-2.0']
 FOLDERS = ('pam_ros', 'test', 'launch', 'benchmarks', 'tools')
@@ -15,11 +13,11 @@ FILES = sorted(
 )
 
 
-@pytest.mark.parametrize('path', FILES, ids=str)
-def test_file_says_whose_it_is(path):
-    lines = (ROOT / path).read_text(encoding='utf-8').splitlines()
-    start = 1 if lines[0].startswith('#!') else 0
-    assert lines[start : start + 2] == HEADER
+def test_files_say_whose_they_are():
+    for path in FILES:
+        lines = (ROOT / path).read_text(encoding='utf-8').splitlines()
+        start = 1 if lines[0].startswith('#!') else 0
+        assert lines[start : start + 2] == HEADER, path
 
 
 def test_license_is_apache():

@@ -63,17 +63,11 @@ STEP = 1e-3  # s
 def one_muscle() -> dict[str, dict[str, Any]]:
     """Return the rigs of one muscle: muscle, load and effects by name."""
     effects = {**MUSCLE_EFFECTS, **JOINT_EFFECTS}
-    rigs: dict[str, dict[str, Any]] = {
+    return {
         'plain': {'muscle': {}, 'load': {'mass': 20.0}, 'effects': {}},
-        'horizontal': {
-            'muscle': {}, 'load': {'mass': 12.0, 'mount': 'horizontal'}, 'effects': {},
-        },
         'dmsp_10': {'muscle': DMSP_10, 'load': {'mass': 5.0}, 'effects': {}},
         'all': {'muscle': {}, 'load': {'mass': 20.0}, 'effects': effects},
-    }  # fmt: skip
-    for name, values in effects.items():
-        rigs[name] = {'muscle': {}, 'load': {'mass': 20.0}, 'effects': {name: values}}
-    return rigs
+    }
 
 
 def commands(seed: int = 1, duration: float = 4.0) -> tuple[np.ndarray, np.ndarray]:

@@ -12,7 +12,7 @@ from pam_ros.control.signals import TERMS
 
 # For a controller in lockstep whose terms are all to be heard, however late.
 LOSE_NO_TERMS = {'qos_overrides./pam_control/state.publisher.depth': 20_000}
-SLICE = 1.0  # s of simulated time that may pass before all is heard
+SOON = 0.05  # s of simulated time in which something told shows, but on a busy machine
 LONGEST = 10.0  # s of it that something told may take to show
 QUIET = 0.2  # s without a message after which none is under way any more
 
@@ -45,11 +45,11 @@ class Watch:
         begin = stamp(self.terms[k])
         while self.terms[k].position[i] == rest:
             assert stamp(self.terms[k]) < begin + LONGEST, f'{term} stays at {rest}'
-            self._pass(SLICE)
+            self._pass(seconds + SOON)
             while k < len(self.terms) - 1 and self.terms[k].position[i] == rest:
                 k += 1
-        while stamp(self.terms[-1]) < stamp(self.terms[k]) + seconds:
-            self._pass(SLICE)
+        while (left := stamp(self.terms[k]) + seconds - stamp(self.terms[-1])) > 0.0:
+            self._pass(left)
         self.peer.call(SetBool, 'pam_sim/pause', data=False)
         return self.terms[k:]
 

@@ -9,6 +9,8 @@ equation (4) is mended, since the bracket is negative.
 
 import math
 
+from scipy.integrate import solve_ivp
+
 A1, A2, A3, A4, A5, A6 = -4.35573, 281.22370, -0.32866, -9.27035, 302.20107, -263.69185
 L0 = 0.4
 G = 9.80665
@@ -43,3 +45,26 @@ def pendulum(p_of_t, mass, zeta, g=G):
         return xd, (-force(p, kappa) - damping(p, kappa, mass, zeta) * xd + mass * g) / mass
 
     return rhs
+
+
+def spring(p, y):
+    """Return force in N and stiffness in N/m at p Pa and a contraction of y m."""
+    bar, percent = p / 1e5, 100.0 * y / L0
+    return force(bar, percent), stiffness(bar, percent)
+
+
+def moved(p, y, v, t, mass=20.0, zeta=0.15):
+    """Return contraction m and velocity m/s at t (n,), at constant p Pa, by scipy's DOP853.
+
+    From (y, v) at t[0].
+    """
+    result = solve_ivp(
+        pendulum(lambda _: p / 1e5, mass, zeta),
+        (t[0], t[-1]),
+        [-y, -v],
+        'DOP853',
+        t_eval=t,
+        rtol=1e-11,
+        atol=1e-13,
+    )
+    return -result.y

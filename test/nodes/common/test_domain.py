@@ -6,6 +6,7 @@ import os
 import socket
 import subprocess
 import sys
+from contextlib import ExitStack, contextmanager
 from itertools import count
 from pathlib import Path
 from time import monotonic
@@ -165,28 +166,39 @@ def test_a_domain_in_which_somebody_listens_is_left_alone(free, begin_at):
             assert other != free
 
 
+@contextmanager
+def sleeping(environment):
+    """Hold a program that does nothing, started with these environment variables.
+
+    A new process runs some time before the kernel shows its variables to others.
+    """
+    with subprocess.Popen(['sleep', '600'], env=environment) as program:
+        try:
+            while not Path(f'/proc/{program.pid}/environ').read_bytes():
+                assert program.poll() is None
+            yield program
+        finally:
+            program.kill()
+
+
 def test_a_domain_in_which_somebody_starts_is_left_alone(free, begin_at):
     """What a killed test has started may have no ports yet."""
     told = {**os.environ, 'ROS_DOMAIN_ID': str(free)}
-    with subprocess.Popen(['sleep', '600'], env=told) as left:
+    with sleeping(told) as left:
         assert programs_in(free) == [left.pid]
         begin_at(free)
         with claimed() as other:
             assert other != free
         # A shell of somebody else, who has chosen the same domain for what he does, is no matter.
         del told[PROFILE]
-        with subprocess.Popen(['sleep', '600'], env=told) as stranger:
+        with sleeping(told):
             assert programs_in(free) == [left.pid]
-            stranger.kill()
-        left.kill()
 
 
 def test_a_program_that_is_left_running_is_told(monkeypatch):
     monkeypatch.setattr(domains, 'PATIENCE', 0.1)
-    with pytest.raises(RuntimeError, match='still runs'), claimed():
-        left = subprocess.Popen(['sleep', '600'])
-    left.kill()
-    left.wait()
+    with ExitStack() as stack, pytest.raises(RuntimeError, match='still runs'), claimed():
+        stack.enter_context(sleeping(os.environ))
 
 
 def test_the_ports_of_the_tests_are_not_those_of_others():

@@ -1,151 +1,234 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""``pam_control`` and its rig as processes: following, safety, refusals, exit codes."""
+"""``pam_control`` and its rig as processes, with one muscle and with a pair: following, safety."""
 
 import math
 import signal
+from dataclasses import dataclass
 
 import numpy as np
 import pytest
 from builtin_interfaces.msg import Duration
 from diagnostic_msgs.msg import DiagnosticStatus
-from sensor_msgs.msg import JointState
-from std_msgs.msg import Float64
+from std_msgs.msg import Float64, Float64MultiArray
 from std_srvs.srv import SetBool
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
-from pam_ros.control.signals import TERMS
+from pam_ros.control.signals import term_names
+from pam_ros.rig import statics
 from support.control_watch import LOSE_NO_TERMS, Rig, Watch, columns
 from support.harness import Program
+from support.pair_loop import declared
 
-START = {'mass': 20.0, 'initial.pressure': 300e3}
-LOCKSTEP = {**START, 'time_mode': 'lockstep'}
-FOLLOWING = {'use_sim_time': True, 'state_rate': 500.0, **LOSE_NO_TERMS}
+DEGREE = math.radians(1.0)
 ENABLE = 'pam_control/enable'
+PATIENT = {'state_timeout': 60.0}  # a busy machine may keep the rig of the test quiet
+
+
+@dataclass(frozen=True)
+class Kind:
+    """A joint of a kind: what both programs are given, and coordinates and bounds in its units."""
+
+    name: str
+    muscles: int
+    given: dict
+    pressure: float  # Pa, of the simulator at its start
+    middle: float  # a place within its reach
+    way: float
+    close: float  # of an error while it moves
+    still: float  # of an error at rest
+    load: float  # kg, another than is declared
+    refused: tuple  # references, and what is said of them
+
+    @property
+    def lockstep(self):
+        return {**self.given, 'time_mode': 'lockstep', 'initial.pressure': self.pressure}
+
+    @property
+    def following(self):
+        return {**self.given, 'use_sim_time': True, 'state_rate': 500.0, **LOSE_NO_TERMS}
+
+
+LOAD = Kind(
+    *('load', 1, {}, 300e3, 0.06, 0.01, 1e-4, 1e-5, 21.0),
+    (
+        (0.3, ('reference 0.3 m', 'out of reach', ' to 0.09')),
+        (math.nan, ('reference nan',)),
+        (-math.inf, ('reference -inf',)),
+    ),
+)
+PAIR = Kind(
+    *('antagonistic', 2, {'joint': 'antagonistic'}, 250e3, 0.1, 0.2),
+    *(0.2 * DEGREE, 0.1 * DEGREE, 1.3),
+    (
+        (2.0, ('reference 2 rad', 'out of reach', '-1.169 to 1.169 rad')),
+        (math.nan, ('reference nan',)),
+    ),
+)
+both = pytest.mark.parametrize('kind', [LOAD, PAIR], ids=lambda kind: kind.name)
+of_a_pair = pytest.mark.parametrize('kind', [PAIR], ids=lambda kind: kind.name)
 
 
 @pytest.fixture
-def watch(peer):
-    return Watch(peer)
+def watch(peer, kind):
+    names = term_names(kind.muscles)
+    if kind.muscles == 1:
+        return Watch(peer, names)
+    return Watch(peer, names, Float64MultiArray, 'pressure_commands')
 
 
+def stiffen(watch, value):
+    watch.peer.publish(Float64(data=value), 'co_contraction_reference')
+
+
+def sine(middle, swing, joint='pam', end=4.0):
+    """Return a 0.5 Hz sine as a trajectory that begins and ends softly, as robot stacks send."""
+    points = []
+    for t in np.linspace(0.02, end, round(end / 0.02)):
+        share = min(t, end - t, 1.0)
+        at = middle + swing * math.sin(0.5 * math.pi * share) ** 2 * math.sin(math.pi * t)
+        time = Duration(sec=int(t), nanosec=int(t % 1.0 * 1e9))
+        points.append(JointTrajectoryPoint(positions=[at], time_from_start=time))
+    return JointTrajectory(joint_names=[joint], points=points)
+
+
+@both
 @pytest.mark.at_any_pace
-def test_a_step_and_a_sine_are_followed_in_lockstep(watch):
-    with Program('pam_sim', parameters=LOCKSTEP), Program('pam_control', parameters=FOLLOWING):
+def test_a_step_and_a_sine_are_followed_in_lockstep(watch, kind):
+    rig = {**kind.lockstep, 'mass': kind.load}
+    with Program('pam_sim', parameters=rig), Program('pam_control', parameters=kind.following):
         begin = watch.begin()
-        assert list(watch.terms[0].name) == list(TERMS)
-        assert watch.latest('error') == pytest.approx(0.0, abs=1e-5)  # it begins without a bump
-        heard = watch.lead(lambda: watch.refer(begin + 0.01), 2.0)
-        t, seen = columns(heard[-100:])
+        assert list(watch.terms[0].name) == list(term_names(kind.muscles))
+        assert watch.latest('error') == pytest.approx(0.0, abs=kind.close)  # without a bump
+        heard = watch.lead(lambda: watch.refer(begin + kind.way), 2.0)
+        t, seen = columns(heard, watch.names)
         np.testing.assert_allclose(np.diff(t), 2e-3, atol=1e-8)
-        assert seen['reference'][-1] == pytest.approx(begin + 0.01, abs=1e-9)
-        assert np.max(np.abs(seen['error'])) < 1e-5
-        assert np.ptp(seen['pressure']) < 1e3
+        assert seen['reference'][-1] == pytest.approx(begin + kind.way, abs=1e-9)
+        assert np.max(np.abs(seen['error'][-100:])) < kind.still
 
-        # A sine of 5 mm at 0.5 Hz as a trajectory, as robot stacks send them.
-        middle, swing, turn = begin + 0.01, 0.005, math.pi
-        times = np.linspace(0.05, 4.0, 80)
-        points = [
-            JointTrajectoryPoint(
-                positions=[middle + swing * math.sin(turn * t)],
-                velocities=[swing * turn * math.cos(turn * t) * (t < 4.0)],
-                time_from_start=Duration(sec=int(t), nanosec=int(t % 1.0 * 1e9)),
-            )
-            for t in times
-        ]
-        sine = JointTrajectory(joint_names=['pam'], points=points)
-        heard = watch.lead(lambda: watch.peer.publish(sine, 'joint_trajectory'), 4.2)
-        t, seen = columns(heard)
-        moving = (t > 1.0) & (t < 3.0)
+        middle, swing = begin + kind.way, 0.5 * kind.way
+        wave = sine(middle, swing)
+        heard = watch.lead(lambda: watch.peer.publish(wave, 'joint_trajectory'), 4.2)
+        t, seen = columns(heard, watch.names)
+        begun = t[np.argmax(np.abs(seen['reference'] - middle) > 0.05 * swing)]
+        moving = (t > begun + 1.0) & (t < begun + 3.0)
         assert np.ptp(seen['reference'][moving]) == pytest.approx(2.0 * swing, rel=0.02)
-        assert np.sqrt(np.mean(seen['error'][moving] ** 2)) < 1e-4
+        assert np.sqrt(np.mean(seen['error'][moving] ** 2)) < kind.close
 
 
-def test_a_set_point_is_reached_in_real_time(watch):
-    with Program('pam_sim', parameters=START), Program('pam_control') as control:
+@of_a_pair
+@pytest.mark.at_any_pace
+def test_the_stiffness_is_led_while_the_angle_holds(watch, kind):
+    # A third more load than is declared, and a sensor with noise.
+    rig = {**kind.lockstep, 'mass': kind.load, 'sensor.position_noise': 0.02 * DEGREE}
+    with Program('pam_sim', parameters=rig), Program('pam_control', parameters=kind.following):
+        watch.begin()
+        for wanted in (18.0, 38.0):
+            heard = watch.lead(lambda wanted=wanted: stiffen(watch, wanted), 2.0, 'co_contraction')
+            _, seen = columns(heard, watch.names)
+            assert np.max(np.abs(seen['error'])) < 0.1 * DEGREE
+            assert seen['co_contraction'][-1] == pytest.approx(wanted)
+            # By the closed form, at the pressures that are commanded.
+            p = seen['pressure_1'][-1], seen['pressure_2'][-1]
+            found = statics.stiffness(declared(), p, seen['position'][-1])
+            assert found == pytest.approx(wanted, rel=1e-3)
+            (dim,) = watch.commands[-1].layout.dim
+            assert dim.label == 'pam_1,pam_2'
+
+
+@of_a_pair
+def test_a_set_point_is_reached_in_real_time(watch, kind):
+    with (
+        Program('pam_sim', parameters={**kind.given, 'initial.pressure': kind.pressure}),
+        Program('pam_control', parameters=kind.given) as control,
+    ):
         begin = watch.begin()
-        watch.refer(begin + 0.01)
+        watch.refer(begin + 0.2)
+        stiffen(watch, 35.0)
 
         def is_there():
-            return abs(watch.latest('position') - begin - 0.01) < 1e-4
+            return (
+                abs(watch.latest('position') - begin - 0.2) < 0.1 * DEGREE
+                and abs(watch.latest('stiffness') - 35.0) < 0.1
+            )
 
-        watch.peer.until(is_there, 'the set-point')
+        watch.peer.until(is_there, 'angle and stiffness')
         control.interrupt(signal.SIGTERM)
         assert control.wait() == 0
         assert 'Traceback' not in control.output
 
 
-@pytest.mark.parametrize(('action', 'pressure'), [('vent', 0.0), ('hold', None)])
-def test_silence_of_the_joint_is_answered_safely(watch, action, pressure):
+@pytest.mark.parametrize(
+    ('kind', 'action', 'word'),
+    [(LOAD, 'vent', 'vents'), (PAIR, 'hold', 'holds')],
+    ids=['load', 'antagonistic'],
+)
+def test_silence_of_the_joint_is_answered_safely(watch, kind, action, word):
     rig = Rig(watch.peer)
-    told = {'on_timeout': action, 'state_timeout': 0.2}
-    with Program('pam_control', parameters=told):
-        rig.tell_until(lambda: len(watch.terms) > 10, 'control')
+    given = {**kind.given, 'on_timeout': action, 'state_timeout': 0.2}
+    with Program('pam_control', parameters=given):
+        rig.tell_until(lambda: len(watch.terms) > 10, 'control', kind.middle)
         status = watch.status(lambda s: 'stay away' in s.message, 'the time-out')
         assert status.level == DiagnosticStatus.ERROR
-        assert {'vent': 'vents', 'hold': 'holds'}[action] in status.message
-        commanded = watch.steady_command()
-        assert commanded == pytest.approx(pressure) if action == 'vent' else commanded > 1e5
+        assert word in status.message
+        commanded = np.atleast_1d(watch.steady_command())
+        assert np.all(commanded == 0.0) if action == 'vent' else np.all(commanded > 1e5)
         # When the joint is seen again, it goes on from there.
-        before = len(watch.terms)
-        rig.tell_until(lambda: len(watch.terms) > before, 'control again', 0.05)
-        assert watch.terms[before].position[TERMS.index('reference')] == pytest.approx(0.05)
+        before, there = len(watch.terms), kind.middle - kind.way
+        rig.tell_until(lambda: len(watch.terms) > before, 'control again', there)
+        assert watch.terms[before].position[0] == pytest.approx(there)
 
 
+@both
 @pytest.mark.at_any_pace
-def test_bad_references_are_refused_with_the_range(watch):
-    with Program('pam_sim', parameters=LOCKSTEP), Program('pam_control', parameters=FOLLOWING):
+def test_bad_references_are_refused_with_the_range(watch, kind):
+    with (
+        Program('pam_sim', parameters=kind.lockstep),
+        Program('pam_control', parameters=kind.following),
+    ):
         begin = watch.begin()
-        for bad, words in (
-            (0.3, ('reference 0.3 m', 'out of reach', ' to 0.09')),
-            (math.nan, ('reference nan',)),
-            (-math.inf, ('reference -inf',)),
-        ):
-            watch.refer(bad)
-            status = watch.status(
-                lambda s, words=words: all(word in s.message for word in words), str(words)
-            )
+
+        def is_refused(*words):
+            status = watch.status(lambda s: all(word in s.message for word in words), str(words))
             assert status.level == DiagnosticStatus.WARN
-        message = JointTrajectory(joint_names=['elbow'], points=[JointTrajectoryPoint()])
-        watch.peer.publish(message, 'joint_trajectory')
-        watch.status(lambda s: 'elbow' in s.message and 'pam' in s.message, 'the wrong name')
-        message = JointTrajectory(joint_names=['pam'], points=[JointTrajectoryPoint()])
-        watch.peer.publish(message, 'joint_trajectory')
-        watch.status(lambda s: 'point 0 of the trajectory' in s.message, 'the empty point')
+
+        for bad, words in kind.refused:
+            watch.refer(bad)
+            is_refused(*words)
+        watch.peer.publish(sine(begin, 0.0, 'elbow'), 'joint_trajectory')
+        is_refused('elbow', 'pam')
+        if kind is PAIR:
+            stiffness = watch.rests('co_contraction')
+            for bad, words in (
+                (90.0, ('co-contraction 90 N m/rad', ' to 46.12 N m/rad')),
+                (math.nan, ('co-contraction nan',)),
+            ):
+                stiffen(watch, bad)
+                is_refused(*words)
+            watch.peer.publish(sine(begin, 2.0), 'joint_trajectory')
+            is_refused('reference', 'rad')
+            assert watch.latest('co_contraction') == pytest.approx(stiffness, abs=1e-6)
+            (values,) = (
+                {v.key: v.value for v in s.values}
+                for s in watch.arrays[-1].status
+                if s.name == 'pam_control: control'
+            )
+            assert float(values['highest reference (rad)']) == pytest.approx(1.169)
+            highest = float(values['highest co-contraction (N m/rad)'])
+            assert highest == pytest.approx(46.12, abs=0.01)
+        empty = JointTrajectory(joint_names=['pam'], points=[JointTrajectoryPoint()])
+        watch.peer.publish(empty, 'joint_trajectory')
+        is_refused('point 0 of the trajectory')
         assert watch.latest('reference') == begin
-        assert all(math.isfinite(message.data) for message in watch.commands)
+        assert np.all(np.isfinite([message.data for message in watch.commands]))
 
 
+@both
 @pytest.mark.at_any_pace
-def test_a_wrong_joint_name_is_named_and_nothing_is_commanded(watch):
+def test_disabled_it_commands_nothing_and_enabled_it_holds_the_load_where_it_is(watch, kind):
     rig = Rig(watch.peer)
-    with Program('pam_control', parameters={'joint_name': 'elbow'}) as control:
-
-        def is_said():
-            return 'no joint elbow (joint_name), but pam' in control.output
-
-        rig.tell_until(is_said, 'the warning')
-        status = watch.status(lambda s: 'no joint elbow' in s.message, 'the diagnostics')
-        assert status.level == DiagnosticStatus.ERROR
-        assert not watch.commands
-
-
-@pytest.mark.at_any_pace
-def test_a_position_that_is_no_number_is_not_used(watch):
-    rig = Rig(watch.peer)
-    with Program('pam_control'):
-        rig.tell_until(lambda: watch.commands, 'control')
-        rig.tell_until(
-            lambda: any('position nan' in s.message for a in watch.arrays for s in a.status),
-            'the diagnostics',
-            math.nan,
-        )
-        assert all(math.isfinite(message.data) for message in watch.commands)
-
-
-def test_disabled_it_commands_nothing_and_enabled_it_holds_the_load_where_it_is(watch):
-    rig = Rig(watch.peer)
-    with Program('pam_control', parameters={'start_enabled': False}):
+    given = {**kind.given, **PATIENT, 'start_enabled': False}
+    with Program('pam_control', parameters=given):
         rig.tell_until(lambda: watch.arrays, 'the diagnostics')
         assert not watch.commands
         watch.refer(0.07)
@@ -162,77 +245,41 @@ def test_disabled_it_commands_nothing_and_enabled_it_holds_the_load_where_it_is(
         watch.falls_silent()
 
 
+@both
 @pytest.mark.at_any_pace
-def test_the_baseline_and_measured_velocity_control_as_well(watch):
-    told = {**FOLLOWING, 'velocity_source': 'measured'}
-    with Program('pam_sim', parameters=LOCKSTEP), Program('pam_control', parameters=told):
+def test_parameters_are_described_and_changed_or_refused_as_a_whole(watch, kind):
+    with (
+        Program('pam_sim', parameters=kind.lockstep),
+        Program('pam_control', parameters=kind.following),
+    ):
         begin = watch.begin()
-        watch.lead(lambda: watch.refer(begin + 0.005), 1.6)
-        assert abs(watch.latest('error')) < 1e-5
-        pytest.importorskip('simple_pid', reason='the baseline needs simple-pid')
-        assert watch.peer.set_one('pam_control', controller='pid').successful
-        watch.peer.more(watch.terms, 300)
-        watch.lead(lambda: watch.refer(begin), 4.0)
-        assert abs(watch.latest('error')) < 2e-5
-
-
-@pytest.mark.at_any_pace
-def test_parameters_are_described_and_changed_or_refused_as_a_whole(watch):
-    with Program('pam_sim', parameters=LOCKSTEP), Program('pam_control', parameters=FOLLOWING):
-        watch.begin()
         (about,) = watch.peer.describe('pam_control', 'gains.bandwidth')
         assert about.floating_point_range[0].from_value == 0.5
         assert '1/s' in about.description
-        bad = watch.peer.set_one('pam_control', limits__pressure_high=-5.0)
-        assert not bad.successful
-        assert 'pressure_high' in bad.reason
-        bad = watch.peer.set_one('pam_control', gains__velocity_bandwidth=2000.0)
-        assert not bad.successful
-        assert 'too fast for a control rate of 500 Hz' in bad.reason
+        for name, bad, reason in (
+            ('limits__pressure_high', -5.0, 'pressure_high'),
+            ('gains__velocity_bandwidth', 2000.0, 'too fast for a control rate of 500 Hz'),
+            *([('co_contraction', 900.0, '900 N m/rad is out of reach')] if kind is PAIR else []),
+        ):
+            refused = watch.peer.set_one('pam_control', **{name: bad})
+            assert not refused.successful
+            assert reason in refused.reason
+        sent = len(watch.terms)
         assert watch.peer.set_one('pam_control', gains__bandwidth=10.0).successful
-        assert watch.peer.set_one('pam_control', mass=21.0).successful
-        watch.peer.more(watch.terms, 1000)
-        assert abs(watch.latest('error')) < 1e-5
-
-
-@pytest.mark.at_any_pace
-@pytest.mark.usefixtures('domain')
-@pytest.mark.parametrize(
-    ('arguments', 'named'),
-    [
-        (['-p', 'mass:=-3.0'], ['mass = -3.0', 'above 0']),
-        (['-p', 'rat:=100.0'], ['rat ', 'rate']),
-        (['-p', 'on_timeout:=explode'], ['on_timeout', 'vent', 'hold']),
-        (['-p', 'muscle:=dmsp_99'], ['dmsp_99', 'dmsp_20_400n']),
-        (['-p', 'gains.bandwidth:=100.0'], ['fast_bandwidth', 'bandwidth = 100']),
-        (['-p', 'rate:=20.0'], ['velocity_bandwidth', '20 Hz']),
-        (['-p', 'mass:=1e4'], ['mass']),
-        (['--nonsense'], ['nonsense']),
-    ],
-)
-def test_bad_arguments_end_it_with_a_sentence(arguments, named):
-    with Program('pam_control', *arguments) as control:
-        assert control.wait() == 2
-        sentence = control.output.splitlines()[-1]
-        assert sentence.startswith('pam_control: ')
-        for word in named:
-            assert word in sentence
-        assert 'Traceback' not in control.output
-
-
-def test_two_in_namespaces_do_not_disturb_each_other(peer):
-    left = peer.collect(JointState, '/left/pam_control/state')
-    right = peer.collect(JointState, '/right/pam_control/state')
-    spaces = [('-r', f'__ns:=/{name}') for name in ('left', 'right')]
-    programs = [
-        Program(name, *space, parameters=START if name == 'pam_sim' else None)
-        for space in spaces
-        for name in ('pam_sim', 'pam_control')
-    ]
-    with programs[0], programs[1], programs[2], programs[3]:
-        peer.more(left)
-        peer.more(right)
-        begin = right[-1].position[0]
-        peer.publish(Float64(data=begin + 0.005), '/left/position_reference')
-        peer.until(lambda: left[-1].position[0] > begin + 0.004, 'motion on the left')
-        assert right[-1].position[0] == pytest.approx(begin, abs=1e-9)
+        assert watch.peer.set_one('pam_control', velocity_source='measured').successful
+        # Another model: a new law.
+        assert watch.peer.set_one('pam_control', mass=0.95 * kind.load).successful
+        watch.lead(lambda: watch.refer(begin + kind.way), 2.0)
+        _, seen = columns(watch.terms[sent:], watch.names)
+        assert np.max(np.abs(seen['error'])) < 5.0 * kind.close
+        assert abs(watch.latest('error')) < kind.still
+        if kind is PAIR:
+            watch.lead(
+                lambda: watch.peer.set_one('pam_control', co_contraction=33.0),
+                *(1.6, 'co_contraction'),
+            )
+            assert watch.latest('stiffness') == pytest.approx(33.0, rel=1e-3)
+        pytest.importorskip('simple_pid', reason='the baseline needs simple-pid')
+        assert watch.peer.set_one('pam_control', controller='pid').successful
+        watch.lead(lambda: watch.refer(begin), 4.0)
+        assert watch.latest('error') == pytest.approx(0.0, abs=2.0 * kind.still)

@@ -10,6 +10,7 @@ from matplotlib.image import imread
 
 
 @pytest.mark.at_any_pace
+@pytest.mark.release
 @pytest.mark.usefixtures('domain')
 def test_a_joint_is_led_by_angle_and_stiffness_over_topics(tmp_path):
     done = subprocess.run(

@@ -15,6 +15,7 @@ from pam_ros.report.write import FILES
 
 
 @pytest.mark.needs_numba
+@pytest.mark.release
 @pytest.mark.usefixtures('domain')
 def test_the_loop_closes_over_topics(tmp_path):
     done = subprocess.run(

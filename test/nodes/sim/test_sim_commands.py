@@ -23,17 +23,22 @@ class Watch:
         self.pressures = peer.collect(FluidPressure, 'pressure')
         self.states = peer.collect(JointState, 'joint_states')
         self.arrays = peer.collect(DiagnosticArray, '/diagnostics')
+        self.seen = 0  # of the pressures
 
     def command(self, value):
         self.peer.publish(Float64(data=value), 'pressure_command')
 
     def pressure_becomes(self, gauge):
-        self.peer.until(
-            lambda: (
-                self.pressures and abs(self.pressures[-1].fluid_pressure - AMBIENT - gauge) < 1
-            ),
-            f'{gauge} Pa',
-        )
+        """Wait for a pressure among those that came since the last one that was waited for."""
+
+        def find():
+            for i in range(self.seen, len(self.pressures)):
+                if abs(self.pressures[i].fluid_pressure - AMBIENT - gauge) < 1:
+                    self.seen = i
+                    return True
+            return False
+
+        self.peer.until(find, f'{gauge} Pa')
 
     def status(self, part, condition):
         """Wait for a status of a part that fulfils *condition*; return it and its values."""
@@ -54,6 +59,7 @@ def watch(peer):
     return Watch(peer)
 
 
+@pytest.mark.at_any_pace
 def test_bad_commands_are_clamped_or_refused_counted_and_named(watch):
     with Program('pam_sim', parameters={'command_timeout': 0.0}) as sim:
         watch.status('commands', lambda s, v: s.message == 'no command yet')
@@ -75,46 +81,26 @@ def test_bad_commands_are_clamped_or_refused_counted_and_named(watch):
         assert values['last command (Pa)'] == '601000'
         said = sim.output
         assert 'nan is no number' in said
-        assert said.count('is no number') == 1  # throttled
+        assert said.count('is no number') < 3  # throttled
         assert '-5' in said
+        # The last command is above a new limit.
+        assert watch.peer.set_one('pam_sim', p_max=4.5e5).successful
+        watch.pressure_becomes(4.5e5)
     for message in watch.states:
         assert math.isfinite(message.position[0] + message.velocity[0] + message.effort[0])
 
 
-@pytest.mark.parametrize(
-    ('on_timeout', 'gauge', 'said'), [('vent', 0, 'vented'), ('hold', 4e5, 'held')]
-)
-def test_silence_vents_or_holds_and_a_new_command_is_obeyed(watch, on_timeout, gauge, said):
-    given = {'command_timeout': 0.3, 'on_timeout': on_timeout}
-    with Program('pam_sim', parameters=given):
-        watch.command(4e5)
-        status, values = watch.status('commands', lambda s, v: s.level == DiagnosticStatus.WARN)
-        assert status.message.endswith(said)
-        assert float(values['command age (s)']) > 0.3
-        watch.pressure_becomes(gauge)
-        watch.command(2e5)
-        watch.pressure_becomes(2e5)
-
-
-def test_a_bad_command_does_not_count_as_a_sign_of_life(watch):
+@pytest.mark.at_any_pace
+def test_silence_vents_and_a_new_command_is_obeyed(watch):
     with Program('pam_sim', parameters={'command_timeout': 0.3}):
         watch.command(4e5)
         watch.pressure_becomes(4e5)
-
-        def vents_while_told_nonsense():
-            watch.command(math.nan)
-            return watch.pressures[-1].fluid_pressure == AMBIENT
-
-        watch.peer.until(vents_while_told_nonsense, 'venting')
-
-
-@pytest.mark.at_any_pace
-def test_a_lower_limit_lowers_the_pressure_in_force(watch):
-    with Program('pam_sim', parameters={'command_timeout': 0.0}):
-        watch.command(5e5)
-        watch.pressure_becomes(5e5)
-        assert watch.peer.set_one('pam_sim', p_max=4.5e5).successful
-        watch.pressure_becomes(4.5e5)
+        status, values = watch.status('commands', lambda s, v: s.level == DiagnosticStatus.WARN)
+        assert status.message.endswith('vented')
+        assert float(values['command age (s)']) > 0.3
+        watch.pressure_becomes(0.0)
+        watch.command(2e5)
+        watch.pressure_becomes(2e5)
 
 
 @pytest.mark.at_any_pace
@@ -133,17 +119,16 @@ def test_a_lost_load_is_told_and_never_published(watch):
     assert all(abs(m.position[0]) < 0.4 for m in watch.states)
 
 
-@pytest.mark.at_any_pace
-def test_the_initial_pressure_stands_until_a_first_command(watch):
-    given = {'initial.pressure': 250e3, 'command_timeout': 0.05}
+def test_diagnostics_tell_rate_and_lateness_once_a_second_and_sensors_have_their_faults(watch):
+    given = {
+        'initial.pressure': 250e3,
+        'sensor.position_offset': 0.01,
+        'sensor.position_noise': 20e-6,
+        'sensor.pressure_noise': 500.0,
+    }
     with Program('pam_sim', parameters=given):
-        watch.peer.more(watch.pressures, 500)
-        assert {m.fluid_pressure for m in watch.pressures} == {250e3 + AMBIENT}
-
-
-def test_diagnostics_tell_rate_and_lateness_once_a_second(watch):
-    with Program('pam_sim'):
         watch.peer.until(lambda: len(watch.arrays) >= 4, 'diagnostics')
+        rest = watch.peer.get('pam_sim', 'l0')[0]
     statuses = {s.name: s for array in watch.arrays for s in array.status}
     assert set(statuses) == {'pam_sim: timing', 'pam_sim: commands'}
     values = {v.key: v.value for v in statuses['pam_sim: timing'].values}
@@ -154,24 +139,8 @@ def test_diagnostics_tell_rate_and_lateness_once_a_second(watch):
     assert values['paused'] == 'False'
     stamps = [a.header.stamp.sec + a.header.stamp.nanosec * 1e-9 for a in watch.arrays]
     assert (stamps[-1] - stamps[0]) / (len(stamps) - 1) == pytest.approx(1.0, abs=0.4)
-
-
-def test_noise_and_offset_reach_the_topics(watch):
-    given = {
-        'initial.pressure': 250e3,
-        'sensor.position_offset': 0.01,
-        'sensor.position_noise': 20e-6,
-        'sensor.pressure_noise': 500.0,
-    }
-    with Program('pam_sim', parameters=given):
-        watch.peer.until(lambda: len(watch.states) > 1000, 'states')
-        watch.peer.until(lambda: len(watch.pressures) > 1000, 'pressures')
-        rest = watch.peer.get('pam_sim', 'l0')[0]
-    positions = [m.position[0] for m in watch.states[:1000]]
-    mean = sum(positions) / 1000
-    spread = math.sqrt(sum((y - mean) ** 2 for y in positions) / 999)
-    assert spread == pytest.approx(20e-6, rel=0.2)  # 9 standard errors
-    assert 0.0 < mean - 0.01 < 0.3 * rest
+    # test/simulator/test_plant.py judges the noise.
+    positions = [m.position[0] for m in watch.states]
+    assert 0.0 < min(positions) - 0.01 < max(positions) - 0.01 < 0.3 * rest
     assert {m.variance for m in watch.pressures} == {250e3}
-    gauge = [m.fluid_pressure - AMBIENT - 250e3 for m in watch.pressures[:1000]]
-    assert math.sqrt(sum(p * p for p in gauge) / 1000) == pytest.approx(500.0, rel=0.2)
+    assert len({m.fluid_pressure for m in watch.pressures}) > 0.9 * len(watch.pressures)

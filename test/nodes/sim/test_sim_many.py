@@ -17,6 +17,7 @@ from pam_ros.rig.loads import Mass
 from pam_ros.rig.rest import rest
 from pam_ros.rig.rig import Rig
 from pam_ros.rig.transmissions import Pulley
+from support.ends import check_refusals
 from support.harness import Program
 
 pytestmark = [pytest.mark.at_any_pace, pytest.mark.usefixtures('domain')]
@@ -266,27 +267,21 @@ def test_pause_step_and_reset_are_for_all_of_them(peer):
         peer.until(lambda: list(arm.states[-1].position) == [at_rest] * 2, 'the start')
 
 
-@pytest.mark.parametrize(
-    ('arguments', 'named'),
-    [
-        (['-p', 'muscles:=[a, a]'], ['muscles', 'a is named twice']),
-        (['-p', 'muscles:=[mass, b]'], ['mass is the name of a parameter']),
-        (['-p', 'muscles:=["a b", c]'], ["'a b' is no name"]),
-        (['-p', 'muscles:=[a]', '-p', 'joint:=parallel'], ['1 names', 'parallel', '2 for each']),
-        (['-p', 'muscles:=[a, b]', '-p', 'a.mas:=3.0'], ['a.mas', 'a.mass']),
-        (['-p', 'muscles:=[a, b]', '-p', 'a.colour:=3.0'], ['a.colour']),
-        (['-p', 'muscles:=[a, b]', '-p', 'b.mass:=-3.0'], ['b.mass = -3']),
-        (['-p', 'muscles:=[a, b]', '-p', 'b.muscle:=dmsp_99'], ['dmsp_99']),
-        (['-p', 'joint:=knee'], ['knee', 'antagonistic']),
-        (['-p', 'time_mode:=fast'], ['fast', 'lockstep']),
-        (['-p', 'speed_factor:=0.05'], ['speed_factor = 0.05', '0.1 or more']),
-        (['-p', 'joint:=antagonistic', '-p', 'radius:=0.0'], ['radius', 'above 0']),
-    ],
-)
-def test_what_makes_no_scene_ends_it_with_a_sentence(arguments, named):
-    with Program('pam_sim', *arguments) as sim:
-        assert sim.wait() == 2
-        sentence = sim.output.splitlines()[-1]
-        for word in named:
-            assert word in sentence
-        assert 'Traceback' not in sim.output
+REFUSED = [
+    (['-p', 'muscles:=[a, a]'], ['muscles', 'a is named twice']),
+    (['-p', 'muscles:=[mass, b]'], ['mass is the name of a parameter']),
+    (['-p', 'muscles:=["a b", c]'], ["'a b' is no name"]),
+    (['-p', 'muscles:=[a]', '-p', 'joint:=parallel'], ['1 names', 'parallel', '2 for each']),
+    (['-p', 'muscles:=[a, b]', '-p', 'a.mas:=3.0'], ['a.mas', 'a.mass']),
+    (['-p', 'muscles:=[a, b]', '-p', 'a.colour:=3.0'], ['a.colour']),
+    (['-p', 'muscles:=[a, b]', '-p', 'b.mass:=-3.0'], ['b.mass = -3']),
+    (['-p', 'muscles:=[a, b]', '-p', 'b.muscle:=dmsp_99'], ['dmsp_99']),
+    (['-p', 'joint:=knee'], ['knee', 'antagonistic']),
+    (['-p', 'time_mode:=fast'], ['fast', 'lockstep']),
+    (['-p', 'speed_factor:=0.05'], ['speed_factor = 0.05', '0.1 or more']),
+    (['-p', 'joint:=antagonistic', '-p', 'radius:=0.0'], ['radius', 'above 0']),
+]
+
+
+def test_what_makes_no_scene_ends_it_with_a_sentence():
+    check_refusals('pam_sim', REFUSED)

@@ -104,6 +104,7 @@ def tick(message):
     return message.clock.sec * SECOND + message.clock.nanosec
 
 
+@pytest.mark.at_any_pace
 @pytest.mark.parametrize('factor', [0.0, 0.5, 20.0])
 def test_the_motion_is_the_same_at_any_speed(peer, factor):
     states = peer.collect(JointState, 'joint_states')
@@ -123,6 +124,7 @@ def test_the_motion_is_the_same_at_any_speed(peer, factor):
     assert all(np.diff([tick(m) for m in clocks]) > 0)
 
 
+@pytest.mark.at_any_pace
 def test_speed_changes_while_it_runs_without_a_jump(peer):
     states = peer.collect(JointState, 'joint_states')
     diagnostics = peer.collect(DiagnosticArray, '/diagnostics')
@@ -147,7 +149,7 @@ def test_speed_changes_while_it_runs_without_a_jump(peer):
     assert set(np.diff([stamp(m) for m in states])) == {20 * MS}
 
 
-@pytest.mark.parametrize('factor', [0.0, 5.0])
+@pytest.mark.parametrize('factor', [0.0, pytest.param(5.0, marks=pytest.mark.at_any_pace)])
 def test_pause_step_and_reset_in_scaled_time(peer, factor):
     states = peer.collect(JointState, 'joint_states')
     clocks = peer.collect(Clock, '/clock')
@@ -182,6 +184,7 @@ def test_pause_step_and_reset_in_scaled_time(peer, factor):
     assert all(np.diff([stamp(m) for m in states]) >= 0)
 
 
+@pytest.mark.at_any_pace
 def test_step_in_real_time_is_of_exact_periods(peer):
     states = peer.collect(JointState, 'joint_states')
     given = {**RELEASED, **lose_nothing(), 'step_periods': 40}
