@@ -1,7 +1,8 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What holds for every source file: its header."""
+"""What holds for every source file: its header, and that nothing is left of a merge."""
 
+import re
 from pathlib import Path
 
 import pytest
@@ -13,6 +14,17 @@ FILES = sorted(
     path.relative_to(ROOT)
     for path in [ROOT / 'setup.py', *(p for f in FOLDERS for p in (ROOT / f).rglob('*.py'))]
 )
+# Pages and settings as well, at the top and in these folders.
+WRITTEN = ('.html', '.js', '.j2', '.json', '.md', '.py', '.rst', '.toml', '.txt', '.xml', '.yaml')
+TEXTS = sorted(
+    path.relative_to(ROOT)
+    for path in [
+        *ROOT.iterdir(),
+        *(p for f in (*FOLDERS, 'config', 'docs', 'urdf') for p in (ROOT / f).rglob('*')),
+    ]
+    if path.suffix in WRITTEN
+)
+CONFLICT = re.compile(r'^(<{7}|>{7}) ', re.MULTILINE)
 
 
 @pytest.mark.parametrize('path', FILES, ids=str)
@@ -20,6 +32,15 @@ def test_file_says_whose_it_is(path):
     lines = (ROOT / path).read_text(encoding='utf-8').splitlines()
     start = 1 if lines[0].startswith('#!') else 0
     assert lines[start : start + 2] == HEADER
+
+
+@pytest.mark.parametrize('path', TEXTS, ids=str)
+def test_file_holds_no_unresolved_conflict(path):
+    assert not CONFLICT.search((ROOT / path).read_text(encoding='utf-8'))
+
+
+def test_the_pages_are_among_the_texts():
+    assert {Path('README.md'), Path('docs/python.md'), Path('CHANGELOG.rst')} <= set(TEXTS)
 
 
 def test_license_is_apache():
