@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """What public functions and classes do not take: each entrance, with each kind of wrong input."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -9,22 +11,32 @@ from pam_ros import (
     EFFECTS,
     Actuator,
     Arm,
+    Gains,
     Joint,
+    Limits,
     Mass,
     Muscle,
     PamError,
+    Pid,
+    PidGains,
     Pulley,
     Recording,
     Rig,
+    SlidingMode,
+    Transmission,
     fit_static_map,
+    load_rig,
     one_muscle,
     pressures,
+    read_mapping,
     read_recording,
     rest,
     simulate,
     simulate_held,
     stiffness,
     stiffness_range,
+    trace,
+    write_csv,
 )
 
 ONE = one_muscle()
@@ -295,6 +307,7 @@ NUMBERS = {
     'stiffness_range effort': lambda v: stiffness_range(ELBOW, 0.1, v),
     'pressures s': lambda v: pressures(ELBOW, v, 60.0),
     'pressures stiffness': lambda v: pressures(ELBOW, 0.1, v),
+    'actuator contraction': lambda v: Actuator(contraction=v),
     'mass mass': lambda v: Mass(mass=v),
     'muscle.equilibrium p': lambda v: Muscle().equilibrium(v, 100.0),
     'muscle.equilibrium load': lambda v: Muscle().equilibrium(3e5, v),
@@ -362,3 +375,146 @@ def test_a_muscle_that_a_rig_does_not_have_is_not_commanded(muscle):
     assert refusal(Rig([ELBOW]).command_one, muscle, 3e5).startswith(
         f'muscle = {muscle!r} is not allowed: give a whole number'
     )
+
+
+# Objects ---------------------------------------------------------------------------------------
+
+LAG = {'pressure_lag': {'fill': 0.1}}
+OBJECTS = {
+    'joint of an actuator': (Joint, (STRAND,), 'actuators = Actuator(muscle='),
+    'joint of a muscle': (Joint, ((Muscle(),),), 'actuators[0] = Muscle(a1='),
+    'joint of a text': (Joint, ('ab',), "actuators = 'ab'"),
+    'joint of a number': (Joint, (3.0,), 'actuators = 3.0'),
+    'joint with a number as load': (Joint, ((STRAND,), 20.0), 'load = 20.0'),
+    'joint with an unfinished transmission': (
+        Joint,
+        ((STRAND,), Mass(), Transmission()),
+        'transmission.equations = None',
+    ),
+    'joint with a number as transmission': (
+        Joint,
+        ((STRAND,), Arm(), 0.04),
+        'transmission = 0.04',
+    ),
+    'joint with effects by name': (
+        Joint,
+        ((STRAND,), Mass(), Pulley(), ['creep']),
+        "effects = ['creep']",
+    ),
+    'joint with an effect as library': (
+        lambda: Joint(library=EFFECTS[0]),
+        (),
+        "library = Effect(name='dead_time'",
+    ),
+    'actuator of a number': (Actuator, (0.4,), 'muscle = 0.4'),
+    'actuator of effects': (Actuator, (LAG,), "muscle = {'pressure_lag':"),
+    'actuator with an effect as a number': (
+        Actuator,
+        (Muscle(), {'leak': 0.1}),
+        'effects.leak = 0.1',
+    ),
+    'one muscle of a mass': (one_muscle, (Mass(mass=20.0),), 'muscle = Mass(mass=20.0, mount='),
+    'one muscle on a number': (one_muscle, (None, 20.0), 'load = 20.0'),
+    'one muscle of 0': (one_muscle, (0,), 'muscle = 0 '),
+    'one muscle with effects as a number': (one_muscle, (None, None, 30.0), 'effects = 30.0'),
+    'one muscle with an effect as a number': (
+        one_muscle,
+        (None, None, {'viscous_friction': 30.0}),
+        'effects.viscous_friction = 30.0',
+    ),
+    'muscle of a text': (Muscle, ('4',), "a1 = '4'"),
+    'rig of a joint': (Rig, (ONE,), 'joints = Joint(actuators='),
+    'rig of muscles': (Rig, ([Muscle()],), 'joints[0] = Muscle('),
+    'rig of nothing': (Rig, ([],), 'joints is empty'),
+    'change to a joint': (Rig([ONE]).change, (ONE,), 'joints = Joint(actuators='),
+    'simulate a muscle': (simulate, (Muscle(), T, T, COMMAND), 'joint = Muscle('),
+    'simulate with hidden numbers': (
+        lambda: simulate(one_muscle(effects=LAG), T, T, COMMAND, hidden={'pressure_lag': 3e4}),
+        (),
+        'hidden.pressure_lag = 30000.0',
+    ),
+    'simulate with a hidden number': (
+        lambda: simulate(one_muscle(effects=LAG), T, T, COMMAND, hidden=3e4),
+        (),
+        'hidden = 30000.0',
+    ),
+    'hold a muscle': (simulate_held, (Muscle(), T, COMMAND, STILL), 'joint = Muscle('),
+    'rest of a muscle': (rest, (Muscle(), 3e5), 'joint = Muscle('),
+    'stiffness of a muscle': (stiffness, (Muscle(), 3e5, 0.0), 'joint = Muscle('),
+    'stiffness range of a list': (stiffness_range, ([ELBOW], 0.0), 'joint = [Joint('),
+    'pressures of None': (pressures, (None, 0.0, 60.0), 'joint = None'),
+    'law of a muscle': (SlidingMode, (Muscle(),), 'joint = Muscle('),
+    'law with the limits as gains': (SlidingMode, (ONE, Limits()), 'gains = Limits('),
+    'law with the gains of another': (SlidingMode, (ONE, PidGains()), 'gains = PidGains('),
+    'law with a number as limits': (SlidingMode, (ONE, None, 6e5), 'limits = 600000.0'),
+    'law with a number as stiffness': (
+        SlidingMode,
+        (ELBOW, None, None, 60.0),
+        'co_contraction = 60.0',
+    ),
+    'gains of a muscle': (Gains.of, (Muscle(),), 'joint = Muscle('),
+    'PID gains of a muscle': (PidGains.of, (Muscle(),), 'joint = Muscle('),
+    'trace of a muscle': (trace, (Muscle(), [recorded()]), 'model = Muscle('),
+    'trace of one recording': (trace, (ONE, recorded()), 'recordings = Recording('),
+    'trace of files': (trace, (ONE, ['a.csv']), "recordings[0] = 'a.csv'"),
+    'trace of nothing': (trace, (ONE, []), 'recordings is empty'),
+    'trace tested with one recording': (
+        trace,
+        (ONE, [recorded()], recorded()),
+        'test = Recording(',
+    ),
+    'recording of another kind': (recorded, (), "made: kind = 'fast'", {'kind': 'fast'}),
+    'recording without stamps of commands': (
+        recorded,
+        (),
+        'made: command_t = None',
+        {'command_t': None},
+    ),
+    'recording without commands at stamps': (
+        recorded,
+        (),
+        'made: command = None',
+        {'command': None},
+    ),
+    'rig of a number': (load_rig, (3,), 'name = 3'),
+    'rig with one text': (load_rig, ('dmsp_20_400n', 'mass=10'), "overrides = 'mass=10'"),
+    'recording from a number': (read_recording, (3,), 'path = 3'),
+    'recording with rules': (read_recording, ('a.csv', 'a=t_s'), "mapping = 'a=t_s'"),
+    'mapping of a text': (read_mapping, ('a=t_s',), "rules = 'a=t_s'"),
+    'mapping from a number': (read_mapping, ((), 3), 'file = 3'),
+    'write a path': (write_csv, ('a.csv', recorded()), "recording = 'a.csv'"),
+    'write to a number': (write_csv, (recorded(), 3), 'path = 3'),
+}
+
+
+@pytest.mark.parametrize('name', OBJECTS)
+def test_an_object_of_a_wrong_kind_is_refused_with_a_sentence_that_names_it(name):
+    call, arguments, begin, *named = OBJECTS[name]
+    sentence = refusal(call, *arguments, **(named[0] if named else {}))
+    assert sentence.startswith(begin)
+    assert 'give' in sentence
+
+
+def test_pid_refuses_objects_of_a_wrong_kind():
+    pytest.importorskip('simple_pid', reason='the baseline needs simple-pid')
+    assert refusal(Pid, Muscle()).startswith('joint = Muscle(')
+    assert refusal(Pid, ONE, Gains()).startswith('gains = Gains(')
+    assert refusal(Pid, ONE, None, 6e5).startswith('limits = 600000.0')
+    assert refusal(Pid, ELBOW, None, None, 60.0).startswith('co_contraction = 60.0')
+
+
+def test_lists_of_parts_are_taken_and_kept_as_tuples():
+    joint = Joint([STRAND, STRAND], Arm(), Pulley(), library=list(EFFECTS))
+    assert joint == ELBOW
+    assert isinstance(joint.actuators, tuple)
+    assert replace(joint) == ELBOW
+
+
+def test_paths_may_be_texts(tmp_path):
+    made = recorded(t=np.arange(3) * 1e-2)
+    file = tmp_path / 'made.csv'
+    write_csv(made, str(file))
+    assert file.read_text(encoding='utf-8').startswith('t_s,pressure_command_Pa,')
+    rules = tmp_path / 'rules.yaml'
+    rules.write_text('columns: {a: t_s}\n', encoding='utf-8')
+    assert 'a' in read_mapping(file=str(rules))

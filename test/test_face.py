@@ -3,6 +3,8 @@
 """The public names, and the page that shows them: its examples run in their order."""
 
 import ast
+import inspect
+import pydoc
 import re
 import subprocess
 import sys
@@ -77,3 +79,11 @@ def test_examples_import_from_the_face_alone():
     for example in EXAMPLES:
         for module in re.findall(r'^from (\S+) import', example, re.MULTILINE):
             assert module == 'pam_ros'
+
+
+@pytest.mark.parametrize('name', [name for name in pam_ros.__all__ if name != '__version__'])
+def test_help_of_a_public_name_can_be_read(name):
+    public = getattr(pam_ros, name)
+    assert len(pydoc.render_doc(public)) < 12_000
+    if callable(public) and public is not pam_ros.PamError:  # Python's own
+        assert len(str(inspect.signature(public))) < 2_000

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from math import acos, exp, log, pi, sqrt
 from typing import Any
 
+from pam_ros.arguments import instance
 from pam_ros.control.sharing import Sharing
 from pam_ros.control.tuning import number
 from pam_ros.errors import ParameterError
@@ -175,7 +176,8 @@ class Gains:
     @classmethod
     def of(cls, joint: Joint) -> 'Gains':
         """Return the default gains of *joint*."""
-        return cls.turning() if joint.is_revolute else cls()
+        is_turning = instance('joint', joint, Joint, 'a Joint').is_revolute
+        return cls.turning() if is_turning else cls()
 
     def __post_init__(self) -> None:
         """Check every field, then what must hold between them."""

@@ -39,6 +39,7 @@ Tondu & Lopez, IEEE Control Systems Magazine 20 (2), 2000 (angle and stiffness o
 from dataclasses import dataclass
 from math import sqrt
 
+from pam_ros.arguments import instance
 from pam_ros.control.co_contraction import CoContraction, StiffnessCourse
 from pam_ros.control.compensation import Losses
 from pam_ros.control.features import FeatureTuning
@@ -83,9 +84,13 @@ class SlidingMode:
         co_contraction: CoContraction | None = None,
     ) -> None:
         """Make it for a declared joint, at rest in the middle of its reach; see :meth:`start`."""
-        limits, wanted = limits or Limits(), co_contraction or CoContraction()
-        self.joint, self.gains = joint, gains or Gains.of(joint)
-        gains = self.gains
+        gains = Gains.of(joint) if gains is None else gains
+        limits = Limits() if limits is None else limits
+        wanted = CoContraction() if co_contraction is None else co_contraction
+        self.joint = instance('joint', joint, Joint, 'a Joint')
+        self.gains = instance('gains', gains, Gains, 'Gains')
+        instance('limits', limits, Limits, 'Limits')
+        instance('co_contraction', wanted, CoContraction, 'a CoContraction')
         self.model = model = ControlModel(joint)
         self.sharing = sharing_of(model, limits)
         self.terms = Terms()
