@@ -31,13 +31,12 @@ if TYPE_CHECKING:
     from pam_ros.recording.mapping import read_mapping
     from pam_ros.recording.read import read_recording
     from pam_ros.recording.recording import Recording
-    from pam_ros.rig.co_contraction import pressures, stiffness_range
+    from pam_ros.rig.co_contraction import pressures, stiffness, stiffness_range
     from pam_ros.rig.joint import Actuator, Joint, one_muscle
     from pam_ros.rig.loads import Arm, Load, LoadEquations, Mass
     from pam_ros.rig.rest import rest
     from pam_ros.rig.rig import Rig
     from pam_ros.rig.run import Trajectory, simulate, simulate_held
-    from pam_ros.rig.statics import stiffness
     from pam_ros.rig.transmissions import (
         Lever,
         Pulley,
@@ -110,13 +109,12 @@ _PLACES = {
     'recording.mapping': ('read_mapping',),
     'recording.read': ('read_recording',),
     'recording.recording': ('Recording',),
-    'rig.co_contraction': ('pressures', 'stiffness_range'),
+    'rig.co_contraction': ('pressures', 'stiffness', 'stiffness_range'),
     'rig.joint': ('Actuator', 'Joint', 'one_muscle'),
     'rig.loads': ('Arm', 'Load', 'LoadEquations', 'Mass'),
     'rig.rest': ('rest',),
     'rig.rig': ('Rig',),
     'rig.run': ('Trajectory', 'simulate', 'simulate_held'),
-    'rig.statics': ('stiffness',),
     'rig.transmissions': (
         'Lever',
         'Pulley',

@@ -11,7 +11,7 @@ import numbers
 from dataclasses import dataclass, field, fields, replace
 from typing import Any, NamedTuple
 
-from pam_ros.errors import ParameterError
+from pam_ros.arguments import refuse
 from pam_ros.units import turned_unit
 
 _KEY = 'parameter'
@@ -71,7 +71,7 @@ class Parameter:
     def check(self, name: str, value: Any, kind: type) -> Any:
         """Return *value* as *kind*, or raise ParameterError naming it and what is allowed."""
         if not self._fits(value, kind):
-            raise ParameterError(f'{name} = {value!r} is not allowed: give {self.allowed(kind)}')
+            refuse(name, value, self.allowed(kind))
         return kind(value)
 
     def _is_text(self, value: Any, kind: type) -> bool:

@@ -3,6 +3,8 @@
 """The public names, and the page that shows them: its examples run in their order."""
 
 import ast
+import inspect
+import pydoc
 import re
 import subprocess
 import sys
@@ -18,10 +20,10 @@ EXAMPLES = re.findall(r'```python\n(.*?)```', PAGE.read_text(encoding='utf-8'), 
 FACE = ROOT / 'pam_ros' / '__init__.py'
 
 
-@pytest.mark.parametrize('name', pam_ros.__all__)
-def test_a_public_name_is_there(name):
-    assert getattr(pam_ros, name) is not None
-    assert name in dir(pam_ros)
+def test_public_names_are_there():
+    for name in pam_ros.__all__:
+        assert getattr(pam_ros, name) is not None
+        assert name in dir(pam_ros)
 
 
 def test_an_unknown_name_is_refused():
@@ -77,3 +79,11 @@ def test_examples_import_from_the_face_alone():
     for example in EXAMPLES:
         for module in re.findall(r'^from (\S+) import', example, re.MULTILINE):
             assert module == 'pam_ros'
+
+
+def test_help_of_public_names_can_be_read():
+    for name in pam_ros.__all__:
+        public = getattr(pam_ros, name)
+        assert len(pydoc.render_doc(public)) < 12_000, name
+        if callable(public) and public is not pam_ros.PamError:  # Python's own
+            assert len(str(inspect.signature(public))) < 2_000, name

@@ -137,7 +137,7 @@ class Gains(JointSettings):
     )
     rest_factor: float = parameter(
         0.2,
-        'by how much all bandwidths shrink while the reference rests and is reached',
+        'factor by which all bandwidths are multiplied while the reference rests and is reached',
         '',
         low=0.01,
         high=1.0,

@@ -5,6 +5,7 @@
 from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
+from pam_ros.arguments import instance
 from pam_ros.errors import ParameterError
 from pam_ros.parameters import check_all, turning_defaults
 from pam_ros.rig.joint import Joint
@@ -25,7 +26,8 @@ class JointSettings:
     @classmethod
     def for_joint(cls: type[T], joint: Joint, **given: Any) -> T:
         """Return the defaults for the kind of *joint*, with those *given* in its units."""
-        return cls.turning(**given) if joint.is_revolute else cls(**given)
+        is_turning = instance('joint', joint, Joint, 'a Joint').is_revolute
+        return cls.turning(**given) if is_turning else cls(**given)
 
     @classmethod
     def turning(cls: type[T], **given: Any) -> T:

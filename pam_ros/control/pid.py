@@ -7,6 +7,7 @@ from importlib import import_module
 from math import exp
 from typing import Any
 
+from pam_ros.arguments import instance
 from pam_ros.control.co_contraction import CoContraction
 from pam_ros.control.joint_settings import JointSettings
 from pam_ros.control.limits import Limiter, Limits
@@ -103,13 +104,18 @@ class Pid:
             maker: Any = import_module('simple_pid').PID
         except ImportError as error:
             raise ParameterError('the PID law needs simple-pid: pip install simple-pid') from error
-        limits = limits or Limits()
-        self.gains = gains = gains or PidGains.for_joint(joint)
+        gains = PidGains.for_joint(joint) if gains is None else gains
+        limits = Limits() if limits is None else limits
+        wanted = CoContraction() if co_contraction is None else co_contraction
+        instance('joint', joint, Joint, 'a Joint')
+        self.gains = instance('gains', gains, PidGains, 'PidGains')
+        instance('limits', limits, Limits, 'Limits')
+        instance('co_contraction', wanted, CoContraction, 'a CoContraction')
         gains.require(turning=joint.is_revolute)
         self.terms = Terms()
         self.model = ControlModel(joint)
         self.sharing = sharing_of(self.model, limits)
-        self._stiffness = (co_contraction or CoContraction()).wanted(self.sharing)
+        self._stiffness = wanted.wanted(self.sharing)
         self._paths = [PressurePath(joint, i, 1.0) for i in range(len(self.model.muscles))]
         self._limiters = [
             Limiter(low, high, limits.pressure_rate) for low, high in self.sharing.ranges

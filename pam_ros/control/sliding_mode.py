@@ -39,6 +39,7 @@ Tondu & Lopez, IEEE Control Systems Magazine 20 (2), 2000 (angle and stiffness o
 from dataclasses import dataclass
 from math import sqrt
 
+from pam_ros.arguments import instance
 from pam_ros.control.co_contraction import CoContraction, StiffnessCourse
 from pam_ros.control.compensation import Losses
 from pam_ros.control.features import FeatureTuning
@@ -86,9 +87,13 @@ class SlidingMode:
 
         Raises ParameterError for gains of the other kind of joint (``Gains.for_joint``).
         """
-        limits, wanted = limits or Limits(), co_contraction or CoContraction()
-        self.joint, self.gains = joint, gains or Gains.for_joint(joint)
-        gains = self.gains
+        gains = Gains.for_joint(joint) if gains is None else gains
+        limits = Limits() if limits is None else limits
+        wanted = CoContraction() if co_contraction is None else co_contraction
+        self.joint = instance('joint', joint, Joint, 'a Joint')
+        self.gains = instance('gains', gains, Gains, 'Gains')
+        instance('limits', limits, Limits, 'Limits')
+        instance('co_contraction', wanted, CoContraction, 'a CoContraction')
         gains.require(turning=joint.is_revolute)
         self.model = model = ControlModel(joint)
         self.sharing = sharing_of(model, limits)

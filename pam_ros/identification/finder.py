@@ -8,7 +8,9 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from pam_ros.arguments import instance, sequence
 from pam_ros.effects.names import by_effect
+from pam_ros.errors import RecordingError
 from pam_ros.identification import verdict
 from pam_ros.identification.admission import Tried
 from pam_ros.identification.candidate import Fit
@@ -40,8 +42,14 @@ def trace(
     which no fit sees. With *test*, all of the recordings are fitted in the end; what was chosen
     was chosen before, on the blocks. progress(fraction, text) is told what runs.
 
-    Raises RecordingError when the recordings do not fit together or carry no output.
+    Raises RecordingError when there are no recordings, when they do not fit together or carry no
+    output, and ParameterError for objects of another kind.
     """
+    instance('model', model, Joint, 'a Joint')
+    recordings = sequence('recordings', recordings, Recording, 'a Recording')
+    test = sequence('test', test, Recording, 'a Recording')
+    if not recordings:
+        raise RecordingError('recordings is empty: give at least one Recording')
     tell: Progress = progress or (lambda fraction, text: None)
     blocks = segments_of(recordings, keep_back=True)
     tests = segments_of(test, keep_back=False)

@@ -21,6 +21,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.optimize import minimize_scalar
 from scipy.special import log_ndtr
 
+from pam_ros.arguments import array, number
 from pam_ros.errors import ParameterError
 from pam_ros.muscle import law
 from pam_ros.muscle.constants import CONTRACTION_UNITS, PRESSURE_UNITS, Constants
@@ -94,7 +95,8 @@ def fit_static_map(
     Raises ParameterError for arrays that do not fit together, unknown units, and a map that does
     not determine the six constants.
     """
-    p, kappa, force = _map(p, kappa, force)
+    p, kappa, force = _map(p=p, kappa=kappa, force=force)
+    slack_at = None if slack_at is None else number('slack_at', slack_at)
     _one_of('pressure_unit', pressure_unit, tuple(PRESSURE_UNITS))
     _one_of('contraction_unit', contraction_unit, tuple(CONTRACTION_UNITS))
     _one_of('slack', slack, ('censored', 'excluded'))
@@ -131,13 +133,11 @@ def fit_static_map(
     )
 
 
-def _map(*columns: ArrayLike) -> list[Array]:
-    arrays = [np.asarray(c, dtype=float) for c in columns]
+def _map(**columns: ArrayLike) -> list[Array]:
+    arrays = [array(name, column) for name, column in columns.items()]
     if len({a.shape for a in arrays}) != 1:
         shapes = ', '.join(str(a.shape) for a in arrays)
         raise ParameterError(f'p, kappa and force must have one shape, not {shapes}')
-    if not all(np.all(np.isfinite(a)) for a in arrays):
-        raise ParameterError('p, kappa and force must be finite: leave unmeasured points out')
     return arrays
 
 

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pam_ros.arguments import alike, array, number
 from pam_ros.errors import ParameterError, RangeError
 from pam_ros.muscle import law
 from pam_ros.muscle.constants import CONTRACTION_UNITS, PRESSURE_UNITS, Constants, to_si
@@ -23,9 +24,10 @@ class Muscle:
     """A fluidic muscle after Sárosi (2015).
 
     Fields are what a user gives, constants in the units of their source. Methods are SI: gauge
-    Pa, contraction as a fraction of l0, N, N/m; arrays broadcast. Raises ParameterError when
-    the constants make no muscle: stiffness or pressure gain not positive somewhere in the
-    working range (p_min..p_max, kappa_min..kappa_max), or a force far from the rated one.
+    Pa, contraction as a fraction of l0, N, N/m; arrays of finite numbers broadcast, and anything
+    else raises ParameterError. Raises ParameterError when the constants make no muscle: stiffness
+    or pressure gain not positive somewhere in the working range (p_min..p_max,
+    kappa_min..kappa_max), or a force far from the rated one.
 
     With a1 = a2 = a4 = 0 there is no muscle but a force source a5 p + a6 that does not depend on
     the position: a drive whose input then stands in for the pressure, in its own unit.
@@ -124,25 +126,26 @@ class Muscle:
 
     def force(self, p: ArrayLike, kappa: ArrayLike) -> Array:
         """Return the static force in N: equation (1)."""
-        return _array(law.force_v(_array(p), _array(kappa), *self.si))
+        return _array(law.force_v(*alike(p=p, kappa=kappa), *self.si))
 
     def stiffness(self, p: ArrayLike, kappa: ArrayLike) -> Array:
         """Return k in N/m, positive: equation (2), sign mended."""
         a1, a2, a3, a4, _, _ = self.si
-        return _array(law.stiffness_v(_array(p), _array(kappa), a1, a2, a3, a4, self.l0))
+        return _array(law.stiffness_v(*alike(p=p, kappa=kappa), a1, a2, a3, a4, self.l0))
 
     def damping(self, p: ArrayLike, kappa: ArrayLike, mass: ArrayLike) -> Array:
         """Return c in N s/m for a load of *mass* kg: equation (4), sign mended."""
-        return _array(law.damping_v(self.stiffness(p, kappa), _array(mass), self.zeta))
+        p, kappa, mass = alike(p=p, kappa=kappa, mass=mass)
+        return _array(law.damping_v(self.stiffness(p, kappa), mass, self.zeta))
 
     def gain(self, kappa: ArrayLike) -> Array:
         """Return dF/dp in N/Pa."""
         a1, _, a3, a4, a5, _ = self.si
-        return _array(law.gain_v(_array(kappa), a1, a3, a4, a5))
+        return _array(law.gain_v(array('kappa', kappa), a1, a3, a4, a5))
 
     def potential(self, p: ArrayLike, kappa: ArrayLike) -> Array:
         """Return the work in J that (1) does from kappa = 0 to *kappa* at constant pressure."""
-        return _array(law.potential_v(_array(p), _array(kappa), *self.si, self.l0))
+        return _array(law.potential_v(*alike(p=p, kappa=kappa), *self.si, self.l0))
 
     def pressure_for_force(self, wanted: ArrayLike, kappa: ArrayLike) -> Array:
         """Return the gauge pressure in Pa for a wanted force in N: (1) solved for p.
@@ -150,7 +153,7 @@ class Muscle:
         Raises RangeError where the gain dF/dp is not positive or the pressure would lie outside
         p_min..p_max; the sentence names the first such point.
         """
-        f, kappa = np.broadcast_arrays(_array(wanted), _array(kappa))
+        f, kappa = np.broadcast_arrays(*alike(wanted=wanted, kappa=kappa))
         with np.errstate(divide='ignore', invalid='ignore'):
             p = law.pressure_for_force_v(f, kappa, *self.si)
         p = np.where(self.gain(kappa) > 0.0, p, np.nan)
@@ -173,6 +176,7 @@ class Muscle:
         kappa_max + 0.25: a light load rests beyond the rated contraction. Raises RangeError
         when there is none.
         """
+        p, load = number('p', p), number('load', load)
         low, high = self.kappa_min - 0.1, min(self.kappa_max + 0.25, 0.95)
         ends = self.force(p, np.array([low, high]))
         if self.is_load_only or not ends[0] >= load >= ends[1]:

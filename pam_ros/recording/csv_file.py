@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from pam_ros.arguments import as_path, instance
 from pam_ros.errors import RecordingError
 from pam_ros.recording.mapping import ColumnMapping, Meaning
 from pam_ros.recording.recording import OUTPUTS, Recording
@@ -77,12 +78,15 @@ def read_csv(path: Path, mapping: ColumnMapping) -> tuple[dict[str, Series], lis
     return series, table.notes + notes
 
 
-def write_csv(recording: Recording, path: Path) -> None:
+def write_csv(recording: Recording, path: str | Path) -> None:
     """Write *recording* as a CSV that reads back to the same numbers.
 
     Columns in SI with their unit in the name. Commands at stamps of their own stand in rows of
-    their own, whose other cells are empty. Raises RecordingError when the file cannot be written.
+    their own, whose other cells are empty. Raises RecordingError when the file cannot be written,
+    and ParameterError for objects of another kind.
     """
+    instance('recording', recording, Recording, 'a Recording')
+    path = as_path('path', path, 'the path of a file')
     names = {'position': 'm', 'velocity': 'm_s', 'force': 'N', 'pressure': 'Pa'}
     columns = [name for name in OUTPUTS if getattr(recording, name) is not None]
     header = ['t_s', *(f'{name}_{names[name]}' for name in columns)]

@@ -16,6 +16,7 @@ from pathlib import Path
 
 import yaml
 
+from pam_ros.arguments import as_path, sequence
 from pam_ros.errors import RecordingError
 from pam_ros.recording.quantities import QUANTITIES, Target, target_of
 
@@ -75,14 +76,16 @@ class ColumnMapping:
                 )
 
 
-def read_mapping(rules: Sequence[str] = (), file: Path | None = None) -> ColumnMapping:
+def read_mapping(rules: Sequence[str] = (), file: str | Path | None = None) -> ColumnMapping:
     """Return the mapping of a YAML file, with the *rules* of the command line over it.
 
-    Raises RecordingError for a file that cannot be read and for a rule that cannot be understood.
+    Raises RecordingError for a file that cannot be read and for a rule that cannot be understood,
+    and ParameterError for arguments of another kind.
     """
+    rules = sequence('rules', rules, str, "a text such as 'adc=force_N*0.392'")
     meanings: dict[str, Meaning | None] = {}
     if file is not None:
-        for source, text in _read_yaml(file).items():
+        for source, text in _read_yaml(as_path('file', file, 'the path of a YAML file')).items():
             meanings[source] = _meaning(source, text)
     for rule in rules:
         source, equals, text = rule.rpartition('=')

@@ -6,6 +6,7 @@ import hashlib
 from dataclasses import replace
 from pathlib import Path
 
+from pam_ros.arguments import as_path, instance, number
 from pam_ros.errors import RecordingError
 from pam_ros.recording.assemble import assemble
 from pam_ros.recording.bag import bag_files, read_bag
@@ -32,10 +33,15 @@ def read_recording(
     contraction into a position; ``p_max`` in gauge Pa is the muscle's highest pressure, against
     which the unit of the input is judged. ``namespace`` chooses a rig in a bag of several.
 
-    Raises RecordingError, with the sentence for the user, for what cannot be used.
+    Raises RecordingError, with the sentence for the user, for what cannot be used, and
+    ParameterError for arguments of another kind.
     """
-    path = Path(path)
-    mapping = mapping or ColumnMapping()
+    path = as_path('path', path, 'the path of a bag or a CSV file')
+    mapping = ColumnMapping() if mapping is None else mapping
+    instance('mapping', mapping, ColumnMapping, 'what read_mapping returns')
+    for name, value in (('l0', l0), ('p_max', p_max)):
+        if value is not None:
+            number(name, value)
     if not path.exists():
         raise RecordingError(f'recording {path} does not exist')
     if path.is_dir() or path.suffix in BAG_SUFFIXES:

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A measured experiment: arrays in SI on one clock, its gaps known."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import Any
@@ -9,7 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from pam_ros.errors import RecordingError
+from pam_ros.arguments import along, array, instance, refuse, refuse_shape, stamps
+from pam_ros.errors import ParameterError, RecordingError
 
 Array = NDArray[np.float64]
 KINDS = ('free', 'held')
@@ -20,7 +22,8 @@ OUTPUTS = ('position', 'velocity', 'force', 'pressure')
 class Recording:
     """What was commanded and measured, and when.
 
-    Contraction is positive (the load moves up), pressures are gauge. Arrays hold no NaN.
+    Contraction is positive (the load moves up), pressures are gauge. Arrays hold no NaN. Raises
+    RecordingError for arrays that do not fit together or hold something else than finite numbers.
 
     ``name``
         File or bag, for reports.
@@ -28,8 +31,8 @@ class Recording:
         (n,) s since the recording's first sample, strictly ascending: stamps of the outputs. A
         value stamped t is the state before a command of the same stamp has acted.
     ``command_t``, ``command``
-        (m,) s on the same clock and (m,) Pa; each holds from its stamp to the next. The first
-        is at or before t[0]. None where no command was recorded.
+        (m,) s on the same clock, ascending, and (m,) Pa; each holds from its stamp to the next.
+        The first is at or before t[0]. None where no command was recorded.
     ``position``, ``velocity``, ``force``, ``pressure``
         (n,) m, m/s, N and Pa measured, or None.
     ``kind``
@@ -54,6 +57,34 @@ class Recording:
     gaps: tuple[tuple[float, float], ...] = ()
     warnings: tuple[str, ...] = ()
     digest: str = ''
+
+    def __post_init__(self) -> None:
+        """Check that the arrays fit together, and keep them as arrays."""
+        try:
+            self._check()
+        except ParameterError as error:
+            raise RecordingError(f'{self.name}: {error}') from error
+
+    def _check(self) -> None:
+        instance('name', self.name, str, 'a text')
+        if self.kind not in KINDS:
+            refuse('kind', self.kind, f'one of {", ".join(KINDS)}')
+        t = stamps('t', self.t, strict=True)
+        checked: dict[str, Any] = {'t': t}
+        for name in OUTPUTS:
+            value = getattr(self, name)
+            checked[name] = None if value is None else along(name, value, 't', t.size)
+        if self.command_t is None and self.command is not None:
+            refuse('command_t', None, 'the stamps of command')
+        if self.command_t is not None:
+            checked['command_t'] = at = stamps('command_t', self.command_t)
+            checked['command'] = along('command', self.command, 'command_t', at.size)
+        gaps = array('gaps', self.gaps)
+        if gaps.size and (gaps.ndim != 2 or gaps.shape[1] != 2):
+            refuse_shape('gaps', gaps, '(k, 2), from and to of each in s')
+        instance('warnings', self.warnings, Sequence, 'texts')
+        for name, value in checked.items():
+            object.__setattr__(self, name, value)
 
     @property
     def period(self) -> float:

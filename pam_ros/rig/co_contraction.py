@@ -1,18 +1,34 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The pressures with which two muscles give a joint an effort and a stiffness, in closed form.
+"""The stiffness of a joint, and the pressures of two muscles for it, in closed form.
 
 As in :mod:`pam_ros.rig.statics`, all of it is the declared model. Both wanted together are two
 linear equations for the two pressures.
 """
 
+from typing import Any
+
+from numpy.typing import ArrayLike
+
+from pam_ros.arguments import array, instance, number, one_each
 from pam_ros.errors import RangeError
 from pam_ros.rig import pair, statics
-from pam_ros.rig.statics import Mechanism
+from pam_ros.rig.joint import Joint
+
+
+def stiffness(joint: Joint, p: ArrayLike, s: ArrayLike) -> Any:
+    """Return the stiffness that the muscles give the joint at s, without that of gravity.
+
+    p: gauge Pa, (muscles,) or one number for all. s: m or rad, a number or an array, whose shape
+    the stiffness in N/m or N m/rad has. Raises ParameterError for a p of another shape, and for
+    numbers that are not finite.
+    """
+    muscles = len(instance('joint', joint, Joint, 'a Joint').actuators)
+    return statics.stiffness(joint, one_each('p', p, muscles, 'muscle'), array('s', s))
 
 
 def pressures(
-    joint: Mechanism, s: float, stiffness: float, effort: float | None = None
+    joint: Joint, s: float, stiffness: float, effort: float | None = None
 ) -> tuple[float, float]:
     """Return the pressures at which two muscles give *effort* and *stiffness* at s.
 
@@ -20,6 +36,7 @@ def pressures(
     :func:`stiffness_range`.
     """
     low, high = stiffness_range(joint, s, effort)
+    number('stiffness', stiffness)
     geometry = joint.transmission.equations
     if not low * (1.0 - 1e-9) <= stiffness <= high * (1.0 + 1e-9):
         raise RangeError(
@@ -30,9 +47,7 @@ def pressures(
     return pair.pressures(_line(joint, 0, s), _line(joint, 1, s), tau, stiffness)
 
 
-def stiffness_range(
-    joint: Mechanism, s: float, effort: float | None = None
-) -> tuple[float, float]:
+def stiffness_range(joint: Joint, s: float, effort: float | None = None) -> tuple[float, float]:
     """Return the least and the greatest stiffness with which two muscles give *effort* at s.
 
     The default effort holds the load there. Within the range both muscles pull, or just do not
@@ -40,6 +55,10 @@ def stiffness_range(
     such pair of pressures, and for two muscles that pull the same way with the same gains,
     whose effort settles their stiffness.
     """
+    instance('joint', joint, Joint, 'a Joint')
+    number('s', s)
+    if effort is not None:
+        number('effort', effort)
     if len(joint.muscles) != 2:
         raise RangeError(
             f'a stiffness can be chosen for two muscles: this joint has {len(joint.muscles)}'
@@ -61,12 +80,12 @@ def stiffness_range(
     return k1, k2
 
 
-def _line(joint: Mechanism, i: int, s: float) -> pair.Line:
+def _line(joint: Joint, i: int, s: float) -> pair.Line:
     """Return effort and stiffness of muscle i over its pressure at s."""
     return pair.Line(*(float(number) for number in statics.line(joint, i, s)))
 
 
-def _limits(joint: Mechanism, i: int, line: pair.Line) -> pair.Limits:
+def _limits(joint: Joint, i: int, line: pair.Line) -> pair.Limits:
     """Return the pressures of muscle i from where it begins to pull to its greatest."""
     m = joint.muscles[i]
     return max(m.p_min, line.slack), m.p_max

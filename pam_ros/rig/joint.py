@@ -3,13 +3,14 @@
 """A joint as declared: its load, the muscles that move it, how they are connected, and effects."""
 
 import itertools
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
+from pam_ros.arguments import instance, number, sequence
 from pam_ros.effects import EFFECTS
 from pam_ros.effects.base import Effect
 from pam_ros.effects.turned import turned
@@ -18,8 +19,8 @@ from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig import layout as at
 from pam_ros.rig import statics
 from pam_ros.rig.layout import Layout, layout_of
-from pam_ros.rig.loads import Load, Mass
-from pam_ros.rig.transmissions import Straight, Transmission
+from pam_ros.rig.loads import Load, LoadEquations, Mass
+from pam_ros.rig.transmissions import Straight, Transmission, TransmissionEquations
 
 Array = NDArray[np.float64]
 EffectValues = Mapping[str, Mapping[str, float]]
@@ -29,12 +30,19 @@ EffectValues = Mapping[str, Mapping[str, float]]
 class Actuator:
     """A muscle of a joint, with the effects in it and in its pressure path.
 
-    ``contraction`` is the one that it has, as a fraction, where the coordinate is 0.
+    ``contraction`` is the one that it has, as a fraction, where the coordinate is 0. Raises
+    ParameterError where one of the three is something else.
     """
 
     muscle: Muscle = field(default_factory=Muscle)
     effects: EffectValues = field(default_factory=dict)
     contraction: float = 0.0
+
+    def __post_init__(self) -> None:
+        """Check what was given; the joint checks which effects there are."""
+        instance('muscle', self.muscle, Muscle, 'a Muscle')
+        _refuse_other_than_effects(self.effects)
+        number('contraction', self.contraction)
 
 
 @dataclass(frozen=True)
@@ -52,14 +60,16 @@ class Joint:
     for a joint that has no equilibrium over the range of pressures.
     """
 
-    actuators: tuple[Actuator, ...] = (Actuator(),)
+    # Made by functions, so that help() does not print all that they contain.
+    actuators: tuple[Actuator, ...] = field(default_factory=lambda: (Actuator(),))
     load: Load = field(default_factory=Mass)
     transmission: Transmission = field(default_factory=Straight)
     effects: EffectValues = field(default_factory=dict)
-    library: tuple[Effect, ...] = field(default=EFFECTS, repr=False)
+    library: tuple[Effect, ...] = field(default_factory=lambda: EFFECTS, repr=False)
 
     def __post_init__(self) -> None:
         """Check that the parts fit, then the effects, and that there are equilibria."""
+        self._check_kinds()
         if not self.actuators:
             raise ParameterError('a joint needs a muscle: actuators is empty')
         if self.load.equations.revolute is not self.transmission.equations.revolute:
@@ -75,6 +85,28 @@ class Joint:
         if self.is_driven:
             return
         self._check_equilibria()
+
+    def _check_kinds(self) -> None:
+        actuators = sequence(
+            'actuators', self.actuators, Actuator, 'an Actuator, such as Actuator(Muscle())'
+        )
+        object.__setattr__(self, 'actuators', actuators)
+        load, transmission = self.load, self.transmission
+        instance('load', load, Load, 'a Load, such as Mass() or Arm()')
+        instance(
+            'transmission',
+            transmission,
+            Transmission,
+            'a Transmission, such as Straight() or Pulley()',
+        )
+        for name, part, kind in (
+            ('load', load, LoadEquations),
+            ('transmission', transmission, TransmissionEquations),
+        ):
+            given = getattr(part, 'equations', None)
+            instance(f'{name}.equations', given, kind, f'{kind.__name__}, as a field of its class')
+        _refuse_other_than_effects(self.effects)
+        object.__setattr__(self, 'library', _library(self.library))
 
     def _known(self, name: str, *, on_joint: bool) -> Effect:
         """Return the effect with the units that it has here, or say why it is none."""
@@ -237,13 +269,34 @@ def one_muscle(
     muscle: Muscle | None = None,
     load: Mass | None = None,
     effects: EffectValues | None = None,
-    library: tuple[Effect, ...] = EFFECTS,
+    library: Sequence[Effect] | None = None,
 ) -> Joint:
-    """Return one muscle on a mass, the paper's rig, with *effects* in the one and on the other."""
-    in_muscle, on_joint = split_effects(effects or {}, library)
+    """Return one muscle on a mass, the paper's rig, with *effects* in the one and on the other.
+
+    What is None has its default: ``Muscle()``, ``Mass()``, no effects, and EFFECTS as the library.
+    Raises ParameterError as Joint does.
+    """
+    library = EFFECTS if library is None else _library(library)
+    in_muscle, on_joint = split_effects({} if effects is None else effects, library)
     return Joint(
-        (Actuator(muscle or Muscle(), in_muscle),), load or Mass(), Straight(), on_joint, library
+        (Actuator(Muscle() if muscle is None else muscle, in_muscle),),
+        Mass() if load is None else load,
+        Straight(),
+        on_joint,
+        library,
     )
+
+
+def _library(library: Sequence[Effect]) -> tuple[Effect, ...]:
+    return sequence('library', library, Effect, 'an Effect, such as those of EFFECTS')
+
+
+def _refuse_other_than_effects(effects: EffectValues) -> None:
+    """Raise ParameterError where *effects* are not tables of parameters by name."""
+    example = "{'pressure_lag': {'fill': 0.1, 'vent': 0.2}}"
+    instance('effects', effects, Mapping, f'effects with their parameters, such as {example}')
+    for name, given in effects.items():
+        instance(f'effects.{name}', given, Mapping, f'its parameters by name, as in {example}')
 
 
 def changed(joint: Joint, muscle: Muscle, effects: EffectValues) -> Joint:
@@ -254,12 +307,13 @@ def changed(joint: Joint, muscle: Muscle, effects: EffectValues) -> Joint:
 
 
 def split_effects(
-    effects: EffectValues, library: tuple[Effect, ...] = EFFECTS
+    effects: EffectValues, library: Sequence[Effect] = EFFECTS
 ) -> tuple[EffectValues, EffectValues]:
     """Return those of *effects* that act in a muscle, and those that act on the joint.
 
     Raises ParameterError for an effect that *library* does not have.
     """
+    _refuse_other_than_effects(effects)
     on_joint = {effect.name: effect.acts_on_joint for effect in library}
     for name in effects:
         if name not in on_joint:

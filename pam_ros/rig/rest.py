@@ -7,6 +7,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import ArrayLike
 
+from pam_ros.arguments import instance, one_each
 from pam_ros.rig import statics
 from pam_ros.rig.bind import bind
 from pam_ros.rig.joint import Joint
@@ -19,10 +20,15 @@ PRECISION = 1e-13  # m or rad
 def rest(joint: Joint, p: ArrayLike) -> float:
     """Return the coordinate at which the joint rests when *p* Pa has long been commanded.
 
-    For one muscle on a mass it is the equilibrium of the paper's static model with the moved
-    mass, and 0 where a known force takes the muscle's place. A joint of several muscles rests
-    nearest to that equilibrium in the direction in which its effects drive it from there.
+    p is gauge, (muscles,) or one number for all. For one muscle on a mass the coordinate is the
+    equilibrium of the paper's static model with the moved mass, and 0 where a known force takes
+    the muscle's place. A joint of several muscles rests nearest to that equilibrium in the
+    direction in which its effects drive it from there.
+
+    Raises RangeError when there is no equilibrium, and ParameterError for a p of another shape or
+    one that is not finite.
     """
+    p = one_each('p', p, len(instance('joint', joint, Joint, 'a Joint').actuators), 'muscle')
     if joint.is_driven:
         return 0.0
     start = statics.equilibrium(joint, p)

@@ -4,10 +4,12 @@
 
 from collections.abc import Sequence
 from itertools import groupby
+from operator import index
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from pam_ros.arguments import number, one_each, refuse, sequence
 from pam_ros.errors import ParameterError
 from pam_ros.rig.group import Group
 from pam_ros.rig.joint import Joint
@@ -27,15 +29,16 @@ class Rig:
     force N (pulling), stiffness N/m, damping N s/m. Steps are counted, so time is exact; the same
     joints, start and commands give the same bits, however the steps are split into calls.
 
-    *step* is in s. Raises ParameterError when it is too long for one of the joints.
+    *step* is in s. Raises ParameterError when it is too long for one of the joints. All methods
+    raise ParameterError for shapes that do not fit and numbers that are not finite.
     """
 
     def __init__(self, joints: Sequence[Joint], step: float = 1e-3) -> None:
         """Make the rig at rest at 0 Pa; see :meth:`reset` to start elsewhere."""
-        self.step = step
+        self.step = step = number('step', step)
+        self.joints = joints = _joints(joints)
         for joint in joints:
             check_step(joint, step)
-        self.joints = tuple(joints)
         # Neighbours of one kind are stepped in one call.
         self._groups = [Group(tuple(alike)) for _, alike in groupby(joints, _kind)]
         self._k = 0
@@ -65,11 +68,12 @@ class Rig:
         Hidden states are kept; an effect that was absent starts as after a long rest here.
         Raises ParameterError for joints of other kinds: those are another rig.
         """
+        joints = _joints(joints)
         for joint in joints:
             check_step(joint, self.step)
         if [_kind(joint) for joint in joints] != [_kind(joint) for joint in self.joints]:
             raise ParameterError('a rig that runs keeps its joints: make a new one for others')
-        self.joints = tuple(joints)
+        self.joints = joints
         left = iter(joints)
         for group in self._groups:
             group.change([next(left) for _ in group.joints])
@@ -79,15 +83,12 @@ class Rig:
         """Set time to 0 and the state to these arrays, after a long rest at *pressure* there.
 
         *pressure* (muscles,) is also the command in force; commands under way are forgotten.
-        *position* and *velocity* are (joints,); one number stands for all.
+        *position* and *velocity* are (joints,). One number stands for all, of each of the three.
         """
-        self._k = 0
-        p = np.broadcast_to(np.asarray(pressure, float), len(self._muscles))
-        s, v = (
-            np.broadcast_to(np.asarray(value, float), len(self.joints))
-            for value in (position, velocity)
-        )
-        a = m = 0
+        p = one_each('pressure', pressure, len(self._muscles), 'muscle')
+        s = one_each('position', position, len(self.joints), 'joint')
+        v = one_each('velocity', velocity, len(self.joints), 'joint')
+        self._k = a = m = 0
         for group in self._groups:
             n = len(group.joints)
             pressures = p[m : m + n * group.muscles].reshape(n, group.muscles)
@@ -96,18 +97,26 @@ class Rig:
         self._has_looked = False
 
     def command(self, pressure: ArrayLike) -> None:
-        """Command these gauge pressures in Pa, (muscles,) or one for all, from now on."""
-        values = np.broadcast_to(np.asarray(pressure, float), len(self._muscles))
+        """Command these gauge pressures in Pa, (muscles,) or one number for all, from now on."""
+        values = one_each('pressure', pressure, len(self._muscles), 'muscle')
         for (group, a, i), value in zip(self._muscles, values.tolist(), strict=True):
             group.command(a, i, self.time, value)
 
     def command_one(self, muscle: int, pressure: float) -> None:
-        """Command the gauge pressure of one muscle in Pa from now on; the others keep theirs."""
+        """Command the gauge pressure of one muscle in Pa from now on; the others keep theirs.
+
+        Muscles are counted from 0, in the order of joints and of muscles within them.
+        """
+        if not 0 <= _whole('muscle', muscle) < len(self._muscles):
+            refuse('muscle', muscle, f'a whole number, 0 to {len(self._muscles) - 1}')
         group, a, i = self._muscles[muscle]
-        group.command(a, i, self.time, pressure)
+        group.command(a, i, self.time, number('pressure', pressure))
 
     def advance(self, steps: int = 1) -> None:
-        """Step all joints *steps* times."""
+        """Step all joints *steps* times, a whole number that is not negative."""
+        steps = _whole('steps', steps)
+        if steps < 0:
+            refuse('steps', steps, 'a whole number, at least 0')
         for group in self._groups:
             group.advance(self._k, steps, self.step)
         self._k += steps
@@ -162,6 +171,20 @@ class Rig:
             for group in self._groups:
                 group.look(self.time)
             self._has_looked = True
+
+
+def _joints(given: Sequence[Joint]) -> tuple[Joint, ...]:
+    joints = sequence('joints', given, Joint, 'a Joint')
+    if not joints:
+        raise ParameterError('joints is empty: give at least one Joint')
+    return joints
+
+
+def _whole(name: str, value: int) -> int:
+    try:
+        return index(value)
+    except TypeError:
+        refuse(name, value, 'a whole number')
 
 
 def _kind(joint: Joint) -> Layout:

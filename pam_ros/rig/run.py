@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pam_ros.errors import ParameterError
+from pam_ros.arguments import along, array, instance, number, refuse, refuse_shape, stamps
 from pam_ros.rig import layout as at
 from pam_ros.rig.bind import bind
 from pam_ros.rig.joint import Joint
@@ -47,24 +47,28 @@ def simulate(
 ) -> Trajectory:
     """Run a joint over the stamps *t* with its commands exactly as stamped.
 
-    t (n,), command_t (m,): s, ascending. command: gauge Pa, (m,) for one muscle or for all alike,
-    else (m, muscles); a command holds from its stamp to the next, the first also before. The
+    t (n,), command_t (m,): s, ascending. command: gauge Pa, (m, muscles), a row for each stamp of
+    command_t and a column for each muscle; for one muscle also (m,), for one stamp also
+    (muscles,). A command holds from its stamp to the next, the first also before. The
     joint starts at t[0] after a long rest under the commands that were in force there, at
     *position* (default: where it rests) with *velocity*, and with its *hidden* states so far from
     rest (effect, then state, then the change; in all muscles alike). Samples are the state before
     a command of the same stamp has acted. Steps are at most *step* s and never reach across a
-    command. Raises ParameterError when *step* is too long for the joint, or the shapes do not fit.
+    command. Raises ParameterError when *step* is too long for the joint, when shapes do not fit,
+    stamps go back, or a number is not finite.
     """
-    check_step(joint, step)
-    t, command_t, command = (np.asarray(a, float) for a in (t, command_t, command))
+    step = number('step', step)
+    check_step(instance('joint', joint, Joint, 'a Joint'), step)
+    t, command_t = stamps('t', t), stamps('command_t', command_t)
     q, layout = joint.parameters(), joint.layout
-    command = by_muscle(command, layout.muscles, 'command')
+    command = by_muscle('command', command, 'command_t', command_t.size, layout.muscles)
+    velocity = number('velocity', velocity)
     delays = delays_of(layout, q)
     first = [
         command[max(np.searchsorted(command_t + delay, t[0]) - 1, 0), i]
         for i, delay in enumerate(delays)
     ]
-    s = rest(joint, first) if position is None else position
+    s = rest(joint, first) if position is None else number('position', position)
     x = start_state(layout, q, first, s, velocity)
     if hidden:
         disturb(layout, q, x, first, hidden)
@@ -84,13 +88,19 @@ def simulate_held(
 ) -> Trajectory:
     """Run a joint whose coordinate is prescribed: pressure and position in, force out.
 
-    t, position, velocity (n,): s, m, m/s or rad, rad/s (default: the gradient of the position);
-    pressure: gauge Pa, as the commands of :func:`simulate`; linear between stamps.
+    t, position, velocity (n,): s, ascending, no two equal; m, m/s or rad, rad/s (default: the
+    gradient of the position, which needs two stamps). pressure: gauge Pa, (n, muscles), for one
+    muscle also (n,). All are linear between stamps, in steps of at most *step* s. Raises
+    ParameterError when shapes do not fit, stamps do not ascend, or a number is not finite.
     """
-    t, pressure, position = (np.asarray(a, float) for a in (t, pressure, position))
-    v = np.gradient(position, t) if velocity is None else np.asarray(velocity, float)
+    instance('joint', joint, Joint, 'a Joint')
+    if number('step', step) <= 0.0:
+        refuse('step', step, 'more than 0 s')
+    t = stamps('t', t, strict=True)
+    position = along('position', position, 't', t.size)
+    v = _rate(t, position) if velocity is None else along('velocity', velocity, 't', t.size)
     q, layout = joint.parameters(), joint.layout
-    pressure = by_muscle(pressure, layout.muscles, 'pressure')
+    pressure = by_muscle('pressure', pressure, 't', t.size, layout.muscles)
     x = start_state(layout, q, pressure[0], float(position[0]), float(v[0]))
     out = np.empty((len(t), layout.run_columns))
     bind(layout, joint.active).simulate_held(
@@ -107,15 +117,29 @@ def trajectory(t: Array, out: Array) -> Trajectory:
     return Trajectory(t, out[:, at.RUN_S], out[:, at.RUN_V], p, f)
 
 
-def by_muscle(values: Array, muscles: int, what: str) -> Array:
-    """Return *values* (n,) or (n, muscles) as (n, muscles); raises ParameterError otherwise."""
-    if values.ndim == 1:
-        values = np.repeat(values[:, None], muscles, axis=1)
-    if values.ndim != 2 or values.shape[1] != muscles:
-        raise ParameterError(
-            f'{what} has the shape {values.shape}: give one column for each of {muscles} muscles'
-        )
-    return np.ascontiguousarray(values)
+def by_muscle(name: str, value: ArrayLike, clock: str, count: int, muscles: int) -> Array:
+    """Return *value* as (count, muscles): a row for each of *count* stamps of *clock*.
+
+    Taken as they are meant are also (count,) of one muscle, and (muscles,) at one stamp. Nothing
+    else: which muscle other shapes are for cannot be known. Raises ParameterError.
+    """
+    found, wanted = array(name, value), (count, muscles)
+    if (found.shape == (count,) and muscles == 1) or (found.shape == (muscles,) and count == 1):
+        return found.reshape(wanted)
+    if found.shape != wanted:
+        allowed = f'{(count,)}, one number for each stamp of {clock}'
+        if muscles > 1:
+            allowed = f'{wanted}, a row for each stamp of {clock} and a column for each muscle'
+        refuse_shape(name, found, allowed)
+    return found
+
+
+def _rate(t: Array, position: Array) -> Array:
+    """Return the gradient of the *position* (n,) over the stamps t."""
+    if t.size < 2:
+        refuse_shape('t', t, 'at least two stamps, or the velocity at the one')
+    rate: Array = np.gradient(position, t)
+    return rate
 
 
 def delays_of(layout: Layout, q: Array) -> tuple[float, ...]:

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from pam_ros.arguments import instance, number
 from pam_ros.effects.base import Effect
 from pam_ros.errors import ParameterError
 from pam_ros.rig import layout as at
@@ -87,6 +88,7 @@ def disturb(
     states, or a state that it does not have.
     """
     known = {effect.name: effect for effect in layout.library if effect.states}
+    instance('hidden', away, Mapping, 'the effects with the changes of their hidden states')
     for name, changes in away.items():
         if name not in known:
             raise ParameterError(
@@ -95,12 +97,15 @@ def disturb(
         effect = known[name]
         names = [state.name for state in effect.states]
         rows = [at.JOINT] if effect.acts_on_joint else range(at.MUSCLE, layout.rows)
+        instance(f'hidden.{name}', changes, Mapping, 'its hidden states with the change of each')
         for which, change in changes.items():
             if which not in names:
                 raise ParameterError(
                     f'effect {name} has no hidden state {which}: give one of ' + ', '.join(names)
                 )
-            x[rows, layout.state_at[name] + names.index(which)] += change
+            x[rows, layout.state_at[name] + names.index(which)] += number(
+                f'hidden.{name}.{which}', change
+            )
     for i, pressure in enumerate(pressures):
         x[at.MUSCLE + i, at.P] = _in_chamber(layout, q, x, i, float(pressure))
 

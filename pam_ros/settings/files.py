@@ -21,6 +21,7 @@ from typing import Any
 import numpy as np
 import yaml
 
+from pam_ros.arguments import as_path, sequence
 from pam_ros.errors import ParameterError
 from pam_ros.rig.joint import Joint
 from pam_ros.settings.tables import Table, Value, build_rig, override, refuse_mistyped, rig_table
@@ -144,7 +145,7 @@ def _flat(table: Any, prefix: str = '') -> Iterator[tuple[str, Any]]:
 
 
 def load_rig(
-    name: str, overrides: Iterable[str] = (), table: Table | None = None
+    name: str | Path, overrides: Iterable[str] = (), table: Table | None = None
 ) -> tuple[Joint, dict[str, Value]]:
     """Return the rig that a file or muscle *name* declares, and its flat values.
 
@@ -153,8 +154,10 @@ def load_rig(
     be another program's; those that look mistyped are refused. Raises ParameterError.
     """
     table = rig_table() if table is None else table
+    name = str(as_path('name', name, 'a path, or the name of a muscle or rig of this package'))
+    texts = sequence('overrides', overrides, str, "a text such as 'mass=10'")
     values = read_known(name, table)
-    values.update(override(text, table) for text in overrides)
+    values.update(override(text, table) for text in texts)
     return build_rig(values), values
 
 

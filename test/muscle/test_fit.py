@@ -166,7 +166,11 @@ MEASURED = law(P, KAPPA, 11.5, 421.0, -0.562, -8.72, 268.0, -311.0)  # a DMSP-20
 SHORTENED = tuple(a[KAPPA >= 2.0] for a in (P, KAPPA, np.maximum(MEASURED, 0.0)))
 REFUSED = [
     ((P, KAPPA[:-1], F), {}, 'p, kappa and force must have one shape, not (14, 13), (13, 13), '),
-    ((P, KAPPA, np.where(F > 900.0, np.nan, F)), {}, 'p, kappa and force must be finite'),
+    (
+        (P, KAPPA, np.where(F > 900.0, np.nan, F)),
+        {},
+        '] = nan is not allowed: give finite numbers',
+    ),
     ((P, KAPPA, F), {'pressure_unit': 'psi'}, "pressure_unit = 'psi' is not known: give one of "),
     ((P, KAPPA, F), {'contraction_unit': 'mm'}, "contraction_unit = 'mm' is not known"),
     ((P, KAPPA, F), {'slack': 'no'}, "slack = 'no' is not known: give one of censored, excluded"),

@@ -11,8 +11,6 @@ from collections import Counter
 from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
-import pytest
-
 from support.imports import imported, modules_of
 
 ROOT = Path(__file__).parents[2]
@@ -21,6 +19,7 @@ FILES = sorted(path.relative_to(ROOT) for path in PACKAGE.rglob('*.py'))
 # From bottom to top. A room is a folder or a module; it imports from itself and lower floors.
 FLOORS = (
     ('pam_ros.compiled', 'pam_ros.errors', 'pam_ros.processes', 'pam_ros.timing'),
+    ('pam_ros.arguments',),
     ('pam_ros.recording', 'pam_ros.units', 'pam_ros.version'),
     ('pam_ros.parameters',),
     ('pam_ros.muscle',),
@@ -126,17 +125,17 @@ def test_rooms_import_from_lower_floors():
     assert upward(ARROWS) == set()
 
 
-@pytest.mark.parametrize('path', [p for p in FILES if not is_node(p)], ids=str)
-def test_a_room_beside_the_nodes_sees_no_ros(path):
-    allowed = ALLOWED | MAY_SEE_ROS.get(path, set())
-    assert imported(ROOT / path) - sys.stdlib_module_names <= allowed
+def test_rooms_beside_the_nodes_see_no_ros():
+    for path in FILES:
+        if not is_node(path):
+            allowed = ALLOWED | MAY_SEE_ROS.get(path, set())
+            assert imported(ROOT / path) - sys.stdlib_module_names <= allowed, path
 
 
-@pytest.mark.parametrize(
-    'path', [p for p in FILES if is_node(p) and p.stem != '__init__'], ids=str
-)
-def test_a_module_of_the_nodes_imports_ros_itself(path):
-    assert imported(ROOT / path) & ROS
+def test_modules_of_the_nodes_import_ros_themselves():
+    for path in FILES:
+        if is_node(path) and path.stem != '__init__':
+            assert imported(ROOT / path) & ROS, path
 
 
 def test_folders_can_be_overlooked():

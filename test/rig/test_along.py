@@ -21,7 +21,7 @@ pytestmark = pytest.mark.needs_numba
 def along(joint, t, y, v, command_t, command):
     """Return what each interval between two stamps gives: velocity and its moment, (n - 1, 2)."""
     q, layout = joint.parameters(), joint.layout
-    command = by_muscle(np.asarray(command, float), layout.muscles, 'command')
+    command = by_muscle('command', command, 'command_t', len(command_t), layout.muscles)
     x = start_state(layout, q, command[0], y[0], v[0])
     out = np.empty((t.size - 1, 2))
     at, acting = acting_commands(np.asarray(command_t, float), command, delays_of(layout, q))

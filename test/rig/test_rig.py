@@ -234,7 +234,7 @@ def test_a_change_that_is_refused_leaves_the_rig_as_it_was():
     [
         (0.0, 'a physics step of 0 s is not allowed: give more than 0'),
         (-1e-3, 'a physics step of -0.001 s is not allowed: give more than 0'),
-        (float('nan'), 'a physics step of nan s is not allowed: give more than 0'),
+        (float('nan'), 'step = nan is not allowed: give a finite number'),
         (0.02, 'a physics step of 20 ms does not resolve a mass of 20 kg on this muscle: give at'),
     ],
 )

@@ -9,7 +9,7 @@ from scipy.integrate import solve_ivp
 from pam_ros.errors import ParameterError
 from pam_ros.rig.rest import rest
 from pam_ros.rig.rig import Rig
-from pam_ros.rig.run import acting_commands, by_muscle, simulate, simulate_held
+from pam_ros.rig.run import acting_commands, simulate, simulate_held
 from support import joints
 from support.joint_models import UNEQUAL, lever, pair, parallel
 
@@ -103,21 +103,15 @@ def test_it_starts_at_rest_under_the_commands_in_force():
     np.testing.assert_allclose(run.position, rest(joint, [2e5, 3.5e5]), atol=1e-12)
 
 
-def test_one_column_of_commands_is_for_all_muscles():
-    alike = np.repeat(U[:2, :1], 2, axis=1)
-    both, one = (simulate(pair(), T[:200], [0.0, 0.05], u) for u in (alike, U[:2, 0]))
-    np.testing.assert_array_equal(both.position, one.position)
-    assert one.pressure.shape == (200, 2)
-
-
 def test_commands_of_other_muscles_are_refused_with_a_sentence():
     three = np.zeros((2, 3))
     with pytest.raises(ParameterError) as error:
         simulate(pair(), [0.0, 0.1], [0.0, 0.1], three)
     assert str(error.value) == (
-        'command has the shape (2, 3): give one column for each of 2 muscles'
+        'command has the shape (2, 3): give (2, 2), a row for each stamp of command_t and a '
+        'column for each muscle'
     )
-    with pytest.raises(ParameterError, match=r'pressure has the shape \(2, 3\): give one column'):
+    with pytest.raises(ParameterError, match=r'pressure has the shape \(2, 3\): give \(2, 2\)'):
         simulate_held(pair(), [0.0, 0.1], three, [0.0, 0.0])
 
 
@@ -129,7 +123,6 @@ def test_commands_with_different_dead_times_act_at_all_their_stamps():
     same, unchanged = acting_commands(at, u, (0.5, 0.5))
     np.testing.assert_array_equal(same, at + 0.5)
     assert unchanged is u
-    np.testing.assert_array_equal(by_muscle(at, 2, 'command'), [[0.0, 0.0], [1.0, 1.0]])
 
 
 # Held -----------------------------------------------------------------------------------------

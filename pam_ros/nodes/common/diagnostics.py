@@ -61,7 +61,9 @@ class Diagnostics:
 
 
 def text(value: Any) -> str:
-    """Return a value as a diagnostic shows it; None is nothing."""
+    """Return a value as a diagnostic shows it; None is nothing, a tuple each of its values."""
     if value is None:
         return ''
+    if isinstance(value, tuple):
+        return f'({", ".join(text(one) for one in value)})'
     return f'{value:.6g}' if isinstance(value, float) else str(value)

@@ -12,7 +12,7 @@ from pam_ros.timing.pace import SECOND
 
 
 class StateTopic:
-    """Publishes terms as positions of a JointState, the standard message of named numbers.
+    """Publishes terms as positions of a JointState, a standard message of named numbers.
 
     It has a stamp, and PlotJuggler draws each number under its name.
     """
