@@ -82,7 +82,7 @@ def test_examples_import_from_the_face_alone():
 
 
 def test_help_of_public_names_can_be_read():
-    for name in pam_ros.__all__:
+    for name in set(pam_ros.__all__) - {'__version__'}:
         public = getattr(pam_ros, name)
         assert len(pydoc.render_doc(public)) < 12_000, name
         if callable(public) and public is not pam_ros.PamError:  # Python's own
