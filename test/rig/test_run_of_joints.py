@@ -13,14 +13,16 @@ from pam_ros.rig.run import acting_commands, simulate, simulate_held
 from support import joints
 from support.joint_models import UNEQUAL, lever, pair, parallel
 
-KINDS = pytest.mark.parametrize(
-    'made', [pair, lever, lambda **more: parallel(50.0, **more)], ids=['pair', 'lever', 'parallel']
-)
 LATE = {'dead_time': {'delay': 0.012}}
 LATER = {'dead_time': {'delay': 0.031}, 'pressure_lag': {'fill': 0.03, 'vent': 0.05}}
 AT = np.array([0.0, 0.1, 0.25, 0.26, 0.6])
 U = 1e5 * np.array([[3.0, 3.0], [4.0, 2.5], [2.0, 3.5], [2.2, 3.5], [3.0, 3.2]])
 T = np.arange(1001) * 1e-3
+
+
+def heavy(**more):
+    """Return 50 kg on two muscles."""
+    return parallel(50.0, **more)
 
 
 def stepped(joint, begin):
@@ -38,8 +40,11 @@ def stepped(joint, begin):
     return np.array(found).T
 
 
-@KINDS
-@pytest.mark.parametrize('effects', [({}, {}), (LATE, LATER)], ids=['plain', 'late'])
+@pytest.mark.parametrize(
+    ('made', 'effects'),
+    [(pair, (LATE, LATER)), (lever, (LATE, LATER)), (heavy, ({}, {}))],
+    ids=['pair', 'lever', 'parallel'],
+)
 def test_it_is_what_a_rig_gives_that_is_stepped(made, effects):
     """Commands of two muscles on whole steps, each after the dead time of its own path."""
     joint = made(effects=effects)

@@ -19,6 +19,7 @@ from pam_ros.nodes.sim.commands import subscribe_commands
 from pam_ros.nodes.sim.lockstep import Turns
 from pam_ros.nodes.sim.output import Output
 from pam_ros.nodes.sim.sim_time import FollowedTime, OwnTime
+from pam_ros.processes.notice import notice
 from pam_ros.settings.scene import Scene, Simulation
 from pam_ros.simulator.plant import BadCommand, OneReading, Plant, Reading
 from pam_ros.timing.grid import Grid
@@ -29,6 +30,7 @@ SLICE = 5_000_000  # ns of simulating after which commands and services get thei
 GAP = 200_000  # ns that they get where everything is due at once
 IDLE_RATE = 10.0  # Hz at which a simulator whose time stands still publishes its state
 FASTEST_TICK = 1000.0  # Hz
+LONG = 2.0  # s: longer than it takes to load kernels that have been compiled before
 
 
 class PamSim(TickingNode):
@@ -41,7 +43,8 @@ class PamSim(TickingNode):
         self._given = NodeParameters(self, scene.table(), scene.build, self._change)
         self._simulation = self._given.built
         settings = self._simulation.settings
-        self._plant = Plant(self._simulation)
+        with notice(LONG, self._tell_of_compiling):
+            self._plant = Plant(self._simulation)
         self._is_lockstep = settings.time_mode == 'lockstep'
         self._is_followed = not settings.has_own_time
         self._time: FollowedTime | OwnTime
@@ -70,6 +73,12 @@ class PamSim(TickingNode):
         )
         self._given.refuse_mistyped()
         self.ticker = Ticker(self._tick_rate)
+
+    def _tell_of_compiling(self) -> None:
+        self.get_logger().info(
+            'the kernels are being compiled, which takes some twenty seconds, once; '
+            'python3 -m pam_ros.rig.warm does it for all joints beforehand'
+        )
 
     def start(self) -> None:
         """Let simulated time begin now."""

@@ -1,0 +1,19 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Tell the user of what takes long."""
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from threading import Timer
+
+
+@contextmanager
+def notice(seconds: float, tell: Callable[[], object]) -> Iterator[None]:
+    """Call *tell* once, from another thread, if the context takes longer than *seconds*."""
+    timer = Timer(seconds, tell)
+    timer.daemon = True
+    timer.start()
+    try:
+        yield
+    finally:
+        timer.cancel()
