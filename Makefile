@@ -45,7 +45,7 @@ else
 endif
 
 test-fast: warm
-	$(PY) -m pytest -n auto --dist loadfile -m 'pure and not long_search' $(ARGS)
+	$(PY) -m pytest -n auto --dist loadfile -m 'pure and not slow' $(ARGS)
 
 # The pure rooms with the oldest numpy and scipy that are supported, without numba and ROS.
 test-oldest: environment

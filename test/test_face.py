@@ -54,6 +54,7 @@ def test_the_package_alone_imports_nothing_heavy():
     assert done.stdout.strip() == '[]'
 
 
+@pytest.mark.slow
 @pytest.mark.needs_numba
 def test_the_examples_run_and_print_what_they_say(capsys):
     names = {}

@@ -76,6 +76,7 @@ def found(bench):
     return result, bench / 'found'
 
 
+@pytest.mark.slow
 def test_friction_is_found_and_the_model_mended(found):
     (code, out, _), folder = found
     assert code == 0
@@ -174,12 +175,14 @@ def test_a_mistake_is_one_sentence_and_nothing_is_written(
     assert left(bench) == before
 
 
+@pytest.mark.slow
 def test_a_mistake_is_the_exit_code_of_the_program(bench):
     code, out, errors = run(bench, 'absent.csv', *DECLARED, '--out', 'bad')
     assert (code, out) == (2, '')
     assert errors == 'pam_identify: recording absent.csv does not exist\n'
 
 
+@pytest.mark.slow
 def test_a_folder_with_other_files_is_refused_before_any_work(bench, tmp_path):
     (tmp_path / 'thesis.tex').write_text('mine', encoding='utf-8')
     code, _, errors = run(bench, 'friction.csv', *DECLARED, '--out', tmp_path)
@@ -190,6 +193,7 @@ def test_a_folder_with_other_files_is_refused_before_any_work(bench, tmp_path):
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ('kind', 'code'), [(signal.SIGINT, 130), (signal.SIGTERM, 143)], ids=['Ctrl-C', 'SIGTERM']
 )
@@ -206,7 +210,7 @@ def test_interrupted_it_leaves_nothing(bench, kind, code):
     assert left(bench) == before
 
 
-@pytest.mark.long_search
+@pytest.mark.slow
 def test_other_names_are_mapped_on_the_command_line_and_in_a_file(bench, tmp_path):
     (tmp_path / 'map.yaml').write_text('columns:\n  encoder: position_m\n', encoding='utf-8')
     code, out, errors = run(
@@ -217,6 +221,7 @@ def test_other_names_are_mapped_on_the_command_line_and_in_a_file(bench, tmp_pat
     assert out.startswith('effect_found (coulomb_friction)')
 
 
+@pytest.mark.slow
 def test_it_needs_no_ros(bench):
     program = (
         'import sys\n'

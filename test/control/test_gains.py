@@ -58,6 +58,7 @@ def test_width_and_gain_are_those_of_the_docstring():
     assert (k1, k2) == (pytest.approx(3.0), pytest.approx(4.4))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize('damping', [0.1, 0.28, 0.7, 0.99, 1.0, 1.7])
 def test_the_error_bound_is_the_absolute_area_of_the_impulse_response(damping):
     w = 18.0

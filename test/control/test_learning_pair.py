@@ -43,6 +43,7 @@ def test_nothing_is_learned_where_nothing_is_missing():
     assert run.pressure.tobytes() == without.pressure.tobytes()
 
 
+@pytest.mark.slow
 def test_hysteresis_of_both_muscles_is_learned_and_the_bandwidth_grows():
     law, run = swung('hysteresis')
     assert law._learner._weights[:ELEMENTS].sum() == pytest.approx(15.0 * ARMS, rel=0.1)
@@ -52,6 +53,7 @@ def test_hysteresis_of_both_muscles_is_learned_and_the_bandwidth_grows():
     assert rms(run) < 0.06 * DEGREE < 0.2 * rms(without)
 
 
+@pytest.mark.slow
 def test_a_lag_is_learned_and_the_bandwidth_stays():
     law, run = swung('lag')
     fill, vent = law._learner.lag

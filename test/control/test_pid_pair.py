@@ -33,6 +33,7 @@ def test_a_joint_that_turns_has_gains_of_its_own():
     assert PidGains.turning(integral=0.0).integral == 0.0
 
 
+@pytest.mark.slow
 @pytest.mark.needs_numba
 @pytest.mark.parametrize('plant', ['nominal', 'payload and friction', 'lag', 'hysteresis', 'all'])
 def test_a_pair_reaches_a_step_and_rests(plant):

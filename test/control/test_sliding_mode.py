@@ -175,6 +175,7 @@ def test_two_runs_are_the_same_to_the_bit():
     assert runs[0].pressure.tobytes() == runs[1].pressure.tobytes()
 
 
+@pytest.mark.slow
 @pytest.mark.needs_numba
 @pytest.mark.parametrize(
     ('plant', 'effects', 'rest', 'sine'),
@@ -197,6 +198,7 @@ def test_it_reaches_what_is_claimed(plant, effects, rest, sine):
     assert np.sqrt(np.mean(swing.error[swing.last(4.0)] ** 2)) < sine * 1e-3
 
 
+@pytest.mark.slow
 @pytest.mark.needs_numba
 @pytest.mark.parametrize('plant', ['nominal', 'lag', 'all'])
 def test_it_is_calm_at_rest_without_noise(plant):

@@ -41,6 +41,7 @@ def test_the_default_gains_suit_every_joint(name):
     Gains.for_joint(joint).check(shared(joint), 2e-3)
 
 
+@pytest.mark.slow
 @BY_JOINT
 @pytest.mark.parametrize('share', [0.2, 0.8])
 def test_the_law_brings_every_joint_to_a_position_within_its_reach(name, share):
@@ -59,6 +60,7 @@ def test_the_law_brings_every_joint_to_a_position_within_its_reach(name, share):
     assert np.max(np.abs(run.coordinate - middle)) < 1.05 * way
 
 
+@pytest.mark.slow
 @BY_JOINT
 def test_every_joint_follows_a_swing(name):
     joint = JOINTS[name]
@@ -83,6 +85,7 @@ def test_commands_of_every_joint_stay_within_their_limits(name):
     assert np.max(np.abs(np.diff(run.pressure))) <= 2e6 * 2e-3 + 1e-6
 
 
+@pytest.mark.slow
 def test_muscles_that_pull_the_same_way_get_the_same_pressure():
     joint = JOINTS['four']
     run = close_joint(SlidingMode(joint), joint, lambda t: 0.3, 1.0, begin=0.0)
@@ -95,6 +98,7 @@ def test_each_effect_is_declared_below():
     assert {*MUSCLE_EFFECTS, *TURNED_EFFECTS} == {effect.name for effect in EFFECTS}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize('name', [*MUSCLE_EFFECTS, *TURNED_EFFECTS])
 def test_every_effect_that_is_declared_of_a_pair_gives_a_law_that_runs(name):
     if name in MUSCLE_EFFECTS:

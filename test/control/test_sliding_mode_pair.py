@@ -49,6 +49,7 @@ def on_rig(law, joint, reference, seconds, begin=0.0, torque=lambda t: 0.0):
     return np.array(rows).T
 
 
+@pytest.mark.slow
 @pytest.mark.needs_numba
 @pytest.mark.parametrize(
     ('plant', 'effects'),
@@ -69,6 +70,7 @@ def test_a_sine_is_tracked_within_a_fifth_of_a_degree(plant, effects):
     assert np.sqrt(np.mean(run.error[end] ** 2)) < 0.2 * DEGREE
 
 
+@pytest.mark.slow
 @pytest.mark.needs_numba
 @pytest.mark.parametrize('plant', ['nominal', 'payload', 'payload and friction', 'all'])
 def test_the_stiffness_is_what_is_set_while_the_angle_holds(plant):
@@ -99,6 +101,7 @@ def test_it_is_calm_at_rest():
     assert np.max(np.ptp(run.pressure[:, end], axis=1)) < 1e3
 
 
+@pytest.mark.slow
 @pytest.mark.needs_numba
 @pytest.mark.parametrize('rate', [200.0, 1000.0])
 def test_it_works_at_other_rates(rate):

@@ -43,6 +43,7 @@ def without_pushes():
     return law
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize('seed', [0, 1])
 def test_stick_and_slip_at_the_pivot_end_within_the_tolerance(seed):
     def plant():
@@ -59,6 +60,7 @@ def test_stick_and_slip_at_the_pivot_end_within_the_tolerance(seed):
     assert np.max(np.abs(run.error[end])) > 0.3 * DEGREE
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize('plant', ['nominal', 'friction', 'lag', 'hysteresis'])
 def test_pairs_that_do_not_stick_and_slip_are_never_pushed(plant):
     law, pushed = watched()

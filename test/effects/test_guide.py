@@ -45,6 +45,7 @@ def test_the_guide_names_every_compensation():
         assert f'| `{compensation.name}` |' in text
 
 
+@pytest.mark.slow
 def test_example_works_and_passes_its_test(blocks, tmp_path, monkeypatch):
     (tmp_path / 'choked_valve.py').write_text(blocks[0])
     (tmp_path / 'test_choked_valve.py').write_text(blocks[1])

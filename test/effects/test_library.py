@@ -113,6 +113,7 @@ def test_what_a_controller_does_about_it_is_what_it_can_do(effect):
         assert min(effect.lag(q, layout.parameter_at[effect.name])) > 0.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize('active', [EFFECTS, *HALVES], ids=['all', 'even', 'odd'])
 def test_absent_effects_are_absent_to_the_bit(active):
     np.testing.assert_array_equal(run_bound(active, {}), run_bound((), {}))
@@ -214,6 +215,7 @@ LIGHT_BETWEEN_PADS = {
 }
 
 
+@pytest.mark.slow
 @settings(max_examples=150 if HAVE_NUMBA else 15)
 @given(effects=subsets())
 @example(effects=LIGHT_BETWEEN_PADS)

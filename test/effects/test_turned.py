@@ -97,6 +97,7 @@ def test_a_unit_of_which_nobody_has_said_what_it_is_there_is_refused():
     assert str(error.value) == sentence
 
 
+@pytest.mark.slow
 def test_with_its_unit_named_it_acts_there(monkeypatch):
     monkeypatch.setitem(TURNED, 'N s^2/m^2', 'N m s^2/rad^2')
     assert described(DRAG)['strength'][0] == 'N m s^2/rad^2'

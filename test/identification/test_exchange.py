@@ -25,7 +25,7 @@ def test_an_effect_that_was_taken_for_another_is_exchanged(setting):
     assert all(one.parents == ('viscous_friction',) for one in tried)
 
 
-@pytest.mark.long_search
+@pytest.mark.slow
 def test_one_that_made_up_for_what_was_missing_is_exchanged_for_one_that_came_near():
     """A quick creep has parameters enough to pass for a delay beside damping."""
     damping = effect(
@@ -48,6 +48,7 @@ def test_one_that_made_up_for_what_was_missing_is_exchanged_for_one_that_came_ne
         assert 'dead_time' not in alone.effects
 
 
+@pytest.mark.slow
 def test_one_that_contains_another_gives_way_where_that_explains_as_much(setting):
     leak = {'rate': 0.02, 'refill': 0.03, 'vent': 0.05}
     friction = KNOWN['viscous_friction'].fit_starts[0]

@@ -45,7 +45,7 @@ def test_an_effect_that_the_fit_to_every_sample_does_not_need_is_dropped():
     assert augmented.held_error < 1.1 * setting.noise.sigma
 
 
-@pytest.mark.long_search
+@pytest.mark.slow
 def test_a_stop_that_long_steps_softened_is_as_stiff_as_it_is_in_the_end():
     """Thinned runs know no difference between stiff pads, and leave them at their bound."""
     stop = effect('end_stop', stop_m=0.065, stop_n_m15=1e7, stop_s_m=1.0)
@@ -58,7 +58,7 @@ def test_a_stop_that_long_steps_softened_is_as_stiff_as_it_is_in_the_end():
     assert found.stages[2].held_error < 4.0 * NOISE < 0.1 * found.stages[1].held_error
 
 
-@pytest.mark.long_search
+@pytest.mark.slow
 def test_finer_parameters_that_earn_nothing_in_full_are_dropped():
     there = effect('coulomb_friction', coulomb_n=8.0, static_n=8.0, stribeck_m_s=5e-3)
     model = bench_truth.declared(off=OFF)

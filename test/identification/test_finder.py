@@ -18,7 +18,7 @@ from pam_ros.settings.files import load_rig
 from support import bench_truth
 from truth import effect
 
-pytestmark = [pytest.mark.needs_numba, pytest.mark.long_search]
+pytestmark = [pytest.mark.needs_numba, pytest.mark.slow]
 ROOT = Path(__file__).parents[2]
 NOISE = 20e-6  # m
 OFF = [0.01, -0.015, 0.005, 0.01, -0.01, 0.015]

@@ -29,7 +29,7 @@ def retuned(setting):
     return fitted((), solve(known.problem, known.u))
 
 
-@pytest.mark.long_search
+@pytest.mark.slow
 def test_two_are_found_together(setting, retuned):
     assert retuned.fit_error > FAR * setting.noise.sigma
     pair, rounds = paired(retuned, retuned, EFFECTS, setting)

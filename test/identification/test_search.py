@@ -32,6 +32,7 @@ def searched(request):
     return request.param, found, told
 
 
+@pytest.mark.slow
 @pytest.mark.needs_numba
 def test_the_effect_is_found_and_no_other(searched):
     name, found, _ = searched

@@ -137,6 +137,7 @@ def rms(solution):
     return float(np.sqrt(np.mean(solution.r**2)))
 
 
+@pytest.mark.slow
 @pytest.mark.needs_numba
 def test_a_right_model_leaves_the_sensors_noise(pool):
     parent, motions, noise = prepared(rate=250.0)
@@ -144,6 +145,7 @@ def test_a_right_model_leaves_the_sensors_noise(pool):
         assert 0.5 * noise.sigma < rms(weak) < 1.5 * noise.sigma
 
 
+@pytest.mark.slow
 @pytest.mark.needs_numba
 def test_where_friction_sticks_a_start_is_found_that_no_constant_start_comes_near(pool):
     parent, motions, _ = prepared(effect('coulomb_friction'), rate=250.0)

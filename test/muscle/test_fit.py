@@ -73,6 +73,7 @@ def noisy(rng, slack):
     return np.maximum(force, 0.0) if slack else force
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     'how', [{}, {'slack_at': 0.0}, {'slack_at': 0.0, 'slack': 'excluded'}], ids=str
 )

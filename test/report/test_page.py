@@ -68,6 +68,7 @@ def friction_page(reports, friction):
     return (reports(friction) / 'report.html').read_text(encoding='utf-8')
 
 
+@pytest.mark.slow
 def test_page_is_whole_and_needs_nothing_else(html):
     found = outline(html)
     assert not {'script', 'iframe', 'link', 'object'} & set(found.tags)
@@ -115,6 +116,7 @@ def test_nothing_missing_says_what_would_not_be_seen(reports, clean):
     assert 'stay below the noise floor of 0.0500 mm' in html
 
 
+@pytest.mark.slow
 def test_user_text_cannot_become_markup(friction):
     trace, source, runs = friction
     html = rendered((replace(trace, sentence='1 < 2 & <b>3</b>'), source, runs))
@@ -133,6 +135,7 @@ def test_an_effect_that_did_not_suffice_is_named_all_the_same(friction):
     assert curves_of(partial, runs)[-1].label == 're-tuned + coulomb friction'
 
 
+@pytest.mark.slow
 def test_later_rounds_stand_below_the_first(friction):
     trace, source, runs = friction
     later = tuple(replace(c, parents=('coulomb_friction',)) for c in trace.candidates[:3])
@@ -140,6 +143,7 @@ def test_later_rounds_stand_below_the_first(friction):
     assert html.index('On top of re-tuning') < html.index('On top of coulomb friction')
 
 
+@pytest.mark.slow
 def test_page_without_candidates_says_so(clean):
     trace, source, runs = clean
     html = rendered((replace(trace, candidates=(), next_experiment=''), source, runs))
@@ -170,6 +174,7 @@ def test_warnings_are_told_once_with_the_recording_they_are_about(tested):
     assert found == [('', 'the position covers 11 % of the stroke'), ('bench.csv', '1 gap(s)')]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize('value', [np.nan, np.inf, -1e300])
 def test_a_model_that_diverges_is_drawn_and_its_numbers_stay_finite(clean, value):
     trace, source, _ = clean

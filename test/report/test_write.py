@@ -53,6 +53,7 @@ def test_replacing_swaps_two_folders(tmp_path, monkeypatch, swaps):
         assert names(tmp_path) == ['report']
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize('error', [KeyboardInterrupt, RuntimeError, SystemExit])
 def test_nothing_is_left_where_writing_breaks_off(friction, reports, tmp_path, monkeypatch, error):
     trace, source, _ = friction

@@ -79,6 +79,7 @@ def errors(joint, u):
     return found
 
 
+@pytest.mark.slow
 @EACH
 def test_forces_along_a_free_run_give_its_velocity(effects):
     """Between stamps the motion is taken as linear: the error falls with their square."""
@@ -89,6 +90,7 @@ def test_forces_along_a_free_run_give_its_velocity(effects):
     assert most_fine < most_coarse / 3.5
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize('made', [pair, lever])
 def test_so_do_those_of_two_muscles_on_a_joint_that_turns(made):
     u = np.stack([U, U[::-1]], axis=1)

@@ -176,6 +176,7 @@ print(rig.position[0], 'compiled' if compiled else 'found')
 """
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not HAVE_NUMBA, reason='nothing is kept on disk without numba')
 def test_a_kernel_on_disk_does_not_ask_for_the_file_of_a_transmission(tmp_path):
     """The file is renamed, moved, run as a script, and changed."""
@@ -272,6 +273,7 @@ def names_of(function):
     return getattr(function, 'py_func', function).__globals__
 
 
+@pytest.mark.slow
 def test_an_effect_of_ones_own_acts():
     """2 N s/m of drag for a strength of 1: a load that falls is slowed by just that."""
     drag = effect_of(SOURCE)

@@ -29,6 +29,7 @@ def cam(monkeypatch, tmp_path):
     return importlib.import_module('cam')
 
 
+@pytest.mark.slow
 @pytest.mark.needs_numba
 @pytest.mark.parametrize('example', [USE, AT_REST, OWN_USE])
 def test_examples_run_and_print_what_their_comments_say(example, cam, capsys):
@@ -52,6 +53,7 @@ def radius(angle):
     return RADIUS * np.exp(GROWTH * angle)
 
 
+@pytest.mark.slow
 def test_a_transmission_of_ones_own_moves_as_its_equations_say(cam):
     zeta, sides = 0.15, (1.0, -1.0)
     at_zero = [0.09 * UNEQUAL[0].l0, 0.12 * UNEQUAL[1].l0]

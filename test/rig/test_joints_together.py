@@ -3,6 +3,7 @@
 """Joints of several kinds in one rig: each is to the bit what it is alone."""
 
 import numpy as np
+import pytest
 
 from pam_ros.rig.joint import Actuator, Joint, one_muscle
 from pam_ros.rig.loads import Mass
@@ -78,6 +79,7 @@ def test_plain_joints_beside_each_other_are_what_they_are_alone_to_the_bit():
     assert_each_is_what_it_is_alone(plain, commands)
 
 
+@pytest.mark.slow
 def test_joints_with_other_effects_to_choose_from_stand_beside_each_other():
     """Each kernel knows the effects of its own joints."""
     swings = one_muscle(effects={'smooth_supply': {'mean': 3e5}}, library=(smooth_supply.EFFECT,))

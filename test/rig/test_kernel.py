@@ -47,6 +47,7 @@ def test_the_papers_experiment_is_within_a_nanometre_of_dop853(position):
     assert found.force[-1] == pytest.approx(WEIGHT, abs=1e-6)  # it has come to rest
 
 
+@pytest.mark.slow
 def test_a_smooth_command_is_within_a_nanometre_of_dop853():
     t = np.linspace(0.0, 10.0, 2001)
     y, v = solve(smooth_supply.at, (0.1, 0.0), t)

@@ -18,6 +18,7 @@ from support.joint_runs import BAR, MASS, OFFSETS, run, solve
 STEPS = pytest.mark.parametrize(('step', 'bound'), [(1e-3, 4e-9), (5e-4, 3e-10)])
 
 
+@pytest.mark.slow
 @pytest.mark.needs_numba
 @STEPS
 @pytest.mark.parametrize('strands', [BOTH_LONG, UNEQUAL])
@@ -31,6 +32,7 @@ def test_a_pair_that_is_let_go_is_within_nanoradians_of_dop853(strands, start, s
     assert np.max(np.abs(found[1] - rate)) < 30.0 * bound
 
 
+@pytest.mark.slow
 @pytest.mark.needs_numba
 @STEPS
 @pytest.mark.parametrize('strands', [UNEQUAL, UNEQUAL[:1]], ids=['two', 'one'])
@@ -75,6 +77,7 @@ def swung(t, step=1e-3, start=(0.1, 0.0)):
     return run(model, t, start, step=step)
 
 
+@pytest.mark.slow
 @STEPS
 def test_a_pair_under_swinging_pressures_is_within_nanoradians_of_dop853(step, bound):
     t = np.linspace(0.0, 5.0, 501)

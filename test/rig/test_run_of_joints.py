@@ -40,6 +40,7 @@ def stepped(joint, begin):
     return np.array(found).T
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ('made', 'effects'),
     [(pair, (LATE, LATER)), (lever, (LATE, LATER)), (heavy, ({}, {}))],
@@ -75,6 +76,7 @@ def test_the_force_of_each_muscle_is_its_pull_less_its_damping(made, arms):
         np.testing.assert_allclose(run.force[k], expected, atol=1e-5)
 
 
+@pytest.mark.slow
 def test_commands_act_at_their_very_stamps_in_each_muscle():
     """Stamps between the steps, and a dead time that none of them divides: against DOP853."""
     delays, at = (0.0137, 0.0), np.array([0.0, 0.1003, 0.2371])
@@ -133,6 +135,7 @@ def test_commands_with_different_dead_times_act_at_all_their_stamps():
 # Held -----------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ('made', 'ends', 'arms'),
     [
@@ -168,6 +171,7 @@ def test_a_joint_that_is_held_gives_the_forces_of_the_law(made, ends, arms):
     np.testing.assert_array_equal(run.pressure, p)
 
 
+@pytest.mark.slow
 def test_each_held_muscle_feels_its_pressure_after_its_own_dead_time():
     t = np.linspace(0.0, 2.0, 401)
     p = np.stack([3e5 + 1e5 * np.sin(6.0 * t), 2e5 + 5e4 * np.cos(4.0 * t)], axis=1)
@@ -178,6 +182,7 @@ def test_each_held_muscle_feels_its_pressure_after_its_own_dead_time():
         np.testing.assert_allclose(run.pressure[:, i], expected, rtol=1e-12)
 
 
+@pytest.mark.slow
 def test_held_muscles_remember_apart_and_friction_of_the_joint_is_not_felt():
     """Slip of one muscle over its own contraction, at any step; the load's effects are none."""
     slip = {'hysteresis': {'slip': 9.0, 'slip_width': 0.02, 'slip_onset': 1.0}}

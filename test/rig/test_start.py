@@ -90,6 +90,7 @@ def test_the_coordinate_begins_at_rest_under_the_command():
     assert np.ptp(run.position) > 1e-3
 
 
+@pytest.mark.slow
 def test_all_muscles_of_a_joint_begin_alike_away_from_rest():
     joint = lever(effects=(LAG, LAG))
     run = simulate(joint, T, [0.0], [[3e5, 2e5]], hidden={'pressure_lag': {'pressure': 3e4}})

@@ -173,6 +173,7 @@ def test_no_pair_that_is_accepted_gives_nan(
     drive(Arm(inertia, mass, arm, hanging_at), Pulley(radius), contraction, zeta, commanded)
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=100)
 @given(
     st.floats(0.01, 0.08),

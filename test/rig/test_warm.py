@@ -46,6 +46,7 @@ for effects in ({}, {'viscous_friction': {'coefficient': 0.1}}):
 """
 
 
+@pytest.mark.slow
 @pytest.mark.needs_numba
 def test_a_program_that_starts_later_compiles_nothing():
     """Any kind of joint is stepped, one muscle run over recordings; without effects, and with.

@@ -151,6 +151,7 @@ def test_a_file_that_cannot_be_written_leaves_the_old_one(tmp_path):
     assert list(tmp_path.iterdir()) == [path]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize('folder', ['lib/python3.12/site-packages', 'elsewhere'])
 def test_an_installed_package_finds_its_share_folder(tmp_path, folder):
     prefix = tmp_path / 'install'

@@ -88,6 +88,7 @@ def test_benchmark_plants_have_converged(name):
     assert np.max(np.abs(difference)) < 1e-6
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(('kind', 'form'), [key for key in FORMS if key[0] != 'random_walk'])
 def test_every_effect_has_converged_far_below_the_noise(kind, form):
     t = np.arange(0.0, 6.0, 5e-3)
