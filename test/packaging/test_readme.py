@@ -27,7 +27,6 @@ from support.pages import (
     README,
     ROOT,
     anchors,
-    blocks,
     commands,
     links,
     names,
@@ -233,14 +232,6 @@ def test_pictures_are_small_and_shown(picture):
     assert picture.stat().st_size < LARGEST
     shown = {(page.parent / target).resolve() for page in PAGES for target in links(page)}
     assert picture in shown
-
-
-def test_python_of_the_readme_prints_what_it_says(capsys):
-    (example,) = (one for one in blocks(README, 'python') if 'rclpy' not in one)
-    exec(compile(example, 'README.md', 'exec'), {})
-    expected = re.findall(r'print\(.*\)  # (.*)', example)
-    assert expected
-    assert capsys.readouterr().out.splitlines() == expected
 
 
 def test_verdicts_are_those_of_the_report():

@@ -12,25 +12,12 @@ from pam_ros.excitation.programme import plan, programme
 from pam_ros.excitation.settings import Excitation
 from pam_ros.parameters import described
 from pam_ros.recording.mapping import read_mapping
-from support import bags
 
 GUIDE = (Path(__file__).parents[2] / 'docs' / 'recordings.md').read_text(encoding='utf-8')
 
 
 def blocks(kind):
     return re.findall(rf'```{kind}\n(.*?)```', GUIDE, re.DOTALL)
-
-
-def test_the_python_example_runs(tmp_path, monkeypatch):
-    topics, _ = bags.rig_topics(duration=12.0)
-    topics['/cell'] = topics.pop('/force')
-    bags.write_bag(tmp_path / 'monday', topics)
-    monkeypatch.chdir(tmp_path)
-    (example,) = blocks('python')
-    names = {}
-    exec(compile(example, 'recordings.md', 'exec'), names)
-    assert names['recording'].force is not None
-    assert (tmp_path / 'monday.csv').stat().st_size > 0
 
 
 def test_the_rules_can_be_understood(tmp_path):

@@ -1,11 +1,9 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The page on joints: its examples run, and the transmission that it adds moves as it must."""
+"""The page on joints: the transmission that it adds moves as it must."""
 
 import importlib
-import re
 import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -14,10 +12,9 @@ from scipy.integrate import quad, solve_ivp
 from pam_ros import Arm, Joint, Rig, rest
 from support import joints, paper
 from support.joint_models import UNEQUAL, actuators
+from support.pages import ROOT, blocks
 
-PAGE = Path(__file__).parents[2] / 'docs' / 'joints.md'
-EXAMPLES = re.findall(r'```python\n(.*?)```', PAGE.read_text(encoding='utf-8'), re.DOTALL)
-USE, AT_REST, OWN, OWN_USE = EXAMPLES
+_, _, OWN, _ = blocks(ROOT / 'docs' / 'joints.md', 'python')
 
 
 @pytest.fixture
@@ -27,22 +24,6 @@ def cam(monkeypatch, tmp_path):
     monkeypatch.syspath_prepend(tmp_path)
     monkeypatch.delitem(sys.modules, 'cam', raising=False)
     return importlib.import_module('cam')
-
-
-@pytest.mark.slow
-@pytest.mark.needs_numba
-@pytest.mark.parametrize('example', [USE, AT_REST, OWN_USE])
-def test_examples_run_and_print_what_their_comments_say(example, cam, capsys):
-    exec(compile(example, str(PAGE), 'exec'), {'Cam': cam.Cam})
-    wanted = re.findall(r'^print\(.*\)  # (.*)$', example, re.MULTILINE)
-    assert len(wanted) >= 2
-    assert capsys.readouterr().out.splitlines() == wanted
-
-
-def test_examples_import_from_the_face_alone():
-    for example in EXAMPLES:
-        for module in re.findall(r'^from (pam_ros\S*) import', example, re.MULTILINE):
-            assert module == 'pam_ros'
 
 
 # The cam by itself: its radius over the angle; how far it has drawn is an integral of that.
