@@ -192,6 +192,7 @@ FORMS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize('name', ARRAYS)
 def test_a_good_array_is_taken_in_each_form(name):
     call, good, _ = ARRAYS[name]

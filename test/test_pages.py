@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """The Python that the pages show, each page in its order: it runs and prints what it says.
 
-``print(...)  # text`` says that this text is printed. Run elsewhere are the controller of README.md
-(``test/nodes/test_readme.py``), the two files of docs/effects.md (``test/effects/test_guide.py``)
-and the reader of docs/report.md (``test/report/test_numbers.py``).
+``print(...)  # text`` says that this text is printed. Run elsewhere are the controller of the
+README (``test/nodes/test_readme.py``), the two files of docs/effects.md
+(``test/effects/test_guide.py``), and what reads a report (``test/report/test_numbers.py``).
 """
 
 import re

@@ -59,6 +59,7 @@ def test_a_whole_number_passes_in_any_form(value):
         assert found == value
 
 
+@pytest.mark.slow
 @given(st.text() | st.none() | st.booleans() | st.lists(st.floats()) | st.complex_numbers())
 def test_what_is_no_number_is_refused(value):
     for kind in (int, float):

@@ -121,6 +121,7 @@ def test_friction_of_the_load_is_a_torque_and_resists_the_motion():
     assert lost == pytest.approx(-0.3, rel=0.02)
 
 
+@pytest.mark.slow
 @pytest.mark.needs_numba
 @pytest.mark.parametrize('which', ['friction', 'hysteresis'])
 def test_what_is_declared_of_a_pair_is_compensated(which):

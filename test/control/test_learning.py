@@ -32,6 +32,7 @@ def test_nothing_is_learned_where_nothing_is_missing():
     assert rms(run) < 0.02e-3
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize('rest', [0.3, 1.0, 2.8, 3.4, 4.0])
 def test_a_load_that_nobody_declared_is_not_taken_for_anything_else(rest):
     # Nor is the pressure known at the start, so that the load jumps before it is moved.
@@ -42,6 +43,7 @@ def test_a_load_that_nobody_declared_is_not_taken_for_anything_else(rest):
     assert np.max(np.abs(run.error[run.last(0.5)])) < 0.02e-3
 
 
+@pytest.mark.slow
 def test_hysteresis_is_learned_and_the_bandwidth_grows():
     law, run = swung('hysteresis')
     weights = law._learner._weights[: len(REACHES)]
@@ -58,6 +60,7 @@ def test_friction_is_learned():
     assert rms(run) < 0.15e-3
 
 
+@pytest.mark.slow
 def test_a_lag_is_learned_and_the_bandwidth_stays():
     law, run = swung('lag')
     fill, vent = law._learner.lag
@@ -73,6 +76,7 @@ def test_a_declared_lag_leaves_nothing_to_learn():
     assert rms(run) < 0.05e-3
 
 
+@pytest.mark.slow
 def test_declared_friction_is_not_learned_again():
     friction = {'coulomb_friction': {'level': 15.0, 'breakaway': 25.0, 'stribeck_speed': 0.01}}
     _, run = swung('friction', effects=friction)

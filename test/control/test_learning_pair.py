@@ -34,6 +34,7 @@ def rms(run, seconds=4.0):
     return np.sqrt(np.mean(run.error[run.last(seconds)] ** 2))
 
 
+@pytest.mark.slow
 def test_nothing_is_learned_where_nothing_is_missing():
     law, run = swung('nominal', 8.0)
     assert law._learner.trust == 0.0
@@ -71,12 +72,14 @@ def test_a_declared_lag_leaves_nothing_to_learn():
     assert rms(run) < 0.02 * DEGREE
 
 
+@pytest.mark.slow
 def test_friction_of_the_pivot_is_learned():
     law, run = swung('friction')
     assert law._learner._weights[:ELEMENTS].sum() == pytest.approx(0.15, abs=0.05)
     assert rms(run) < 0.9 * rms(swung('friction', 8.0, learning=False)[1])
 
 
+@pytest.mark.slow
 def test_of_all_at_once_enough_is_learned():
     _, run = swung('all')
     assert rms(run) < 0.2 * DEGREE

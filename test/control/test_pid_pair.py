@@ -48,6 +48,7 @@ def test_a_pair_reaches_a_step_and_rests(plant):
     assert run.stiffness[-1] == pytest.approx(run.wanted[-1], rel=0.01)
 
 
+@pytest.mark.slow
 @pytest.mark.needs_numba
 @pytest.mark.parametrize(('plant', 'most'), [('nominal', 0.25), ('payload', 0.3), ('all', 2.5)])
 def test_a_pair_follows_a_sine(plant, most):

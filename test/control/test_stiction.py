@@ -65,6 +65,7 @@ def test_a_load_that_follows_is_left_alone():
         assert stiction.follow(DT, -x, force, 1.0) is None
 
 
+@pytest.mark.slow
 @pytest.mark.needs_numba
 @pytest.mark.parametrize('seed', [0, 1])
 def test_on_the_truth_plant_stick_and_slip_end_within_the_tolerance(seed):
@@ -76,6 +77,7 @@ def test_on_the_truth_plant_stick_and_slip_end_within_the_tolerance(seed):
     assert np.ptp(run.pressure[end]) < 3e3
 
 
+@pytest.mark.slow
 @pytest.mark.needs_numba
 @pytest.mark.parametrize('plant', ['nominal', 'lag', 'hysteresis'])
 def test_plants_without_stiction_are_never_pushed(plant):

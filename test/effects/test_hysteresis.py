@@ -67,6 +67,7 @@ def test_maxwell_slip_is_the_complement_of_prandtls_plays(onset, crowding):
     np.testing.assert_allclose(force, expected, atol=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(('onset', 'crowding'), [(0.0, 0.0), (0.4, 0.0), (0.1, 0.7)])
 def test_slip_over_pressure_against_prandtls_plays(onset, crowding):
     turns = 1e5 * np.array([0.0, 3.0, 2.0, 5.0, 4.5, 4.8, 1.0])
@@ -119,6 +120,7 @@ def test_loop_grows_with_pressure(effect, growth, p, share):
     np.testing.assert_allclose(grown, share * loop(effect, path(), p), atol=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.needs_numba
 @pytest.mark.parametrize('effect', [BOUC_WEN, {**BOUC_WEN, 'unloading': 0.0}, SLIP])
 @given(turns=st.lists(st.floats(-0.03, 0.2), min_size=1, max_size=8))

@@ -103,6 +103,7 @@ def found(tmp_path_factory):
     return touched, json.loads(done.stdout)
 
 
+@pytest.mark.slow
 def test_one_file_is_new_and_one_has_one_more_line(found):
     touched, _ = found
     assert set(touched) == {NEW, LINE}

@@ -168,6 +168,7 @@ def test_the_step_stays_between_its_limits():
     assert coarse_step(one_muscle(source, Mass(mass=5.0, mount='horizontal'))) == STEPS[1]
 
 
+@pytest.mark.slow
 @pytest.mark.needs_numba
 def test_a_thinned_run_moves_like_the_full_one():
     model = one_muscle(Muscle(), Mass(mass=20.0))

@@ -83,6 +83,7 @@ def test_all_others_count_alike(recordings):
     assert shares([], len(recordings)) == ()
 
 
+@pytest.mark.slow
 def test_what_comes_next_is_foretold_by_the_last_of_them():
     settling = [repeat(27.0 * 3.0**-k, seed=k) for k in range(4)]
     found = trace(bench_truth.declared(), settling[:3], settling[3:])

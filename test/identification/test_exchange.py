@@ -14,6 +14,7 @@ from truth import effect
 pytestmark = pytest.mark.needs_numba
 
 
+@pytest.mark.slow
 def test_an_effect_that_was_taken_for_another_is_exchanged(setting):
     taken = with_effects(setting, 'dead_time', 'viscous_friction')
     assert taken.held_error > 1.5 * setting.noise.sigma

@@ -16,6 +16,7 @@ def read(text):
     return list(csv.DictReader(io.StringIO(text)))
 
 
+@pytest.mark.slow
 def test_every_sample_with_its_residuals(tested):
     trace, _, runs = tested
     rows = read(residual_csv(runs, trace.quantity, trace.unit))

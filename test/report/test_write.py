@@ -17,6 +17,7 @@ def names(folder):
     return sorted(path.name for path in folder.iterdir())
 
 
+@pytest.mark.slow
 def test_all_files_are_there_and_nothing_else(folder):
     assert names(folder) == sorted(FILES)
     assert names(folder.parent) == ['report']

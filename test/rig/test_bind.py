@@ -247,6 +247,7 @@ print(json.dumps([float(each) for each in found]))
 """
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not HAVE_NUMBA, reason='there is only plain Python here')
 def test_plain_python_gives_what_the_compiled_kernel_gives():
     compiled, plain = (json.loads(run(RUN.format(blocked=b))) for b in (False, True))

@@ -55,6 +55,7 @@ def test_same_inputs_give_same_bits():
     np.testing.assert_array_equal(drive(), drive())
 
 
+@pytest.mark.slow
 @pytest.mark.needs_numba
 @settings(deadline=None, max_examples=20)
 @given(st.lists(st.integers(0, 60), max_size=8))

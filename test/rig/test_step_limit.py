@@ -80,6 +80,7 @@ def stiffest(kind, p, angle, pulls_only):
     return k
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(('made', 'kind'), [(pair, of_pulley), (lever, of_lever)])
 def test_it_is_a_radian_of_the_stiffest_place_that_is_reached(made, kind):
     """Let go at either end of the travel, at any extreme of the pressures, with slack or not."""
@@ -156,6 +157,7 @@ commands = st.lists(
 )
 
 
+@pytest.mark.slow
 @settings(deadline=None, max_examples=100)
 @given(
     st.floats(0.01, 0.1),

@@ -269,6 +269,7 @@ def test_backlash_of_the_linkage_is_a_play():
     assert np.max(np.abs(got.linked - got.y)) == pytest.approx(0.5e-3, abs=1e-9)
 
 
+@pytest.mark.slow
 def test_random_walk_grows_with_the_root_of_time():
     ends = []
     for seed in range(400):

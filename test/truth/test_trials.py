@@ -158,6 +158,7 @@ def test_csv_has_the_columns_of_the_command_line(tmp_path, held):
     assert part.truth['position_m'].size == part.t_s.size == 200
 
 
+@pytest.mark.slow
 def test_plain_python_gives_the_same_numbers():
     """The kernel without compilation: the same source, read as Python."""
     script = (

@@ -63,7 +63,7 @@ def test_every_kind_of_joint_is_moved_to_a_position(peer, kind, muscles, way, cl
     with Program('pam_sim', parameters=rig), Program('pam_control', parameters=following):
         begin = watch.begin()
         assert list(watch.terms[0].name) == list(term_names(muscles))
-        watch.lead(lambda: watch.refer(begin + way), 3.0)
+        watch.lead(lambda: watch.refer(begin + way), 2.0)
         assert watch.latest('position') == pytest.approx(begin + way, abs=close)
         assert len(watch.commands[-1].data) == muscles
 
