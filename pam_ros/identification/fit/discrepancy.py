@@ -1,0 +1,158 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""What a residual is made of: white noise of the sensor, and a slow error of the model.
+
+No model has exactly nature's form, and what its form misses is correlated in time: a thousand
+samples of a slow error say hardly more than one. So the residual y of a run is taken as
+
+    y_i = w_i + d_i,  w_i ~ N(0, sigma^2),  cov(d_i, d_j) = (size sigma)^2 exp(-|t_i - t_j|/time),
+
+independent samples of the noise w, and a first-order Gauss-Markov (Ornstein-Uhlenbeck) process d,
+the discrepancy of Kennedy and O'Hagan (2001). At stamps of one distance it is an ARMA(1,1).
+A Kalman filter with the one state d turns y into innovations that are independent (Durbin and
+Koopman, Time Series Analysis by State Space Methods, 2012, section 4.3). Divided by their
+standard deviations, in units of sigma, they are the whitened residual. This is a linear map W with
+W C W' = 1, where sigma^2 C is the covariance of y. So the sum of squares of W y is y' C^-1 y, and
+ordinary least squares of whitened residuals and a whitened Jacobian are generalised least squares.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import log, sqrt
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import minimize
+
+from pam_ros.compiled import cached
+
+Array = NDArray[np.float64]
+
+# Of the likelihood's maximum: the times of the grid are so far apart, and the sizes, as factors.
+FACTOR_TIME, FACTOR_SIZE = 4.0, 8.0
+LEAST_SIZE, GREATEST_SIZE = 1e-2, 1e3  # beyond it nothing is left of the process, or of the noise
+# What two more numbers must lower -2 ln(likelihood) by: Akaike's (1974) price of a parameter, 2.
+PRICE = 4.0
+
+
+@dataclass(frozen=True, eq=False)
+class Whitening:
+    """The map W of one run with n samples.
+
+    ``decay`` (n,) is how much of d is left at the next sample, ``gain`` (n,) that of the Kalman
+    filter, ``scale`` (n,) one over the standard deviation of the innovation in units of sigma.
+    ``log_det`` is ln det C.
+    """
+
+    decay: Array
+    gain: Array
+    scale: Array
+    log_det: float
+
+    def __call__(self, values: Array) -> Array:
+        """Return W times *values*, (n,) or (n, k): a residual, or the columns of a Jacobian."""
+        columns = np.ascontiguousarray(np.asarray(values, dtype=float).T)
+        found = np.empty_like(columns)
+        rows = (-1, self.scale.size)
+        _innovations(self.decay, self.gain, self.scale, columns.reshape(rows), found.reshape(rows))
+        return np.asarray(found.T)
+
+
+@dataclass(frozen=True)
+class Discrepancy:
+    """The slow error of a model beside white noise.
+
+    ``size`` is its standard deviation over that of the noise, 0 where there is none; ``time`` its
+    correlation time in s.
+    """
+
+    size: float = 0.0
+    time: float = 1.0
+
+    def whitening(self, t: Array) -> Whitening:
+        """Return the map that whitens what was sampled at the stamps t (n,), ascending, in s.
+
+        Each run has its own: what was before its first sample is not known.
+        """
+        decay = np.append(np.exp(-np.diff(t) / self.time), 0.0)
+        gain, scale = np.empty(t.size), np.empty(t.size)
+        log_det = _gains(float(self.size) ** 2, decay, gain, scale)
+        return Whitening(decay, gain, scale, log_det)
+
+
+WHITE = Discrepancy()
+
+
+def deviance(whitened: Sequence[Array], whitenings: Sequence[Whitening]) -> float:
+    """Return -2 ln(likelihood) of runs at the most likely sigma, but for n (1 + ln 2 pi).
+
+    *whitened* are the residuals W y of the runs (n,), *whitenings* the maps that they are of.
+    """
+    n = sum(e.size for e in whitened)
+    square = sum(float(e @ e) for e in whitened)
+    return n * log(square / n) + sum(w.log_det for w in whitenings)
+
+
+def most_likely(t: Sequence[Array], residuals: Sequence[Array]) -> Discrepancy:
+    """Return the discrepancy that explains the *residuals* (n,) of runs with stamps t (n,) best.
+
+    WHITE unless it lowers -2 ln(likelihood) by more than its two numbers are worth. Correlation
+    times are sought from the sampling period to the length of the longest run.
+    """
+
+    def cost(z: Array) -> float:
+        size, time = np.exp(np.clip(z, low, high))
+        whitenings = [Discrepancy(size, time).whitening(stamps) for stamps in t]
+        whitened = [w(y) for w, y in zip(whitenings, residuals, strict=True)]
+        return deviance(whitened, whitenings)
+
+    period = float(np.median(np.concatenate([np.diff(stamps) for stamps in t])))
+    longest = max(float(stamps[-1] - stamps[0]) for stamps in t)
+    low, high = np.log([LEAST_SIZE, period]), np.log([GREATEST_SIZE, longest])
+    grid = [
+        np.array([size, time])
+        for size in _steps(low[0], high[0], log(FACTOR_SIZE))
+        for time in _steps(low[1], high[1], log(FACTOR_TIME))
+    ]
+    start = min(grid, key=cost)
+    simplex = np.array([[0.0, 0.0], [0.7, 0.0], [0.0, 0.7]]) + start
+    found = minimize(
+        cost,
+        start,
+        method='Nelder-Mead',
+        options={'initial_simplex': simplex, 'xatol': 0.01, 'fatol': 0.01},
+    )
+    white = deviance(list(residuals), [WHITE.whitening(stamps) for stamps in t])
+    if found.fun > white - PRICE:
+        return WHITE
+    size, time = np.exp(np.clip(found.x, low, high)).tolist()
+    return Discrepancy(size, time)
+
+
+def _steps(low: float, high: float, step: float) -> Array:
+    return np.linspace(low, high, 2 + int((high - low) / step))
+
+
+@cached
+def _gains(variance: float, decay: Array, gain: Array, scale: Array) -> float:
+    """Fill *gain* and *scale* of the Kalman filter; return ln det C. Variances over sigma^2."""
+    log_det, p = 0.0, variance  # p: variance of d before its sample, given those before
+    for i in range(decay.size):
+        innovation = p + 1.0
+        gain[i] = p / innovation
+        scale[i] = 1.0 / sqrt(innovation)
+        log_det += log(innovation)
+        left = decay[i] * decay[i]
+        p = left * gain[i] + variance * (1.0 - left)  # p (1 - gain) is the gain in these units
+    return log_det
+
+
+@cached
+def _innovations(decay: Array, gain: Array, scale: Array, values: Array, found: Array) -> None:
+    """Fill *found* (k, n) with the innovations of the rows of *values* (k, n) times *scale*."""
+    for k in range(values.shape[0]):
+        d = 0.0
+        for i in range(values.shape[1]):
+            innovation = values[k, i] - d
+            found[k, i] = innovation * scale[i]
+            d = decay[i] * (d + gain[i] * innovation)
