@@ -76,8 +76,8 @@ class PamSim(TickingNode):
 
     def _tell_of_compiling(self) -> None:
         self.get_logger().info(
-            'the kernels are being compiled, which takes some twenty seconds, once; '
-            'python3 -m pam_ros.rig.warm does it for all joints beforehand'
+            'this start takes longer: kernels that are not on disk are compiled first, which '
+            'can take half a minute, once; python3 -m pam_ros.rig.warm compiles all of them'
         )
 
     def start(self) -> None:
