@@ -22,11 +22,11 @@ from scipy.optimize import least_squares
 from benchmarks.tracing import blind_trial, declared_model, recording_of
 from pam_ros.effects import pressure_lag
 from pam_ros.identification.candidate import extended
-from pam_ros.identification.coarse import coarse_step
+from pam_ros.identification.data.noise import noise_of
+from pam_ros.identification.data.segment import segments_of
+from pam_ros.identification.data.thinning import coarse_step
 from pam_ros.identification.finder import trace
-from pam_ros.identification.noise import noise_of
 from pam_ros.identification.retuning import problem_of
-from pam_ros.identification.segment import segments_of
 from pam_ros.identification.solve import solve
 from pam_ros.rig.warm import warm
 

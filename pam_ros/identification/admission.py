@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pam_ros.effects.base import Effect
 from pam_ros.identification import evidence
 from pam_ros.identification.candidate import Fit
-from pam_ros.identification.noise import Noise
+from pam_ros.identification.data.noise import Noise
 
 SURELY = 0.9  # share of the noise floor below which no model can come
 AS_GOOD = 0.03  # share of the RMSE kept back by which two candidates may differ

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pam_ros.effects.base import Effect
+from pam_ros.identification.fit.unknowns import OfEffect, effect_unknowns, parameters_of
 from pam_ros.identification.problem import Problem
 from pam_ros.identification.solve import (
     Solution,
@@ -18,7 +19,6 @@ from pam_ros.identification.solve import (
     predicted_cost,
     solve,
 )
-from pam_ros.identification.unknowns import OfEffect, effect_unknowns, parameters_of
 from pam_ros.rig import layout as at
 from pam_ros.rig.joint import Joint
 

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pam_ros.identification.candidate import Fit
-from pam_ros.identification.segment import HeldSegment
+from pam_ros.identification.data.segment import HeldSegment
 from pam_ros.rig import layout as at
 
 Array = NDArray[np.float64]

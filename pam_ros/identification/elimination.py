@@ -13,10 +13,10 @@ from pam_ros.effects.names import EffectName
 from pam_ros.identification import evidence
 from pam_ros.identification.admission import IMPLAUSIBLE, is_odd, leeway, matters, strain
 from pam_ros.identification.candidate import EARNED, Fit, extended, fitted, price_of
-from pam_ros.identification.noise import Noise
+from pam_ros.identification.data.noise import Noise
+from pam_ros.identification.fit.unknowns import parameters_of
 from pam_ros.identification.problem import Problem
 from pam_ros.identification.solve import solve
-from pam_ros.identification.unknowns import parameters_of
 from pam_ros.rig.joint import Joint
 
 

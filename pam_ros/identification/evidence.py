@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 from scipy.stats import f as f_distribution
 
 from pam_ros.identification.candidate import Fit
-from pam_ros.identification.noise import independent_share
+from pam_ros.identification.data.noise import independent_share
+from pam_ros.identification.fit.unknowns import OfEffect
 from pam_ros.identification.problem import Problem
-from pam_ros.identification.unknowns import OfEffect
 
 Array = NDArray[np.float64]
 

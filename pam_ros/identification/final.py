@@ -11,17 +11,17 @@ from numpy.typing import NDArray
 
 from pam_ros.effects.names import EffectName
 from pam_ros.identification.candidate import Fit, fitted
-from pam_ros.identification.coarse import coarse_step
+from pam_ros.identification.data.noise import Noise
+from pam_ros.identification.data.segment import Segment
+from pam_ros.identification.data.thinning import coarse_step
 from pam_ros.identification.drift import Drift, shares
 from pam_ros.identification.elimination import plain, promises_little, without_needless
-from pam_ros.identification.noise import Noise
+from pam_ros.identification.fit.unknowns import Unknown
 from pam_ros.identification.problem import Problem
 from pam_ros.identification.retuning import only_starts, problem_of
 from pam_ros.identification.round import NEAR
 from pam_ros.identification.search import Search
-from pam_ros.identification.segment import Segment
 from pam_ros.identification.solve import Solution, solve
-from pam_ros.identification.unknowns import Unknown
 from pam_ros.rig.joint import Joint
 
 Array = NDArray[np.float64]

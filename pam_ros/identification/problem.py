@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pam_ros.effects.base import Effect
-from pam_ros.identification.segment import FreeSegment, HeldSegment, Segment
-from pam_ros.identification.unknowns import RunStart, Unknown
+from pam_ros.identification.data.segment import FreeSegment, HeldSegment, Segment
+from pam_ros.identification.fit.unknowns import RunStart, Unknown
 from pam_ros.rig import layout as at
 from pam_ros.rig.bind import bind
 from pam_ros.rig.layout import Layout

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from pam_ros.identification.noise import Noise
-from pam_ros.identification.segment import Segment
+from pam_ros.identification.data.noise import Noise
+from pam_ros.identification.data.segment import Segment
 from pam_ros.identification.structure import Structure
 from pam_ros.rig.joint import Joint
 

@@ -10,11 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pam_ros.identification.candidate import Fit, fitted
-from pam_ros.identification.noise import Noise
+from pam_ros.identification.data.noise import Noise
+from pam_ros.identification.data.segment import Segment
+from pam_ros.identification.fit.unknowns import Unknown, declared_unknowns, run_unknowns
 from pam_ros.identification.problem import Problem
-from pam_ros.identification.segment import Segment
 from pam_ros.identification.solve import Solution, solve
-from pam_ros.identification.unknowns import Unknown, declared_unknowns, run_unknowns
 from pam_ros.rig.joint import Joint
 
 Array = NDArray[np.float64]

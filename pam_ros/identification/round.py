@@ -31,8 +31,8 @@ from pam_ros.identification.candidate import (
     refine,
     whisper,
 )
+from pam_ros.identification.data.noise import Noise
 from pam_ros.identification.elimination import dropped
-from pam_ros.identification.noise import Noise
 from pam_ros.identification.problem import Problem
 from pam_ros.identification.retuning import only_starts
 from pam_ros.identification.solve import Solution, predicted_cost, solve

@@ -11,14 +11,14 @@ import numpy as np
 from pam_ros.effects.base import Effect
 from pam_ros.identification.admission import Tried, admitted, could_matter, plainest
 from pam_ros.identification.candidate import Fit, fitted, released
-from pam_ros.identification.coarse import coarse_step, thinned
+from pam_ros.identification.data.noise import Noise
+from pam_ros.identification.data.segment import FreeSegment, Segment, windows
+from pam_ros.identification.data.thinning import coarse_step, thinned
 from pam_ros.identification.elimination import plain, without_needless
 from pam_ros.identification.exchange import exchanged
-from pam_ros.identification.noise import Noise
 from pam_ros.identification.pairs import paired
 from pam_ros.identification.retuning import only_starts, problem_of, robust
 from pam_ros.identification.round import NEAR, Setting, try_effects
-from pam_ros.identification.segment import FreeSegment, Segment, windows
 from pam_ros.identification.solve import solve
 from pam_ros.identification.weak import motion_of
 from pam_ros.rig.joint import Joint

@@ -12,11 +12,11 @@ from numpy.typing import NDArray
 from pam_ros.effects.names import EffectName
 from pam_ros.errors import ParameterError
 from pam_ros.identification.candidate import Fit
+from pam_ros.identification.data.segment import HeldSegment, Segment
 from pam_ros.identification.evidence import independent_samples
+from pam_ros.identification.fit.unknowns import CONSTANTS, OfEffect, Unknown
 from pam_ros.identification.problem import Problem
 from pam_ros.identification.result import Estimate, Stage
-from pam_ros.identification.segment import HeldSegment, Segment
-from pam_ros.identification.unknowns import CONSTANTS, OfEffect, Unknown
 from pam_ros.muscle.constants import Constants, from_si
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig import layout as at

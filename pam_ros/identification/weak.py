@@ -21,8 +21,8 @@ from scipy.signal import savgol_filter
 
 from pam_ros.effects.base import Effect
 from pam_ros.identification.candidate import EARNED, PROMISING, Fit, extended, fitted, freed
+from pam_ros.identification.data.segment import FreeSegment, Segment
 from pam_ros.identification.problem import Problem, finite
-from pam_ros.identification.segment import FreeSegment, Segment
 from pam_ros.identification.solve import Solution, amplified_cost, improved, solve
 from pam_ros.rig.bind import bind
 from pam_ros.rig.joint import Joint

@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from pam_ros.identification.noise import Noise
+from pam_ros.identification.data.noise import Noise
 from pam_ros.report import diagnostics, style
 from pam_ros.report.runs import Run
 from pam_ros.report.time_plots import Curve, Stretch

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from pam_ros.identification.data.segment import FreeSegment, HeldSegment, Segment
 from pam_ros.identification.result import Trace
-from pam_ros.identification.segment import FreeSegment, HeldSegment, Segment
 from pam_ros.report.diagnostics import Size, size_of
 
 Array = NDArray[np.float64]

@@ -25,7 +25,7 @@ sys.modules['numba'] = None  # some steps as plain Python take less than to comp
 import numpy as np
 from pam_ros.control.compensation import left_to_feedback
 from pam_ros.effects import EFFECTS
-from pam_ros.identification.unknowns import effect_unknowns
+from pam_ros.identification.fit.unknowns import effect_unknowns
 from pam_ros.rig.arrangements import ARRANGEMENTS
 from pam_ros.rig.joint import one_muscle
 from pam_ros.rig.run import simulate

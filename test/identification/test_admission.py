@@ -18,8 +18,8 @@ from pam_ros.identification.admission import (
     plainest,
     strain,
 )
+from pam_ros.identification.data.noise import Noise
 from pam_ros.identification.evidence import Evidence
-from pam_ros.identification.noise import Noise
 from support.equations import least_squares_fit, missing, unknown
 
 KNOWN = {e.name: e for e in EFFECTS}

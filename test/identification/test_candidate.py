@@ -18,9 +18,9 @@ from pam_ros.identification.candidate import (
     refine,
     released,
 )
-from pam_ros.identification.noise import noise_of
+from pam_ros.identification.data.noise import noise_of
+from pam_ros.identification.data.segment import segments_of
 from pam_ros.identification.retuning import problem_of
-from pam_ros.identification.segment import segments_of
 from pam_ros.identification.solve import solve
 from support import bench_truth
 from support.equations import equation, unknown

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from pam_ros.identification.candidate import fitted
+from pam_ros.identification.data.noise import Noise
+from pam_ros.identification.data.segment import segments_of
 from pam_ros.identification.drift import drifts, shares
 from pam_ros.identification.finder import trace
-from pam_ros.identification.noise import Noise
 from pam_ros.identification.retuning import problem_of
-from pam_ros.identification.segment import segments_of
 from pam_ros.identification.solve import solve
 from pam_ros.recording.recording import Recording
 from support import bench_truth

@@ -10,9 +10,9 @@ import pytest
 from scipy.optimize import approx_fprime
 from scipy.special import pseudo_huber
 
+from pam_ros.identification.data.segment import segments_of
+from pam_ros.identification.fit.unknowns import SPECIMEN, declared_unknowns, run_unknowns
 from pam_ros.identification.problem import Problem
-from pam_ros.identification.segment import segments_of
-from pam_ros.identification.unknowns import SPECIMEN, declared_unknowns, run_unknowns
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.recording.recording import Recording
 from pam_ros.rig import layout as at

@@ -7,9 +7,9 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 import pytest
 
-from pam_ros.identification.noise import Noise
+from pam_ros.identification.data.noise import Noise
+from pam_ros.identification.data.segment import segments_of
 from pam_ros.identification.retuning import only_starts, problem_of
-from pam_ros.identification.segment import segments_of
 from support import bench_truth
 
 MODEL = bench_truth.declared(off=[0.01, -0.01, 0.0, 0.01, 0.0, 0.01])

@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 
 from pam_ros.identification.candidate import extended, fitted
-from pam_ros.identification.noise import Noise, noise_of
+from pam_ros.identification.data.noise import Noise, noise_of
+from pam_ros.identification.data.segment import segments_of
+from pam_ros.identification.fit.unknowns import SPECIMEN
 from pam_ros.identification.retuning import problem_of
-from pam_ros.identification.segment import segments_of
 from pam_ros.identification.solve import Solution, solve
 from pam_ros.identification.stages import estimates, model_of, stage
-from pam_ros.identification.unknowns import SPECIMEN
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.recording.recording import Recording
 from pam_ros.rig import layout as at

@@ -10,10 +10,10 @@ import pytest
 
 from pam_ros.effects import EFFECTS
 from pam_ros.identification.candidate import extended, fitted
-from pam_ros.identification.coarse import coarse_step, thinned
-from pam_ros.identification.noise import noise_of
+from pam_ros.identification.data.noise import noise_of
+from pam_ros.identification.data.segment import segments_of
+from pam_ros.identification.data.thinning import coarse_step, thinned
 from pam_ros.identification.retuning import problem_of
-from pam_ros.identification.segment import segments_of
 from pam_ros.identification.solve import solve
 from pam_ros.identification.weak import MOMENTS, at_weak, motion_of, weak_fits, weak_starts
 from pam_ros.recording.recording import Recording

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pam_ros.identification.noise import Noise
+from pam_ros.identification.data.noise import Noise
 from pam_ros.report import residual_plots, style
 from pam_ros.report.runs import Run
 from pam_ros.report.time_plots import Curve

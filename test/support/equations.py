@@ -10,10 +10,10 @@ from scipy.signal import lfilter
 
 from pam_ros.effects.names import parsed
 from pam_ros.identification.candidate import Fit
+from pam_ros.identification.data.segment import segments_of
+from pam_ros.identification.fit.unknowns import Constant, OfEffect, RunStart, Unknown
 from pam_ros.identification.problem import Problem
-from pam_ros.identification.segment import segments_of
 from pam_ros.identification.solve import Solution
-from pam_ros.identification.unknowns import Constant, OfEffect, RunStart, Unknown
 from pam_ros.recording.recording import Recording
 from pam_ros.rig.joint import one_muscle
 

@@ -9,11 +9,11 @@ import numpy as np
 
 from pam_ros.effects import EFFECTS
 from pam_ros.identification.candidate import extended, fitted
-from pam_ros.identification.coarse import coarse_step, thinned
-from pam_ros.identification.noise import noise_of
+from pam_ros.identification.data.noise import noise_of
+from pam_ros.identification.data.segment import segments_of
+from pam_ros.identification.data.thinning import coarse_step, thinned
 from pam_ros.identification.retuning import only_starts, problem_of
 from pam_ros.identification.round import Setting
-from pam_ros.identification.segment import segments_of
 from pam_ros.identification.solve import solve
 from pam_ros.identification.weak import motion_of
 from support import bench_truth

@@ -7,9 +7,9 @@ from dataclasses import replace
 import numpy as np
 
 from pam_ros.effects import EFFECTS
-from pam_ros.identification.noise import Noise
+from pam_ros.identification.data.noise import Noise
+from pam_ros.identification.data.segment import segments_of
 from pam_ros.identification.result import Candidate, Estimate, Finding, Stage, Trace
-from pam_ros.identification.segment import segments_of
 from pam_ros.identification.structure import Structure
 from pam_ros.recording.recording import Recording
 from pam_ros.report.provenance import provenance

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from pam_ros.effects.base import Effect
 from pam_ros.effects.names import EffectName
-from pam_ros.identification.segment import Segment, start_of
+from pam_ros.identification.data.segment import Segment, start_of
 from pam_ros.rig import layout as at
 from pam_ros.rig.joint import Joint
 

@@ -5,7 +5,7 @@
 import numpy as np
 import pytest
 
-from pam_ros.identification.noise import Noise, independent_share, noise_of
+from pam_ros.identification.data.noise import Noise, independent_share, noise_of
 from support.equations import coloured
 
 SIGMA = 2e-5  # m, beside motion of some 20 mm

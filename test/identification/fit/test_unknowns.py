@@ -10,8 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from pam_ros.effects import EFFECTS
-from pam_ros.identification.segment import segments_of, start_of
-from pam_ros.identification.unknowns import (
+from pam_ros.identification.data.segment import segments_of, start_of
+from pam_ros.identification.fit.unknowns import (
     SPECIMEN,
     RunStart,
     declared_unknowns,

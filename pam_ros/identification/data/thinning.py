@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from pam_ros.identification.segment import FreeSegment, HeldSegment, Segment
+from pam_ros.identification.data.segment import FreeSegment, HeldSegment, Segment
 from pam_ros.rig.joint import Joint
 from pam_ros.rig.rest import rest
 

@@ -7,10 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pam_ros.identification.coarse import PHASE, SAMPLES, STEPS, coarse_step, thinned
-from pam_ros.identification.noise import Noise
+from pam_ros.identification.data.noise import Noise
+from pam_ros.identification.data.segment import segments_of
+from pam_ros.identification.data.thinning import PHASE, SAMPLES, STEPS, coarse_step, thinned
 from pam_ros.identification.retuning import problem_of
-from pam_ros.identification.segment import segments_of
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.recording.recording import Recording
 from pam_ros.rig.joint import one_muscle

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from pam_ros.errors import RecordingError
-from pam_ros.identification.segment import ONSET, segments_of, windows
+from pam_ros.identification.data.segment import ONSET, segments_of, windows
 from pam_ros.recording.recording import Recording
 
 RATE = 100.0
