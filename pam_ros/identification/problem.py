@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from pam_ros.effects.base import Effect
 from pam_ros.identification.data.segment import FreeSegment, HeldSegment, Segment
-from pam_ros.identification.fit.unknowns import RunStart, Unknown
+from pam_ros.identification.fit.unknowns import Constant, OfEffect, RunStart, Unknown
 from pam_ros.rig import layout as at
 from pam_ros.rig.bind import bind
 from pam_ros.rig.layout import Layout
@@ -57,7 +57,7 @@ class Problem:
         """Return the parameter row at the unknowns u."""
         q: Array = self.row.copy()
         for unknown, value in zip(self.unknowns, u, strict=True):
-            if not isinstance(unknown.of, RunStart):
+            if isinstance(unknown.of, Constant | OfEffect):
                 q[unknown.of.index] = unknown.value(value)
         return q
 

@@ -106,6 +106,11 @@ def disturb(
             x[rows, layout.state_at[name] + names.index(which)] += number(
                 f'hidden.{name}.{which}', change
             )
+    fill_chambers(layout, q, x, pressures)
+
+
+def fill_chambers(layout: Layout, q: Array, x: Array, pressures: Sequence[float] | Array) -> None:
+    """Set the chambers to what the hidden states of x leave of the commanded *pressures* Pa."""
     for i, pressure in enumerate(pressures):
         x[at.MUSCLE + i, at.P] = _in_chamber(layout, q, x, i, float(pressure))
 

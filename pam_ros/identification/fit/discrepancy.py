@@ -22,17 +22,10 @@ from math import log, sqrt
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import minimize
 
 from pam_ros.compiled import cached
 
 Array = NDArray[np.float64]
-
-# Of the likelihood's maximum: the times of the grid are so far apart, and the sizes, as factors.
-FACTOR_TIME, FACTOR_SIZE = 4.0, 8.0
-LEAST_SIZE, GREATEST_SIZE = 1e-2, 1e3  # beyond it nothing is left of the process, or of the noise
-# What two more numbers must lower -2 ln(likelihood) by: Akaike's (1974) price of a parameter, 2.
-PRICE = 4.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,11 +44,11 @@ class Whitening:
 
     def __call__(self, values: Array) -> Array:
         """Return W times *values*, (n,) or (n, k): a residual, or the columns of a Jacobian."""
-        columns = np.ascontiguousarray(np.asarray(values, dtype=float).T)
+        columns = np.ascontiguousarray(values, dtype=float)
         found = np.empty_like(columns)
-        rows = (-1, self.scale.size)
+        rows = (self.scale.size, -1)
         _innovations(self.decay, self.gain, self.scale, columns.reshape(rows), found.reshape(rows))
-        return np.asarray(found.T)
+        return found
 
 
 @dataclass(frozen=True)
@@ -93,46 +86,6 @@ def deviance(whitened: Sequence[Array], whitenings: Sequence[Whitening]) -> floa
     return n * log(square / n) + sum(w.log_det for w in whitenings)
 
 
-def most_likely(t: Sequence[Array], residuals: Sequence[Array]) -> Discrepancy:
-    """Return the discrepancy that explains the *residuals* (n,) of runs with stamps t (n,) best.
-
-    WHITE unless it lowers -2 ln(likelihood) by more than its two numbers are worth. Correlation
-    times are sought from the sampling period to the length of the longest run.
-    """
-
-    def cost(z: Array) -> float:
-        size, time = np.exp(np.clip(z, low, high))
-        whitenings = [Discrepancy(size, time).whitening(stamps) for stamps in t]
-        whitened = [w(y) for w, y in zip(whitenings, residuals, strict=True)]
-        return deviance(whitened, whitenings)
-
-    period = float(np.median(np.concatenate([np.diff(stamps) for stamps in t])))
-    longest = max(float(stamps[-1] - stamps[0]) for stamps in t)
-    low, high = np.log([LEAST_SIZE, period]), np.log([GREATEST_SIZE, longest])
-    grid = [
-        np.array([size, time])
-        for size in _steps(low[0], high[0], log(FACTOR_SIZE))
-        for time in _steps(low[1], high[1], log(FACTOR_TIME))
-    ]
-    start = min(grid, key=cost)
-    simplex = np.array([[0.0, 0.0], [0.7, 0.0], [0.0, 0.7]]) + start
-    found = minimize(
-        cost,
-        start,
-        method='Nelder-Mead',
-        options={'initial_simplex': simplex, 'xatol': 0.01, 'fatol': 0.01},
-    )
-    white = deviance(list(residuals), [WHITE.whitening(stamps) for stamps in t])
-    if found.fun > white - PRICE:
-        return WHITE
-    size, time = np.exp(np.clip(found.x, low, high)).tolist()
-    return Discrepancy(size, time)
-
-
-def _steps(low: float, high: float, step: float) -> Array:
-    return np.linspace(low, high, 2 + int((high - low) / step))
-
-
 @cached
 def _gains(variance: float, decay: Array, gain: Array, scale: Array) -> float:
     """Fill *gain* and *scale* of the Kalman filter; return ln det C. Variances over sigma^2."""
@@ -149,10 +102,15 @@ def _gains(variance: float, decay: Array, gain: Array, scale: Array) -> float:
 
 @cached
 def _innovations(decay: Array, gain: Array, scale: Array, values: Array, found: Array) -> None:
-    """Fill *found* (k, n) with the innovations of the rows of *values* (k, n) times *scale*."""
-    for k in range(values.shape[0]):
-        d = 0.0
-        for i in range(values.shape[1]):
-            innovation = values[k, i] - d
-            found[k, i] = innovation * scale[i]
-            d = decay[i] * (d + gain[i] * innovation)
+    """Fill *found* (n, k) with the innovations of the columns of *values* (n, k) times *scale*."""
+    # The filter's state d is kept in the next row of what is found, which all columns pass side by
+    # side: a recursion cannot be vectorised along time.
+    n, columns = values.shape
+    found[0, :] = 0.0
+    for i in range(n):
+        for k in range(columns):
+            d = found[i, k]
+            innovation = values[i, k] - d
+            found[i, k] = innovation * scale[i]
+            if i + 1 < n:
+                found[i + 1, k] = decay[i] * (d + gain[i] * innovation)

@@ -20,12 +20,29 @@ beside it. At the most likely sigma^2 = |W y|^2 / n the first two terms are n ln
 n (1 + ln 2 pi), which is the same for all models and is left out.
 
 A difference of 10 between two models is very strong evidence (Kass and Raftery 1995).
+
+The size and the time of the discrepancy are those of the best score. The likelihood alone would
+take for granted the unknowns that were fitted to the very same residuals, and so find the slow
+part of the error too small and their intervals too short: the last term is the correction of a
+restricted likelihood (Patterson and Thompson 1971).
 """
+
+from collections.abc import Sequence
+from math import log
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.optimize import minimize
+
+from pam_ros.identification.fit.discrepancy import WHITE, Discrepancy
 
 Array = NDArray[np.float64]
+
+# Of the search for the discrepancy: times and sizes of its grid are so far apart, as factors.
+FACTOR_TIME, FACTOR_SIZE = 4.0, 8.0
+LEAST_SIZE, GREATEST_SIZE = 1e-2, 1e3  # beyond it nothing is left of the process, or of the noise
+# What two more numbers must lower the score by: Akaike's (1974) price of a parameter, 2 each.
+PRICE = 4.0
 
 
 def score(whitened: Array, jacobian: Array, z: Array, prior: Array, log_det: float) -> float:
@@ -41,3 +58,51 @@ def score(whitened: Array, jacobian: Array, z: Array, prior: Array, log_det: flo
     scaled = jacobian * prior
     _, price = np.linalg.slogdet(np.eye(prior.size) + scaled.T @ scaled / variance)
     return float(n * np.log(variance) + log_det + z @ z + price)
+
+
+def most_likely(
+    t: Sequence[Array], residuals: Array, jacobian: Array, z: Array, prior: Array
+) -> Discrepancy:
+    """Return the discrepancy with which a model has its best score.
+
+    *t* are the stamps of the runs in s; *residuals* (n,), of all runs one after the other, and
+    *jacobian* (n, k) are not whitened, *z* and *prior* as in :func:`score`. WHITE unless it lowers
+    the score by more than its two numbers are worth. Correlation times are sought from the
+    sampling period to the length of the longest run.
+    """
+    edges = np.cumsum([stamps.size for stamps in t])[:-1]
+    # Side by side they pass the filter at once.
+    parts = np.split(np.column_stack([residuals, jacobian]), edges)
+
+    def cost(z_of: Array) -> float:
+        return score_of(Discrepancy(*np.exp(np.clip(z_of, low, high))))
+
+    def score_of(discrepancy: Discrepancy) -> float:
+        maps = [discrepancy.whitening(stamps) for stamps in t]
+        white = np.concatenate([w(part) for w, part in zip(maps, parts, strict=True)])
+        return score(white[:, 0], white[:, 1:], z, prior, sum(w.log_det for w in maps))
+
+    period = float(np.median(np.concatenate([np.diff(stamps) for stamps in t])))
+    longest = max(float(stamps[-1] - stamps[0]) for stamps in t)
+    low, high = np.log([LEAST_SIZE, period]), np.log([GREATEST_SIZE, longest])
+    grid = [
+        np.array([size, time])
+        for size in _steps(low[0], high[0], log(FACTOR_SIZE))
+        for time in _steps(low[1], high[1], log(FACTOR_TIME))
+    ]
+    start = min(grid, key=cost)
+    simplex = np.array([[0.0, 0.0], [0.7, 0.0], [0.0, 0.7]]) + start
+    found = minimize(
+        cost,
+        start,
+        method='Nelder-Mead',
+        options={'initial_simplex': simplex, 'xatol': 0.01, 'fatol': 0.01},
+    )
+    if found.fun > score_of(WHITE) - PRICE:
+        return WHITE
+    size, time = np.exp(np.clip(found.x, low, high)).tolist()
+    return Discrepancy(size, time)
+
+
+def _steps(low: float, high: float, step: float) -> Array:
+    return np.linspace(low, high, 2 + int((high - low) / step))

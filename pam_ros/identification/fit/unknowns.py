@@ -1,9 +1,13 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What a fit may change: entries of the parameter row, and the state at the start of a run."""
+"""What a fit may change: entries of the parameter row, and the state at the start of a run.
+
+Every unknown has a prior, a normal distribution of its coordinate u around 0. Those of constants
+and of starts say what is known; those of an effect's parameters are wide, see :func:`proper`.
+"""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import exp, log
 
 import numpy as np
@@ -14,6 +18,7 @@ from pam_ros.effects.names import EffectName
 from pam_ros.identification.data.segment import Segment, start_of
 from pam_ros.rig import layout as at
 from pam_ros.rig.joint import Joint
+from pam_ros.rig.layout import Layout
 
 Array = NDArray[np.float64]
 
@@ -27,6 +32,10 @@ DAMPING = 0.5
 # Standard deviations of the state at a run's start, in those of the noise: 1 and 1/s. A
 # parabola through 30 ms knows the velocity to some 100 noises a second.
 START_Y_SPREAD, START_V_SPREAD = 2.0, 200.0
+# Standard deviations of the prior of an effect's parameters. A strength is told by its typical
+# size, which is meant as an order of magnitude: three of them. What is positive is expected
+# within a factor e^1.5 = 4.5 of where a fit begins, and starts are a factor of 5 to 10 apart.
+STRENGTH, FACTOR = 3.0, 1.5
 
 
 @dataclass(frozen=True)
@@ -64,6 +73,26 @@ class RunStart:
 
 
 @dataclass(frozen=True)
+class MemoryStart:
+    """A hidden state of an effect at the start of a run, as its distance from a long rest.
+
+    ``row`` and ``column`` are its place in the state x. Rigs that are already moving, or have
+    moved a minute ago, begin away from rest.
+    """
+
+    run: int
+    row: int
+    column: int
+    effect: str
+    state: str
+
+    @property
+    def name(self) -> str:
+        """Its name in tables."""
+        return f'{self.effect}: {self.state}[{self.run}]'
+
+
+@dataclass(frozen=True)
 class Unknown:
     """One number to be fitted, without unit: value = base + scale u, or base exp(scale u).
 
@@ -71,7 +100,7 @@ class Unknown:
     beforehand, infinite where nothing is known. ``low``, ``high`` bound the value.
     """
 
-    of: Constant | OfEffect | RunStart
+    of: Constant | OfEffect | RunStart | MemoryStart
     base: float
     scale: float
     low: float = -np.inf
@@ -87,7 +116,7 @@ class Unknown:
     @property
     def is_parameter(self) -> bool:
         """Whether it is a parameter of the model, which all runs share."""
-        return not isinstance(self.of, RunStart)
+        return not isinstance(self.of, RunStart | MemoryStart)
 
     def value(self, u: float) -> float:
         """Return the physical value at u, which rounding does not carry past its bounds."""
@@ -173,6 +202,33 @@ def effect_unknowns(model: Joint, effect: Effect, start: dict[str, float]) -> li
             unknown = Unknown(of, 0.0, p.scale, p.low, p.high)
         found.append(unknown)
     return found
+
+
+def proper(unknown: Unknown) -> Unknown:
+    """Return *unknown* with a wide prior where it has none: an evidence needs a proper one."""
+    if np.isfinite(unknown.prior):
+        return unknown
+    return replace(unknown, prior=FACTOR if unknown.logarithmic else STRENGTH)
+
+
+def memory_unknowns(layout: Layout, effect: Effect, runs: int) -> list[Unknown]:
+    """Return the hidden states of *effect* at the start of each of *runs* runs.
+
+    Those that may be away from rest there, with the spread that the effect declares. Of one
+    muscle, the first.
+    """
+    row = at.JOINT if effect.acts_on_joint else at.MUSCLE
+    return [
+        Unknown(
+            MemoryStart(run, row, layout.state_at[effect.name] + i, effect.name, state.name),
+            0.0,
+            state.spread,
+            prior=1.0,
+        )
+        for run in range(runs)
+        for i, state in enumerate(effect.states)
+        if state.spread > 0.0
+    ]
 
 
 def parameters_of(unknowns: Sequence[Unknown], effect: str) -> set[str]:

@@ -4,10 +4,10 @@
 
 import numpy as np
 import pytest
-from scipy.linalg import cho_factor, cho_solve, toeplitz
+from scipy.linalg import cho_factor, cho_solve
 from scipy.signal import lfilter
 
-from pam_ros.identification.fit.discrepancy import WHITE, Discrepancy, deviance, most_likely
+from pam_ros.identification.fit.discrepancy import WHITE, Discrepancy, deviance
 
 EVEN = np.arange(300) * 0.01
 UNEVEN = np.sort(np.random.default_rng(3).uniform(0.0, 4.0, 250))
@@ -70,43 +70,3 @@ def test_even_samples_are_an_arma_process_of_first_order_each():
     late = Discrepancy(size, time).whitening(t)(y)[3000:]
     expected = lfilter([1.0, -phi], [1.0, -theta], y)[3000:]
     np.testing.assert_allclose(late, expected * np.sqrt(theta / phi), rtol=1e-9)
-
-
-def drawn(process, t, random):
-    """Return a residual of a process at even stamps, by the Cholesky factor of its covariance."""
-    first = np.exp(-t / process.time) * process.size**2
-    return np.linalg.cholesky(toeplitz(first) + np.eye(t.size)) @ random.normal(size=t.size)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize('process', [Discrepancy(3.0, 0.2), Discrepancy(0.5, 1.0)], ids=str)
-def test_the_most_likely_process_is_near_the_true_one(process):
-    t, random = np.arange(2000) * 0.02, np.random.default_rng(1)
-    runs = [drawn(process, t, random) for _ in range(6)]
-    found = most_likely([t] * 6, runs)
-    assert found.size == pytest.approx(process.size, rel=0.3)
-    assert found.time == pytest.approx(process.time, rel=0.4)
-    # No other is more likely, of those that a finer grid has.
-    whitenings = [found.whitening(t)] * 6
-    best = deviance([whitenings[0](y) for y in runs], whitenings)
-    for size in process.size * np.linspace(0.5, 2.0, 7):
-        for time in process.time * np.linspace(0.5, 2.0, 7):
-            other = [Discrepancy(size, time).whitening(t)] * 6
-            assert best < deviance([other[0](y) for y in runs], other) + 0.01
-
-
-@pytest.mark.slow
-def test_white_noise_has_no_discrepancy():
-    t = np.arange(1000) * 0.01
-    found = [most_likely([t], [np.random.default_rng(k).normal(size=t.size)]) for k in range(20)]
-    assert sum(one == WHITE for one in found) >= 17
-    assert all(one.size < 0.3 for one in found)
-
-
-def test_units_of_residual_and_time_change_nothing():
-    """A residual in other units, and time in others, have the same process."""
-    t = np.arange(800) * 0.01
-    y = drawn(Discrepancy(1.0, 0.3), t, np.random.default_rng(7))
-    one, other = most_likely([t], [y]), most_likely([1000.0 * t], [1e-6 * y])
-    assert other.size == pytest.approx(one.size, rel=1e-6)
-    assert other.time == pytest.approx(1000.0 * one.time, rel=1e-6)

@@ -4,10 +4,11 @@
 
 import numpy as np
 import pytest
+from scipy.linalg import toeplitz
 from scipy.stats import multivariate_normal
 
-from pam_ros.identification.fit.discrepancy import WHITE, Discrepancy
-from pam_ros.identification.fit.score import score
+from pam_ros.identification.fit.discrepancy import WHITE, Discrepancy, deviance
+from pam_ros.identification.fit.score import most_likely, score
 
 T = np.sort(np.random.default_rng(11).uniform(0.0, 3.0, 120))
 NOISE = np.random.default_rng(5).normal(0.0, 0.3, T.size)
@@ -79,3 +80,69 @@ def test_other_units_of_the_unknowns_change_nothing():
     one = score(left, -jacobian, z, PRIOR, 0.0)
     other = score(left, -jacobian / units, z, PRIOR * units, 0.0)
     assert other == pytest.approx(one, rel=1e-12)
+
+
+def of_residuals(t, runs):
+    """Return the most likely discrepancy of residuals of a model without unknowns."""
+    r = np.concatenate(runs)
+    return most_likely(t, r, np.empty((r.size, 0)), np.empty(0), np.empty(0))
+
+
+def drawn(process, t, random):
+    """Return a residual of a process at even stamps, by the Cholesky factor of its covariance."""
+    first = np.exp(-t / process.time) * process.size**2
+    return np.linalg.cholesky(toeplitz(first) + np.eye(t.size)) @ random.normal(size=t.size)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize('process', [Discrepancy(3.0, 0.2), Discrepancy(0.5, 1.0)], ids=str)
+def test_the_most_likely_process_is_near_the_true_one(process):
+    t, random = np.arange(2000) * 0.02, np.random.default_rng(1)
+    runs = [drawn(process, t, random) for _ in range(6)]
+    found = of_residuals([t] * 6, runs)
+    assert found.size == pytest.approx(process.size, rel=0.3)
+    assert found.time == pytest.approx(process.time, rel=0.4)
+    # No other is more likely, of those that a finer grid has.
+    whitenings = [found.whitening(t)] * 6
+    best = deviance([whitenings[0](y) for y in runs], whitenings)
+    for size in process.size * np.linspace(0.5, 2.0, 7):
+        for time in process.time * np.linspace(0.5, 2.0, 7):
+            other = [Discrepancy(size, time).whitening(t)] * 6
+            assert best < deviance([other[0](y) for y in runs], other) + 0.01
+
+
+@pytest.mark.slow
+def test_white_noise_has_no_discrepancy():
+    t = np.arange(1000) * 0.01
+    found = [of_residuals([t], [np.random.default_rng(k).normal(size=t.size)]) for k in range(20)]
+    assert sum(one == WHITE for one in found) >= 17
+    assert all(one.size < 0.3 for one in found)
+
+
+def test_units_of_residual_and_time_change_nothing():
+    """A residual in other units, and time in others, have the same process."""
+    t = np.arange(800) * 0.01
+    y = drawn(Discrepancy(1.0, 0.3), t, np.random.default_rng(7))
+    one, other = of_residuals([t], [y]), of_residuals([1000.0 * t], [1e-6 * y])
+    assert other.size == pytest.approx(one.size, rel=1e-6)
+    assert other.time == pytest.approx(1000.0 * one.time, rel=1e-6)
+
+
+def test_unknowns_that_were_fitted_do_not_hide_the_slow_part():
+    """A curve with eight waves follows half of a slow error: what is left must not count alone."""
+    t, random = np.arange(600) * 0.02, np.random.default_rng(12)
+    process = Discrepancy(4.0, 1.0)
+    waves = np.stack([np.cos(np.pi * k * t / 12.0) for k in range(8)], axis=1)
+    prior = np.full(8, 30.0)
+    spreads = {'with': [], 'without': []}
+    for _ in range(20):
+        y = drawn(process, t, random)
+        z, _, _, _ = most_probable(y, waves, prior, process.whitening(t))
+        left = y - waves @ (prior * z)
+        with_it = most_likely([t], left, -waves, z, prior)
+        spreads['with'].append(with_it.size**2 * with_it.time)
+        alone = of_residuals([t], [left])
+        spreads['without'].append(alone.size**2 * alone.time)
+    true = process.size**2 * process.time  # the process' spectral density at rest, half of it
+    assert np.median(spreads['without']) < 0.5 * true
+    assert 0.6 * true < np.median(spreads['with']) < 1.7 * true

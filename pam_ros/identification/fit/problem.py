@@ -1,0 +1,195 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""A model with unknowns, and recordings that it must explain: free runs against measurements.
+
+Residuals and their derivatives are in the unit of what was measured; how much they count is said
+by the discrepancy, see :mod:`pam_ros.identification.fit.discrepancy`. So one Jacobian, which costs
+a simulation a column, serves for every discrepancy.
+"""
+
+from collections.abc import Callable, Sequence
+from concurrent.futures import Executor
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pam_ros.effects.base import Effect
+from pam_ros.identification.data.segment import FreeSegment, HeldSegment, Segment
+from pam_ros.identification.fit.discrepancy import Discrepancy, Whitening
+from pam_ros.identification.fit.unknowns import (
+    Constant,
+    MemoryStart,
+    OfEffect,
+    RunStart,
+    Unknown,
+)
+from pam_ros.rig import layout as at
+from pam_ros.rig.bind import bind
+from pam_ros.rig.layout import Layout
+from pam_ros.rig.run import acting_commands, delays_of
+from pam_ros.rig.start import fill_chambers, start_state
+
+Array = NDArray[np.float64]
+HELD_STEP = 0.02  # s; a held run has no dynamics of its own to resolve, only memories
+DIFFERENCE = 1e-3  # step of u for a derivative; a thousandth of a parameter's typical size
+DIVERGED = 1e6  # m or N: what a simulation without a finite result is taken for
+
+
+@dataclass(frozen=True, eq=False)
+class Problem:
+    """Runs to be explained by parameters, starts and memories of which some are unknown.
+
+    ``row`` holds the values of what is not unknown, all rows of the kernel's q one after the
+    other; ``active`` are the effects that the kernel steps, and ``step`` is the longest step in s.
+    Unknowns need finite priors. Residuals are those of the samples that the segments mark as to be
+    fitted, of all runs one after the other, n in all.
+    """
+
+    segments: tuple[Segment, ...]
+    layout: Layout
+    active: tuple[Effect, ...]
+    row: Array
+    unknowns: tuple[Unknown, ...]
+    step: float = 1e-3
+    fit_rows: tuple[NDArray[np.intp], ...] = field(init=False)
+
+    def __post_init__(self) -> None:
+        """Find the samples to be fitted once."""
+        rows = tuple(np.flatnonzero(s.fit) for s in self.segments)
+        object.__setattr__(self, 'fit_rows', rows)
+
+    @property
+    def prior(self) -> Array:
+        """Standard deviations of the priors of u (k,)."""
+        return np.array([unknown.prior for unknown in self.unknowns])
+
+    @property
+    def bounds(self) -> tuple[Array, Array]:
+        """Lowest and highest u, (k,) each."""
+        low, high = np.array([k.bounds for k in self.unknowns]).reshape(-1, 2).T
+        return low, high
+
+    def row_at(self, u: Array) -> Array:
+        """Return the parameter row at the unknowns u."""
+        q: Array = self.row.copy()
+        for unknown, value in zip(self.unknowns, u, strict=True):
+            if isinstance(unknown.of, Constant | OfEffect):
+                q[unknown.of.index] = unknown.value(value)
+        return q
+
+    def runs(self, u: Array, only: int | None = None) -> list[Array]:
+        """Return the free run of every segment, or of segment *only*, at u.
+
+        Each is (n, 4): position m, velocity m/s, chamber pressure Pa, and for held segments
+        the force N.
+        """
+        q = self.row_at(u).reshape(self.layout.rows, self.layout.parameters)
+        kernel, scratch = bind(self.layout, self.active), self.layout.scratch()
+        delays = delays_of(self.layout, q)
+        found = []
+        for k in range(len(self.segments)) if only is None else (only,):
+            s = self.segments[k]
+            x = self._start(k, q, u)
+            out = np.empty((s.t.size, self.layout.run_columns))
+            if isinstance(s, FreeSegment):
+                act_t, acting = acting_commands(s.drive_t, s.drive[:, None], delays)
+                kernel.simulate(x, scratch, q, s.t, act_t, acting, self.step, out, False)
+            elif isinstance(s, HeldSegment):
+                pressure = s.pressure[:, None]
+                kernel.simulate_held(
+                    x, scratch, q, s.t, pressure, s.position, s.velocity, HELD_STEP, out
+                )
+            found.append(out)
+        return found
+
+    def _start(self, run: int, q: Array, u: Array) -> Array:
+        """Return the state in which a run begins."""
+        s = self.segments[run]
+        y0, v0 = s.y0, s.v0
+        memories = []
+        for unknown, value in zip(self.unknowns, u, strict=True):
+            of = unknown.of
+            if isinstance(of, RunStart) and of.run == run:
+                if of.is_velocity:
+                    v0 = unknown.value(value)
+                else:
+                    y0 = unknown.value(value)
+            elif isinstance(of, MemoryStart) and of.run == run:
+                memories.append((of, unknown.value(value)))
+        x = start_state(self.layout, q, (s.first_pressure,), y0, v0)
+        if memories:
+            for of, away in memories:
+                x[of.row, of.column] += away
+            fill_chambers(self.layout, q, x, (s.first_pressure,))
+        return x
+
+    def predict(self, u: Array, only: int | None = None) -> list[Array]:
+        """Return the simulated target of every segment, or of segment *only*, at u."""
+        column = at.RUN_S if self.segments[0].kind == 'free' else at.RUN_F
+        return [out[:, column] for out in self.runs(u, only)]
+
+    def residuals(self, u: Array) -> Array:
+        """Return simulated - measured (n,) of the samples to be fitted.
+
+        A simulation that diverges gives large finite residuals, so that a fit steps back.
+        """
+        return np.concatenate([self._left(k, p) for k, p in enumerate(self.predict(u))])
+
+    def _left(self, run: int, simulated: Array) -> Array:
+        rows = self.fit_rows[run]
+        e = simulated[rows] - self.segments[run].target[rows]
+        return np.clip(np.nan_to_num(e, nan=DIVERGED), -DIVERGED, DIVERGED)
+
+    def jacobian(
+        self, u: Array, r: Array, pool: Executor | None = None, only: Sequence[int] | None = None
+    ) -> Array:
+        """Return dr/du (n, columns) by differences, one column a simulation.
+
+        *r* are the residuals at u; *only* restricts the columns; *pool* runs them side by side.
+        A column steps to the side that its bounds leave open; what belongs to the start of one run
+        is found from that run alone.
+        """
+        columns = range(len(u)) if only is None else only
+        starts = np.cumsum([0, *(rows.size for rows in self.fit_rows)])
+
+        def column(k: int) -> Array:
+            unknown = self.unknowns[k]
+            h = DIFFERENCE if u[k] + DIFFERENCE <= unknown.bounds[1] else -DIFFERENCE
+            moved = u.copy()
+            moved[k] += h
+            if not isinstance(unknown.of, RunStart | MemoryStart):
+                return (self.residuals(moved) - r) / h
+            run = unknown.of.run
+            own = slice(starts[run], starts[run + 1])
+            out = np.zeros_like(r)
+            out[own] = (self._left(run, self.predict(moved, run)[0]) - r[own]) / h
+            return out
+
+        run: Callable[..., object] = map if pool is None else pool.map
+        found = list(run(column, columns))  # type: ignore[call-overload]
+        return np.stack(found, axis=1) if found else np.empty((r.size, 0))
+
+    # What residuals are worth ------------------------------------------------------------------
+
+    def stamps(self) -> list[Array]:
+        """Return the stamps in s of the samples to be fitted, of each run that has any."""
+        return [s.t[rows] for s, rows in self._fitted()]
+
+    def by_run(self, values: Array) -> list[Array]:
+        """Return *values* (n,) or (n, k) cut into those of each run that has any."""
+        edges = np.cumsum([rows.size for _, rows in self._fitted()])[:-1]
+        return np.split(values, edges)
+
+    def _fitted(self) -> list[tuple[Segment, NDArray[np.intp]]]:
+        pairs = zip(self.segments, self.fit_rows, strict=True)
+        return [(s, rows) for s, rows in pairs if rows.size]
+
+    def whitenings(self, discrepancy: Discrepancy) -> list[Whitening]:
+        """Return the map that whitens the residuals of each run that has any."""
+        return [discrepancy.whitening(t) for t in self.stamps()]
+
+    def whitened(self, values: Array, whitenings: Sequence[Whitening]) -> Array:
+        """Return residuals (n,), or the columns of a Jacobian (n, k), after these maps."""
+        parts = zip(whitenings, self.by_run(values), strict=True)
+        return np.concatenate([whitening(part) for whitening, part in parts])

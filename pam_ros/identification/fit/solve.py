@@ -1,0 +1,212 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The most probable unknowns of a :class:`Problem`: Levenberg and Marquardt's method, bounded.
+
+Minimised is -2 ln(posterior) with the variance of the noise at its most likely value,
+
+    n ln(|W r|^2 / n) + ln det C + |z|^2,
+
+where W whitens the residuals r and z are the unknowns in standard deviations of their priors.
+scipy's ``least_squares`` recomputes every column at every step. Here a column is a simulation and
+most hardly change, so Broyden's rule keeps them up to date between the places where they are
+computed, and bounds are kept by projection with the active ones held.
+"""
+
+from collections.abc import Sequence
+from concurrent.futures import Executor
+from dataclasses import dataclass, replace
+from functools import cached_property
+from math import log
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pam_ros.identification.fit import score as evidence
+from pam_ros.identification.fit.discrepancy import WHITE, Discrepancy, Whitening, deviance
+from pam_ros.identification.fit.problem import Problem
+
+Array = NDArray[np.float64]
+LEAST_DAMPING = 1e-9
+DAMPING = 1e-3  # of a first step that failed undamped, relative to the normal matrix's diagonal
+MORE, LESS = 30.0, 0.03  # factors of the damping after a step that failed, and one that did not
+LITTLE = 0.1  # fall of the cost, a -2 log likelihood, below which a step has not been worth it
+TRIALS = 6  # dampings that are tried along a Jacobian of its place; half along an old one
+# Residual and discrepancy depend on each other; where a model is right they agree at once, and
+# where it is wrong the second estimate differs little from the first.
+ALTERNATIONS = 3
+AGREED = 0.05  # change of the logarithms of size and time that is none
+
+
+@dataclass(frozen=True, eq=False)
+class Solution:
+    """Where a fit ended: u (k,), the residuals (n,) there in m or N, and dr/du (n, k).
+
+    ``discrepancy`` says how much the residuals count.
+    """
+
+    problem: Problem
+    u: Array
+    r: Array
+    jacobian: Array
+    discrepancy: Discrepancy = WHITE
+
+    @cached_property
+    def whitenings(self) -> Sequence[Whitening]:
+        """The map that whitens the residuals of each run."""
+        return self.problem.whitenings(self.discrepancy)
+
+    @cached_property
+    def whitened(self) -> Array:
+        """The residuals after that (n,), independent with the variance of the noise."""
+        return self.problem.whitened(self.r, self.whitenings)
+
+    @property
+    def z(self) -> Array:
+        """The unknowns in standard deviations of their priors (k,)."""
+        return self.u / self.problem.prior
+
+    @property
+    def noise(self) -> float:
+        """Standard deviation of the white noise in m or N."""
+        return float(np.sqrt(np.mean(self.whitened**2)))
+
+    @property
+    def cost(self) -> float:
+        """-2 ln(posterior) but for a constant of the data."""
+        parts = self.problem.by_run(self.whitened)
+        return deviance(parts, self.whitenings) + float(self.z @ self.z)
+
+    @cached_property
+    def score(self) -> float:
+        """-2 ln(evidence) but for a constant of the data: the lower, the better the model."""
+        return evidence.score(
+            self.whitened,
+            self.problem.whitened(self.jacobian, self.whitenings),
+            self.z,
+            self.problem.prior,
+            sum(w.log_det for w in self.whitenings),
+        )
+
+    def most_likely(self) -> Discrepancy:
+        """Return the discrepancy of the best score for the residuals as they are."""
+        problem = self.problem
+        return evidence.most_likely(problem.stamps(), self.r, self.jacobian, self.z, problem.prior)
+
+    def covariance(self) -> Array:
+        """Return the posterior covariance of u (k, k), of the linearised problem."""
+        j = self.problem.whitened(self.jacobian, self.whitenings) / self.noise
+        prior = self.problem.prior
+        # Scaled by the priors no number is so large or small that the inverse loses digits.
+        scaled = j * prior
+        inverse = np.linalg.inv(scaled.T @ scaled + np.eye(prior.size))
+        return np.asarray(inverse * np.outer(prior, prior))
+
+    def value(self, name: str) -> float:
+        """Return the physical value of an unknown."""
+        for unknown, u in zip(self.problem.unknowns, self.u, strict=True):
+            if unknown.name == name:
+                return unknown.value(u)
+        raise KeyError(name)
+
+
+def solved(
+    problem: Problem,
+    u: Array,
+    discrepancy: Discrepancy = WHITE,
+    iterations: int = 20,
+    pool: Executor | None = None,
+) -> Solution:
+    """Return the most probable unknowns and the most likely discrepancy, from u on.
+
+    The two are found in turn. The Jacobian is that of the place where the fit ends.
+    """
+    u = np.clip(u, *problem.bounds)
+    r = problem.residuals(u)
+    known = Solution(problem, u, r, problem.jacobian(u, r, pool), discrepancy)
+    known = improved(known, iterations, pool, stale=False)
+    for _ in range(ALTERNATIONS):
+        found = known.most_likely()
+        if _agree(found, known.discrepancy):
+            break
+        known = improved(replace(known, discrepancy=found), iterations, pool)
+    return fresh(known, pool)
+
+
+def fresh(known: Solution, pool: Executor | None = None) -> Solution:
+    """Return *known* with the Jacobian computed where it is."""
+    jacobian = known.problem.jacobian(known.u, known.r, pool)
+    return replace(known, jacobian=jacobian)
+
+
+def improved(
+    known: Solution, iterations: int = 20, pool: Executor | None = None, stale: bool = True
+) -> Solution:
+    """Minimise the cost of *known* from there, its discrepancy kept; never ends higher.
+
+    A *stale* Jacobian, not of this place, is used as it is and, like any other, kept up to date by
+    Broyden's rule; it is computed anew when steps stop to lower the cost by what they promise or
+    at all. Raises no error where nothing can be improved.
+    """
+    problem, u, r, j = known.problem, known.u, known.r, known.jacobian.copy()
+    low, high = problem.bounds
+    prior, maps = problem.prior, known.whitenings
+    n = r.size
+
+    def cost_of(at: Array, white: Array) -> float:
+        z = at / prior
+        return n * log(float(white @ white) / n + 1e-300) + float(z @ z)
+
+    white = problem.whitened(r, maps)
+    cost, damping = cost_of(u, white), LEAST_DAMPING
+    for _ in range(iterations):
+        slope = problem.whitened(j, maps)
+        weight = n / max(float(white @ white), 1e-300)
+        normal = weight * (slope.T @ slope) + np.diag(prior**-2.0)
+        gradient = weight * (slope.T @ white) + u / prior**2.0
+        free = ~(((u <= low) & (gradient > 0.0)) | ((u >= high) & (gradient < 0.0)))
+        gain, hoped = 0.0, np.inf
+        for _ in range(TRIALS // 2 if stale else TRIALS):
+            trial = np.clip(u + _step(normal, gradient, free, damping), low, high)
+            r_trial = problem.residuals(trial)
+            white_trial = problem.whitened(r_trial, maps)
+            lower = cost - cost_of(trial, white_trial)
+            if lower > 0.0:
+                hoped = cost - cost_of(trial, white + slope @ (trial - u))
+                gain, cost = lower, cost - lower
+                j = _broyden(j, trial - u, r_trial - r)
+                u, r, white = trial, r_trial, white_trial
+                damping = LESS * damping if LESS * damping > DAMPING else LEAST_DAMPING
+                break
+            damping = max(MORE * damping, DAMPING)
+        if gain >= LITTLE and gain >= 0.5 * hoped:
+            stale = True
+            continue
+        if gain < LITTLE and not stale:
+            break
+        # Steps along an old Jacobian may have failed by its own fault: begin undamped.
+        j, stale, damping = problem.jacobian(u, r, pool), False, LEAST_DAMPING
+    return Solution(problem, u, r, j, known.discrepancy)
+
+
+def _agree(a: Discrepancy, b: Discrepancy) -> bool:
+    if a.size == 0.0 or b.size == 0.0:
+        return a.size == b.size
+    return abs(log(a.size / b.size)) < AGREED and abs(log(a.time / b.time)) < AGREED
+
+
+def _broyden(j: Array, du: Array, dr: Array) -> Array:
+    """Return j with the least change that makes it give dr for the step du just taken."""
+    return np.asarray(j + np.outer(dr - j @ du, du) / max(float(du @ du), 1e-300))
+
+
+def _step(normal: Array, gradient: Array, free: NDArray[np.bool_], damping: float) -> Array:
+    """Return the damped step of the unknowns that are *free*, 0 for the others."""
+    step = np.zeros_like(gradient)
+    k = np.flatnonzero(free)
+    if k.size == 0:
+        return step
+    a = normal[np.ix_(k, k)]
+    scale = np.sqrt(np.diag(a))
+    a = a / np.outer(scale, scale) + damping * np.eye(k.size)
+    step[k] = -np.linalg.lstsq(a, gradient[k] / scale, rcond=1e-12)[0] / scale
+    return step

@@ -1,0 +1,270 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Free runs, starts and memories against closed forms; derivatives against scipy's differences."""
+
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy.optimize import approx_fprime
+
+from pam_ros.effects import EFFECTS
+from pam_ros.identification.data.segment import segments_of
+from pam_ros.identification.fit.discrepancy import Discrepancy
+from pam_ros.identification.fit.problem import Problem
+from pam_ros.identification.fit.unknowns import (
+    SPECIMEN,
+    declared_unknowns,
+    memory_unknowns,
+    proper,
+    run_unknowns,
+)
+from pam_ros.muscle.muscle import Muscle
+from pam_ros.recording.recording import Recording
+from pam_ros.rig import layout as at
+from pam_ros.rig.joint import one_muscle
+from pam_ros.rig.loads import Mass
+from pam_ros.rig.rest import rest
+from pam_ros.rig.run import simulate
+from support.equations import unknown
+
+MUSCLE = one_muscle(Muscle(), Mass(mass=20.0))
+# A force source of 0.01 N/Pa moves 5 kg on a rail: its motion is a parabola.
+GAIN, MASS = 0.01, 5.0
+FORCE = Muscle(
+    a1=0.0, a2=0.0, a3=0.0, a4=0.0, a5=GAIN, a6=0.0, zeta=0.0, pressure_unit='Pa',
+    contraction_unit='fraction', l0=1.0,
+)  # fmt: skip
+RAIL = Mass(mass=MASS, mount='horizontal')
+SOURCE = one_muscle(FORCE, RAIL)
+PRESSURE = 100.0  # Pa: 0.2 m/s^2
+LIBRARY = {effect.name: effect for effect in EFFECTS}
+
+
+def problem_of(model, segments, remembered=()):
+    """Return the problem of a model's constants, of starts, and of memories of these effects."""
+    memories = [k for name in remembered for k in memory_unknowns(
+        model.layout, LIBRARY[name], len(segments)
+    )]  # fmt: skip
+    unknowns = (*declared_unknowns(model), *run_unknowns(segments, np.inf), *memories)
+    return Problem(
+        tuple(segments),
+        model.layout,
+        model.active,
+        model.parameters().ravel(),
+        tuple(map(proper, unknowns)),
+    )
+
+
+def parabola(y0, v0, seconds=2.0):
+    """Return the segment of a load that starts at y0, v0 under constant pressure."""
+    t = 3.0 + np.arange(round(100 * seconds)) / 100.0
+    y = y0 + v0 * (t - 3.0) + 0.5 * GAIN * PRESSURE / MASS * (t - 3.0) ** 2
+    command = np.full(2, PRESSURE)
+    recording = Recording('p', t, t[[0, -1]], command, y, None, None, None, 'free')
+    segment = segments_of([recording], keep_back=False)[0]
+    return replace(segment, fit=t < 3.0 + 0.7 * seconds)
+
+
+def held(kappa, seed):
+    """Return the segment of a muscle at a constant length, its target 300 N throughout."""
+    t = np.arange(100) / 50.0
+    p = np.random.default_rng(seed).uniform(1e5, 5e5, t.size)
+    y = np.full(t.size, kappa * 0.4)
+    recording = Recording('h', t, None, None, y, None, np.full(t.size, 300.0), p, 'held')
+    return segments_of([recording], keep_back=False)[0]
+
+
+@pytest.fixture
+def two_runs():
+    """Return the problem of two parabolas, of 2 s and 1 s."""
+    return problem_of(SOURCE, [parabola(0.1, -0.05), parabola(0.3, 0.2, 1.0)])
+
+
+def test_a_run_is_the_parabola_of_a_constant_force(two_runs):
+    names = [unknown.name for unknown in two_runs.unknowns]
+    assert names == ['a5', 'y0[0]', 'v0[0]', 'y0[1]', 'v0[1]']
+    u = np.zeros(5)
+    for simulated, s in zip(two_runs.predict(u), two_runs.segments, strict=True):
+        np.testing.assert_allclose(simulated, s.target, atol=1e-9)
+    np.testing.assert_allclose(two_runs.residuals(u), 0.0, atol=1e-9)
+    # A different start and gain: y is linear in all three.
+    u = np.array([2.0, 1.0, -3.0, 0.0, 0.0])
+    s = two_runs.segments[0]
+    since = s.t - s.t[0]
+    moved = 1e-3 - 3e-2 * since + SPECIMEN * GAIN * PRESSURE / MASS * since**2
+    np.testing.assert_allclose(two_runs.predict(u, 0)[0] - s.target, moved, atol=1e-9)
+
+
+def test_residuals_are_those_of_the_samples_to_be_fitted(two_runs):
+    u = np.array([0.0, 1.0, 0.0, 2.0, 0.0])
+    np.testing.assert_allclose(two_runs.residuals(u), np.repeat([1e-3, 2e-3], [140, 70]))
+    t = np.concatenate(two_runs.stamps())
+    np.testing.assert_array_equal(t, np.concatenate([s.t[s.fit] for s in two_runs.segments]))
+
+
+def test_jacobian_of_parabolas_in_closed_form(two_runs):
+    u = np.array([0.3, 0.2, -0.1, 0.4, 0.0])
+    found = two_runs.jacobian(u, two_runs.residuals(u))
+    since = [(s.t - s.t[0])[s.fit] for s in two_runs.segments]
+    none = [np.zeros_like(x) for x in since]
+    by_gain = np.concatenate([0.5 * SPECIMEN * GAIN * PRESSURE / MASS * x**2 for x in since])
+    expected = np.stack(
+        [
+            by_gain,
+            np.concatenate([1e-3 + 0.0 * since[0], none[1]]),
+            np.concatenate([1e-2 * since[0], none[1]]),
+            np.concatenate([none[0], 1e-3 + 0.0 * since[1]]),
+            np.concatenate([none[0], 1e-2 * since[1]]),
+        ],
+        axis=1,
+    )
+    np.testing.assert_allclose(found, expected, atol=1e-8)
+
+
+def test_jacobian_of_the_force_law_in_closed_form():
+    problem = problem_of(MUSCLE, [held(0.05, 1), held(0.15, 2)])
+    u = np.zeros(len(problem.unknowns))
+    p = np.concatenate([s.pressure for s in problem.segments])
+    kappa = np.concatenate([s.position / 0.4 for s in problem.segments])
+    a1, a2, a3, a4, a5, a6 = MUSCLE.muscle.si
+    e = np.exp(a3 * kappa)
+    force = (a1 * p + a2) * e + a4 * kappa * p + a5 * p + a6
+    np.testing.assert_allclose(problem.residuals(u), force - 300.0, rtol=1e-12)
+    derivatives = [p * e, e, (a1 * p + a2) * kappa * e, kappa * p, p, np.ones_like(p), 0.0 * p]
+    found = problem.jacobian(u, problem.residuals(u))
+    for k, (one, derivative) in enumerate(zip(problem.unknowns, derivatives, strict=True)):
+        scale = 0.0 if one.name == 'zeta' else one.scale
+        np.testing.assert_allclose(found[:, k], scale * derivative, rtol=2e-3, atol=1e-6)
+
+
+def lagging(tau):
+    """Return a force source whose pressure lags by *tau* s."""
+    return one_muscle(FORCE, RAIL, {'pressure_lag': {'fill': tau, 'vent': tau}})
+
+
+@pytest.mark.parametrize('away', [0.5, -1.0])
+def test_a_pressure_that_begins_away_from_rest_decays_as_its_lag_says(away):
+    """M y'' = gain (p + d exp(-t/tau)) in closed form, d the distance from the commanded p."""
+    tau = 0.3
+    problem = problem_of(lagging(tau), [parabola(0.1, 0.0), parabola(0.1, 0.0)], ['pressure_lag'])
+    names = [one.name for one in problem.unknowns[-2:]]
+    assert names == ['pressure_lag: pressure[0]', 'pressure_lag: pressure[1]']
+    u = np.zeros(len(problem.unknowns))
+    u[-1] = away
+    d = away * problem.unknowns[-1].scale
+    first, second = problem.runs(u)
+    s = problem.segments[1]
+    since = s.t - s.t[0]
+    np.testing.assert_allclose(first[:, at.RUN_S], s.target, atol=1e-9)
+    np.testing.assert_allclose(second[:, at.RUN_P], PRESSURE + d * np.exp(-since / tau), rtol=1e-9)
+    moved = GAIN * d / MASS * tau**2 * (since / tau - 1.0 + np.exp(-since / tau))
+    np.testing.assert_allclose(second[:, at.RUN_S] - s.target, moved, rtol=2e-3, atol=1e-7)
+
+
+@pytest.mark.parametrize('name', [e.name for e in EFFECTS if any(s.spread for s in e.states)])
+def test_a_memory_begins_where_a_simulation_begins_that_is_told_so(name):
+    effect = LIBRARY[name]
+    model = one_muscle(Muscle(), Mass(mass=20.0), {name: effect.example})
+    t = np.arange(60) / 50.0
+    command = 3e5 + 5e4 * np.sin(6.0 * t)
+    y = np.full(t.size, rest(model, command[0]))
+    recording = Recording('m', t, t, command, y, None, None, None, 'free')
+    problem = problem_of(model, segments_of([recording], keep_back=False), [name])
+    u = np.zeros(len(problem.unknowns))
+    for k, one in enumerate(problem.unknowns):
+        if getattr(one.of, 'effect', '') != name:
+            continue
+        u[:] = 0.0
+        u[k] = 0.4
+        hidden = {name: {one.of.state: 0.4 * one.scale}}
+        expected = simulate(model, t, t, command, y[0], hidden=hidden).position
+        np.testing.assert_allclose(problem.predict(u)[0], expected, atol=1e-9)
+
+
+def test_a_state_that_is_always_known_is_no_unknown():
+    found = memory_unknowns(MUSCLE.layout, LIBRARY['creep'], 2)
+    assert [k.of.state for k in found[:6]] == [
+        f'{which} {of}'
+        for of in ('force', 'contraction', 'pressure')
+        for which in ('fast', 'slow')
+    ]
+    assert [k.of.run for k in found] == 6 * [0] + 6 * [1]
+    assert memory_unknowns(MUSCLE.layout, LIBRARY['dead_time'], 2) == []
+
+
+@pytest.mark.needs_numba
+def test_jacobian_of_a_swinging_muscle_against_scipy():
+    model = one_muscle(
+        Muscle(), Mass(mass=20.0), {'creep': {'stiffness': 500.0, 'pressure': 0.02, 'time': 0.7}}
+    )
+    t = np.arange(400) / 100.0
+    command = 3e5 + 5e4 * np.sin(2 * np.pi * 1.3 * t)
+    y = np.full(t.size, rest(MUSCLE, 3e5))
+    recording = Recording('m', t, t, command, y, None, None, None, 'free')
+    problem = problem_of(model, segments_of([recording], keep_back=False), ['creep'])
+    u = np.random.default_rng(3).uniform(-0.5, 0.5, len(problem.unknowns))
+    found = problem.jacobian(u, problem.residuals(u))
+    central = sum(approx_fprime(u, problem.residuals, h) for h in (1e-5, -1e-5)) / 2.0
+    sizes = np.linalg.norm(central, axis=0)
+    assert np.all(sizes[: len(sizes) - 6] > 0.0)
+    np.testing.assert_array_less(np.linalg.norm(found - central, axis=0), 0.01 * sizes + 1e-9)
+
+
+def test_columns_come_alone_and_side_by_side(two_runs):
+    u = np.full(5, 0.1)
+    r = two_runs.residuals(u)
+    whole = two_runs.jacobian(u, r)
+    np.testing.assert_array_equal(two_runs.jacobian(u, r, only=[3, 0]), whole[:, [3, 0]])
+    assert two_runs.jacobian(u, r, only=[]).shape == (r.size, 0)
+    with ThreadPoolExecutor(2) as pool:
+        np.testing.assert_array_equal(two_runs.jacobian(u, r, pool), whole)
+
+
+def test_the_row_holds_what_is_unknown_and_nothing_else_moves(two_runs):
+    row = two_runs.row_at(np.array([1.0, 5.0, 5.0, 5.0, 5.0]))
+    a5 = SOURCE.layout.constant(at.A5)
+    assert row[a5] == pytest.approx((1.0 + SPECIMEN) * GAIN)
+    others = np.arange(row.size) != a5
+    np.testing.assert_array_equal(row[others], two_runs.row[others])
+    assert two_runs.row[a5] == GAIN
+
+
+def test_a_run_that_diverges_leaves_finite_residuals(two_runs):
+    wild = replace(two_runs, row=two_runs.row.copy())
+    wild.row[SOURCE.layout.constant(at.A6)] = 1e300
+    with np.errstate(all='ignore'):  # without numba, numpy says what overflows
+        r = wild.residuals(np.zeros(5))
+    assert np.all(np.isfinite(r))
+    assert np.max(np.abs(r)) > 1e3
+
+
+def test_each_run_is_whitened_by_itself(two_runs):
+    """What was before a run's first sample is not known, and runs know nothing of each other."""
+    process = Discrepancy(2.0, 0.4)
+    values = np.random.default_rng(2).normal(size=(210, 3))
+    found = two_runs.whitened(values, two_runs.whitenings(process))
+    first, second = (process.whitening(s.t[s.fit]) for s in two_runs.segments)
+    expected = np.concatenate([first(values[:140]), second(values[140:])])
+    np.testing.assert_array_equal(found, expected)
+
+
+def test_a_run_of_which_nothing_is_fitted_leaves_nothing(two_runs):
+    first, second = two_runs.segments
+    none = replace(first, fit=np.zeros_like(first.fit))
+    problem = replace(two_runs, segments=(none, second))
+    u = np.zeros(5)
+    r = problem.residuals(u)
+    assert r.size == 70
+    assert [part.size for part in problem.by_run(r)] == [70]
+    whitened = problem.whitened(r, problem.whitenings(Discrepancy(1.0, 1.0)))
+    assert whitened.shape == r.shape
+
+
+def test_an_infinite_prior_becomes_a_wide_one():
+    strength, time = unknown('x'), unknown('t', 1.0, logarithmic=True)
+    assert proper(strength).prior == 3.0
+    assert proper(time).prior == 1.5
+    known = unknown('y', prior=0.3)
+    assert proper(known) is known

@@ -1,0 +1,268 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Fits against scipy and generalised least squares; intervals against repeated noise."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.linalg import cholesky
+from scipy.optimize import least_squares
+
+from pam_ros.identification.fit.discrepancy import WHITE, Discrepancy
+from pam_ros.identification.fit.problem import Problem
+from pam_ros.identification.fit.solve import Solution, fresh, improved, solved
+from support.equations import LAYOUT, unknown
+
+T = np.linspace(0.0, 5.0, 400)
+TRUTH = np.array([2.0, 0.8, 0.5])
+NOISE = 0.05
+# A fit ends when a step gains less than a tenth of -2 log likelihood.
+CLOSE = 0.2
+SLOW, QUICKER = Discrepancy(2.0, 0.5), Discrepancy(2.0, 0.1)
+by_process = pytest.mark.parametrize('process', [WHITE, SLOW], ids=['white', 'slow error'])
+
+
+@dataclass(frozen=True, eq=False)
+class Equation(Problem):
+    """A problem without a rig: ``function`` maps u (k,) to the residuals (n,) at T."""
+
+    function: Callable = None
+
+    def residuals(self, u):
+        return self.function(np.asarray(u, dtype=float))
+
+    def stamps(self):
+        return [T]
+
+    def by_run(self, values):
+        return [values]
+
+
+def equation(function, unknowns):
+    row = np.zeros(LAYOUT.rows * LAYOUT.parameters)
+    return Equation((), LAYOUT, (), row, tuple(unknowns), function=function)
+
+
+def decay(u):
+    return u[0] * np.exp(-u[1] * T) + u[2]
+
+
+MEASURED = decay(TRUTH) + NOISE * np.random.default_rng(1).standard_normal(T.size)
+
+
+def decaying(calls=None, **changes):
+    """Return the problem of a decay; x=(low, high, prior) for x of a, b, c."""
+
+    def function(u):
+        if calls is not None:
+            calls.append(u)
+        return decay(u) - MEASURED
+
+    unknowns = []
+    for name in 'abc':
+        low, high, prior = changes.get(name, (-np.inf, np.inf, 10.0))
+        unknowns.append(unknown(name, 0.0, 1.0, low, high, prior))
+    return equation(function, unknowns)
+
+
+def covariance(process):
+    """Return that of the noise and the process at T, over the variance of the noise."""
+    distance = np.abs(T[:, None] - T[None, :])
+    return np.eye(T.size) + process.size**2 * np.exp(-distance / process.time)
+
+
+def by_scipy(problem, solution):
+    """Return scipy's optimum of the same cost, the noise variance taken from *solution*."""
+    root = np.linalg.inv(cholesky(covariance(solution.discrepancy), lower=True))
+    low, high = problem.bounds
+
+    def stacked(u):
+        white = root @ problem.residuals(u)
+        return np.concatenate([white / solution.noise, u / problem.prior])
+
+    start = np.clip(np.ones(3), np.nextafter(low, np.inf), np.nextafter(high, -np.inf))
+    return least_squares(stacked, start, bounds=(low, high), xtol=1e-12, ftol=1e-12, gtol=1e-12).x
+
+
+def start_at(problem, u, process=WHITE, jacobian=None):
+    u = np.clip(np.array(u, dtype=float), *problem.bounds)
+    r = problem.residuals(u)
+    j = problem.jacobian(u, r) if jacobian is None else jacobian
+    return Solution(problem, u, r, j, process)
+
+
+@pytest.mark.parametrize(
+    'changes',
+    [
+        {},
+        {'b': (0.0, 0.6, 10.0)},  # the bound is active
+        {'a': (-np.inf, np.inf, 0.02), 'c': (-np.inf, np.inf, 0.01)},  # strong priors at 0
+        {'a': (-np.inf, np.inf, 0.05), 'b': (1.0, 4.0, 10.0)},  # both
+    ],
+    ids=['plain', 'bound', 'priors', 'prior_and_bound'],
+)
+@pytest.mark.parametrize('start', [(1.0, 1.0, 0.0), (1.0, 1.5, 0.0), (3.0, 0.4, 1.0)])
+@by_process
+def test_ends_where_scipy_ends(changes, start, process):
+    problem = decaying(**changes)
+    solution = improved(start_at(problem, start, process), 60, stale=False)
+    expected = by_scipy(problem, solution)
+    least = start_at(problem, expected, process).cost
+    assert solution.cost == pytest.approx(least, abs=CLOSE)
+    error = np.sqrt(np.diag(solution.covariance()))
+    np.testing.assert_array_less(np.abs(solution.u - expected), 0.5 * error + 1e-12)
+    low, high = problem.bounds
+    assert np.all((solution.u >= low) & (solution.u <= high))
+    np.testing.assert_array_equal(solution.r, problem.residuals(solution.u))
+    assert solution.discrepancy == process
+
+
+@settings(max_examples=40)
+@given(st.integers(0, 10_000), st.booleans(), st.booleans())
+def test_never_ends_higher_than_it_began(seed, rugged, slow):
+    rng = np.random.default_rng(seed)
+    columns, values = rng.standard_normal((T.size, 4)), rng.standard_normal(T.size)
+    waves = 3.0 * rng.standard_normal((T.size, 4)) if rugged else np.zeros((T.size, 4))
+    unknowns = [
+        unknown(str(k), 0.0, 1.0, -1.0, 1.5, prior) for k, prior in enumerate((1, 9, 0.1, 3))
+    ]
+    problem = equation(lambda u: columns @ u + waves @ np.sin(5.0 * u) - values, unknowns)
+    stale = rng.standard_normal((T.size, 4)) if seed % 2 else None
+    process = SLOW if slow else WHITE
+    begun = start_at(problem, rng.uniform(-1.0, 1.5, 4), process, stale)
+    solution = improved(begun, 6, stale=stale is not None)
+    assert solution.cost <= begun.cost + 1e-9
+    assert np.all((solution.u >= -1.0) & (solution.u <= 1.5))
+
+
+def test_a_start_outside_its_bounds_is_brought_in():
+    problem = decaying(b=(0.5, 1.0, 10.0))
+    assert 0.5 <= solved(problem, np.array([1.0, 7.0, 0.0])).u[1] <= 1.0
+
+
+def test_a_value_is_found_by_name():
+    solution = solved(decaying(), np.ones(3))
+    assert solution.value('b') == solution.u[1]
+    with pytest.raises(KeyError):
+        solution.value('d')
+
+
+def test_a_jacobian_kept_up_to_date_leads_to_the_same_optimum():
+    problem = decaying(c=(-np.inf, np.inf, 0.3))
+    exact = improved(start_at(problem, (1.0, 1.5, 0.0)), 60, stale=False)
+    old = start_at(problem, (1.3, 1.2, 0.1)).jacobian
+    for jacobian in (old, old * np.array([1.0, 0.3, 1.5]), np.zeros_like(old) + 0.1):
+        kept = improved(start_at(problem, (1.0, 1.5, 0.0), jacobian=jacobian), 60)
+        assert kept.cost == pytest.approx(exact.cost, abs=CLOSE)
+
+
+def test_a_good_jacobian_spares_computing_others():
+    calls = []
+    problem = decaying(calls)
+    near = start_at(problem, TRUTH + 0.02)
+    calls.clear()
+    with_it = improved(near)
+    few = len(calls)
+    calls.clear()
+    without = improved(start_at(problem, TRUTH + 0.02), stale=False)
+    assert with_it.cost == pytest.approx(without.cost, abs=CLOSE)
+    assert few < len(calls)
+
+
+def test_a_fresh_jacobian_is_that_of_the_place():
+    solution = improved(start_at(decaying(), (1.0, 1.0, 0.0)), 60, stale=False)
+    a, b, _ = solution.u
+    exact = np.stack([np.exp(-b * T), -a * T * np.exp(-b * T), np.ones_like(T)], axis=1)
+    np.testing.assert_allclose(fresh(solution).jacobian, exact, atol=2e-3)
+
+
+LINE = np.stack([np.ones_like(T), T], axis=1)
+
+
+def line(values, prior=100.0):
+    """Return the problem of a straight line through *values* over T."""
+    unknowns = [unknown('level', prior=prior), unknown('slope', prior=100.0)]
+    return equation(lambda u: LINE @ u - values, unknowns)
+
+
+@by_process
+def test_covariance_of_a_linear_problem_is_that_of_generalised_least_squares(process):
+    values = 1.0 + 0.3 * T + NOISE * np.random.default_rng(3).standard_normal(T.size)
+    solution = improved(start_at(line(values, prior=0.004), (0.0, 0.0), process), 40)
+    c = covariance(process)
+    variance = solution.r @ np.linalg.solve(c, solution.r) / T.size
+    assert solution.noise == pytest.approx(np.sqrt(variance), rel=1e-9)
+    normal = LINE.T @ np.linalg.solve(c, LINE) / variance + np.diag([0.004**-2, 100.0**-2])
+    np.testing.assert_allclose(solution.covariance(), np.linalg.inv(normal), rtol=1e-6)
+    best = np.linalg.solve(normal, LINE.T @ np.linalg.solve(c, values) / variance)
+    np.testing.assert_allclose(solution.u, best, rtol=1e-3)
+
+
+@by_process
+def test_the_score_of_a_linear_problem_is_its_evidence(process):
+    """That is the normal density of the data with the unknowns integrated out, -2 ln of it."""
+    values = 1.0 + 0.3 * T + NOISE * np.random.default_rng(3).standard_normal(T.size)
+    solution = fresh(improved(start_at(line(values, prior=0.5), (0.0, 0.0), process), 40))
+    spread = LINE * np.array([0.5, 100.0])
+    whole = solution.noise**2 * covariance(process) + spread @ spread.T
+    _, log_det = np.linalg.slogdet(whole)
+    exact = log_det + values @ np.linalg.solve(whole, values)
+    assert solution.score + T.size == pytest.approx(exact, abs=1e-3)
+
+
+def slow_error(rng, process):
+    """Return a sample of noise and of the process at T."""
+    root = np.linalg.cholesky(covariance(process))
+    return NOISE * root @ rng.standard_normal(T.size)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ('process', 'least'),
+    [(WHITE, 0.88), (QUICKER, 0.87), (SLOW, 0.75)],
+    ids=['white noise', 'correlated for a 50th of the record', 'for a tenth of it'],
+)
+def test_intervals_hold_the_truth_nearly_as_often_as_they_say(process, least):
+    """95 % of them within 1.96 standard errors, with a process that is estimated, too.
+
+    What ten correlation times say of the process is little, and the intervals do not hold that.
+    """
+    rng = np.random.default_rng(4)
+    draws, white = 60, 0
+    inside, plain = np.zeros(2), np.zeros(2)
+    for _ in range(draws):
+        values = LINE @ [1.0, 0.3] + slow_error(rng, process)
+        solution = solved(line(values), np.array([1.0, 0.3]))
+        white += solution.discrepancy == WHITE
+        error = np.sqrt(np.diag(solution.covariance()))
+        inside += np.abs(solution.u - [1.0, 0.3]) < 1.96 * error
+        as_white = improved(start_at(line(values), (1.0, 0.3)), 40)
+        error = np.sqrt(np.diag(as_white.covariance()))
+        plain += np.abs(as_white.u - [1.0, 0.3]) < 1.96 * error
+    assert np.all(inside >= least * draws)
+    if process is WHITE:
+        assert white >= 0.9 * draws
+    else:
+        assert white == 0
+        # This is why: taken for white, the same residuals promise far too much.
+        assert np.all(plain < 0.7 * draws)
+
+
+def test_a_discrepancy_that_is_not_there_is_not_found_for_a_decay():
+    solution = solved(decaying(), np.ones(3))
+    assert solution.discrepancy == WHITE
+    assert solution.noise == pytest.approx(NOISE, rel=0.1)
+
+
+def test_a_slow_error_is_found_beside_a_decay():
+    values = decay(TRUTH) + slow_error(np.random.default_rng(6), SLOW)
+    unknowns = [unknown(name, prior=10.0) for name in 'abc']
+    solution = solved(equation(lambda u: decay(u) - values, unknowns), np.ones(3))
+    assert 1.0 < solution.discrepancy.size < 4.0
+    assert 0.2 < solution.discrepancy.time < 1.2
+    error = np.sqrt(np.diag(solution.covariance()))
+    assert np.all(np.abs(solution.u - TRUTH) < 3.0 * error)
