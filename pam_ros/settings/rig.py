@@ -11,8 +11,10 @@ import re
 from collections.abc import Iterable
 from functools import cached_property
 from itertools import chain
+from pathlib import Path
 from typing import Any, ClassVar
 
+from pam_ros.arguments import as_path, sequence
 from pam_ros.errors import ParameterError
 from pam_ros.rig.arrangements import ARRANGEMENTS, LOAD
 from pam_ros.rig.joint import Joint
@@ -20,11 +22,15 @@ from pam_ros.settings.files import read_known
 from pam_ros.settings.sim import MUSCLE, SimSettings
 from pam_ros.settings.tables import (
     Table,
+    Value,
     Values,
     build_joint,
     joint_table,
     muscle_table,
+    override,
     refuse_mistyped,
+    refuse_unknown_effects,
+    rig_table,
     with_defaults,
 )
 
@@ -162,21 +168,24 @@ class RigParameters:
     # Joints ----------------------------------------------------------------------------------
 
     def of_muscle(self, values: Values, i: int) -> dict[str, Any]:
-        """Return the values of muscle number i: its own, or the common ones."""
+        """Return the values given for muscle number i: its own, or the common ones."""
         names = [self.muscles[i]]
         if self.kind.muscles == 1:
             names.append(self.joints[i])
         return _found(values, self._of_muscle, names)
 
     def of_joint(self, values: Values, k: int) -> dict[str, Any]:
-        """Return the values of joint number k beside its muscles: its own, or the common ones."""
+        """Return those given for joint number k beside its muscles: its own, or the common."""
         names = [self.joints[k]]
         if self.kind.muscles == 1:
             names.append(self.muscles[k])
         return _found(values, self._of_joint, names)
 
     def build_joints(self, values: Values) -> tuple[Joint, ...]:
-        """Make the joints of checked flat *values*; ParameterError where they make none."""
+        """Make the joints of flat *values*; ParameterError where they make none.
+
+        What is not given has its default.
+        """
         n = self.kind.muscles
         # Joints with the same values are the same: most of many are.
         made: dict[tuple[Any, ...], Joint] = {}
@@ -184,7 +193,7 @@ class RigParameters:
         for k in range(len(self.joints)):
             muscles = [self.of_muscle(values, i) for i in range(n * k, n * (k + 1))]
             joint = self.of_joint(values, k)
-            key = tuple(chain.from_iterable(own.values() for own in (*muscles, joint)))
+            key = tuple(tuple(own.items()) for own in (*muscles, joint))
             if key not in made:
                 made[key] = build_joint(self.kind, muscles, joint)
             found.append(made[key])
@@ -192,9 +201,32 @@ class RigParameters:
 
 
 def _found(values: Values, table: Table, names: Iterable[str]) -> dict[str, Any]:
-    """Return a value for each name of *table*: that of the first of *names* that has its own."""
+    """Return the values given for *table*: of the first of *names* that has its own, or common."""
     found = {}
     for rest in table:
-        flats = (*(f'{name}.{rest}' for name in names), rest)
-        found[rest] = values[next(flat for flat in flats if flat in values)]
+        for flat in (*(f'{name}.{rest}' for name in names), rest):
+            if flat in values:
+                found[rest] = values[flat]
+                break
     return found
+
+
+def load_rig(
+    name: str | Path, overrides: Iterable[str] = (), table: Table | None = None
+) -> tuple[Joint, dict[str, Value]]:
+    """Return the rig that a file or muscle *name* declares, and its flat values.
+
+    *overrides* are ``name=value`` texts that come last. *table* are the names that the caller
+    knows (default: the rig's). Names that are not known here are passed over, for they may
+    be another program's; those that look mistyped are refused. Raises ParameterError.
+    """
+    known = rig_table()
+    table = known if table is None else table
+    name = str(as_path('name', name, 'a path, or the name of a muscle or rig of this package'))
+    texts = sequence('overrides', overrides, str, "a text such as 'mass=10'")
+    values = read_known(name, table)
+    values.update(override(text, table) for text in texts)
+    refuse_unknown_effects({flat: value for flat, value in values.items() if flat not in known})
+    own = {flat: value for flat, value in values.items() if flat in known}
+    (joint,) = RigParameters({}).build_joints(own)
+    return joint, values

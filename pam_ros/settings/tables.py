@@ -123,11 +123,6 @@ def build_joint(kind: Arrangement, muscles: Sequence[Values], joint: Values) -> 
     )
 
 
-def build_rig(values: Values) -> Joint:
-    """Make one muscle on a mass from flat *values*, as :func:`build_joint` does."""
-    return build_joint(LOAD, [values], values)
-
-
 def _effects(values: Values) -> dict[str, dict[str, float]]:
     """Return the values of effects among flat *values*; they are checked when they are used."""
     found: dict[str, dict[str, Any]] = by_effect(values)
@@ -164,6 +159,17 @@ def refuse_mistyped(names: Iterable[str], known: Iterable[str]) -> list[str]:
         if alike:
             raise ParameterError(f'{name} is not a parameter: was {alike[0]} meant?')
     return strangers
+
+
+def refuse_unknown_effects(values: Values) -> None:
+    """Raise ParameterError where *values* name an effect, or a parameter of one, that is unknown.
+
+    No other program has effects, so that a name of one can be no other program's.
+    """
+    given = _effects(values)
+    split_effects(given)
+    for effect in EFFECTS:
+        effect.values(given.get(effect.name, {}))
 
 
 def override(text: str, table: Table) -> tuple[str, Any]:
