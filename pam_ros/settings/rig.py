@@ -1,6 +1,8 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Which muscles and joints there are, and which parameters each of them has.
+"""Which muscles and joints there are, which parameters each of them has, and what they make.
+
+All joints that a file or a program declares are made of flat values here.
 
 A parameter without a name before it is common to all; ``<name>.<parameter>`` is that of one
 muscle or joint alone. A name has those of its own that it was given at the start, itself or by a
@@ -8,7 +10,7 @@ preset ``<name>.muscle``; in all else it follows the common parameters.
 """
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from functools import cached_property
 from itertools import chain
 from pathlib import Path
@@ -16,16 +18,19 @@ from typing import Any, ClassVar
 
 from pam_ros.arguments import as_path, sequence
 from pam_ros.errors import ParameterError
+from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig.arrangements import ARRANGEMENTS, LOAD
-from pam_ros.rig.joint import Joint
+from pam_ros.rig.joint import Actuator, Joint, split_effects
 from pam_ros.settings.files import read_known
 from pam_ros.settings.sim import MUSCLE, SimSettings
 from pam_ros.settings.tables import (
     Table,
     Value,
     Values,
-    build_joint,
+    build,
+    effects_of,
     joint_table,
+    mountings,
     muscle_table,
     override,
     refuse_mistyped,
@@ -195,9 +200,32 @@ class RigParameters:
             joint = self.of_joint(values, k)
             key = tuple(tuple(own.items()) for own in (*muscles, joint))
             if key not in made:
-                made[key] = build_joint(self.kind, muscles, joint)
+                made[key] = self._build(muscles, joint)
             found.append(made[key])
         return tuple(found)
+
+    def build_common(self, values: Values) -> Joint:
+        """Make a joint of those of flat *values* that are common to all."""
+        return self._build([values] * self.kind.muscles, values)
+
+    def _build(self, muscles: Sequence[Values], joint: Values) -> Joint:
+        """Make a joint of the values of each muscle, and of those of the joint itself.
+
+        Names that belong to something else are passed over: of effects, too, each takes those
+        that act in it.
+        """
+        kind = self.kind
+        contractions: list[Any] = [joint.get(n, kind.contraction) for n in mountings(kind)]
+        actuators = tuple(
+            Actuator(build(Muscle, own), split_effects(effects_of(own))[0], contraction)
+            for own, contraction in zip(muscles, contractions or [0.0], strict=True)
+        )
+        return Joint(
+            actuators,
+            build(kind.load, joint),
+            build(kind.transmission, joint),
+            split_effects(effects_of(joint))[1],
+        )
 
 
 def _found(values: Values, table: Table, names: Iterable[str]) -> dict[str, Any]:

@@ -65,6 +65,12 @@ def test_which_of_two_muscles_a_value_is_of_makes_another_joint():
     assert one.muscles[0].zeta == 0.2 != one.muscles[1].zeta
 
 
+def test_common_values_make_a_joint_that_has_nobodys_own():
+    values = {'mass': 3.0, 'a.mass': 4.0}
+    joint = RigParameters({'muscles': ['a']}).build_common(values)
+    assert joint == one_muscle(load=Mass(3.0))
+
+
 # Joints of a file ------------------------------------------------------------------------------
 
 

@@ -17,7 +17,6 @@ from pam_ros.rig.sensors import Sensors
 from pam_ros.settings.rig import RigParameters
 from pam_ros.settings.tables import (
     build,
-    build_joint,
     checked,
     effects_table,
     flat_rig,
@@ -56,7 +55,7 @@ def test_each_arrangement_is_made_of_its_table(kind):
     """Its defaults make its joint, with the units of its coordinate and a contraction a muscle."""
     table = rig_table(kind)
     values = checked(table, {})
-    joint = build_joint(kind, [values] * kind.muscles, values)
+    (joint,) = RigParameters({'joint': kind.name}).build_joints(values)
     assert len(joint.actuators) == kind.muscles
     assert [one.contraction for one in joint.actuators] == [kind.contraction] * kind.muscles
     assert (joint.transmission, joint.load) == (kind.transmission(), kind.load())
