@@ -44,7 +44,7 @@ if TYPE_CHECKING:
         Transmission,
         TransmissionEquations,
     )
-    from pam_ros.settings.files import load_rig
+    from pam_ros.settings.rig import load_rig
 
 __all__ = [
     'EFFECTS',
@@ -122,7 +122,7 @@ _PLACES = {
         'Transmission',
         'TransmissionEquations',
     ),
-    'settings.files': ('load_rig',),
+    'settings.rig': ('load_rig',),
 }
 _PLACE_OF = {name: place for place, names in _PLACES.items() for name in names}
 

@@ -123,7 +123,7 @@ def identify(given: argparse.Namespace, command: str) -> str:
     from pam_ros.report.provenance import provenance
     from pam_ros.report.summary import last_line
     from pam_ros.report.write import check_folder, write_report
-    from pam_ros.settings.files import load_rig
+    from pam_ros.settings.rig import load_rig
 
     check_folder(given.out)
     model, _ = load_rig(given.params, given.set)

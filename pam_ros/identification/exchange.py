@@ -33,7 +33,7 @@ def exchanged(
         others = {*effect.contains, *_near(name, fit, rounds)}
         if not is_settled:
             others |= {name, *effect.rivals}
-        there = {*fit.effects, *model.all_effects} - {name}
+        there = {*fit.effects, *(e.name for e in model.all_present)} - {name}
         rivals = [e for e in model.library if e.name in others and e.name not in there]
         if not rivals:
             continue

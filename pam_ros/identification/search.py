@@ -100,7 +100,8 @@ def _absent(parent: Fit, model: Joint) -> list[Effect]:
     return [
         e
         for e in model.library
-        if e.name not in (*parent.effects, *model.all_effects)
+        if e.name not in parent.effects
+        and e not in model.all_present
         and not (e.needs_muscle and model.is_driven)
     ]
 

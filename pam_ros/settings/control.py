@@ -28,7 +28,7 @@ from pam_ros.rig.arrangements import ARRANGEMENTS, LOAD
 from pam_ros.rig.joint import Joint
 from pam_ros.settings.rig import RigParameters
 from pam_ros.settings.sim import SimSettings, Start
-from pam_ros.settings.tables import Table, Values, build, build_joint, table_of
+from pam_ros.settings.tables import Table, Values, build, table_of
 
 MEASURED = 'use_measured_velocity'  # a gain that velocity_source stands for
 NAMES = ('muscles', 'joint_names', 'muscle_topics')  # which pam_sim has, too
@@ -142,7 +142,7 @@ class ControlParameters(RigParameters):
                 'pam_sim'
             )
         if k is None:
-            joint = build_joint(self.kind, [values] * n, values)
+            joint = self.build_common(values)
         else:
             joint = self.build_joints(values)[k]
             settings = replace(settings, joint_name=self.joints[k])

@@ -10,8 +10,9 @@ from pam_ros.excitation.settings import Excitation
 from pam_ros.rig.joint import Joint
 from pam_ros.rig.run import simulate
 from pam_ros.settings.files import read_known
+from pam_ros.settings.rig import RigParameters
 from pam_ros.settings.sim import MUSCLE
-from pam_ros.settings.tables import Table, build, build_rig, rig_table, table_of, with_defaults
+from pam_ros.settings.tables import Table, build, rig_table, table_of, with_defaults
 
 
 @dataclass(frozen=True)
@@ -60,6 +61,6 @@ def table(muscle: Any = '') -> Table:
 
 def experiment(values: dict[str, Any]) -> Experiment:
     """Make an experiment from flat values; raises ParameterError where they make none."""
-    model = build_rig(values)
+    (model,) = RigParameters({}).build_joints(values)
     settings = build(Excitation, values).within(model.muscle)
     return Experiment(model, settings, programme(settings))

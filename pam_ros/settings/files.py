@@ -14,17 +14,15 @@ A file holds a table for each node name, ``/**`` for all of them, with dotted or
 import os
 import re
 import tempfile
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import yaml
 
-from pam_ros.arguments import as_path, sequence
 from pam_ros.errors import ParameterError
-from pam_ros.rig.joint import Joint
-from pam_ros.settings.tables import Table, Value, build_rig, override, refuse_mistyped, rig_table
+from pam_ros.settings.tables import Table, Value, refuse_mistyped
 
 TABLE = 'ros__parameters'
 PRESETS = ('muscles', 'rigs')
@@ -142,23 +140,6 @@ def _flat(table: Any, prefix: str = '') -> Iterator[tuple[str, Any]]:
             yield from _flat(value, f'{prefix}.{key}' if prefix else str(key))
     elif prefix:
         yield prefix, table
-
-
-def load_rig(
-    name: str | Path, overrides: Iterable[str] = (), table: Table | None = None
-) -> tuple[Joint, dict[str, Value]]:
-    """Return the rig that a file or muscle *name* declares, and its flat values.
-
-    *overrides* are ``name=value`` texts that come last. *table* are the names that the caller
-    knows (default: the rig's). Names that are not known here are passed over, for they may
-    be another program's; those that look mistyped are refused. Raises ParameterError.
-    """
-    table = rig_table() if table is None else table
-    name = str(as_path('name', name, 'a path, or the name of a muscle or rig of this package'))
-    texts = sequence('overrides', overrides, str, "a text such as 'mass=10'")
-    values = read_known(name, table)
-    values.update(override(text, table) for text in texts)
-    return build_rig(values), values
 
 
 def read_known(name: str, table: Table) -> dict[str, Value]:

@@ -1,6 +1,8 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Which muscles and joints there are, and which parameters each of them has.
+"""Which muscles and joints there are, which parameters each of them has, and what they make.
+
+All joints that a file or a program declares are made of flat values here.
 
 A parameter without a name before it is common to all; ``<name>.<parameter>`` is that of one
 muscle or joint alone. A name has those of its own that it was given at the start, itself or by a
@@ -8,23 +10,32 @@ preset ``<name>.muscle``; in all else it follows the common parameters.
 """
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from functools import cached_property
 from itertools import chain
+from pathlib import Path
 from typing import Any, ClassVar
 
+from pam_ros.arguments import as_path, sequence
 from pam_ros.errors import ParameterError
+from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig.arrangements import ARRANGEMENTS, LOAD
-from pam_ros.rig.joint import Joint
+from pam_ros.rig.joint import Actuator, Joint, split_effects
 from pam_ros.settings.files import read_known
 from pam_ros.settings.sim import MUSCLE, SimSettings
 from pam_ros.settings.tables import (
     Table,
+    Value,
     Values,
-    build_joint,
+    build,
+    effects_of,
     joint_table,
+    mountings,
     muscle_table,
+    override,
     refuse_mistyped,
+    refuse_unknown_effects,
+    rig_table,
     with_defaults,
 )
 
@@ -162,21 +173,24 @@ class RigParameters:
     # Joints ----------------------------------------------------------------------------------
 
     def of_muscle(self, values: Values, i: int) -> dict[str, Any]:
-        """Return the values of muscle number i: its own, or the common ones."""
+        """Return the values given for muscle number i: its own, or the common ones."""
         names = [self.muscles[i]]
         if self.kind.muscles == 1:
             names.append(self.joints[i])
         return _found(values, self._of_muscle, names)
 
     def of_joint(self, values: Values, k: int) -> dict[str, Any]:
-        """Return the values of joint number k beside its muscles: its own, or the common ones."""
+        """Return those given for joint number k beside its muscles: its own, or the common."""
         names = [self.joints[k]]
         if self.kind.muscles == 1:
             names.append(self.muscles[k])
         return _found(values, self._of_joint, names)
 
     def build_joints(self, values: Values) -> tuple[Joint, ...]:
-        """Make the joints of checked flat *values*; ParameterError where they make none."""
+        """Make the joints of flat *values*; ParameterError where they make none.
+
+        What is not given has its default.
+        """
         n = self.kind.muscles
         # Joints with the same values are the same: most of many are.
         made: dict[tuple[Any, ...], Joint] = {}
@@ -184,17 +198,63 @@ class RigParameters:
         for k in range(len(self.joints)):
             muscles = [self.of_muscle(values, i) for i in range(n * k, n * (k + 1))]
             joint = self.of_joint(values, k)
-            key = tuple(chain.from_iterable(own.values() for own in (*muscles, joint)))
+            key = tuple(tuple(own.items()) for own in (*muscles, joint))
             if key not in made:
-                made[key] = build_joint(self.kind, muscles, joint)
+                made[key] = self._build(muscles, joint)
             found.append(made[key])
         return tuple(found)
 
+    def build_common(self, values: Values) -> Joint:
+        """Make a joint of those of flat *values* that are common to all."""
+        return self._build([values] * self.kind.muscles, values)
+
+    def _build(self, muscles: Sequence[Values], joint: Values) -> Joint:
+        """Make a joint of the values of each muscle, and of those of the joint itself.
+
+        Names that belong to something else are passed over: of effects, too, each takes those
+        that act in it.
+        """
+        kind = self.kind
+        contractions: list[Any] = [joint.get(n, kind.contraction) for n in mountings(kind)]
+        actuators = tuple(
+            Actuator(build(Muscle, own), split_effects(effects_of(own))[0], contraction)
+            for own, contraction in zip(muscles, contractions or [0.0], strict=True)
+        )
+        return Joint(
+            actuators,
+            build(kind.load, joint),
+            build(kind.transmission, joint),
+            split_effects(effects_of(joint))[1],
+        )
+
 
 def _found(values: Values, table: Table, names: Iterable[str]) -> dict[str, Any]:
-    """Return a value for each name of *table*: that of the first of *names* that has its own."""
+    """Return the values given for *table*: of the first of *names* that has its own, or common."""
     found = {}
     for rest in table:
-        flats = (*(f'{name}.{rest}' for name in names), rest)
-        found[rest] = values[next(flat for flat in flats if flat in values)]
+        for flat in (*(f'{name}.{rest}' for name in names), rest):
+            if flat in values:
+                found[rest] = values[flat]
+                break
     return found
+
+
+def load_rig(
+    name: str | Path, overrides: Iterable[str] = (), table: Table | None = None
+) -> tuple[Joint, dict[str, Value]]:
+    """Return the rig that a file or muscle *name* declares, and its flat values.
+
+    *overrides* are ``name=value`` texts that come last. *table* are the names that the caller
+    knows (default: the rig's). Names that are not known here are passed over, for they may
+    be another program's; those that look mistyped are refused. Raises ParameterError.
+    """
+    known = rig_table()
+    table = known if table is None else table
+    name = str(as_path('name', name, 'a path, or the name of a muscle or rig of this package'))
+    texts = sequence('overrides', overrides, str, "a text such as 'mass=10'")
+    values = read_known(name, table)
+    values.update(override(text, table) for text in texts)
+    refuse_unknown_effects({flat: value for flat, value in values.items() if flat not in known})
+    own = {flat: value for flat, value in values.items() if flat in known}
+    (joint,) = RigParameters({}).build_joints(own)
+    return joint, values

@@ -1,13 +1,13 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Flat parameter names: from described dataclasses and effects, and back to a model.
+"""Flat parameter names: of described dataclasses and effects, and their values in a model.
 
 A name is what a ROS node declares: ``mass``, ``sensor.latency``, ``effects.creep.gain``. A table
 maps each to its type, default and description. Nodes, parameter files and command lines
 share these tables, so that no list of parameters exists twice.
 """
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import fields
 from difflib import get_close_matches
 from typing import Any, TypeVar
@@ -20,7 +20,7 @@ from pam_ros.errors import ParameterError
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.parameters import Parameter, described
 from pam_ros.rig.arrangements import LOAD, Arrangement
-from pam_ros.rig.joint import Actuator, Joint, split_effects
+from pam_ros.rig.joint import Joint, split_effects
 
 Value = bool | int | float | str | tuple[str, ...]
 Values = Mapping[str, Value]
@@ -63,7 +63,7 @@ def joint_table(kind: Arrangement) -> Table:
     return {
         **table_of(kind.transmission),
         **table_of(kind.load),
-        **{name: _contraction(kind, i) for i, name in enumerate(_mountings(kind))},
+        **{name: _contraction(kind, i) for i, name in enumerate(mountings(kind))},
         **effects_table(tuple(map(turned, library)) if is_revolute else library),
     }
 
@@ -73,7 +73,7 @@ def rig_table(kind: Arrangement = LOAD) -> Table:
     return {**muscle_table(), **joint_table(kind)}
 
 
-def _mountings(kind: Arrangement) -> list[str]:
+def mountings(kind: Arrangement) -> list[str]:
     """Return the names of the parameters that say how the muscles are mounted."""
     return [f'contraction_{i + 1}' for i in range(kind.muscles)] if kind.has_mounting else []
 
@@ -103,32 +103,7 @@ def build(cls: type[T], values: Values, prefix: str = '', **more: Any) -> T:
     return cls(**{name: values[flat] for name, flat in own.items() if flat in values}, **more)
 
 
-def build_joint(kind: Arrangement, muscles: Sequence[Values], joint: Values) -> Joint:
-    """Make a joint from the flat values of each muscle, and of the joint itself.
-
-    What is not given has its default, and names that belong to something else are passed over:
-    of effects, too, each takes those that act in it. Raises ParameterError where the values make
-    no joint.
-    """
-    contractions: list[Any] = [joint.get(n, kind.contraction) for n in _mountings(kind)]
-    actuators = tuple(
-        Actuator(build(Muscle, own), split_effects(_effects(own))[0], contraction)
-        for own, contraction in zip(muscles, contractions or [0.0], strict=True)
-    )
-    return Joint(
-        actuators,
-        build(kind.load, joint),
-        build(kind.transmission, joint),
-        split_effects(_effects(joint))[1],
-    )
-
-
-def build_rig(values: Values) -> Joint:
-    """Make one muscle on a mass from flat *values*, as :func:`build_joint` does."""
-    return build_joint(LOAD, [values], values)
-
-
-def _effects(values: Values) -> dict[str, dict[str, float]]:
+def effects_of(values: Values) -> dict[str, dict[str, float]]:
     """Return the values of effects among flat *values*; they are checked when they are used."""
     found: dict[str, dict[str, Any]] = by_effect(values)
     return found
@@ -164,6 +139,17 @@ def refuse_mistyped(names: Iterable[str], known: Iterable[str]) -> list[str]:
         if alike:
             raise ParameterError(f'{name} is not a parameter: was {alike[0]} meant?')
     return strangers
+
+
+def refuse_unknown_effects(values: Values) -> None:
+    """Raise ParameterError where *values* name an effect, or a parameter of one, that is unknown.
+
+    No other program has effects, so that a name of one can be no other program's.
+    """
+    given = effects_of(values)
+    split_effects(given)
+    for effect in EFFECTS:
+        effect.values(given.get(effect.name, {}))
 
 
 def override(text: str, table: Table) -> tuple[str, Any]:

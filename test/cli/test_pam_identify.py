@@ -19,7 +19,7 @@ from pam_ros.recording.csv_file import write_csv
 from pam_ros.recording.read import read_recording
 from pam_ros.report.write import FILES
 from pam_ros.rig.run import simulate
-from pam_ros.settings.files import load_rig
+from pam_ros.settings.rig import load_rig
 from support import traces
 
 pytestmark = pytest.mark.needs_numba

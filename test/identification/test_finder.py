@@ -14,7 +14,7 @@ from pam_ros.identification.finder import trace
 from pam_ros.recording.mapping import read_mapping
 from pam_ros.recording.read import read_recording
 from pam_ros.rig.run import simulate
-from pam_ros.settings.files import load_rig
+from pam_ros.settings.rig import load_rig
 from support import bench_truth
 from truth import effect
 

@@ -8,6 +8,7 @@ from pam_ros.effects import EFFECTS
 from pam_ros.identification.data.noise import Noise, noise_of
 from pam_ros.identification.data.segment import segments_of
 from pam_ros.identification.search import search
+from pam_ros.rig.joint import changed
 from support import bench_truth
 from truth import effect
 
@@ -74,3 +75,14 @@ def test_progress_goes_forward(searched):
     assert shares == sorted(shares)
     assert 0.0 <= shares[0] < shares[-1] <= 1.0
     assert all(text for _, text in told)
+
+
+@pytest.mark.slow
+@pytest.mark.needs_numba
+def test_effects_that_are_declared_as_absent_are_tried():
+    """A file of all parameters, such as ROS writes of a running node, declares all of them so."""
+    absent = {e.name: {p.name: p.default for p in e.parameters} for e in EFFECTS}
+    segments = free_segments(effect('viscous_friction'))
+    found = search(changed(MODEL, MODEL.muscle, absent), segments, NOISE, lambda *_: None)
+    assert found.augmented.effects == ('viscous_friction',)
+    assert {t.effect.name for t in found.rounds[0]} == KNOWN.keys()

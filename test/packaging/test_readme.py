@@ -18,7 +18,7 @@ from pam_ros.cli import pam_identify
 from pam_ros.errors import ParameterError
 from pam_ros.settings import excite
 from pam_ros.settings.control import settings_of
-from pam_ros.settings.files import load_rig
+from pam_ros.settings.rig import load_rig
 from pam_ros.settings.scene import Scene
 from pam_ros.settings.tables import checked, override
 from support.domain import claimed

@@ -13,13 +13,13 @@ from pam_ros.rig import statics
 from pam_ros.rig.arrangements import ANTAGONISTIC
 from pam_ros.rig.joint import one_muscle
 from pam_ros.rig.loads import Mass
+from pam_ros.settings.rig import RigParameters
 from pam_ros.settings.sim import SimSettings
-from pam_ros.settings.tables import build_joint
 
 FOLDER = Path(__file__).parents[2] / 'urdf'
 FILES = sorted(FOLDER.glob('*.urdf'))
 JOINT = SimSettings().joint_name
-PAIR = build_joint(ANTAGONISTIC, ({}, {}), {})  # with all defaults
+(PAIR,) = RigParameters({'joint': ANTAGONISTIC.name}).build_joints({})  # with all defaults
 each = pytest.mark.parametrize('path', FILES, ids=lambda path: path.stem)
 
 

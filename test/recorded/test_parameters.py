@@ -14,7 +14,8 @@ import yaml
 
 from pam_ros.settings import excite
 from pam_ros.settings.control import settings_of
-from pam_ros.settings.files import load_rig, read
+from pam_ros.settings.files import read
+from pam_ros.settings.rig import load_rig
 from pam_ros.settings.scene import Scene
 from pam_ros.settings.tables import checked
 

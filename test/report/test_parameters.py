@@ -10,7 +10,7 @@ import pytest
 from pam_ros.report.parameters import identified, write_identified
 from pam_ros.rig.joint import changed
 from pam_ros.rig.run import simulate, simulate_held
-from pam_ros.settings.files import load_rig
+from pam_ros.settings.rig import load_rig
 
 
 def reloaded(parts, tmp_path):

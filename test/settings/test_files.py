@@ -14,8 +14,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from pam_ros.errors import ParameterError
-from pam_ros.settings import files
-from pam_ros.settings.files import find, load_rig, read, share, write
+from pam_ros.settings.files import find, read, share, write
 
 ROOT = Path(__file__).parents[2]
 MUSCLES = sorted(path.stem for path in (ROOT / 'config' / 'muscles').glob('*.yaml'))
@@ -81,32 +80,14 @@ def test_a_missing_or_unreadable_file_is_refused(tmp_path):
 
 
 @pytest.mark.parametrize('name', MUSCLES)
-def test_every_muscle_of_the_package_is_found_and_makes_a_rig(name):
+def test_every_muscle_of_the_package_is_found(name):
     assert MUSCLES
     assert find(name) == ROOT / 'config' / 'muscles' / f'{name}.yaml'
-    model, values = load_rig(name, ['mass=5'])
-    assert model.load.mass == values['mass'] == 5.0
-    assert values['source']
-
-
-def test_the_built_in_muscle_is_the_papers():
-    model, _ = load_rig('dmsp_20_400n')
-    declared = files.build_rig({})
-    assert (model.parameters() == declared.parameters()).all()
 
 
 def test_an_unknown_muscle_is_refused_with_the_names_that_there_are():
     with pytest.raises(ParameterError, match=r'dmsp_99 is neither .* dmsp_20_400n'):
         find('dmsp_99')
-
-
-def test_a_mistyped_name_in_a_file_is_refused_and_a_strangers_is_not(file):
-    path = file('/**: {ros__parameters: {mass: 7, robot_name: arm}}')
-    model, _ = load_rig(str(path))
-    assert model.load.mass == 7.0
-    path = file('/**: {ros__parameters: {mas: 7}}')
-    with pytest.raises(ParameterError, match=r'given.yaml: mas .* was mass meant'):
-        load_rig(str(path))
 
 
 @given(

@@ -14,15 +14,15 @@ from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig.arrangements import ARRANGEMENTS
 from pam_ros.rig.loads import Mass
 from pam_ros.rig.sensors import Sensors
+from pam_ros.settings.rig import RigParameters
 from pam_ros.settings.tables import (
     build,
-    build_joint,
-    build_rig,
     checked,
     effects_table,
     flat_rig,
     override,
     refuse_mistyped,
+    refuse_unknown_effects,
     rig_table,
     table_of,
     with_defaults,
@@ -50,17 +50,12 @@ def test_no_name_is_so_like_another_that_it_would_be_taken_for_mistyped():
         assert refuse_mistyped([name], TABLE) == []
 
 
-def test_defaults_make_the_default_rig():
-    assert build_rig(checked(TABLE, {})).muscle == Muscle()
-    assert build_rig({}).load == Mass()
-
-
 @pytest.mark.parametrize('kind', ARRANGEMENTS, ids=lambda kind: kind.name)
 def test_each_arrangement_is_made_of_its_table(kind):
     """Its defaults make its joint, with the units of its coordinate and a contraction a muscle."""
     table = rig_table(kind)
     values = checked(table, {})
-    joint = build_joint(kind, [values] * kind.muscles, values)
+    (joint,) = RigParameters({'joint': kind.name}).build_joints(values)
     assert len(joint.actuators) == kind.muscles
     assert [one.contraction for one in joint.actuators] == [kind.contraction] * kind.muscles
     assert (joint.transmission, joint.load) == (kind.transmission(), kind.load())
@@ -106,8 +101,8 @@ def test_what_is_not_allowed_is_refused_by_name_and_value(name, value):
 @given(st.integers(1, 60), st.floats(0.0, 1.0), st.sampled_from(['vertical', 'horizontal']))
 def test_a_rig_goes_flat_and_comes_back(mass, zeta, mount):
     values = {'mass': mass, 'zeta': zeta, 'mount': mount, 'effects.payload.mass': 0.5}
-    model = build_rig(checked(TABLE, values))
-    again = build_rig(flat_rig(model))
+    (model,) = RigParameters({}).build_joints(checked(TABLE, values))
+    (again,) = RigParameters({}).build_joints(flat_rig(model))
     assert again.muscle == model.muscle
     assert again.load == model.load
     assert (again.parameters() == model.parameters()).all()
@@ -128,9 +123,10 @@ def test_other_defaults_are_checked_too():
 
 def test_unknown_effects_and_their_parameters_are_named():
     with pytest.raises(ParameterError, match=r'effects\.creeep is not known'):
-        build_rig({'effects.creeep.gain': 1.0})
+        refuse_unknown_effects({'effects.creeep.gain': 1.0})
     with pytest.raises(ParameterError, match=r'effects\.payload\.weight is not known'):
-        build_rig({'effects.payload.weight': 1.0})
+        refuse_unknown_effects({'effects.payload.weight': 1.0})
+    refuse_unknown_effects({'effects.payload.mass': 1.0, 'robot': 'arm', 'arm.payload.weight': 1})
 
 
 @pytest.mark.parametrize(

@@ -14,7 +14,7 @@ from pam_ros.identification.structure import Structure
 from pam_ros.recording.recording import Recording
 from pam_ros.report.provenance import provenance
 from pam_ros.rig.run import simulate, simulate_held
-from pam_ros.settings.tables import build_rig
+from pam_ros.settings.rig import RigParameters
 
 NOISE = 5e-5  # m
 SECONDS = 20.0  # long enough to see all that a report shows, also as plain Python
@@ -61,7 +61,9 @@ def held_recording(model, kappa, seconds=SECONDS, rate=100.0, seed=0):
 
 def rig(**values):
     """Return a rig with flat *values*, ``__`` for a dot, over those that are declared."""
-    return build_rig({**DECLARED, **{k.replace('__', '.'): v for k, v in values.items()}})
+    given = {k.replace('__', '.'): v for k, v in values.items()}
+    (joint,) = RigParameters({}).build_joints({**DECLARED, **given})
+    return joint
 
 
 def rms(e):

@@ -13,7 +13,7 @@ from pam_ros.nodes.common.rig_log import RigLog, lose_nothing
 from pam_ros.nodes.common.stamps import seconds
 from pam_ros.nodes.demo.stage import Stage, hold_pressure
 from pam_ros.processes.children import Program
-from pam_ros.settings.files import load_rig
+from pam_ros.settings.rig import load_rig
 
 MUSCLE = 'dmsp_20_400n'
 RELEASE = 3.0  # s
