@@ -5,15 +5,25 @@
 import numpy as np
 import pytest
 
-from pam_ros.control.gains import Gains
 from pam_ros.control.shaping import Shape
 from pam_ros.control.sliding_mode import SlidingMode
 from pam_ros.control.stiction import Stiction, StictionTuning
-from support.closed_loop import close_loop, declared, step_target, truth
+from support.kinds import EACH_KIND, ONE, PAIR, at_end
+from truth.effects import effect
+from truth.pair import FEEDBACK_NOISE, TruthPair
+from truth.sensor import Sensor
 
 DT = 2e-3
 TUNING = StictionTuning()
 TOLERANCE = 40e-6 / 3  # m; the load may be off by 1.5 of it
+# 15 and 25 N at the ends of two muscles on a radius of 40 mm, N m.
+STICKY = effect(
+    'coulomb_friction', coulomb_n=1.2, static_n=2.0, stribeck_m_s=0.05, bristle_n_m=5000.0
+)
+HASTY = {
+    ONE: Shape(max_acceleration=1.0, max_jerk=20.0),
+    PAIR: Shape.turning(max_acceleration=25.0, max_jerk=1000.0),
+}
 
 
 class Block:
@@ -65,26 +75,64 @@ def test_a_load_that_follows_is_left_alone():
         assert stiction.follow(DT, -x, force, 1.0) is None
 
 
-@pytest.mark.slow
-@pytest.mark.needs_numba
-@pytest.mark.parametrize('seed', [0, 1])
-def test_on_the_truth_plant_stick_and_slip_end_within_the_tolerance(seed):
-    law = SlidingMode(declared(), Gains())
-    hasty = Shape(max_acceleration=1.0, max_jerk=20.0)
-    run = close_loop(law, truth('friction', seed=seed), step_target(0.02), 12.0, shape=hasty)
-    end = run.last(2.0)
-    assert np.max(np.abs(run.error[end])) < 30e-6
-    assert np.ptp(run.pressure[end]) < 3e3
+def test_lengths_and_forces_of_a_pair_are_those_along_its_muscles():
+    of_one, of_pair = (SlidingMode(kind.declared()) for kind in (ONE, PAIR))
+    one, two = of_one._stiction._tuning, of_pair._stiction._tuning
+    assert two.loose_way == pytest.approx(one.loose_way / 0.04)
+    assert two.loose_speed == pytest.approx(one.loose_speed / 0.04)
+    assert two.dwell == one.dwell
+    doubts = of_one._standstill._tuning.doubt, of_pair._standstill._tuning.doubt
+    assert doubts[1] == pytest.approx(doubts[0] * 0.08)
 
 
-@pytest.mark.slow
-@pytest.mark.needs_numba
-@pytest.mark.parametrize('plant', ['nominal', 'lag', 'hysteresis'])
-def test_plants_without_stiction_are_never_pushed(plant):
-    law = SlidingMode(declared(), Gains())
-    pushed = []
+def watched(kind):
+    """Return a law, and the list of what its compensation says at each step."""
+    law, pushed = SlidingMode(kind.declared()), []
     follow = law._stiction.follow
     law._stiction.follow = lambda *seen: pushed.append(follow(*seen)) or pushed[-1]
-    close_loop(law, truth(plant), step_target(0.02), 4.0)
+    return law, pushed
+
+
+def stepped(kind, law, plant, seconds=12.0, **more):
+    """Run a step of 20 mm, or of half a radian."""
+    target = kind.step if kind is ONE else lambda t: 0.5 if t > 0.5 else 0.0
+    return kind.close(law, plant, target, seconds, **more)
+
+
+@pytest.mark.slow
+@pytest.mark.needs_numba
+@EACH_KIND
+@pytest.mark.parametrize('seed', [0, 1])
+def test_on_the_truth_plant_stick_and_slip_end_within_the_tolerance(kind, seed):
+    def plant():
+        if kind is ONE:
+            return ONE.truth('friction', seed=seed)
+        return TruthPair(at_pivot=(STICKY,), sensor=Sensor(noise=FEEDBACK_NOISE), seed=seed)
+
+    law, pushed = watched(kind)
+    error, swing = at_end(kind, stepped(kind, law, plant(), shape=HASTY[kind]))
+    assert any(push is not None for push in pushed)
+    assert error < 0.03
+    assert swing < 3e3
+    # Without it the load hunts on and on.
+    law = SlidingMode(kind.declared())
+    law._stiction.follow = lambda *seen: None
+    error, _ = at_end(kind, stepped(kind, law, plant(), shape=HASTY[kind]))
+    assert error > 0.3
+
+
+@pytest.mark.slow
+@pytest.mark.needs_numba
+@pytest.mark.parametrize(
+    ('kind', 'plant'),
+    [
+        *((ONE, name) for name in ('nominal', 'lag', 'hysteresis')),
+        *((PAIR, name) for name in ('nominal', 'friction', 'lag', 'hysteresis')),
+    ],
+    ids=str,
+)
+def test_plants_that_do_not_stick_and_slip_are_never_pushed(kind, plant):
+    law, pushed = watched(kind)
+    stepped(kind, law, kind.truth(plant, seed=2), 5.0)
     assert len(pushed) > 500
     assert set(pushed) == {None}

@@ -1,90 +1,206 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The integrator against scipy's DOP853 on the paper's equations, and against conservation."""
+"""The integrator against scipy's DOP853 on equations of their own, and against conservation."""
+
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import pytest
-from scipy.integrate import quad, solve_ivp
+from scipy.integrate import quad
 
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig import layout as at
-from pam_ros.rig.joint import one_muscle
+from pam_ros.rig.joint import Joint, one_muscle
 from pam_ros.rig.loads import Mass
 from pam_ros.rig.rest import rest
 from pam_ros.rig.rig import Rig
 from pam_ros.rig.run import simulate
 from pam_ros.rig.start import start_state
-from support import paper, smooth_supply
+from support import joints, paper, smooth_supply
+from support.joint_models import BOTH_LONG, UNEQUAL, lever, muscle, pair, parallel
+from support.joint_runs import BAR, OFFSETS, run, solve
+from support.joint_runs import MASS as ON_TWO
 
 MASS, ZETA = 20.0, 0.15
 WEIGHT = MASS * paper.G
 
 
-def solve(p_of_t, start, t, g=paper.G, zeta=ZETA):
-    """Return y and v, upwards, at the stamps t by DOP853 at rtol 1e-10 or tighter."""
-    rhs = paper.pendulum(p_of_t, MASS, zeta, g)
-    y, v = start
-    found = solve_ivp(rhs, (t[0], t[-1]), (-y, -v), 'DOP853', t, rtol=1e-12, atol=1e-14)
-    assert found.success
-    return -found.y
+def hanging(p_of_t, g=paper.G):
+    """Return the paper's equations, upwards, as a right-hand side for scipy."""
+    downwards = paper.pendulum(lambda t: p_of_t(t)[0], MASS, ZETA, g)
+
+    def rhs(t, state):
+        v, a = downwards(t, (-state[0], -state[1]))
+        return -v, -a
+
+    return rhs
 
 
-def swinging(step=1e-3, t=None, position=0.1):
-    """Run the rig under the smooth supply, from rest at a position; return its trajectory."""
-    model = one_muscle(library=(smooth_supply.EFFECT,))
-    t = np.linspace(0.0, 10.0, 2001) if t is None else t
-    return simulate(model, t, [0.0], [0.0], position=position, step=step)
+@dataclass(frozen=True)
+class Case:
+    """A joint, its equations, pressures in bar, and what is allowed at each step.
+
+    A nanometre at the ends of the muscles: 1 nm of a load that hangs there, and on an arm 4 nrad
+    are a tenth of a nanometre; with half the step 0.3 nrad.
+    """
+
+    joint: Joint
+    equations: Any
+    bar: tuple
+    bounds: tuple = ((1e-3, 4e-9), (5e-4, 3e-10))
+    moves: float = 0.05
+
+    def constant(self):
+        return self.equations(lambda _: self.bar)
 
 
-@pytest.mark.parametrize('position', [0.0, 0.05, 0.0973])
-def test_the_papers_experiment_is_within_a_nanometre_of_dop853(position):
-    """600 kPa, 20 kg, released; 10 s at the default step."""
-    t = np.linspace(0.0, 10.0, 2001)
-    found = simulate(one_muscle(), t, [0.0], [6e5], position=position)
-    y, v = solve(lambda _: 6.0, (position, 0.0), t)
-    assert np.max(np.abs(found.position - y)) < 1e-9
-    assert np.max(np.abs(found.velocity - v)) < 3e-8
-    assert found.force[-1] == pytest.approx(WEIGHT, abs=1e-6)  # it has come to rest
+ALONE = Case(one_muscle(), hanging, (6.0,), ((1e-3, 1e-9),), 0.0)
+TWO = Case(pair(), lambda p: joints.pair(p, UNEQUAL), (4.2, 2.9))
+CASES = {
+    'one muscle': (ALONE, (0.0, 0.0), (0.05, 0.0), (0.0973, 0.0)),
+    'parallel': (
+        Case(
+            parallel(ON_TWO, offsets=OFFSETS),
+            lambda p: joints.parallel(p, UNEQUAL, ON_TWO, OFFSETS),
+            *((4.2, 2.9), ((1e-3, 1e-9),), 0.02),
+        ),
+        *((0.0, 0.0), (0.05, 0.3)),
+    ),
+    'pair': (TWO, (0.0, 0.0), (0.5, 0.0), (-0.3, 4.0)),
+    'equal pair': (
+        Case(pair(BOTH_LONG), lambda p: joints.pair(p, BOTH_LONG), (4.2, 2.9)),
+        *((0.0, 0.0), (0.5, 0.0), (-0.3, 4.0)),
+    ),
+    # The arms of levers change with the angle.
+    'lever': (
+        Case(lever(), lambda p: joints.lever(p, UNEQUAL), (3.2, 2.9)),
+        *((0.0, 0.0), (0.5, 0.0), (-0.3, 2.0)),
+    ),
+    'crank': (
+        Case(lever(UNEQUAL[:1]), lambda p: joints.lever(p, UNEQUAL[:1]), (1.5,)),
+        *((0.0, 0.0), (0.5, 0.0), (-0.3, 2.0)),
+    ),
+}
+
+
+def marks_of(case):
+    return [pytest.mark.needs_numba] if case.joint.is_revolute else []
+
+
+@pytest.mark.parametrize(
+    ('case', 'start'),
+    [
+        pytest.param(case, start, id=f'{name} from {start}', marks=marks_of(case))
+        for name, (case, *starts) in CASES.items()
+        for start in starts
+    ],
+)
+def test_a_joint_that_is_let_go_is_within_a_nanometre_of_dop853(case, start):
+    """One muscle is the paper's experiment: 600 kPa, 20 kg, released."""
+    t = np.linspace(0.0, 10.0, 1001) if case is ALONE else np.linspace(0.0, 5.0, 501)
+    s, v = solve(case.constant(), start, t)
+    assert np.ptp(s) > case.moves
+    if case.joint.transmission.equations.name == 'lever':
+        assert np.max(np.abs(s)) < joints.AT_0 - 0.1
+    for step, bound in case.bounds:
+        found = run(case.joint, t, start, BAR * np.array(case.bar), step)
+        assert np.max(np.abs(found[0] - s)) < bound
+        assert np.max(np.abs(found[1] - v)) < 30.0 * bound
+
+
+def test_the_experiment_of_the_paper_comes_to_rest():
+    found = simulate(one_muscle(), [0.0, 10.0], [0.0], [6e5], position=0.05)
+    assert found.force[-1] == pytest.approx(WEIGHT, abs=1e-6)
+
+
+# Muscles under pressures that swing, each in its own way.
+SWINGS = ((3.0, 1.2, 5.0), (2.5, -0.8, 8.0))  # mean and amplitude in bar, rad/s
+SUPPLIES = tuple(
+    {'smooth_supply': {'mean': mean * BAR, 'amplitude': amplitude * BAR, 'rate': rate}}
+    for mean, amplitude, rate in SWINGS
+)
+LIBRARY = (smooth_supply.EFFECT,)
+
+
+def swinging(t):
+    return tuple(mean + amplitude * np.sin(rate * t) for mean, amplitude, rate in SWINGS)
+
+
+@dataclass(frozen=True)
+class Swing:
+    """A joint whose pressures swing, and the right-hand side of its equations."""
+
+    joint: Joint
+    rhs: Any
+    bounds: tuple
+    steps: tuple
+    moves: float
+
+
+EACH_SWING = pytest.mark.parametrize(
+    'swing',
+    [
+        Swing(
+            one_muscle(library=LIBRARY),
+            hanging(lambda t: (smooth_supply.at(t),)),
+            *(ALONE.bounds, (6e-3, 3e-3, 1.5e-3, 0.75e-3), 0.01),
+        ),
+        Swing(
+            pair(effects=SUPPLIES, library=LIBRARY),
+            joints.pair(swinging, UNEQUAL),
+            *(TWO.bounds, (4e-3, 2e-3, 1e-3), 0.3),
+        ),
+    ],
+    ids=['one muscle', 'pair'],
+)
+
+
+def swung(swing, t, step):
+    return run(swing.joint, t, (0.1, 0.0), np.zeros(len(swing.joint.muscles)), step)
 
 
 @pytest.mark.slow
-def test_a_smooth_command_is_within_a_nanometre_of_dop853():
-    t = np.linspace(0.0, 10.0, 2001)
-    y, v = solve(smooth_supply.at, (0.1, 0.0), t)
-    found = swinging()
-    assert np.ptp(y[t > 5.0]) > 0.01
-    assert np.max(np.abs(found.position - y)) < 1e-9
-    assert np.max(np.abs(found.velocity - v)) < 3e-8
+@EACH_SWING
+def test_under_swinging_pressures_it_is_within_a_nanometre_of_dop853(swing):
+    t = np.linspace(0.0, 10.0, 1001)
+    s, v = solve(swing.rhs, (0.1, 0.0), t)
+    assert np.ptp(s[t > 5.0]) > swing.moves
+    for step, bound in swing.bounds:
+        found = swung(swing, t, step)
+        assert np.max(np.abs(found[0] - s)) < bound
+        assert np.max(np.abs(found[1] - v)) < 30.0 * bound
 
 
-def test_a_staircase_of_commands_is_within_a_nanometre_of_dop853():
-    """Commands at 50 Hz, each held to the next: the solver starts anew at each."""
-    model = one_muscle()
-    rig = Rig([model])
-    rig.reset([3e5], [rest(model, 3e5)], [0.0])
-    state = np.array([rig.position[0], 0.0])
-    for k in range(150):
-        p = 3e5 + 2e5 * np.sin(0.13 * k)
-        rig.command(p)
-        rig.advance(20)
-        state = solve(lambda _, p=p: p / 1e5, state, np.array([0.0, 0.02]))[:, -1]
-        assert rig.position[0] == pytest.approx(state[0], abs=1e-9)
-    assert rig.time == 3.0
-
-
-def test_the_order_of_convergence_is_four():
+@EACH_SWING
+def test_the_order_of_convergence_is_four(swing):
     t = np.array([0.0, 0.96])
-    exact = solve(smooth_supply.at, (0.1, 0.0), t)[0, -1]
-    steps = np.array([6e-3, 3e-3, 1.5e-3, 0.75e-3])
-    errors = [abs(swinging(step, t).position[-1] - exact) for step in steps]
-    orders = np.diff(np.log(errors)) / np.diff(np.log(steps))
+    exact = solve(swing.rhs, (0.1, 0.0), t)[0, -1]
+    errors = [abs(swung(swing, t, step)[0, -1] - exact) for step in swing.steps]
+    orders = np.diff(np.log(errors)) / np.diff(np.log(swing.steps))
     assert np.all(np.abs(orders - 4.0) < 0.3), orders
-
-
-def test_richardson_sees_the_same_order_without_a_reference():
-    t = np.array([0.0, 0.96])
-    y = [swinging(step, t).position[-1] for step in (4e-3, 2e-3, 1e-3)]
+    # Richardson sees the same order without a reference.
+    y = [swung(swing, t, step)[0, -1] for step in (4e-3, 2e-3, 1e-3)]
     assert np.log2((y[0] - y[1]) / (y[1] - y[2])) == pytest.approx(4.0, abs=0.2)
+
+
+@pytest.mark.parametrize('case', [ALONE, TWO], ids=['one muscle', 'pair'])
+def test_a_staircase_of_commands_is_within_a_nanometre_of_dop853(case):
+    """Commands at 50 Hz, each held to the next: the solver starts anew at each."""
+    muscles = len(case.joint.muscles)
+    start = 0.0 if case is TWO else rest(case.joint, 3e5)
+    rigs = [Rig([case.joint], step) for step, _ in case.bounds]
+    for rig in rigs:
+        rig.reset([3e5] * muscles, [start], [0.0])
+    state = np.array([start, 0.0])
+    for k in range(150):
+        p = (3.0 + 2.0 * np.sin(0.13 * k), 3.0 + np.cos(0.3 * k))[:muscles]
+        state = solve(case.equations(lambda _, p=p: p), state, np.array([0.0, 0.02]))[:, -1]
+        for rig, (step, bound) in zip(rigs, case.bounds, strict=True):
+            rig.command(BAR * np.array(p))
+            rig.advance(round(0.02 / step))
+            assert rig.position[0] == pytest.approx(state[0], abs=bound)
+    assert [rig.time for rig in rigs] == [3.0] * len(rigs)
 
 
 def energy(rig):
@@ -118,24 +234,75 @@ def test_energy_without_damping_drifts_by_a_ten_millionth_in_a_minute():
     assert (energy(fine) - start) / drift[-1] == pytest.approx(1.0 / 32.0, rel=0.2)
 
 
+@pytest.mark.needs_numba
+@pytest.mark.parametrize(
+    ('made', 'torque', 'p'),
+    [
+        (pair, joints.torque, (4.0, 3.0)),
+        (lever, joints.lever_torque, (4.0, 3.0)),
+        (lever, joints.lever_torque, (1.5,)),
+    ],
+    ids=['pair', 'lever', 'crank'],
+)
+def test_energy_without_damping_drifts_by_a_millionth_in_a_minute(made, torque, p):
+    """Motion, muscles and gravity: what one loses, the others gain."""
+    strands = UNEQUAL[: len(p)]
+
+    def energy(angle, rate):
+        work, _ = quad(
+            lambda a: torque(p, a, strands) - joints.gravity(a), 0.0, angle, epsabs=1e-13
+        )
+        return 0.5 * joints.J * rate**2 - work
+
+    joint = made(strands, zeta=0.0)
+    rig = Rig([joint])
+    at_rest = rest(joint, BAR * np.array(p))
+    away = at_rest + (0.4 if len(p) == 2 else -0.5)
+    rig.reset(BAR * np.array(p), [away], [0.0])
+    start = energy(away, 0.0)
+    swing = start - energy(at_rest, 0.0)
+    assert swing > (1.0 if len(p) == 2 else 0.5)
+    drift = []
+    for _ in range(60):
+        rig.advance(1000)
+        drift.append(energy(rig.position[0], rig.velocity[0]) - start)
+    assert min(drift) > -1e-6 * swing
+    assert max(drift) < 1e-7 * swing
+
+
 def test_a_horizontal_load_feels_no_gravity():
     model = one_muscle(load=Mass(mount='horizontal'))
     t = np.linspace(0.0, 3.0, 301)
     found = simulate(model, t, [0.0], [3e5], position=0.05)
-    y, _ = solve(lambda _: 3.0, (0.05, 0.0), t, g=0.0)
+    y, _ = solve(hanging(lambda _: (3.0,), g=0.0), (0.05, 0.0), t)
     assert np.max(np.abs(found.position - y)) < 1e-9
     assert found.position[-1] == pytest.approx(rest(model, 3e5), abs=1e-5)
     assert found.force[-1] == pytest.approx(0.0, abs=0.1)
 
 
-def test_outputs_are_the_papers():
-    rig = Rig([one_muscle()])
-    rig.reset([4e5], [0.05], [0.3])
-    force, k, c, acceleration = rig.outputs()[0]
-    assert force == pytest.approx(paper.force(4.0, 12.5), abs=1e-9)
-    assert k == pytest.approx(paper.stiffness(4.0, 12.5), rel=1e-12)
-    assert c == pytest.approx(paper.damping(4.0, 12.5, MASS, ZETA), rel=1e-12)
-    assert acceleration == pytest.approx((force - c * 0.3 - WEIGHT) / MASS, rel=1e-12)
+def test_two_equal_muscles_are_one_with_half_the_mass():
+    t = np.linspace(0.0, 2.0, 201)
+    two = run(parallel(30.0, BOTH_LONG), t, (0.03, 0.1), (4e5, 4e5))
+    alone = one_muscle(muscle(joints.LONG), Mass(mass=15.0))
+    one = run(alone, t, (0.03, 0.1), (4e5,))
+    np.testing.assert_allclose(two, one, rtol=0.0, atol=1e-12)
+
+
+def test_a_pair_of_equal_muscles_rings_down_with_their_damping_ratio():
+    """In the middle and for small swings, Lehr's ratio of the joint is that of its muscles."""
+    same = {'contraction_1': 0.1, 'contraction_2': 0.1, 'plane': 'horizontal'}
+    rig = Rig([pair(BOTH_LONG, zeta=0.08, **same)], 1e-4)
+    rig.reset([3e5, 3e5], [1e-6], [0.0])
+    peaks, last = [], (1e-6, 0.0)
+    for _ in range(20_000):
+        rig.advance()
+        now = rig.position[0], rig.velocity[0]
+        if last[1] > 0.0 >= now[1]:
+            peaks.append(last[0])
+        last = now
+    decrement = np.log(peaks[0] / peaks[3]) / 3.0
+    ratio = decrement / np.hypot(decrement, 2.0 * np.pi)
+    assert ratio == pytest.approx(0.08, rel=1e-3)
 
 
 def test_templates_run_as_they_stand():
@@ -148,6 +315,6 @@ def test_templates_run_as_they_stand():
     scratch = model.layout.scratch()
     for i in range(50):
         kernel.step(x, scratch, q, [3e5], i * 1e-3, 1e-3)
-    y, v = solve(lambda _: 3.0, (0.02, 0.0), np.array([0.0, 0.05]))
+    y, v = solve(hanging(lambda _: (3.0,)), (0.02, 0.0), np.array([0.0, 0.05]))
     assert x[at.JOINT, at.S] == pytest.approx(y[-1], abs=1e-9)
     assert x[at.JOINT, at.V] == pytest.approx(v[-1], abs=3e-8)

@@ -1,19 +1,26 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Simulation over given stamps, against closed forms that know each command's very moment."""
+"""Simulation over given stamps: commands at their very moments, starts, forces, held joints.
+
+Against closed forms, DOP853, the law of each muscle, and rigs that are stepped.
+"""
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy.integrate import solve_ivp
 
 from pam_ros.errors import ParameterError
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig.joint import one_muscle
 from pam_ros.rig.loads import Mass
 from pam_ros.rig.rest import rest
-from pam_ros.rig.run import simulate, simulate_held
-from support import paper
+from pam_ros.rig.rig import Rig
+from pam_ros.rig.run import acting_commands, simulate, simulate_held
+from support import joints, paper
+from support.joint_models import UNEQUAL, lever, pair, parallel
+from support.joint_runs import CASES
 
 # A force source of 1 N/Pa and a mass of 2 kg: y'' = p/2 has parabolas for solutions, exactly.
 SOURCE = Muscle(
@@ -21,6 +28,53 @@ SOURCE = Muscle(
     pressure_unit='Pa', zeta=0.0, p_min=-1e3, p_max=1e3, force_max=1e3,
 )  # fmt: skip
 FREE = Mass(mass=2.0, mount='horizontal')
+
+
+LATE = {'dead_time': {'delay': 0.012}}
+LATER = {'dead_time': {'delay': 0.031}, 'pressure_lag': {'fill': 0.03, 'vent': 0.05}}
+CREEP = {'creep': {'stiffness': 300.0, 'time': 0.5}}
+AT = np.array([0.0, 0.1, 0.25, 0.26, 0.6])
+U = 1e5 * np.array([[3.0, 3.0], [4.0, 2.5], [2.0, 3.5], [2.2, 3.5], [3.0, 3.2]])
+T = np.arange(1001) * 1e-3
+EACH = pytest.mark.parametrize('case', CASES.values(), ids=CASES)
+
+
+def stepped(joint, begin):
+    """Return position, velocity and pressures of a rig, each ms."""
+    rig, muscles = Rig([joint]), len(joint.muscles)
+    rig.reset(U[0, :muscles], [begin], [0.0])
+    commands = {round(stamp * 1e3): row for stamp, row in zip(AT, U[:, :muscles], strict=True)}
+    found = []
+    for k in range(T.size):
+        found.append((rig.position[0], rig.velocity[0], *rig.pressure))
+        if k in commands:
+            rig.command(commands[k])
+        rig.advance()
+    return np.array(found).T
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ('joint', 'bound'),
+    [
+        (one_muscle(load=Mass(mass=8.0), effects=LATE | CREEP), 1e-12),
+        (pair(effects=(LATE, LATER)), 1e-11),
+        (lever(effects=(LATE, LATER)), 1e-11),
+        (parallel(50.0), 1e-11),
+    ],
+    ids=['one muscle', 'pair', 'lever', 'parallel'],
+)
+def test_it_is_what_a_rig_gives_that_is_stepped(joint, bound):
+    """Commands of each muscle on whole steps, each after the dead time of its own path."""
+    muscles = len(joint.muscles)
+    run = simulate(joint, T, AT, U[:, :muscles], position=0.02)
+    position, velocity, *pressures = stepped(joint, 0.02)
+    np.testing.assert_allclose(run.position, position, atol=bound)
+    np.testing.assert_allclose(run.velocity, velocity, atol=10.0 * bound)
+    shape = T.size if muscles == 1 else (T.size, muscles)
+    np.testing.assert_allclose(run.pressure, np.transpose(pressures).reshape(shape), rtol=1e-9)
+    assert np.ptp(run.position) > 0.005
+    assert run.force.shape == run.pressure.shape
 
 
 def parabolas(t, command_t, command, y, v, delay=0.0):
@@ -55,6 +109,34 @@ def test_commands_act_at_their_very_stamps(t, command_t, seed, delay):
     np.testing.assert_allclose(found.velocity, v, rtol=0.0, atol=1e-12)
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ('made', 'equations'), [(pair, joints.pair), (lever, joints.lever)], ids=['pair', 'lever']
+)
+def test_commands_act_at_their_very_stamps_in_each_muscle(made, equations):
+    """Stamps between the steps, and a dead time that none of them divides: against DOP853."""
+    delays, at = (0.0137, 0.0), np.array([0.0, 0.1003, 0.2371])
+    u = np.array([[3.0, 2.0], [4.0, 2.5], [2.5, 3.0]])
+    joint = made(effects=({'dead_time': {'delay': delays[0]}}, {}))
+    run = simulate(joint, T[::10], at, 1e5 * u, position=0.1, step=5e-4)
+    edges = np.unique(np.concatenate([at + delay for delay in delays]))
+    state, now, found = np.array([0.1, 0.0]), 0.0, []
+    for end in [*edges[edges > 0.0], T[-1]]:
+        p = [
+            u[max(np.searchsorted(at + delay, now + 1e-9) - 1, 0), i]
+            for i, delay in enumerate(delays)
+        ]
+        inside = T[::10][(T[::10] >= now) & ((T[::10] < end) | (end == T[-1]))]
+        part = solve_ivp(
+            equations(lambda _, p=p: p, UNEQUAL),
+            (now, end), state, 'DOP853', rtol=1e-12, atol=1e-14, dense_output=True,
+        )  # fmt: skip
+        found += list(part.sol(inside)[0])
+        state, now = part.y[:, -1], end
+    assert np.ptp(found) > 0.1
+    np.testing.assert_allclose(run.position, found, atol=3e-9)
+
+
 def test_a_sample_is_the_state_before_the_command_of_its_stamp():
     t = [0.0, 0.1, 0.2]
     found = simulate(one_muscle(SOURCE, FREE), t, [0.0, 0.1], [0.0, 40.0], position=0.0)
@@ -74,14 +156,24 @@ def test_viscous_friction_follows_its_exponential():
     np.testing.assert_allclose(found.position, y, atol=1e-11)
 
 
-def test_it_starts_at_rest_under_the_command_in_force():
-    """Commands before the first sample: the last of them is in force, and a lag has followed."""
-    lag = {'pressure_lag': {'fill': 0.1, 'vent': 0.1}}
-    for effects in ({}, lag):
-        model = one_muscle(effects=effects)
-        found = simulate(model, [5.0, 5.5], [1.0, 2.0, 6.0], [1e5, 3e5, 6e5])
-        np.testing.assert_allclose(found.pressure, 3e5)
-        np.testing.assert_allclose(found.position, rest(model, 3e5), atol=1e-12)
+@pytest.mark.parametrize(
+    ('joint', 'command', 'acting'),
+    [
+        (one_muscle(), [1e5, 3e5, 6e5], 3e5),
+        (one_muscle(effects={'pressure_lag': {'fill': 0.1, 'vent': 0.1}}), [1e5, 3e5, 6e5], 3e5),
+        (
+            lever(effects=({'dead_time': {'delay': 0.3}}, {})),
+            [[2e5, 3e5], [4e5, 3.5e5], [6e5, 6e5]],
+            [2e5, 3.5e5],
+        ),
+    ],
+    ids=['one muscle', 'with lag', 'lever'],
+)
+def test_it_starts_at_rest_under_the_commands_in_force(joint, command, acting):
+    """Of each muscle the last before the first sample, if it has acted; a lag has followed."""
+    run = simulate(joint, [2.2, 2.25], [1.0, 2.0, 6.0], command)
+    np.testing.assert_allclose(run.pressure, [acting] * 2, rtol=1e-15)
+    np.testing.assert_allclose(run.position, rest(joint, acting), atol=1e-12)
 
 
 def test_a_late_command_is_not_yet_in_force_at_the_start():
@@ -90,14 +182,14 @@ def test_a_late_command_is_not_yet_in_force_at_the_start():
     np.testing.assert_array_equal(found.pressure, [1e5, 1e5, 3e5])
 
 
-def test_force_is_the_pull_less_the_damping():
-    t = np.linspace(0.0, 0.3, 31)
-    found = simulate(one_muscle(), t, [0.0], [4e5], position=0.05, velocity=0.2)
-    for i in range(len(t)):
-        kappa = 100.0 * found.position[i] / paper.L0
-        c = paper.damping(4.0, kappa, 20.0, 0.15)
-        expected = paper.force(4.0, kappa) - c * found.velocity[i]
-        assert found.force[i] == pytest.approx(expected, abs=1e-8)
+@EACH
+def test_the_force_of_each_muscle_is_its_pull_less_its_damping(case):
+    joint = case.made(effects=(LATE, LATER))
+    run = simulate(joint, T, AT, U[:, : len(joint.muscles)], position=0.02, velocity=0.2)
+    for k in range(0, T.size, 50):
+        p, found = np.atleast_1d(run.pressure[k]), np.atleast_1d(run.force[k])
+        expected = case.forces(p, run.position[k], run.velocity[k])
+        np.testing.assert_allclose(found, expected, rtol=0.0, atol=1e-8)
 
 
 def test_a_step_that_is_too_long_is_refused_with_a_sentence():
@@ -109,21 +201,48 @@ def test_a_step_that_is_too_long_is_refused_with_a_sentence():
     )
 
 
-def test_a_held_rig_gives_the_force_of_the_law():
-    """Length and pressure prescribed: equation (1) less (4) times the velocity."""
-    t = np.linspace(0.0, 2.0, 201)
-    p = 3e5 + 1e5 * np.sin(3.0 * t)
-    y = 0.05 + 0.02 * np.sin(2.0 * t)
-    found = simulate_held(one_muscle(), t, p, y)
-    v = np.gradient(y, t)
-    for i in range(len(t)):
-        kappa = 100.0 * y[i] / paper.L0
-        c = paper.damping(p[i] / 1e5, kappa, 20.0, 0.15)
-        expected = paper.force(p[i] / 1e5, kappa) - c * v[i]
-        assert found.force[i] == pytest.approx(expected, abs=1e-8)
-    np.testing.assert_array_equal(found.position, y)
-    np.testing.assert_array_equal(found.velocity, v)
-    np.testing.assert_array_equal(found.pressure, p)
+def test_commands_of_other_muscles_are_refused_with_a_sentence():
+    three = np.zeros((2, 3))
+    with pytest.raises(ParameterError) as error:
+        simulate(pair(), [0.0, 0.1], [0.0, 0.1], three)
+    assert str(error.value) == (
+        'command has the shape (2, 3): give (2, 2), a row for each stamp of command_t and a '
+        'column for each muscle'
+    )
+    with pytest.raises(ParameterError, match=r'pressure has the shape \(2, 3\): give \(2, 2\)'):
+        simulate_held(pair(), [0.0, 0.1], three, [0.0, 0.0])
+
+
+def test_commands_with_different_dead_times_act_at_all_their_stamps():
+    at, u = np.array([0.0, 1.0]), np.array([[1.0, 2.0], [3.0, 4.0]])
+    stamps, acting = acting_commands(at, u, (0.5, 0.2))
+    np.testing.assert_array_equal(stamps, [0.2, 0.5, 1.2, 1.5])
+    np.testing.assert_array_equal(acting, [[1.0, 2.0], [1.0, 2.0], [1.0, 4.0], [3.0, 4.0]])
+    same, unchanged = acting_commands(at, u, (0.5, 0.5))
+    np.testing.assert_array_equal(same, at + 0.5)
+    assert unchanged is u
+
+
+# Held -----------------------------------------------------------------------------------------
+
+
+@pytest.mark.slow
+@EACH
+def test_a_joint_that_is_held_gives_the_forces_of_the_law(case):
+    """Coordinate and pressures prescribed."""
+    t = np.linspace(0.0, 2.0, 101)
+    joint = case.made()
+    p = np.stack([3e5 + 1e5 * np.sin(3.0 * t), 2.5e5 + 5e4 * np.cos(2.0 * t)], axis=1)
+    p = p[:, : len(joint.muscles)]
+    s = 0.3 * np.sin(2.0 * t) if joint.is_revolute else 0.05 + 0.02 * np.sin(2.0 * t)
+    run = simulate_held(joint, t, p, s)
+    rate = np.gradient(s, t)
+    for k in range(t.size):
+        expected = case.forces(p[k], s[k], rate[k])
+        np.testing.assert_allclose(np.atleast_1d(run.force[k]), expected, rtol=0.0, atol=1e-8)
+    np.testing.assert_array_equal(run.position, s)
+    np.testing.assert_array_equal(run.velocity, rate)
+    np.testing.assert_array_equal(run.pressure, p if p.shape[1] > 1 else p[:, 0])
 
 
 def test_a_held_rig_takes_a_given_velocity():
@@ -132,3 +251,36 @@ def test_a_held_rig_takes_a_given_velocity():
     moving = simulate_held(one_muscle(), t, p, y, velocity=[0.0, 0.5])
     c = paper.damping(2.0, 5.0, 20.0, 0.15)
     np.testing.assert_allclose(moving.force - still.force, [0.0, -0.5 * c], atol=1e-9)
+
+
+@pytest.mark.slow
+def test_each_held_muscle_feels_its_pressure_after_its_own_dead_time():
+    t = np.linspace(0.0, 2.0, 401)
+    p = np.stack([3e5 + 1e5 * np.sin(6.0 * t), 2e5 + 5e4 * np.cos(4.0 * t)], axis=1)
+    effects = {'dead_time': {'delay': 0.0237}}, {'dead_time': {'delay': 0.1}}
+    run = simulate_held(lever(effects=effects), t, p, 0.0 * t + 0.2)
+    for i, delay in enumerate((0.0237, 0.1)):
+        expected = np.interp(t - delay, t, p[:, i])
+        np.testing.assert_allclose(run.pressure[:, i], expected, rtol=1e-12)
+
+
+@pytest.mark.slow
+def test_held_muscles_remember_apart_and_friction_of_the_joint_is_not_felt():
+    """Slip of one muscle over its own contraction, at any step; the load's effects are none."""
+    slip = {'hysteresis': {'slip': 9.0, 'slip_width': 0.02, 'slip_onset': 1.0}}
+    t = np.linspace(0.0, 1.0, 201)
+    s = 0.4 * np.sin(2.0 * np.pi * t)
+    p, still = np.full((201, 2), 3e5), 0.0 * t
+    rub = {'coulomb_friction': {'level': 2.0}}
+    bare, one = (
+        simulate_held(pair(effects=({}, own), load=rub), t, p, s, still) for own in ({}, slip)
+    )
+    np.testing.assert_array_equal(bare.force[:, 0], one.force[:, 0])
+    # Ten elements of one threshold are one play: the force is within 9 N, and at its end there.
+    kappa = np.array([joints.ends(a, UNEQUAL)[1] for a in s]) / UNEQUAL[1].l0
+    play, expected = kappa[0], []
+    for k in kappa:
+        play = np.clip(play, k - 0.02, k + 0.02)
+        expected.append(-9.0 * (k - play) / 0.02)
+    np.testing.assert_allclose(one.force[:, 1] - bare.force[:, 1], expected, atol=1e-9)
+    assert np.ptp(expected) == pytest.approx(18.0)

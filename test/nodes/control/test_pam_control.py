@@ -163,11 +163,8 @@ def test_a_set_point_is_reached_in_real_time(watch, kind):
         assert 'Traceback' not in control.output
 
 
-@pytest.mark.parametrize(
-    ('kind', 'action', 'word'),
-    [(LOAD, 'vent', 'vents'), (PAIR, 'hold', 'holds')],
-    ids=['load', 'antagonistic'],
-)
+@both
+@pytest.mark.parametrize(('action', 'word'), [('vent', 'vents'), ('hold', 'holds')])
 def test_silence_of_the_joint_is_answered_safely(watch, kind, action, word):
     rig = Rig(watch.peer)
     given = {**kind.given, 'on_timeout': action, 'state_timeout': 0.2}

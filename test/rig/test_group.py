@@ -1,10 +1,11 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Joints of several kinds in one rig: each is to the bit what it is alone."""
+"""Joints beside each other in one rig: each is to the bit what it is alone."""
 
 import numpy as np
 import pytest
 
+from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig.joint import Actuator, Joint, one_muscle
 from pam_ros.rig.loads import Mass
 from pam_ros.rig.rig import Rig
@@ -12,7 +13,9 @@ from support import joints, smooth_supply
 from support.joint_models import BOTH_LONG, UNEQUAL, lever, muscle, pair, parallel
 from support.joint_runs import MASS, run
 
-IN_MUSCLE = {'creep': {'stiffness': 300.0, 'time': 0.5}, 'dead_time': {'delay': 0.0125}}
+LAG = {'pressure_lag': {'fill': 0.05, 'vent': 0.1}}
+CREEP = {'creep': {'stiffness': 300.0, 'time': 0.5}}
+IN_MUSCLE = CREEP | {'dead_time': {'delay': 0.0125}}
 ON_LOAD = {'coulomb_friction': {'level': 0.5}, 'payload': {'mass': 0.5}}
 MIXED = (
     one_muscle(effects=IN_MUSCLE | ON_LOAD),
@@ -47,7 +50,26 @@ def state(rig, joints_at, muscles_at):
     )
 
 
-def assert_each_is_what_it_is_alone(mixed, commands):
+# One kernel knows the effects of its own joints: those of another library are beside it.
+SWINGS = one_muscle(effects={'smooth_supply': {'mean': 3e5}}, library=(smooth_supply.EFFECT,))
+QUICK = one_muscle(Muscle(zeta=0.3), Mass(mass=5.0), LAG)
+RIGS = {
+    'all kinds': MIXED,
+    # Neighbours of one kind are stepped in one call; others in calls of their own.
+    'sorted': sorted(MIXED, key=lambda joint: joint.transmission.equations.name),
+    'plain': (one_muscle(), pair(), lever(), lever(UNEQUAL[:1])),
+    'equal': (one_muscle(), one_muscle()),
+    'lag': (one_muscle(), QUICK, one_muscle(load=Mass(mount='horizontal'), effects=CREEP | LAG)),
+    'delay': (one_muscle(load=Mass(mass=8.0), effects=IN_MUSCLE), QUICK, one_muscle()),
+    'libraries': (SWINGS, one_muscle(), SWINGS),
+}
+
+
+@pytest.mark.parametrize('mixed', RIGS.values(), ids=RIGS)
+def test_each_joint_is_what_it_is_alone(mixed):
+    """To the bit, with effects and without, whatever stands beside it in the rig."""
+    muscles = sum(len(joint.muscles) for joint in mixed)
+    commands = np.random.default_rng(1).uniform(0.0, 6e5, (8, muscles))
     together = driven(mixed, commands)
     muscle_at = 0
     for i, joint in enumerate(mixed):
@@ -58,33 +80,6 @@ def assert_each_is_what_it_is_alone(mixed, commands):
         np.testing.assert_array_equal(state(together, slice(i, i + 1), mine), expected)
         muscle_at += n
     assert muscle_at == commands.shape[1]
-
-
-def test_joints_of_all_kinds_together_are_each_what_it_is_alone():
-    """To the bit, with effects and without, whatever stands beside them in the rig."""
-    commands = np.random.default_rng(1).uniform(0.0, 6e5, (8, 12))
-    assert_each_is_what_it_is_alone(MIXED, commands)
-
-
-def test_the_order_of_the_joints_does_not_matter():
-    """Neighbours of one kind are stepped in one call; others in calls of their own."""
-    commands = np.random.default_rng(3).uniform(0.0, 6e5, (8, 12))
-    ordered = sorted(MIXED, key=lambda joint: joint.transmission.equations.name)
-    assert_each_is_what_it_is_alone(ordered, commands)
-
-
-def test_plain_joints_beside_each_other_are_what_they_are_alone_to_the_bit():
-    commands = np.random.default_rng(2).uniform(0.0, 6e5, (8, 6))
-    plain = (one_muscle(), pair(), lever(), lever(UNEQUAL[:1]))
-    assert_each_is_what_it_is_alone(plain, commands)
-
-
-@pytest.mark.slow
-def test_joints_with_other_effects_to_choose_from_stand_beside_each_other():
-    """Each kernel knows the effects of its own joints."""
-    swings = one_muscle(effects={'smooth_supply': {'mean': 3e5}}, library=(smooth_supply.EFFECT,))
-    commands = np.random.default_rng(4).uniform(0.0, 6e5, (8, 3))
-    assert_each_is_what_it_is_alone((swings, one_muscle(), swings), commands)
 
 
 def test_one_muscle_mounted_elsewhere_is_the_same_muscle():

@@ -1,0 +1,197 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""How closely the law reaches and follows: truth plants with undeclared effects, every joint."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from pam_ros.control.gains import Gains
+from pam_ros.control.sliding_mode import SlidingMode
+from pam_ros.effects import EFFECTS
+from pam_ros.rig import co_contraction
+from recorded.cases import MUSCLE_EFFECTS, TURNED_EFFECTS
+from support.closed_loop import LAG, shared
+from support.joint_loop import JOINTS, close_joint
+from support.kinds import EACH_KIND, ONE, PAIR, at_end, rms
+from support.pair_loop import close_pair, declared
+from truth.pair import TruthPair, pair_plant
+
+pytestmark = pytest.mark.needs_numba
+
+DEGREE = math.radians(1.0)
+BY_JOINT = pytest.mark.parametrize('name', ['parallel', 'lever', 'crank'])
+NOISES = {True: 0.02 * DEGREE, False: 20e-6}  # of an angle, of a position
+AT_REST = {True: 0.03 * DEGREE, False: 30e-6}
+QUIET = {'noise': 0.0}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ('kind', 'plant', 'effects', 'more', 'rate', 'error', 'swing'),
+    [
+        (ONE, 'nominal', None, {'seed': 7}, 500.0, 0.01, 3e3),
+        (ONE, 'payload', None, {'seed': 7}, 500.0, 0.01, 3e3),
+        (ONE, 'lag', LAG, {'seed': 7}, 500.0, 0.01, 3e3),
+        (ONE, 'hysteresis', None, {'seed': 7}, 500.0, 0.03, 3e3),
+        (ONE, 'nominal', None, QUIET, 500.0, 0.06, 1e3),
+        (ONE, 'lag', None, QUIET, 500.0, 0.06, 1e3),
+        (ONE, 'all', None, QUIET, 500.0, 0.06, 1e3),
+        (ONE, 'payload', None, {}, 200.0, 0.01, 3e3),
+        (ONE, 'payload', None, {}, 1000.0, 0.01, 3e3),
+        (PAIR, 'payload and friction', None, {}, 500.0, 0.01, 1e3),
+    ],
+    ids=str,
+)
+def test_a_step_is_reached_and_then_it_is_calm(kind, plant, effects, more, rate, error, swing):
+    """Errors in mm or degrees, swings of the pressure in Pa, over the last 2 s."""
+    law = SlidingMode(kind.declared(effects))
+    seconds = 12.0 if swing < 3e3 else 8.0  # a hunt begins late
+    run = kind.close(law, kind.truth(plant, **more), kind.step, seconds, rate=rate)
+    found = at_end(kind, run)
+    assert found[0] < error
+    assert found[1] < swing
+    if plant == 'nominal':  # within 2 % of the step, a second after it
+        assert np.all(np.abs(run.error[run.t > 2.0]) < 0.02 * 0.02)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ('kind', 'plant', 'effects', 'rate', 'most'),
+    [
+        (ONE, 'nominal', None, 500.0, 0.02),
+        (ONE, 'payload', None, 500.0, 0.02),
+        (ONE, 'lag', LAG, 500.0, 0.05),
+        (ONE, 'hysteresis', None, 500.0, 0.15),
+        (PAIR, 'nominal', None, 500.0, 0.2),
+        (PAIR, 'payload', None, 500.0, 0.2),
+        (PAIR, 'friction', None, 500.0, 0.2),
+        (PAIR, 'payload and friction', None, 500.0, 0.2),
+        (PAIR, 'quick lag', None, 500.0, 0.2),
+        (PAIR, 'lag', LAG, 500.0, 0.2),
+        (PAIR, 'payload', None, 200.0, 0.2),
+        (PAIR, 'payload', None, 1000.0, 0.2),
+    ],
+    ids=str,
+)
+def test_a_sine_is_followed(kind, plant, effects, rate, most):
+    law = SlidingMode(kind.declared(effects))
+    run = kind.close(law, kind.truth(plant, seed=7), kind.swing, 8.0, rate=rate)
+    end = run.last(4.0)
+    assert np.ptp((run.target - run.error)[end]) > 0.96 * np.ptp(run.target[end])
+    assert rms(kind, run) < most
+
+
+@EACH_KIND
+def test_two_runs_are_the_same_to_the_bit(kind):
+    runs = [
+        kind.close(SlidingMode(kind.declared()), kind.truth('friction', seed=2), kind.swing, 1.0)
+        for _ in range(2)
+    ]
+    assert runs[0].pressure.tobytes() == runs[1].pressure.tobytes()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize('plant', ['nominal', 'payload', 'payload and friction', 'all'])
+def test_the_stiffness_is_what_is_set_while_the_angle_holds(plant):
+    law, goal = SlidingMode(declared()), 10.0 * DEGREE
+
+    def stiffness(t):
+        return 18.0 if t < 4.0 else 36.0
+
+    run = close_pair(law, pair_plant(plant, seed=3), lambda t: goal, 9.0, stiffness)
+    # By differences of the pulls of the truth plant's muscles, and by the closed form.
+    for t, wanted in ((3.9, 18.0), (8.9, 36.0)):
+        n = np.searchsorted(run.t, t)
+        assert run.stiffness[n] == pytest.approx(wanted, rel=1e-3)
+        assert abs(run.error[n]) < 0.03 * DEGREE
+    if plant == 'nominal':
+        expected = co_contraction.pressures(declared(), goal, 36.0)
+        np.testing.assert_allclose(run.pressure[:, -1], expected, rtol=2e-3)
+    assert np.max(np.abs(run.error[run.t > 3.0])) < 0.03 * DEGREE
+
+
+def test_a_heavier_arm_that_begins_away_from_rest_is_caught():
+    run = close_pair(
+        SlidingMode(declared()), TruthPair(mass=2.0, seed=1), lambda t: 0.4, 6.0, begin=0.4
+    )
+    assert np.max(np.abs(run.error)) < 3.0 * DEGREE
+    assert np.max(np.abs(run.error[run.last(1.0)])) < 0.01 * DEGREE
+
+
+def heavier(joint):
+    """Return a joint with a load and friction that nobody declared."""
+    friction = 0.05 if joint.is_revolute else 20.0
+    unknown = {
+        'payload': {'mass': 0.2 * joint.load.mass},
+        'viscous_friction': {'coefficient': friction},
+    }
+    return replace(joint, effects=unknown)
+
+
+@BY_JOINT
+def test_the_default_gains_suit_every_joint(name):
+    joint = JOINTS[name]
+    Gains.for_joint(joint).check(shared(joint), 2e-3)
+
+
+@pytest.mark.slow
+@BY_JOINT
+@pytest.mark.parametrize('share', [0.2, 0.8])
+def test_the_law_brings_every_joint_to_a_position_within_its_reach(name, share):
+    joint = JOINTS[name]
+    low, high = shared(joint).reach
+    middle, goal = 0.5 * (low + high), low + share * (high - low)
+    noise = NOISES[joint.is_revolute]
+    run = close_joint(
+        SlidingMode(joint), heavier(joint), lambda t: goal if t > 1.0 else middle, 7.0, noise=noise
+    )
+    end = run.last(1.5)
+    assert np.max(np.abs(run.error[end])) < AT_REST[joint.is_revolute]
+    assert np.max(np.ptp(run.pressure[:, end], axis=1)) < 3e3
+    # It does not go far beyond its goal.
+    way = abs(goal - middle)
+    assert np.max(np.abs(run.coordinate - middle)) < 1.05 * way
+
+
+@pytest.mark.slow
+@BY_JOINT
+def test_every_joint_follows_a_swing(name):
+    joint = JOINTS[name]
+    low, high = shared(joint).reach
+    middle, swing = 0.5 * (low + high), 0.1 * (high - low)
+
+    def target(t):
+        return middle + swing * math.sin(math.pi * round(t, 2))
+
+    run = close_joint(SlidingMode(joint), heavier(joint), target, 8.0)
+    assert np.sqrt(np.mean(run.error[run.last(4.0)] ** 2)) < 0.02 * swing
+
+
+@pytest.mark.slow
+def test_muscles_that_pull_the_same_way_get_the_same_pressure():
+    joint = JOINTS['four']
+    run = close_joint(SlidingMode(joint), joint, lambda t: 0.3, 1.0, begin=0.0)
+    np.testing.assert_array_equal(run.pressure[0], run.pressure[2])
+    np.testing.assert_array_equal(run.pressure[1], run.pressure[3])
+    assert np.min(np.abs(run.pressure[0] - run.pressure[1])[100:]) > 1e3
+
+
+def test_each_effect_is_declared_below():
+    assert {*MUSCLE_EFFECTS, *TURNED_EFFECTS} == {effect.name for effect in EFFECTS}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize('name', [*MUSCLE_EFFECTS, *TURNED_EFFECTS, 'all'])
+def test_effects_that_are_declared_of_a_pair_give_a_law_that_runs(name):
+    in_muscles, on_load = (
+        effects if name == 'all' else {name: effects[name]} if name in effects else {}
+        for effects in (MUSCLE_EFFECTS, TURNED_EFFECTS)
+    )
+    joint = declared(in_muscles, on_load)
+    run = close_joint(SlidingMode(joint), joint, lambda t: 0.3 if t > 0.2 else 0.0, 2.5, begin=0.0)
+    assert np.all(np.isfinite(run.pressure))
+    most = 1.0 if name == 'all' else 0.5
+    assert np.max(np.abs(run.error[run.last(0.5)])) < most * DEGREE
