@@ -3,8 +3,10 @@
 """Blind trials: how often the finder names the effect that is in a recording, and no other.
 
 Recordings come from the truth plant in ``test/truth``, which shares neither equations nor
-integrator with the package. Options: ``--seeds N`` (default 12), ``--kinds a,b+c,noise_only``,
-``--jobs N``, ``--log FILE`` (one JSON line a trial).
+integrator with the package. Options: ``--seeds N`` (default 12) from ``--first N``, ``--kinds
+a,b+c,noise_only``, ``--draws wide`` (rigs as they are in the field), ``--search score`` (the
+search on the evidence, which is to replace today's), ``--jobs N``, ``--log FILE`` (one JSON line a
+trial).
 """
 
 import os
@@ -18,7 +20,8 @@ import sys
 import time
 from collections import Counter, defaultdict
 from collections.abc import Sequence
-from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -26,12 +29,16 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / 'test'))
 
+from pam_ros.identification.data.parts import parts_of
 from pam_ros.identification.finder import trace
+from pam_ros.identification.search.criteria import BUDGET, CRITERIA
+from pam_ros.identification.search.search import alternatives, search, verdict
+from pam_ros.identification.search.setting import Setting
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.recording.recording import Recording
 from pam_ros.rig.joint import Joint, one_muscle
 from pam_ros.rig.loads import Mass
-from truth import KINDS, NOISE_ONLY, OUT_OF_LIBRARY, PAIRS, Trial, blind_trial
+from truth import KINDS, NOISE_ONLY, OUT_OF_LIBRARY, PAIRS, Trial, blind_trial, wide_trial
 
 TARGETS = {
     'single: right effect first, or in a set of two': (0.95, 'min'),
@@ -62,32 +69,73 @@ def recording_of(trial: Trial) -> Recording:
     )  # fmt: skip
 
 
-def run_trial(job: tuple[str, int]) -> dict[str, Any]:
+@dataclass(frozen=True)
+class Job:
+    """A trial to be run: of which draws, and by which search."""
+
+    kind: str
+    seed: int
+    draws: str
+    search: str
+
+
+DRAWS = {'blind': blind_trial, 'wide': wide_trial}
+
+
+def run_trial(job: Job) -> dict[str, Any]:
     """Run one trial and return a row of what was there and what was found."""
-    kind, seed = job
-    trial = blind_trial(kind, seed)
+    trial = DRAWS[job.draws](job.kind, job.seed)
     began = time.perf_counter()
-    found = trace(declared_model(trial), [recording_of(trial)])
-    declared, retuned, augmented = found.stages
+    found = SEARCHES[job.search](declared_model(trial), recording_of(trial))
     return {
-        'kind': kind,
-        'seed': seed,
+        'kind': job.kind,
+        'seed': job.seed,
         'forms': [e.form for e in trial.effects],
         'accepted': [sorted(names) for names in trial.accepted],
         'in_library': trial.in_library,
+        **found,
+        'noise': trial.noise,
+        'samples': int(trial.recording.t_s.size),
+        'seconds': time.perf_counter() - began,
+    }
+
+
+def by_trace(model: Joint, recording: Recording) -> dict[str, Any]:
+    """Return what today's search finds; errors are those of the samples kept back."""
+    found = trace(model, [recording])
+    declared, retuned, augmented = found.stages
+    return {
         'verdict': found.verdict,
         'found': [e.name for e in found.effects],
         'alternatives': [list(e.alternatives) for e in found.effects],
         'declared': declared.held_error,
         'retuned': retuned.held_error,
         'augmented': augmented.held_error,
-        'noise': trial.noise,
         'floor': found.noise.sigma,
         'ceiling': found.structure.ceiling,
         'share': found.structure.share,
-        'samples': int(trial.recording.t_s.size),
-        'seconds': time.perf_counter() - began,
     }
+
+
+def by_score(model: Joint, recording: Recording) -> dict[str, Any]:
+    """Return what the search on the evidence finds; errors are those of the part that judges."""
+    parts = parts_of([recording], CRITERIA.fit, CRITERIA.choose)
+    with ThreadPoolExecutor(1) as pool:
+        setting = Setting(model, parts, CRITERIA, BUDGET, pool)
+        found = search(setting)
+    named = verdict(found)
+    names = list(found.best.effects) if named == 'effect_found' else []
+    return {
+        'verdict': named,
+        'found': names,
+        'alternatives': [list(alternatives(found, name)) for name in names],
+        'retuned': setting.judged(found.retuned),
+        'augmented': setting.judged(found.best),
+        'floor': setting.noise,
+    }
+
+
+SEARCHES = {'today': by_trace, 'score': by_score}
 
 
 def is_right(row: dict[str, Any]) -> bool:
@@ -155,6 +203,9 @@ def main(argv: Sequence[str] = ()) -> None:
     """Run the trials that the command line asks for, and print the scores."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument('--seeds', type=int, default=12)
+    parser.add_argument('--first', type=int, default=0)
+    parser.add_argument('--draws', choices=DRAWS, default='blind')
+    parser.add_argument('--search', choices=SEARCHES, default='today')
     parser.add_argument('--kinds', default='')
     parser.add_argument('--jobs', type=int, default=2)
     parser.add_argument('--log', type=Path)
@@ -162,7 +213,8 @@ def main(argv: Sequence[str] = ()) -> None:
     kinds = (
         given.kinds.split(',') if given.kinds else [NOISE_ONLY, *KINDS, *PAIRS, *OUT_OF_LIBRARY]
     )
-    jobs = [(kind, seed) for seed in range(given.seeds) for kind in kinds]
+    seeds = range(given.first, given.first + given.seeds)
+    jobs = [Job(kind, seed, given.draws, given.search) for seed in seeds for kind in kinds]
     rows = []
     with ProcessPoolExecutor(given.jobs) as pool:
         for row in pool.map(run_trial, jobs):

@@ -20,7 +20,7 @@ from pam_ros.identification.fit.unknowns import Unknown
 from pam_ros.identification.problem import Problem
 from pam_ros.identification.retuning import only_starts, problem_of
 from pam_ros.identification.round import NEAR
-from pam_ros.identification.search import Search
+from pam_ros.identification.selection import Search
 from pam_ros.identification.solve import Solution, solve
 from pam_ros.rig.joint import Joint
 

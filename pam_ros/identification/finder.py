@@ -19,7 +19,7 @@ from pam_ros.identification.data.segment import Segment, segments_of
 from pam_ros.identification.drift import drifts
 from pam_ros.identification.final import polished
 from pam_ros.identification.result import Candidate, Finding, Trace
-from pam_ros.identification.search import Progress, Search, search
+from pam_ros.identification.selection import Progress, Search, search
 from pam_ros.identification.stages import estimates, stage
 from pam_ros.identification.structure import Structure, structure_of
 from pam_ros.recording.recording import Recording

@@ -13,7 +13,7 @@ from pam_ros.identification.admission import Tried, explains_as_much
 from pam_ros.identification.data.noise import Noise
 from pam_ros.identification.data.segment import Segment
 from pam_ros.identification.result import Trace
-from pam_ros.identification.search import Search
+from pam_ros.identification.selection import Search
 
 SMALLEST = 1e-12  # p value that is worth telling apart from smaller ones
 SHORTEST = 5.0  # s of recording

@@ -15,7 +15,7 @@ from pam_ros.identification.data.noise import Noise, noise_of
 from pam_ros.identification.data.segment import segments_of
 from pam_ros.identification.final import polished
 from pam_ros.identification.finder import trace
-from pam_ros.identification.search import Search, search
+from pam_ros.identification.selection import Search, search
 from pam_ros.identification.solve import solve
 from support import bench_truth
 from support.equations import Equation, equation, unknown

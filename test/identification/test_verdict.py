@@ -14,7 +14,7 @@ from pam_ros.identification.data.noise import Noise
 from pam_ros.identification.data.segment import segments_of
 from pam_ros.identification.evidence import Evidence
 from pam_ros.identification.result import VERDICTS, Candidate, Finding, Stage, Trace
-from pam_ros.identification.search import Search
+from pam_ros.identification.selection import Search
 from pam_ros.identification.structure import Structure
 from pam_ros.recording.recording import Recording
 from pam_ros.rig.joint import one_muscle

@@ -35,7 +35,16 @@ from .excitation import PROGRAMMES, stamps, working_range
 from .plant import TruthPlant
 from .records import Recording, held_record, play, record
 from .sensor import Sensor
-from .trials import ABSORBED, NOISE_ONLY, PAIRS, Declared, Trial, blind_trial, held_trial
+from .trials import (
+    ABSORBED,
+    NOISE_ONLY,
+    PAIRS,
+    Declared,
+    Trial,
+    blind_trial,
+    held_trial,
+    wide_trial,
+)
 from .visibility import Visibility, visibility
 
 __all__ = [
@@ -63,5 +72,6 @@ __all__ = [
     'record',
     'stamps',
     'visibility',
+    'wide_trial',
     'working_range',
 ]

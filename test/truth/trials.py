@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import zlib
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -36,6 +36,7 @@ PAIRS = (
 MUSCLE = 'dmsp_20_400n'
 NOISE_ONLY = 'noise_only'
 RATES = (100.0, 125.0, 200.0, 250.0, 500.0, 1000.0)
+ENCODER = 1e-5  # m, step of an encoder of 0.01 mm
 # Wrong numbers rather than missing physics: re-tuning takes all or most of them.
 ABSORBED = ('payload', 'pressure_offset', 'length_offset')
 
@@ -74,6 +75,8 @@ class Trial:
     jitter: float
     programme: str
     exercised: bool
+    unsettled: bool = False
+    quantum: float = 0.0
 
     @property
     def kinds(self) -> tuple[str, ...]:
@@ -132,10 +135,13 @@ class _Draw:
     def uniform(self, low: float, high: float) -> float:
         return float(self.rng.uniform(low, high))
 
-    def specimen(self) -> tuple[float, ...]:
+    def specimen(self, scatter: float = 0.02, most: float = 0.05) -> tuple[float, ...]:
         """Another muscle of the same type: each constant off by 2 %, at most 5 %."""
-        scatter = np.clip(0.02 * self.rng.standard_normal(6), -0.05, 0.05)
+        scatter = np.clip(scatter * self.rng.standard_normal(6), -most, most)
         return tuple(float(a) for a in np.array(constants_si(MUSCLE)) * (1.0 + scatter))
+
+    def chance(self, share: float) -> bool:
+        return bool(self.rng.random() < share)
 
 
 def _play(trial: Trial, t: np.ndarray, u: np.ndarray, seed: int) -> Recording:
@@ -144,16 +150,17 @@ def _play(trial: Trial, t: np.ndarray, u: np.ndarray, seed: int) -> Recording:
         trial.mass,
         trial.zeta,
         effects=trial.effects,
-        sensor=Sensor(noise=trial.noise, rho=trial.rho),
+        sensor=Sensor(noise=trial.noise, rho=trial.rho, quantum=trial.quantum),
         seed=seed,
         p0=u[0],
     )
-    if trial.exercised:
+    if trial.exercised or trial.unsettled:
         # A rig that has been used before: memory is not virgin when the recording starts.
         cycle = triangle(200.0, 8.0, u.min(), u.max(), np.random.default_rng(seed), period=4.0)
         for command in cycle:
             plant.step(command, 1.0 / 200.0)
-        plant.step(u[0], 2.0)
+        # Long enough for the load to come to rest, or not even for that.
+        plant.step(u[0], 0.3 if trial.unsettled else 2.0)
     return play(plant, t, u, seed=seed)
 
 
@@ -200,6 +207,40 @@ def blind_trial(
         and bool(draw.rng.random() < 0.5),
     )
     u = PROGRAMMES[programme](rate, duration, low, high, draw.rng)
+    t = stamps(rate, duration, trial.jitter, draw.rng)
+    trial.recording = _play(trial, t, u, seed)
+    return trial
+
+
+def wide_trial(kind: str, seed: int) -> Trial:
+    """Draw a free-load trial from what rigs in the field are like, kinds as for blind_trial.
+
+    Drawn as there, but for these: each constant of the specimen off by 3 %, at most 6 %; rates of
+    50 to 1000 Hz; stamps that jitter by 15 % of a period in half of the trials; an encoder of
+    0.01 mm in a third; in half of them a recording that begins 0.3 s after eight seconds of
+    motion, with all memories wherever they are.
+    """
+    base = blind_trial(kind, seed, rate=50.0, duration=40.0)
+    draw = _Draw('wide ' + kind, seed)
+    constants = draw.specimen(0.03, 0.06)
+    low, high = working_range(constants, base.mass)
+    stroke = tuple(0.4 * contraction_for(constants, p, base.mass * 9.81) for p in (low, high))
+    rate = float(draw.rng.choice((50.0, *RATES)))
+    duration = draw.uniform(40.0, 120.0)
+    trial = replace(
+        base,
+        effects=tuple(
+            draw_effect(one, draw.rng, stroke=stroke, pressures=(low, high), duration=duration)
+            for one in base.kinds
+        ),
+        constants_si=constants,
+        rate=rate,
+        jitter=0.3 if draw.chance(0.5) else 0.0,
+        quantum=ENCODER if draw.chance(1.0 / 3.0) else 0.0,
+        unsettled=draw.chance(0.5),
+        exercised=False,
+    )
+    u = PROGRAMMES[trial.programme](rate, duration, low, high, draw.rng)
     t = stamps(rate, duration, trial.jitter, draw.rng)
     trial.recording = _play(trial, t, u, seed)
     return trial

@@ -21,6 +21,7 @@ Array = NDArray[np.float64]
 PHASE = 0.5  # rad of the rig's fastest oscillation in one step
 STEPS = (1e-3, 10e-3)  # s, shortest and longest step
 JUMP = 0.01  # share of the command's range within a stride that makes a jump
+ROOM = 0.1  # share by which a period may be longer than asked: stamps jitter
 SAMPLES = 20_000  # most samples of a held run, whose steps cost nothing but themselves
 
 
@@ -35,7 +36,7 @@ def coarse_step(model: Joint) -> float:
 
 
 def thinned(segment: Segment, step: float) -> Segment:
-    """Return *segment* with every n-th sample, n so that the period is at most *step*."""
+    """Return *segment* with every n-th sample, so that the period is about *step* at most."""
     period = float(np.median(np.diff(segment.t)))
     if isinstance(segment, HeldSegment):
         stride = max(1, segment.t.size // SAMPLES)
@@ -48,7 +49,7 @@ def thinned(segment: Segment, step: float) -> Segment:
             },
         )
     assert isinstance(segment, FreeSegment)
-    stride = max(1, int(step / period + 1e-6))
+    stride = max(1, int(step / period + ROOM))
     t = segment.t[::stride]
     drive_t, drive = _merged(segment.drive_t, segment.drive, t)
     return replace(

@@ -89,15 +89,20 @@ def deviance(whitened: Sequence[Array], whitenings: Sequence[Whitening]) -> floa
 @cached
 def _gains(variance: float, decay: Array, gain: Array, scale: Array) -> float:
     """Fill *gain* and *scale* of the Kalman filter; return ln det C. Variances over sigma^2."""
-    log_det, p = 0.0, variance  # p: variance of d before its sample, given those before
+    # p: variance of d before its sample, given those before. A product of few innovations cannot
+    # overflow, and spares logarithms.
+    log_det, product, p = 0.0, 1.0, variance
     for i in range(decay.size):
         innovation = p + 1.0
         gain[i] = p / innovation
         scale[i] = 1.0 / sqrt(innovation)
-        log_det += log(innovation)
+        product *= innovation
+        if product > 1e100:
+            log_det += log(product)
+            product = 1.0
         left = decay[i] * decay[i]
         p = left * gain[i] + variance * (1.0 - left)  # p (1 - gain) is the gain in these units
-    return log_det
+    return log_det + log(product)
 
 
 @cached

@@ -9,7 +9,7 @@ a simulation a column, serves for every discrepancy.
 
 from collections.abc import Callable, Sequence
 from concurrent.futures import Executor
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -42,8 +42,8 @@ class Problem:
 
     ``row`` holds the values of what is not unknown, all rows of the kernel's q one after the
     other; ``active`` are the effects that the kernel steps, and ``step`` is the longest step in s.
-    Unknowns need finite priors. Residuals are those of the samples that the segments mark as to be
-    fitted, of all runs one after the other, n in all.
+    Unknowns need finite priors. Residuals are those of all samples, n in all, of the runs one
+    after the other: what is not to be fitted is cut off the segments before.
     """
 
     segments: tuple[Segment, ...]
@@ -52,12 +52,6 @@ class Problem:
     row: Array
     unknowns: tuple[Unknown, ...]
     step: float = 1e-3
-    fit_rows: tuple[NDArray[np.intp], ...] = field(init=False)
-
-    def __post_init__(self) -> None:
-        """Find the samples to be fitted once."""
-        rows = tuple(np.flatnonzero(s.fit) for s in self.segments)
-        object.__setattr__(self, 'fit_rows', rows)
 
     @property
     def prior(self) -> Array:
@@ -130,15 +124,14 @@ class Problem:
         return [out[:, column] for out in self.runs(u, only)]
 
     def residuals(self, u: Array) -> Array:
-        """Return simulated - measured (n,) of the samples to be fitted.
+        """Return simulated - measured (n,).
 
         A simulation that diverges gives large finite residuals, so that a fit steps back.
         """
         return np.concatenate([self._left(k, p) for k, p in enumerate(self.predict(u))])
 
     def _left(self, run: int, simulated: Array) -> Array:
-        rows = self.fit_rows[run]
-        e = simulated[rows] - self.segments[run].target[rows]
+        e = simulated - self.segments[run].target
         return np.clip(np.nan_to_num(e, nan=DIVERGED), -DIVERGED, DIVERGED)
 
     def jacobian(
@@ -151,7 +144,7 @@ class Problem:
         is found from that run alone.
         """
         columns = range(len(u)) if only is None else only
-        starts = np.cumsum([0, *(rows.size for rows in self.fit_rows)])
+        starts = np.cumsum([0, *(s.t.size for s in self.segments)])
 
         def column(k: int) -> Array:
             unknown = self.unknowns[k]
@@ -173,20 +166,15 @@ class Problem:
     # What residuals are worth ------------------------------------------------------------------
 
     def stamps(self) -> list[Array]:
-        """Return the stamps in s of the samples to be fitted, of each run that has any."""
-        return [s.t[rows] for s, rows in self._fitted()]
+        """Return the stamps of each run in s."""
+        return [s.t for s in self.segments]
 
     def by_run(self, values: Array) -> list[Array]:
-        """Return *values* (n,) or (n, k) cut into those of each run that has any."""
-        edges = np.cumsum([rows.size for _, rows in self._fitted()])[:-1]
-        return np.split(values, edges)
-
-    def _fitted(self) -> list[tuple[Segment, NDArray[np.intp]]]:
-        pairs = zip(self.segments, self.fit_rows, strict=True)
-        return [(s, rows) for s, rows in pairs if rows.size]
+        """Return *values* (n,) or (n, k) cut into those of each run."""
+        return np.split(values, np.cumsum([s.t.size for s in self.segments])[:-1])
 
     def whitenings(self, discrepancy: Discrepancy) -> list[Whitening]:
-        """Return the map that whitens the residuals of each run that has any."""
+        """Return the map that whitens the residuals of each run."""
         return [discrepancy.whitening(t) for t in self.stamps()]
 
     def whitened(self, values: Array, whitenings: Sequence[Whitening]) -> Array:

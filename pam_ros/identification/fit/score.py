@@ -39,10 +39,15 @@ from pam_ros.identification.fit.discrepancy import WHITE, Discrepancy
 Array = NDArray[np.float64]
 
 # Of the search for the discrepancy: times and sizes of its grid are so far apart, as factors.
-FACTOR_TIME, FACTOR_SIZE = 4.0, 8.0
+FACTOR_TIME, FACTOR_SIZE = 8.0, 20.0
 LEAST_SIZE, GREATEST_SIZE = 1e-2, 1e3  # beyond it nothing is left of the process, or of the noise
 # What two more numbers must lower the score by: Akaike's (1974) price of a parameter, 2 each.
 PRICE = 4.0
+# Share of the longest run that the correlation time may be. An error that keeps its value for all
+# of a run would be an offset that costs nothing, and the level of what is measured would count for
+# nothing; and less than ten correlation times say little of a process.
+LONGEST = 0.1
+CLOSE = 0.03  # how near to its best the score is found: nothing beside a margin of 10
 
 
 def score(whitened: Array, jacobian: Array, z: Array, prior: Array, log_det: float) -> float:
@@ -53,11 +58,16 @@ def score(whitened: Array, jacobian: Array, z: Array, prior: Array, log_det: flo
     deviations of their priors *prior* (k,), all finite, and *log_det* the sum of ln det C of the
     runs.
     """
-    n = whitened.size
-    variance = float(whitened @ whitened) / n
-    scaled = jacobian * prior
-    _, price = np.linalg.slogdet(np.eye(prior.size) + scaled.T @ scaled / variance)
-    return float(n * np.log(variance) + log_det + z @ z + price)
+    square, normal = float(whitened @ whitened), jacobian.T @ jacobian
+    return _score(whitened.size, square, normal, z, prior) + log_det
+
+
+def _score(n: int, square: float, normal: Array, z: Array, prior: Array) -> float:
+    """Return the score without ln det C; *square* is |W y|^2, *normal* J'W'W J (k, k)."""
+    variance = square / n
+    scaled = normal * np.outer(prior, prior)
+    _, price = np.linalg.slogdet(np.eye(prior.size) + scaled / variance)
+    return float(n * np.log(variance) + z @ z + price)
 
 
 def most_likely(
@@ -68,7 +78,7 @@ def most_likely(
     *t* are the stamps of the runs in s; *residuals* (n,), of all runs one after the other, and
     *jacobian* (n, k) are not whitened, *z* and *prior* as in :func:`score`. WHITE unless it lowers
     the score by more than its two numbers are worth. Correlation times are sought from the
-    sampling period to the length of the longest run.
+    sampling period to a tenth of the longest run.
     """
     edges = np.cumsum([stamps.size for stamps in t])[:-1]
     # Side by side they pass the filter at once.
@@ -79,11 +89,16 @@ def most_likely(
 
     def score_of(discrepancy: Discrepancy) -> float:
         maps = [discrepancy.whitening(stamps) for stamps in t]
-        white = np.concatenate([w(part) for w, part in zip(maps, parts, strict=True)])
-        return score(white[:, 0], white[:, 1:], z, prior, sum(w.log_det for w in maps))
+        gram = np.zeros((1 + z.size, 1 + z.size))
+        for whitening, part in zip(maps, parts, strict=True):
+            white = whitening(part)
+            gram += white.T @ white
+        log_det = sum(w.log_det for w in maps)
+        return _score(residuals.size, gram[0, 0], gram[1:, 1:], z, prior) + log_det
 
     period = float(np.median(np.concatenate([np.diff(stamps) for stamps in t])))
-    longest = max(float(stamps[-1] - stamps[0]) for stamps in t)
+    span = max(float(stamps[-1] - stamps[0]) for stamps in t)
+    longest = max(LONGEST * span, 2.0 * period)
     low, high = np.log([LEAST_SIZE, period]), np.log([GREATEST_SIZE, longest])
     grid = [
         np.array([size, time])
@@ -96,7 +111,7 @@ def most_likely(
         cost,
         start,
         method='Nelder-Mead',
-        options={'initial_simplex': simplex, 'xatol': 0.01, 'fatol': 0.01},
+        options={'initial_simplex': simplex, 'xatol': 0.03, 'fatol': CLOSE},
     )
     if found.fun > score_of(WHITE) - PRICE:
         return WHITE

@@ -116,14 +116,27 @@ def solved(
     iterations: int = 20,
     pool: Executor | None = None,
 ) -> Solution:
-    """Return the most probable unknowns and the most likely discrepancy, from u on.
+    """Return the most probable unknowns and the discrepancy of the best score, from u on."""
+    return settled(begun(problem, u, discrepancy, pool), iterations, pool, stale=False)
 
-    The two are found in turn. The Jacobian is that of the place where the fit ends.
-    """
+
+def begun(
+    problem: Problem, u: Array, discrepancy: Discrepancy = WHITE, pool: Executor | None = None
+) -> Solution:
+    """Return the place u, brought within its bounds, with the Jacobian there."""
     u = np.clip(u, *problem.bounds)
     r = problem.residuals(u)
-    known = Solution(problem, u, r, problem.jacobian(u, r, pool), discrepancy)
-    known = improved(known, iterations, pool, stale=False)
+    return Solution(problem, u, r, problem.jacobian(u, r, pool), discrepancy)
+
+
+def settled(
+    known: Solution, iterations: int = 20, pool: Executor | None = None, stale: bool = True
+) -> Solution:
+    """Improve unknowns and discrepancy in turn until they agree.
+
+    The Jacobian is that of the place where the fit ends. *stale* as in :func:`improved`.
+    """
+    known = improved(known, iterations, pool, stale)
     for _ in range(ALTERNATIONS):
         found = known.most_likely()
         if _agree(found, known.discrepancy):
@@ -139,13 +152,17 @@ def fresh(known: Solution, pool: Executor | None = None) -> Solution:
 
 
 def improved(
-    known: Solution, iterations: int = 20, pool: Executor | None = None, stale: bool = True
+    known: Solution,
+    iterations: int = 20,
+    pool: Executor | None = None,
+    stale: bool = True,
+    renew: bool = True,
 ) -> Solution:
     """Minimise the cost of *known* from there, its discrepancy kept; never ends higher.
 
     A *stale* Jacobian, not of this place, is used as it is and, like any other, kept up to date by
     Broyden's rule; it is computed anew when steps stop to lower the cost by what they promise or
-    at all. Raises no error where nothing can be improved.
+    at all. Not to *renew* it makes a cheap look of a fit: it ends there.
     """
     problem, u, r, j = known.problem, known.u, known.r, known.jacobian.copy()
     low, high = problem.bounds
@@ -181,8 +198,10 @@ def improved(
         if gain >= LITTLE and gain >= 0.5 * hoped:
             stale = True
             continue
-        if gain < LITTLE and not stale:
+        if gain < LITTLE and not (stale and renew):
             break
+        if not renew:
+            continue
         # Steps along an old Jacobian may have failed by its own fault: begin undamped.
         j, stale, damping = problem.jacobian(u, r, pool), False, LEAST_DAMPING
     return Solution(problem, u, r, j, known.discrepancy)

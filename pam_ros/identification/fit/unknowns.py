@@ -214,9 +214,12 @@ def proper(unknown: Unknown) -> Unknown:
 def memory_unknowns(layout: Layout, effect: Effect, runs: int) -> list[Unknown]:
     """Return the hidden states of *effect* at the start of each of *runs* runs.
 
-    Those that may be away from rest there, with the spread that the effect declares. Of one
-    muscle, the first.
+    Those that may be away from rest there, with the spread that the effect declares; none where
+    a parameter of the effect, ``initial``, says already where its memory begins. Of several
+    muscles, those of the first.
     """
+    if any(p.name == 'initial' for p in effect.parameters):
+        return []
     row = at.JOINT if effect.acts_on_joint else at.MUSCLE
     return [
         Unknown(

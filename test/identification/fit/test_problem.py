@@ -63,8 +63,7 @@ def parabola(y0, v0, seconds=2.0):
     y = y0 + v0 * (t - 3.0) + 0.5 * GAIN * PRESSURE / MASS * (t - 3.0) ** 2
     command = np.full(2, PRESSURE)
     recording = Recording('p', t, t[[0, -1]], command, y, None, None, None, 'free')
-    segment = segments_of([recording], keep_back=False)[0]
-    return replace(segment, fit=t < 3.0 + 0.7 * seconds)
+    return segments_of([recording], keep_back=False)[0]
 
 
 def held(kappa, seed):
@@ -97,17 +96,18 @@ def test_a_run_is_the_parabola_of_a_constant_force(two_runs):
     np.testing.assert_allclose(two_runs.predict(u, 0)[0] - s.target, moved, atol=1e-9)
 
 
-def test_residuals_are_those_of_the_samples_to_be_fitted(two_runs):
+def test_residuals_are_those_of_the_runs_one_after_the_other(two_runs):
     u = np.array([0.0, 1.0, 0.0, 2.0, 0.0])
-    np.testing.assert_allclose(two_runs.residuals(u), np.repeat([1e-3, 2e-3], [140, 70]))
-    t = np.concatenate(two_runs.stamps())
-    np.testing.assert_array_equal(t, np.concatenate([s.t[s.fit] for s in two_runs.segments]))
+    r = two_runs.residuals(u)
+    np.testing.assert_allclose(r, np.repeat([1e-3, 2e-3], [200, 100]))
+    assert [part.size for part in two_runs.by_run(r)] == [200, 100]
+    assert [t.size for t in two_runs.stamps()] == [200, 100]
 
 
 def test_jacobian_of_parabolas_in_closed_form(two_runs):
     u = np.array([0.3, 0.2, -0.1, 0.4, 0.0])
     found = two_runs.jacobian(u, two_runs.residuals(u))
-    since = [(s.t - s.t[0])[s.fit] for s in two_runs.segments]
+    since = [s.t - s.t[0] for s in two_runs.segments]
     none = [np.zeros_like(x) for x in since]
     by_gain = np.concatenate([0.5 * SPECIMEN * GAIN * PRESSURE / MASS * x**2 for x in since])
     expected = np.stack(
@@ -243,23 +243,11 @@ def test_a_run_that_diverges_leaves_finite_residuals(two_runs):
 def test_each_run_is_whitened_by_itself(two_runs):
     """What was before a run's first sample is not known, and runs know nothing of each other."""
     process = Discrepancy(2.0, 0.4)
-    values = np.random.default_rng(2).normal(size=(210, 3))
+    values = np.random.default_rng(2).normal(size=(300, 3))
     found = two_runs.whitened(values, two_runs.whitenings(process))
-    first, second = (process.whitening(s.t[s.fit]) for s in two_runs.segments)
-    expected = np.concatenate([first(values[:140]), second(values[140:])])
+    first, second = (process.whitening(s.t) for s in two_runs.segments)
+    expected = np.concatenate([first(values[:200]), second(values[200:])])
     np.testing.assert_array_equal(found, expected)
-
-
-def test_a_run_of_which_nothing_is_fitted_leaves_nothing(two_runs):
-    first, second = two_runs.segments
-    none = replace(first, fit=np.zeros_like(first.fit))
-    problem = replace(two_runs, segments=(none, second))
-    u = np.zeros(5)
-    r = problem.residuals(u)
-    assert r.size == 70
-    assert [part.size for part in problem.by_run(r)] == [70]
-    whitened = problem.whitened(r, problem.whitenings(Discrepancy(1.0, 1.0)))
-    assert whitened.shape == r.shape
 
 
 def test_an_infinite_prior_becomes_a_wide_one():

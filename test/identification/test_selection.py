@@ -7,7 +7,7 @@ import pytest
 from pam_ros.effects import EFFECTS
 from pam_ros.identification.data.noise import Noise, noise_of
 from pam_ros.identification.data.segment import segments_of
-from pam_ros.identification.search import search
+from pam_ros.identification.selection import search
 from pam_ros.rig.joint import changed
 from support import bench_truth
 from truth import effect

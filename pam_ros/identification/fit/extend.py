@@ -1,0 +1,67 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Problems with one effect more, with more of an effect, or with one effect less."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pam_ros.effects.base import Effect
+from pam_ros.identification.fit.problem import Problem
+from pam_ros.identification.fit.unknowns import (
+    MemoryStart,
+    OfEffect,
+    Unknown,
+    effect_unknowns,
+    memory_unknowns,
+    parameters_of,
+    proper,
+)
+from pam_ros.rig.joint import Joint
+
+Array = NDArray[np.float64]
+
+
+def with_effect(
+    problem: Problem, joint: Joint, effect: Effect, start: Mapping[str, float]
+) -> tuple[Problem, Array]:
+    """Return the problem with the parameters of *effect* that *start* names, and their u there.
+
+    Of an effect that the problem lacks the others keep their defaults, and where its memory stands
+    at the start of each run becomes unknown, too; of one that it has they stay as they are.
+    """
+    added = [proper(one) for one in effect_unknowns(joint, effect, dict(start))]
+    is_new = not parameters_of(problem.unknowns, effect.name)
+    row = problem.row.copy()
+    for k, p in enumerate(effect.parameters):
+        index = joint.layout.index(effect, k)
+        row[index] = start.get(p.name, p.default if is_new else row[index])
+    memory = memory_unknowns(joint.layout, effect, len(problem.segments)) if is_new else []
+    u = [k.coordinate(start[k.of.which.parameter]) for k in added if isinstance(k.of, OfEffect)]
+    new = replace(
+        problem,
+        row=row,
+        active=joint.library,
+        unknowns=(*problem.unknowns, *added, *memory),
+    )
+    return new, np.array([*u, *(0.0 for _ in memory)])
+
+
+def without_effect(problem: Problem, joint: Joint, effect: Effect) -> tuple[Problem, list[int]]:
+    """Return the problem without *effect*, and which of the unknowns are left."""
+    row = problem.row.copy()
+    for k, p in enumerate(effect.parameters):
+        row[joint.layout.index(effect, k)] = p.default
+    keep = [k for k, unknown in enumerate(problem.unknowns) if not belongs(unknown, effect.name)]
+    unknowns = tuple(problem.unknowns[k] for k in keep)
+    return replace(problem, row=row, unknowns=unknowns), keep
+
+
+def belongs(unknown: Unknown, effect: str) -> bool:
+    """Say whether an unknown is a parameter or a memory of the effect of this name."""
+    of = unknown.of
+    if isinstance(of, OfEffect):
+        return of.which.effect == effect
+    return isinstance(of, MemoryStart) and of.effect == effect

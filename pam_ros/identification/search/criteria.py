@@ -1,0 +1,68 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The numbers that decide in a search, each with its reason, and those that limit computing."""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Criteria:
+    """What decides.
+
+    ``margin``: of two models, how much lower the score of the better one must be. The score is
+    -2 ln(evidence), and 10 is "very strong" (Kass and Raftery 1995).
+    ``fit``, ``choose``: shares of each recording at which the part that fits see ends, and the
+    part that choices see. The rest judges. Half of the data fix parameters, and a quarter each is
+    long enough to show what a model carries on to by itself.
+    ``worse``: factor by which a move may raise the error of the free run over *choose*. The score
+    weighs whitened residuals, in which a slow drift costs little; a free run shows it.
+    ``gain``: share by which a first effect must lower the error, on *fit* and on *choose*.
+    Jittered stamps, and constants two deviations of their priors away, are worth scores of 10 to
+    20 to any effect, and 0.5 % of the error.
+    ``strain``: or by how much it must lower the prior chi-square of the declared constants, which
+    re-tuning has moved to make up for it. Of seven constants within their priors one specimen of
+    180 has more than 20.
+    ``form``: share of what re-tuning leaves that a further effect must explain. No law of the
+    library has nature's form: those of another plant left 5 to 15 % of what the right effect
+    explained, and that rest invites other effects.
+    ``most``: or the share, of what the model before it leaves above the noise.
+    ``complete``: errors in noise floors within which a model explains everything.
+    ``left``: share of what re-tuning leaves above the noise that a claim may leave, if that is
+    more than the noise. The right effects left at most 0.25; a random walk, a drift with the
+    temperature and a saturation, which the library does not have, 0.31 to 0.42 of themselves
+    beside the effect that explained most of them.
+    """
+
+    margin: float = 10.0
+    fit: float = 0.55
+    choose: float = 0.75
+    worse: float = 1.05
+    gain: float = 0.03
+    strain: float = 20.0
+    form: float = 0.10
+    most: float = 0.60
+    complete: float = 1.1
+    left: float = 0.30
+
+
+@dataclass(frozen=True)
+class Budget:
+    """What limits computing.
+
+    ``effects``: most effects of a model. ``rounds``: most steps from model to better model.
+    ``looks``: iterations of a first fit from each start. ``fits``: starts of an effect from which
+    a fit goes to its end. ``rivals``: candidates of a round that are fitted to their end.
+    ``iterations``: those of such a fit. ``window``: length in s of the runs of a load without a
+    spring.
+    """
+
+    effects: int = 3
+    rounds: int = 6
+    looks: int = 4
+    fits: int = 2
+    rivals: int = 4
+    iterations: int = 15
+    window: float = 2.0
+
+
+CRITERIA, BUDGET = Criteria(), Budget()

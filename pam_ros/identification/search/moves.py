@@ -1,0 +1,65 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The moves of a search: an effect more, more of an effect, an effect less."""
+
+from dataclasses import replace
+
+from pam_ros.identification.fit.extend import without_effect
+from pam_ros.identification.fit.solve import settled
+from pam_ros.identification.search.setting import Model, Setting
+from pam_ros.identification.search.starts import finer, looks
+
+
+def with_each(parent: Model, names: list[str], setting: Setting) -> list[Model]:
+    """Return *parent* with one more effect, for each of *names*; the best score first.
+
+    Those that look promising are fitted to their end, the others as far as a look goes, and the
+    best then from what looked nearly as good.
+    """
+    budget = setting.budget
+
+    def look(name: str) -> list[Model]:
+        found = looks(parent, setting.effect(name), setting)[: budget.fits]
+        return [setting.model((*parent.effects, name), one) for one in found]
+
+    def to_end(model: Model) -> Model:
+        return setting.model(model.effects, settled(model.solution, budget.iterations))
+
+    looked = sorted(setting.pool.map(look, names), key=lambda found: found[0].score)
+    closer, others = looked[: budget.rivals], [found[0] for found in looked[budget.rivals :]]
+    fits = sorted(setting.pool.map(to_end, [found[0] for found in closer]), key=_score)
+    best = fits[0].effects
+    again = [m for found in closer for m in found[1:] if m.effects == best]
+    fits[0] = min([fits[0], *setting.pool.map(to_end, again)], key=_score)
+    return sorted([*fits, *others], key=_score)
+
+
+def _score(model: Model) -> float:
+    return model.score
+
+
+def freed(model: Model, setting: Setting) -> list[Model]:
+    """Return *model* with more parameters of each of its effects."""
+    effects = [setting.effect(name) for name in model.effects]
+    found = setting.pool.map(lambda effect: finer(model, effect, setting), effects)
+    return [setting.model(model.effects, one) for some in found for one in some]
+
+
+def dropped(model: Model, name: str, setting: Setting) -> Model:
+    """Return *model* without an effect, begun where the others now are.
+
+    So no effect keeps the credit for where its start has led the rest.
+    """
+    known = model.solution
+    problem, keep = without_effect(known.problem, setting.joint, setting.effect(name))
+    u = known.u[keep]
+    less = replace(
+        known, problem=problem, u=u, r=problem.residuals(u), jacobian=known.jacobian[:, keep]
+    )
+    effects = tuple(e for e in model.effects if e != name)
+    return setting.model(effects, settled(less, setting.budget.iterations))
+
+
+def swapped(model: Model, name: str, others: list[str], setting: Setting) -> list[Model]:
+    """Return *model* with one of *others* in the place of an effect; the best score first."""
+    return with_each(dropped(model, name, setting), others, setting)

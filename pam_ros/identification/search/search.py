@@ -1,0 +1,185 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""One loop over moves from model to model, until none pays."""
+
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from pam_ros.identification.fit.solve import solved
+from pam_ros.identification.search.moves import dropped, freed, swapped, with_each
+from pam_ros.identification.search.setting import Model, Setting
+
+
+@dataclass(eq=False)
+class Search:
+    """How a search went: every model that it looked at, and those that it ended with."""
+
+    setting: Setting
+    retuned: Model
+    best: Model
+    looked_at: list[Model] = field(default_factory=list)
+
+
+def search(setting: Setting) -> Search:
+    """Find the effects that the declared model lacks."""
+    problem = setting.problem
+    u = np.zeros(len(problem.unknowns))
+    retuned = setting.model((), solved(problem, u, pool=setting.pool))
+    found = Search(setting, retuned, retuned, [retuned])
+    budget = setting.budget
+    for _ in range(budget.rounds):
+        if len(found.best.effects) == budget.effects or is_complete(found.best, setting):
+            break
+        better = _better(found)
+        if better is None:
+            break
+        found.best = better
+    return found
+
+
+def _better(found: Search) -> Model | None:
+    """Return the model that the best round of moves leads to, if it pays."""
+    setting, best = found.setting, found.best
+    tried = with_each(best, absent(best, setting), setting)
+    found.looked_at += tried
+    able = [m for m in tried if pays(m, best, setting)]
+    if not able:
+        return None
+    now = _plainer(able[0], found)
+    now = _freed(now, found)
+    now = _reduced(now, found)
+    # What was there before, begun where a further effect has led it: where something sticks or
+    # hits, fits stop early, and any effect can shake them into their optimum.
+    same = [m for m in found.looked_at if set(m.effects) == set(best.effects)]
+    before = min((m for m in same if no_worse(m, best, setting)), key=lambda m: m.score)
+    if len(now.effects) > len(best.effects) and matters(now, before, found.retuned, setting):
+        return now
+    now = min(now, before, key=lambda m: (len(m.effects) > len(best.effects), m.score))
+    return now if pays(now, best, setting) else None
+
+
+def absent(model: Model, setting: Setting) -> list[str]:
+    """Return the effects that *model* lacks and its rig could have."""
+    joint = setting.joint
+    return [
+        e.name
+        for e in joint.library
+        if e.name not in model.effects
+        and e not in joint.all_present
+        and not (e.needs_muscle and joint.is_driven)
+    ]
+
+
+def pays(now: Model, than: Model, setting: Setting) -> bool:
+    """Say whether a larger model's score is lower by the margin and its free run no worse."""
+    return now.score < than.score - setting.criteria.margin and no_worse(now, than, setting)
+
+
+def no_worse(now: Model, than: Model, setting: Setting) -> bool:
+    """Say whether what a model carries on to by itself is as good as it was."""
+    return now.errors.carried <= setting.criteria.worse * than.errors.carried
+
+
+def _plainer(now: Model, found: Search) -> Model:
+    """Return *now* with effects in the place of those that contain them, if hardly more is left.
+
+    A leak of which the refill alone shows is a lag. What is broader can always be fitted as well.
+    """
+    setting = found.setting
+    room = 1.0 + setting.criteria.gain
+    for name in now.effects:
+        contained = [e for e in setting.effect(name).contains if e in absent(now, setting)]
+        for other in swapped(now, name, contained, setting) if contained else []:
+            found.looked_at.append(other)
+            a, b = now.errors, other.errors
+            if b.fit <= room * a.fit and b.choose <= room * a.choose:
+                now = other
+                break
+    return now
+
+
+def _freed(now: Model, found: Search) -> Model:
+    """Return *now* with those finer parameters of its effects that pay."""
+    setting = found.setting
+    while not is_complete(now, setting):
+        wider = freed(now, setting)
+        found.looked_at += wider
+        able = [m for m in wider if pays(m, now, setting)]
+        if not able:
+            break
+        now = min(able, key=lambda m: m.score)
+    return now
+
+
+def _reduced(now: Model, found: Search) -> Model:
+    """Return *now* without those of its effects that it does not need."""
+    setting = found.setting
+    while now.effects:
+        less = [dropped(now, name, setting) for name in now.effects]
+        found.looked_at += less
+        able = [
+            m
+            for m in less
+            if m.score <= now.score + setting.criteria.margin and no_worse(m, now, setting)
+        ]
+        if not able:
+            break
+        now = min(able, key=lambda m: m.score)
+    return now
+
+
+def is_complete(model: Model, setting: Setting) -> bool:
+    """Say whether a model with effects leaves no more than noise, with constants as expected."""
+    if not model.effects or model.strain > setting.criteria.strain:
+        return False
+    most = setting.criteria.complete * setting.noise
+    return max(model.errors.fit, model.errors.choose) <= most
+
+
+def matters(now: Model, before: Model, retuned: Model, setting: Setting) -> bool:
+    """Say whether a new effect explains more than the form of the others could miss."""
+    criteria = setting.criteria
+    if before.strain - now.strain >= criteria.strain:
+        return True
+    pairs = [
+        (now.errors.fit, before.errors.fit, retuned.errors.fit),
+        (now.errors.choose, before.errors.choose, retuned.errors.choose),
+    ]
+    if not before.effects:
+        return all(b <= (1.0 - criteria.gain) * a for b, a, _ in pairs)
+
+    def does(b: float, a: float, whole: float) -> bool:
+        explained = float(np.sqrt(max(a * a - b * b, 0.0)))
+        return explained >= criteria.form * setting.above(whole) or setting.above(b) <= (
+            1.0 - criteria.most
+        ) * setting.above(a)
+
+    return all(does(*pair) for pair in pairs)
+
+
+def alternatives(found: Search, name: str) -> tuple[str, ...]:
+    """Return the effects that could stand in the place of *name*: by the margin no worse."""
+    best = found.best
+    rest = set(best.effects) - {name}
+    near = [m for m in found.looked_at if m.score < best.score + found.setting.criteria.margin]
+    found_instead = [
+        {*m.effects} - rest
+        for m in near
+        if rest < {*m.effects} and no_worse(m, best, found.setting)
+    ]
+    names = dict.fromkeys(one for some in found_instead if len(some) == 1 for one in some)
+    return tuple(one for one in names if one != name)
+
+
+def verdict(found: Search) -> str:
+    """Return what the search says: an effect, structure without a name, or nothing."""
+    setting, errors, before = found.setting, found.best.errors, found.retuned.errors
+    now = [setting.above(e) for e in (errors.fit, errors.choose)]
+    if not found.best.effects:
+        return 'unexplained_structure' if min(now) > setting.noise else 'no_missing_effect'
+    whole = [setting.above(e) for e in (before.fit, before.choose)]
+    criteria = setting.criteria
+    most = [max(criteria.left * a, setting.noise) for a in whole]
+    explained = all(b <= a for b, a in zip(now, most, strict=True))
+    return 'effect_found' if explained else 'unexplained_structure'

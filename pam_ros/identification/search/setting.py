@@ -1,0 +1,164 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""What a search is given, and models that it looks at, with their errors."""
+
+from collections.abc import Sequence
+from concurrent.futures import Executor
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pam_ros.effects.base import Effect
+from pam_ros.identification.data.noise import noise_of
+from pam_ros.identification.data.parts import Part
+from pam_ros.identification.data.segment import Segment, windows
+from pam_ros.identification.data.thinning import coarse_step, thinned
+from pam_ros.identification.fit.problem import Problem
+from pam_ros.identification.fit.solve import Solution
+from pam_ros.identification.fit.unknowns import Constant, declared_unknowns, proper, run_unknowns
+from pam_ros.identification.search.criteria import Budget, Criteria
+from pam_ros.rig.joint import Joint
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Errors:
+    """RMSE in m or N over the part that was fitted, and over the one that choices see.
+
+    ``carried`` is that of the free run over *choose*. The others are the same run's too, but for a
+    load without a spring, for which they are those of short runs.
+    """
+
+    fit: float
+    choose: float
+    carried: float
+
+
+@dataclass(frozen=True, eq=False)
+class Model:
+    """A model that was fitted: the effects in it, where the fit ended, and its errors."""
+
+    effects: tuple[str, ...]
+    solution: Solution
+    errors: Errors
+
+    @property
+    def score(self) -> float:
+        """-2 ln(evidence) but for a constant of the data: the lower, the better."""
+        return self.solution.score
+
+    @property
+    def strain(self) -> float:
+        """Prior chi-square of the declared constants: how far re-tuning has moved them."""
+        solution = self.solution
+        pairs = zip(solution.problem.unknowns, solution.z, strict=True)
+        return float(sum(z * z for unknown, z in pairs if isinstance(unknown.of, Constant)))
+
+
+@dataclass(frozen=True, eq=False)
+class Setting:
+    """The declared model, the parts of the recordings, what decides and what limits computing."""
+
+    joint: Joint
+    parts: Sequence[Part]
+    criteria: Criteria
+    budget: Budget
+    pool: Executor
+
+    @cached_property
+    def noise(self) -> float:
+        """Standard deviation in m or N of the noise, found without any model."""
+        known = [(part.segment.t < part.choose_until, part.segment) for part in self.parts]
+        return noise_of([(s.t[keep], s.target[keep]) for keep, s in known if keep.any()]).sigma
+
+    @cached_property
+    def step(self) -> float:
+        """Longest step in s of simulations."""
+        return coarse_step(self.joint)
+
+    @cached_property
+    def thin(self) -> list[Part]:
+        """The parts, thinned."""
+        return [replace(part, segment=thinned(part.segment, self.step)) for part in self.parts]
+
+    @cached_property
+    def problem(self) -> Problem:
+        """The problem of re-tuning the declared model to what may be fitted."""
+        runs: list[Segment] = [part.to_fit for part in self.thin if part.fit.sum() > 1]
+        if self.joint.is_driven:
+            runs = [w for run in runs for w in windows(run, self.budget.window)]
+        sigma = np.inf if self.joint.is_driven else self.noise
+        unknowns = [*declared_unknowns(self.joint), *run_unknowns(runs, sigma)]
+        return Problem(
+            tuple(runs),
+            self.joint.layout,
+            self.joint.active,
+            self.joint.parameters().ravel(),
+            tuple(map(proper, unknowns)),
+            self.step,
+        )
+
+    @cached_property
+    def windows(self) -> list[Segment]:
+        """Short runs over all parts, of a load without a spring."""
+        length = self.budget.window
+        return [w for part in self.thin for w in windows(part.segment, length)]
+
+    def model(self, effects: tuple[str, ...], solution: Solution) -> Model:
+        """Return the model of a solution with its errors."""
+        known = [part for part in self.thin if np.any(part.segment.t < part.choose_until)]
+        whole = [part.segment for part in known]
+        if not self.joint.is_driven:
+            runs = carried(solution, whole, with_starts=True)
+            fit, choose = _rms_of(known, runs)
+            return Model(effects, solution, Errors(fit, choose, choose))
+        edges = self.thin[0].fit_until, self.thin[0].choose_until
+        short = [Part(s, *edges) for s in self.windows]
+        fit, choose = _rms_of(short, carried(solution, self.windows, with_starts=False))
+        _, far = _rms_of(known, carried(solution, whole, with_starts=False))
+        return Model(effects, solution, Errors(fit, choose, far))
+
+    def judged(self, model: Model) -> float:
+        """Return the RMSE in m or N over the part that judges, of the free run of all parts.
+
+        NaN where there is none. It is for reports: a search that asks for it judges itself.
+        """
+        runs = carried(
+            model.solution,
+            [part.segment for part in self.thin],
+            with_starts=not self.joint.is_driven,
+        )
+        pairs = zip(self.thin, runs, strict=True)
+        e = np.concatenate([(run - part.segment.target)[part.judge] for part, run in pairs])
+        return float(np.sqrt(np.mean(e**2))) if e.size else float('nan')
+
+    def effect(self, name: str) -> Effect:
+        """Return the effect of this name."""
+        return next(e for e in self.joint.library if e.name == name)
+
+    def above(self, error: float) -> float:
+        """Return what is left of an error above the noise, in its unit."""
+        return float(np.sqrt(max(error**2 - self.noise**2, 0.0)))
+
+
+def carried(solution: Solution, segments: Sequence[Segment], with_starts: bool) -> list[Array]:
+    """Return what the model of *solution* simulates over other segments.
+
+    *with_starts*, they begin as the fitted runs do, whose continuations they are; else from their
+    own measurement, with memories at rest.
+    """
+    problem = solution.problem
+    keep = [k for k, unknown in enumerate(problem.unknowns) if with_starts or unknown.is_parameter]
+    unknowns = tuple(problem.unknowns[k] for k in keep)
+    return replace(problem, segments=tuple(segments), unknowns=unknowns).predict(solution.u[keep])
+
+
+def _rms_of(parts: Sequence[Part], runs: Sequence[Array]) -> tuple[float, float]:
+    """Return the RMSE over what is fitted and over what choices see."""
+    left = [run - part.segment.target for part, run in zip(parts, runs, strict=True)]
+    fit = np.concatenate([e[part.fit] for part, e in zip(parts, left, strict=True)])
+    choose = np.concatenate([e[part.choose] for part, e in zip(parts, left, strict=True)])
+    return float(np.sqrt(np.mean(fit**2))), float(np.sqrt(np.mean(choose**2)))

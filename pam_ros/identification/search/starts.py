@@ -1,0 +1,149 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Fits with one more effect: a cheap look from every starting value, then fits to the end."""
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pam_ros.effects.base import Effect
+from pam_ros.identification.fit.discrepancy import WHITE, Discrepancy
+from pam_ros.identification.fit.extend import with_effect
+from pam_ros.identification.fit.problem import Problem
+from pam_ros.identification.fit.solve import Solution, improved, settled
+from pam_ros.identification.fit.unknowns import Constant, MemoryStart
+from pam_ros.identification.search.setting import Model, Setting
+from pam_ros.rig import layout as at
+
+Array = NDArray[np.float64]
+# What a hidden start must be able to move, in standard deviations of the noise, to be unknown:
+# below it neither the fit nor the score would notice, for ln(1 + 0.3^2) = 0.09.
+MOVES = 0.3
+
+
+def looks(parent: Model, effect: Effect, setting: Setting) -> list[Solution]:
+    """Return cheap fits of *effect* on top of *parent*, the best score first.
+
+    From all of its starts; from the parent's unknowns and from the declared constants, to which
+    re-tuning has given values that make up for what is missing; with the parent's discrepancy and
+    with none, because a slow discrepancy hides what is slow from a fit that begins without it.
+    """
+    starts = (*effect.fit_starts, *guessed(parent, effect))
+    found = []
+    for known, processes in _grounds(parent.solution):
+        begun = [extended(known, effect, start, setting) for start in starts]
+        for process in processes:
+            some = [_look(replace(one, discrepancy=process), setting) for one in begun]
+            some.sort(key=lambda one: one.cost)
+            found += some[: setting.budget.fits]
+    return sorted((_with_own_discrepancy(one) for one in found), key=lambda one: one.score)
+
+
+def _look(begun: Solution, setting: Setting) -> Solution:
+    return improved(begun, setting.budget.looks, renew=False)
+
+
+def _grounds(known: Solution) -> list[tuple[Solution, list[Discrepancy]]]:
+    """Return places from which an effect is added, each with the discrepancies to begin with.
+
+    Constants that re-tuning has moved by more than a deviation of their priors may have made up
+    for what is missing, and so far that no fit with it finds the way back.
+    """
+    own = [known.discrepancy] if known.discrepancy != WHITE else []
+    found = [(known, [*own, WHITE])]
+    constants = [isinstance(unknown.of, Constant) for unknown in known.problem.unknowns]
+    if np.max(np.abs(known.z[constants]), initial=0.0) > 1.0:
+        u = np.where(constants, 0.0, known.u)
+        declared = replace(known, u=u, r=known.problem.residuals(u))
+        found.append((declared, [WHITE]))
+    return found
+
+
+def _with_own_discrepancy(known: Solution) -> Solution:
+    return replace(known, discrepancy=known.most_likely())
+
+
+def extended(
+    known: Solution, effect: Effect, start: dict[str, float], setting: Setting
+) -> Solution:
+    """Return *known* with *effect* at *start*; its own columns are computed, the others kept."""
+    problem, added = with_effect(known.problem, setting.joint, effect, start)
+    u = np.clip(np.concatenate([known.u, added]), *problem.bounds)
+    r = problem.residuals(u)
+    own = problem.jacobian(u, r, only=range(known.u.size, u.size))
+    whole = Solution(problem, u, r, np.hstack([known.jacobian, own]), known.discrepancy)
+    return _without_idle(whole, setting.noise)
+
+
+def _without_idle(known: Solution, noise: float) -> Solution:
+    """Return *known* without hidden starts that move nothing."""
+    problem = known.problem
+    moved = np.linalg.norm(known.jacobian, axis=0) * problem.prior
+    keep = [
+        k
+        for k, unknown in enumerate(problem.unknowns)
+        if not isinstance(unknown.of, MemoryStart) or moved[k] > MOVES * noise
+    ]
+    unknowns = tuple(problem.unknowns[k] for k in keep)
+    return replace(
+        known,
+        problem=replace(problem, unknowns=unknowns),
+        u=known.u[keep],
+        jacobian=known.jacobian[:, keep],
+    )
+
+
+def guessed(parent: Model, effect: Effect) -> tuple[dict[str, float], ...]:
+    """Return the starts that *effect* reads from what *parent* leaves of the longest run."""
+    if effect.guess is None:
+        return ()
+    problem = parent.solution.problem
+    longest = max(range(len(problem.segments)), key=lambda k: problem.segments[k].t.size)
+    s = problem.segments[longest]
+    out = problem.runs(parent.solution.u, longest)[0]
+    is_free = s.kind == 'free'
+    residual = s.target - out[:, at.RUN_S if is_free else at.RUN_F]
+    position = s.target if is_free else out[:, at.RUN_S]
+    l0 = problem.row[problem.layout.constant(at.L0)]
+    return effect.guess(s.t, out[:, at.RUN_P], position / l0, residual)
+
+
+def finer(model: Model, effect: Effect, setting: Setting) -> list[Solution]:
+    """Return fits with more parameters of an *effect* that is in *model*, to their end."""
+    known = model.solution
+    options = _options(known.problem, known.u, effect, setting)
+    return [
+        settled(extended(known, effect, option, setting), setting.budget.iterations)
+        for option in options
+    ]
+
+
+def _options(
+    problem: Problem, u: Array, effect: Effect, setting: Setting
+) -> list[dict[str, float]]:
+    """Return values from which to free the parameters of *effect* that are fixed in *problem*.
+
+    All of them from where they are absent, or some from where a start has them; strengths in
+    the proportion to one that is fitted already in which that start has both.
+    """
+    layout = setting.joint.layout
+    free = {
+        of.which.parameter
+        for of in (unknown.of for unknown in problem.unknowns)
+        if hasattr(of, 'which') and of.which.effect == effect.name
+    }
+    row = problem.row_at(u)
+    values = {p.name: float(row[layout.index(effect, k)]) for k, p in enumerate(effect.parameters)}
+    rest = {name: value for name, value in values.items() if name not in free}
+    units = {p.name: p.unit for p in effect.parameters if p.strength}
+    options = [rest] if rest else []
+    for start in effect.fit_starts:
+        some = {name: value for name, value in start.items() if name in rest}
+        for name in some:
+            shared = [n for n in start if n not in rest and units.get(n) == units.get(name, '')]
+            if shared and start[shared[0]] * values[shared[0]] > 0.0:
+                some[name] *= values[shared[0]] / start[shared[0]]
+        if some and some not in options:
+            options.append(some)
+    return options

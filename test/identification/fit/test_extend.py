@@ -1,0 +1,70 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Problems grow and shrink by effects, and nothing else of them changes."""
+
+import numpy as np
+import pytest
+
+from pam_ros.effects import EFFECTS
+from pam_ros.identification.data.segment import segments_of
+from pam_ros.identification.fit.extend import belongs, with_effect, without_effect
+from pam_ros.identification.fit.problem import Problem
+from pam_ros.identification.fit.unknowns import declared_unknowns, run_unknowns
+from support import bench_truth
+
+MODEL = bench_truth.declared()
+SEGMENTS = tuple(segments_of([bench_truth.free(duration=2.5, programme='steps')], keep_back=False))
+EFFECT = {effect.name: effect for effect in EFFECTS}
+START = {'stiffness': 500.0, 'time': 3.0}
+
+
+@pytest.fixture
+def problem():
+    unknowns = (*declared_unknowns(MODEL), *run_unknowns(SEGMENTS, 1e-5))
+    return Problem(SEGMENTS, MODEL.layout, (), MODEL.parameters().ravel(), unknowns, 0.01)
+
+
+def test_an_effect_comes_with_its_parameters_and_where_its_memory_began(problem):
+    new, added = with_effect(problem, MODEL, EFFECT['creep'], START)
+    names = [one.name for one in new.unknowns[len(problem.unknowns) :]]
+    assert names[:2] == ['effects.creep.stiffness', 'effects.creep.time']
+    assert len(names) == len(added) == 2 + 6
+    assert 'creep: slow contraction[0]' in names
+    u = np.concatenate([np.zeros(len(problem.unknowns)), added])
+    row = new.row_at(u)
+    for k, p in enumerate(EFFECT['creep'].parameters):
+        expected = START.get(p.name, p.default)
+        assert row[MODEL.layout.index(EFFECT['creep'], k)] == pytest.approx(expected)
+    assert all(np.isfinite(one.prior) for one in new.unknowns[len(problem.unknowns) :])
+
+
+def test_a_strength_of_zero_changes_nothing(problem):
+    new, _ = with_effect(problem, MODEL, EFFECT['viscous_friction'], {'coefficient': 50.0})
+    u = np.zeros(len(problem.unknowns))
+    same = new.residuals(np.append(u, 0.0))
+    np.testing.assert_allclose(same, problem.residuals(u), atol=1e-12)
+    assert np.ptp(new.residuals(np.append(u, 1.0)) - same) > 1e-6
+
+
+def test_more_of_an_effect_leaves_what_it_has(problem):
+    new, added = with_effect(problem, MODEL, EFFECT['creep'], START)
+    u = np.concatenate([np.zeros(len(problem.unknowns)), added])
+    wider, more = with_effect(new, MODEL, EFFECT['creep'], {'spread': 4.0})
+    assert [one.name for one in wider.unknowns[len(new.unknowns) :]] == ['effects.creep.spread']
+    row, before = wider.row_at(np.append(u, more)), new.row_at(u)
+    changed = np.flatnonzero(row != before)
+    names = [p.name for p in EFFECT['creep'].parameters]
+    assert list(changed) == [MODEL.layout.index(EFFECT['creep'], names.index('spread'))]
+    assert row[changed[0]] == pytest.approx(4.0)
+
+
+def test_an_effect_goes_with_all_that_is_its_own(problem):
+    new, _ = with_effect(problem, MODEL, EFFECT['pressure_lag'], {'fill': 0.1, 'vent': 0.1})
+    both, _ = with_effect(new, MODEL, EFFECT['creep'], START)
+    less, keep = without_effect(both, MODEL, EFFECT['creep'])
+    assert less.unknowns == new.unknowns
+    assert keep == list(range(len(new.unknowns)))
+    np.testing.assert_array_equal(less.row, new.row)
+    none, keep = without_effect(less, MODEL, EFFECT['pressure_lag'])
+    assert none.unknowns == problem.unknowns
+    assert not any(belongs(one, 'pressure_lag') for one in none.unknowns)

@@ -1,0 +1,92 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Models with an effect more, with more of it, with another in its place, and with one less."""
+
+import numpy as np
+import pytest
+
+from pam_ros.identification.fit.unknowns import MemoryStart
+from pam_ros.identification.search.criteria import CRITERIA
+from pam_ros.identification.search.moves import dropped, freed, swapped, with_each
+from pam_ros.identification.search.search import Search, alternatives
+from pam_ros.identification.search.starts import extended, guessed, looks
+
+pytestmark = [pytest.mark.slow, pytest.mark.needs_numba]
+NAMES = ['pressure_lag', 'dead_time', 'viscous_friction']
+
+
+@pytest.fixture(scope='module')
+def tried(retuned, setting):
+    return with_each(retuned, NAMES, setting)
+
+
+def test_each_effect_is_tried_once_and_the_right_one_is_best(tried, retuned):
+    assert sorted(m.effects for m in tried) == sorted((name,) for name in NAMES)
+    assert tried[0].effects == ('pressure_lag',)
+    assert [m.score for m in tried] == sorted(m.score for m in tried)
+    assert tried[0].score < retuned.score - 1000.0
+    assert tried[0].solution.value('effects.pressure_lag.fill') == pytest.approx(0.05, rel=0.02)
+
+
+def test_what_was_added_can_be_dropped(tried, retuned, setting):
+    less = dropped(tried[0], 'pressure_lag', setting)
+    assert less.effects == ()
+    assert less.score <= retuned.score + 1.0
+    assert not [k for k in less.solution.problem.unknowns if k.name.startswith('effects')]
+
+
+def test_another_effect_in_its_place(tried, setting):
+    wrong = next(m for m in tried if m.effects == ('dead_time',))
+    (right,) = swapped(wrong, 'dead_time', ['pressure_lag'], setting)
+    assert right.effects == ('pressure_lag',)
+    assert right.score == pytest.approx(tried[0].score, abs=1.0)
+
+
+def test_finer_parameters_of_what_is_in(tried, setting):
+    wider = freed(tried[0], setting)
+    assert wider
+    for model in wider:
+        assert model.effects == ('pressure_lag',)
+        assert len(model.solution.u) > len(tried[0].solution.u)
+    assert min(m.solution.cost for m in wider) < tried[0].solution.cost + 1.0
+
+
+def test_looks_come_best_first_and_never_worse_than_their_start(retuned, setting):
+    effect = setting.effect('pressure_lag')
+    found = looks(retuned, effect, setting)
+    assert [one.score for one in found] == sorted(one.score for one in found)
+    begun = [extended(retuned.solution, effect, start, setting) for start in effect.fit_starts]
+    assert found[0].score < min(one.score for one in begun)
+
+
+def test_columns_of_what_was_there_are_kept_and_hidden_starts_that_move_nothing_left_out(
+    retuned, setting
+):
+    effect = setting.effect('creep')
+    known = extended(retuned.solution, effect, {'stiffness': 500.0, 'time': 3.0}, setting)
+    count = len(retuned.solution.u)
+    np.testing.assert_array_equal(known.jacobian[:, :count], retuned.solution.jacobian)
+    memories = [k.of.state for k in known.problem.unknowns if isinstance(k.of, MemoryStart)]
+    assert set(memories) == {'fast contraction', 'slow contraction'}
+
+
+def test_a_frequency_is_read_from_what_is_left(retuned, setting):
+    starts = guessed(retuned, setting.effect('periodic_disturbance'))
+    assert starts
+    assert all(start['frequency'] > 0.0 for start in starts)
+    assert guessed(retuned, setting.effect('dead_time')) == ()
+
+
+def test_alternatives_are_within_the_margin(tried, retuned, setting):
+    best = tried[0]
+    found = Search(setting, retuned, best, [retuned, *tried])
+    assert alternatives(found, 'pressure_lag') == ()
+    wide = setting.__class__(
+        setting.joint,
+        setting.parts,
+        CRITERIA.__class__(margin=1e9, worse=1e9),
+        setting.budget,
+        setting.pool,
+    )
+    found = Search(wide, retuned, best, [retuned, *tried])
+    assert set(alternatives(found, 'pressure_lag')) == {'dead_time', 'viscous_friction'}

@@ -1,0 +1,105 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Errors of models over the parts of a recording, against simulations by hand."""
+
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from pam_ros.identification.data.parts import parts_of
+from pam_ros.identification.fit.solve import begun
+from pam_ros.identification.search.criteria import BUDGET, CRITERIA
+from pam_ros.identification.search.setting import Setting
+from pam_ros.muscle.muscle import Muscle
+from pam_ros.recording.recording import Recording
+from pam_ros.rig.joint import one_muscle
+from pam_ros.rig.loads import Mass
+from pam_ros.rig.run import simulate
+from support import bench_truth
+
+NOISE = 20e-6
+
+
+def rms(e):
+    return float(np.sqrt(np.mean(e**2)))
+
+
+def test_errors_are_those_of_one_free_run_through_all_parts(setting, retuned):
+    solution = retuned.solution
+    (part,) = setting.thin
+    s = part.segment
+    u = {k.name: k.value(x) for k, x in zip(solution.problem.unknowns, solution.u, strict=True)}
+    muscle = replace(
+        setting.joint.muscle, **{f'a{k}': u[f'a{k}'] for k in range(1, 7)}, zeta=u['zeta']
+    )
+    model = one_muscle(muscle, setting.joint.load)
+    run = simulate(model, s.t, s.drive_t, s.drive, u['y0[0]'], u['v0[0]'])
+    e = run.position - s.target
+    assert retuned.errors.fit == pytest.approx(rms(e[part.fit]), rel=0.01)
+    assert retuned.errors.choose == pytest.approx(rms(e[part.choose]), rel=0.01)
+    assert retuned.errors.carried == retuned.errors.choose
+    assert setting.judged(retuned) == pytest.approx(rms(e[part.judge]), rel=0.01)
+
+
+def test_the_noise_is_found_without_what_judges(setting):
+    assert setting.noise == pytest.approx(NOISE, rel=0.2)
+    (part,) = setting.parts
+    target = part.segment.target.copy()
+    target[part.judge] = np.random.default_rng(0).normal(size=part.judge.sum())
+    spoiled = replace(part, segment=replace(part.segment, target=target))
+    assert replace(setting, parts=[spoiled]).noise == setting.noise
+
+
+def test_what_is_above_the_noise(setting):
+    assert setting.above(setting.noise) == 0.0
+    assert setting.above(np.sqrt(2.0) * setting.noise) == pytest.approx(setting.noise)
+
+
+def test_strain_is_the_prior_chi_square_of_constants_alone(setting):
+    problem = setting.problem
+    u = np.arange(1.0, 1.0 + len(problem.unknowns))
+    known = [one.name in ('a1', 'a2', 'a3', 'a4', 'a5', 'a6', 'zeta') for one in problem.unknowns]
+    model = setting.model((), begun(problem, u))
+    assert model.strain == pytest.approx(float(np.sum(u[known] ** 2)))
+
+
+def test_a_load_without_a_spring_is_fitted_in_short_runs_and_carried_on_in_one():
+    """A force source of 0.01 N/Pa moves 5 kg: declared 2 % too strong, it runs away."""
+    source = {'a1': 0.0, 'a2': 0.0, 'a3': 0.0, 'a4': 0.0, 'a6': 0.0, 'zeta': 0.0, 'l0': 1.0}
+    units = {'pressure_unit': 'Pa', 'contraction_unit': 'fraction'}
+    rail = Mass(mass=5.0, mount='horizontal')
+    truth = one_muscle(Muscle(a5=0.0100, **source, **units), rail)
+    t = np.arange(1600) / 100.0
+    command = 100.0 * np.where(np.sin(1.3 * t) > 0.0, 1.0, -1.0)
+    y = simulate(truth, t, t, command, 0.1).position
+    y = y + NOISE * np.random.default_rng(3).standard_normal(t.size)
+    recording = Recording('rail', t, t, command, y, None, None, None, 'free')
+    declared = one_muscle(Muscle(a5=0.0102, **source, **units), rail)
+    with ThreadPoolExecutor() as pool:
+        parts = parts_of([recording], CRITERIA.fit, CRITERIA.choose)
+        setting = Setting(declared, parts, CRITERIA, BUDGET, pool)
+        problem = setting.problem
+        assert len(problem.segments) == round(CRITERIA.fit * 16.0 / BUDGET.window)
+        assert max(s.t[-1] for s in problem.segments) < CRITERIA.fit * 16.0
+        model = setting.model((), begun(problem, np.zeros(len(problem.unknowns))))
+        errors = model.errors
+        assert errors.carried > 2.0 * errors.choose > 2.0 * NOISE
+        # The run that is carried on is the declared model's, from the measured start.
+        s = setting.thin[0].segment
+        run = simulate(declared, s.t, s.drive_t, s.drive, s.y0, s.v0, setting.step).position
+        keep = setting.thin[0].choose
+        assert errors.carried == pytest.approx(rms((run - s.target)[keep]), rel=1e-6)
+
+
+def test_where_nothing_judges_there_is_no_such_error():
+    recording = bench_truth.free(duration=8.0)
+    with ThreadPoolExecutor() as pool:
+        setting = Setting(
+            bench_truth.declared(), parts_of([recording], 0.7, 1.0), CRITERIA, BUDGET, pool
+        )
+        problem = setting.problem
+        model = setting.model((), begun(problem, np.zeros(len(problem.unknowns))))
+        assert np.isnan(setting.judged(model))
+        assert model.errors.choose == pytest.approx(NOISE, rel=0.2)
