@@ -8,6 +8,7 @@ import json
 import os
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -18,6 +19,7 @@ from truth import (
     FORMS,
     KINDS,
     OUT_OF_LIBRARY,
+    PAIRS,
     PROGRAMMES,
     TruthPlant,
     blind_trial,
@@ -27,10 +29,12 @@ from truth import (
     held_trial,
     record,
     visibility,
+    wide_trial,
     working_range,
 )
 from truth.effects import draw_effect
 from truth.layout import PARAMETERS
+from truth.muscles import constants_si
 
 HERE = Path(__file__).parent
 
@@ -100,6 +104,56 @@ def test_trials_are_reproducible_and_differ_by_seed():
     assert one.constants_si != one.declared.constants_si
     scatter = np.array(one.constants_si) / np.array(one.declared.constants_si) - 1.0
     assert 0.0 < np.max(np.abs(scatter)) <= 0.05 + 1e-12
+
+
+@pytest.mark.slow
+def test_trials_cover_the_stated_ranges():
+    trials = [blind_trial('noise_only', seed, duration=5.0) for seed in range(60)]
+    assert {t.rate for t in trials} == {100.0, 125.0, 200.0, 250.0, 500.0, 1000.0}
+    assert 5e-6 < min(t.noise for t in trials) < 10e-6
+    assert 40e-6 < max(t.noise for t in trials) < 60e-6
+    assert 0.25 < np.mean([t.rho == 0.0 for t in trials]) < 0.75
+    assert max(t.rho for t in trials) > 0.8
+    for trial in trials[:10]:
+        recording = trial.recording
+        noise = recording.position_m - recording.truth['position_m']
+        count = noise.size * (1.0 - trial.rho) / (1.0 + trial.rho)
+        assert noise.std() == pytest.approx(trial.noise, rel=4.0 / np.sqrt(count) + 0.03)
+        assert trial.effects == ()
+        assert np.all(np.diff(recording.t_s) > 0.0)
+
+
+@pytest.mark.slow
+def test_wide_trials_cover_the_stated_ranges():
+    trials = [wide_trial('noise_only', seed) for seed in range(16)]
+    published = np.array(constants_si('dmsp_20_400n'))
+    off = np.array([np.array(t.constants_si) / published - 1.0 for t in trials])
+    assert 0.05 < np.max(np.abs(off)) <= 0.06 + 1e-9
+    assert 0.02 < np.std(off) < 0.04
+    assert min(t.rate for t in trials) == 50.0
+    for name in ('jitter', 'quantum', 'unsettled'):
+        assert 0.1 < np.mean([bool(getattr(t, name)) for t in trials]) < 0.9
+    for trial in trials:
+        y, t = trial.recording.position_m, trial.recording.t_s
+        assert np.all(np.diff(t) > 0.0)
+        assert bool(np.ptp(np.diff(t)) > 0.1 / trial.rate) == (trial.jitter > 0.0)
+        on_steps = np.allclose(y / 1e-5, np.round(y / 1e-5), atol=1e-6)
+        assert on_steps == (trial.quantum > 0.0)
+    # What has moved until 0.3 s ago does not begin where a long rest has left it.
+    moved = [wide_trial('creep', seed) for seed in range(4)]
+    for trial in (t for t in moved if t.unsettled):
+        rested = replace(trial, unsettled=False)
+        away = trial.recording.truth['position_m'] - rested.replay()
+        assert abs(away[0]) > 20e-6
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize('kind', PAIRS)
+def test_pairs_have_both(kind):
+    trial = blind_trial(kind, 1, rate=100.0, duration=40.0)
+    assert '+'.join(trial.kinds) == kind
+    assert all(one in accepted for one, accepted in zip(trial.kinds, trial.accepted, strict=True))
+    assert np.all(np.isfinite(trial.recording.position_m))
 
 
 @pytest.mark.release

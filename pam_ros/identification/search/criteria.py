@@ -52,8 +52,8 @@ class Budget:
     ``effects``: most effects of a model. ``rounds``: most steps from model to better model.
     ``looks``: iterations of a first fit from each start. ``fits``: starts of an effect from which
     a fit goes to its end. ``rivals``: candidates of a round that are fitted to their end.
-    ``iterations``: those of such a fit. ``window``: length in s of the runs of a load without a
-    spring.
+    ``iterations``: those of such a fit. ``finer``: steps of the last fit for one of the others.
+    ``window``: length in s of the runs of a load without a spring.
     """
 
     effects: int = 3
@@ -62,6 +62,7 @@ class Budget:
     fits: int = 2
     rivals: int = 4
     iterations: int = 15
+    finer: int = 5
     window: float = 2.0
 
 

@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """One loop over moves from model to model, until none pays."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from pam_ros.identification.fit.solve import solved
+from pam_ros.identification.fit.solve import settled, solved
 from pam_ros.identification.search.moves import dropped, freed, swapped, with_each
 from pam_ros.identification.search.setting import Model, Setting
 
@@ -31,10 +31,11 @@ def search(setting: Setting) -> Search:
     for _ in range(budget.rounds):
         if len(found.best.effects) == budget.effects or is_complete(found.best, setting):
             break
-        better = _better(found)
+        better = _better(found) or exchanged(found)
         if better is None:
             break
         found.best = better
+    found.best = confirmed(found)
     return found
 
 
@@ -49,14 +50,37 @@ def _better(found: Search) -> Model | None:
     now = _plainer(able[0], found)
     now = _freed(now, found)
     now = _reduced(now, found)
-    # What was there before, begun where a further effect has led it: where something sticks or
-    # hits, fits stop early, and any effect can shake them into their optimum.
-    same = [m for m in found.looked_at if set(m.effects) == set(best.effects)]
-    before = min((m for m in same if no_worse(m, best, setting)), key=lambda m: m.score)
-    if len(now.effects) > len(best.effects) and matters(now, before, found.retuned, setting):
-        return now
-    now = min(now, before, key=lambda m: (len(m.effects) > len(best.effects), m.score))
     return now if pays(now, best, setting) else None
+
+
+def exchanged(found: Search) -> Model | None:
+    """Return the model with a rival in the place of one of the effects, if it pays.
+
+    An effect that was chosen first was chosen without those that came after it.
+    """
+    setting, best = found.setting, found.best
+    tried: list[Model] = []
+    for name in best.effects if len(best.effects) > 1 else ():
+        rivals = [e for e in setting.effect(name).rivals if e in absent(best, setting)]
+        tried += swapped(best, name, rivals, setting) if rivals else []
+    found.looked_at += tried
+    able = [m for m in tried if pays(m, best, setting)]
+    return _freed(min(able, key=lambda m: m.score), found) if able else None
+
+
+def confirmed(found: Search) -> Model:
+    """Return the best model, fitted with finer steps, without what the coarse ones asked for.
+
+    A coarse step is a wrong model, too: a dead time can make up for it where a load meets a stop.
+    """
+    setting, best = found.setting, found.best
+    if not best.effects:
+        return best
+    known = best.solution
+    problem = replace(known.problem, step=known.problem.step / setting.budget.finer)
+    fine = replace(known, problem=problem, r=problem.residuals(known.u))
+    now = setting.model(best.effects, settled(fine, setting.budget.iterations))
+    return _reduced(now, found)
 
 
 def absent(model: Model, setting: Setting) -> list[str]:
@@ -113,20 +137,32 @@ def _freed(now: Model, found: Search) -> Model:
 
 
 def _reduced(now: Model, found: Search) -> Model:
-    """Return *now* without those of its effects that it does not need."""
+    """Return *now* without those of its effects that it does not need, or that matter too little.
+
+    Each is left out where the others now are: where something sticks or hits, fits stop early, and
+    any effect more can shake them into their optimum. It must not keep the credit for that.
+    """
     setting = found.setting
     while now.effects:
-        less = [dropped(now, name, setting) for name in now.effects]
-        found.looked_at += less
+        found.looked_at += [dropped(now, name, setting) for name in now.effects]
+        step = now.solution.problem.step
+        less = [_best_with({*now.effects} - {name}, step, found) for name in now.effects]
         able = [
             m
             for m in less
-            if m.score <= now.score + setting.criteria.margin and no_worse(m, now, setting)
+            if not matters(now, m, found.retuned, setting)
+            or (m.score <= now.score + setting.criteria.margin and no_worse(m, now, setting))
         ]
         if not able:
             break
         now = min(able, key=lambda m: m.score)
     return now
+
+
+def _best_with(effects: set[str], step: float, found: Search) -> Model:
+    """Return the best model with just these effects, and this step, of those looked at."""
+    same = [m for m in found.looked_at if {*m.effects} == effects]
+    return min((m for m in same if m.solution.problem.step == step), key=lambda m: m.score)
 
 
 def is_complete(model: Model, setting: Setting) -> bool:

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from pam_ros.identification.fit.unknowns import MemoryStart
-from pam_ros.identification.search.criteria import CRITERIA
+from pam_ros.identification.search.criteria import BUDGET, CRITERIA
 from pam_ros.identification.search.moves import dropped, freed, swapped, with_each
-from pam_ros.identification.search.search import Search, alternatives
+from pam_ros.identification.search.search import Search, alternatives, confirmed, exchanged
 from pam_ros.identification.search.starts import extended, guessed, looks
 
 pytestmark = [pytest.mark.slow, pytest.mark.needs_numba]
@@ -90,3 +90,22 @@ def test_alternatives_are_within_the_margin(tried, retuned, setting):
     )
     found = Search(wide, retuned, best, [retuned, *tried])
     assert set(alternatives(found, 'pressure_lag')) == {'dead_time', 'viscous_friction'}
+
+
+def test_an_effect_that_was_chosen_before_a_better_one_is_exchanged(tried, retuned, setting):
+    wrong = next(m for m in tried if m.effects == ('dead_time',))
+    (both,) = with_each(wrong, ['viscous_friction'], setting)
+    found = Search(setting, retuned, both, [retuned, *tried, both])
+    better = exchanged(found)
+    assert set(better.effects) == {'viscous_friction', 'pressure_lag'}
+    assert better.score < both.score - CRITERIA.margin
+    assert exchanged(Search(setting, retuned, wrong, [])) is None  # that is a round of its own
+
+
+def test_what_is_not_needed_beside_the_right_effect_goes_with_finer_steps(tried, retuned, setting):
+    (both,) = with_each(tried[0], ['viscous_friction'], setting)
+    found = Search(setting, retuned, both, [retuned, *tried, both])
+    best = confirmed(found)
+    assert best.effects == ('pressure_lag',)
+    assert best.solution.problem.step == setting.step / BUDGET.finer
+    assert confirmed(Search(setting, retuned, retuned, [retuned])) is retuned

@@ -40,7 +40,7 @@ def searched(recordings, model=None):
     ids=lambda one: one.kind,
 )
 def test_the_effect_that_is_there_is_found_and_no_other(there):
-    found = searched([bench_truth.free(there, seed=3, duration=40.0)])
+    found = searched([bench_truth.free(there, seed=3, duration=25.0)])
     assert found.best.effects == (there.kind,)
     assert verdict(found) == 'effect_found'
     before, after = found.retuned.errors, found.best.errors
@@ -88,7 +88,7 @@ def test_creep_that_has_not_settled_when_the_recording_begins():
 
 def test_nothing_sees_what_judges():
     """The last quarter may hold anything: the search is the same to the bit."""
-    recording = bench_truth.free(effect('viscous_friction'), seed=7, duration=15.0)
+    recording = bench_truth.free(effect('viscous_friction'), seed=7, duration=12.0)
     (part,) = parts_of([recording], CRITERIA.fit, CRITERIA.choose)
     spoiled = recording.position.copy()
     spoiled[part.judge] = np.random.default_rng(1).normal(0.05, 0.01, part.judge.sum())
@@ -107,6 +107,7 @@ def test_an_effect_that_is_declared_is_not_tried():
     assert verdict(found) == 'no_missing_effect'
 
 
+@pytest.mark.release
 def test_what_is_not_in_the_library_gets_no_name():
     found = searched([bench_truth.free(effect('random_walk'), seed=8, duration=40.0)])
     assert verdict(found) == 'unexplained_structure'

@@ -136,7 +136,7 @@ def test_the_muscle_narrows_the_limits_and_a_window_too_narrow_is_warned_of():
         assert 'CAUTION' in program.output
 
 
-@pytest.mark.parametrize('position', [-0.02, float('nan')])
+@pytest.mark.parametrize('position', [0.11, -0.02, float('nan')])
 def test_a_joint_that_leaves_its_window_stops_it(rig, position):
     with excite() as program:
         rig.until_pressed()
@@ -158,10 +158,11 @@ def test_a_joint_that_falls_silent_stops_it(rig, peer):
     check_vented(rig.commands)
 
 
-def test_a_signal_vents(rig):
+@pytest.mark.parametrize('kind', [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_vents(rig, kind):
     with excite() as program:
         rig.until_pressed()
-        program.interrupt(signal.SIGTERM, 2)
+        program.interrupt(kind, 2)
         rig.until(lambda: not program.is_running, 'the end')
         assert program.wait() == 0
         assert 'asked to stop, venting' in program.output

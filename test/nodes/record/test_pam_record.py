@@ -49,7 +49,8 @@ def written(bag):
 
 
 @pytest.mark.at_any_pace
-def test_all_messages_of_a_rig_are_in_the_bag(peer, tmp_path):
+@pytest.mark.parametrize('kind', [signal.SIGINT, signal.SIGTERM])
+def test_all_messages_of_a_rig_are_in_the_bag(peer, tmp_path, kind):
     count = 3000
     bag = tmp_path / 'rig'
     with recorder(bag) as program:
@@ -68,7 +69,7 @@ def test_all_messages_of_a_rig_are_in_the_bag(peer, tmp_path):
             for publisher in floats.values():
                 publisher.publish(Float64(data=float(k)))
         delivered(joints, fluid, *floats.values())
-        program.interrupt(signal.SIGTERM)
+        program.interrupt(kind)
         assert program.wait() == 0
         output = program.output
     found = contents(bag)
