@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pam_ros.effects.base import Effect
-from pam_ros.identification.fit.unknowns import OfEffect, effect_unknowns, parameters_of
+from pam_ros.identification.fit.extend import finer_starts
+from pam_ros.identification.fit.unknowns import OfEffect, effect_unknowns
 from pam_ros.identification.problem import Problem
 from pam_ros.identification.solve import (
     Solution,
@@ -159,33 +160,8 @@ def freed(known: Solution, model: Joint, effect: Effect, iterations: int) -> Sol
 
 def _freed(known: Solution, model: Joint, effect: Effect) -> list[Solution]:
     problem = known.problem
-    options = _finer(problem, known.u, model, effect)
+    options = finer_starts(problem.unknowns, problem.row_at(known.u), model, effect)
     return [_stepped(known, *extended(problem, model, effect, o)) for o in options]
-
-
-def _finer(problem: Problem, u: Array, model: Joint, effect: Effect) -> list[dict[str, float]]:
-    """Return values from which to free the parameters of *effect* that are fixed in *problem*.
-
-    All of them from where they are absent, or some from where a start has them; strengths in
-    the proportion to one that is fitted already in which that start has both.
-    """
-    there = parameters_of(problem.unknowns, effect.name)
-    row = problem.row_at(u)
-    values = {
-        p.name: float(row[model.layout.index(effect, k)]) for k, p in enumerate(effect.parameters)
-    }
-    rest = {name: value for name, value in values.items() if name not in there}
-    units = {p.name: p.unit for p in effect.parameters if p.strength}
-    options = [rest] if rest else []
-    for start in effect.fit_starts:
-        some = {name: value for name, value in start.items() if name in rest}
-        for name in some:
-            shared = [n for n in start if n not in rest and units.get(n) == units.get(name, '')]
-            if shared and start[shared[0]] * values[shared[0]] > 0.0:
-                some[name] *= values[shared[0]] / start[shared[0]]
-        if some and some not in options:
-            options.append(some)
-    return options
 
 
 def _stepped(known: Solution, problem: Problem, added: Array) -> Solution:

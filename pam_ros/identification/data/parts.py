@@ -44,6 +44,11 @@ class Part:
         return self.segment.t >= self.choose_until
 
     @property
+    def is_fitted(self) -> bool:
+        """Whether enough of it may be fitted to be a run of a fit."""
+        return int(np.count_nonzero(self.fit)) >= FEWEST
+
+    @property
     def to_fit(self) -> Segment:
         """The segment cut off where fits end."""
         return cut(self.segment, self.fit)
@@ -59,13 +64,15 @@ def parts_of(recordings: Sequence[Recording], fit: float, choose: float) -> list
     found = []
     for recording in recordings:
         segments = segments_of([recording], keep_back=False)
+        if not segments:
+            continue
         start, end = segments[0].t[0], segments[-1].t[-1]
         # The last sample belongs to the last part that there is.
         edges = [
             start + share * (end - start) if share < 1.0 else np.inf for share in (fit, choose)
         ]
         found += [Part(segment, *edges) for segment in segments]
-    return sorted(found, key=lambda part: np.count_nonzero(part.fit) < FEWEST)
+    return sorted(found, key=lambda part: not part.is_fitted)
 
 
 def cut(segment: Segment, keep: Mask) -> Segment:

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Problems with one effect more, with more of an effect, or with one effect less."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -47,6 +47,32 @@ def with_effect(
         unknowns=(*problem.unknowns, *added, *memory),
     )
     return new, np.array([*u, *(0.0 for _ in memory)])
+
+
+def finer_starts(
+    unknowns: Sequence[Unknown], row: Array, joint: Joint, effect: Effect
+) -> list[dict[str, float]]:
+    """Return values from which to free the parameters of *effect* that are not among *unknowns*.
+
+    All of them from where they are in the parameter *row*, or some from where a start has them;
+    strengths in the proportion to one that is fitted already in which that start has both.
+    """
+    there = parameters_of(unknowns, effect.name)
+    values = {
+        p.name: float(row[joint.layout.index(effect, k)]) for k, p in enumerate(effect.parameters)
+    }
+    rest = {name: value for name, value in values.items() if name not in there}
+    units = {p.name: p.unit for p in effect.parameters if p.strength}
+    options = [rest] if rest else []
+    for start in effect.fit_starts:
+        some = {name: value for name, value in start.items() if name in rest}
+        for name in some:
+            shared = [n for n in start if n not in rest and units.get(n) == units.get(name, '')]
+            if shared and start[shared[0]] * values[shared[0]] > 0.0:
+                some[name] *= values[shared[0]] / start[shared[0]]
+        if some and some not in options:
+            options.append(some)
+    return options
 
 
 def without_effect(problem: Problem, joint: Joint, effect: Effect) -> tuple[Problem, list[int]]:

@@ -25,7 +25,11 @@ def with_each(parent: Model, names: list[str], setting: Setting) -> list[Model]:
     def to_end(model: Model) -> Model:
         return setting.model(model.effects, settled(model.solution, budget.iterations))
 
-    looked = sorted(setting.pool.map(look, names), key=lambda found: found[0].score)
+    # An effect may have no start here: a frequency that nothing is read of.
+    some = [found for found in setting.pool.map(look, names) if found]
+    if not some:
+        return []
+    looked = sorted(some, key=lambda found: found[0].score)
     closer, others = looked[: budget.rivals], [found[0] for found in looked[budget.rivals :]]
     fits = sorted(setting.pool.map(to_end, [found[0] for found in closer]), key=_score)
     best = fits[0].effects

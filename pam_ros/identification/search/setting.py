@@ -87,7 +87,9 @@ class Setting:
     @cached_property
     def problem(self) -> Problem:
         """The problem of re-tuning the declared model to what may be fitted."""
-        runs: list[Segment] = [part.to_fit for part in self.thin if part.fit.sum() > 1]
+        runs: list[Segment] = [
+            thin.to_fit for part, thin in zip(self.parts, self.thin, strict=True) if part.is_fitted
+        ]
         if self.joint.is_driven:
             runs = [w for run in runs for w in windows(run, self.budget.window)]
         sigma = np.inf if self.joint.is_driven else self.noise
@@ -102,10 +104,12 @@ class Setting:
         )
 
     @cached_property
-    def windows(self) -> list[Segment]:
+    def windows(self) -> list[Part]:
         """Short runs over all parts, of a load without a spring."""
         length = self.budget.window
-        return [w for part in self.thin for w in windows(part.segment, length)]
+        return [
+            replace(part, segment=w) for part in self.thin for w in windows(part.segment, length)
+        ]
 
     def model(self, effects: tuple[str, ...], solution: Solution) -> Model:
         """Return the model of a solution with its errors."""
@@ -115,9 +119,8 @@ class Setting:
             runs = carried(solution, whole, with_starts=True)
             fit, choose = _rms_of(known, runs)
             return Model(effects, solution, Errors(fit, choose, choose))
-        edges = self.thin[0].fit_until, self.thin[0].choose_until
-        short = [Part(s, *edges) for s in self.windows]
-        fit, choose = _rms_of(short, carried(solution, self.windows, with_starts=False))
+        short = [part.segment for part in self.windows]
+        fit, choose = _rms_of(self.windows, carried(solution, short, with_starts=False))
         _, far = _rms_of(known, carried(solution, whole, with_starts=False))
         return Model(effects, solution, Errors(fit, choose, far))
 

@@ -9,8 +9,7 @@ from numpy.typing import NDArray
 
 from pam_ros.effects.base import Effect
 from pam_ros.identification.fit.discrepancy import WHITE, Discrepancy
-from pam_ros.identification.fit.extend import with_effect
-from pam_ros.identification.fit.problem import Problem
+from pam_ros.identification.fit.extend import finer_starts, with_effect
 from pam_ros.identification.fit.solve import Solution, improved, settled
 from pam_ros.identification.fit.unknowns import Constant, MemoryStart
 from pam_ros.identification.search.setting import Model, Setting
@@ -112,38 +111,9 @@ def guessed(parent: Model, effect: Effect) -> tuple[dict[str, float], ...]:
 def finer(model: Model, effect: Effect, setting: Setting) -> list[Solution]:
     """Return fits with more parameters of an *effect* that is in *model*, to their end."""
     known = model.solution
-    options = _options(known.problem, known.u, effect, setting)
+    problem = known.problem
+    options = finer_starts(problem.unknowns, problem.row_at(known.u), setting.joint, effect)
     return [
         settled(extended(known, effect, option, setting), setting.budget.iterations)
         for option in options
     ]
-
-
-def _options(
-    problem: Problem, u: Array, effect: Effect, setting: Setting
-) -> list[dict[str, float]]:
-    """Return values from which to free the parameters of *effect* that are fixed in *problem*.
-
-    All of them from where they are absent, or some from where a start has them; strengths in
-    the proportion to one that is fitted already in which that start has both.
-    """
-    layout = setting.joint.layout
-    free = {
-        of.which.parameter
-        for of in (unknown.of for unknown in problem.unknowns)
-        if hasattr(of, 'which') and of.which.effect == effect.name
-    }
-    row = problem.row_at(u)
-    values = {p.name: float(row[layout.index(effect, k)]) for k, p in enumerate(effect.parameters)}
-    rest = {name: value for name, value in values.items() if name not in free}
-    units = {p.name: p.unit for p in effect.parameters if p.strength}
-    options = [rest] if rest else []
-    for start in effect.fit_starts:
-        some = {name: value for name, value in start.items() if name in rest}
-        for name in some:
-            shared = [n for n in start if n not in rest and units.get(n) == units.get(name, '')]
-            if shared and start[shared[0]] * values[shared[0]] > 0.0:
-                some[name] *= values[shared[0]] / start[shared[0]]
-        if some and some not in options:
-            options.append(some)
-    return options

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from pam_ros.identification.fit.unknowns import MemoryStart
+from pam_ros.identification.search import moves
 from pam_ros.identification.search.criteria import BUDGET, CRITERIA
 from pam_ros.identification.search.moves import dropped, freed, swapped, with_each
 from pam_ros.identification.search.search import Search, alternatives, confirmed, exchanged
@@ -26,6 +27,12 @@ def test_each_effect_is_tried_once_and_the_right_one_is_best(tried, retuned):
     assert [m.score for m in tried] == sorted(m.score for m in tried)
     assert tried[0].score < retuned.score - 1000.0
     assert tried[0].solution.value('effects.pressure_lag.fill') == pytest.approx(0.05, rel=0.02)
+
+
+def test_where_nothing_is_left_to_try_nothing_is_tried(retuned, setting, monkeypatch):
+    assert with_each(retuned, [], setting) == []
+    monkeypatch.setattr(moves, 'looks', lambda *rest: [])  # no start, such as no frequency
+    assert with_each(retuned, ['periodic_disturbance'], setting) == []
 
 
 def test_what_was_added_can_be_dropped(tried, retuned, setting):

@@ -65,21 +65,28 @@ def test_strain_is_the_prior_chi_square_of_constants_alone(setting):
     assert model.strain == pytest.approx(float(np.sum(u[known] ** 2)))
 
 
-def test_a_load_without_a_spring_is_fitted_in_short_runs_and_carried_on_in_one():
-    """A force source of 0.01 N/Pa moves 5 kg: declared 2 % too strong, it runs away."""
-    source = {'a1': 0.0, 'a2': 0.0, 'a3': 0.0, 'a4': 0.0, 'a6': 0.0, 'zeta': 0.0, 'l0': 1.0}
-    units = {'pressure_unit': 'Pa', 'contraction_unit': 'fraction'}
-    rail = Mass(mass=5.0, mount='horizontal')
-    truth = one_muscle(Muscle(a5=0.0100, **source, **units), rail)
+SOURCE = {'a1': 0.0, 'a2': 0.0, 'a3': 0.0, 'a4': 0.0, 'a6': 0.0, 'zeta': 0.0, 'l0': 1.0}
+UNITS = {'pressure_unit': 'Pa', 'contraction_unit': 'fraction'}
+RAIL = Mass(mass=5.0, mount='horizontal')
+DECLARED = one_muscle(Muscle(a5=0.0102, **SOURCE, **UNITS), RAIL)
+
+
+def on_a_rail(begin=0.0, gain=0.0100):
+    """Return 16 s of a load that a force source of *gain* N/Pa moves, from *begin* on."""
+    truth = one_muscle(Muscle(a5=gain, **SOURCE, **UNITS), RAIL)
     t = np.arange(1600) / 100.0
     command = 100.0 * np.where(np.sin(1.3 * t) > 0.0, 1.0, -1.0)
     y = simulate(truth, t, t, command, 0.1).position
     y = y + NOISE * np.random.default_rng(3).standard_normal(t.size)
-    recording = Recording('rail', t, t, command, y, None, None, None, 'free')
-    declared = one_muscle(Muscle(a5=0.0102, **source, **units), rail)
+    t = begin + t
+    return Recording('rail', t, t, command, y, None, None, None, 'free')
+
+
+def test_a_load_without_a_spring_is_fitted_in_short_runs_and_carried_on_in_one():
+    """Declared 2 % too strong, it runs away."""
     with ThreadPoolExecutor() as pool:
-        parts = parts_of([recording], CRITERIA.fit, CRITERIA.choose)
-        setting = Setting(declared, parts, CRITERIA, BUDGET, pool)
+        parts = parts_of([on_a_rail()], CRITERIA.fit, CRITERIA.choose)
+        setting = Setting(DECLARED, parts, CRITERIA, BUDGET, pool)
         problem = setting.problem
         assert len(problem.segments) == round(CRITERIA.fit * 16.0 / BUDGET.window)
         assert max(s.t[-1] for s in problem.segments) < CRITERIA.fit * 16.0
@@ -88,9 +95,40 @@ def test_a_load_without_a_spring_is_fitted_in_short_runs_and_carried_on_in_one()
         assert errors.carried > 2.0 * errors.choose > 2.0 * NOISE
         # The run that is carried on is the declared model's, from the measured start.
         s = setting.thin[0].segment
-        run = simulate(declared, s.t, s.drive_t, s.drive, s.y0, s.v0, setting.step).position
+        run = simulate(DECLARED, s.t, s.drive_t, s.drive, s.y0, s.v0, setting.step).position
         keep = setting.thin[0].choose
         assert errors.carried == pytest.approx(rms((run - s.target)[keep]), rel=1e-6)
+
+
+def test_each_short_run_is_divided_by_its_own_recording():
+    first, second = on_a_rail(), on_a_rail(100.0, gain=0.0109)
+
+    def errors(recordings):
+        parts = parts_of(recordings, CRITERIA.fit, CRITERIA.choose)
+        with ThreadPoolExecutor() as pool:
+            setting = Setting(DECLARED, parts, CRITERIA, BUDGET, pool)
+            problem = setting.problem
+            found = setting.model((), begun(problem, np.zeros(len(problem.unknowns)))).errors
+        return np.array([found.fit, found.choose, found.carried])
+
+    pooled = np.sqrt((errors([first]) ** 2 + errors([second]) ** 2) / 2.0)
+    np.testing.assert_allclose(errors([first, second]), pooled, rtol=1e-6)
+
+
+def test_a_stretch_with_too_little_to_fit_is_no_run():
+    whole = bench_truth.free(duration=8.0)
+    keep = np.ones(whole.t.size, dtype=bool)
+    keep[10:30] = False
+    gaps = ((float(whole.t[9]), float(whole.t[30])),)
+    gap = replace(whole, t=whole.t[keep], position=whole.position[keep], gaps=gaps)
+    parts = parts_of([gap], CRITERIA.fit, CRITERIA.choose)
+    assert [part.segment.t.size for part in parts] == [770, 10]
+    with ThreadPoolExecutor() as pool:
+        setting = Setting(bench_truth.declared(), parts, CRITERIA, BUDGET, pool)
+        problem = setting.problem
+        assert len(problem.segments) == 1
+        assert problem.segments[0].t[0] == pytest.approx(whole.t[30])
+        assert setting.model((), begun(problem, np.zeros(len(problem.unknowns)))).errors.fit < 1e-3
 
 
 def test_where_nothing_judges_there_is_no_such_error():
