@@ -32,6 +32,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / 'test'))
 from pam_ros.identification.data.parts import parts_of
 from pam_ros.identification.finder import trace
 from pam_ros.identification.search.criteria import BUDGET, CRITERIA
+from pam_ros.identification.search.final import errors_of, final
 from pam_ros.identification.search.search import alternatives, search, verdict
 from pam_ros.identification.search.setting import Setting
 from pam_ros.muscle.muscle import Muscle
@@ -123,14 +124,15 @@ def by_score(model: Joint, recording: Recording) -> dict[str, Any]:
     with ThreadPoolExecutor(1) as pool:
         setting = Setting(model, parts, CRITERIA, BUDGET, pool)
         found = search(setting)
+        ends = final(found)
     named = verdict(found)
     names = list(found.best.effects) if named == 'effect_found' else []
     return {
         'verdict': named,
         'found': names,
         'alternatives': [list(alternatives(found, name)) for name in names],
-        'retuned': setting.judged(found.retuned),
-        'augmented': setting.judged(found.best),
+        'retuned': errors_of(ends.retuned, setting)[1],
+        'augmented': errors_of(ends.augmented, setting)[1],
         'floor': setting.noise,
     }
 

@@ -36,12 +36,17 @@ class Part:
     @property
     def choose(self) -> Mask:
         """Marks the samples that decide between models (n,)."""
-        return ~self.fit & (self.segment.t < self.choose_until)
+        return ~self.fit & self.known
+
+    @property
+    def known(self) -> Mask:
+        """Marks the samples that a verdict may rest on (n,): all that do not judge."""
+        return self.segment.t < self.choose_until
 
     @property
     def judge(self) -> Mask:
         """Marks the samples that judge (n,)."""
-        return self.segment.t >= self.choose_until
+        return ~self.known
 
     @property
     def is_fitted(self) -> bool:

@@ -72,6 +72,13 @@ class Discrepancy:
         log_det = _gains(float(self.size) ** 2, decay, gain, scale)
         return Whitening(decay, gain, scale, log_det)
 
+    def times(self, t: Array, values: Array) -> Array:
+        """Return C times the columns of *values* (n, k), of a run with the stamps t (n,)."""
+        found = np.array(values, dtype=float, order='C')
+        decay = np.exp(-np.diff(t) / self.time)
+        _correlated(float(self.size) ** 2, decay, np.ascontiguousarray(values, dtype=float), found)
+        return found
+
 
 WHITE = Discrepancy()
 
@@ -119,3 +126,19 @@ def _innovations(decay: Array, gain: Array, scale: Array, values: Array, found: 
             found[i, k] = innovation * scale[i]
             if i + 1 < n:
                 found[i + 1, k] = decay[i] * (d + gain[i] * innovation)
+
+
+@cached
+def _correlated(variance: float, decay: Array, values: Array, found: Array) -> None:
+    """Add to *found* (n, k) what neighbours give: the covariance of d times *values* (n, k)."""
+    n, columns = values.shape
+    for k in range(columns):
+        before, after = 0.0, 0.0
+        found[n - 1, k] += variance * values[n - 1, k]
+        for i in range(n - 1):
+            before = decay[i] * (before + values[i, k])
+            found[i, k] += variance * values[i, k]
+            found[i + 1, k] += variance * before
+        for i in range(n - 2, -1, -1):
+            after = decay[i] * (after + values[i + 1, k])
+            found[i, k] += variance * after

@@ -92,15 +92,6 @@ class Solution:
         problem = self.problem
         return evidence.most_likely(problem.stamps(), self.r, self.jacobian, self.z, problem.prior)
 
-    def covariance(self) -> Array:
-        """Return the posterior covariance of u (k, k), of the linearised problem."""
-        j = self.problem.whitened(self.jacobian, self.whitenings) / self.noise
-        prior = self.problem.prior
-        # Scaled by the priors no number is so large or small that the inverse loses digits.
-        scaled = j * prior
-        inverse = np.linalg.inv(scaled.T @ scaled + np.eye(prior.size))
-        return np.asarray(inverse * np.outer(prior, prior))
-
     def value(self, name: str) -> float:
         """Return the physical value of an unknown."""
         for unknown, u in zip(self.problem.unknowns, self.u, strict=True):
@@ -143,6 +134,15 @@ def settled(
             break
         known = improved(replace(known, discrepancy=found), iterations, pool)
     return fresh(known, pool)
+
+
+def least_squares(known: Solution, iterations: int = 20, pool: Executor | None = None) -> Solution:
+    """Minimise the residuals of *known* from there, however they are correlated.
+
+    The Jacobian of *known* must be of its place, and that of the result is of the place where the
+    fit ends.
+    """
+    return fresh(improved(replace(known, discrepancy=WHITE), iterations, pool, stale=False), pool)
 
 
 def fresh(known: Solution, pool: Executor | None = None) -> Solution:

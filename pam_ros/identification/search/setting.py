@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from pam_ros.effects.base import Effect
 from pam_ros.identification.data.noise import noise_of
-from pam_ros.identification.data.parts import Part
+from pam_ros.identification.data.parts import Part, cut
 from pam_ros.identification.data.segment import Segment, windows
 from pam_ros.identification.data.thinning import coarse_step, thinned
 from pam_ros.identification.fit.problem import Problem
@@ -71,8 +71,8 @@ class Setting:
     @cached_property
     def noise(self) -> float:
         """Standard deviation in m or N of the noise, found without any model."""
-        known = [(part.segment.t < part.choose_until, part.segment) for part in self.parts]
-        return noise_of([(s.t[keep], s.target[keep]) for keep, s in known if keep.any()]).sigma
+        known = [cut(part.segment, part.known) for part in self.parts if part.known.any()]
+        return noise_of([(s.t, s.target) for s in known]).sigma
 
     @cached_property
     def step(self) -> float:
@@ -90,6 +90,13 @@ class Setting:
         runs: list[Segment] = [
             thin.to_fit for part, thin in zip(self.parts, self.thin, strict=True) if part.is_fitted
         ]
+        return self.problem_of(runs, self.step)
+
+    def problem_of(self, runs: Sequence[Segment], step: float) -> Problem:
+        """Return the problem of re-tuning the declared model to *runs*, by steps of *step* s.
+
+        Those of a load without a spring are cut into short ones.
+        """
         if self.joint.is_driven:
             runs = [w for run in runs for w in windows(run, self.budget.window)]
         sigma = np.inf if self.joint.is_driven else self.noise
@@ -100,7 +107,7 @@ class Setting:
             self.joint.active,
             self.joint.parameters().ravel(),
             tuple(map(proper, unknowns)),
-            self.step,
+            step,
         )
 
     @cached_property
@@ -113,7 +120,7 @@ class Setting:
 
     def model(self, effects: tuple[str, ...], solution: Solution) -> Model:
         """Return the model of a solution with its errors."""
-        known = [part for part in self.thin if np.any(part.segment.t < part.choose_until)]
+        known = [part for part in self.thin if part.known.any()]
         whole = [part.segment for part in known]
         if not self.joint.is_driven:
             runs = carried(solution, whole, with_starts=True)
@@ -123,20 +130,6 @@ class Setting:
         fit, choose = _rms_of(self.windows, carried(solution, short, with_starts=False))
         _, far = _rms_of(known, carried(solution, whole, with_starts=False))
         return Model(effects, solution, Errors(fit, choose, far))
-
-    def judged(self, model: Model) -> float:
-        """Return the RMSE in m or N over the part that judges, of the free run of all parts.
-
-        NaN where there is none. It is for reports: a search that asks for it judges itself.
-        """
-        runs = carried(
-            model.solution,
-            [part.segment for part in self.thin],
-            with_starts=not self.joint.is_driven,
-        )
-        pairs = zip(self.thin, runs, strict=True)
-        e = np.concatenate([(run - part.segment.target)[part.judge] for part, run in pairs])
-        return float(np.sqrt(np.mean(e**2))) if e.size else float('nan')
 
     def effect(self, name: str) -> Effect:
         """Return the effect of this name."""

@@ -72,10 +72,10 @@ def extended(
     r = problem.residuals(u)
     own = problem.jacobian(u, r, only=range(known.u.size, u.size))
     whole = Solution(problem, u, r, np.hstack([known.jacobian, own]), known.discrepancy)
-    return _without_idle(whole, setting.noise)
+    return without_idle(whole, setting.noise)
 
 
-def _without_idle(known: Solution, noise: float) -> Solution:
+def without_idle(known: Solution, noise: float) -> Solution:
     """Return *known* without hidden starts that move nothing."""
     problem = known.problem
     moved = np.linalg.norm(known.jacobian, axis=0) * problem.prior

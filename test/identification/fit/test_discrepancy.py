@@ -40,6 +40,17 @@ def test_the_map_makes_white_what_has_the_covariance(process, t):
 
 @by_process
 @by_stamps
+def test_the_covariance_times_columns_is_that_of_the_dense_one(process, t):
+    values = np.random.default_rng(5).normal(size=(t.size, 3))
+    given = values.copy()
+    np.testing.assert_allclose(
+        process.times(t, values), covariance(process, t) @ values, rtol=1e-9, atol=1e-9
+    )
+    np.testing.assert_array_equal(values, given)
+
+
+@by_process
+@by_stamps
 def test_the_likelihood_is_that_of_the_dense_covariance(process, t):
     y = np.random.default_rng(4).normal(size=t.size)
     whitening = process.whitening(t)

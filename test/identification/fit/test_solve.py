@@ -1,50 +1,24 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Fits against scipy and generalised least squares; intervals against repeated noise."""
-
-from collections.abc import Callable
-from dataclasses import dataclass
+"""Fits against scipy and against ordinary and generalised least squares."""
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy import optimize
 from scipy.linalg import cholesky
-from scipy.optimize import least_squares
 
 from pam_ros.identification.fit.discrepancy import WHITE, Discrepancy
-from pam_ros.identification.fit.problem import Problem
-from pam_ros.identification.fit.solve import Solution, fresh, improved, solved
-from support.equations import LAYOUT, unknown
+from pam_ros.identification.fit.solve import Solution, fresh, improved, least_squares, solved
+from support.curves import LINE, NOISE, T, covariance, equation, line, slow_error
+from support.equations import unknown
 
-T = np.linspace(0.0, 5.0, 400)
 TRUTH = np.array([2.0, 0.8, 0.5])
-NOISE = 0.05
 # A fit ends when a step gains less than a tenth of -2 log likelihood.
 CLOSE = 0.2
 SLOW, QUICKER = Discrepancy(2.0, 0.5), Discrepancy(2.0, 0.1)
 by_process = pytest.mark.parametrize('process', [WHITE, SLOW], ids=['white', 'slow error'])
-
-
-@dataclass(frozen=True, eq=False)
-class Equation(Problem):
-    """A problem without a rig: ``function`` maps u (k,) to the residuals (n,) at T."""
-
-    function: Callable = None
-
-    def residuals(self, u):
-        return self.function(np.asarray(u, dtype=float))
-
-    def stamps(self):
-        return [T]
-
-    def by_run(self, values):
-        return [values]
-
-
-def equation(function, unknowns):
-    row = np.zeros(LAYOUT.rows * LAYOUT.parameters)
-    return Equation((), LAYOUT, (), row, tuple(unknowns), function=function)
 
 
 def decay(u):
@@ -69,12 +43,6 @@ def decaying(calls=None, **changes):
     return equation(function, unknowns)
 
 
-def covariance(process):
-    """Return that of the noise and the process at T, over the variance of the noise."""
-    distance = np.abs(T[:, None] - T[None, :])
-    return np.eye(T.size) + process.size**2 * np.exp(-distance / process.time)
-
-
 def by_scipy(problem, solution):
     """Return scipy's optimum of the same cost, the noise variance taken from *solution*."""
     root = np.linalg.inv(cholesky(covariance(solution.discrepancy), lower=True))
@@ -85,7 +53,9 @@ def by_scipy(problem, solution):
         return np.concatenate([white / solution.noise, u / problem.prior])
 
     start = np.clip(np.ones(3), np.nextafter(low, np.inf), np.nextafter(high, -np.inf))
-    return least_squares(stacked, start, bounds=(low, high), xtol=1e-12, ftol=1e-12, gtol=1e-12).x
+    return optimize.least_squares(
+        stacked, start, bounds=(low, high), xtol=1e-12, ftol=1e-12, gtol=1e-12
+    ).x
 
 
 def start_at(problem, u, process=WHITE, jacobian=None):
@@ -113,7 +83,9 @@ def test_ends_where_scipy_ends(changes, start, process):
     expected = by_scipy(problem, solution)
     least = start_at(problem, expected, process).cost
     assert solution.cost == pytest.approx(least, abs=CLOSE)
-    error = np.sqrt(np.diag(solution.covariance()))
+    slope = problem.jacobian(expected, problem.residuals(expected)) / solution.noise
+    weighed = slope.T @ np.linalg.solve(covariance(process), slope)
+    error = np.diag(weighed + np.diag(problem.prior**-2.0)) ** -0.5
     np.testing.assert_array_less(np.abs(solution.u - expected), 0.5 * error + 1e-12)
     low, high = problem.bounds
     assert np.all((solution.u >= low) & (solution.u <= high))
@@ -180,26 +152,25 @@ def test_a_fresh_jacobian_is_that_of_the_place():
     np.testing.assert_allclose(fresh(solution).jacobian, exact, atol=2e-3)
 
 
-LINE = np.stack([np.ones_like(T), T], axis=1)
-
-
-def line(values, prior=100.0):
-    """Return the problem of a straight line through *values* over T."""
-    unknowns = [unknown('level', prior=prior), unknown('slope', prior=100.0)]
-    return equation(lambda u: LINE @ u - values, unknowns)
-
-
 @by_process
-def test_covariance_of_a_linear_problem_is_that_of_generalised_least_squares(process):
+def test_the_optimum_of_a_linear_problem_is_that_of_generalised_least_squares(process):
     values = 1.0 + 0.3 * T + NOISE * np.random.default_rng(3).standard_normal(T.size)
     solution = improved(start_at(line(values, prior=0.004), (0.0, 0.0), process), 40)
     c = covariance(process)
     variance = solution.r @ np.linalg.solve(c, solution.r) / T.size
     assert solution.noise == pytest.approx(np.sqrt(variance), rel=1e-9)
     normal = LINE.T @ np.linalg.solve(c, LINE) / variance + np.diag([0.004**-2, 100.0**-2])
-    np.testing.assert_allclose(solution.covariance(), np.linalg.inv(normal), rtol=1e-6)
     best = np.linalg.solve(normal, LINE.T @ np.linalg.solve(c, values) / variance)
     np.testing.assert_allclose(solution.u, best, rtol=1e-3)
+
+
+def test_least_squares_take_no_notice_of_a_discrepancy():
+    values = LINE @ [1.0, 0.3] + slow_error(np.random.default_rng(8), SLOW)
+    known = least_squares(solved(line(values), np.zeros(2)), 40)
+    best, *_ = np.linalg.lstsq(LINE, values)
+    np.testing.assert_allclose(known.u, best, rtol=1e-4)
+    assert known.discrepancy == WHITE
+    np.testing.assert_array_equal(known.jacobian, known.problem.jacobian(known.u, known.r))
 
 
 @by_process
@@ -214,44 +185,6 @@ def test_the_score_of_a_linear_problem_is_its_evidence(process):
     assert solution.score + T.size == pytest.approx(exact, abs=1e-3)
 
 
-def slow_error(rng, process):
-    """Return a sample of noise and of the process at T."""
-    root = np.linalg.cholesky(covariance(process))
-    return NOISE * root @ rng.standard_normal(T.size)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(
-    ('process', 'least'),
-    [(WHITE, 0.88), (QUICKER, 0.87), (SLOW, 0.75)],
-    ids=['white noise', 'correlated for a 50th of the record', 'for a tenth of it'],
-)
-def test_intervals_hold_the_truth_nearly_as_often_as_they_say(process, least):
-    """95 % of them within 1.96 standard errors, with a process that is estimated, too.
-
-    What ten correlation times say of the process is little, and the intervals do not hold that.
-    """
-    rng = np.random.default_rng(4)
-    draws, white = 60, 0
-    inside, plain = np.zeros(2), np.zeros(2)
-    for _ in range(draws):
-        values = LINE @ [1.0, 0.3] + slow_error(rng, process)
-        solution = solved(line(values), np.array([1.0, 0.3]))
-        white += solution.discrepancy == WHITE
-        error = np.sqrt(np.diag(solution.covariance()))
-        inside += np.abs(solution.u - [1.0, 0.3]) < 1.96 * error
-        as_white = improved(start_at(line(values), (1.0, 0.3)), 40)
-        error = np.sqrt(np.diag(as_white.covariance()))
-        plain += np.abs(as_white.u - [1.0, 0.3]) < 1.96 * error
-    assert np.all(inside >= least * draws)
-    if process is WHITE:
-        assert white >= 0.9 * draws
-    else:
-        assert white == 0
-        # This is why: taken for white, the same residuals promise far too much.
-        assert np.all(plain < 0.7 * draws)
-
-
 def test_a_discrepancy_that_is_not_there_is_not_found_for_a_decay():
     solution = solved(decaying(), np.ones(3))
     assert solution.discrepancy == WHITE
@@ -264,5 +197,4 @@ def test_a_slow_error_is_found_beside_a_decay():
     solution = solved(equation(lambda u: decay(u) - values, unknowns), np.ones(3))
     assert 1.0 < solution.discrepancy.size < 4.0
     assert 0.2 < solution.discrepancy.time < 1.2
-    error = np.sqrt(np.diag(solution.covariance()))
-    assert np.all(np.abs(solution.u - TRUTH) < 3.0 * error)
+    np.testing.assert_allclose(solution.u, TRUTH, atol=0.3)

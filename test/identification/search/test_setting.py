@@ -40,7 +40,6 @@ def test_errors_are_those_of_one_free_run_through_all_parts(setting, retuned):
     assert retuned.errors.fit == pytest.approx(rms(e[part.fit]), rel=0.01)
     assert retuned.errors.choose == pytest.approx(rms(e[part.choose]), rel=0.01)
     assert retuned.errors.carried == retuned.errors.choose
-    assert setting.judged(retuned) == pytest.approx(rms(e[part.judge]), rel=0.01)
 
 
 def test_the_noise_is_found_without_what_judges(setting):
@@ -129,15 +128,3 @@ def test_a_stretch_with_too_little_to_fit_is_no_run():
         assert len(problem.segments) == 1
         assert problem.segments[0].t[0] == pytest.approx(whole.t[30])
         assert setting.model((), begun(problem, np.zeros(len(problem.unknowns)))).errors.fit < 1e-3
-
-
-def test_where_nothing_judges_there_is_no_such_error():
-    recording = bench_truth.free(duration=8.0)
-    with ThreadPoolExecutor() as pool:
-        setting = Setting(
-            bench_truth.declared(), parts_of([recording], 0.7, 1.0), CRITERIA, BUDGET, pool
-        )
-        problem = setting.problem
-        model = setting.model((), begun(problem, np.zeros(len(problem.unknowns))))
-        assert np.isnan(setting.judged(model))
-        assert model.errors.choose == pytest.approx(NOISE, rel=0.2)

@@ -1,0 +1,122 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The models of a search, fitted by short steps to all samples that a verdict may rest on."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pam_ros.identification.data.parts import FEWEST, Part, cut
+from pam_ros.identification.fit.problem import Problem
+from pam_ros.identification.fit.solve import Solution, begun, least_squares
+from pam_ros.identification.fit.unknowns import memory_unknowns
+from pam_ros.identification.search.search import Search
+from pam_ros.identification.search.setting import Model, Setting, carried
+from pam_ros.identification.search.starts import without_idle
+
+Array = NDArray[np.float64]
+STEP = 1e-3  # s, longest step of the simulations
+
+
+@dataclass(frozen=True, eq=False)
+class Final:
+    """The declared, the re-tuned and the augmented model, fitted to *fit* and *choose*.
+
+    Of the declared model only the starts of runs are fitted.
+    """
+
+    declared: Solution
+    retuned: Solution
+    augmented: Solution
+
+
+def final(found: Search) -> Final:
+    """Return the models of a search, fitted in full: by least squares, nearest in free run."""
+    setting = found.setting
+    parts = [part for part in _ordered(setting) if _is_run(part)]
+    whole = setting.problem_of([cut(part.segment, part.known) for part in parts], STEP)
+    starts = tuple(k for k in whole.unknowns if not k.is_parameter)
+    declared = _nearest(replace(whole, unknowns=starts), np.zeros(len(starts)), setting)
+    retuned = _fitted(found.retuned, whole, setting)
+    if not found.best.effects:
+        return Final(declared, retuned, retuned)
+    ends = [_fitted(model, whole, setting) for model in _places(found)]
+    return Final(declared, retuned, min(ends, key=lambda one: one.cost))
+
+
+def _ordered(setting: Setting) -> list[Part]:
+    """Return the parts, those with enough samples before *judge* to be a run first."""
+    return sorted(setting.parts, key=lambda part: not _is_run(part))
+
+
+def _is_run(part: Part) -> bool:
+    return int(np.count_nonzero(part.known)) >= FEWEST
+
+
+def _places(found: Search) -> list[Model]:
+    """Return models with the chosen effects from which to begin, fitted by two lengths of steps.
+
+    Where a load sticks or hits, a fit that is right with one step may lie far off with another.
+    """
+    best = found.best
+    same = [m for m in found.looked_at if {*m.effects} == {*best.effects} and m is not best]
+    coarse = [m for m in same if m.solution.problem.step == found.setting.step]
+    return [best, *sorted(coarse, key=lambda m: m.score)[:1]]
+
+
+def _fitted(model: Model, whole: Problem, setting: Setting) -> Solution:
+    """Return the fit of *model* to all runs of *whole*, begun where it is."""
+    return _nearest(*_begun(model, whole, setting), setting)
+
+
+def _nearest(problem: Problem, u: Array, setting: Setting) -> Solution:
+    """Return the least squares of a problem, from u on."""
+    at = without_idle(begun(problem, u, pool=setting.pool), setting.noise)
+    return least_squares(at, setting.budget.iterations, setting.pool)
+
+
+def _begun(model: Model, whole: Problem, setting: Setting) -> tuple[Problem, Array]:
+    """Return the problem of *model* on the runs of *whole*, and its unknowns there."""
+    known = model.solution.problem
+    own = [k for k, unknown in enumerate(known.unknowns) if unknown.is_parameter]
+    starts = [unknown for unknown in whole.unknowns if not unknown.is_parameter]
+    for name in model.effects:
+        starts += memory_unknowns(known.layout, setting.effect(name), len(whole.segments))
+    problem = replace(
+        whole,
+        row=known.row,
+        active=known.active,
+        unknowns=(*(known.unknowns[k] for k in own), *starts),
+    )
+    # The short runs of a load without a spring are others than those of the search.
+    there = {} if setting.joint.is_driven else _starts_of(model.solution)
+    moved = [one.coordinate(there[one.name]) if one.name in there else 0.0 for one in starts]
+    # Thinned samples say less of a start than all of them.
+    return problem, np.concatenate([model.solution.u[own], np.clip(moved, -2.0, 2.0)])
+
+
+def _starts_of(known: Solution) -> dict[str, float]:
+    """Return where runs and memories of a fit begin, by name."""
+    pairs = zip(known.problem.unknowns, known.u, strict=True)
+    return {k.name: k.value(u) for k, u in pairs if not k.is_parameter}
+
+
+def errors_of(solution: Solution, setting: Setting) -> tuple[float, float]:
+    """Return the RMSE in m or N of the free run before *judge*, and over it.
+
+    NaN where there is nothing to judge by. It is for reports: a search that asks for it judges
+    itself.
+    """
+    parts = _ordered(setting)
+    segments = [part.segment for part in parts]
+    # Parts that begin as runs of the fit come first, as those runs do.
+    runs = carried(solution, segments, with_starts=not setting.joint.is_driven)
+    left = [run - s.target for run, s in zip(runs, segments, strict=True)]
+    judge = np.concatenate([part.judge for part in parts])
+    e = np.concatenate(left)
+    return _rms(e[~judge]), _rms(e[judge])
+
+
+def _rms(e: Array) -> float:
+    return float(np.sqrt(np.mean(e**2))) if e.size else float('nan')

@@ -1,0 +1,147 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Fits of every sample that a verdict may rest on, with the truth plant's numbers beside them."""
+
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from pam_ros.identification.data.parts import parts_of
+from pam_ros.identification.fit.intervals import covariance
+from pam_ros.identification.fit.solve import solved
+from pam_ros.identification.search.criteria import BUDGET, CRITERIA
+from pam_ros.identification.search.final import STEP, errors_of, final
+from pam_ros.identification.search.moves import with_each
+from pam_ros.identification.search.search import Search
+from pam_ros.identification.search.setting import Setting
+from pam_ros.rig.run import simulate
+from support import bench_truth
+from truth import effect
+
+pytestmark = pytest.mark.needs_numba
+FILL, VENT = 0.05, 0.05  # s
+NOISE = 20e-6
+
+
+def found_in(recordings, pool, fit=CRITERIA.fit, choose=CRITERIA.choose, spoil=False):
+    """Return a search that has found the lag, and nothing beside it, by its first move."""
+    parts = parts_of(recordings, fit, choose)
+    if spoil:
+        targets = [np.where(part.judge, 0.0, part.segment.target) for part in parts]
+        parts = [
+            replace(part, segment=replace(part.segment, target=target))
+            for part, target in zip(parts, targets, strict=True)
+        ]
+    setting = Setting(bench_truth.declared(), parts, CRITERIA, BUDGET, pool)
+    problem = setting.problem
+    retuned = setting.model((), solved(problem, np.zeros(len(problem.unknowns))))
+    (best,) = with_each(retuned, ['pressure_lag'], setting)
+    return Search(setting, retuned, best, [retuned, best])
+
+
+@pytest.fixture(scope='module')
+def pool():
+    """Return one thread, in which fits run."""
+    with ThreadPoolExecutor(1) as one:
+        yield one
+
+
+@pytest.fixture(scope='module')
+def recording():
+    """Return 24 s of a rig with a lag, at 250 Hz."""
+    lag = effect('pressure_lag', fill_s=FILL, vent_s=VENT)
+    return bench_truth.free(lag, seed=12, duration=24.0, rate=250.0)
+
+
+@pytest.fixture(scope='module')
+def found(recording, pool):
+    """Return the search of it."""
+    return found_in([recording], pool)
+
+
+@pytest.fixture(scope='module')
+def ends(found):
+    """Return its models, fitted in full."""
+    return final(found)
+
+
+def test_every_sample_before_those_that_judge_is_fitted(found, ends, recording):
+    known = int(np.count_nonzero(recording.t < CRITERIA.choose * recording.t[-1]))
+    for solution in (ends.declared, ends.retuned, ends.augmented):
+        (run,) = solution.problem.segments
+        assert run.t.size == solution.r.size == known
+        assert solution.problem.step == STEP
+    assert found.setting.thin[0].segment.t.size < 0.6 * recording.t.size
+
+
+def test_errors_fall_from_model_to_model_to_the_noise_where_nothing_was_fitted(found, ends):
+    declared, retuned, augmented = (
+        errors_of(one, found.setting) for one in (ends.declared, ends.retuned, ends.augmented)
+    )
+    assert declared[0] > retuned[0] > 3.0 * NOISE
+    assert retuned[1] > 3.0 * NOISE
+    assert augmented == pytest.approx((NOISE, NOISE), rel=0.1)
+
+
+def test_the_lag_is_within_three_standard_errors_of_the_true_one(ends):
+    known = ends.augmented
+    k = [unknown.name for unknown in known.problem.unknowns].index('effects.pressure_lag.fill')
+    error = np.sqrt(covariance(known, known.most_likely())[k, k])
+    low, high = (
+        known.problem.unknowns[k].value(known.u[k] + side * error) for side in (-3.0, 3.0)
+    )
+    assert low < FILL < high
+    assert high - low < 0.01 * FILL
+
+
+def test_of_the_declared_model_only_the_starts_are_fitted(found, ends):
+    problem = ends.declared.problem
+    assert [k.name for k in problem.unknowns] == ['y0[0]', 'v0[0]']
+    np.testing.assert_array_equal(
+        problem.row_at(ends.declared.u), found.setting.joint.parameters().ravel()
+    )
+    (part,) = found.setting.parts
+    s = part.segment
+    y0, v0 = (ends.declared.value(k.name) for k in problem.unknowns)
+    run = simulate(found.setting.joint, s.t, s.drive_t, s.drive, y0, v0).position
+    e = run - s.target
+    expected = [float(np.sqrt(np.mean(e[k] ** 2))) for k in (part.known, part.judge)]
+    assert errors_of(ends.declared, found.setting) == pytest.approx(expected, rel=1e-3)
+
+
+def test_nothing_sees_what_judges(recording, pool, ends):
+    spoiled = final(found_in([recording], pool, spoil=True))
+    np.testing.assert_array_equal(spoiled.augmented.u, ends.augmented.u)
+
+
+def test_where_nothing_judges_there_is_no_such_error(recording, pool):
+    found = found_in([recording], pool, 0.7, 1.0)
+    ends = final(found)
+    known, judged = errors_of(ends.augmented, found.setting)
+    assert known == pytest.approx(NOISE, rel=0.1)
+    assert np.isnan(judged)
+    assert ends.augmented.r.size == recording.t.size
+
+
+def test_a_stretch_that_only_choices_saw_is_fitted_from_a_start_of_its_own(recording, pool):
+    """There is a pause from 13.6 s on, and after it a stretch of 10 samples, too short."""
+    keep = np.ones(recording.t.size, dtype=bool)
+    keep[3400:3600] = False
+    keep[3610:3700] = False
+    gaps = tuple(
+        (float(recording.t[a - 1]), float(recording.t[b])) for a, b in ((3400, 3600), (3610, 3700))
+    )
+    parted = replace(recording, t=recording.t[keep], position=recording.position[keep], gaps=gaps)
+    found = found_in([parted], pool)
+    assert len(found.setting.problem.segments) == 1
+    ends = final(found)
+    assert [s.t.size for s in ends.augmented.problem.segments] == [3400, 800]
+    assert {'y0[1]', 'v0[1]'} < {k.name for k in ends.augmented.problem.unknowns}
+    assert errors_of(ends.augmented, found.setting)[1] == pytest.approx(NOISE, rel=0.1)
+
+
+def test_without_an_effect_the_last_model_is_the_retuned_one(found):
+    ends = final(replace(found, best=found.retuned))
+    assert ends.augmented is ends.retuned
