@@ -131,6 +131,7 @@ def by_score(model: Joint, recording: Recording) -> dict[str, Any]:
         'verdict': named,
         'found': names,
         'alternatives': [list(alternatives(found, name)) for name in names],
+        'declared': errors_of(ends.declared, setting)[1],
         'retuned': errors_of(ends.retuned, setting)[1],
         'augmented': errors_of(ends.augmented, setting)[1],
         'floor': setting.noise,

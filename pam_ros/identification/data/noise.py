@@ -49,12 +49,7 @@ def _in_windows(signals: Sequence[tuple[Array, Array]], window: float) -> Noise:
     zero: list[Array] = []
     one: list[Array] = []
     size = 0
-    for t, values in signals:
-        period = float(np.median(np.diff(t)))
-        size = int(np.clip(round(window / period), *SAMPLES))
-        size = min(size, values.size)
-        if size < 2 * (DEGREE + 1):
-            continue
+    for values, size in _of_window_size(signals, window):
         starts = np.arange(0, values.size - size + 1, max(1, size // 2))
         windows = values[starts[:, None] + np.arange(size)]
         left = windows @ _residual_maker(size)
@@ -81,6 +76,22 @@ def _in_windows(signals: Sequence[tuple[Array, Array]], window: float) -> Noise:
     else:
         rho = float(brentq(ratio, low, high, xtol=1e-3))
     return Noise(float(np.sqrt(m0 / _moments(size, rho)[0])), rho)
+
+
+def _of_window_size(
+    signals: Sequence[tuple[Array, Array]], window: float
+) -> list[tuple[Array, int]]:
+    """Return the values of signals with the number of samples in a window of theirs.
+
+    Signals that are shorter than a window count only where all of them are.
+    """
+    found = []
+    for t, values in signals:
+        if values.size >= 2 * (DEGREE + 1):
+            period = float(np.median(np.diff(t)))
+            found.append((values, int(np.clip(round(window / period), *SAMPLES))))
+    whole = [(values, size) for values, size in found if values.size >= size]
+    return whole or [(values, values.size) for values, _ in found]
 
 
 def _residual_maker(size: int) -> Array:

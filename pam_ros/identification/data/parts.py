@@ -1,6 +1,12 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Three parts of every recording: what fits see, what choices see, and what judges at the end."""
+"""Three parts of every recording: what fits see, what choices see, and what judges at the end.
+
+Where a load moves freely they are the first, the next and the last of the time: what a model is
+worth is how far it carries on by itself. A muscle at a prescribed length has no motion of its own,
+and such a recording often has a single rise and a single fall of the pressure. There the parts are
+blocks of time in turn, so that each of them sees all that was done.
+"""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -14,39 +20,47 @@ from pam_ros.recording.recording import Recording
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 FEWEST = 16  # samples with which a run can be fitted
+BLOCKS = 20  # of a recording at a prescribed length: 3 s of a minute
+GOLDEN = 0.6180339887  # multiples of it, without their whole parts, fill 0 to 1 in no rhythm
+FIT, CHOOSE, JUDGE = range(3)
 
 
 @dataclass(frozen=True, eq=False)
 class Part:
-    """A gapless stretch of a recording, with the time in s at which each part of it ends.
+    """A gapless stretch of a recording, and what each of its blocks is for.
 
-    Samples before ``fit_until`` are fitted, those from there to ``choose_until`` decide between
-    models, and the rest, which nothing sees before a verdict, judges.
+    ``ends`` (m,) are the times in s, ascending, at which a block ends, and ``roles`` (m + 1,) say
+    of each block whether it is fitted, decides between models, or judges: that, nothing sees
+    before a verdict.
     """
 
     segment: Segment
-    fit_until: float
-    choose_until: float
+    ends: Array
+    roles: NDArray[np.int_]
+
+    def _is(self, role: int) -> Mask:
+        block = np.searchsorted(self.ends, self.segment.t, side='right')
+        return np.asarray(self.roles[block] == role)
 
     @property
     def fit(self) -> Mask:
         """Marks the samples that are fitted (n,)."""
-        return self.segment.t < self.fit_until
+        return self._is(FIT)
 
     @property
     def choose(self) -> Mask:
         """Marks the samples that decide between models (n,)."""
-        return ~self.fit & self.known
-
-    @property
-    def known(self) -> Mask:
-        """Marks the samples that a verdict may rest on (n,): all that do not judge."""
-        return self.segment.t < self.choose_until
+        return self._is(CHOOSE)
 
     @property
     def judge(self) -> Mask:
         """Marks the samples that judge (n,)."""
-        return ~self.known
+        return self._is(JUDGE)
+
+    @property
+    def known(self) -> Mask:
+        """Marks the samples that a verdict may rest on (n,): all that do not judge."""
+        return ~self.judge
 
     @property
     def is_fitted(self) -> bool:
@@ -55,15 +69,22 @@ class Part:
 
     @property
     def to_fit(self) -> Segment:
-        """The segment cut off where fits end."""
-        return cut(self.segment, self.fit)
+        """The segment as a run of a fit."""
+        return run_of(self.segment, self.fit)
+
+    @property
+    def known_stretches(self) -> list[Segment]:
+        """The gapless stretches of samples that a verdict may rest on."""
+        edges = np.flatnonzero(np.diff(self.known)) + 1
+        rows = np.split(np.arange(self.known.size), edges)
+        return [_only(self.segment, some) for some in rows if self.known[some[0]]]
 
 
 def parts_of(recordings: Sequence[Recording], fit: float, choose: float) -> list[Part]:
     """Return the gapless stretches of *recordings*, those with enough to be fitted first.
 
-    *fit* and *choose* are the shares of each recording's time at which these parts end. Raises
-    RecordingError when kinds are mixed.
+    *fit* is the share of each recording's time that is fitted, *choose* the share that is fitted
+    or decides. Raises RecordingError when kinds are mixed.
     """
     segments_of(recordings, keep_back=False)
     found = []
@@ -72,17 +93,30 @@ def parts_of(recordings: Sequence[Recording], fit: float, choose: float) -> list
         if not segments:
             continue
         start, end = segments[0].t[0], segments[-1].t[-1]
+        if recording.kind == 'held':
+            places = np.arange(1, BLOCKS) / BLOCKS
+            draws = np.arange(1, BLOCKS + 1) * GOLDEN % 1.0
+        else:
+            places, draws = np.array([fit, choose]), np.array([0.0, fit, choose])
         # The last sample belongs to the last part that there is.
-        edges = [
-            start + share * (end - start) if share < 1.0 else np.inf for share in (fit, choose)
-        ]
-        found += [Part(segment, *edges) for segment in segments]
+        ends = np.where(places < 1.0, start + places * (end - start), np.inf)
+        roles = np.searchsorted([fit, choose], draws, side='right')
+        found += [Part(segment, ends, roles) for segment in segments]
     return sorted(found, key=lambda part: not part.is_fitted)
 
 
-def cut(segment: Segment, keep: Mask) -> Segment:
-    """Return the samples of *segment* that *keep* (n,) marks; commands stay as they are."""
+def run_of(segment: Segment, fit: Mask) -> Segment:
+    """Return *segment* as a run of a fit to the samples that *fit* (n,) marks.
+
+    It is cut off after the last of them; those before are simulated, and are not compared.
+    """
+    rows = np.arange(int(np.flatnonzero(fit)[-1]) + 1)
+    return _only(replace(segment, fit=fit), rows)
+
+
+def _only(segment: Segment, rows: NDArray[np.int_]) -> Segment:
+    """Return *rows* of the samples of *segment*; commands stay as they are."""
     names = ['t', 'target', 'fit']
     if isinstance(segment, HeldSegment):
         names += ['pressure', 'position', 'velocity']
-    return replace(segment, **{name: getattr(segment, name)[keep] for name in names})
+    return replace(segment, **{name: getattr(segment, name)[rows] for name in names})

@@ -42,8 +42,8 @@ class Problem:
 
     ``row`` holds the values of what is not unknown, all rows of the kernel's q one after the
     other; ``active`` are the effects that the kernel steps, and ``step`` is the longest step in s.
-    Unknowns need finite priors. Residuals are those of all samples, n in all, of the runs one
-    after the other: what is not to be fitted is cut off the segments before.
+    Unknowns need finite priors. Residuals are those of the samples that the segments mark as to be
+    fitted, n in all, of the runs one after the other.
     """
 
     segments: tuple[Segment, ...]
@@ -131,7 +131,8 @@ class Problem:
         return np.concatenate([self._left(k, p) for k, p in enumerate(self.predict(u))])
 
     def _left(self, run: int, simulated: Array) -> Array:
-        e = simulated - self.segments[run].target
+        s = self.segments[run]
+        e = (simulated - s.target)[s.fit]
         return np.clip(np.nan_to_num(e, nan=DIVERGED), -DIVERGED, DIVERGED)
 
     def jacobian(
@@ -144,7 +145,7 @@ class Problem:
         is found from that run alone.
         """
         columns = range(len(u)) if only is None else only
-        starts = np.cumsum([0, *(s.t.size for s in self.segments)])
+        starts = np.cumsum([0, *(stamps.size for stamps in self.stamps())])
 
         def column(k: int) -> Array:
             unknown = self.unknowns[k]
@@ -166,12 +167,12 @@ class Problem:
     # What residuals are worth ------------------------------------------------------------------
 
     def stamps(self) -> list[Array]:
-        """Return the stamps of each run in s."""
-        return [s.t for s in self.segments]
+        """Return the stamps in s of what is fitted of each run."""
+        return [s.t[s.fit] for s in self.segments]
 
     def by_run(self, values: Array) -> list[Array]:
         """Return *values* (n,) or (n, k) cut into those of each run."""
-        return np.split(values, np.cumsum([s.t.size for s in self.segments])[:-1])
+        return np.split(values, np.cumsum([stamps.size for stamps in self.stamps()])[:-1])
 
     def whitenings(self, discrepancy: Discrepancy) -> list[Whitening]:
         """Return the map that whitens the residuals of each run."""

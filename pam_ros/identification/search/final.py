@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from pam_ros.identification.data.parts import FEWEST, Part, cut
+from pam_ros.identification.data.parts import FEWEST, Part, run_of
 from pam_ros.identification.fit.problem import Problem
 from pam_ros.identification.fit.solve import Solution, begun, least_squares
 from pam_ros.identification.fit.unknowns import memory_unknowns
@@ -35,14 +35,13 @@ def final(found: Search) -> Final:
     """Return the models of a search, fitted in full: by least squares, nearest in free run."""
     setting = found.setting
     parts = [part for part in _ordered(setting) if _is_run(part)]
-    whole = setting.problem_of([cut(part.segment, part.known) for part in parts], STEP)
+    whole = setting.problem_of([run_of(part.segment, part.known) for part in parts], STEP)
     starts = tuple(k for k in whole.unknowns if not k.is_parameter)
     declared = _nearest(replace(whole, unknowns=starts), np.zeros(len(starts)), setting)
-    retuned = _fitted(found.retuned, whole, setting)
+    retuned = _nearest(*_begun(found.retuned, whole, setting), setting)
     if not found.best.effects:
         return Final(declared, retuned, retuned)
-    ends = [_fitted(model, whole, setting) for model in _places(found)]
-    return Final(declared, retuned, min(ends, key=lambda one: one.cost))
+    return Final(declared, retuned, _nearest(*_nearer(found, whole), setting))
 
 
 def _ordered(setting: Setting) -> list[Part]:
@@ -54,20 +53,17 @@ def _is_run(part: Part) -> bool:
     return int(np.count_nonzero(part.known)) >= FEWEST
 
 
-def _places(found: Search) -> list[Model]:
-    """Return models with the chosen effects from which to begin, fitted by two lengths of steps.
+def _nearer(found: Search, whole: Problem) -> tuple[Problem, Array]:
+    """Return where to begin with the chosen effects: the nearer end of short and of long steps.
 
     Where a load sticks or hits, a fit that is right with one step may lie far off with another.
     """
-    best = found.best
-    same = [m for m in found.looked_at if {*m.effects} == {*best.effects} and m is not best]
-    coarse = [m for m in same if m.solution.problem.step == found.setting.step]
-    return [best, *sorted(coarse, key=lambda m: m.score)[:1]]
-
-
-def _fitted(model: Model, whole: Problem, setting: Setting) -> Solution:
-    """Return the fit of *model* to all runs of *whole*, begun where it is."""
-    return _nearest(*_begun(model, whole, setting), setting)
+    best, setting = found.best, found.setting
+    same = [m for m in found.looked_at if {*m.effects} == {*best.effects}]
+    coarse = [m for m in same if m.solution.problem.step == setting.step and m is not best]
+    coarse = sorted(coarse, key=lambda m: m.score)[:1]
+    places = [_begun(model, whole, setting) for model in [best, *coarse]]
+    return min(places, key=lambda place: float(np.linalg.norm(place[0].residuals(place[1]))))
 
 
 def _nearest(problem: Problem, u: Array, setting: Setting) -> Solution:

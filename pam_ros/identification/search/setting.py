@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from pam_ros.effects.base import Effect
 from pam_ros.identification.data.noise import noise_of
-from pam_ros.identification.data.parts import Part, cut
+from pam_ros.identification.data.parts import Part
 from pam_ros.identification.data.segment import Segment, windows
 from pam_ros.identification.data.thinning import coarse_step, thinned
 from pam_ros.identification.fit.problem import Problem
@@ -71,7 +71,7 @@ class Setting:
     @cached_property
     def noise(self) -> float:
         """Standard deviation in m or N of the noise, found without any model."""
-        known = [cut(part.segment, part.known) for part in self.parts if part.known.any()]
+        known = [stretch for part in self.parts for stretch in part.known_stretches]
         return noise_of([(s.t, s.target) for s in known]).sigma
 
     @cached_property

@@ -65,6 +65,13 @@ def test_scales_with_the_unit_and_pools_signals():
     assert 0.98 * between[0] < metres.sigma < 1.02 * between[1]
 
 
+@pytest.mark.parametrize('samples', [1, 5, 12])
+def test_a_stretch_shorter_than_a_window_changes_nothing(samples):
+    t = np.arange(4000) / 100.0
+    y = motion(t) + SIGMA * np.random.default_rng(1).standard_normal(t.size)
+    assert noise_of([(t, y), (t[:samples], y[:samples])]) == noise_of([(t, y)])
+
+
 def test_a_silent_signal_has_no_noise():
     t = np.arange(1000) / 100.0
     assert noise_of([(t, np.full(t.size, 0.03))]).sigma < 1e-12

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from pam_ros.errors import RecordingError
-from pam_ros.identification.data.parts import cut, parts_of
+from pam_ros.identification.data.parts import BLOCKS, parts_of, run_of
 from support import bench_truth
 
 FREE = bench_truth.free(duration=20.0)
@@ -38,7 +38,7 @@ def test_each_recording_is_divided_by_itself():
     later = replace(FREE, name='b', t=FREE.t + 100.0, command_t=FREE.command_t + 100.0)
     first, second = parts_of([FREE, later], 0.5, 0.75)
     assert counts(first) == counts(second)
-    assert second.fit_until == pytest.approx(first.fit_until + 100.0)
+    np.testing.assert_allclose(second.ends, first.ends + 100.0)
 
 
 def test_gaps_divide_a_recording_but_not_its_parts():
@@ -49,23 +49,56 @@ def test_gaps_divide_a_recording_but_not_its_parts():
     )
     parts = parts_of([gap], 0.5, 0.75)
     assert len(parts) == 2
-    assert len({part.fit_until for part in parts}) == 1
+    np.testing.assert_array_equal(parts[0].ends, parts[1].ends)
     assert counts(parts[0])[1:] == [0, 0]
     # A stretch of which nothing is fitted comes last, so that fitted runs keep their numbers.
     last = parts_of([gap], 0.2, 0.75)[-1]
     assert counts(last)[0] == 0
 
 
-def test_what_is_cut_off_is_gone_from_all_that_is_sampled():
+@pytest.mark.parametrize(
+    ('fit', 'choose', 'shares'), [(0.55, 0.75, (11, 5, 4)), (0.7, 1.0, (14, 6, 0))]
+)
+def test_at_a_prescribed_length_the_parts_are_blocks_in_turn(fit, choose, shares):
+    """Each of them sees the pressure rise and fall, of which there is one in these recordings."""
+    held = bench_truth.held(duration=40.0)
+    (part,) = parts_of([held], fit, choose)
+    masks = np.stack([part.fit, part.choose, part.judge])
+    np.testing.assert_array_equal(masks.sum(axis=0), 1)
+    blocks = masks.argmax(axis=0)[:: held.t.size // BLOCKS][:BLOCKS]
+    assert tuple(np.bincount(blocks, minlength=3)) == shares
+    for role in range(2):
+        middle = 0.5 * part.segment.t[-1]
+        seen = part.segment.t[masks[role]]
+        assert np.any(seen < middle)
+        assert np.any(seen > middle)
+
+
+def test_a_run_ends_with_what_is_fitted_of_it():
     held = bench_truth.held(duration=20.0)
     (part,) = parts_of([held], 0.5, 0.75)
-    short = part.to_fit
-    for name in ('t', 'target', 'fit', 'pressure', 'position', 'velocity'):
-        np.testing.assert_array_equal(getattr(short, name), getattr(part.segment, name)[part.fit])
+    keep = part.choose & (part.segment.t < 12.0)
+    run = run_of(part.segment, keep)
+    np.testing.assert_array_equal(run.t[run.fit], part.segment.t[keep])
+    assert run.fit[-1]
+    for name in ('t', 'target', 'pressure', 'position', 'velocity'):
+        np.testing.assert_array_equal(
+            getattr(run, name), getattr(part.segment, name)[: run.t.size]
+        )
     (part,) = parts_of([FREE], 0.5, 0.75)
-    short = cut(part.segment, part.choose)
-    np.testing.assert_array_equal(short.t, part.segment.t[part.choose])
-    np.testing.assert_array_equal(short.drive, part.segment.drive)
+    np.testing.assert_array_equal(part.to_fit.t, part.segment.t[part.fit])
+    assert part.to_fit.fit.all()
+    np.testing.assert_array_equal(part.to_fit.drive, part.segment.drive)
+
+
+def test_stretches_are_those_before_and_between_what_judges():
+    (part,) = parts_of([bench_truth.held(duration=40.0)], 0.55, 0.75)
+    stretches = part.known_stretches
+    assert len(stretches) == 5
+    np.testing.assert_array_equal(
+        np.concatenate([s.t for s in stretches]), part.segment.t[part.known]
+    )
+    assert all(np.ptp(np.diff(s.t)) < 1e-9 for s in stretches)
 
 
 def test_recordings_of_two_kinds_are_refused():

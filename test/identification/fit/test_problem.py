@@ -240,6 +240,29 @@ def test_a_run_that_diverges_leaves_finite_residuals(two_runs):
     assert np.max(np.abs(r)) > 1e3
 
 
+def test_what_is_not_to_be_fitted_is_simulated_and_counts_for_nothing(two_runs):
+    """Columns, stamps and whitening know the samples alone that the runs mark."""
+    u = 0.3 * np.ones(len(two_runs.unknowns))
+    marks = [
+        np.random.default_rng(k).random(s.t.size) < 0.4 for k, s in enumerate(two_runs.segments)
+    ]
+    runs = [replace(s, fit=mark) for s, mark in zip(two_runs.segments, marks, strict=True)]
+    marked, keep = replace(two_runs, segments=tuple(runs)), np.concatenate(marks)
+    r = two_runs.residuals(u)
+    np.testing.assert_array_equal(marked.residuals(u), r[keep])
+    jacobian = two_runs.jacobian(u, r)[keep]
+    np.testing.assert_array_equal(marked.jacobian(u, r[keep]), jacobian)
+    assert [p.size for p in marked.predict(u)] == [s.t.size for s in two_runs.segments]
+    process = Discrepancy(3.0, 0.4)
+    found = marked.whitened(jacobian, marked.whitenings(process))
+    parts = np.split(jacobian, [int(marks[0].sum())])
+    expected = [
+        process.whitening(s.t[mark])(part)
+        for s, mark, part in zip(two_runs.segments, marks, parts, strict=True)
+    ]
+    np.testing.assert_array_equal(found, np.concatenate(expected))
+
+
 def test_each_run_is_whitened_by_itself(two_runs):
     """What was before a run's first sample is not known, and runs know nothing of each other."""
     process = Discrepancy(2.0, 0.4)

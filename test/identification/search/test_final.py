@@ -25,8 +25,10 @@ FILL, VENT = 0.05, 0.05  # s
 NOISE = 20e-6
 
 
-def found_in(recordings, pool, fit=CRITERIA.fit, choose=CRITERIA.choose, spoil=False):
-    """Return a search that has found the lag, and nothing beside it, by its first move."""
+def found_in(
+    recordings, pool, fit=CRITERIA.fit, choose=CRITERIA.choose, spoil=False, name='pressure_lag'
+):
+    """Return a search that has found the effect, and nothing beside it, by its first move."""
     parts = parts_of(recordings, fit, choose)
     if spoil:
         targets = [np.where(part.judge, 0.0, part.segment.target) for part in parts]
@@ -37,7 +39,7 @@ def found_in(recordings, pool, fit=CRITERIA.fit, choose=CRITERIA.choose, spoil=F
     setting = Setting(bench_truth.declared(), parts, CRITERIA, BUDGET, pool)
     problem = setting.problem
     retuned = setting.model((), solved(problem, np.zeros(len(problem.unknowns))))
-    (best,) = with_each(retuned, ['pressure_lag'], setting)
+    (best,) = with_each(retuned, [name], setting)
     return Search(setting, retuned, best, [retuned, best])
 
 
@@ -140,6 +142,19 @@ def test_a_stretch_that_only_choices_saw_is_fitted_from_a_start_of_its_own(recor
     assert [s.t.size for s in ends.augmented.problem.segments] == [3400, 800]
     assert {'y0[1]', 'v0[1]'} < {k.name for k in ends.augmented.problem.unknowns}
     assert errors_of(ends.augmented, found.setting)[1] == pytest.approx(NOISE, rel=0.1)
+
+
+def test_at_a_prescribed_length_blocks_are_fitted_and_the_blocks_between_them_judge(pool):
+    recordings = [bench_truth.held(effect('slack'), seed=k, name=f'{k}.csv') for k in (1, 2)]
+    found = found_in(recordings, pool, name='slack')
+    ends = final(found)
+    known = [int(np.count_nonzero(part.known)) for part in found.setting.parts]
+    assert [stamps.size for stamps in ends.augmented.problem.stamps()] == known
+    assert ends.declared.problem.unknowns == ()
+    for name in ('declared', 'retuned'):
+        assert min(errors_of(getattr(ends, name), found.setting)) > 3.0 * found.setting.noise
+    after = errors_of(ends.augmented, found.setting)
+    assert after == pytest.approx((found.setting.noise,) * 2, rel=0.2)
 
 
 def test_without_an_effect_the_last_model_is_the_retuned_one(found):
