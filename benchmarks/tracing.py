@@ -32,9 +32,10 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / 'test'))
 from pam_ros.identification.data.parts import parts_of
 from pam_ros.identification.finder import trace
 from pam_ros.identification.search.criteria import BUDGET, CRITERIA
-from pam_ros.identification.search.final import errors_of, final
+from pam_ros.identification.search.final import final
 from pam_ros.identification.search.search import alternatives, search, verdict
 from pam_ros.identification.search.setting import Setting
+from pam_ros.identification.search.stages import stages
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.recording.recording import Recording
 from pam_ros.rig.joint import Joint, one_muscle
@@ -125,15 +126,14 @@ def by_score(model: Joint, recording: Recording) -> dict[str, Any]:
         setting = Setting(model, parts, CRITERIA, BUDGET, pool)
         found = search(setting)
         ends = final(found)
+        judged = [stage.held_error for stage in stages(ends, found, ())]
     named = verdict(found)
     names = list(found.best.effects) if named == 'effect_found' else []
     return {
         'verdict': named,
         'found': names,
         'alternatives': [list(alternatives(found, name)) for name in names],
-        'declared': errors_of(ends.declared, setting)[1],
-        'retuned': errors_of(ends.retuned, setting)[1],
-        'augmented': errors_of(ends.augmented, setting)[1],
+        **dict(zip(('declared', 'retuned', 'augmented'), judged, strict=True)),
         'floor': setting.noise,
     }
 

@@ -10,13 +10,11 @@ import pytest
 from pam_ros.identification.candidate import extended, fitted
 from pam_ros.identification.data.noise import Noise, noise_of
 from pam_ros.identification.data.segment import segments_of
-from pam_ros.identification.fit.unknowns import SPECIMEN
 from pam_ros.identification.retuning import problem_of
 from pam_ros.identification.solve import Solution, solve
-from pam_ros.identification.stages import estimates, model_of, stage
+from pam_ros.identification.stages import estimates, stage
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.recording.recording import Recording
-from pam_ros.rig import layout as at
 from pam_ros.rig.joint import one_muscle
 from pam_ros.rig.loads import Mass
 from support import bench_truth
@@ -54,62 +52,6 @@ def fit_of(model, u=None):
     u = np.zeros(len(problem.unknowns)) if u is None else u
     r = problem.residuals(u)
     return fitted((), Solution(problem, u, r, problem.jacobian(u, r), 0))
-
-
-def test_the_declared_model_comes_back():
-    problem = fit_of(BAR).solution.problem
-    back = model_of(BAR, problem, np.zeros(len(problem.unknowns)), ())
-    assert back.muscle.pressure_unit == 'bar'
-    for name in ('a1', 'a2', 'a3', 'a4', 'a5', 'a6', 'zeta', 'l0', 'kappa_max', 'p_max'):
-        assert getattr(back.muscle, name) == pytest.approx(getattr(BAR.muscle, name), rel=1e-12)
-    assert back.load == BAR.load
-    assert back.all_effects == {}
-
-
-@pytest.mark.parametrize('model', [BAR, SI], ids=['bar', 'Pa'])
-def test_a_fitted_model_is_the_row_that_was_fitted(model):
-    problem = fit_of(model).solution.problem
-    u = np.random.default_rng(1).uniform(-0.7, 0.7, len(problem.unknowns))
-    back = model_of(model, problem, u, ())
-    np.testing.assert_allclose(back.parameters().ravel(), problem.row_at(u), rtol=1e-12)
-    assert back.muscle.contraction_unit == model.muscle.contraction_unit
-
-
-def test_effects_of_the_model_hold_what_was_fitted():
-    problem = fit_of(BAR).solution.problem
-    friction = next(e for e in BAR.library if e.name == 'coulomb_friction')
-    wider, added = extended(problem, BAR, friction, {'level': 7.0, 'asymmetry': 0.1})
-    back = model_of(BAR, wider, np.append(np.zeros(7), added), ('coulomb_friction',))
-    values = back.all_effects['coulomb_friction']
-    assert (values['level'], values['asymmetry']) == pytest.approx((7.0, 0.1))
-    defaults = {p.name: p.default for p in friction.parameters}
-    assert values['presliding'] == defaults['presliding']
-    row = wider.row_at(np.append(np.zeros(7), added))
-    np.testing.assert_allclose(back.parameters().ravel(), row)
-
-
-def test_constants_that_make_no_muscle_beyond_still_give_a_model():
-    problem = fit_of(BAR).solution.problem
-    names = [unknown.name for unknown in problem.unknowns]
-    u = np.zeros(len(names))
-    u[names.index('a4')] = 1.5 / SPECIMEN  # the stiffness turns negative
-    assert problem.row_at(u)[BAR.layout.constant(at.A4)] > 0.0
-    back = model_of(BAR, problem, u, ())
-    assert np.all(np.isfinite(back.parameters().ravel()))
-    assert back.muscle.stiffness(3e5, 0.1) > 0.0
-
-
-def test_constants_are_told_in_the_units_of_their_source():
-    bar, si = estimates(fit_of(BAR), BAR), estimates(fit_of(SI), SI)
-    assert list(bar) == list(FACTORS)
-    for name, factor in FACTORS.items():
-        for part in ('value', 'low', 'high'):
-            mine, theirs = getattr(bar[name], part), getattr(si[name], part)
-            assert mine == pytest.approx(factor * theirs, rel=1e-6)
-        assert bar[name].low < bar[name].value < bar[name].high
-    units = [bar[name].unit for name in FACTORS]
-    assert units == ['N/bar', 'N', '1/percent', 'N/(bar percent)', 'N/bar', 'N', '']
-    assert (si['a3'].unit, si['a4'].unit) == ('1/fraction', 'N/(Pa fraction)')
 
 
 def test_an_interval_by_hand():

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The models of a search, fitted by short steps to all samples that a verdict may rest on."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -23,9 +24,11 @@ STEP = 1e-3  # s, longest step of the simulations
 class Final:
     """The declared, the re-tuned and the augmented model, fitted to *fit* and *choose*.
 
-    Of the declared model only the starts of runs are fitted.
+    Of the declared model only the starts of runs are fitted. ``parts`` are those of the setting,
+    in the order of the runs; what has too few samples to be one comes last.
     """
 
+    parts: tuple[Part, ...]
     declared: Solution
     retuned: Solution
     augmented: Solution
@@ -34,19 +37,15 @@ class Final:
 def final(found: Search) -> Final:
     """Return the models of a search, fitted in full: by least squares, nearest in free run."""
     setting = found.setting
-    parts = [part for part in _ordered(setting) if _is_run(part)]
-    whole = setting.problem_of([run_of(part.segment, part.known) for part in parts], STEP)
+    parts = tuple(sorted(setting.parts, key=lambda part: not _is_run(part)))
+    runs = [run_of(part.segment, part.known) for part in parts if _is_run(part)]
+    whole = setting.problem_of(runs, STEP)
     starts = tuple(k for k in whole.unknowns if not k.is_parameter)
     declared = _nearest(replace(whole, unknowns=starts), np.zeros(len(starts)), setting)
     retuned = _nearest(*_begun(found.retuned, whole, setting), setting)
     if not found.best.effects:
-        return Final(declared, retuned, retuned)
-    return Final(declared, retuned, _nearest(*_nearer(found, whole), setting))
-
-
-def _ordered(setting: Setting) -> list[Part]:
-    """Return the parts, those with enough samples before *judge* to be a run first."""
-    return sorted(setting.parts, key=lambda part: not _is_run(part))
+        return Final(parts, declared, retuned, retuned)
+    return Final(parts, declared, retuned, _nearest(*_nearer(found, whole), setting))
 
 
 def _is_run(part: Part) -> bool:
@@ -98,21 +97,27 @@ def _starts_of(known: Solution) -> dict[str, float]:
     return {k.name: k.value(u) for k, u in pairs if not k.is_parameter}
 
 
-def errors_of(solution: Solution, setting: Setting) -> tuple[float, float]:
-    """Return the RMSE in m or N of the free run before *judge*, and over it.
+def simulated(known: Solution, parts: Sequence[Part], setting: Setting) -> list[Array]:
+    """Return the free run of a final fit through each of its *parts*, from its start.
+
+    A load without a spring begins as it was measured: the starts of its short runs are others.
+    """
+    segments = [part.segment for part in parts]
+    return carried(known, segments, with_starts=not setting.joint.is_driven)
+
+
+def errors_of(runs: Sequence[Array], parts: Sequence[Part]) -> tuple[float, float]:
+    """Return the RMSE in m or N of free runs through *parts* before *judge*, and over it.
 
     NaN where there is nothing to judge by. It is for reports: a search that asks for it judges
     itself.
     """
-    parts = _ordered(setting)
-    segments = [part.segment for part in parts]
-    # Parts that begin as runs of the fit come first, as those runs do.
-    runs = carried(solution, segments, with_starts=not setting.joint.is_driven)
-    left = [run - s.target for run, s in zip(runs, segments, strict=True)]
+    left = [run - part.segment.target for run, part in zip(runs, parts, strict=True)]
     judge = np.concatenate([part.judge for part in parts])
     e = np.concatenate(left)
-    return _rms(e[~judge]), _rms(e[judge])
+    return rms(e[~judge]), rms(e[judge])
 
 
-def _rms(e: Array) -> float:
+def rms(e: Array) -> float:
+    """Return the root of the mean square of e (n,), NaN where there is none."""
     return float(np.sqrt(np.mean(e**2))) if e.size else float('nan')

@@ -64,6 +64,9 @@ def dropped(model: Model, name: str, setting: Setting) -> Model:
     return setting.model(effects, settled(less, setting.budget.iterations))
 
 
-def swapped(model: Model, name: str, others: list[str], setting: Setting) -> list[Model]:
-    """Return *model* with one of *others* in the place of an effect; the best score first."""
-    return with_each(dropped(model, name, setting), others, setting)
+def swapped(
+    model: Model, name: str, others: list[str], setting: Setting
+) -> tuple[Model, list[Model]]:
+    """Return *model* without an effect, and with each of *others* in its place, the best first."""
+    less = dropped(model, name, setting)
+    return less, with_each(less, others, setting)

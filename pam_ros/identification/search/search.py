@@ -62,8 +62,10 @@ def exchanged(found: Search) -> Model | None:
     tried: list[Model] = []
     for name in best.effects if len(best.effects) > 1 else ():
         rivals = [e for e in setting.effect(name).rivals if e in absent(best, setting)]
-        tried += swapped(best, name, rivals, setting) if rivals else []
-    found.looked_at += tried
+        if rivals:
+            less, others = swapped(best, name, rivals, setting)
+            found.looked_at += [less, *others]
+            tried += others
     able = [m for m in tried if pays(m, best, setting)]
     return _freed(min(able, key=lambda m: m.score), found) if able else None
 
@@ -114,8 +116,11 @@ def _plainer(now: Model, found: Search) -> Model:
     room = 1.0 + setting.criteria.gain
     for name in now.effects:
         contained = [e for e in setting.effect(name).contains if e in absent(now, setting)]
-        for other in swapped(now, name, contained, setting) if contained else []:
-            found.looked_at.append(other)
+        if not contained:
+            continue
+        less, others = swapped(now, name, contained, setting)
+        found.looked_at += [less, *others]
+        for other in others:
             a, b = now.errors, other.errors
             if b.fit <= room * a.fit and b.choose <= room * a.choose:
                 now = other

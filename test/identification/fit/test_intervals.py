@@ -7,7 +7,7 @@ import pytest
 
 from pam_ros.identification.fit.discrepancy import WHITE, Discrepancy
 from pam_ros.identification.fit.intervals import covariance
-from pam_ros.identification.fit.solve import begun, least_squares
+from pam_ros.identification.fit.solve import begun, fresh, improved, least_squares
 from support import curves
 from support.curves import LINE, T, equation, line, slow_error
 from support.equations import unknown
@@ -34,6 +34,16 @@ def test_the_covariance_is_that_of_the_linear_map_from_the_errors(process, prior
     missed = gain @ LINE - np.eye(2)
     expected = white * gain @ c @ gain.T + missed @ spread**2 @ missed.T
     np.testing.assert_allclose(covariance(known, process), expected, rtol=1e-3)
+
+
+@pytest.mark.parametrize('prior', [0.01, 100.0])
+def test_under_the_process_itself_it_is_that_of_generalised_least_squares(prior):
+    values = LINE @ TRUTH + slow_error(np.random.default_rng(3), SLOW)
+    known = fresh(improved(begun(line(values, prior), TRUTH, SLOW), 40, stale=False))
+    c = curves.covariance(SLOW)
+    variance = known.r @ np.linalg.solve(c, known.r) / T.size
+    normal = LINE.T @ np.linalg.solve(c, LINE) / variance + np.diag([prior**-2, 100.0**-2])
+    np.testing.assert_allclose(covariance(known, SLOW), np.linalg.inv(normal), rtol=1e-4)
 
 
 @pytest.mark.slow

@@ -2,71 +2,26 @@
 # SPDX-License-Identifier: Apache-2.0
 """Fits of every sample that a verdict may rest on, with the truth plant's numbers beside them."""
 
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from pam_ros.identification.data.parts import parts_of
 from pam_ros.identification.fit.intervals import covariance
-from pam_ros.identification.fit.solve import solved
-from pam_ros.identification.search.criteria import BUDGET, CRITERIA
-from pam_ros.identification.search.final import STEP, errors_of, final
-from pam_ros.identification.search.moves import with_each
-from pam_ros.identification.search.search import Search
-from pam_ros.identification.search.setting import Setting
+from pam_ros.identification.search.criteria import CRITERIA
+from pam_ros.identification.search.final import STEP, errors_of, final, simulated
 from pam_ros.rig.run import simulate
 from support import bench_truth
+from support.searches import FILL, found_in
 from truth import effect
 
 pytestmark = pytest.mark.needs_numba
-FILL, VENT = 0.05, 0.05  # s
 NOISE = 20e-6
 
 
-def found_in(
-    recordings, pool, fit=CRITERIA.fit, choose=CRITERIA.choose, spoil=False, name='pressure_lag'
-):
-    """Return a search that has found the effect, and nothing beside it, by its first move."""
-    parts = parts_of(recordings, fit, choose)
-    if spoil:
-        targets = [np.where(part.judge, 0.0, part.segment.target) for part in parts]
-        parts = [
-            replace(part, segment=replace(part.segment, target=target))
-            for part, target in zip(parts, targets, strict=True)
-        ]
-    setting = Setting(bench_truth.declared(), parts, CRITERIA, BUDGET, pool)
-    problem = setting.problem
-    retuned = setting.model((), solved(problem, np.zeros(len(problem.unknowns))))
-    (best,) = with_each(retuned, [name], setting)
-    return Search(setting, retuned, best, [retuned, best])
-
-
-@pytest.fixture(scope='module')
-def pool():
-    """Return one thread, in which fits run."""
-    with ThreadPoolExecutor(1) as one:
-        yield one
-
-
-@pytest.fixture(scope='module')
-def recording():
-    """Return 24 s of a rig with a lag, at 250 Hz."""
-    lag = effect('pressure_lag', fill_s=FILL, vent_s=VENT)
-    return bench_truth.free(lag, seed=12, duration=24.0, rate=250.0)
-
-
-@pytest.fixture(scope='module')
-def found(recording, pool):
-    """Return the search of it."""
-    return found_in([recording], pool)
-
-
-@pytest.fixture(scope='module')
-def ends(found):
-    """Return its models, fitted in full."""
-    return final(found)
+def errors(known, ends, found):
+    """Return the errors of a final fit before the part that judges, and over it."""
+    return errors_of(simulated(known, ends.parts, found.setting), ends.parts)
 
 
 def test_every_sample_before_those_that_judge_is_fitted(found, ends, recording):
@@ -80,7 +35,7 @@ def test_every_sample_before_those_that_judge_is_fitted(found, ends, recording):
 
 def test_errors_fall_from_model_to_model_to_the_noise_where_nothing_was_fitted(found, ends):
     declared, retuned, augmented = (
-        errors_of(one, found.setting) for one in (ends.declared, ends.retuned, ends.augmented)
+        errors(one, ends, found) for one in (ends.declared, ends.retuned, ends.augmented)
     )
     assert declared[0] > retuned[0] > 3.0 * NOISE
     assert retuned[1] > 3.0 * NOISE
@@ -110,7 +65,7 @@ def test_of_the_declared_model_only_the_starts_are_fitted(found, ends):
     run = simulate(found.setting.joint, s.t, s.drive_t, s.drive, y0, v0).position
     e = run - s.target
     expected = [float(np.sqrt(np.mean(e[k] ** 2))) for k in (part.known, part.judge)]
-    assert errors_of(ends.declared, found.setting) == pytest.approx(expected, rel=1e-3)
+    assert errors(ends.declared, ends, found) == pytest.approx(expected, rel=1e-3)
 
 
 def test_nothing_sees_what_judges(recording, pool, ends):
@@ -121,7 +76,7 @@ def test_nothing_sees_what_judges(recording, pool, ends):
 def test_where_nothing_judges_there_is_no_such_error(recording, pool):
     found = found_in([recording], pool, 0.7, 1.0)
     ends = final(found)
-    known, judged = errors_of(ends.augmented, found.setting)
+    known, judged = errors(ends.augmented, ends, found)
     assert known == pytest.approx(NOISE, rel=0.1)
     assert np.isnan(judged)
     assert ends.augmented.r.size == recording.t.size
@@ -141,7 +96,7 @@ def test_a_stretch_that_only_choices_saw_is_fitted_from_a_start_of_its_own(recor
     ends = final(found)
     assert [s.t.size for s in ends.augmented.problem.segments] == [3400, 800]
     assert {'y0[1]', 'v0[1]'} < {k.name for k in ends.augmented.problem.unknowns}
-    assert errors_of(ends.augmented, found.setting)[1] == pytest.approx(NOISE, rel=0.1)
+    assert errors(ends.augmented, ends, found)[1] == pytest.approx(NOISE, rel=0.1)
 
 
 def test_at_a_prescribed_length_blocks_are_fitted_and_the_blocks_between_them_judge(pool):
@@ -152,8 +107,8 @@ def test_at_a_prescribed_length_blocks_are_fitted_and_the_blocks_between_them_ju
     assert [stamps.size for stamps in ends.augmented.problem.stamps()] == known
     assert ends.declared.problem.unknowns == ()
     for name in ('declared', 'retuned'):
-        assert min(errors_of(getattr(ends, name), found.setting)) > 3.0 * found.setting.noise
-    after = errors_of(ends.augmented, found.setting)
+        assert min(errors(getattr(ends, name), ends, found)) > 3.0 * found.setting.noise
+    after = errors(ends.augmented, ends, found)
     assert after == pytest.approx((found.setting.noise,) * 2, rel=0.2)
 
 

@@ -44,7 +44,9 @@ def test_what_was_added_can_be_dropped(tried, retuned, setting):
 
 def test_another_effect_in_its_place(tried, setting):
     wrong = next(m for m in tried if m.effects == ('dead_time',))
-    (right,) = swapped(wrong, 'dead_time', ['pressure_lag'], setting)
+    less, (right,) = swapped(wrong, 'dead_time', ['pressure_lag'], setting)
+    assert less.effects == ()
+    assert less.score > wrong.score
     assert right.effects == ('pressure_lag',)
     assert right.score == pytest.approx(tried[0].score, abs=1.0)
 

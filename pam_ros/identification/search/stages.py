@@ -1,0 +1,80 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The final fits as a report shows them: models, parameters with intervals, errors, free runs."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pam_ros.identification.data.segment import Segment
+from pam_ros.identification.fit.discrepancy import Discrepancy
+from pam_ros.identification.fit.intervals import covariance
+from pam_ros.identification.fit.solve import Solution
+from pam_ros.identification.fit.unknowns import Unknown
+from pam_ros.identification.result import Estimate, Stage
+from pam_ros.identification.search.final import Final, errors_of, rms, simulated
+from pam_ros.identification.search.search import Search
+from pam_ros.identification.search.setting import carried
+from pam_ros.identification.source_units import in_source_units, with_row
+from pam_ros.rig.joint import Joint
+
+Array = NDArray[np.float64]
+INTERVAL = 1.96  # standard errors to each side
+NEAR = 1e-6  # distance of u from its bound that is none
+
+
+def stages(ends: Final, found: Search, test: Sequence[Segment]) -> tuple[Stage, Stage, Stage]:
+    """Return the declared, the re-tuned and the augmented model of a search that was fitted.
+
+    Errors kept back are those over *test*, free runs from their own measured start, or without it
+    over the part that judges.
+    """
+    joint = found.setting.joint
+    problem = found.setting.problem
+    known = [unknown for unknown in problem.unknowns if unknown.is_parameter]
+    declared = {k.name: in_source_units(k, 3 * [k.value(0.0)], joint, False) for k in known}
+    retuned, augmented = (
+        estimates(one, one.most_likely(), joint) for one in (ends.retuned, ends.augmented)
+    )
+    effects = found.best.effects
+
+    def stage(
+        name: str, fit: Solution, parameters: dict[str, Estimate], added: Sequence[str]
+    ) -> Stage:
+        runs = simulated(fit, ends.parts, found.setting)
+        error, kept_back = errors_of(runs, ends.parts)
+        tested = carried(fit, test, with_starts=False) if test else []
+        if tested:
+            off = [run - s.target for run, s in zip(tested, test, strict=True)]
+            kept_back = rms(np.concatenate(off))
+        row, segments = fit.problem.row_at(fit.u), fit.problem.segments
+        model = with_row(joint, row, segments, added)
+        return Stage(name, model, parameters, error, kept_back, tuple(runs), tuple(tested))
+
+    return (
+        stage('declared', ends.declared, declared, ()),
+        stage('retuned', ends.retuned, retuned, ()),
+        stage('augmented', ends.augmented, augmented, effects),
+    )
+
+
+def estimates(known: Solution, process: Discrepancy, joint: Joint) -> dict[str, Estimate]:
+    """Return the parameters of a fit with their 95 % intervals, where its errors are a *process*.
+
+    Each in the unit in which *joint* gives it. Starts of runs and memories are none.
+    """
+    error = np.sqrt(np.diag(covariance(known, process)))
+    return {
+        unknown.name: _estimate(unknown, u, width, joint)
+        for unknown, u, width in zip(
+            known.problem.unknowns, known.u, INTERVAL * error, strict=True
+        )
+        if unknown.is_parameter
+    }
+
+
+def _estimate(unknown: Unknown, u: float, width: float, joint: Joint) -> Estimate:
+    low, high = unknown.bounds
+    sides = [unknown.value(float(np.clip(x, low, high))) for x in (u - width, u, u + width)]
+    return in_source_units(unknown, sides, joint, bool(u <= low + NEAR or u >= high - NEAR))

@@ -1,0 +1,127 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Every model that a search looked at, as rows: on top of what, how good, and why not chosen."""
+
+from dataclasses import dataclass
+
+from scipy.stats import chi2
+
+from pam_ros.identification.result import Estimate
+from pam_ros.identification.search.search import Search, alternatives, matters, no_worse
+from pam_ros.identification.search.setting import Model
+from pam_ros.identification.search.stages import estimates
+
+Set = frozenset[str]
+
+
+@dataclass(frozen=True)
+class Row:
+    """An effect as it was tried on top of ``parents``; errors are RMSE in m or N.
+
+    ``fall`` is by how much it lowers the score, and ``gain`` the share by which it lowers the
+    error of the samples that choices see. ``p`` is that of the likelihood-ratio test (Wilks 1938),
+    times the number of effects that were tried there (Bonferroni). ``decision`` is chosen,
+    ambiguous or rejected, and ``reason`` says why.
+    """
+
+    effect: str
+    parents: tuple[str, ...]
+    fit_error: float
+    choose_error: float
+    fall: float
+    gain: float
+    p: float
+    parameters: dict[str, Estimate]
+    decision: str
+    reason: str
+
+
+def rows(found: Search) -> tuple[Row, ...]:
+    """Return the rows of a search, those on top of fewer effects first.
+
+    Of several models with the same effects that long steps led to, the one of the best score.
+    """
+    parents: dict[Set, Model] = {}
+    children: dict[tuple[Set, str], Model] = {}
+    for model in sorted(found.looked_at, key=lambda m: m.score):
+        if model.solution.problem.step == found.setting.step:
+            parents.setdefault(frozenset(model.effects), model)
+            if model.effects:
+                *before, name = model.effects
+                children.setdefault((frozenset(before), name), model)
+    made = []
+    for effects in sorted(parents, key=len):
+        tried = [child for (before, _), child in children.items() if before == effects]
+        made += [_row(child, parents[effects], tried, found) for child in tried]
+    return tuple(made)
+
+
+def _row(model: Model, parent: Model, tried: list[Model], found: Search) -> Row:
+    fall, more = parent.solution.cost - model.solution.cost, _more(model, parent)
+    decision, reason = _decision(model, parent, tried, found)
+    name = model.effects[-1]
+    known = estimates(model.solution, model.solution.discrepancy, found.setting.joint)
+    return Row(
+        name,
+        parent.effects,
+        model.errors.fit,
+        model.errors.choose,
+        parent.score - model.score,
+        _gain(model, parent),
+        min(1.0, len(tried) * float(chi2.sf(max(fall, 0.0), more))),
+        {key: one for key, one in known.items() if key.startswith(f'effects.{name}.')},
+        decision,
+        reason,
+    )
+
+
+def _more(model: Model, parent: Model) -> int:
+    """Return how many unknowns a model has beyond its parent."""
+    return max(1, model.solution.u.size - parent.solution.u.size)
+
+
+def _gain(model: Model, parent: Model) -> float:
+    return 1.0 - model.errors.choose / parent.errors.choose
+
+
+def _decision(model: Model, parent: Model, tried: list[Model], found: Search) -> tuple[str, str]:
+    """Return what became of a model, and why."""
+    best = found.best
+    if model.effects == best.effects[: len(model.effects)]:
+        return 'chosen', _why(model, parent, found)
+    for name in best.effects:
+        rest = {*best.effects} - {name}
+        if any({*model.effects} == rest | {other} for other in alternatives(found, name)):
+            return 'ambiguous', f'explains the data as well as {name}'
+    return 'rejected', _why_not(model, parent, tried, found)
+
+
+def _why_not(model: Model, parent: Model, tried: list[Model], found: Search) -> str:
+    """Return the first reason for which a model was not chosen."""
+    fall, margin = parent.score - model.score, found.setting.criteria.margin
+    if fall < margin:
+        way = 'lowers' if fall >= 0.0 else 'raises'
+        return f'{way} the score by {abs(fall):.1f}; a fall of {margin:g} is asked for'
+    if not no_worse(model, parent, found.setting):
+        rise = 100.0 * (model.errors.carried / parent.errors.carried - 1.0)
+        return f'the free run over samples that were not fitted is {rise:.0f} % worse'
+    if not matters(model, parent, found.retuned, found.setting):
+        return 'explains too little of what re-tuning left'
+    winner = min(tried, key=lambda one: one.score)
+    if winner is not model:
+        more = model.score - winner.score
+        return f'{winner.effects[-1]} lowers the score by {more:.0f} more'
+    return 'not needed beside what was found later'
+
+
+def _why(model: Model, parent: Model, found: Search) -> str:
+    """Return why the effect of a chosen model was chosen."""
+    fall = f'lowers the score by {parent.score - model.score:.0f}'
+    gain = _gain(model, parent)
+    criteria = found.setting.criteria
+    if gain < criteria.gain and parent.strain - model.strain >= criteria.strain:
+        return (
+            f'{fall}: explains with its own parameter what re-tuning explains only by constants '
+            'far from those declared'
+        )
+    return f'{fall}, and the error of samples that were not fitted by {100.0 * gain:.0f} %'
