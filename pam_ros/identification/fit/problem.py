@@ -21,6 +21,7 @@ from pam_ros.identification.fit.unknowns import (
     Constant,
     MemoryStart,
     OfEffect,
+    RunLevel,
     RunStart,
     Unknown,
 )
@@ -121,7 +122,14 @@ class Problem:
     def predict(self, u: Array, only: int | None = None) -> list[Array]:
         """Return the simulated target of every segment, or of segment *only*, at u."""
         column = at.RUN_S if self.segments[0].kind == 'free' else at.RUN_F
-        return [out[:, column] for out in self.runs(u, only)]
+        levels = {
+            unknown.of.run: unknown.value(value)
+            for unknown, value in zip(self.unknowns, u, strict=True)
+            if isinstance(unknown.of, RunLevel)
+        }
+        which = range(len(self.segments)) if only is None else (only,)
+        pairs = zip(which, self.runs(u, only), strict=True)
+        return [out[:, column] + levels.get(run, 0.0) for run, out in pairs]
 
     def residuals(self, u: Array) -> Array:
         """Return simulated - measured (n,).
@@ -141,7 +149,7 @@ class Problem:
         """Return dr/du (n, columns) by differences, one column a simulation.
 
         *r* are the residuals at u; *only* restricts the columns; *pool* runs them side by side.
-        A column steps to the side that its bounds leave open; what belongs to the start of one run
+        A column steps to the side that its bounds leave open; what belongs to one run
         is found from that run alone.
         """
         columns = range(len(u)) if only is None else only
@@ -152,7 +160,7 @@ class Problem:
             h = DIFFERENCE if u[k] + DIFFERENCE <= unknown.bounds[1] else -DIFFERENCE
             moved = u.copy()
             moved[k] += h
-            if not isinstance(unknown.of, RunStart | MemoryStart):
+            if isinstance(unknown.of, Constant | OfEffect):
                 return (self.residuals(moved) - r) / h
             run = unknown.of.run
             own = slice(starts[run], starts[run + 1])

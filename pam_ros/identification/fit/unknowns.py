@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from pam_ros.effects.base import Effect
 from pam_ros.effects.names import EffectName
-from pam_ros.identification.data.segment import Segment, start_of
+from pam_ros.identification.data.segment import HeldSegment, Segment, start_of
 from pam_ros.rig import layout as at
 from pam_ros.rig.joint import Joint
 from pam_ros.rig.layout import Layout
@@ -36,6 +36,10 @@ START_Y_SPREAD, START_V_SPREAD = 2.0, 200.0
 # size, which is meant as an order of magnitude: three of them. What is positive is expected
 # within a factor e^1.5 = 4.5 of where a fit begins, and starts are a factor of 5 to 10 apart.
 STRENGTH, FACTOR = 3.0, 1.5
+# Standard deviation of the level between recordings of a muscle at one length, as a share of the
+# range of the force: repeats of the measured muscle are 0.2 to 2 % of it apart.
+LEVEL = 0.01
+SAME = 1e-3  # share of the muscle's length by which recordings of one length may differ
 
 
 @dataclass(frozen=True)
@@ -93,6 +97,23 @@ class MemoryStart:
 
 
 @dataclass(frozen=True)
+class RunLevel:
+    """How far the force of a run lies off that of the last run at the same length, in N.
+
+    A muscle that was brought to another length settles there for many minutes, and a force cell's
+    zero wanders. What wanders is best foretold by its last value (the local level model; Durbin
+    and Koopman 2012, section 2.2): the law is that of the last runs, and has no level there.
+    """
+
+    run: int
+
+    @property
+    def name(self) -> str:
+        """Its name in tables."""
+        return f'level[{self.run}]'
+
+
+@dataclass(frozen=True)
 class Unknown:
     """One number to be fitted, without unit: value = base + scale u, or base exp(scale u).
 
@@ -100,7 +121,7 @@ class Unknown:
     beforehand, infinite where nothing is known. ``low``, ``high`` bound the value.
     """
 
-    of: Constant | OfEffect | RunStart | MemoryStart
+    of: Constant | OfEffect | RunStart | MemoryStart | RunLevel
     base: float
     scale: float
     low: float = -np.inf
@@ -116,7 +137,7 @@ class Unknown:
     @property
     def is_parameter(self) -> bool:
         """Whether it is a parameter of the model, which all runs share."""
-        return not isinstance(self.of, RunStart | MemoryStart)
+        return isinstance(self.of, Constant | OfEffect)
 
     def value(self, u: float) -> float:
         """Return the physical value at u, which rounding does not carry past its bounds."""
@@ -180,6 +201,29 @@ def run_unknowns(segments: Sequence[Segment], sigma: float) -> list[Unknown]:
             for is_velocity, first, scale in ((False, s.y0, y), (True, s.v0, v)):
                 found.append(Unknown(RunStart(k, is_velocity), first, scale, prior=prior))
     return found
+
+
+def level_unknowns(segments: Sequence[Segment], l0: float) -> list[Unknown]:
+    """Return the levels of all runs at a prescribed length but the last at each.
+
+    Runs are in the order in which they were recorded; *l0* is the muscle's length in m. A run
+    whose length changes has none.
+    """
+    at_rest = [
+        (k, float(s.position.mean()))
+        for k, s in enumerate(segments)
+        if isinstance(s, HeldSegment) and np.ptp(s.position) < SAME * l0
+    ]
+    earlier = [
+        k
+        for place, (k, length) in enumerate(at_rest)
+        if any(abs(other - length) < SAME * l0 for _, other in at_rest[place + 1 :])
+    ]
+    if not earlier:
+        return []
+    force = np.concatenate([s.target for s in segments])
+    scale = LEVEL * float(np.ptp(force)) + 1e-9
+    return [Unknown(RunLevel(k), 0.0, scale, prior=1.0) for k in earlier]
 
 
 def effect_unknowns(model: Joint, effect: Effect, start: dict[str, float]) -> list[Unknown]:

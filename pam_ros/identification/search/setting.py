@@ -17,7 +17,13 @@ from pam_ros.identification.data.segment import Segment, windows
 from pam_ros.identification.data.thinning import coarse_step, thinned
 from pam_ros.identification.fit.problem import Problem
 from pam_ros.identification.fit.solve import Solution
-from pam_ros.identification.fit.unknowns import Constant, declared_unknowns, proper, run_unknowns
+from pam_ros.identification.fit.unknowns import (
+    Constant,
+    declared_unknowns,
+    level_unknowns,
+    proper,
+    run_unknowns,
+)
 from pam_ros.identification.search.criteria import Budget, Criteria
 from pam_ros.rig.joint import Joint
 
@@ -100,7 +106,8 @@ class Setting:
         if self.joint.is_driven:
             runs = [w for run in runs for w in windows(run, self.budget.window)]
         sigma = np.inf if self.joint.is_driven else self.noise
-        unknowns = [*declared_unknowns(self.joint), *run_unknowns(runs, sigma)]
+        levels = level_unknowns(runs, self.joint.muscle.l0)
+        unknowns = [*declared_unknowns(self.joint), *run_unknowns(runs, sigma), *levels]
         return Problem(
             tuple(runs),
             self.joint.layout,

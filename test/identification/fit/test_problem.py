@@ -14,8 +14,10 @@ from pam_ros.identification.data.segment import segments_of
 from pam_ros.identification.fit.discrepancy import Discrepancy
 from pam_ros.identification.fit.problem import Problem
 from pam_ros.identification.fit.unknowns import (
+    LEVEL,
     SPECIMEN,
     declared_unknowns,
+    level_unknowns,
     memory_unknowns,
     proper,
     run_unknowns,
@@ -181,6 +183,29 @@ def test_a_memory_begins_where_a_simulation_begins_that_is_told_so(name):
         hidden = {name: {one.of.state: 0.4 * one.scale}}
         expected = simulate(model, t, t, command, y[0], hidden=hidden).position
         np.testing.assert_allclose(problem.predict(u)[0], expected, atol=1e-9)
+
+
+def test_a_level_lifts_the_force_of_its_run_alone():
+    segments = [held(kappa, seed) for seed, kappa in enumerate((0.1, 0.1, 0.1))]
+    segments = [replace(s, target=s.target + np.arange(s.t.size)) for s in segments]
+    levels = level_unknowns(segments, 0.4)
+    problem = problem_of(MUSCLE, segments)
+    whole = replace(problem, unknowns=(*problem.unknowns, *levels))
+    u = np.zeros(len(problem.unknowns))
+    force = problem.predict(u)
+    lifted = whole.predict(np.array([*u, 1.0, -2.0]))
+    scale = levels[0].scale
+    assert scale == pytest.approx(LEVEL * 99.0)
+    for run, lift in enumerate((scale, -2.0 * scale, 0.0)):
+        np.testing.assert_allclose(lifted[run], force[run] + lift)
+        (alone,) = whole.predict(np.array([*u, 1.0, -2.0]), run)
+        np.testing.assert_array_equal(alone, lifted[run])
+    place = np.array([*u, 0.3, 0.4])
+    jacobian = whole.jacobian(place, whole.residuals(place))[:, -2:]
+    expected = scale * np.kron(np.eye(3), np.ones((100, 1)))[:, :2]
+    np.testing.assert_allclose(jacobian, expected, atol=1e-8)
+    # Runs themselves are those of the muscle.
+    np.testing.assert_array_equal(whole.runs(place)[0], problem.runs(u)[0])
 
 
 def test_a_state_that_is_always_known_is_no_unknown():

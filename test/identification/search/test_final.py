@@ -7,9 +7,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from pam_ros.identification.data.segment import segments_of
 from pam_ros.identification.fit.intervals import covariance
 from pam_ros.identification.search.criteria import CRITERIA
 from pam_ros.identification.search.final import STEP, errors_of, final, simulated
+from pam_ros.identification.search.setting import carried
+from pam_ros.recording.recording import Recording
 from pam_ros.rig.run import simulate
 from support import bench_truth
 from support.searches import FILL, found_in
@@ -115,3 +118,32 @@ def test_at_a_prescribed_length_blocks_are_fitted_and_the_blocks_between_them_ju
 def test_without_an_effect_the_last_model_is_the_retuned_one(found):
     ends = final(replace(found, best=found.retuned))
     assert ends.augmented is ends.retuned
+
+
+def test_repeats_that_lie_apart_are_told_by_their_levels_and_the_last_one_by_the_law(pool):
+    """The force cell's zero wanders by 9 N; constants would take it for their own."""
+    offsets = (9.0, 3.0, 0.0)
+    recordings = [
+        at_one_length(k, kappa, offset)
+        for k, (kappa, offset) in enumerate((kappa, o) for kappa in (0.05, 0.12) for o in offsets)
+    ]
+    found = found_in(recordings, pool, name='slack')
+    retuned = final(found).retuned
+    assert [retuned.value(f'level[{k}]') for k in (0, 1, 3, 4)] == pytest.approx(
+        [9.0, 3.0, 9.0, 3.0], abs=1.0
+    )
+    assert {'level[2]', 'level[5]'}.isdisjoint(k.name for k in retuned.problem.unknowns)
+    later = segments_of([at_one_length(9, 0.12, 0.0)], keep_back=False)
+    (run,) = carried(retuned, later, with_starts=False)
+    assert np.mean(run - later[0].target) == pytest.approx(0.0, abs=0.7)
+
+
+def at_one_length(seed, kappa, offset):
+    """Return 12 s at one length of the muscle that is declared, by its own equation."""
+    muscle = bench_truth.declared().muscle
+    rng = np.random.default_rng(seed)
+    t = np.arange(600) / 50.0
+    pressure = 3e5 + 1.5e5 * np.sin(t + rng.uniform(0.0, 6.0))
+    force = muscle.force(pressure, kappa) + offset + rng.standard_normal(t.size)
+    position = np.full(t.size, kappa * muscle.l0)
+    return Recording(f'{seed}', t, None, None, position, None, force, pressure, 'held')
