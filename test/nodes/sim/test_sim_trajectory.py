@@ -66,6 +66,12 @@ def test_all_topics_are_those_of_the_motion_that_the_commands_cause(peer):
         first = from_reset(peer, states, RATE // 2)
         for command in (300e3, 500e3, 450e3):
             peer.publish(Float64(data=command), 'pressure_command')
+            # On a busy machine states of before the command may still be on their way.
+            acts = command + AMBIENT
+            peer.until(
+                lambda acts=acts: np.isclose(pressures[-1].fluid_pressure, acts, rtol=1e-9),
+                'the commanded pressure',
+            )
             peer.more(states, RATE // 2)
         heard = states[first:]
         position = np.array([m.position[0] for m in heard])
