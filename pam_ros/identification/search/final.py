@@ -24,8 +24,8 @@ STEP = 1e-3  # s, longest step of the simulations
 class Final:
     """The declared, the re-tuned and the augmented model, fitted to *fit* and *choose*.
 
-    Of the declared model only the starts of runs are fitted. ``parts`` are those of the setting,
-    in the order of the runs; what has too few samples to be one comes last.
+    Of the declared model only the starts and the levels of runs are fitted. ``parts`` are those of
+    the setting, in the order of the runs; what has too few samples to be one comes last.
     """
 
     parts: tuple[Part, ...]
