@@ -221,7 +221,7 @@ def level_unknowns(segments: Sequence[Segment], l0: float) -> list[Unknown]:
     ]
     if not earlier:
         return []
-    force = np.concatenate([s.target for s in segments])
+    force = np.concatenate([s.target[s.fit] for s in segments])
     scale = LEVEL * float(np.ptp(force)) + 1e-9
     return [Unknown(RunLevel(k), 0.0, scale, prior=1.0) for k in earlier]
 

@@ -102,7 +102,9 @@ def guessed(parent: Model, effect: Effect) -> tuple[dict[str, float], ...]:
     s = problem.segments[longest]
     out = problem.runs(parent.solution.u, longest)[0]
     is_free = s.kind == 'free'
-    residual = s.target - out[:, at.RUN_S if is_free else at.RUN_F]
+    left = s.target - out[:, at.RUN_S if is_free else at.RUN_F]
+    # What is not fitted is not seen: effects read there what lies between.
+    residual = np.interp(s.t, s.t[s.fit], left[s.fit])
     position = s.target if is_free else out[:, at.RUN_S]
     l0 = problem.row[problem.layout.constant(at.L0)]
     return effect.guess(s.t, out[:, at.RUN_P], position / l0, residual)

@@ -12,6 +12,7 @@ from pam_ros.identification.fit.intervals import covariance
 from pam_ros.identification.search.criteria import CRITERIA
 from pam_ros.identification.search.final import STEP, errors_of, final, simulated
 from pam_ros.identification.search.setting import carried
+from pam_ros.identification.search.starts import guessed
 from pam_ros.recording.recording import Recording
 from pam_ros.rig.run import simulate
 from support import bench_truth
@@ -74,6 +75,23 @@ def test_of_the_declared_model_only_the_starts_are_fitted(found, ends):
 def test_nothing_sees_what_judges(recording, pool, ends):
     spoiled = final(found_in([recording], pool, spoil=True))
     np.testing.assert_array_equal(spoiled.augmented.u, ends.augmented.u)
+
+
+def test_at_a_prescribed_length_nothing_sees_what_judges(pool):
+    """Neither levels, nor starts that effects read from residuals, nor fits."""
+    recordings = [at_one_length(k, 0.08, offset) for k, offset in enumerate((5.0, 0.0))]
+    pairs = [found_in(recordings, pool, name='hysteresis', spoil=spoil) for spoil in (False, True)]
+    there, gone = pairs
+    (plain, spoiled) = (one.setting.parts[0].segment.target for one in pairs)
+    assert np.any(plain != spoiled)
+    assert [k.scale for k in there.setting.problem.unknowns] == [
+        k.scale for k in gone.setting.problem.unknowns
+    ]
+    periodic = there.setting.effect('periodic_disturbance')
+    starts = guessed(there.retuned, periodic)
+    assert starts
+    assert starts == guessed(gone.retuned, periodic)
+    np.testing.assert_array_equal(final(there).augmented.u, final(gone).augmented.u)
 
 
 def test_where_nothing_judges_there_is_no_such_error(recording, pool):
