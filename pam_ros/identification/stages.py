@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 from pam_ros.identification.candidate import Fit
 from pam_ros.identification.data.segment import Segment
 from pam_ros.identification.evidence import independent_samples
-from pam_ros.identification.problem import Problem
 from pam_ros.identification.result import Estimate, Stage
 from pam_ros.identification.source_units import in_source_units, with_row
 from pam_ros.rig.joint import Joint
@@ -43,11 +42,6 @@ def estimates(fit: Fit, model: Joint) -> dict[str, Estimate]:
     return found
 
 
-def model_of(model: Joint, problem: Problem, u: Array, effects: Sequence[str]) -> Joint:
-    """Return *model* with the parameters at u and the *effects* that a fit added."""
-    return with_row(model, problem.row_at(u), problem.segments, effects)
-
-
 def stage(name: str, model: Joint, fit: Fit, test: Sequence[Segment]) -> Stage:
     """Return the stage of a fit over all its segments and over *test*.
 
@@ -77,7 +71,7 @@ def stage(name: str, model: Joint, fit: Fit, test: Sequence[Segment]) -> Stage:
         }
     return Stage(
         name,
-        model_of(model, problem, fit.solution.u, fit.effects),
+        with_row(model, problem.row_at(fit.solution.u), problem.segments, fit.effects),
         parameters,
         fit.fit_error,
         held_error,

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Fits become models in their source's units, with intervals that hold the truth."""
+"""Intervals of fits hold the truth; stages have the errors of what they were judged on."""
 
 from dataclasses import replace
 
@@ -21,16 +21,6 @@ from support import bench_truth
 from truth import effect
 
 BAR = one_muscle(Muscle(), Mass(mass=20.0))
-# The same muscle in other units: p in Pa, contraction as a fraction, by hand.
-SI = one_muscle(
-    replace(
-        BAR.muscle,
-        a1=-4.35573e-5, a2=281.22370, a3=-32.866, a4=-9.27035e-3, a5=302.20107e-5, a6=-263.69185,
-        pressure_unit='Pa', contraction_unit='fraction',
-    ),
-    Mass(mass=20.0),
-)  # fmt: skip
-FACTORS = {'a1': 1e5, 'a2': 1.0, 'a3': 1e-2, 'a4': 1e3, 'a5': 1e5, 'a6': 1.0, 'zeta': 1.0}
 
 
 def held_segments(kappas=(0.02, 0.1, 0.18)):

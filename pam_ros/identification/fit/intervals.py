@@ -32,7 +32,8 @@ def covariance(known: Solution, process: Discrepancy) -> Array:
     not many correlation times long, is not in it.
     """
     problem = known.problem
-    prior, one = problem.prior, np.eye(known.problem.prior.size)
+    prior = problem.prior
+    one = np.eye(prior.size)
     # Scaled by the priors no number is so large or small that the inverse loses digits.
     slope = problem.whitened(known.jacobian * prior, known.whitenings)
     square = float(np.mean(known.whitened**2))

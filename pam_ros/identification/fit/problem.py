@@ -10,6 +10,7 @@ a simulation a column, serves for every discrepancy.
 from collections.abc import Callable, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -149,11 +150,11 @@ class Problem:
         """Return dr/du (n, columns) by differences, one column a simulation.
 
         *r* are the residuals at u; *only* restricts the columns; *pool* runs them side by side.
-        A column steps to the side that its bounds leave open; what belongs to one run
-        is found from that run alone.
+        A column steps to the side that its bounds leave open; what belongs to one run is found
+        from that run alone.
         """
         columns = range(len(u)) if only is None else only
-        starts = np.cumsum([0, *(stamps.size for stamps in self.stamps())])
+        starts = [0, *self._ends]
 
         def column(k: int) -> Array:
             unknown = self.unknowns[k]
@@ -178,9 +179,14 @@ class Problem:
         """Return the stamps in s of what is fitted of each run."""
         return [s.t[s.fit] for s in self.segments]
 
+    @cached_property
+    def _ends(self) -> NDArray[np.int_]:
+        """Where the residuals of each run end, for every fit asks for it at each step."""
+        return np.cumsum([np.count_nonzero(s.fit) for s in self.segments])
+
     def by_run(self, values: Array) -> list[Array]:
         """Return *values* (n,) or (n, k) cut into those of each run."""
-        return np.split(values, np.cumsum([stamps.size for stamps in self.stamps()])[:-1])
+        return np.split(values, self._ends[:-1])
 
     def whitenings(self, discrepancy: Discrepancy) -> list[Whitening]:
         """Return the map that whitens the residuals of each run."""
