@@ -20,7 +20,7 @@ import sys
 import time
 from collections import Counter, defaultdict
 from collections.abc import Sequence
-from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -29,13 +29,9 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / 'test'))
 
-from pam_ros.identification.data.parts import parts_of
-from pam_ros.identification.finder import trace
-from pam_ros.identification.search.criteria import BUDGET, CRITERIA
-from pam_ros.identification.search.final import final
-from pam_ros.identification.search.search import alternatives, search, verdict
-from pam_ros.identification.search.setting import Setting
-from pam_ros.identification.search.stages import stages
+from pam_ros.identification import finder
+from pam_ros.identification.result import Trace
+from pam_ros.identification.search import trace as by_score
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.recording.recording import Recording
 from pam_ros.rig.joint import Joint, one_muscle
@@ -88,7 +84,7 @@ def run_trial(job: Job) -> dict[str, Any]:
     """Run one trial and return a row of what was there and what was found."""
     trial = DRAWS[job.draws](job.kind, job.seed)
     began = time.perf_counter()
-    found = SEARCHES[job.search](declared_model(trial), recording_of(trial))
+    found = answer(SEARCHES[job.search](declared_model(trial), [recording_of(trial)]))
     return {
         'kind': job.kind,
         'seed': job.seed,
@@ -102,9 +98,8 @@ def run_trial(job: Job) -> dict[str, Any]:
     }
 
 
-def by_trace(model: Joint, recording: Recording) -> dict[str, Any]:
-    """Return what today's search finds; errors are those of the samples kept back."""
-    found = trace(model, [recording])
+def answer(found: Trace) -> dict[str, Any]:
+    """Return what a search found; errors are those over held-out samples."""
     declared, retuned, augmented = found.stages
     return {
         'verdict': found.verdict,
@@ -119,26 +114,7 @@ def by_trace(model: Joint, recording: Recording) -> dict[str, Any]:
     }
 
 
-def by_score(model: Joint, recording: Recording) -> dict[str, Any]:
-    """Return what the search on the evidence finds; errors are those of the part that judges."""
-    parts = parts_of([recording], CRITERIA.fit, CRITERIA.choose)
-    with ThreadPoolExecutor(1) as pool:
-        setting = Setting(model, parts, CRITERIA, BUDGET, pool)
-        found = search(setting)
-        ends = final(found)
-        judged = [stage.held_error for stage in stages(ends, found, ())]
-    named = verdict(found)
-    names = list(found.best.effects) if named == 'effect_found' else []
-    return {
-        'verdict': named,
-        'found': names,
-        'alternatives': [list(alternatives(found, name)) for name in names],
-        **dict(zip(('declared', 'retuned', 'augmented'), judged, strict=True)),
-        'floor': setting.noise,
-    }
-
-
-SEARCHES = {'today': by_trace, 'score': by_score}
+SEARCHES = {'today': finder.trace, 'score': by_score.trace}
 
 
 def is_right(row: dict[str, Any]) -> bool:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from pam_ros.effects.base import Effect
 from pam_ros.identification.data.segment import FreeSegment, HeldSegment, Segment
+from pam_ros.identification.data.thinning import HELD_STEP
 from pam_ros.identification.fit.unknowns import Constant, OfEffect, RunStart, Unknown
 from pam_ros.rig import layout as at
 from pam_ros.rig.bind import bind
@@ -19,7 +20,6 @@ from pam_ros.rig.run import acting_commands, delays_of
 from pam_ros.rig.start import start_state
 
 Array = NDArray[np.float64]
-HELD_STEP = 0.02  # s; a held run has no dynamics of its own to resolve, only memories
 DIFFERENCE = 1e-3  # step of u for a derivative; a thousandth of a parameter's typical size
 
 

@@ -22,7 +22,7 @@ PHASE = 0.5  # rad of the rig's fastest oscillation in one step
 STEPS = (1e-3, 10e-3)  # s, shortest and longest step
 JUMP = 0.01  # share of the command's range within a stride that makes a jump
 ROOM = 0.1  # share by which a period may be longer than asked: stamps jitter
-SAMPLES = 20_000  # most samples of a held run, whose steps cost nothing but themselves
+HELD_STEP = 0.02  # s; a held run has no dynamics of its own to resolve, only memories
 
 
 def coarse_step(model: Joint) -> float:
@@ -39,7 +39,7 @@ def thinned(segment: Segment, step: float) -> Segment:
     """Return *segment* with every n-th sample, so that the period is about *step* at most."""
     period = float(np.median(np.diff(segment.t)))
     if isinstance(segment, HeldSegment):
-        stride = max(1, segment.t.size // SAMPLES)
+        stride = max(1, int(HELD_STEP / period + ROOM))
         rows = slice(None, None, stride)
         return replace(
             segment,

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from pam_ros.effects.base import Effect
 from pam_ros.identification.data.segment import FreeSegment, HeldSegment, Segment
+from pam_ros.identification.data.thinning import HELD_STEP
 from pam_ros.identification.fit.discrepancy import Discrepancy, Whitening
 from pam_ros.identification.fit.unknowns import (
     Constant,
@@ -33,7 +34,6 @@ from pam_ros.rig.run import acting_commands, delays_of
 from pam_ros.rig.start import fill_chambers, start_state
 
 Array = NDArray[np.float64]
-HELD_STEP = 0.02  # s; a held run has no dynamics of its own to resolve, only memories
 DIFFERENCE = 1e-3  # step of u for a derivative; a thousandth of a parameter's typical size
 DIVERGED = 1e6  # m or N: what a simulation without a finite result is taken for
 

@@ -34,7 +34,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import minimize
 
-from pam_ros.identification.fit.discrepancy import WHITE, Discrepancy
+from pam_ros.identification.fit.discrepancy import WHITE, Discrepancy, deviance
 
 Array = NDArray[np.float64]
 
@@ -47,7 +47,7 @@ PRICE = 4.0
 # of a run would be an offset that costs nothing, and the level of what is measured would count for
 # nothing; and less than ten correlation times say little of a process.
 LONGEST = 0.1
-CLOSE = 0.03  # how near to its best the score is found: nothing beside a margin of 10
+CLOSE = 0.1  # how near to its best the score is found: nothing beside a margin of 10
 
 
 def score(whitened: Array, jacobian: Array, z: Array, prior: Array, log_det: float) -> float:
@@ -105,18 +105,26 @@ def most_likely(
         for size in _steps(low[0], high[0], log(FACTOR_SIZE))
         for time in _steps(low[1], high[1], log(FACTOR_TIME))
     ]
-    start = min(grid, key=cost)
+    # Where to begin, the likelihood of the residuals alone shows as well, and at little cost.
+    start = min(grid, key=lambda z_of: _likely(Discrepancy(*np.exp(z_of)), t, residuals, edges))
     simplex = np.array([[0.0, 0.0], [0.7, 0.0], [0.0, 0.7]]) + start
     found = minimize(
         cost,
         start,
         method='Nelder-Mead',
-        options={'initial_simplex': simplex, 'xatol': 0.03, 'fatol': CLOSE},
+        options={'initial_simplex': simplex, 'xatol': 0.1, 'fatol': CLOSE},
     )
     if found.fun > score_of(WHITE) - PRICE:
         return WHITE
     size, time = np.exp(np.clip(found.x, low, high)).tolist()
     return Discrepancy(size, time)
+
+
+def _likely(discrepancy: Discrepancy, t: Sequence[Array], residuals: Array, edges: Array) -> float:
+    """Return -2 ln(likelihood) of residuals (n,), cut at *edges*, but for a constant."""
+    maps = [discrepancy.whitening(stamps) for stamps in t]
+    parts = np.split(residuals, edges)
+    return deviance([w(part) for w, part in zip(maps, parts, strict=True)], maps)
 
 
 def _steps(low: float, high: float, step: float) -> Array:

@@ -113,6 +113,9 @@ class RunLevel:
         return f'level[{self.run}]'
 
 
+OF_RUNS = (RunStart, MemoryStart, RunLevel)
+
+
 @dataclass(frozen=True)
 class Unknown:
     """One number to be fitted, without unit: value = base + scale u, or base exp(scale u).
@@ -203,22 +206,27 @@ def run_unknowns(segments: Sequence[Segment], sigma: float) -> list[Unknown]:
     return found
 
 
+def repeats(segments: Sequence[Segment], l0: float) -> list[list[int]]:
+    """Return the numbers of the runs at each prescribed length, which does not change in a run.
+
+    *l0* is the muscle's length in m.
+    """
+    groups: dict[float, list[int]] = {}
+    for k, s in enumerate(segments):
+        if isinstance(s, HeldSegment) and np.ptp(s.position) < SAME * l0:
+            length = float(s.position.mean())
+            known = next((one for one in groups if abs(one - length) < SAME * l0), length)
+            groups.setdefault(known, []).append(k)
+    return list(groups.values())
+
+
 def level_unknowns(segments: Sequence[Segment], l0: float) -> list[Unknown]:
     """Return the levels of all runs at a prescribed length but the last at each.
 
     Runs are in the order in which they were recorded; *l0* is the muscle's length in m. A run
     whose length changes has none.
     """
-    at_rest = [
-        (k, float(s.position.mean()))
-        for k, s in enumerate(segments)
-        if isinstance(s, HeldSegment) and np.ptp(s.position) < SAME * l0
-    ]
-    earlier = [
-        k
-        for place, (k, length) in enumerate(at_rest)
-        if any(abs(other - length) < SAME * l0 for _, other in at_rest[place + 1 :])
-    ]
+    earlier = sorted(k for runs in repeats(segments, l0) for k in runs[:-1])
     if not earlier:
         return []
     force = np.concatenate([s.target[s.fit] for s in segments])

@@ -31,6 +31,9 @@ class Criteria:
     more than the noise. The right effects left at most 0.25; a random walk, a drift with the
     temperature and a saturation, which the library does not have, 0.31 to 0.42 of themselves
     beside the effect that explained most of them.
+    ``duration``: s of recording at least, and ``range``: in noise floors, what the target must
+    change by at least, for a verdict. They are what excites a rig's slowest mode (some 0.5 Hz) a
+    few times, and what leaves an error of a tenth of the motion above the noise.
     """
 
     margin: float = 10.0
@@ -43,6 +46,8 @@ class Criteria:
     most: float = 0.60
     complete: float = 1.1
     left: float = 0.30
+    duration: float = 5.0
+    range: float = 10.0
 
 
 @dataclass(frozen=True)
@@ -53,7 +58,8 @@ class Budget:
     ``looks``: iterations of a first fit from each start. ``fits``: starts of an effect from which
     a fit goes to its end. ``rivals``: candidates of a round that are fitted to their end.
     ``iterations``: those of such a fit. ``finer``: steps of the last fit for one of the others.
-    ``window``: length in s of the runs of a load without a spring.
+    ``nearer``: iterations towards the nearest free run. ``window``: length in s of the runs of a
+    load without a spring.
     """
 
     effects: int = 3
@@ -62,6 +68,7 @@ class Budget:
     fits: int = 2
     rivals: int = 4
     iterations: int = 15
+    nearer: int = 6
     finer: int = 5
     window: float = 2.0
 

@@ -85,15 +85,15 @@ def _begun(model: Model, whole: Problem, setting: Setting) -> tuple[Problem, Arr
         unknowns=(*(known.unknowns[k] for k in own), *starts),
     )
     # The short runs of a load without a spring are others than those of the search.
-    there = {} if setting.joint.is_driven else _starts_of(model.solution)
+    there = {} if setting.joint.is_driven else _starts_of(model)
     moved = [one.coordinate(there[one.name]) if one.name in there else 0.0 for one in starts]
     # Thinned samples say less of a start than all of them.
-    return problem, np.concatenate([model.solution.u[own], np.clip(moved, -2.0, 2.0)])
+    return problem, np.concatenate([model.nearest[own], np.clip(moved, -2.0, 2.0)])
 
 
-def _starts_of(known: Solution) -> dict[str, float]:
+def _starts_of(model: Model) -> dict[str, float]:
     """Return where runs and memories of a fit begin, by name."""
-    pairs = zip(known.problem.unknowns, known.u, strict=True)
+    pairs = zip(model.solution.problem.unknowns, model.nearest, strict=True)
     return {k.name: k.value(u) for k, u in pairs if not k.is_parameter}
 
 
@@ -103,7 +103,7 @@ def simulated(known: Solution, parts: Sequence[Part], setting: Setting) -> list[
     A load without a spring begins as it was measured: the starts of its short runs are others.
     """
     segments = [part.segment for part in parts]
-    return carried(known, segments, with_starts=not setting.joint.is_driven)
+    return carried(known, segments, setting.left_out)
 
 
 def errors_of(runs: Sequence[Array], parts: Sequence[Part]) -> tuple[float, float]:

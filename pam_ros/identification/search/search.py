@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """One loop over moves from model to model, until none pays."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -9,6 +10,8 @@ import numpy as np
 from pam_ros.identification.fit.solve import settled, solved
 from pam_ros.identification.search.moves import dropped, freed, swapped, with_each
 from pam_ros.identification.search.setting import Model, Setting
+
+Progress = Callable[[float, str], None]  # share of the work that is done, and what is done next
 
 
 @dataclass(eq=False)
@@ -21,20 +24,23 @@ class Search:
     looked_at: list[Model] = field(default_factory=list)
 
 
-def search(setting: Setting) -> Search:
-    """Find the effects that the declared model lacks."""
+def search(setting: Setting, tell: Progress = lambda share, text: None) -> Search:
+    """Find the effects that the declared model lacks; *tell* is called with the progress."""
+    tell(0.0, 're-tuning the parameters')
     problem = setting.problem
     u = np.zeros(len(problem.unknowns))
     retuned = setting.model((), solved(problem, u, pool=setting.pool))
     found = Search(setting, retuned, retuned, [retuned])
     budget = setting.budget
-    for _ in range(budget.rounds):
+    for n in range(budget.rounds):
+        tell(0.05 + 0.75 * n / budget.rounds, f'trying effects, round {n + 1}')
         if len(found.best.effects) == budget.effects or is_complete(found.best, setting):
             break
         better = _better(found) or exchanged(found)
         if better is None:
             break
         found.best = better
+    tell(0.8, 'confirming the effects with finer steps')
     found.best = confirmed(found)
     return found
 
@@ -151,7 +157,7 @@ def _reduced(now: Model, found: Search) -> Model:
     while now.effects:
         found.looked_at += [dropped(now, name, setting) for name in now.effects]
         step = now.solution.problem.step
-        less = [_best_with({*now.effects} - {name}, step, found) for name in now.effects]
+        less = [best_with({*now.effects} - {name}, step, found) for name in now.effects]
         able = [
             m
             for m in less
@@ -164,7 +170,7 @@ def _reduced(now: Model, found: Search) -> Model:
     return now
 
 
-def _best_with(effects: set[str], step: float, found: Search) -> Model:
+def best_with(effects: set[str], step: float, found: Search) -> Model:
     """Return the best model with just these effects, and this step, of those looked at."""
     same = [m for m in found.looked_at if {*m.effects} == effects]
     return min((m for m in same if m.solution.problem.step == step), key=lambda m: m.score)
@@ -211,16 +217,3 @@ def alternatives(found: Search, name: str) -> tuple[str, ...]:
     ]
     names = dict.fromkeys(one for some in found_instead if len(some) == 1 for one in some)
     return tuple(one for one in names if one != name)
-
-
-def verdict(found: Search) -> str:
-    """Return what the search says: an effect, structure without a name, or nothing."""
-    setting, errors, before = found.setting, found.best.errors, found.retuned.errors
-    now = [setting.above(e) for e in (errors.fit, errors.choose)]
-    if not found.best.effects:
-        return 'unexplained_structure' if min(now) > setting.noise else 'no_missing_effect'
-    whole = [setting.above(e) for e in (before.fit, before.choose)]
-    criteria = setting.criteria
-    most = [max(criteria.left * a, setting.noise) for a in whole]
-    explained = all(b <= a for b, a in zip(now, most, strict=True))
-    return 'effect_found' if explained else 'unexplained_structure'

@@ -1,6 +1,11 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What a search is given, and models that it looks at, with their errors."""
+"""What a search is given, and models that it looks at, with their errors.
+
+Models are compared by their score, under the discrepancy; what they leave is measured where the
+free run is nearest to the measurement, by least squares from there. Under a discrepancy slow
+errors cost little, and the free run of a model that lacks something drifts.
+"""
 
 from collections.abc import Sequence
 from concurrent.futures import Executor
@@ -15,10 +20,13 @@ from pam_ros.identification.data.noise import noise_of
 from pam_ros.identification.data.parts import Part
 from pam_ros.identification.data.segment import Segment, windows
 from pam_ros.identification.data.thinning import coarse_step, thinned
+from pam_ros.identification.fit.discrepancy import WHITE
 from pam_ros.identification.fit.problem import Problem
-from pam_ros.identification.fit.solve import Solution
+from pam_ros.identification.fit.solve import Solution, improved
 from pam_ros.identification.fit.unknowns import (
+    OF_RUNS,
     Constant,
+    MemoryStart,
     declared_unknowns,
     level_unknowns,
     proper,
@@ -35,7 +43,9 @@ class Errors:
     """RMSE in m or N over the part that was fitted, and over the one that choices see.
 
     ``carried`` is that of the free run over *choose*. The others are the same run's too, but for a
-    load without a spring, for which they are those of short runs.
+    load without a spring, for which they are those of short runs. At prescribed lengths the parts
+    lie between each other, and a memory that begins where it suits the fit suits *choose*, too:
+    what choices see there begins with memories at rest, as another recording does.
     """
 
     fit: float
@@ -45,10 +55,14 @@ class Errors:
 
 @dataclass(frozen=True, eq=False)
 class Model:
-    """A model that was fitted: the effects in it, where the fit ended, and its errors."""
+    """A model that was fitted: the effects in it, where the fit ended, and its errors.
+
+    ``nearest`` (k,) are the unknowns with which its free run is nearest to the measurement.
+    """
 
     effects: tuple[str, ...]
     solution: Solution
+    nearest: Array
     errors: Errors
 
     @property
@@ -117,6 +131,14 @@ class Setting:
             step,
         )
 
+    @property
+    def left_out(self) -> tuple[type, ...]:
+        """What of the fitted runs is not known of whole parts.
+
+        The runs of a load without a spring are short ones, which begin somewhere else.
+        """
+        return OF_RUNS if self.joint.is_driven else ()
+
     @cached_property
     def windows(self) -> list[Part]:
         """Short runs over all parts, of a load without a spring."""
@@ -126,17 +148,24 @@ class Setting:
         ]
 
     def model(self, effects: tuple[str, ...], solution: Solution) -> Model:
-        """Return the model of a solution with its errors."""
+        """Return the model of a solution with its errors, by least squares from there."""
+        plain = replace(solution, discrepancy=WHITE)
+        near = improved(plain, self.budget.nearer, renew=False)
+        return Model(effects, solution, near.u, self.errors(near))
+
+    def errors(self, solution: Solution) -> Errors:
+        """Return the errors of a solution as it is."""
         known = [part for part in self.thin if part.known.any()]
         whole = [part.segment for part in known]
-        if not self.joint.is_driven:
-            runs = carried(solution, whole, with_starts=True)
-            fit, choose = _rms_of(known, runs)
-            return Model(effects, solution, Errors(fit, choose, choose))
-        short = [part.segment for part in self.windows]
-        fit, choose = _rms_of(self.windows, carried(solution, short, with_starts=False))
-        _, far = _rms_of(known, carried(solution, whole, with_starts=False))
-        return Model(effects, solution, Errors(fit, choose, far))
+        if self.joint.is_driven:
+            short = [part.segment for part in self.windows]
+            fit, choose = _rms_of(self.windows, carried(solution, short, without=OF_RUNS))
+            _, far = _rms_of(known, carried(solution, whole, without=OF_RUNS))
+            return Errors(fit, choose, far)
+        fit, choose = _rms_of(known, carried(solution, whole))
+        if known[0].segment.kind == 'held':
+            _, choose = _rms_of(known, carried(solution, whole, without=(MemoryStart,)))
+        return Errors(fit, choose, choose)
 
     def effect(self, name: str) -> Effect:
         """Return the effect of this name."""
@@ -147,16 +176,26 @@ class Setting:
         return float(np.sqrt(max(error**2 - self.noise**2, 0.0)))
 
 
-def carried(solution: Solution, segments: Sequence[Segment], with_starts: bool) -> list[Array]:
-    """Return what the model of *solution* simulates over other segments.
+def carried(
+    solution: Solution, segments: Sequence[Segment], without: tuple[type, ...] = ()
+) -> list[Array]:
+    """Return what the model of *solution* simulates over other segments, see :func:`elsewhere`."""
+    problem, u = elsewhere(solution, segments, without)
+    return problem.predict(u)
 
-    *with_starts*, they begin as the fitted runs do, whose continuations they are; else from their
-    own measurement, with memories at rest.
+
+def elsewhere(
+    solution: Solution, segments: Sequence[Segment], without: tuple[type, ...] = ()
+) -> tuple[Problem, Array]:
+    """Return the model of *solution* over other segments, and its unknowns.
+
+    They begin as the fitted runs do, whose continuations they are; what is of the types *without*
+    is as in any recording: positions and velocities as measured, memories at rest, levels 0.
     """
     problem = solution.problem
-    keep = [k for k, unknown in enumerate(problem.unknowns) if with_starts or unknown.is_parameter]
+    keep = [k for k, unknown in enumerate(problem.unknowns) if not isinstance(unknown.of, without)]
     unknowns = tuple(problem.unknowns[k] for k in keep)
-    return replace(problem, segments=tuple(segments), unknowns=unknowns).predict(solution.u[keep])
+    return replace(problem, segments=tuple(segments), unknowns=unknowns), solution.u[keep]
 
 
 def _rms_of(parts: Sequence[Part], runs: Sequence[Array]) -> tuple[float, float]:

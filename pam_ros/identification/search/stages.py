@@ -11,7 +11,7 @@ from pam_ros.identification.data.segment import Segment
 from pam_ros.identification.fit.discrepancy import Discrepancy
 from pam_ros.identification.fit.intervals import covariance
 from pam_ros.identification.fit.solve import Solution
-from pam_ros.identification.fit.unknowns import Unknown
+from pam_ros.identification.fit.unknowns import OF_RUNS, Unknown
 from pam_ros.identification.result import Estimate, Stage
 from pam_ros.identification.search.final import Final, errors_of, rms, simulated
 from pam_ros.identification.search.search import Search
@@ -44,7 +44,7 @@ def stages(ends: Final, found: Search, test: Sequence[Segment]) -> tuple[Stage, 
     ) -> Stage:
         runs = simulated(fit, ends.parts, found.setting)
         error, kept_back = errors_of(runs, ends.parts)
-        tested = carried(fit, test, with_starts=False) if test else []
+        tested = carried(fit, test, without=OF_RUNS) if test else []
         if tested:
             off = [run - s.target for run, s in zip(tested, test, strict=True)]
             kept_back = rms(np.concatenate(off))

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from scipy.stats import chi2
 
 from pam_ros.identification.result import Estimate
-from pam_ros.identification.search.search import Search, alternatives, matters, no_worse
+from pam_ros.identification.search.search import Search, alternatives, best_with, matters, no_worse
 from pam_ros.identification.search.setting import Model
 from pam_ros.identification.search.stages import estimates
 
@@ -112,6 +112,13 @@ def _why_not(model: Model, parent: Model, tried: list[Model], found: Search) -> 
         more = model.score - winner.score
         return f'{winner.effects[-1]} lowers the score by {more:.0f} more'
     return 'not needed beside what was found later'
+
+
+def reason_for(found: Search, name: str) -> str:
+    """Return why an effect of the best model is in it: beside the best model without it."""
+    best = found.best
+    step = best.solution.problem.step
+    return _why(best, best_with({*best.effects} - {name}, step, found), found)
 
 
 def _why(model: Model, parent: Model, found: Search) -> str:

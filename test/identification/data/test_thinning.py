@@ -9,7 +9,7 @@ import pytest
 
 from pam_ros.identification.data.noise import Noise
 from pam_ros.identification.data.segment import segments_of
-from pam_ros.identification.data.thinning import PHASE, SAMPLES, STEPS, coarse_step, thinned
+from pam_ros.identification.data.thinning import HELD_STEP, PHASE, STEPS, coarse_step, thinned
 from pam_ros.identification.retuning import problem_of
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.recording.recording import Recording
@@ -135,19 +135,6 @@ def test_what_is_sampled_coarsely_is_not_thinned():
     np.testing.assert_array_equal(thin.drive, segment.drive)
 
 
-def test_a_held_run_keeps_every_sample_up_to_a_number():
-    t = np.arange(2 * SAMPLES + 10) * 1e-3
-    y = np.full(t.size, 0.02)
-    recording = Recording('h', t, None, None, y, None, 5.0 * t, 1e5 + t, 'held')
-    (segment,) = segments_of([recording], keep_back=True)
-    thin = thinned(segment, STEP)
-    np.testing.assert_array_equal(thin.t, t[::2])
-    np.testing.assert_array_equal(thin.target, 5.0 * t[::2])
-    np.testing.assert_array_equal(thin.pressure, segment.pressure[::2])
-    (short,) = segments_of([recording.part(0, SAMPLES)], keep_back=True)
-    np.testing.assert_array_equal(thinned(short, STEP).t, short.t)
-
-
 def test_the_step_turns_the_rigs_fastest_swing_by_a_set_angle():
     model = one_muscle(Muscle(), Mass(mass=10.0))
     # Stiffness of Sarosi's law by hand, p in bar and kappa in percent: -dF/dkappa / l0 in N/m.
@@ -193,3 +180,14 @@ def test_a_thinned_run_moves_like_the_full_one():
     plain = run(late, coarse_step(model))
     assert error < 5e-6
     assert error < 0.05 * np.sqrt(np.mean((plain - full) ** 2))
+
+
+def test_an_isometric_run_is_thinned_to_the_step_of_its_simulation():
+    t = np.arange(4000) * 2e-3
+    y = np.full(t.size, 0.02)
+    recording = Recording('h', t, None, None, y, None, 5.0 * t, 1e5 + t, 'held')
+    (segment,) = segments_of([recording], keep_back=True)
+    thin = thinned(segment, STEP)
+    for name in ('t', 'target', 'fit', 'pressure', 'position', 'velocity'):
+        np.testing.assert_array_equal(getattr(thin, name), getattr(segment, name)[::10])
+    assert np.median(np.diff(thin.t)) == pytest.approx(HELD_STEP)

@@ -9,6 +9,7 @@ import pytest
 
 from pam_ros.identification.data.segment import segments_of
 from pam_ros.identification.fit.intervals import covariance
+from pam_ros.identification.fit.unknowns import OF_RUNS
 from pam_ros.identification.search.criteria import CRITERIA
 from pam_ros.identification.search.final import STEP, errors_of, final, simulated
 from pam_ros.identification.search.setting import carried
@@ -152,7 +153,7 @@ def test_repeats_that_lie_apart_are_told_by_their_levels_and_the_last_one_by_the
     )
     assert {'level[2]', 'level[5]'}.isdisjoint(k.name for k in retuned.problem.unknowns)
     later = segments_of([at_one_length(9, 0.12, 0.0)], keep_back=False)
-    (run,) = carried(retuned, later, with_starts=False)
+    (run,) = carried(retuned, later, without=OF_RUNS)
     assert np.mean(run - later[0].target) == pytest.approx(0.0, abs=0.7)
 
 

@@ -10,8 +10,9 @@ import pytest
 
 from pam_ros.identification.data.parts import parts_of
 from pam_ros.identification.search.criteria import BUDGET, CRITERIA
-from pam_ros.identification.search.search import absent, search, verdict
+from pam_ros.identification.search.search import absent, search
 from pam_ros.identification.search.setting import Setting
+from pam_ros.identification.search.verdict import explains
 from support import bench_truth
 from truth import effect
 
@@ -42,7 +43,7 @@ def searched(recordings, model=None):
 def test_the_effect_that_is_there_is_found_and_no_other(there):
     found = searched([bench_truth.free(there, seed=3, duration=25.0)])
     assert found.best.effects == (there.kind,)
-    assert verdict(found) == 'effect_found'
+    assert explains(found)
     before, after = found.retuned.errors, found.best.errors
     assert after.fit < 0.5 * before.fit
     assert after.choose < 0.5 * before.choose
@@ -67,7 +68,7 @@ def test_a_payload_that_retuning_hides_is_found_by_the_strain_of_the_constants()
     assert found.best.errors.fit == pytest.approx(found.retuned.errors.fit, rel=0.02)
     assert found.retuned.strain > found.best.strain + CRITERIA.strain
     assert found.best.solution.value('effects.payload.mass') == pytest.approx(3.0, abs=0.3)
-    assert verdict(found) == 'effect_found'
+    assert explains(found)
 
 
 def test_creep_that_has_not_settled_when_the_recording_begins():
@@ -104,10 +105,10 @@ def test_an_effect_that_is_declared_is_not_tried():
     found = searched([bench_truth.free(effect('viscous_friction'), seed=3)], known)
     assert found.best.effects == ()
     assert 'viscous_friction' not in absent(found.best, found.setting)
-    assert verdict(found) == 'no_missing_effect'
+    assert explains(found)
 
 
 @pytest.mark.release
 def test_what_is_not_in_the_library_gets_no_name():
     found = searched([bench_truth.free(effect('random_walk'), seed=8, duration=40.0)])
-    assert verdict(found) == 'unexplained_structure'
+    assert not explains(found)

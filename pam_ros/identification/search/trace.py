@@ -1,0 +1,169 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The trace: how wrong is the declared model, what does it lack, how wrong is it with that."""
+
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pam_ros.arguments import instance, sequence
+from pam_ros.effects.names import by_effect
+from pam_ros.errors import RecordingError
+from pam_ros.identification.data.noise import Noise, noise_of
+from pam_ros.identification.data.parts import Part, parts_of
+from pam_ros.identification.data.segment import Segment, segments_of
+from pam_ros.identification.fit.solve import Solution
+from pam_ros.identification.result import Candidate, Finding, Stage, Trace
+from pam_ros.identification.search.criteria import BUDGET, CRITERIA
+from pam_ros.identification.search.final import Final, final
+from pam_ros.identification.search.levels import apart
+from pam_ros.identification.search.search import Progress, Search, alternatives, search
+from pam_ros.identification.search.setting import Setting, elsewhere
+from pam_ros.identification.search.stages import stages
+from pam_ros.identification.search.table import reason_for, rows
+from pam_ros.identification.search.verdict import (
+    next_experiment,
+    sentence,
+    too_little,
+    verdict,
+)
+from pam_ros.identification.structure import Structure, structure_of
+from pam_ros.recording.recording import Recording
+from pam_ros.rig import layout as at
+from pam_ros.rig.joint import Joint
+
+Array = NDArray[np.float64]
+
+
+def trace(
+    model: Joint,
+    recordings: Sequence[Recording],
+    test: Sequence[Recording] = (),
+    progress: Progress | None = None,
+) -> Trace:
+    """Trace what *recordings* show beyond *model* to effects of the model's library.
+
+    Errors are judged on *test*, or without it on the part of each recording that nothing saw
+    before, see :mod:`pam_ros.identification.data.parts`. progress(share, text) is called with the
+    share of the work that is done and what is done next.
+
+    Raises RecordingError when there are no recordings, when they do not fit together, carry no
+    output or are too short for any fit, and ParameterError for objects of another type.
+    """
+    instance('model', model, Joint, 'a Joint')
+    recordings = sequence('recordings', recordings, Recording, 'a Recording')
+    test = sequence('test', test, Recording, 'a Recording')
+    if not recordings:
+        raise RecordingError('recordings is empty: give at least one Recording')
+    tell: Progress = progress or (lambda share, text: None)
+    segments_of([*recordings, *test], keep_back=False)
+    tests = segments_of(test, keep_back=False)
+    # With test recordings none of the others has to judge.
+    shares = (CRITERIA.fit / CRITERIA.choose, 1.0) if test else (CRITERIA.fit, CRITERIA.choose)
+    parts = parts_of(recordings, *shares)
+    if not any(part.is_fitted for part in parts):
+        raise RecordingError(
+            f'recording {recordings[0].name} is too short for a fit: it lasts '
+            f'{recordings[0].duration:.3g} s; at least {CRITERIA.duration:g} s are needed'
+        )
+    with ThreadPoolExecutor() as pool:
+        setting = Setting(model, parts, CRITERIA, BUDGET, pool)
+        lacking = too_little([part.segment for part in parts], setting.noise, CRITERIA)
+        found = search(setting, tell)
+        tell(0.9, 'fitting the chosen models in full')
+        ends = final(found)
+        answer = _answer(found, ends, tests)
+    name = verdict(found, *(stage.held_error for stage in answer.stages[:2]))
+    name = 'insufficient_data' if lacking else name
+    answer = replace(
+        answer,
+        verdict=name,
+        effects=answer.effects if name == 'effect_found' else (),
+        warnings=(
+            *(text for recording in (*recordings, *test) for text in recording.warnings),
+            *apart(ends.augmented, answer.noise.sigma),
+        ),
+    )
+    tell(1.0, 'done')
+    return replace(
+        answer,
+        sentence=sentence(answer, lacking),
+        next_experiment=next_experiment(answer, model.library),
+    )
+
+
+def _answer(found: Search, ends: Final, tests: Sequence[Segment]) -> Trace:
+    """Return the numbers of a trace, with nothing said about them yet."""
+    three = stages(ends, found, tests)
+    noise = _least(three, ends.parts)
+    quantity = ends.parts[0].segment.quantity
+    return Trace(
+        verdict='',
+        sentence='',
+        quantity=quantity,
+        unit='m' if quantity == 'position' else 'N',
+        noise=noise,
+        stages=three,
+        effects=_findings(found, three[2]),
+        candidates=_candidates(found),
+        structure=_structure(ends, found, noise.sigma),
+        segments=tuple(replace(part.segment, fit=part.known) for part in ends.parts),
+        test=tuple(tests),
+        warnings=(),
+        next_experiment='',
+    )
+
+
+def _least(three: Sequence[Stage], parts: Sequence[Part]) -> Noise:
+    """Return the smallest noise seen: in the signal, and in what each model leaves of it.
+
+    A model that follows the motion leaves a smoother signal than the raw one, whose fast
+    parts a polynomial cannot follow.
+    """
+    signals = [[(part.segment.t, part.segment.target) for part in parts]]
+    for stage in three:
+        pairs = zip(parts, stage.simulated, strict=True)
+        signals.append([(part.segment.t, part.segment.target - run) for part, run in pairs])
+    return min(map(noise_of, signals), key=lambda noise: noise.sigma)
+
+
+def _structure(ends: Final, found: Search, floor: float) -> Structure:
+    """Return the structure of what the last model leaves of the longest run."""
+    segments = [part.segment for part in ends.parts]
+    longest = max(range(len(segments)), key=lambda k: segments[k].t.size)
+    known: Solution = ends.augmented
+    problem, u = elsewhere(known, segments, found.setting.left_out)
+    out = problem.runs(u, longest)[0]
+    s = segments[longest]
+    run = problem.predict(u, longest)[0]
+    inputs = (out[:, at.RUN_P], out[:, at.RUN_S], out[:, at.RUN_V])
+    return structure_of(s.t, s.target - run, inputs, floor)
+
+
+def _findings(found: Search, last: Stage) -> tuple[Finding, ...]:
+    values = by_effect(last.parameters)
+    return tuple(
+        Finding(name, values.get(name, {}), alternatives(found, name), reason_for(found, name))
+        for name in found.best.effects
+    )
+
+
+def _candidates(found: Search) -> tuple[Candidate, ...]:
+    return tuple(
+        Candidate(
+            row.effect,
+            row.parents,
+            row.fit_error,
+            row.choose_error,
+            row.p,
+            row.gain,
+            all(e.low > 0.0 or e.high < 0.0 for e in row.parameters.values()),
+            by_effect(row.parameters).get(row.effect, {}),
+            row.decision,
+            row.reason,
+        )
+        for row in rows(found)
+    )

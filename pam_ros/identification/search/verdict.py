@@ -1,0 +1,118 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""From numbers to a sentence: which of five verdicts, and what to record next."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from pam_ros.effects.base import Effect
+from pam_ros.identification.data.segment import Segment
+from pam_ros.identification.result import Trace
+from pam_ros.identification.search.criteria import Criteria
+from pam_ros.identification.search.search import Search
+
+
+def too_little(segments: Sequence[Segment], noise: float, criteria: Criteria) -> str:
+    """Return the sentence why the data cannot support a verdict, empty when they can.
+
+    *noise* is its standard deviation in m or N.
+    """
+    duration = sum(float(s.t[-1] - s.t[0]) for s in segments)
+    if duration < criteria.duration:
+        return f'the recordings last {duration:.1f} s; at least {criteria.duration:g} s are needed'
+    moved = max(float(np.ptp(s.target)) for s in segments)
+    if moved < criteria.range * noise:
+        s = segments[0]
+        unit = 'm' if s.kind == 'free' else 'N'
+        return (
+            f'the {s.quantity} changes by {_size(moved, unit)}, less than {criteria.range:g} '
+            f'times its noise of {_size(noise, unit)}: excite the rig more'
+        )
+    return ''
+
+
+def explains(found: Search) -> bool:
+    """Say whether the best model of a search leaves little enough of what re-tuning left.
+
+    Without effects: whether re-tuning itself leaves no more than noise.
+    """
+    setting, errors, before = found.setting, found.best.errors, found.retuned.errors
+    now = [setting.above(e) for e in (errors.fit, errors.choose)]
+    if not found.best.effects:
+        return min(now) <= setting.noise
+    whole = [setting.above(e) for e in (before.fit, before.choose)]
+    most = [max(setting.criteria.left * a, setting.noise) for a in whole]
+    return all(b <= a for b, a in zip(now, most, strict=True))
+
+
+def verdict(found: Search, declared: float, retuned: float) -> str:
+    """Return the verdict on data that support one.
+
+    *declared* and *retuned* are the errors of these models over what judges, in m or N.
+    """
+    if not explains(found):
+        return 'unexplained_structure'
+    if found.best.effects:
+        return 'effect_found'
+    is_same = declared <= found.setting.criteria.worse * retuned
+    return 'no_missing_effect' if is_same else 'parameters_wrong'
+
+
+def sentence(answer: Trace, lacking: str) -> str:
+    """Return the verdict of *answer* with its numbers, as one paragraph of plain sentences.
+
+    *lacking* is what :func:`too_little` returned.
+    """
+    if answer.verdict == 'insufficient_data':
+        return f'The data cannot support a verdict: {lacking}.'
+    declared, retuned, augmented = (_size(s.held_error, answer.unit) for s in answer.stages)
+    floor = f'The noise floor is {_size(answer.noise.sigma, answer.unit)}.'
+    if answer.verdict == 'effect_found':
+        names = ', '.join(
+            e.name + (f' (or {" or ".join(e.alternatives)})' if e.alternatives else '')
+            for e in answer.effects
+        )
+        return (
+            f'The model lacks {names}: with it the error on held-out data falls from {retuned} '
+            f're-tuned ({declared} as declared) to {augmented}. {floor}'
+        )
+    if answer.verdict == 'no_missing_effect':
+        return f'Nothing is missing: {declared} are left on held-out data. {floor}'
+    if answer.verdict == 'parameters_wrong':
+        return (
+            'No effect is missing, but parameters are wrong: re-tuning lowers the error on '
+            f'held-out data from {declared} to {retuned}. {floor}'
+        )
+    return (
+        f'Something is missing that no effect of the library explains: {augmented} are left on '
+        f'held-out data, and {100 * answer.structure.ceiling:.0f} % of the residual can be '
+        f'predicted from the input. {floor}'
+    )
+
+
+def next_experiment(answer: Trace, library: tuple[Effect, ...]) -> str:
+    """Return which recording would settle what *answer* leaves open."""
+    known = {e.name: e.experiment for e in library}
+    if answer.verdict == 'insufficient_data':
+        return 'Record a minute or more with pam_excite over the whole range of pressure.'
+    if answer.verdict == 'effect_found':
+        first = next((e for e in answer.effects if e.alternatives), answer.effects[0])
+        if first.alternatives:
+            rivals = ', '.join((first.name, *first.alternatives))
+            return f'To tell {rivals} apart, record: {known[first.name]}.'
+        return f'To confirm {first.name}, record: {known[first.name]}.'
+    if answer.verdict == 'unexplained_structure':
+        tried = [c for c in answer.candidates if c.gain > 0.0]
+        if tried:
+            best = max(tried, key=lambda c: c.gain).effect
+            return (
+                f'{best} comes nearest; to see what is left with it, record: {known[best]}, '
+                'with force and pressure measured.'
+            )
+        return 'Record force and pressure together with the position, slowly and fast.'
+    return 'Repeat the recording on another day, or with another load, to see whether it holds.'
+
+
+def _size(value: float, unit: str) -> str:
+    return f'{1e3 * value:.3g} mm' if unit == 'm' else f'{value:.3g} {unit}'

@@ -1,0 +1,119 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Verdicts at their limits, and the sentences of each."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from pam_ros.identification.data.segment import segments_of
+from pam_ros.identification.result import VERDICTS
+from pam_ros.identification.search.criteria import CRITERIA
+from pam_ros.identification.search.search import Search
+from pam_ros.identification.search.setting import Errors
+from pam_ros.identification.search.verdict import (
+    explains,
+    next_experiment,
+    sentence,
+    too_little,
+    verdict,
+)
+from support import bench_truth, traces
+
+
+def ended(found, best, retuned):
+    """Return a search that ended with these errors in noise floors, the same on both parts."""
+    noise = found.setting.noise
+    pairs = [(found.best, best), (found.retuned, retuned)]
+    last, first = (replace(m, errors=Errors(*3 * (e * noise,))) for m, e in pairs)
+    return Search(found.setting, first, last, found.looked_at)
+
+
+def test_a_claim_must_explain_most_of_what_retuning_left(found):
+    """Above the noise: 10.0 of 33 floors are 0.3 of them, 9.8 are less."""
+    assert explains(ended(found, 9.8, 33.0))
+    assert not explains(ended(found, 10.1, 33.0))
+    # Where that is no more than the noise itself, nothing is to be seen.
+    assert explains(ended(found, 1.4, 1.6))
+
+
+def test_both_parts_must_be_explained(found):
+    one = ended(found, 2.0, 33.0)
+    errors = one.best.errors
+    high = 20.0 * found.setting.noise
+    for name in ('fit', 'choose'):
+        one.best = replace(one.best, errors=replace(errors, **{name: high}))
+        assert not explains(one)
+
+
+def test_without_an_effect_more_than_noise_is_structure_and_constants_may_be_wrong(found):
+    bare = ended(replace(found, best=found.retuned), 1.3, 1.3)
+    assert verdict(bare, declared=1.04, retuned=1.0) == 'no_missing_effect'
+    assert verdict(bare, declared=1.06, retuned=1.0) == 'parameters_wrong'
+    assert verdict(ended(bare, 1.5, 1.5), declared=1.0, retuned=1.0) == 'unexplained_structure'
+
+
+def test_an_effect_that_explains_is_found_whatever_retuning_is_worth(found):
+    assert verdict(ended(found, 1.0, 33.0), declared=40.0, retuned=33.0) == 'effect_found'
+
+
+@pytest.mark.parametrize(('duration', 'is_enough'), [(4.9, False), (5.2, True)])
+def test_a_recording_must_last(duration, is_enough):
+    (segment,) = segments_of([bench_truth.free(duration=duration)], keep_back=False)
+    text = too_little([segment], 20e-6, CRITERIA)
+    assert (text == '') == is_enough
+    if text:
+        assert text == 'the recordings last 4.9 s; at least 5 s are needed'
+
+
+def test_what_is_measured_must_change_by_more_than_its_noise():
+    (segment,) = segments_of([bench_truth.free(duration=8.0)], keep_back=False)
+    moved = float(np.ptp(segment.target))
+    assert too_little([segment], 0.099 * moved, CRITERIA) == ''
+    text = too_little([segment], 0.101 * moved, CRITERIA)
+    assert text.startswith('the position changes by ')
+    assert text.endswith(': excite the rig more')
+    assert f'{1e3 * moved:.3g} mm, less than 10 times' in text
+
+
+@pytest.mark.parametrize('name', VERDICTS)
+def test_each_verdict_has_its_sentence_and_its_next_experiment(name):
+    answer = replace(traces.friction_trace()[0], verdict=name)
+    text = sentence(answer, 'the recordings last 1.0 s; at least 5 s are needed')
+    assert text.endswith('.')
+    errors = [f'{1e3 * stage.held_error:.3g} mm' for stage in answer.stages]
+    there = {
+        'effect_found': errors,
+        'no_missing_effect': errors[:1],
+        'parameters_wrong': errors[:2],
+        'unexplained_structure': [errors[2], '% of the residual'],
+        'insufficient_data': ['last 1.0 s'],
+    }[name]
+    assert all(part in text for part in there)
+    if name == 'effect_found':
+        assert all(effect.name in text for effect in answer.effects)
+    library = answer.stages[0].model.library
+    experiment = next_experiment(answer, library)
+    assert 'ecord' in experiment
+    if name == 'effect_found':
+        by_name = {e.name: e.experiment for e in library}
+        assert any(by_name[effect.name] in experiment for effect in answer.effects)
+
+
+def test_rivals_are_told_apart_by_the_experiment_of_the_effect():
+    answer = replace(traces.friction_trace()[0], verdict='effect_found')
+    first = replace(answer.effects[0], alternatives=('slack', 'leak'))
+    answer = replace(answer, effects=(first, *answer.effects[1:]))
+    assert f'{first.name} (or slack or leak)' in sentence(answer, '')
+    text = next_experiment(answer, answer.stages[0].model.library)
+    assert text.startswith(f'To tell {first.name}, slack, leak apart, record: ')
+
+
+def test_without_a_name_the_effect_that_comes_nearest_says_what_to_record():
+    answer = replace(traces.friction_trace()[0], verdict='unexplained_structure')
+    library = answer.stages[0].model.library
+    best = max(answer.candidates, key=lambda c: c.gain)
+    assert next_experiment(answer, library).startswith(f'{best.effect} comes nearest')
+    none = replace(answer, candidates=())
+    assert next_experiment(none, library).startswith('Record force and pressure')
