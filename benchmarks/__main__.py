@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Run the benchmarks: ``python -m benchmarks`` for all, ``python -m benchmarks NAME...`` for some.
 
+Options of a benchmark come after its name, where it is the only one.
 A benchmark is a module of this folder with a function ``main()`` that measures and prints its
 table; modules whose name starts with an underscore are their helpers. Each runs in a process of
 its own, so that none measures what another left behind.
@@ -9,6 +10,7 @@ its own, so that none measures what another left behind.
 
 import subprocess
 import sys
+from itertools import takewhile
 from pathlib import Path
 
 HERE = Path(__file__).parent
@@ -20,9 +22,13 @@ def names() -> list[str]:
     return sorted(path.stem for path in HERE.glob('*.py') if not path.stem.startswith('_'))
 
 
-def main(wanted: list[str]) -> int:
-    """Run the *wanted* benchmarks, all if there are none; return the exit code."""
-    known = names()
+def main(given: list[str]) -> int:
+    """Run the benchmarks that are *given*, all if there are none; return the exit code."""
+    known, wanted = names(), list(takewhile(lambda word: not word.startswith('-'), given))
+    options = given[len(wanted) :]
+    if options and len(wanted) != 1:
+        print(f'{options[0]} is an option of one benchmark: give its name before', file=sys.stderr)
+        return 2
     for name in wanted:
         if name not in known:
             print(f'{name} is no benchmark: there are {", ".join(known)}', file=sys.stderr)
@@ -30,7 +36,8 @@ def main(wanted: list[str]) -> int:
     failed = []
     for name in wanted or known:
         print(f'== {name}', flush=True)
-        done = subprocess.run([sys.executable, '-c', RUN_ONE, name], cwd=HERE.parent, check=False)
+        command = [sys.executable, '-c', RUN_ONE, name, *options]
+        done = subprocess.run(command, cwd=HERE.parent, check=False)
         if done.returncode:
             failed.append(name)
         print(flush=True)

@@ -21,13 +21,12 @@ from scipy.optimize import least_squares
 
 from benchmarks.tracing import blind_trial, declared_model, recording_of
 from pam_ros.effects import pressure_lag
-from pam_ros.identification.candidate import extended
-from pam_ros.identification.data.noise import noise_of
-from pam_ros.identification.data.segment import segments_of
-from pam_ros.identification.data.thinning import coarse_step
-from pam_ros.identification.finder import trace
-from pam_ros.identification.retuning import problem_of
-from pam_ros.identification.solve import solve
+from pam_ros.identification.data.parts import parts_of
+from pam_ros.identification.fit.extend import with_effect
+from pam_ros.identification.fit.solve import solved
+from pam_ros.identification.search.criteria import BUDGET, CRITERIA
+from pam_ros.identification.search.setting import Setting
+from pam_ros.identification.trace import trace
 from pam_ros.rig.warm import warm
 
 START = {'fill': 0.02, 'vent': 0.02}
@@ -55,18 +54,16 @@ def compare() -> None:
     """Print the time of one fit by the package and by plain scipy."""
     trial = blind_trial('pressure_lag', 3, rate=200.0, duration=80.0)
     model, recording = declared_model(trial), recording_of(trial)
-    segments = segments_of([recording], keep_back=False)
-    noise = noise_of([(s.t, s.target) for s in segments])
-    problem, added = extended(
-        problem_of(model, segments, noise, coarse_step(model)), model, pressure_lag.EFFECT, START
-    )
-    u = np.concatenate([np.zeros(len(problem.unknowns) - len(added)), added])
-    began = time.perf_counter()
+    parts = parts_of([recording], 1.0, 1.0)
     with ThreadPoolExecutor() as pool:
-        ours = solve(problem, u, pool=pool)
-    fast = time.perf_counter() - began
+        setting = Setting(model, parts, CRITERIA, BUDGET, pool)
+        problem, added = with_effect(setting.problem, model, pressure_lag.EFFECT, START)
+        u = np.concatenate([np.zeros(len(problem.unknowns) - len(added)), added])
+        began = time.perf_counter()
+        ours = solved(problem, u, pool=pool)
+        fast = time.perf_counter() - began
 
-    s = segments[0]
+    s = parts[0].segment
     n = int(np.searchsorted(s.t, SCIPY_SECONDS))
     t, target = s.t[:n], s.target[:n]
     began = time.perf_counter()

@@ -4,9 +4,8 @@
 
 Recordings come from the truth plant in ``test/truth``, which shares neither equations nor
 integrator with the package. Options: ``--seeds N`` (default 12) from ``--first N``, ``--kinds
-a,b+c,noise_only``, ``--draws wide`` (rigs as they are in the field), ``--search score`` (the
-search on the evidence, which is to replace today's), ``--jobs N``, ``--log FILE`` (one JSON line a
-trial).
+a,b+c,noise_only``, ``--draws wide`` (rigs as they are in the field), ``--jobs N``, ``--log FILE``
+(one JSON line a trial).
 """
 
 import os
@@ -19,7 +18,6 @@ import json
 import sys
 import time
 from collections import Counter, defaultdict
-from collections.abc import Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
@@ -29,9 +27,8 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / 'test'))
 
-from pam_ros.identification import finder
 from pam_ros.identification.result import Trace
-from pam_ros.identification.search import trace as by_score
+from pam_ros.identification.trace import trace
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.recording.recording import Recording
 from pam_ros.rig.joint import Joint, one_muscle
@@ -69,12 +66,11 @@ def recording_of(trial: Trial) -> Recording:
 
 @dataclass(frozen=True)
 class Job:
-    """A trial to be run: of which draws, and by which search."""
+    """A trial to be run, and of which draws it is."""
 
     kind: str
     seed: int
     draws: str
-    search: str
 
 
 DRAWS = {'blind': blind_trial, 'wide': wide_trial}
@@ -84,7 +80,7 @@ def run_trial(job: Job) -> dict[str, Any]:
     """Run one trial and return a row of what was there and what was found."""
     trial = DRAWS[job.draws](job.kind, job.seed)
     began = time.perf_counter()
-    found = answer(SEARCHES[job.search](declared_model(trial), [recording_of(trial)]))
+    found = answer(trace(declared_model(trial), [recording_of(trial)]))
     return {
         'kind': job.kind,
         'seed': job.seed,
@@ -112,9 +108,6 @@ def answer(found: Trace) -> dict[str, Any]:
         'ceiling': found.structure.ceiling,
         'share': found.structure.share,
     }
-
-
-SEARCHES = {'today': finder.trace, 'score': by_score.trace}
 
 
 def is_right(row: dict[str, Any]) -> bool:
@@ -178,22 +171,21 @@ def report(rows: list[dict[str, Any]]) -> None:
         print(f'  {kind:38s} {named}  ({np.median(ratio[kind]):.2f})')
 
 
-def main(argv: Sequence[str] = ()) -> None:
+def main() -> None:
     """Run the trials that the command line asks for, and print the scores."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument('--seeds', type=int, default=12)
     parser.add_argument('--first', type=int, default=0)
     parser.add_argument('--draws', choices=DRAWS, default='blind')
-    parser.add_argument('--search', choices=SEARCHES, default='today')
     parser.add_argument('--kinds', default='')
     parser.add_argument('--jobs', type=int, default=2)
     parser.add_argument('--log', type=Path)
-    given = parser.parse_args(argv)
+    given = parser.parse_args(sys.argv[2:] if sys.argv[0] == '-c' else None)
     kinds = (
         given.kinds.split(',') if given.kinds else [NOISE_ONLY, *KINDS, *PAIRS, *OUT_OF_LIBRARY]
     )
     seeds = range(given.first, given.first + given.seeds)
-    jobs = [Job(kind, seed, given.draws, given.search) for seed in seeds for kind in kinds]
+    jobs = [Job(kind, seed, given.draws) for seed in seeds for kind in kinds]
     rows = []
     with ProcessPoolExecutor(given.jobs) as pool:
         for row in pool.map(run_trial, jobs):
@@ -211,4 +203,4 @@ def main(argv: Sequence[str] = ()) -> None:
 
 
 if __name__ == '__main__':
-    main(sys.argv[1:])
+    main()

@@ -22,8 +22,8 @@ if TYPE_CHECKING:
     from pam_ros.effects import EFFECTS
     from pam_ros.effects.base import Effect
     from pam_ros.errors import PamError
-    from pam_ros.identification.finder import trace
     from pam_ros.identification.result import Trace
+    from pam_ros.identification.trace import trace
     from pam_ros.muscle.fit import fit_static_map
     from pam_ros.muscle.muscle import Muscle
     from pam_ros.parameters import parameter
@@ -100,7 +100,7 @@ _PLACES = {
     'effects': ('EFFECTS',),
     'effects.base': ('Effect',),
     'errors': ('PamError',),
-    'identification.finder': ('trace',),
+    'identification.trace': ('trace',),
     'identification.result': ('Trace',),
     'muscle.fit': ('fit_static_map',),
     'muscle.muscle': ('Muscle',),

@@ -117,7 +117,7 @@ class Progress:
 def identify(given: argparse.Namespace, command: str) -> str:
     """Trace what the command line names, write the report, return its last line."""
     from pam_ros.compiled import HAVE_NUMBA
-    from pam_ros.identification.finder import trace
+    from pam_ros.identification.trace import trace
     from pam_ros.recording.mapping import read_mapping
     from pam_ros.recording.read import read_recording
     from pam_ros.report.provenance import provenance

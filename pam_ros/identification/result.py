@@ -38,9 +38,9 @@ class Estimate:
 class Stage:
     """One model on the way: declared, re-tuned or augmented.
 
-    Errors are RMSE in the unit of the target: over the samples fitted, and over those kept
-    back or the test recordings. ``simulated`` and ``tested`` are its free runs over the segments
-    of the trace, in their order.
+    Errors are RMSE in the unit of the target: over the samples fitted, and over those that were
+    held out or the test recordings. ``simulated`` and ``tested`` are its free runs over the
+    segments of the trace, in their order.
     """
 
     name: str
@@ -56,17 +56,21 @@ class Stage:
 class Candidate:
     """An effect as it was tried on top of ``parents``.
 
-    p is that of the F test with the residual's effective sample size, corrected for the number
-    of candidates (Holm); gain the relative fall of the kept-back RMSE; interval_clear says that
-    a strength's interval excludes 0. decision: chosen, ambiguous or rejected.
+    ``fit_error`` and ``choose_error`` are RMSE over the samples that were fitted and over those
+    that decide between models, in m or N. ``score_fall`` is by how much the effect lowers the
+    score, -2 ln(evidence): 10 is very strong evidence. ``gain`` is the relative fall of
+    ``choose_error``. ``p`` is that of the likelihood-ratio test (Wilks 1938), times the number of
+    effects that were tried there (Bonferroni). ``interval_clear`` says that the 95 % intervals of
+    its strengths exclude 0. ``decision`` is chosen, ambiguous or rejected; ``reason`` says why.
     """
 
     effect: str
     parents: tuple[str, ...]
     fit_error: float
-    held_error: float
-    p: float
+    choose_error: float
+    score_fall: float
     gain: float
+    p: float
     interval_clear: bool
     parameters: dict[str, Estimate]
     decision: str
@@ -87,7 +91,8 @@ class Finding:
 class Trace:
     """The whole answer; ``stages`` are declared, re-tuned and augmented, in this order.
 
-    ``test`` are the segments of the test recordings, empty when a part was kept back instead.
+    ``test`` are the segments of the test recordings, empty when a part of each recording was held
+    out instead.
     """
 
     verdict: str

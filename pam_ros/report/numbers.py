@@ -16,7 +16,7 @@ from pam_ros.report.provenance import Provenance
 from pam_ros.report.runs import STAGES, Run, sizes
 
 # The first number rises when a key changes its meaning or goes, the second when one comes.
-SCHEMA_VERSION = '1.0'
+SCHEMA_VERSION = '2.0'
 
 Table = dict[str, Any]
 
@@ -82,7 +82,7 @@ def _error(trace: Trace, runs: list[Run]) -> Table:
         'unit': trace.unit,
         'noise_floor': trace.noise.sigma,
         'noise_correlation': trace.noise.rho,
-        'held_out': 'test recordings' if trace.test else 'part kept back',
+        'held_out': 'test recordings' if trace.test else 'part held out',
     }
     for k, (name, stage) in enumerate(zip(STAGES, trace.stages, strict=True)):
         fit, held = sizes(runs, k)
@@ -99,8 +99,9 @@ def _candidate(candidate: Candidate) -> Table:
         'name': candidate.effect,
         'on_top_of': list(candidate.parents),
         'fit_error': candidate.fit_error,
-        'held_out_error': candidate.held_error,
+        'held_out_error': candidate.choose_error,
         'test': {
+            'score_fall': candidate.score_fall,
             'p': candidate.p,
             'gain': candidate.gain,
             'interval_clear': candidate.interval_clear,

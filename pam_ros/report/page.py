@@ -63,7 +63,7 @@ def page(trace: Trace, runs: list[Run], source: Provenance, content: Table) -> s
         style=style,
         interval=interval,
         scale=scale,
-        held_out='test recordings' if trace.test else 'part kept back',
+        held_out='test recordings' if trace.test else 'part held out',
         errors=rows.errors(content, scale, {curve.stage: curve.label for curve in curves}),
         pictures=plots.pictures(trace, runs, content, curves, scale),
         rounds=rows.rounds(trace, scale),

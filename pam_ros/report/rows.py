@@ -58,19 +58,18 @@ def errors(content: Table, scale: Scale, labels: dict[int, str]) -> list[Row]:
 def rounds(trace: Trace, scale: Scale) -> list[tuple[str, list[Row]]]:
     """Return for each round of the search what was tried on top of which model.
 
-    Within a round those that count come first, then the others by their error kept back.
+    Within a round those that count come first, then the others by their score.
     """
     found: dict[tuple[str, ...], list[Candidate]] = {}
     for candidate in trace.candidates:
         found.setdefault(candidate.parents, []).append(candidate)
-    first = trace.stages[1].held_error
     return [
         (
             'On top of ' + (listed([name_in_words(name) for name in parents]) or 're-tuning'),
             [
-                _candidate(candidate, scale, first)
+                _candidate(candidate, scale)
                 for candidate in sorted(
-                    tried, key=lambda c: (ORDER.get(c.decision, 3), c.held_error)
+                    tried, key=lambda c: (ORDER.get(c.decision, 3), -c.score_fall)
                 )
             ],
         )
@@ -78,22 +77,18 @@ def rounds(trace: Trace, scale: Scale) -> list[tuple[str, list[Row]]]:
     ]
 
 
-def _candidate(candidate: Candidate, scale: Scale, first: float) -> Row:
+def _candidate(candidate: Candidate, scale: Scale) -> Row:
     cells = {
         'effect': name_in_words(candidate.effect),
-        'error': scale.text(candidate.held_error),
-        'bar': _share(candidate.held_error, max(first, candidate.held_error)),
+        'error': scale.text(candidate.choose_error),
+        'bar': round(100.0 * min(1.0, 1.0 - candidate.gain), 1),
+        'score': number(candidate.score_fall, 3),
         'gain': percent(candidate.gain),
         'p': probability(candidate.p),
-        'is_clear': 'yes' if candidate.interval_clear else 'no',
         'decision': candidate.decision,
         'reason': candidate.reason,
     }
     return Row(cells, candidate.decision)
-
-
-def _share(value: float, whole: float) -> float:
-    return round(100.0 * value / whole, 1) if value < whole else 100.0
 
 
 def parameters(trace: Trace) -> list[Row]:

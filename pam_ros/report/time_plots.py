@@ -56,7 +56,7 @@ def whole(runs: list[Run]) -> list[Stretch]:
 
 
 def close_up(runs: list[Run], before: int, after: int) -> Stretch:
-    """Return the few seconds, mostly kept back, that tell two stages apart most."""
+    """Return the few seconds, mostly held out, that tell two stages apart most."""
     best, most = Stretch(runs[0], 0, runs[0].t.size), (False, -np.inf)
     for run in runs:
         span = min(CLOSE_UP, float(run.t[-1] - run.t[0]))

@@ -231,7 +231,7 @@ def test_it_needs_no_ros(bench):
         '            raise ImportError(name)\n'
         'sys.meta_path.insert(0, Refuse())\n'
         'import pam_ros.cli.pam_identify as program\n'
-        'import pam_ros.identification.finder, pam_ros.report.page\n'
+        'import pam_ros.identification.trace, pam_ros.report.page\n'
         'program.parser().print_help()\n'
     )
     done = subprocess.run(

@@ -40,7 +40,7 @@ def problem_of(model):
         for kappa in (0.02, 0.1, 0.18)
     ]
     return Problem(
-        tuple(segments_of(runs, keep_back=False)),
+        tuple(segments_of(runs)),
         model.layout,
         model.active,
         model.parameters().ravel(),

@@ -76,3 +76,17 @@ def test_refuses_an_unknown_name(run):
     assert done.returncode == 2
     assert done.stderr == 'c is no benchmark: there are a\n'
     assert done.stdout == ''
+
+
+def test_options_go_to_the_one_benchmark_that_is_named(run):
+    said = dict.fromkeys(('a', 'b'), 'import sys\n\ndef main():\n    print(sys.argv[2:])\n')
+    done = run(said, 'b', '--draws', 'wide')
+    assert done.returncode == 0
+    assert done.stdout.split('\n')[:2] == ['== b', "['--draws', 'wide']"]
+
+
+@pytest.mark.parametrize('wanted', [('--draws', 'wide'), ('a', 'b', '--draws', 'wide')])
+def test_options_of_no_benchmark_or_of_several_are_refused(run, wanted):
+    done = run({'a': 'def main():\n    pass\n', 'b': ''}, *wanted)
+    assert (done.returncode, done.stdout) == (2, '')
+    assert done.stderr == '--draws is an option of one benchmark: give its name before\n'

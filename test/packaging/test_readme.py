@@ -7,7 +7,7 @@ import re
 import subprocess
 import sys
 from functools import cache
-from itertools import pairwise
+from itertools import pairwise, takewhile
 from pathlib import Path
 
 import pytest
@@ -73,9 +73,18 @@ def check_make(words):
         name, _, value = word.partition('=')
         assert name == 'ARGS', word
         if target == 'bench':
-            assert set(value.split()) <= set(benchmarks())
+            check_benchmarks(value.split())
         else:
             assert all((ROOT / path).exists() for path in value.split())
+
+
+def check_benchmarks(words):
+    """Check that there are these benchmarks, and that the one that is given options has them."""
+    names = list(takewhile(lambda word: not word.startswith('-'), words))
+    assert set(names) <= set(benchmarks())
+    for option in (word for word in words if word.startswith('-')):
+        (name,) = names
+        assert f"'{option}'" in text_of(ROOT / 'benchmarks' / f'{name}.py'), option
 
 
 # What makes of the parameters that a program is started with the table of all that it has.

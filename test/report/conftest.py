@@ -11,7 +11,7 @@ from support import traces
 
 @pytest.fixture(scope='session')
 def friction():
-    """Return (trace, provenance, runs): friction found in one recording, a part kept back."""
+    """Return (trace, provenance, runs): friction found in one recording, a part held out."""
     trace, source = traces.friction_trace()
     return trace, source, runs_of(trace)
 

@@ -112,7 +112,7 @@ def candidates(chosen, ambiguous=()):
         is_chosen = effect.name in chosen
         gain = 0.9 if is_chosen else 0.02 + 0.001 * k
         decision = 'chosen' if is_chosen else 'rejected'
-        reason = 'lowest error kept back, p < 0.01' if is_chosen else 'gain below 3 %'
+        reason = 'lowers the score by 450' if is_chosen else 'gain below 3 %'
         if effect.name in ambiguous:
             decision, reason, gain = 'ambiguous', 'within one standard error of the winner', 0.89
         name, scale = effect.parameters[0].name, effect.parameters[0].scale
@@ -121,7 +121,17 @@ def candidates(chosen, ambiguous=()):
         error = 1e-3 * (1.0 - gain)
         found.append(
             Candidate(
-                effect.name, (), error, 1.02 * error, p, gain, gain > 0.5, values, decision, reason
+                effect.name,
+                (),
+                error,
+                1.02 * error,
+                500.0 * gain,
+                gain,
+                p,
+                gain > 0.5,
+                values,
+                decision,
+                reason,
             )
         )
     return tuple(found)
@@ -129,8 +139,10 @@ def candidates(chosen, ambiguous=()):
 
 def trace_of(recordings, test, declared, retuned, augmented, verdict, findings=(), quantity=None):
     """Return the trace that three models make of the recordings."""
-    segments = segments_of(recordings, keep_back=not test)
-    test_segments = segments_of(test, keep_back=False) if test else []
+    segments = segments_of(recordings)
+    if not test:
+        segments = [replace(s, fit=s.t < s.t[0] + 0.75 * (s.t[-1] - s.t[0])) for s in segments]
+    test_segments = segments_of(test) if test else []
     quantity = quantity or segments[0].quantity
     muscle = declared.muscle
     known = {
@@ -236,7 +248,9 @@ def crowded_trace():
     ]
     trace = trace_of(recordings, [], rig(), rig(a5=304.0), truth, 'effect_found', findings)
     later = tuple(
-        replace(c, parents=tuple(f.name for f in findings), reason=2 * reason, held_error=123.4e-9)
+        replace(
+            c, parents=tuple(f.name for f in findings), reason=2 * reason, choose_error=123.4e-9
+        )
         for c in trace.candidates
     )
     overrides = ('mass=20', 'zeta=0.2', 'effects.pressure_dependent_damping.per_pressure=1e-5')

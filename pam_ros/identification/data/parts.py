@@ -86,10 +86,10 @@ def parts_of(recordings: Sequence[Recording], fit: float, choose: float) -> list
     *fit* is the share of each recording's time that is fitted, *choose* the share that is fitted
     or decides. Raises RecordingError when kinds are mixed.
     """
-    segments_of(recordings, keep_back=False)
+    segments_of(recordings)
     found = []
     for recording in recordings:
-        segments = segments_of([recording], keep_back=False)
+        segments = segments_of([recording])
         if not segments:
             continue
         start, end = segments[0].t[0], segments[-1].t[-1]

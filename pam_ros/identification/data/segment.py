@@ -18,17 +18,13 @@ from pam_ros.recording.recording import Recording
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
-# The recording is cut into this many blocks, of which three are kept back.
-BLOCKS = 10
-ONSET = 0.4  # s
-
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Segment(ABC):
     """A run of the simulator, compared with what was measured.
 
     t (n,) s; target (n,) what the simulation must give; fit (n,) marks the samples that may be
-    used for fitting, the others are kept back. y0, v0: first guess of the state at t[0].
+    used for fitting, the others are held out. y0, v0: first guess of the state at t[0].
     """
 
     kind: ClassVar[str]  # as a recording has it
@@ -84,30 +80,25 @@ class HeldSegment(Segment):
         return float(self.pressure[0])
 
 
-def segments_of(recordings: Sequence[Recording], keep_back: bool) -> list[Segment]:
-    """Return the gapless stretches of *recordings*, ready to be simulated.
+def segments_of(recordings: Sequence[Recording]) -> list[Segment]:
+    """Return the gapless stretches of *recordings*, ready to be simulated, with all samples fit.
 
-    With *keep_back* three of ten blocks of each are marked as not to be fitted; the run
-    goes through them, so what is known there is only what the model carries over. Raises
-    RecordingError when kinds are mixed, since one error cannot be in m and in N.
+    Raises RecordingError when kinds are mixed, since one error cannot be in m and in N.
     """
     kinds = {r.kind for r in recordings}
     if len(kinds) > 1:
         names = ', '.join(f'{r.name} is {r.kind}' for r in recordings)
         raise RecordingError(f'recordings of one kind are needed: {names}')
     return [
-        _segment(part, keep_back)
+        _segment(part)
         for recording in recordings
         for part in recording.segments()
         if part.t.size > 3
     ]
 
 
-def _segment(part: Recording, keep_back: bool) -> Segment:
-    n = part.t.size
-    block = np.minimum((np.arange(n) * BLOCKS) // n, BLOCKS - 1)
-    kept = np.array([_kept_back(k) for k in range(BLOCKS)])
-    fit = ~kept[block] if keep_back else np.ones(n, dtype=bool)
+def _segment(part: Recording) -> Segment:
+    fit = np.ones(part.t.size, dtype=bool)
     if part.position is None:
         raise RecordingError(f'{part.name}: no position was recorded')
     if part.kind == 'free':
@@ -146,26 +137,19 @@ def _segment(part: Recording, keep_back: bool) -> Segment:
     )
 
 
-def _kept_back(k: int) -> bool:
-    """Say whether part k is kept back: a third of them, in no rhythm that a rig could share."""
-    return (k + 1) * 0.6180339887 % 1.0 > 2.0 / 3.0
-
-
 def windows(segment: Segment, length: float) -> list[Segment]:
     """Return a free run cut into runs of *length* s, each starting from its own measurement.
 
     A load without a spring integrates every error for ever, so that a long run of a wrong model
-    says nothing any more; short ones stay near what was measured. Of the runs that are kept
-    back only the onset is fitted, for its start state.
+    says nothing any more; short ones stay near what was measured.
     """
     span = segment.t[-1] - segment.t[0]
     edges = np.linspace(segment.t[0], segment.t[-1], max(1, round(span / length)) + 1)
     found = []
-    for k, (start, end) in enumerate(pairwise(edges)):
+    for start, end in pairwise(edges):
         rows = np.flatnonzero((segment.t >= start) & (segment.t <= end))
         t, y = segment.t[rows], segment.target[rows]
-        kept = _kept_back(k) and not segment.fit.all()
-        fit = t < t[0] + ONSET if kept else np.ones(rows.size, dtype=bool)
+        fit = np.ones(rows.size, dtype=bool)
         y0, v0 = start_of(t, y)
         found.append(replace(segment, t=t, target=y, fit=fit, y0=y0, v0=v0))
     return found

@@ -182,7 +182,7 @@ def improved(
         gradient = weight * (slope.T @ white) + u / prior**2.0
         free = ~(((u <= low) & (gradient > 0.0)) | ((u >= high) & (gradient < 0.0)))
         gain, hoped = 0.0, np.inf
-        for _ in range(TRIALS // 2 if stale else TRIALS):
+        for _ in range(TRIALS // 2 if stale and renew else TRIALS):
             trial = np.clip(u + _step(normal, gradient, free, damping), low, high)
             r_trial = problem.residuals(trial)
             white_trial = problem.whitened(r_trial, maps)

@@ -14,17 +14,18 @@ class Criteria:
     ``fit``, ``choose``: shares of each recording at which the part that fits see ends, and the
     part that choices see. The rest judges. Half of the data fix parameters, and a quarter each is
     long enough to show what a model carries on to by itself.
-    ``worse``: factor by which a move may raise the error of the free run over *choose*. The score
-    weighs whitened residuals, in which a slow drift costs little; a free run shows it.
+    ``worse``: factor by which a move may raise the product of the errors of the free run over
+    *fit* and *choose*. The score weighs whitened residuals, in which a slow drift costs little; a
+    free run shows it.
     ``gain``: share by which a first effect must lower the error, on *fit* and on *choose*.
     Jittered stamps, and constants two deviations of their priors away, are worth scores of 10 to
     20 to any effect, and 0.5 % of the error.
     ``strain``: or by how much it must lower the prior chi-square of the declared constants, which
-    re-tuning has moved to make up for it. Of seven constants within their priors one specimen of
-    180 has more than 20.
-    ``form``: share of what re-tuning leaves that a further effect must explain. No law of the
-    library has nature's form: those of another plant left 5 to 15 % of what the right effect
-    explained, and that rest invites other effects.
+    re-tuning has moved to make up for it, and what may be left of that. Of seven constants within
+    their priors one specimen of 180 has more than 20.
+    ``form``: share of what re-tuning leaves that a further effect must explain, or of what the
+    others have lowered the score by. No law of the library has nature's form: those of another
+    plant left 5 to 15 % of what the right effect explained, and that rest invites other effects.
     ``most``: or the share, of what the model before it leaves above the noise.
     ``complete``: errors in noise floors within which a model explains everything.
     ``left``: share of what re-tuning leaves above the noise that a claim may leave, if that is
@@ -42,7 +43,7 @@ class Criteria:
     worse: float = 1.05
     gain: float = 0.03
     strain: float = 20.0
-    form: float = 0.10
+    form: float = 0.15
     most: float = 0.60
     complete: float = 1.1
     left: float = 0.30
@@ -56,10 +57,10 @@ class Budget:
 
     ``effects``: most effects of a model. ``rounds``: most steps from model to better model.
     ``looks``: iterations of a first fit from each start. ``fits``: starts of an effect from which
-    a fit goes to its end. ``rivals``: candidates of a round that are fitted to their end.
-    ``iterations``: those of such a fit. ``finer``: steps of the last fit for one of the others.
-    ``nearer``: iterations towards the nearest free run. ``window``: length in s of the runs of a
-    load without a spring.
+    a fit goes on. ``rivals``: candidates of a round that are fitted closer, by ``closer``
+    iterations. ``iterations``: those of a fit to its end. ``finer``: steps of the last fit for one
+    of the others. ``nearer``: iterations from the place of the best score towards the nearest free
+    run. ``window``: length in s of the runs of a load without a spring.
     """
 
     effects: int = 3
@@ -67,8 +68,9 @@ class Budget:
     looks: int = 4
     fits: int = 2
     rivals: int = 4
-    iterations: int = 15
-    nearer: int = 6
+    closer: int = 15
+    iterations: int = 60
+    nearer: int = 10
     finer: int = 5
     window: float = 2.0
 

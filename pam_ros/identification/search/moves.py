@@ -13,28 +13,29 @@ from pam_ros.identification.search.starts import finer, looks
 def with_each(parent: Model, names: list[str], setting: Setting) -> list[Model]:
     """Return *parent* with one more effect, for each of *names*; the best score first.
 
-    Those that look promising are fitted to their end, the others as far as a look goes, and the
-    best then from what looked nearly as good.
+    Those that look promising are fitted closer, the others as far as a look goes, and the best is
+    fitted to its end then, also from what looked nearly as good.
     """
     budget = setting.budget
 
     def look(name: str) -> list[Model]:
         found = looks(parent, setting.effect(name), setting)[: budget.fits]
-        return [setting.model((*parent.effects, name), one) for one in found]
+        return [setting.model((*parent.effects, name), one, is_look=True) for one in found]
 
-    def to_end(model: Model) -> Model:
-        return setting.model(model.effects, settled(model.solution, budget.iterations))
+    def closer(model: Model) -> Model:
+        return setting.model(model.effects, settled(model.solution, budget.closer))
 
     # An effect may have no start here: a frequency that nothing is read of.
     some = [found for found in setting.pool.map(look, names) if found]
     if not some:
         return []
     looked = sorted(some, key=lambda found: found[0].score)
-    closer, others = looked[: budget.rivals], [found[0] for found in looked[budget.rivals :]]
-    fits = sorted(setting.pool.map(to_end, [found[0] for found in closer]), key=_score)
+    rivals, others = looked[: budget.rivals], [found[0] for found in looked[budget.rivals :]]
+    fits = sorted(setting.pool.map(closer, [found[0] for found in rivals]), key=_score)
     best = fits[0].effects
-    again = [m for found in closer for m in found[1:] if m.effects == best]
-    fits[0] = min([fits[0], *setting.pool.map(to_end, again)], key=_score)
+    again = [m for found in rivals for m in found[1:] if m.effects == best]
+    nearest = min([fits[0], *setting.pool.map(closer, again)], key=_score)
+    fits[0] = setting.model(best, settled(nearest.solution, budget.iterations))
     return sorted([*fits, *others], key=_score)
 
 

@@ -50,13 +50,13 @@ def _better(found: Search) -> Model | None:
     setting, best = found.setting, found.best
     tried = with_each(best, absent(best, setting), setting)
     found.looked_at += tried
-    able = [m for m in tried if pays(m, best, setting)]
-    if not able:
-        return None
-    now = _plainer(able[0], found)
-    now = _freed(now, found)
-    now = _reduced(now, found)
-    return now if pays(now, best, setting) else None
+    # What lowers the score alone may do so by a slow error that hardly shows in the free run.
+    for able in tried:
+        if pays(able, best, setting) and matters(able, best, found.retuned, setting):
+            now = _reduced(_freed(_plainer(able, found), found), found)
+            if pays(now, best, setting):
+                return now
+    return None
 
 
 def exchanged(found: Search) -> Model | None:
@@ -109,8 +109,12 @@ def pays(now: Model, than: Model, setting: Setting) -> bool:
 
 
 def no_worse(now: Model, than: Model, setting: Setting) -> bool:
-    """Say whether what a model carries on to by itself is as good as it was."""
-    return now.errors.carried <= setting.criteria.worse * than.errors.carried
+    """Say whether what a model carries on to by itself is no worse than what it gains in the fit.
+
+    Constants that half of the data fix are worth some percent of an error to the other half.
+    """
+    a, b = than.errors, now.errors
+    return b.carried * b.fit <= setting.criteria.worse * a.carried * a.fit
 
 
 def _plainer(now: Model, found: Search) -> Model:
@@ -187,7 +191,7 @@ def is_complete(model: Model, setting: Setting) -> bool:
 def matters(now: Model, before: Model, retuned: Model, setting: Setting) -> bool:
     """Say whether a new effect explains more than the form of the others could miss."""
     criteria = setting.criteria
-    if before.strain - now.strain >= criteria.strain:
+    if before.strain - now.strain >= criteria.strain >= now.strain:
         return True
     pairs = [
         (now.errors.fit, before.errors.fit, retuned.errors.fit),
@@ -195,6 +199,8 @@ def matters(now: Model, before: Model, retuned: Model, setting: Setting) -> bool
     ]
     if not before.effects:
         return all(b <= (1.0 - criteria.gain) * a for b, a, _ in pairs)
+    if before.score - now.score >= criteria.form * (retuned.score - before.score):
+        return True
 
     def does(b: float, a: float, whole: float) -> bool:
         explained = float(np.sqrt(max(a * a - b * b, 0.0)))

@@ -147,10 +147,13 @@ class Setting:
             replace(part, segment=w) for part in self.thin for w in windows(part.segment, length)
         ]
 
-    def model(self, effects: tuple[str, ...], solution: Solution) -> Model:
-        """Return the model of a solution with its errors, by least squares from there."""
+    def model(self, effects: tuple[str, ...], solution: Solution, is_look: bool = False) -> Model:
+        """Return the model of a solution with its errors, by least squares from there.
+
+        Those of a cheap look (*is_look*) are as cheap.
+        """
         plain = replace(solution, discrepancy=WHITE)
-        near = improved(plain, self.budget.nearer, renew=False)
+        near = improved(plain, self.budget.nearer, renew=not is_look)
         return Model(effects, solution, near.u, self.errors(near))
 
     def errors(self, solution: Solution) -> Errors:

@@ -27,8 +27,8 @@ NEAR = 1e-6  # distance of u from its bound that is none
 def stages(ends: Final, found: Search, test: Sequence[Segment]) -> tuple[Stage, Stage, Stage]:
     """Return the declared, the re-tuned and the augmented model of a search that was fitted.
 
-    Errors kept back are those over *test*, free runs from their own measured start, or without it
-    over the part that judges.
+    Errors on held-out data are those over *test*, free runs from their own measured start, or
+    without it over the part that judges.
     """
     joint = found.setting.joint
     problem = found.setting.problem

@@ -1,12 +1,11 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Every model that a search looked at, as rows: on top of what, how good, and why not chosen."""
-
-from dataclasses import dataclass
+"""Every model that a search looked at: on top of what, how good, and why it was not chosen."""
 
 from scipy.stats import chi2
 
-from pam_ros.identification.result import Estimate
+from pam_ros.effects.names import by_effect
+from pam_ros.identification.result import Candidate
 from pam_ros.identification.search.search import Search, alternatives, best_with, matters, no_worse
 from pam_ros.identification.search.setting import Model
 from pam_ros.identification.search.stages import estimates
@@ -14,30 +13,8 @@ from pam_ros.identification.search.stages import estimates
 Set = frozenset[str]
 
 
-@dataclass(frozen=True)
-class Row:
-    """An effect as it was tried on top of ``parents``; errors are RMSE in m or N.
-
-    ``fall`` is by how much it lowers the score, and ``gain`` the share by which it lowers the
-    error of the samples that choices see. ``p`` is that of the likelihood-ratio test (Wilks 1938),
-    times the number of effects that were tried there (Bonferroni). ``decision`` is chosen,
-    ambiguous or rejected, and ``reason`` says why.
-    """
-
-    effect: str
-    parents: tuple[str, ...]
-    fit_error: float
-    choose_error: float
-    fall: float
-    gain: float
-    p: float
-    parameters: dict[str, Estimate]
-    decision: str
-    reason: str
-
-
-def rows(found: Search) -> tuple[Row, ...]:
-    """Return the rows of a search, those on top of fewer effects first.
+def candidates(found: Search) -> tuple[Candidate, ...]:
+    """Return the candidates of a search, those on top of fewer effects first.
 
     Of several models with the same effects that long steps led to, the one of the best score.
     """
@@ -52,16 +29,19 @@ def rows(found: Search) -> tuple[Row, ...]:
     made = []
     for effects in sorted(parents, key=len):
         tried = [child for (before, _), child in children.items() if before == effects]
-        made += [_row(child, parents[effects], tried, found) for child in tried]
+        made += [_candidate(child, parents[effects], tried, found) for child in tried]
     return tuple(made)
 
 
-def _row(model: Model, parent: Model, tried: list[Model], found: Search) -> Row:
+def _candidate(model: Model, parent: Model, tried: list[Model], found: Search) -> Candidate:
     fall, more = parent.solution.cost - model.solution.cost, _more(model, parent)
     decision, reason = _decision(model, parent, tried, found)
     name = model.effects[-1]
     known = estimates(model.solution, model.solution.discrepancy, found.setting.joint)
-    return Row(
+    own = by_effect(known).get(name, {})
+    strengths = [p.name for p in found.setting.effect(name).parameters if p.strength]
+    intervals = [own[strength] for strength in strengths if strength in own]
+    return Candidate(
         name,
         parent.effects,
         model.errors.fit,
@@ -69,7 +49,8 @@ def _row(model: Model, parent: Model, tried: list[Model], found: Search) -> Row:
         parent.score - model.score,
         _gain(model, parent),
         min(1.0, len(tried) * float(chi2.sf(max(fall, 0.0), more))),
-        {key: one for key, one in known.items() if key.startswith(f'effects.{name}.')},
+        all(one.low > 0.0 or one.high < 0.0 for one in intervals),
+        own,
         decision,
         reason,
     )

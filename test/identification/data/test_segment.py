@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Recordings become runs: where they start, what drives them, what is kept back."""
+"""Recordings become runs: where they start, what drives them."""
 
 from dataclasses import replace
 
@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from pam_ros.errors import RecordingError
-from pam_ros.identification.data.segment import ONSET, segments_of, windows
+from pam_ros.identification.data.segment import segments_of, windows
 from pam_ros.recording.recording import Recording
 
 RATE = 100.0
@@ -40,33 +40,20 @@ def held(**changes):
     )
 
 
-def test_three_of_ten_blocks_are_kept_back_and_the_run_goes_through():
+def test_a_free_run_is_what_was_recorded():
     recording = free()
-    (segment,) = segments_of([recording], keep_back=True)
+    (segment,) = segments_of([recording])
     assert segment.kind == 'free'
     assert segment.quantity == 'position'
-    blocks = segment.fit.reshape(10, -1)
-    assert all(row.all() or not row.any() for row in blocks)
-    kept = [k for k, row in enumerate(blocks) if not row.any()]
-    assert len(kept) == 3
-    # The first is fitted, for the start state; no two are neighbours; no even rhythm.
-    assert kept[0] > 0
-    gaps = np.diff(kept)
-    assert gaps.min() > 1
-    assert len(set(gaps)) > 1
+    assert segment.fit.all()
     np.testing.assert_array_equal(segment.t, recording.t)
     np.testing.assert_array_equal(segment.target, recording.position)
     np.testing.assert_array_equal(segment.drive_t, recording.command_t)
     np.testing.assert_array_equal(segment.drive, recording.command)
 
 
-def test_without_keeping_back_every_sample_is_fitted():
-    (segment,) = segments_of([free()], keep_back=False)
-    assert segment.fit.all()
-
-
 def test_a_free_run_starts_where_and_as_fast_as_was_measured():
-    (segment,) = segments_of([free()], keep_back=True)
+    (segment,) = segments_of([free()])
     assert segment.y0 == pytest.approx(0.01, abs=1e-12)
     assert segment.v0 == pytest.approx(0.02, abs=1e-10)
     assert segment.first_pressure == 1e5
@@ -77,19 +64,17 @@ def test_a_gap_starts_a_new_run_under_the_command_that_holds_there():
     keep = (whole.t < 10.0) | (whole.t > 12.2)
     gap = (float(whole.t[whole.t < 10.0][-1]), float(whole.t[whole.t > 12.2][0]))
     recording = replace(whole, t=whole.t[keep], position=whole.position[keep], gaps=(gap,))
-    first, second = segments_of([recording], keep_back=True)
+    first, second = segments_of([recording])
     assert (first.t[0], first.t[-1]) == (0.0, gap[0])
     assert (second.t[0], second.t[-1]) == (gap[1], whole.t[-1])
     assert second.y0 == pytest.approx(0.01 + 0.02 * gap[1] - 0.0003 * gap[1] ** 2, abs=1e-12)
     assert second.v0 == pytest.approx(0.02 - 0.0006 * gap[1], abs=1e-10)
     # 12.21 s lies behind the step at 12.003 s, the 24th.
     assert second.first_pressure == 1e5 + 24e4
-    for part in (first, second):
-        assert 0.65 < part.fit.mean() < 0.75
 
 
 def test_a_held_run_follows_the_length_and_its_velocity():
-    (segment,) = segments_of([held()], keep_back=True)
+    (segment,) = segments_of([held()])
     assert segment.quantity == 'force'
     np.testing.assert_array_equal(segment.target, 500.0 + 10.0 * segment.t)
     np.testing.assert_array_equal(segment.pressure, 3e5 - 1e3 * segment.t)
@@ -101,13 +86,13 @@ def test_a_held_run_follows_the_length_and_its_velocity():
 
 def test_a_constant_length_has_no_velocity():
     position = np.full(2000, 0.02)
-    (segment,) = segments_of([held(position=position)], keep_back=True)
+    (segment,) = segments_of([held(position=position)])
     assert not segment.velocity.any()
 
 
 def test_noise_of_a_length_hardly_reaches_its_velocity():
     noisy = held().position + 1e-5 * np.random.default_rng(0).standard_normal(2000)
-    (segment,) = segments_of([held(position=noisy)], keep_back=True)
+    (segment,) = segments_of([held(position=noisy)])
     truth = 0.004 * 2 * np.pi * 0.2 * np.cos(2 * np.pi * 0.2 * segment.t)
     plain = np.gradient(noisy, segment.t) - truth
     assert np.std(segment.velocity - truth) < 0.3 * np.std(plain)
@@ -116,7 +101,7 @@ def test_noise_of_a_length_hardly_reaches_its_velocity():
 def test_a_held_run_without_measured_pressure_takes_the_command():
     stamps = np.array([0.0, 3.005, 7.0])  # the last is that of a sample, which comes first
     recording = held(pressure=None, command_t=stamps, command=np.array([1e5, 2e5, 3e5]))
-    (segment,) = segments_of([recording], keep_back=True)
+    (segment,) = segments_of([recording])
     assert segment.pressure[segment.t == 3.0] == 1e5
     assert segment.pressure[np.isclose(segment.t, 3.01)] == 2e5
     assert segment.pressure[segment.t == 7.0] == 2e5
@@ -127,13 +112,13 @@ def test_a_held_run_without_measured_pressure_takes_the_command():
 def test_stubs_are_left_out():
     whole = free(10.0)
     gaps = ((float(whole.t[-4]), float(whole.t[-3])),)
-    parts = segments_of([replace(whole, gaps=gaps)], keep_back=True)
+    parts = segments_of([replace(whole, gaps=gaps)])
     assert [part.t.size for part in parts] == [whole.t.size - 3]
 
 
 def test_kinds_do_not_mix():
     with pytest.raises(RecordingError, match='ramp is free, held is held'):
-        segments_of([free(name='ramp'), held()], keep_back=True)
+        segments_of([free(name='ramp'), held()])
 
 
 @pytest.mark.parametrize(
@@ -145,11 +130,11 @@ def test_kinds_do_not_mix():
 )
 def test_what_cannot_be_compared_is_refused(recording, words):
     with pytest.raises(RecordingError, match=words):
-        segments_of([recording], keep_back=True)
+        segments_of([recording])
 
 
 def test_windows_start_anew_from_the_measurement():
-    (segment,) = segments_of([free()], keep_back=True)
+    (segment,) = segments_of([free()])
     parts = windows(segment, 2.0)
     assert len(parts) == 20
     for part in parts:
@@ -160,18 +145,7 @@ def test_windows_start_anew_from_the_measurement():
     np.testing.assert_array_equal(np.unique(np.concatenate([p.t for p in parts])), segment.t)
 
 
-def test_of_windows_kept_back_only_the_onset_is_fitted():
-    (segment,) = segments_of([free()], keep_back=True)
-    parts = windows(segment, 2.0)
-    kept = [part for part in parts if not part.fit.all()]
-    assert 0.25 * len(parts) <= len(kept) <= 0.4 * len(parts)
-    for part in kept:
-        np.testing.assert_array_equal(part.fit, part.t < part.t[0] + ONSET)
-    (whole,) = segments_of([free()], keep_back=False)
-    assert all(part.fit.all() for part in windows(whole, 2.0))
-
-
 def test_a_short_run_is_one_window():
-    (segment,) = segments_of([free(2.5)], keep_back=True)
+    (segment,) = segments_of([free(2.5)])
     (part,) = windows(segment, 2.0)
     np.testing.assert_array_equal(part.t, segment.t)

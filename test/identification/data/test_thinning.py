@@ -7,10 +7,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pam_ros.identification.data.noise import Noise
 from pam_ros.identification.data.segment import segments_of
 from pam_ros.identification.data.thinning import HELD_STEP, PHASE, STEPS, coarse_step, thinned
-from pam_ros.identification.retuning import problem_of
+from pam_ros.identification.fit.problem import Problem
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.recording.recording import Recording
 from pam_ros.rig.joint import one_muscle
@@ -23,7 +22,7 @@ STEP = 6e-3
 def recorded(t, stamps, command, position=None):
     position = np.zeros_like(t) if position is None else position
     recording = Recording('r', t, stamps, command, position, None, None, None, 'free')
-    (segment,) = segments_of([recording], keep_back=True)
+    (segment,) = segments_of([recording])
     return segment
 
 
@@ -168,8 +167,8 @@ def test_a_thinned_run_moves_like_the_full_one():
     assert stride >= 5
 
     def run(one, step):
-        problem = problem_of(model, [one], Noise(1e-5, 0.0), step)
-        return problem.predict(np.zeros(len(problem.unknowns)))[0]
+        row = model.parameters().ravel()
+        return Problem((one,), model.layout, model.active, row, (), step).predict([])[0]
 
     full = run(segment, 1e-3)[::stride]
     assert np.ptp(full) > 5e-3
@@ -186,7 +185,7 @@ def test_an_isometric_run_is_thinned_to_the_step_of_its_simulation():
     t = np.arange(4000) * 2e-3
     y = np.full(t.size, 0.02)
     recording = Recording('h', t, None, None, y, None, 5.0 * t, 1e5 + t, 'held')
-    (segment,) = segments_of([recording], keep_back=True)
+    (segment,) = segments_of([recording])
     thin = thinned(segment, STEP)
     for name in ('t', 'target', 'fit', 'pressure', 'position', 'velocity'):
         np.testing.assert_array_equal(getattr(thin, name), getattr(segment, name)[::10])

@@ -13,7 +13,7 @@ from pam_ros.identification.fit.unknowns import declared_unknowns, run_unknowns
 from support import bench_truth
 
 MODEL = bench_truth.declared()
-SEGMENTS = tuple(segments_of([bench_truth.free(duration=2.5, programme='steps')], keep_back=False))
+SEGMENTS = tuple(segments_of([bench_truth.free(duration=2.5, programme='steps')]))
 EFFECT = {effect.name: effect for effect in EFFECTS}
 START = {'stiffness': 500.0, 'time': 3.0}
 

@@ -65,7 +65,7 @@ def parabola(y0, v0, seconds=2.0):
     y = y0 + v0 * (t - 3.0) + 0.5 * GAIN * PRESSURE / MASS * (t - 3.0) ** 2
     command = np.full(2, PRESSURE)
     recording = Recording('p', t, t[[0, -1]], command, y, None, None, None, 'free')
-    return segments_of([recording], keep_back=False)[0]
+    return segments_of([recording])[0]
 
 
 def held(kappa, seed):
@@ -74,7 +74,7 @@ def held(kappa, seed):
     p = np.random.default_rng(seed).uniform(1e5, 5e5, t.size)
     y = np.full(t.size, kappa * 0.4)
     recording = Recording('h', t, None, None, y, None, np.full(t.size, 300.0), p, 'held')
-    return segments_of([recording], keep_back=False)[0]
+    return segments_of([recording])[0]
 
 
 @pytest.fixture
@@ -173,7 +173,7 @@ def test_a_memory_begins_where_a_simulation_begins_that_is_told_so(name):
     command = 3e5 + 5e4 * np.sin(6.0 * t)
     y = np.full(t.size, rest(model, command[0]))
     recording = Recording('m', t, t, command, y, None, None, None, 'free')
-    problem = problem_of(model, segments_of([recording], keep_back=False), [name])
+    problem = problem_of(model, segments_of([recording]), [name])
     u = np.zeros(len(problem.unknowns))
     for k, one in enumerate(problem.unknowns):
         if getattr(one.of, 'effect', '') != name:
@@ -228,7 +228,7 @@ def test_jacobian_of_a_swinging_muscle_against_scipy():
     command = 3e5 + 5e4 * np.sin(2 * np.pi * 1.3 * t)
     y = np.full(t.size, rest(MUSCLE, 3e5))
     recording = Recording('m', t, t, command, y, None, None, None, 'free')
-    problem = problem_of(model, segments_of([recording], keep_back=False), ['creep'])
+    problem = problem_of(model, segments_of([recording]), ['creep'])
     u = np.random.default_rng(3).uniform(-0.5, 0.5, len(problem.unknowns))
     found = problem.jacobian(u, problem.residuals(u))
     central = sum(approx_fprime(u, problem.residuals, h) for h in (1e-5, -1e-5)) / 2.0

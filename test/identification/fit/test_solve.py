@@ -10,7 +10,14 @@ from scipy import optimize
 from scipy.linalg import cholesky
 
 from pam_ros.identification.fit.discrepancy import WHITE, Discrepancy
-from pam_ros.identification.fit.solve import Solution, fresh, improved, least_squares, solved
+from pam_ros.identification.fit.solve import (
+    Solution,
+    begun,
+    fresh,
+    improved,
+    least_squares,
+    solved,
+)
 from support.curves import LINE, NOISE, T, covariance, equation, line, slow_error
 from support.equations import unknown
 
@@ -167,7 +174,7 @@ def test_the_optimum_of_a_linear_problem_is_that_of_generalised_least_squares(pr
 def test_least_squares_take_no_notice_of_a_discrepancy():
     values = LINE @ [1.0, 0.3] + slow_error(np.random.default_rng(8), SLOW)
     known = least_squares(solved(line(values), np.zeros(2)), 40)
-    best, *_ = np.linalg.lstsq(LINE, values)
+    best, *_ = np.linalg.lstsq(LINE, values, rcond=None)
     np.testing.assert_allclose(known.u, best, rtol=1e-4)
     assert known.discrepancy == WHITE
     np.testing.assert_array_equal(known.jacobian, known.problem.jacobian(known.u, known.r))
@@ -198,3 +205,17 @@ def test_a_slow_error_is_found_beside_a_decay():
     assert 1.0 < solution.discrepancy.size < 4.0
     assert 0.2 < solution.discrepancy.time < 1.2
     np.testing.assert_allclose(solution.u, TRUTH, atol=0.3)
+
+
+def test_a_cheap_look_shortens_its_steps_until_one_leads_down():
+    """A line with a tenth of its amplitude: the full step in frequency is ten times too long."""
+    values = 10.0 * np.sin(2.0 * np.pi * T + 1.0)
+
+    def left(u):
+        angle = 2.0 * np.pi * u[2] * T
+        return u[0] * np.sin(angle) + u[1] * np.cos(angle) - values
+
+    names = ('sine', 'cosine', 'frequency')
+    first = begun(equation(left, [unknown(one, prior=100.0) for one in names]), [1.0, 1.0, 1.03])
+    look = improved(first, 4, renew=False)
+    assert np.linalg.norm(look.r) < 0.5 * np.linalg.norm(first.r)

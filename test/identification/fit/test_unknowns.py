@@ -81,11 +81,11 @@ def test_what_is_zero_stays_zero():
     assert [one.name for one in declared_unknowns(drive)] == ['a5']
 
 
-def run(kind, keep=True):
+def run(kind):
     t = np.arange(200) / 100.0
     pressure, force = (None, None) if kind == 'free' else (1e5 + t, 5.0 * t)
     recording = Recording(kind, t, t, 1e5 + t, 0.01 + 0.03 * t, None, force, pressure, kind)
-    return segments_of([recording], keep_back=keep)[0]
+    return segments_of([recording])[0]
 
 
 def test_each_free_run_has_its_own_start():
@@ -112,7 +112,6 @@ def resting(*kappas, force=300.0, seconds=4.0):
             )
             for kappa in kappas
         ],
-        keep_back=False,
     )  # fmt: skip
 
 
@@ -133,7 +132,7 @@ def test_lengths_that_differ_or_change_and_loads_that_move_have_no_level():
     assert level_unknowns([second, moving], 0.4) == []
     t = np.arange(100) / 50.0
     free = Recording('f', t, t, np.full(100, 3e5), np.full(100, 0.05), None, None, None, 'free')
-    assert level_unknowns(segments_of([free, free], keep_back=False), 0.4) == []
+    assert level_unknowns(segments_of([free, free]), 0.4) == []
 
 
 def test_a_start_stays_as_near_as_noise_and_curvature_allow():

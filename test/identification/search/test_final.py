@@ -152,7 +152,7 @@ def test_repeats_that_lie_apart_are_told_by_their_levels_and_the_last_one_by_the
         [9.0, 3.0, 9.0, 3.0], abs=1.0
     )
     assert {'level[2]', 'level[5]'}.isdisjoint(k.name for k in retuned.problem.unknowns)
-    later = segments_of([at_one_length(9, 0.12, 0.0)], keep_back=False)
+    later = segments_of([at_one_length(9, 0.12, 0.0)])
     (run,) = carried(retuned, later, without=OF_RUNS)
     assert np.mean(run - later[0].target) == pytest.approx(0.0, abs=0.7)
 

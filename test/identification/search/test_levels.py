@@ -46,7 +46,7 @@ def test_repeats_are_the_runs_at_one_length_in_their_order(known):
 def test_a_run_whose_length_changes_is_no_repeat():
     moving = bench_truth.held(duration=8.0)
     moving = replace(moving, position=moving.position + np.linspace(0.0, 5e-3, moving.t.size))
-    segments = segments_of([moving, moving], keep_back=False)
+    segments = segments_of([moving, moving])
     l0 = bench_truth.declared().muscle.l0
     assert repeats(segments, l0) == []
     assert level_unknowns(segments, l0) == []

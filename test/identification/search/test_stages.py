@@ -77,7 +77,7 @@ def test_test_recordings_begin_as_they_were_measured(ends, found):
     other = bench_truth.free(
         effect('pressure_lag', fill_s=FILL, vent_s=FILL), seed=21, duration=10.0, rate=250.0
     )
-    test = segments_of([other], keep_back=False)
+    test = segments_of([other])
     before, after = (stages(ends, found, t)[2] for t in ((), test))
     (run,) = after.tested
     s = test[0]

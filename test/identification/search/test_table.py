@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The rows of a search on a rig with a lag: numbers by hand, decisions with their reasons."""
+"""The candidates of a search on a rig with a lag: numbers by hand, decisions with reasons."""
 
 from dataclasses import replace
 
@@ -11,7 +11,7 @@ from scipy.stats import chi2
 from pam_ros.identification.search.criteria import CRITERIA
 from pam_ros.identification.search.moves import with_each
 from pam_ros.identification.search.search import Search
-from pam_ros.identification.search.table import rows
+from pam_ros.identification.search.table import candidates, reason_for
 
 pytestmark = [pytest.mark.slow, pytest.mark.needs_numba]
 NAMES = ['pressure_lag', 'dead_time', 'viscous_friction', 'end_stop']
@@ -27,7 +27,7 @@ def search(retuned, setting):
 
 @pytest.fixture(scope='module')
 def table(search):
-    return rows(search)
+    return candidates(search)
 
 
 def test_there_is_a_row_for_each_effect_on_top_of_each_model(table):
@@ -42,12 +42,13 @@ def test_there_is_a_row_for_each_effect_on_top_of_each_model(table):
 def test_numbers_are_those_of_the_models(table, search, retuned):
     best, row = search.best, next(r for r in table if r.effect == 'pressure_lag')
     assert (row.fit_error, row.choose_error) == (best.errors.fit, best.errors.choose)
-    assert row.fall == retuned.score - best.score
+    assert row.score_fall == retuned.score - best.score
     assert row.gain == pytest.approx(1.0 - best.errors.choose / retuned.errors.choose)
-    fill = row.parameters['effects.pressure_lag.fill']
+    fill = row.parameters['fill']
     assert fill.low < fill.value < fill.high
     assert fill.value == pytest.approx(best.solution.value('effects.pressure_lag.fill'))
-    assert all(key.startswith('effects.pressure_lag.') for key in row.parameters)
+    assert {'fill', 'vent'} <= set(row.parameters) <= {'fill', 'vent', 'fastest'}
+    assert row.interval_clear
 
 
 def test_p_is_that_of_the_likelihood_ratio_for_all_that_were_tried(table, search, retuned):
@@ -58,7 +59,7 @@ def test_p_is_that_of_the_likelihood_ratio_for_all_that_were_tried(table, search
     assert row.p == pytest.approx(min(1.0, 4.0 * chi2.sf(fall, more)))
     last = table[-1]
     assert 0.0 < last.p <= 1.0
-    assert np.isfinite(last.fall)
+    assert np.isfinite(last.score_fall)
 
 
 def test_decisions_have_reasons(table):
@@ -75,10 +76,15 @@ def test_decisions_have_reasons(table):
     assert f'a fall of {CRITERIA.margin:g} is asked for' in why
 
 
+def test_the_reason_of_an_effect_is_what_the_best_model_without_it_lacks(search, retuned):
+    fall = retuned.score - search.best.score
+    assert reason_for(search, 'pressure_lag').startswith(f'lowers the score by {fall:.0f}, and ')
+
+
 def test_what_is_within_the_margin_is_ambiguous(search):
     wide = replace(CRITERIA, margin=1e9, worse=1e9)
     found = replace(search, setting=replace(search.setting, criteria=wide))
-    decisions = {row.effect: row.decision for row in rows(found) if not row.parents}
+    decisions = {row.effect: row.decision for row in candidates(found) if not row.parents}
     assert decisions == {
         'pressure_lag': 'chosen',
         **dict.fromkeys(('dead_time', 'viscous_friction', 'end_stop'), 'ambiguous'),
@@ -88,6 +94,6 @@ def test_what_is_within_the_margin_is_ambiguous(search):
 def test_a_move_that_makes_the_free_run_worse_says_so(search):
     strict = replace(CRITERIA, worse=0.01)
     found = replace(search, setting=replace(search.setting, criteria=strict))
-    row = next(r for r in rows(found) if r.effect == 'dead_time')
+    row = next(r for r in candidates(found) if r.effect == 'dead_time')
     assert row.decision == 'rejected'
     assert 'the free run over samples that were not fitted is' in row.reason

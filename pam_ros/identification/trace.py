@@ -16,21 +16,21 @@ from pam_ros.identification.data.noise import Noise, noise_of
 from pam_ros.identification.data.parts import Part, parts_of
 from pam_ros.identification.data.segment import Segment, segments_of
 from pam_ros.identification.fit.solve import Solution
-from pam_ros.identification.result import Candidate, Finding, Stage, Trace
+from pam_ros.identification.result import Finding, Stage, Trace
 from pam_ros.identification.search.criteria import BUDGET, CRITERIA
 from pam_ros.identification.search.final import Final, final
 from pam_ros.identification.search.levels import apart
 from pam_ros.identification.search.search import Progress, Search, alternatives, search
 from pam_ros.identification.search.setting import Setting, elsewhere
 from pam_ros.identification.search.stages import stages
-from pam_ros.identification.search.table import reason_for, rows
-from pam_ros.identification.search.verdict import (
+from pam_ros.identification.search.table import candidates, reason_for
+from pam_ros.identification.structure import Structure, structure_of
+from pam_ros.identification.verdict import (
     next_experiment,
     sentence,
     too_little,
     verdict,
 )
-from pam_ros.identification.structure import Structure, structure_of
 from pam_ros.recording.recording import Recording
 from pam_ros.rig import layout as at
 from pam_ros.rig.joint import Joint
@@ -59,8 +59,8 @@ def trace(
     if not recordings:
         raise RecordingError('recordings is empty: give at least one Recording')
     tell: Progress = progress or (lambda share, text: None)
-    segments_of([*recordings, *test], keep_back=False)
-    tests = segments_of(test, keep_back=False)
+    segments_of([*recordings, *test])
+    tests = segments_of(test)
     # With test recordings none of the others has to judge.
     shares = (CRITERIA.fit / CRITERIA.choose, 1.0) if test else (CRITERIA.fit, CRITERIA.choose)
     parts = parts_of(recordings, *shares)
@@ -108,7 +108,7 @@ def _answer(found: Search, ends: Final, tests: Sequence[Segment]) -> Trace:
         noise=noise,
         stages=three,
         effects=_findings(found, three[2]),
-        candidates=_candidates(found),
+        candidates=candidates(found),
         structure=_structure(ends, found, noise.sigma),
         segments=tuple(replace(part.segment, fit=part.known) for part in ends.parts),
         test=tuple(tests),
@@ -148,22 +148,4 @@ def _findings(found: Search, last: Stage) -> tuple[Finding, ...]:
     return tuple(
         Finding(name, values.get(name, {}), alternatives(found, name), reason_for(found, name))
         for name in found.best.effects
-    )
-
-
-def _candidates(found: Search) -> tuple[Candidate, ...]:
-    return tuple(
-        Candidate(
-            row.effect,
-            row.parents,
-            row.fit_error,
-            row.choose_error,
-            row.p,
-            row.gain,
-            all(e.low > 0.0 or e.high < 0.0 for e in row.parameters.values()),
-            by_effect(row.parameters).get(row.effect, {}),
-            row.decision,
-            row.reason,
-        )
-        for row in rows(found)
     )
