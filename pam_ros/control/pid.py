@@ -14,7 +14,13 @@ from pam_ros.control.limits import Limiter, Limits
 from pam_ros.control.model import ControlModel
 from pam_ros.control.pressure_path import PressurePath
 from pam_ros.control.sharing import sharing_of
-from pam_ros.control.signals import Pressures, Reference, Terms
+from pam_ros.control.signals import (
+    Pressures,
+    Reference,
+    Terms,
+    start_arguments,
+    step_arguments,
+)
 from pam_ros.errors import ParameterError
 from pam_ros.parameters import OnTurning, parameter
 from pam_ros.rig.joint import Joint
@@ -140,7 +146,11 @@ class Pid:
         self._stiffness = stiffness
 
     def start(self, position: float, pressures: Pressures | None = None) -> None:
-        """Begin anew at rest at *position*, under commands of *pressures* Pa if they are known."""
+        """Begin anew at rest at *position*, under commands of *pressures* Pa if they are known.
+
+        Raises ParameterError as :meth:`pam_ros.control.signals.PositionLaw.start` says.
+        """
+        start_arguments(position, pressures, len(self._paths))
         static, signs = self._static(position), self._signs(position)
         for limiter, pressure in zip(self._limiters, pressures or static, strict=True):
             limiter.start(pressure)
@@ -164,7 +174,12 @@ class Pid:
         velocity: float | None = None,
         age: float = 0.0,
     ) -> Pressures:
-        """Return the gauge pressures in Pa to command from now on, *dt* s after the last call."""
+        """Return the gauge pressures in Pa to command from now on, *dt* s after the last call.
+
+        What is not finite is taken, or refused, as
+        :meth:`pam_ros.control.signals.PositionLaw.update` says.
+        """
+        position, _ = step_arguments(dt, reference, position, velocity, age)
         if position is not None:
             self._seen = position
         static, gains = self._static(reference.position), self.sharing.gains(reference.position)

@@ -2,9 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """What goes into a position law and what can be read out of it."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from math import isfinite
 from typing import NamedTuple, Protocol
 
+from pam_ros.arguments import array, number, refuse, refuse_shape
 from pam_ros.control.sharing import Sharing
 
 Pressures = tuple[float, ...]  # gauge Pa, one a muscle
@@ -81,6 +84,42 @@ class Terms:
         return float(getattr(self, name))
 
 
+def step_arguments(
+    dt: float,
+    reference: Reference,
+    position: float | None,
+    velocity: float | None,
+    age: float,
+) -> tuple[float | None, float | None]:
+    """Return position and velocity as a law's step takes them: None where they are not finite.
+
+    A sensor that fails says NaN, and a law that took it in would return NaN for ever. Raises
+    ParameterError for a time step that is not above 0, since laws divide by it, and for a
+    reference or an age that is not finite, since these do not come from a sensor.
+    """
+    if not (isfinite(dt) and dt > 0.0):
+        refuse('dt', dt, 'a finite time above 0 s')
+    if not all(map(isfinite, reference)):
+        refuse('reference', reference, 'finite numbers')
+    if not isfinite(age):
+        refuse('age', age, 'a finite time in s')
+    if position is not None and not isfinite(position):
+        position = None
+    if velocity is not None and not isfinite(velocity):
+        velocity = None
+    return position, velocity
+
+
+def start_arguments(position: float, pressures: Sequence[float] | None, muscles: int) -> None:
+    """Raise ParameterError unless a law of so many *muscles* can begin at these."""
+    number('position', position)
+    if pressures is None:
+        return
+    given = array('pressures', pressures)
+    if given.shape != (muscles,):
+        refuse_shape('pressures', given, f'({muscles},), gauge Pa of each muscle, or None')
+
+
 # What a plot shows, in this order: m, m/s, N, Pa, 1/s (or rad, N m); saturated is 0 or 1.
 TERMS = (
     'reference',
@@ -136,7 +175,8 @@ class PositionLaw(Protocol):
     def start(self, position: float, pressures: Pressures | None = None) -> None:
         """Begin anew with the load at *position* m, under commands of *pressures* Pa if known.
 
-        The first pressures that are commanded then are these.
+        The first pressures that are commanded then are these. Raises ParameterError for what is
+        not finite, and for another number of pressures than of muscles.
         """
 
     def update(
@@ -151,5 +191,7 @@ class PositionLaw(Protocol):
 
         *reference* is where the load shall be now. *position* is the newest measurement in m,
         taken *age* s ago, None where there was none since the last call; *velocity* is the
-        measured one in m/s, where there is one.
+        measured one in m/s, where there is one. A measurement that is not finite is taken for
+        none. Raises ParameterError, and changes nothing, for a *dt* that is not above 0 and for a
+        reference or an age that is not finite.
         """

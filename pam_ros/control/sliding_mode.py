@@ -50,7 +50,13 @@ from pam_ros.control.model import ControlModel
 from pam_ros.control.observer import Observer
 from pam_ros.control.pressure_path import PressurePath
 from pam_ros.control.sharing import sharing_of
-from pam_ros.control.signals import Pressures, Reference, Terms
+from pam_ros.control.signals import (
+    Pressures,
+    Reference,
+    Terms,
+    start_arguments,
+    step_arguments,
+)
 from pam_ros.control.standstill import Standstill, StandstillTuning
 from pam_ros.control.stiction import Stiction, StictionTuning
 from pam_ros.control.switching import Surface
@@ -151,9 +157,11 @@ class SlidingMode:
         """Begin anew; what was learned is forgotten.
 
         Where *pressures* are not known, it is taken that the load rests as the model says, with
-        the stiffness that was set.
+        the stiffness that was set. Raises ParameterError as
+        :meth:`pam_ros.control.signals.PositionLaw.start` says.
         """
         model = self.model
+        start_arguments(position, pressures, len(model.muscles))
         if pressures is None:
             goal = self._stiffness.goal
             chambers = self.sharing.split(model.gravity(position), goal, position).pressures
@@ -201,8 +209,10 @@ class SlidingMode:
 
         *reference* is where the load shall be now. *position* is the newest measurement in m or
         rad, taken *age* s ago, None where there was none since the last call. *velocity*, measured
-        in m/s or rad/s, is used if the gains say so.
+        in m/s or rad/s, is used if the gains say so. What is not finite is taken, or refused, as
+        :meth:`pam_ros.control.signals.PositionLaw.update` says.
         """
+        position, velocity = step_arguments(dt, reference, position, velocity, age)
         self._go_on(dt)
         self._take_in(dt, reference, position, age)
         effort, foreseen, rate = self._wanted_effort(dt, reference, velocity)

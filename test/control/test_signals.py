@@ -1,0 +1,92 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""What goes into each law: measurements that fail, and arguments that make no step."""
+
+from math import inf, nan
+
+import pytest
+
+from pam_ros.control.pid import Pid
+from pam_ros.control.signals import Reference
+from pam_ros.control.sliding_mode import SlidingMode
+from pam_ros.errors import ParameterError, RangeError
+from pam_ros.rig.joint import one_muscle
+from support.joint_models import pair
+
+DT = 2e-3
+GOAL = Reference(0.06)
+BEGIN = 0.055
+
+
+EACH_LAW = pytest.mark.parametrize('law', [SlidingMode, Pid])
+EACH_JOINT = pytest.mark.parametrize('joint', [one_muscle(), pair()], ids=['one muscle', 'pair'])
+
+
+def twins(law, joint):
+    """Return two equal laws in the middle of a motion."""
+    if law is Pid:
+        pytest.importorskip('simple_pid', reason='the PID law needs simple-pid')
+    found = law(joint), law(joint)
+    for one in found:
+        one.start(BEGIN)
+        for n in range(20):
+            one.update(DT, GOAL, BEGIN + 1e-5 * n, 5e-3)
+    return found
+
+
+def goes_on_alike(law, twin):
+    """Whether both command the same from now on, while the load moves."""
+    measured = [BEGIN + 1e-5 * n for n in range(20, 60)]
+    return all(law.update(DT, GOAL, s, 5e-3) == twin.update(DT, GOAL, s, 5e-3) for s in measured)
+
+
+@EACH_LAW
+@EACH_JOINT
+@pytest.mark.parametrize('failed', [nan, inf, -inf])
+def test_a_measurement_that_is_not_finite_is_none(law, joint, failed):
+    one, twin = twins(law, joint)
+    assert one.update(DT, GOAL, failed, failed) == twin.update(DT, GOAL, None)
+    assert goes_on_alike(one, twin)
+
+
+@EACH_LAW
+@EACH_JOINT
+@pytest.mark.parametrize(
+    ('name', 'arguments'),
+    [
+        ('dt = 0.0', (0.0, GOAL, BEGIN)),
+        ('dt = -0.002', (-DT, GOAL, BEGIN)),
+        ('dt = nan', (nan, GOAL, BEGIN)),
+        ('dt = inf', (inf, GOAL, BEGIN)),
+        ('reference = ', (DT, Reference(nan), BEGIN)),
+        ('reference = ', (DT, Reference(0.06, inf), BEGIN)),
+        ('age = nan', (DT, GOAL, BEGIN, None, nan)),
+    ],
+)
+def test_an_impossible_step_is_refused_and_changes_nothing(law, joint, name, arguments):
+    one, twin = twins(law, joint)
+    with pytest.raises(ParameterError, match=f'^{name}.* is not allowed: give '):
+        one.update(*arguments)
+    assert goes_on_alike(one, twin)
+
+
+@EACH_LAW
+@EACH_JOINT
+def test_an_impossible_start_is_refused_and_changes_nothing(law, joint):
+    one, twin = twins(law, joint)
+    muscles = len(one.terms.pressures)
+    with pytest.raises(ParameterError, match=r'^position = nan is not allowed'):
+        one.start(nan)
+    with pytest.raises(ParameterError, match=r'^pressures\[0\] = nan is not allowed'):
+        one.start(BEGIN, (nan,) * muscles)
+    with pytest.raises(ParameterError, match=rf'^pressures has the shape \({muscles + 1},\)'):
+        one.start(BEGIN, (1e5,) * (muscles + 1))
+    assert goes_on_alike(one, twin)
+
+
+@EACH_LAW
+def test_a_stiffness_that_is_not_finite_is_refused_and_changes_nothing(law):
+    one, twin = twins(law, pair())
+    with pytest.raises(RangeError, match='nan'):
+        one.stiffen(nan)
+    assert goes_on_alike(one, twin)
