@@ -4,7 +4,7 @@
 
 from dataclasses import dataclass
 
-from pam_ros.control.profile import Bounds, Rest
+from pam_ros.control.reference.profile import Bounds, Rest
 from pam_ros.control.sharing import Sharing
 from pam_ros.parameters import check_all, parameter
 

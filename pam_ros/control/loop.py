@@ -9,9 +9,10 @@ time at which they were taken.
 from dataclasses import dataclass
 from math import isfinite
 
-from pam_ros.control.course import Course
+from pam_ros.control.plausibility import Plausibility
+from pam_ros.control.reference.course import Course
+from pam_ros.control.reference.trajectory import Point, Trajectory
 from pam_ros.control.signals import PositionLaw, Pressures, Reference
-from pam_ros.control.trajectory import Point, Trajectory
 
 HOLD, VENT = 'hold', 'vent'
 WAITING, RUNNING, BLIND, DISABLED = 'waiting', 'running', 'blind', 'disabled'
@@ -22,11 +23,16 @@ LEAST, MOST = 0.1, 0.1
 
 @dataclass(frozen=True)
 class Reading:
-    """A measurement: time taken in s, position in m, velocity in m/s where there is one."""
+    """A measurement: time taken in s, position in m, velocity in m/s where there is one.
+
+    ``stamp`` is the time in s by the clock of the sensor, which may be another than that of the
+    loop; None where there is none.
+    """
 
     time: float
     position: float
     velocity: float | None = None
+    stamp: float | None = None
 
 
 class Loop:
@@ -38,11 +44,16 @@ class Loop:
         the last commands in Pa, one a muscle, None before there were any
     time
         of the last step, s
+    implausible
+        how many measurements were left out because they cannot be true
     """
 
-    def __init__(self, law: PositionLaw, course: Course, period: float) -> None:
+    def __init__(
+        self, law: PositionLaw, course: Course, period: float, plausibility: Plausibility
+    ) -> None:
         """Make it wait for the first measurement; *period* in s."""
         self.law, self.course, self.period = law, course, period
+        self.plausibility, self.implausible = plausibility, 0
         self.timeout, self.safe = 0.1, HOLD
         self.state = WAITING
         self.pressures: Pressures | None = None
@@ -63,11 +74,29 @@ class Loop:
         if is_enabled != self.is_enabled:
             self.state = WAITING if is_enabled else DISABLED
             self._seen = None
+            self.plausibility.forget()
 
-    def see(self, reading: Reading) -> None:
-        """Take in a measurement; one that is older than the last is left out."""
-        if self._seen is None or reading.time > self._seen.time:
-            self._seen, self._is_new = reading, True
+    def see(self, reading: Reading) -> str:
+        """Take in a measurement; return why it cannot be true, '' where it can.
+
+        One that cannot be true is left out, and so is one that is older than the last: control
+        goes on by the model, and after the time-out as where nothing is seen.
+        """
+        last = self._seen
+        if last is not None and reading.time <= last.time:
+            return ''
+        passed = 0.0 if last is None else reading.time - last.time
+        if last is not None and last.stamp is not None and reading.stamp is not None:
+            # Messages that were held up arrive at once: their time of receipt is no clock.
+            passed = max(reading.stamp - last.stamp, 0.0)
+        fault = self.plausibility.fault_of(passed, reading.position, reading.velocity)
+        if fault:
+            self.implausible += 1
+            return fault
+        if self.plausibility.is_first and self.state == RUNNING:
+            self.state = BLIND  # either this or the one that control began at is false
+        self._seen, self._is_new = reading, True
+        return ''
 
     def change(self, law: PositionLaw, course: Course) -> None:
         """Go on with another law and course from where the load and the pressure are."""
@@ -79,6 +108,7 @@ class Loop:
     def forget(self) -> None:
         """Begin anew at the next measurement: the clock has jumped."""
         self._seen = None
+        self.plausibility.forget()
         if self.is_enabled:
             self.state = WAITING
 
@@ -92,6 +122,7 @@ class Loop:
             return None
         reading = self._seen
         if reading is None or now - reading.time > self.timeout:
+            self.plausibility.forget()
             return self._stay_safe()
         if self.state != RUNNING:
             if self.awaits_chamber and self.chambers is None:

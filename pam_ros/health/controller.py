@@ -15,11 +15,13 @@ from pam_ros.timing.ticker import Punctuality
 class Received(NamedTuple):
     """What a controller has received."""
 
-    age: float | None  # s of the newest joint states
-    blindness: str  # why the last of them was not usable
-    refused: int  # references and trajectories
-    refusal: str  # why the last of them was refused
-    is_refusal_new: bool  # since the last report
+    age: float | None = None  # s of the newest joint states
+    blindness: str = ''  # why the last of them was not usable
+    refused: int = 0  # references and trajectories
+    refusal: str = ''  # why the last of them was refused
+    is_refusal_new: bool = False  # since the last report
+    implausibility: str = ''  # what was last measured that cannot be true
+    is_implausibility_new: bool = False  # since the last report
 
 
 def values_of(loop: Loop, setup: ControlSetup, age: float | None) -> dict[str, Any]:
@@ -37,6 +39,7 @@ def values_of(loop: Loop, setup: ControlSetup, age: float | None) -> dict[str, A
         f'lowest reference ({unit})': setup.reach[0],
         f'highest reference ({unit})': setup.reach[1],
         'age of joint_states (s)': age,
+        'implausible joint_states': loop.implausible,
     }
     if setup.settings.controller == 'sliding_mode':
         gains, inertia = setup.gains, setup.joint.inertia
@@ -87,6 +90,8 @@ def control(loop: Loop, setup: ControlSetup, received: Received, fault: str) -> 
         return Health(Level.ERROR, why, values)
     if received.is_refusal_new:
         return Health(Level.WARN, received.refusal, values)
+    if received.is_implausibility_new:
+        return Health(Level.WARN, received.implausibility, values)
     if state == WAITING:
         return Health(Level.WARN, why, values)
     if state == RUNNING and received.blindness:

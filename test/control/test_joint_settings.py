@@ -4,10 +4,10 @@
 
 import pytest
 
-from pam_ros.control.course import Course
 from pam_ros.control.gains import Gains
 from pam_ros.control.pid import Pid, PidGains
-from pam_ros.control.shaping import Shape
+from pam_ros.control.reference.course import Course
+from pam_ros.control.reference.shaping import Shape
 from pam_ros.control.sliding_mode import SlidingMode
 from pam_ros.errors import ParameterError
 from pam_ros.rig.joint import one_muscle

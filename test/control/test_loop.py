@@ -4,12 +4,14 @@
 
 import pytest
 
-from pam_ros.control.course import Course
 from pam_ros.control.loop import BLIND, DISABLED, RUNNING, VENT, WAITING, Loop, Reading
-from pam_ros.control.shaping import Shape
+from pam_ros.control.plausibility import Bounds, Plausibility
+from pam_ros.control.reference.course import Course
+from pam_ros.control.reference.shaping import Shape
 from pam_ros.control.signals import Terms
 
 PERIOD = 0.002
+BOUNDS = Bounds(-0.1, 0.2, 50.0, 1e-3, 'm')
 
 
 def first(count):
@@ -35,7 +37,7 @@ class Recorder:
 
 @pytest.fixture
 def loop():
-    return Loop(Recorder(), Course(Shape(), (-1.0, 1.0)), PERIOD)
+    return Loop(Recorder(), Course(Shape(), (-1.0, 1.0)), PERIOD, Plausibility(BOUNDS))
 
 
 def test_it_commands_nothing_before_it_sees(loop):
@@ -155,7 +157,8 @@ def test_pressures_of_several_muscles_go_the_same_way():
         def update(self, *args, **kwargs):
             return 2 * super().update(*args, **kwargs)
 
-    loop = Loop(Two(), Course(Shape.turning(), (-1.0, 1.0), 'rad'), PERIOD)
+    course = Course(Shape.turning(), (-1.0, 1.0), 'rad')
+    loop = Loop(Two(), course, PERIOD, Plausibility(BOUNDS))
     loop.safe, loop.chambers = VENT, (123e3, 150e3)
     loop.see(Reading(1.0, 0.05))
     assert loop.tick(1.0) == loop.pressures == 2 * first(1)

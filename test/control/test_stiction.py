@@ -5,7 +5,7 @@
 import numpy as np
 import pytest
 
-from pam_ros.control.shaping import Shape
+from pam_ros.control.reference.shaping import Shape
 from pam_ros.control.sliding_mode import SlidingMode
 from pam_ros.control.stiction import Stiction, StictionTuning
 from support.kinds import EACH_KIND, ONE, PAIR, at_end

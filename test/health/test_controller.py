@@ -9,14 +9,16 @@ from scipy.signal import impulse
 
 from pam_ros.control.gains import Gains
 from pam_ros.control.loop import BLIND, DISABLED, RUNNING, WAITING, Loop
+from pam_ros.control.plausibility import Plausibility, bounds_of
 from pam_ros.health.controller import Received, control, timing
 from pam_ros.health.health import Level
 from pam_ros.settings.control import settings_of
 from pam_ros.settings.tables import checked
 from pam_ros.timing.ticker import Punctuality
 
-WELL = Received(age=0.01, blindness='', refused=0, refusal='', is_refusal_new=False)
+WELL = Received(age=0.01)
 NO_JOINT = 'joint_states has no joint pam'
+FALSE = 'joint_states has a position -1 m, which is beyond the travel of the joint'
 
 
 def setup_of(**given):
@@ -25,7 +27,8 @@ def setup_of(**given):
 
 
 def loop_of(setup):
-    return Loop(setup.make_law(), setup.make_course(), 0.002)
+    law = setup.make_law()
+    return Loop(law, setup.make_course(), 0.002, Plausibility(bounds_of(law.sharing)))
 
 
 @pytest.fixture(scope='module')
@@ -40,6 +43,14 @@ def setup():
         (RUNNING, {'refusal': 'too far', 'refused': 1}, '', Level.OK, 'controlling'),
         (RUNNING, {'refusal': 'too far', 'is_refusal_new': True}, '', Level.WARN, 'too far'),
         (RUNNING, {'blindness': NO_JOINT}, '', Level.WARN, NO_JOINT),
+        (RUNNING, {'implausibility': FALSE}, '', Level.OK, 'controlling'),
+        (
+            RUNNING,
+            {'implausibility': FALSE, 'is_implausibility_new': True},
+            '',
+            Level.WARN,
+            FALSE,
+        ),
         (WAITING, {}, '', Level.WARN, 'waits for joint_states'),
         (
             WAITING,

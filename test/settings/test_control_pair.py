@@ -8,7 +8,7 @@ import pytest
 
 from pam_ros.control.co_contraction import CoContraction
 from pam_ros.control.pid import Pid, PidGains
-from pam_ros.control.shaping import Shape
+from pam_ros.control.reference.shaping import Shape
 from pam_ros.control.sliding_mode import SlidingMode
 from pam_ros.errors import ParameterError, RangeError
 from pam_ros.rig.arrangements import ANTAGONISTIC

@@ -9,7 +9,7 @@ import numpy as np
 
 from pam_ros.control.limits import Limits
 from pam_ros.control.model import ControlModel
-from pam_ros.control.shaping import Shape, Shaper
+from pam_ros.control.reference.shaping import Shape, Shaper
 from pam_ros.control.sharing import sharing_of
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig.joint import one_muscle

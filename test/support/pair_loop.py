@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from pam_ros.control.shaping import Shape, Shaper
+from pam_ros.control.reference.shaping import Shape, Shaper
 from pam_ros.rig.joint import Actuator, Joint
 from pam_ros.rig.loads import Arm
 from pam_ros.rig.transmissions import Pulley

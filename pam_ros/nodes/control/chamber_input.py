@@ -28,10 +28,17 @@ class ChamberInput:
     """Takes absolute pressures in Pa from the topics on which ``pam_sim`` publishes them."""
 
     def __init__(
-        self, setup: ControlSetup, subscribe: Subscribe, on_pressure: Callable[[], None]
+        self,
+        setup: ControlSetup,
+        subscribe: Subscribe,
+        on_pressure: Callable[[], None],
+        on_fault: Callable[[str], None],
     ) -> None:
-        """Use *subscribe*(type, topic, callback); *on_pressure* is called after each pressure."""
-        self._on_pressure = on_pressure
+        """Use *subscribe*(type, topic, callback); *on_pressure* is called after each pressure.
+
+        *on_fault* is called with what is said of a pressure that cannot be true.
+        """
+        self._on_pressure, self._on_fault = on_pressure, on_fault
         self._found: list[tuple[int, int, float] | None] = [None] * len(setup.muscles)
         self._waited = 0
         self._looked = monotonic_ns()
@@ -70,11 +77,16 @@ class ChamberInput:
             self._waited = 0
             return
         now = monotonic_ns()
-        fresh = [
-            one[2] - setup.settings.ambient_pressure
-            for one in self._found
-            if one and (abs(stamp - one[0]) if stamp and one[0] else now - one[1]) <= FRESH
-        ]
+        fresh = []
+        for muscle, one in enumerate(self._found):
+            if one and (abs(stamp - one[0]) if stamp and one[0] else now - one[1]) <= FRESH:
+                fault = setup.fault_of_pressure(muscle, one[2])
+                if fault:
+                    self._found[muscle] = None
+                    topic = setup.pressure_topics[-1 if setup.has_arrays else muscle]
+                    self._on_fault(f'{topic} has {fault}: not used')
+                else:
+                    fresh.append(one[2] - setup.settings.ambient_pressure)
         loop.chambers = setup.command_at(fresh) if len(fresh) == len(self._found) else None
         self._waited += min(now - self._looked, LONGEST)
         self._looked = now

@@ -8,7 +8,7 @@ from typing import NamedTuple
 from sensor_msgs.msg import JointState
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
-from pam_ros.control.trajectory import Point
+from pam_ros.control.reference.trajectory import Point
 from pam_ros.errors import RangeError
 from pam_ros.nodes.common.stamps import stamp_of
 from pam_ros.timing.pace import SECOND

@@ -13,6 +13,7 @@ from std_srvs.srv import SetBool
 from trajectory_msgs.msg import JointTrajectory
 
 from pam_ros.control.loop import BLIND, RUNNING, WAITING, Loop, Reading, warm_up
+from pam_ros.control.plausibility import Plausibility, bounds_of
 from pam_ros.control.signals import Pressures, term_names
 from pam_ros.errors import RangeError
 from pam_ros.health import controller as control_health
@@ -24,7 +25,7 @@ from pam_ros.nodes.common.qos import DEPTH, open_qos
 from pam_ros.nodes.common.spin import TickingNode
 from pam_ros.nodes.common.stamps import stamp_of
 from pam_ros.nodes.control.chamber_input import ChamberInput
-from pam_ros.nodes.control.inputs import points_of, sight_of
+from pam_ros.nodes.control.inputs import Sight, points_of, sight_of
 from pam_ros.nodes.control.output import commands_of
 from pam_ros.nodes.control.state import StateTopic
 from pam_ros.settings.control import ControlSetup, settings_of
@@ -54,11 +55,12 @@ class PamControl(TickingNode):
         self.keeps_wall_time = not self._is_followed
         self._seen = monotonic_ns()  # steady time of the newest usable state, ns
         self._stamp: int | None = None  # and its stamp
-        self._last: Reading | None = None  # and what it was, where states make the time
+        self._last: Reading | None = None  # and what it was
         self._ticked = self._seen  # steady time of the last tick, ns
         self._has_waited = False
         self._answered = 0  # steady time of the last command, ns
         self._blindness = ''  # why the last state was not usable
+        self._implausibility, self._is_implausibility_new = '', False
         self._refusal, self._refused, self._is_refusal_new = '', 0, False
         self._shown = 0  # ROS time of the last message on ~/state, ns
         self._fault = ''
@@ -73,7 +75,7 @@ class PamControl(TickingNode):
         setup = self._setup
         law, period = setup.make_law(), 1.0 / setup.settings.rate
         warm_up(law, setup.reach, period)
-        loop = Loop(law, setup.make_course(), period)
+        loop = Loop(law, setup.make_course(), period, Plausibility(bounds_of(law.sharing)))
         loop.timeout, loop.safe = setup.settings.state_timeout, setup.settings.on_timeout
         loop.enable(setup.settings.start_enabled)
         return loop
@@ -95,7 +97,10 @@ class PamControl(TickingNode):
         subscribe(Float64, 'position_reference', self._take_reference)
         subscribe(JointTrajectory, 'joint_trajectory', self._take_trajectory)
         self._chambers = ChamberInput(
-            self._setup, partial(subscribe, reliability=states), self._begin
+            self._setup,
+            partial(subscribe, reliability=states),
+            self._begin,
+            self._leave_out,
         )
         if self._setup.can_stiffen:
             subscribe(Float64, 'co_contraction_reference', self._take_co_contraction)
@@ -183,17 +188,31 @@ class PamControl(TickingNode):
             self._see_again()
             return
         before, self._stamp = self._stamp, sight.stamp
-        self._seen = monotonic_ns()
         if not self._is_followed:
-            self._loop.see(Reading(self._seen / SECOND, sight.position, sight.velocity))
+            self._take_in(sight, monotonic_ns())
             return
         if before is not None and sight.stamp < before:
             self._loop.forget()  # simulated time begins anew, and so does what happens in it
             self._chambers.forget()
-        self._last = Reading(sight.stamp / SECOND, sight.position, sight.velocity)
-        self._loop.see(self._last)
+        self._take_in(sight, sight.stamp)
         self._chambers.prepare(self._loop, self._stamp, self._setup)
-        self._step(self._last.time, sight.stamp)
+        self._step(sight.stamp / SECOND, sight.stamp)
+
+    def _take_in(self, sight: Sight, time: int) -> None:
+        """Give the loop a state of *time* in ns by its clock, unless it cannot be true."""
+        stamp = sight.stamp / SECOND if sight.stamp else None
+        reading = Reading(time / SECOND, sight.position, sight.velocity, stamp)
+        fault = self._loop.see(reading)
+        if not fault:
+            self._seen, self._last = monotonic_ns(), reading
+            return
+        self._blindness = f'joint_states has a {fault}: not used'
+        self._leave_out(self._blindness)
+
+    def _leave_out(self, what: str) -> None:
+        """Say that a measurement cannot be true and is not used."""
+        self._implausibility, self._is_implausibility_new = what, True
+        self.get_logger().warning(what, throttle_duration_sec=1.0)
 
     def _see_again(self) -> None:
         """Answer a state that is published again: in lockstep the answer was not received."""
@@ -266,6 +285,7 @@ class PamControl(TickingNode):
             law = now.make_law()
             warm_up(law, now.reach, loop.period)
             loop.change(law, now.make_course())
+            loop.plausibility.bounds = bounds_of(law.sharing)
         else:
             now.take_over(loop.law, before)
             loop.course.set_shape(now.shape)
@@ -281,8 +301,16 @@ class PamControl(TickingNode):
 
     def _control(self) -> Health:
         age = None if self._stamp is None else (monotonic_ns() - self._seen) / SECOND
-        is_new, self._is_refusal_new = self._is_refusal_new, False
-        received = Received(age, self._blindness, self._refused, self._refusal, is_new)
+        received = Received(
+            age,
+            self._blindness,
+            self._refused,
+            self._refusal,
+            self._is_refusal_new,
+            self._implausibility,
+            self._is_implausibility_new,
+        )
+        self._is_refusal_new = self._is_implausibility_new = False
         return control_health.control(self._loop, self._setup, received, self._fault)
 
     def _timing(self) -> Health:

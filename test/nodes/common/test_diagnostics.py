@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from pam_ros.control.loop import Loop
+from pam_ros.control.plausibility import Plausibility, bounds_of
 from pam_ros.control.signals import Reference
 from pam_ros.health.controller import Received, control
 from pam_ros.nodes.common.diagnostics import text
@@ -36,8 +37,9 @@ def test_no_value_of_a_controller_names_the_type_of_a_number(kind, effect):
     given = {'joint': kind, **effect}
     table, build = settings_of(given)
     setup = build(checked(table, given))
-    loop = Loop(setup.make_law(), setup.make_course(), 0.002)
+    law = setup.make_law()
+    loop = Loop(law, setup.make_course(), 0.002, Plausibility(bounds_of(law.sharing)))
     loop.pressures = loop.law.update(0.002, Reference(0.01, velocity=0.5), 0.01)
-    health = control(loop, setup, Received(0.01, '', 0, '', is_refusal_new=False), '')
+    health = control(loop, setup, Received(), '')
     shown = [text(value) for value in health.values.values()]
     assert not [one for one in shown if 'np.' in one or 'float' in one]

@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from pam_ros.control.shaping import STREAM, Shape, Shaper
+from pam_ros.control.reference.shaping import STREAM, Shape, Shaper
 from pam_ros.errors import ParameterError
 
 DT = 2e-3

@@ -7,9 +7,9 @@ import math
 import numpy as np
 import pytest
 
-from pam_ros.control.course import Course
-from pam_ros.control.shaping import Shape
-from pam_ros.control.trajectory import Point
+from pam_ros.control.reference.course import Course
+from pam_ros.control.reference.shaping import Shape
+from pam_ros.control.reference.trajectory import Point
 from pam_ros.errors import RangeError
 
 DT, REACH, REST = 0.002, (0.0, 0.09), 0.06

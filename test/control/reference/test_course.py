@@ -7,9 +7,9 @@ import math
 import numpy as np
 import pytest
 
-from pam_ros.control.course import Course
-from pam_ros.control.shaping import Shape
-from pam_ros.control.trajectory import Point
+from pam_ros.control.reference.course import Course
+from pam_ros.control.reference.shaping import Shape
+from pam_ros.control.reference.trajectory import Point
 from pam_ros.errors import RangeError
 
 DT = 2e-3

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from scipy.interpolate import CubicSpline
 
+from pam_ros.control.reference.trajectory import Point, Trajectory
 from pam_ros.control.signals import Reference
-from pam_ros.control.trajectory import Point, Trajectory
 from pam_ros.errors import RangeError
 
 REACH = (-0.01, 0.1)

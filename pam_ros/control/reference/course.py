@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from math import isfinite
 
 from pam_ros.control.limits import refuse_unreachable
-from pam_ros.control.shaping import Shape, Shaper
+from pam_ros.control.reference.shaping import Shape, Shaper
+from pam_ros.control.reference.trajectory import Point, Trajectory
 from pam_ros.control.signals import Reference
-from pam_ros.control.trajectory import Point, Trajectory
 from pam_ros.errors import RangeError
 
 

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pam_ros.control.profile import Bounds, Rest, advance, change, to_rest
+from pam_ros.control.reference.profile import Bounds, Rest, advance, change, to_rest
 
 BOUNDS = Bounds(0.1, 0.5, 6.0)
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from math import exp
 
 from pam_ros.control.joint_settings import JointSettings
-from pam_ros.control.profile import Bounds, Rest, advance, change
+from pam_ros.control.reference.profile import Bounds, Rest, advance, change
 from pam_ros.control.signals import Reference
 from pam_ros.control.tuning import number
 from pam_ros.parameters import OnTurning, parameter

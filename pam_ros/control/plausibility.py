@@ -1,0 +1,150 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Which measurements physics can have produced, and which are faults of a sensor or of a line.
+
+A position law pulls at what it is told: one false sample throws or drops a load. A position is
+plausible within the travel of the joint, and as far from the last plausible one as the force of
+the muscles can have moved the declared inertia:
+
+    |s - s_last| <= v (t + J) + a t^2 / 2 + n
+
+t is the time between the two measurements and v the highest speed lately measured, which allows a
+load to stop at once or to bounce back, and covers the noise of the sensor. J allows for stamps
+that jitter, a is the greatest acceleration and n an allowance of one two-hundredth of the travel.
+A measured velocity is plausible up to v + a (t + J).
+"""
+
+from dataclasses import dataclass
+from math import exp
+
+import numpy as np
+
+from pam_ros.control.model import ControlModel
+from pam_ros.control.sharing import Sharing
+from pam_ros.rig import statics
+
+# Contraction beyond the permitted range that a load may reach: overshoot, and a zero that is not
+# where it was declared.
+BEYOND = 0.1
+# Times the declared acceleration: the load may be half as heavy, or pushed as hard from outside.
+LIGHTER = 2.0
+# Of the permitted travel, at any time: five times the noise of the sensors in use.
+ALLOWANCE = 0.005
+JITTER = 0.01  # s of a stamp: the time of a turn of a loaded computer
+LATELY = 0.05  # s in which a measured speed is forgotten to 1/e
+SHORTEST = 1e-3  # s between two measurements: stamps of the time of receipt may be nearer
+PLACES = 41  # at which the force over the travel is looked up
+
+
+@dataclass(frozen=True)
+class Bounds:
+    """What a joint can do.
+
+    For a joint that turns, read rad for m.
+
+    low, high
+        the travel, m
+    acceleration
+        the greatest, m/s^2
+    allowance
+        distance that is always plausible, m
+    unit
+        of the coordinate, for messages
+    """
+
+    low: float
+    high: float
+    acceleration: float
+    allowance: float
+    unit: str
+
+
+def bounds_of(sharing: Sharing) -> Bounds:
+    """Return what the declared joint can do with the pressures that the limits leave it."""
+    model = sharing.model
+    joint, unit = model.joint, model.joint.transmission.equations.unit
+    low, high = statics.span(joint, BEYOND, BEYOND)
+    permitted = statics.span(joint)
+    places = np.linspace(*permitted, PLACES)
+    greatest = max(_greatest_effort(model, sharing, float(s)) for s in places)
+    return Bounds(
+        low,
+        high,
+        LIGHTER * greatest / model.inertia,
+        ALLOWANCE * (permitted[1] - permitted[0]),
+        unit,
+    )
+
+
+def _greatest_effort(model: ControlModel, sharing: Sharing, s: float) -> float:
+    """Return the greatest effort on the load at s, the muscles' and gravity's together."""
+    total = abs(model.gravity(s))
+    for muscle, range_ in zip(model.muscles, sharing.ranges, strict=True):
+        y = muscle.position(s)
+        total += abs(muscle.arm(s)) * max(abs(muscle.force(p, y)) for p in range_)
+    return total
+
+
+class Plausibility:
+    """Tells measurements that can be true from those that cannot, one after the other.
+
+    The first one after :meth:`forget` is only held against the travel. Where the second one does
+    not fit it, nobody can say which of them is false: the second one is taken for the first then,
+    and :attr:`is_first` is true again, for whoever uses it to begin anew.
+    """
+
+    def __init__(self, bounds: Bounds) -> None:
+        """Make it for a joint of these bounds."""
+        self.bounds = bounds
+        self.forget()
+
+    def forget(self) -> None:
+        """Begin anew: the next measurement is the first."""
+        self._last: float | None = None
+        self._speed = 0.0
+        self._is_confirmed = False  # by a second one
+
+    @property
+    def is_first(self) -> bool:
+        """Whether the last plausible measurement has nothing before it that it fits."""
+        return not self._is_confirmed
+
+    def fault_of(self, passed: float, position: float, velocity: float | None = None) -> str:
+        """Return why a measurement is not plausible, '' where it is.
+
+        It was taken *passed* s after the last plausible one. Only plausible ones are remembered.
+        """
+        bounds, unit = self.bounds, self.bounds.unit
+        if not bounds.low <= position <= bounds.high:
+            return (
+                f'position {position:.4g} {unit}, which is beyond the travel of the joint, '
+                f'{bounds.low:.4g} to {bounds.high:.4g} {unit}'
+            )
+        if self._last is None:
+            self._begin(position)
+            return ''
+        passed = max(passed, SHORTEST)
+        speed = self._speed * exp(-passed / LATELY)
+        moved = abs(position - self._last)
+        a = bounds.acceleration
+        most = speed * (passed + JITTER) + 0.5 * a * passed * passed + bounds.allowance
+        if moved > most:
+            if not self._is_confirmed:
+                self._begin(position)
+                return ''
+            return (
+                f'position {position:.4g} {unit}, which is {moved:.3g} {unit} from the one '
+                f'{passed:.3g} s before, where the joint can have moved {most:.3g} {unit}'
+            )
+        fastest = self._speed + a * (passed + JITTER)
+        if velocity is not None and not abs(velocity) <= fastest:
+            return (
+                f'velocity {velocity:.4g} {unit}/s, where the joint can have reached '
+                f'{fastest:.3g} {unit}/s'
+            )
+        self._last, self._is_confirmed = position, True
+        self._speed = max(speed, moved / passed)
+        return ''
+
+    def _begin(self, position: float) -> None:
+        self._last, self._speed, self._is_confirmed = position, 0.0, False

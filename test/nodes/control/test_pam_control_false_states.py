@@ -1,0 +1,101 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""``pam_control`` beside a publisher whose states cannot be true: the load stays where it is."""
+
+import numpy as np
+import pytest
+from builtin_interfaces.msg import Time
+from diagnostic_msgs.msg import DiagnosticStatus
+from sensor_msgs.msg import FluidPressure, JointState
+
+from support.control_watch import Rig, Watch
+from support.harness import Program
+
+FALSE = [-1.0, -0.3, 0.0, 0.3, 1.0, 1e300]  # m; the load is at 60 mm
+
+
+@pytest.fixture
+def watch(peer):
+    return Watch(peer)
+
+
+def is_true(message):
+    return message.position[0] not in FALSE
+
+
+def soon_after(time):
+    """Return a stamp 1 us later."""
+    passed = time.nanosec + 1000
+    return Time(sec=time.sec + passed // 10**9, nanosec=passed % 10**9)
+
+
+def value(status, key):
+    return next(int(pair.value) for pair in status.values if pair.key == key)
+
+
+@pytest.mark.at_any_pace
+def test_false_states_do_not_move_the_load_and_are_counted(watch):
+    states = watch.peer.collect(JointState, 'joint_states')
+    # However long a busy machine holds them up.
+    rig = {'initial.pressure': 300e3, 'command_timeout': 0.0}
+    with (
+        Program('pam_sim', parameters=rig),
+        Program('pam_control', parameters={'state_timeout': 60.0}) as control,
+    ):
+        begin = watch.begin()
+        for n, false in enumerate(FALSE):
+            message = JointState(name=['pam'], position=[false])
+            message.header.stamp = soon_after(states[-1].header.stamp)
+            watch.peer.publish(message, 'joint_states')
+            watch.status(
+                lambda s, count=n + 1: value(s, 'implausible joint_states') >= count,
+                f'{n + 1} states that are left out',
+            )
+        status = watch.status(lambda s: 'beyond the travel' in s.message, 'the warning')
+        assert status.level == DiagnosticStatus.WARN
+        assert 'joint_states has a position -1 m, which is beyond the travel' in control.output
+        positions = np.array([one.position[0] for one in states if is_true(one)])
+        assert positions == pytest.approx(begin, abs=1e-4)
+
+
+@pytest.mark.at_any_pace
+def test_states_that_stay_false_are_no_states(watch):
+    rig = Rig(watch.peer)
+    with Program('pam_control', parameters={'state_timeout': 0.2}):
+        rig.tell_until(lambda: len(watch.terms) > 10, 'control', 0.06)
+        rig.tell_until(
+            lambda: any(
+                'stay away: vents: joint_states has a position -0.3 m' in s.message
+                for array in watch.arrays
+                for s in array.status
+            ),
+            'the time-out',
+            -0.3,
+        )
+        assert watch.steady_command() == 0.0
+        before = len(watch.terms)
+        rig.tell_until(lambda: len(watch.terms) > before, 'control again', 0.05)
+        assert watch.terms[before].position[0] == pytest.approx(0.05)
+
+
+@pytest.mark.at_any_pace
+@pytest.mark.parametrize('false', [-20e3, 5e6])
+def test_control_does_not_begin_at_a_pressure_that_cannot_be(watch, false):
+    rig, peer = Rig(watch.peer), watch.peer
+    with Program(
+        'pam_control', parameters={'pressure_wait': 0.5, 'state_timeout': 60.0}
+    ) as control:
+
+        def began():
+            pressure = FluidPressure(fluid_pressure=false)
+            pressure.header.stamp.sec = 11 + rig.count
+            peer.publish(pressure, 'pressure')
+            rig.tell()
+            return watch.terms and watch.commands
+
+        peer.until(began, 'control')
+        first = watch.commands[0].data
+        assert f'pressure has {false:.6g} Pa, where 0 to ' in control.output
+        assert 1e5 < first < 5e5  # that which holds the declared load at 60 mm
+        status = watch.status(lambda s: 'pressure has ' in s.message, 'the warning')
+        assert status.level == DiagnosticStatus.WARN
