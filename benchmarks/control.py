@@ -133,7 +133,7 @@ def main() -> None:
     parser.add_argument('--seeds', type=int, default=3)
     parser.add_argument('--picture', type=Path, default=Path('build/control.png'))
     parser.add_argument('--no-dds', action='store_true', help='simulated time only')
-    given = parser.parse_args(sys.argv[2:] if sys.argv[0] == '-c' else None)
+    given = parser.parse_args()
     runs: dict[str, list[tuple[Run, Run]]] = {}
     for law in LAWS:
         print(f'{law}: worst of {given.seeds} seeds')

@@ -80,7 +80,7 @@ def main() -> None:
     """Print the table of both laws."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument('--seeds', type=int, default=3)
-    given = parser.parse_args(sys.argv[2:] if sys.argv[0] == '-c' else None)
+    given = parser.parse_args()
     print(f'stiffness that is set: {STIFFNESSES} N m/rad at 10 degrees')
     for law in LAWS:
         print(f'\n{law}: worst of {given.seeds} seeds')

@@ -180,7 +180,7 @@ def main() -> None:
     parser.add_argument('--kinds', default='')
     parser.add_argument('--jobs', type=int, default=2)
     parser.add_argument('--log', type=Path)
-    given = parser.parse_args(sys.argv[2:] if sys.argv[0] == '-c' else None)
+    given = parser.parse_args()
     kinds = (
         given.kinds.split(',') if given.kinds else [NOISE_ONLY, *KINDS, *PAIRS, *OUT_OF_LIBRARY]
     )

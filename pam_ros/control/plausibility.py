@@ -33,11 +33,14 @@ ALLOWANCE = 0.005
 JITTER = 0.01  # s of a stamp: the time of a turn of a loaded computer
 LATELY = 0.05  # s in which a measured speed is forgotten to 1/e
 SHORTEST = 1e-3  # s between two measurements: stamps of the time of receipt may be nearer
+OVERPRESSURE = (
+    1.25  # times the highest permitted pressure: what valves let pass and sensors err by
+)
 PLACES = 41  # at which the force over the travel is looked up
 
 
 @dataclass(frozen=True)
-class Bounds:
+class MotionBounds:
     """What a joint can do.
 
     For a joint that turns, read rad for m.
@@ -59,7 +62,7 @@ class Bounds:
     unit: str
 
 
-def bounds_of(sharing: Sharing) -> Bounds:
+def bounds_of(sharing: Sharing) -> MotionBounds:
     """Return what the declared joint can do with the pressures that the limits leave it."""
     model = sharing.model
     joint, unit = model.joint, model.joint.transmission.equations.unit
@@ -67,7 +70,7 @@ def bounds_of(sharing: Sharing) -> Bounds:
     permitted = statics.span(joint)
     places = np.linspace(*permitted, PLACES)
     greatest = max(_greatest_effort(model, sharing, float(s)) for s in places)
-    return Bounds(
+    return MotionBounds(
         low,
         high,
         LIGHTER * greatest / model.inertia,
@@ -85,15 +88,27 @@ def _greatest_effort(model: ControlModel, sharing: Sharing, s: float) -> float:
     return total
 
 
+def fault_of_pressure(gauge: float, ambient: float, highest: float) -> str:
+    """Return why a gauge pressure in Pa measured in a muscle is not plausible, '' where it is.
+
+    No chamber holds less than a vacuum, *ambient* Pa below the pressure around it, nor much more
+    than the *highest* gauge pressure that the muscle permits.
+    """
+    most = OVERPRESSURE * highest
+    if -ambient <= gauge <= most:
+        return ''
+    return f'{gauge + ambient:.6g} Pa, where 0 to {most + ambient:.6g} Pa absolute can be'
+
+
 class Plausibility:
     """Tells measurements that can be true from those that cannot, one after the other.
 
-    The first one after :meth:`forget` is only held against the travel. Where the second one does
-    not fit it, nobody can say which of them is false: the second one is taken for the first then,
-    and :attr:`is_first` is true again, for whoever uses it to begin anew.
+    The position of the first one after :meth:`forget` is only held against the travel. Where the
+    second one does not fit it, nobody can say which of them is false: the second one is taken for
+    the first then, and :attr:`is_first` is true again, for whoever uses it to begin anew.
     """
 
-    def __init__(self, bounds: Bounds) -> None:
+    def __init__(self, bounds: MotionBounds) -> None:
         """Make it for a joint of these bounds."""
         self.bounds = bounds
         self.forget()
@@ -120,13 +135,18 @@ class Plausibility:
                 f'position {position:.4g} {unit}, which is beyond the travel of the joint, '
                 f'{bounds.low:.4g} to {bounds.high:.4g} {unit}'
             )
+        passed, a = max(passed, SHORTEST), bounds.acceleration
+        fastest = self._speed + a * (passed + JITTER)
+        if velocity is not None and not abs(velocity) <= fastest:
+            return (
+                f'velocity {velocity:.4g} {unit}/s, where the joint can have reached '
+                f'{fastest:.3g} {unit}/s'
+            )
         if self._last is None:
             self._begin(position)
             return ''
-        passed = max(passed, SHORTEST)
         speed = self._speed * exp(-passed / LATELY)
         moved = abs(position - self._last)
-        a = bounds.acceleration
         most = speed * (passed + JITTER) + 0.5 * a * passed * passed + bounds.allowance
         if moved > most:
             if not self._is_confirmed:
@@ -135,12 +155,6 @@ class Plausibility:
             return (
                 f'position {position:.4g} {unit}, which is {moved:.3g} {unit} from the one '
                 f'{passed:.3g} s before, where the joint can have moved {most:.3g} {unit}'
-            )
-        fastest = self._speed + a * (passed + JITTER)
-        if velocity is not None and not abs(velocity) <= fastest:
-            return (
-                f'velocity {velocity:.4g} {unit}/s, where the joint can have reached '
-                f'{fastest:.3g} {unit}/s'
             )
         self._last, self._is_confirmed = position, True
         self._speed = max(speed, moved / passed)

@@ -14,7 +14,7 @@ from pam_ros.effects.names import by_effect
 from pam_ros.errors import RecordingError
 from pam_ros.identification.data.noise import Noise, noise_of
 from pam_ros.identification.data.parts import Part, parts_of
-from pam_ros.identification.data.segment import Segment, segments_of
+from pam_ros.identification.data.segment import Segment, require_one_kind, segments_of
 from pam_ros.identification.fit.solve import Solution
 from pam_ros.identification.result import Finding, Stage, Trace
 from pam_ros.identification.search.criteria import BUDGET, CRITERIA
@@ -59,7 +59,7 @@ def trace(
     if not recordings:
         raise RecordingError('recordings is empty: give at least one Recording')
     tell: Progress = progress or (lambda share, text: None)
-    segments_of([*recordings, *test])
+    require_one_kind([*recordings, *test])
     tests = segments_of(test)
     # With test recordings none of the others has to judge.
     shares = (CRITERIA.fit / CRITERIA.choose, 1.0) if test else (CRITERIA.fit, CRITERIA.choose)

@@ -31,7 +31,6 @@ from pam_ros.settings.sim import SimSettings, Start
 from pam_ros.settings.tables import Table, Values, build, table_of
 
 MEASURED = 'use_measured_velocity'  # a gain that velocity_source stands for
-HIGHEST = 1.25  # times the highest pressure of a muscle that its chamber may hold
 NAMES = ('muscles', 'joint_names', 'muscle_topics')  # which pam_sim has, too
 
 
@@ -231,16 +230,6 @@ class ControlSetup:
     def pressure_topics(self) -> tuple[str, ...]:
         """Topics of the measured pressures: one for the array, or one for each muscle."""
         return self._topics('pressure', 'pressures')
-
-    def fault_of_pressure(self, muscle: int, absolute: float) -> str:
-        """Return why an absolute pressure in Pa measured in a muscle cannot be true, '' if it can.
-
-        No chamber holds less than a vacuum, nor much more than the muscle permits.
-        """
-        most = self.settings.ambient_pressure + HIGHEST * self.joint.muscles[muscle].p_max
-        if 0.0 <= absolute <= most:
-            return ''
-        return f'{absolute:.6g} Pa, where 0 to {most:.6g} Pa absolute can be'
 
     def _topics(self, one: str, array: str) -> tuple[str, ...]:
         if self.has_arrays:

@@ -5,13 +5,13 @@
 import pytest
 
 from pam_ros.control.loop import BLIND, DISABLED, RUNNING, VENT, WAITING, Loop, Reading
-from pam_ros.control.plausibility import Bounds, Plausibility
+from pam_ros.control.plausibility import MotionBounds, Plausibility
 from pam_ros.control.reference.course import Course
 from pam_ros.control.reference.shaping import Shape
 from pam_ros.control.signals import Terms
 
 PERIOD = 0.002
-BOUNDS = Bounds(-0.1, 0.2, 50.0, 1e-3, 'm')
+BOUNDS = MotionBounds(-0.1, 0.2, 50.0, 1e-3, 'm')
 
 
 def first(count):

@@ -11,7 +11,7 @@ from pam_ros.control.limits import Limits
 from pam_ros.control.loop import BLIND, RUNNING, Loop, Reading
 from pam_ros.control.model import ControlModel
 from pam_ros.control.pid import Pid
-from pam_ros.control.plausibility import Bounds, Plausibility, bounds_of
+from pam_ros.control.plausibility import MotionBounds, Plausibility, bounds_of, fault_of_pressure
 from pam_ros.control.reference.course import Course
 from pam_ros.control.reference.shaping import Shape
 from pam_ros.control.sharing import sharing_of
@@ -27,7 +27,7 @@ from truth import Sensor, TruthPlant
 from truth.effects import effect
 
 DT = 2e-3
-METRES = Bounds(-0.05, 0.15, 100.0, 1e-3, 'm')
+METRES = MotionBounds(-0.05, 0.15, 100.0, 1e-3, 'm')
 JOINT = closed_loop.declared()
 
 
@@ -125,6 +125,31 @@ def test_a_measured_velocity_is_held_against_what_can_have_been_reached():
     )
     assert 'velocity nan' in gate.fault_of(0.002, 0.05, math.nan)
     assert gate.fault_of(0.002, 0.05, -1.1) == ''
+
+
+def test_the_velocity_of_the_first_measurement_counts_too():
+    gate = Plausibility(METRES)
+    assert gate.fault_of(0.0, 0.05, 1e300)
+    assert gate.is_first
+    assert gate.fault_of(0.0, 0.05, 1.0) == ''
+
+
+@pytest.mark.parametrize(
+    ('gauge', 'is_true'),
+    [
+        (-100e3, True),
+        (0.0, True),
+        (750e3, True),
+        (-101e3, False),
+        (751e3, False),
+        (math.nan, False),
+    ],
+)
+def test_no_chamber_holds_less_than_a_vacuum_or_much_more_than_is_permitted(gauge, is_true):
+    fault = fault_of_pressure(gauge, 100e3, 600e3)
+    assert (fault == '') == is_true
+    if not is_true:
+        assert fault.endswith(' Pa, where 0 to 850000 Pa absolute can be')
 
 
 # Real motions ------------------------------------------------------------------------------------

@@ -79,7 +79,7 @@ def test_refuses_an_unknown_name(run):
 
 
 def test_options_go_to_the_one_benchmark_that_is_named(run):
-    said = dict.fromkeys(('a', 'b'), 'import sys\n\ndef main():\n    print(sys.argv[2:])\n')
+    said = dict.fromkeys(('a', 'b'), 'import sys\n\ndef main():\n    print(sys.argv[1:])\n')
     done = run(said, 'b', '--draws', 'wide')
     assert done.returncode == 0
     assert done.stdout.split('\n')[:2] == ['== b', "['--draws', 'wide']"]

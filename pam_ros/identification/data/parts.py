@@ -14,7 +14,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from pam_ros.identification.data.segment import HeldSegment, Segment, segments_of
+from pam_ros.identification.data.segment import (
+    HeldSegment,
+    Segment,
+    require_one_kind,
+    segments_of,
+)
 from pam_ros.recording.recording import Recording
 
 Array = NDArray[np.float64]
@@ -86,7 +91,7 @@ def parts_of(recordings: Sequence[Recording], fit: float, choose: float) -> list
     *fit* is the share of each recording's time that is fitted, *choose* the share that is fitted
     or decides. Raises RecordingError when kinds are mixed.
     """
-    segments_of(recordings)
+    require_one_kind(recordings)
     found = []
     for recording in recordings:
         segments = segments_of([recording])

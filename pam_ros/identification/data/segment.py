@@ -80,15 +80,20 @@ class HeldSegment(Segment):
         return float(self.pressure[0])
 
 
-def segments_of(recordings: Sequence[Recording]) -> list[Segment]:
-    """Return the gapless stretches of *recordings*, ready to be simulated, with all samples fit.
-
-    Raises RecordingError when kinds are mixed, since one error cannot be in m and in N.
-    """
+def require_one_kind(recordings: Sequence[Recording]) -> None:
+    """Raise RecordingError when kinds are mixed, since one error cannot be in m and in N."""
     kinds = {r.kind for r in recordings}
     if len(kinds) > 1:
         names = ', '.join(f'{r.name} is {r.kind}' for r in recordings)
         raise RecordingError(f'recordings of one kind are needed: {names}')
+
+
+def segments_of(recordings: Sequence[Recording]) -> list[Segment]:
+    """Return the gapless stretches of *recordings*, ready to be simulated, with all samples fit.
+
+    Raises RecordingError for recordings of several kinds, and where what is needed is missing.
+    """
+    require_one_kind(recordings)
     return [
         _segment(part)
         for recording in recordings

@@ -13,7 +13,7 @@ from pam_ros.identification.fit.problem import Problem
 from pam_ros.identification.fit.solve import Solution, begun, least_squares
 from pam_ros.identification.fit.unknowns import memory_unknowns
 from pam_ros.identification.search.search import Search
-from pam_ros.identification.search.setting import Model, Setting, carried
+from pam_ros.identification.search.setting import Model, Setting, carried, rms
 from pam_ros.identification.search.starts import without_idle
 
 Array = NDArray[np.float64]
@@ -116,8 +116,3 @@ def errors_of(runs: Sequence[Array], parts: Sequence[Part]) -> tuple[float, floa
     judge = np.concatenate([part.judge for part in parts])
     e = np.concatenate(left)
     return rms(e[~judge]), rms(e[judge])
-
-
-def rms(e: Array) -> float:
-    """Return the root of the mean square of e (n,), NaN where there is none."""
-    return float(np.sqrt(np.mean(e**2))) if e.size else float('nan')

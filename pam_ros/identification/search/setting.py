@@ -206,4 +206,9 @@ def _rms_of(parts: Sequence[Part], runs: Sequence[Array]) -> tuple[float, float]
     left = [run - part.segment.target for part, run in zip(parts, runs, strict=True)]
     fit = np.concatenate([e[part.fit] for part, e in zip(parts, left, strict=True)])
     choose = np.concatenate([e[part.choose] for part, e in zip(parts, left, strict=True)])
-    return float(np.sqrt(np.mean(fit**2))), float(np.sqrt(np.mean(choose**2)))
+    return rms(fit), rms(choose)
+
+
+def rms(e: Array) -> float:
+    """Return the root of the mean square of e (n,), NaN where there is none."""
+    return float(np.sqrt(np.mean(e**2))) if e.size else float('nan')

@@ -13,9 +13,9 @@ from pam_ros.identification.fit.intervals import covariance
 from pam_ros.identification.fit.solve import Solution
 from pam_ros.identification.fit.unknowns import OF_RUNS, Unknown
 from pam_ros.identification.result import Estimate, Stage
-from pam_ros.identification.search.final import Final, errors_of, rms, simulated
+from pam_ros.identification.search.final import Final, errors_of, simulated
 from pam_ros.identification.search.search import Search
-from pam_ros.identification.search.setting import carried
+from pam_ros.identification.search.setting import carried, rms
 from pam_ros.identification.source_units import in_source_units, with_row
 from pam_ros.rig.joint import Joint
 
@@ -43,14 +43,14 @@ def stages(ends: Final, found: Search, test: Sequence[Segment]) -> tuple[Stage, 
         name: str, fit: Solution, parameters: dict[str, Estimate], added: Sequence[str]
     ) -> Stage:
         runs = simulated(fit, ends.parts, found.setting)
-        error, kept_back = errors_of(runs, ends.parts)
+        error, held = errors_of(runs, ends.parts)
         tested = carried(fit, test, without=OF_RUNS) if test else []
         if tested:
             off = [run - s.target for run, s in zip(tested, test, strict=True)]
-            kept_back = rms(np.concatenate(off))
+            held = rms(np.concatenate(off))
         row, segments = fit.problem.row_at(fit.u), fit.problem.segments
         model = with_row(joint, row, segments, added)
-        return Stage(name, model, parameters, error, kept_back, tuple(runs), tuple(tested))
+        return Stage(name, model, parameters, error, held, tuple(runs), tuple(tested))
 
     return (
         stage('declared', ends.declared, declared, ()),

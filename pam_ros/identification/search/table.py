@@ -84,8 +84,11 @@ def _why_not(model: Model, parent: Model, tried: list[Model], found: Search) -> 
         way = 'lowers' if fall >= 0.0 else 'raises'
         return f'{way} the score by {abs(fall):.1f}; a fall of {margin:g} is asked for'
     if not no_worse(model, parent, found.setting):
-        rise = 100.0 * (model.errors.carried / parent.errors.carried - 1.0)
-        return f'the free run over samples that were not fitted is {rise:.0f} % worse'
+        a, b = parent.errors, model.errors
+        return (
+            'the free run over samples that were not fitted is '
+            f'{_changed(b.carried / a.carried)}, over those that were {_changed(b.fit / a.fit)}'
+        )
     if not matters(model, parent, found.retuned, found.setting):
         return 'explains too little of what re-tuning left'
     winner = min(tried, key=lambda one: one.score)
@@ -93,6 +96,12 @@ def _why_not(model: Model, parent: Model, tried: list[Model], found: Search) -> 
         more = model.score - winner.score
         return f'{winner.effects[-1]} lowers the score by {more:.0f} more'
     return 'not needed beside what was found later'
+
+
+def _changed(ratio: float) -> str:
+    """Return in words how an error has changed."""
+    percent = f'{100.0 * abs(ratio - 1.0):.0f} %'
+    return f'{percent} worse' if ratio > 1.0 else f'{percent} better'
 
 
 def reason_for(found: Search, name: str) -> str:

@@ -14,6 +14,7 @@ from sensor_msgs.msg import FluidPressure
 from std_msgs.msg import Float64MultiArray
 
 from pam_ros.control.loop import BLIND, WAITING, Loop
+from pam_ros.control.plausibility import fault_of_pressure
 from pam_ros.nodes.common.stamps import stamp_of
 from pam_ros.settings.control import ControlSetup
 from pam_ros.timing.pace import SECOND
@@ -77,18 +78,24 @@ class ChamberInput:
             self._waited = 0
             return
         now = monotonic_ns()
-        fresh = []
-        for muscle, one in enumerate(self._found):
-            if one and (abs(stamp - one[0]) if stamp and one[0] else now - one[1]) <= FRESH:
-                fault = setup.fault_of_pressure(muscle, one[2])
-                if fault:
-                    self._found[muscle] = None
-                    topic = setup.pressure_topics[-1 if setup.has_arrays else muscle]
-                    self._on_fault(f'{topic} has {fault}: not used')
-                else:
-                    fresh.append(one[2] - setup.settings.ambient_pressure)
+        self._leave_out_faults(setup)
+        fresh = [
+            one[2] - setup.settings.ambient_pressure
+            for one in self._found
+            if one and (abs(stamp - one[0]) if stamp and one[0] else now - one[1]) <= FRESH
+        ]
         loop.chambers = setup.command_at(fresh) if len(fresh) == len(self._found) else None
         self._waited += min(now - self._looked, LONGEST)
         self._looked = now
         is_early = self._waited < setup.settings.pressure_wait * SECOND
         loop.awaits_chamber = loop.state == WAITING and is_early
+
+    def _leave_out_faults(self, setup: ControlSetup) -> None:
+        ambient = setup.settings.ambient_pressure
+        for muscle, one in enumerate(self._found):
+            highest = setup.joint.muscles[muscle].p_max
+            fault = fault_of_pressure(one[2] - ambient, ambient, highest) if one else ''
+            if fault:
+                self._found[muscle] = None
+                topic = setup.pressure_topics[-1 if setup.has_arrays else muscle]
+                self._on_fault(f'{topic} has {fault}: not used')

@@ -302,13 +302,13 @@ class PamControl(TickingNode):
     def _control(self) -> Health:
         age = None if self._stamp is None else (monotonic_ns() - self._seen) / SECOND
         received = Received(
-            age,
-            self._blindness,
-            self._refused,
-            self._refusal,
-            self._is_refusal_new,
-            self._implausibility,
-            self._is_implausibility_new,
+            age=age,
+            blindness=self._blindness,
+            refused=self._refused,
+            refusal=self._refusal,
+            is_refusal_new=self._is_refusal_new,
+            implausibility=self._implausibility,
+            is_implausibility_new=self._is_implausibility_new,
         )
         self._is_refusal_new = self._is_implausibility_new = False
         return control_health.control(self._loop, self._setup, received, self._fault)

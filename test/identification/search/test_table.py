@@ -97,3 +97,10 @@ def test_a_move_that_makes_the_free_run_worse_says_so(search):
     row = next(r for r in candidates(found) if r.effect == 'dead_time')
     assert row.decision == 'rejected'
     assert 'the free run over samples that were not fitted is' in row.reason
+    model = next(m for m in search.looked_at if m.effects == ('dead_time',))
+    for now, before in (
+        (model.errors.carried, search.retuned.errors.carried),
+        (model.errors.fit, search.retuned.errors.fit),
+    ):
+        change = 100.0 * (now / before - 1.0)
+        assert f'{abs(change):.0f} % {"worse" if change > 0.0 else "better"}' in row.reason
