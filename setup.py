@@ -55,7 +55,14 @@ setup(
     extras_require={
         'fast': ['numba'],
         'baseline': ['simple-pid'],
-        'test': ['pytest', 'pytest-xdist', 'hypothesis', 'jsonschema', 'urdf-parser-py'],
+        'test': [
+            'pytest',
+            'pytest-xdist',
+            'hypothesis',
+            'jsonschema',
+            'sybil>=9',
+            'urdf-parser-py',
+        ],
     },
     zip_safe=False,
     entry_points={

@@ -1,65 +1,73 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The Python that the pages show, each page in its order: it runs and prints what it says.
+"""What the pages show as code: of a known kind, from the public names; examples are held to it.
 
-``print(...)  # text`` says that this text is printed. Run elsewhere are the controller of the
-README (``test/nodes/test_readme.py``), the two files of docs/effects.md
-(``test/effects/test_guide.py``), and what reads a report (``test/report/test_numbers.py``).
+The examples themselves are tests of their pages, see ``conftest.py`` at the top.
 """
 
 import re
 
 import pytest
 
-from support import bags
-from support.pages import PAGES, blocks
+from support.pages import PAGES, blocks, fences
 
-ELSEWHERE = ('effects.md', 'report.md')
-SAYS = re.compile(r'^ *print\(.*\)  # (.*)$', re.MULTILINE)
-
-
-def examples(page):
-    """Return the blocks of Python of a page that are run here."""
-    if page.name in ELSEWHERE:
-        return []
-    return [block for block in blocks(page, 'python') if 'import rclpy' not in block]
+KINDS = {'bash', 'console', 'python', 'text', 'xml', 'yaml'}
+each_page = pytest.mark.parametrize('page', PAGES, ids=lambda page: page.name)
 
 
-SHOWING = [page for page in PAGES if examples(page)]
+@each_page
+def test_blocks_are_of_a_known_kind_and_end(page):
+    opened = fences(page)[::2]
+    closed = fences(page)[1::2]
+    assert set(opened) <= KINDS
+    assert closed == [''] * len(opened)
 
 
-@pytest.fixture
-def monday(tmp_path, monkeypatch):
-    """Work where there is the recording that docs/recordings.md reads."""
-    topics, _ = bags.rig_topics(duration=12.0)
-    topics['/cell'] = topics.pop('/force')
-    bags.write_bag(tmp_path / 'monday', topics)
-    monkeypatch.chdir(tmp_path)
-    return tmp_path
-
-
-def test_pages_with_examples_are_known():
-    names = [page.name for page in SHOWING]
-    assert names == ['README.md', 'joints.md', 'model.md', 'python.md', 'recordings.md']
-
-
-@pytest.mark.slow
-@pytest.mark.needs_numba
-@pytest.mark.parametrize('page', SHOWING, ids=lambda page: page.name)
-def test_examples_run_and_print_what_they_say(page, monday, capsys):
-    names = {'__name__': 'page'}
-    for example in examples(page):
-        exec(compile(example, str(page), 'exec'), names)
-        printed = iter(capsys.readouterr().out.splitlines())
-        for text in SAYS.findall(example):
-            assert text in printed, text  # and what comes before it is passed over
-    if page.name == 'recordings.md':
-        assert names['recording'].force is not None
-        assert (monday / 'monday.csv').stat().st_size > 0
-
-
-@pytest.mark.parametrize('page', SHOWING, ids=lambda page: page.name)
+@each_page
 def test_examples_import_from_the_public_face_alone(page):
-    for example in examples(page):
+    if page.name == 'effects.md':
+        return  # an effect is written within the package
+    for example in blocks(page, 'python'):
         for module in re.findall(r'^from (pam_ros\S*) import', example, re.MULTILINE):
             assert module == 'pam_ros'
+
+
+def evaluated(source, tmp_path):
+    """Return what is wrong with a page of one example, as its evaluation says it."""
+    sybil = pytest.importorskip('sybil')
+    from sybil.parsers.markdown import CodeBlockParser
+
+    from support.examples import evaluate
+
+    page = tmp_path / 'page.md'
+    page.write_text(f'# A page\n\n```python\n{source}\n```\n', encoding='utf-8')
+    document = sybil.Document.parse(str(page), CodeBlockParser('python', evaluate))
+    (example,) = document.examples()
+    example.evaluate()
+
+
+@pytest.mark.parametrize(
+    'source',
+    [
+        'print(1 + 1)  # 2',
+        'x = 3  # nothing is said\nprint("first")\nprint(\n    x\n)  # 3',
+        'print("a")  # a\nprint("b")  # b',
+    ],
+)
+def test_an_example_that_prints_what_it_says_passes(source, tmp_path):
+    evaluated(source, tmp_path)
+
+
+@pytest.mark.parametrize(
+    ('source', 'said'),
+    [
+        ('print(1 + 1)  # 3', "'3' is not printed"),
+        ('print(\n    1\n)  # 3', "'3' is not printed"),
+        ('print("b")  # b\nprint("a")  # b', "'b' is not printed"),
+        ('for x in []:\n    print(x)', 'nothing is printed'),
+        ('print(nosuch)', 'nosuch'),
+    ],
+)
+def test_an_example_that_does_not_fails(source, said, tmp_path):
+    with pytest.raises(Exception, match=said):
+        evaluated(source, tmp_path)

@@ -3,26 +3,17 @@
 """The guide in docs/effects.md: its example works, and its tables are those of the library."""
 
 import importlib
-import re
 import runpy
-from pathlib import Path
 
 import pytest
 
 import pam_ros
 from pam_ros.effects import EFFECTS
 from pam_ros.effects.base import Compensation
+from support.pages import ROOT, blocks
 
-ROOT = Path(__file__).parents[2]
 GUIDE = ROOT / 'docs' / 'effects.md'
 TABLES = runpy.run_path(str(ROOT / 'tools' / 'tables.py'))
-
-
-@pytest.fixture
-def blocks():
-    """Return the guide's blocks of Python: the example and its test."""
-    text = GUIDE.read_text(encoding='utf-8')
-    return re.findall(r'^```python\n(.*?)^```', text, re.MULTILINE | re.DOTALL)
 
 
 def test_tables_are_those_of_the_library():
@@ -46,9 +37,10 @@ def test_the_guide_names_every_compensation():
 
 
 @pytest.mark.slow
-def test_example_works_and_passes_its_test(blocks, tmp_path, monkeypatch):
-    (tmp_path / 'choked_valve.py').write_text(blocks[0])
-    (tmp_path / 'test_choked_valve.py').write_text(blocks[1])
+def test_example_works_and_passes_its_test(tmp_path, monkeypatch):
+    example, its_test = blocks(GUIDE, 'python')
+    (tmp_path / 'choked_valve.py').write_text(example)
+    (tmp_path / 'test_choked_valve.py').write_text(its_test)
     monkeypatch.syspath_prepend(tmp_path)
     new = importlib.import_module('choked_valve').EFFECT
     # The one line.

@@ -47,6 +47,8 @@ OF_OTHERS = (
 )
 PROGRAMS = sorted(path.stem for path in (ROOT / 'pam_ros' / 'cli').glob('pam_*.py'))
 FILE = re.compile(r'[\w./*<>-]+\.(css|csv|html|json|md|png|py|rst|toml|txt|xml|yaml)')
+# What docs/effects.md has its reader write.
+OF_AN_EXAMPLE = {'pam_ros/effects/choked_valve.py', 'test/effects/test_choked_valve.py'}
 LARGEST = 300_000  # bytes of a picture
 
 each_page = pytest.mark.parametrize('page', PAGES, ids=lambda page: page.name)
@@ -225,14 +227,18 @@ def test_every_page_is_in_the_index():
 
 @cache
 def sources():
-    files = (path for path in (ROOT / 'pam_ros').rglob('*') if path.suffix in ('.py', '.j2'))
-    return '\n'.join(path.read_text(encoding='utf-8') for path in files)
+    files = (path for f in ('pam_ros', 'benchmarks') for path in (ROOT / f).rglob('*'))
+    texts = (path for path in files if path.suffix in ('.py', '.j2'))
+    return '\n'.join(path.read_text(encoding='utf-8') for path in texts)
 
 
-@pytest.mark.parametrize('name', sorted({n for n in names(README) if FILE.fullmatch(n)}))
-def test_file_of_the_readme_exists_or_is_written(name):
-    # What is not in the repository is left by a program of it, which then names it.
-    assert list(ROOT.glob(name)) or f"'{Path(name).name}'" in sources()
+@each_page
+def test_files_that_a_page_names_exist_or_are_written(page):
+    for name in {name for name in names(page) if FILE.fullmatch(name)} - OF_AN_EXAMPLE:
+        here = list(ROOT.glob(name)) or list(ROOT.glob(f'[!.]*/**/{name}'))
+        # What is not in the repository is left by a program of it, which then names it.
+        told = (f"'{name}'", f"'{Path(name).name}'")
+        assert here or any(one in sources() for one in told), name
 
 
 @pytest.mark.parametrize('picture', sorted((ROOT / 'docs' / 'images').iterdir()), ids=str)

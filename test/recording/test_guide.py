@@ -3,7 +3,6 @@
 """docs/recordings.md: its examples run, and it names every parameter."""
 
 import re
-from pathlib import Path
 
 import pytest
 import yaml
@@ -12,19 +11,17 @@ from pam_ros.excitation.programme import plan, programme
 from pam_ros.excitation.settings import Excitation
 from pam_ros.parameters import described
 from pam_ros.recording.mapping import read_mapping
+from support.pages import ROOT, blocks, text_of
 
-GUIDE = (Path(__file__).parents[2] / 'docs' / 'recordings.md').read_text(encoding='utf-8')
-
-
-def blocks(kind):
-    return re.findall(rf'```{kind}\n(.*?)```', GUIDE, re.DOTALL)
+PAGE = ROOT / 'docs' / 'recordings.md'
+GUIDE = text_of(PAGE)
 
 
 def test_the_rules_can_be_understood(tmp_path):
     rules = re.findall(r"^--column '?([^'\n#]+?)'?\s*(?:#.*)?$", GUIDE, re.MULTILINE)
     assert len(rules) == 5
     assert len(list(read_mapping(rules))) == 5
-    (columns,) = blocks('yaml')
+    (columns,) = blocks(PAGE, 'yaml')
     assert sorted(yaml.safe_load(columns)) == ['columns']
     (tmp_path / 'columns.yaml').write_text(columns)
     assert len(list(read_mapping(file=tmp_path / 'columns.yaml'))) == 2

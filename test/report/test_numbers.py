@@ -11,7 +11,7 @@ import pytest
 
 from pam_ros.identification.result import VERDICTS
 from pam_ros.report.numbers import SCHEMA_VERSION, numbers, to_json
-from support.pages import ROOT, blocks
+from support.pages import ROOT
 
 
 @pytest.fixture(scope='module')
@@ -63,18 +63,6 @@ def test_document_names_every_key_of_the_schema(schema):
     parts = [schema, *schema['$defs'].values()]
     assert {name for part in parts for name in keys(part) if name not in text} == set()
     assert f'`{SCHEMA_VERSION}`' in text
-
-
-def test_the_example_of_the_page_reads_a_report(friction, tmp_path, monkeypatch, capsys):
-    (tmp_path / 'report').mkdir()
-    file = tmp_path / 'report' / 'report.json'
-    file.write_text(json.dumps(report_of(friction)), encoding='utf-8')
-    monkeypatch.chdir(tmp_path)
-    (example,) = blocks(ROOT / 'docs' / 'report.md', 'python')
-    exec(compile(example, 'report.md', 'exec'), {})
-    printed = capsys.readouterr().out
-    assert printed.startswith('coulomb_friction or ')
-    assert '  level = ' in printed
 
 
 def test_numbers_are_those_of_the_trace(friction):

@@ -16,6 +16,11 @@ def text_of(page):
     return page.read_text(encoding='utf-8')
 
 
+def fences(page):
+    """Return what follows each fence of a page: a kind where a block begins, '' at its end."""
+    return re.findall(r'^ *```(.*)$', text_of(page), re.MULTILINE)
+
+
 def blocks(page, kind):
     """Return the contents of a page's code blocks of a kind, such as ``python``."""
     return re.findall(rf'^```{kind}\n(.*?)^```$', text_of(page), re.DOTALL | re.MULTILINE)

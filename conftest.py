@@ -1,0 +1,67 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The examples of the pages are tests: Sybil runs the Python that a page shows, in its order.
+
+What is no example to be run as it stands has a test of its own: the controller of the README,
+which needs a simulator (``test/nodes/test_readme.py``), and the two files that docs/effects.md
+has a user write (``test/effects/test_guide.py``).
+"""
+
+import importlib.util
+
+import pytest
+
+PAGES = ('README.md', 'CONTRIBUTING.md', 'docs/*.md')
+FILES_OF_A_USER = ('docs/effects.md',)
+NEEDS_A_SIMULATOR = 'import rclpy'
+# Not everywhere where ROS is: rosdep has no key for it.
+HAVE_SYBIL = importlib.util.find_spec('sybil') is not None
+
+
+def pytest_report_header():
+    """Say where the examples are not run."""
+    return [] if HAVE_SYBIL else ['without Sybil: the examples of the pages are not run']
+
+
+@pytest.fixture(scope='module')
+def working_folder(tmp_path_factory):
+    """Work in a folder with what the pages read: a bag, and the report of an identification."""
+    from pam_ros.report.write import write_report
+    from support import bags, traces
+
+    folder = tmp_path_factory.mktemp('page')
+    topics, _ = bags.rig_topics(duration=12.0)
+    topics['/cell'] = topics.pop('/force')
+    bags.write_bag(folder / 'monday', topics)
+    write_report(folder / 'report', *traces.friction_trace())
+    with pytest.MonkeyPatch.context() as monkeypatch:
+        monkeypatch.chdir(folder)
+        yield folder
+
+
+if HAVE_SYBIL:
+    from sybil import Sybil
+    from sybil.integration.pytest import SybilItem
+    from sybil.parsers.markdown import CodeBlockParser
+
+    from support.examples import evaluate
+
+    def examples(document):
+        """Yield the examples of a page that are run as they stand."""
+        for region in CodeBlockParser('python', evaluate)(document):
+            if NEEDS_A_SIMULATOR not in region.parsed:
+                yield region
+
+    pytest_collect_file = Sybil(
+        [examples],
+        patterns=PAGES,
+        excludes=FILES_OF_A_USER,
+        setup=lambda names: names.update(__name__='page'),
+        fixtures=['working_folder'],
+    ).pytest()
+
+    def pytest_itemcollected(item):
+        """Give examples the marks of tests that simulate for seconds."""
+        if isinstance(item, SybilItem):
+            item.add_marker(pytest.mark.slow)
+            item.add_marker(pytest.mark.needs_numba)
