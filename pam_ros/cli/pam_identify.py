@@ -129,9 +129,10 @@ def identify(given: argparse.Namespace, command: str) -> str:
     model, _ = load_rig(given.params, given.set)
     mapping = read_mapping(given.column, given.mapping)
     muscle = model.muscle
+    l0 = None if model.is_driven else muscle.l0  # a drive has no length to be within
     recordings, test = (
         [
-            read_recording(path, mapping, given.kind, muscle.l0, muscle.p_max, given.namespace)
+            read_recording(path, mapping, given.kind, l0, muscle.p_max, given.namespace)
             for path in paths
         ]
         for paths in (given.recordings, given.test)

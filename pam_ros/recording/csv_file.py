@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """CSV files whose column names carry the unit: read into series, and written."""
 
+import codecs
 import csv
 import io
 from collections.abc import Sequence
@@ -21,6 +22,8 @@ Array = NDArray[np.float64]
 
 _COMMENTS = ('#', '%', '//')
 _EMPTY = frozenset(('', 'nan', 'na', 'n/a', 'null', 'none'))
+_UTF_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
+_SWAPPED_BREAK = '\u0a00'  # a line break whose two bytes are swapped; no character otherwise
 _DENSE = 0.5  # share of filled cells from which a command column is meant to have no holes
 
 
@@ -124,19 +127,25 @@ def _read_table(path: Path) -> _Table:
         data = path.read_bytes()
     except OSError as error:
         raise RecordingError(f'{path} cannot be read: {error.strerror}') from error
-    if b'\0' in data[:4096] and not data.startswith((b'\xff\xfe', b'\xfe\xff')):
-        raise RecordingError(f'{path.name} is not a text file: give a CSV file or a rosbag2')
+    text = _decode(path, data)
+    notes = []
     content = [
         (number, line)
-        for number, line in enumerate(_decode(data).splitlines(), 1)
+        for number, line in enumerate(text.splitlines(keepends=True), 1)
         if line.strip() and not line.lstrip().startswith(_COMMENTS)
     ]
     if not content:
         raise RecordingError(f'{path.name} is empty')
+    last, end = content[-1]
+    if len(content) > 1 and end == _unbroken(end):
+        # What was cut off a number cannot be seen in what is left of it: 13.4 may have been 13.46.
+        notes.append(
+            f'the last line ({last}) does not end with a line break: its last number may be cut '
+            'off, and the line is left out'
+        )
+        content.pop()
     separator = max(';\t,', key=lambda mark: (content[0][1].count(mark), mark != ','))
-    reader = csv.reader((line for _, line in content), delimiter=separator, skipinitialspace=True)
-    rows = [[cell.strip() for cell in row] for row in reader]
-    header, rows = rows[0], rows[1:]
+    header, *rows = (_cells(path, number, line, separator) for number, line in content)
     lines = [number for number, _ in content[1:]]
     if len(header) > 1 and header[-1] == '':
         header = header[:-1]  # a separator at the end of each line
@@ -149,7 +158,6 @@ def _read_table(path: Path) -> _Table:
     double = sorted({name for name in header if header.count(name) > 1})
     if double:
         raise RecordingError(f'{path.name} has several columns called {double[0]!r}')
-    notes = []
     if rows and len(rows[-1]) < len(header):
         notes.append(f'the last line ({lines[-1]}) is cut off and left out')
         rows, lines = rows[:-1], lines[:-1]
@@ -161,13 +169,44 @@ def _read_table(path: Path) -> _Table:
     return _Table(header, rows, lines, separator != ',', notes)
 
 
-def _decode(data: bytes) -> str:
-    if data.startswith((b'\xff\xfe', b'\xfe\xff')):
-        return data.decode('utf-16')
+def _unbroken(line: str) -> str:
+    """Return *line* without the line break at its end."""
+    return line.splitlines()[0]
+
+
+def _cells(path: Path, number: int, line: str, separator: str) -> list[str]:
+    """Return the cells of one line, which is one row: no cell may hold a line break."""
+    line = _unbroken(line)
     try:
-        return data.decode('utf-8-sig')
-    except UnicodeDecodeError:
-        return data.decode('latin-1')
+        (cells,) = csv.reader([line], delimiter=separator, skipinitialspace=True, strict=True)
+    except csv.Error:
+        longest = csv.field_size_limit()
+        what = 'a quotation mark is not closed, or stands within a cell'
+        if len(line) > longest:
+            what = f'a cell is longer than {longest} characters, or {what}'
+        raise RecordingError(f'{path.name}, line {number}: {what}') from None
+    return [cell.strip() for cell in cells]
+
+
+def _decode(path: Path, data: bytes) -> str:
+    """Return the text of a file; RecordingError where it is none."""
+    try:
+        text = data.decode('utf-16' if data.startswith(_UTF_16) else 'utf-8-sig')
+    except UnicodeDecodeError as error:
+        if error.encoding == 'utf-8':
+            text = data.decode('latin-1')
+        else:
+            raise RecordingError(
+                f'{path.name} begins with the byte order mark of UTF-16, but is not UTF-16 '
+                f'({error.reason} at byte {error.start} of {len(data)}): save it as UTF-8'
+            ) from None
+    if '\0' in text:
+        raise RecordingError(f'{path.name} is not a text file: give a CSV file or a rosbag2')
+    if _SWAPPED_BREAK in text:
+        raise RecordingError(
+            f'{path.name} begins with the byte order mark of the other UTF-16: save it as UTF-8'
+        )
+    return text
 
 
 def _choose(

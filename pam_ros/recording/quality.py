@@ -13,7 +13,10 @@ from pam_ros.recording.recording import OUTPUTS, Recording
 Array = NDArray[np.float64]
 
 FEWEST = 100  # samples
-PERIODS = (1e-6, 2.0)  # s between samples: outside, the unit of time must be wrong
+# s between samples: outside, the unit of time must be wrong. Milliseconds at 1 kHz that are taken
+# for seconds are 1 s apart, seconds at 100 Hz that are taken for milliseconds 10 us.
+PERIODS = (5e-5, 0.25)
+CONTRACTIONS = (-0.2, 1.0)  # of a muscle of length l0: outside, zero or direction must be wrong
 TOO_LOW = 1e-3  # an input that stays below this share of p_max is in another unit
 SHORT = 10.0  # s
 RESTING = 0.02  # share of samples at an extreme value from which it may be a stop
@@ -31,6 +34,7 @@ def check(
     """
     _refuse_few(recording)
     _refuse_units(recording, p_max)
+    _refuse_position(recording, l0)
     _refuse_constant(recording)
     return (
         *_warn_gaps(recording),
@@ -84,6 +88,23 @@ def _refuse_units(recording: Recording, p_max: float | None) -> None:
         raise RecordingError(
             f'{recording.name}: {name} stays below {highest:.4g} Pa, the muscle takes up to '
             f'{p_max:g} Pa: is it in another unit ({name}_bar, {name}_kPa)?'
+        )
+
+
+def _refuse_position(recording: Recording, l0: float | None) -> None:
+    """Refuse a position that a muscle of length *l0* cannot have: the model has no force there."""
+    if l0 is None or recording.position is None:
+        return
+    low, high = CONTRACTIONS[0] * l0, CONTRACTIONS[1] * l0
+    outside = np.flatnonzero((recording.position < low) | (recording.position > high))
+    if outside.size:
+        i = int(outside[0])
+        value, at = recording.position[i], recording.t[i]
+        raise RecordingError(
+            f'{recording.name}: position = {value:.6g} m at {at:.6g} s is not a '
+            f'contraction of a muscle of l0 = {l0:g} m: positions are {low:g} to '
+            f"{high:g} m, 0 at length l0 and positive where it is shorter: --column 'NAME="
+            "position_mm*-1+120' turns and moves them"
         )
 
 

@@ -30,8 +30,9 @@ def read_recording(
 
     ``mapping`` says what columns or topics with other names are, ``kind`` whether the load was
     ``free`` or the length ``held`` (found from the data where None). ``l0`` in m turns a
-    contraction into a position; ``p_max`` in gauge Pa is the muscle's highest pressure, against
-    which the unit of the input is judged. ``namespace`` chooses a rig in a bag of several.
+    contraction into a position, and a position must be a contraction of it; ``p_max`` in gauge Pa
+    is the muscle's highest pressure, against which the unit of the input is judged.
+    ``namespace`` chooses a rig in a bag of several.
 
     Raises RecordingError, with the sentence for the user, for what cannot be used, and
     ParameterError for arguments of another kind.
@@ -44,6 +45,9 @@ def read_recording(
             number(name, value)
     if not path.exists():
         raise RecordingError(f'recording {path} does not exist')
+    if not (path.is_dir() or path.is_file()):
+        # A device or a pipe may have no end, and is read twice: for its data and for its digest.
+        raise RecordingError(f'recording {path} is neither a file nor a folder')
     if path.is_dir() or path.suffix in BAG_SUFFIXES:
         files = bag_files(path)
         series, notes = read_bag(path, mapping, namespace)

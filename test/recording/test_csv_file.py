@@ -87,7 +87,7 @@ def test_columns_may_have_rates_of_their_own(tmp_path):
         pressure = f'{k / 10}' if k % 10 == 0 else ''
         command = f'{k}' if k % 150 == 0 else ''
         rows.append(f'{k / 1000},{command},{k / 1e5},{pressure}')
-    series, notes = read(tmp_path, '\n'.join(rows))
+    series, notes = read(tmp_path, '\n'.join(rows) + '\n')
     assert notes == []
     assert series['position'].t.size == 400
     np.testing.assert_allclose(series['pressure'].t, np.arange(40) / 100)
@@ -128,6 +128,14 @@ def test_a_stretch_of_missing_commands_in_a_full_column_is_refused(tmp_path):
         (PLAIN.replace('position_mm', 'time [ms]'), ["'t_s'", "'time [ms]'", 'time']),
         (PLAIN.replace('position_mm', 't_s'), ["several columns called 't_s'"]),
         (b'\x89PNG\r\n\x00\x00\x01', ['not a text file']),
+        (PLAIN.replace('0.01', '"0.01'), ['line 3', 'quotation mark is not closed']),
+        (PLAIN.replace('0.01', '"0.01\n"'), ['line 3', 'quotation mark is not closed']),
+        (PLAIN.replace('t_s', '"t_s'), ['line 1', 'quotation mark is not closed']),
+        (PLAIN.encode('utf-16') + b'0', ['not UTF-16', 'truncated data']),
+        (codecs.BOM_UTF16_LE + b'\0\xd8' * 9, ['not UTF-16', 'surrogate']),
+        (codecs.BOM_UTF16_BE + PLAIN.encode('utf-16-le'), ['the other UTF-16']),
+        (codecs.BOM_UTF16_LE + PLAIN.encode('utf-16-be'), ['the other UTF-16']),
+        (PLAIN.encode('utf-32'), ['not a text file']),
     ],
 )
 def test_what_is_refused(tmp_path, content, words):
@@ -138,10 +146,22 @@ def test_what_is_refused(tmp_path, content, words):
         assert word in str(caught.value)
 
 
-def test_a_last_line_that_is_cut_off_is_left_out(tmp_path):
-    series, notes = read(tmp_path, PLAIN + '0.03,2')
+def test_a_last_line_with_too_few_cells_is_left_out(tmp_path):
+    series, notes = read(tmp_path, PLAIN + '0.03,2\n')
     check_plain(series)
     assert notes == ['the last line (5) is cut off and left out']
+
+
+@pytest.mark.parametrize('last', ['0.03,2', '0.03,200,', '0.03,200,-', '0.03,200,4.', '0.0', '"0'])
+def test_a_last_line_without_a_line_break_is_left_out(tmp_path, last):
+    series, (note,) = read(tmp_path, PLAIN + last)
+    check_plain(series)
+    assert note.startswith('the last line (5) does not end with a line break')
+
+
+def test_a_cell_that_is_too_long(tmp_path):
+    with pytest.raises(RecordingError, match=r'line 3: a cell is longer than 131072'):
+        read(tmp_path, PLAIN.replace('0.01', '1' * 140_000))
 
 
 def test_a_mapped_column_that_is_not_there(tmp_path):

@@ -59,6 +59,8 @@ def constant(value):
         (recording().part(0, 80), None, ['80 usable samples', '100']),
         (recording(t=T * 1e3), None, ['5 s apart', 't_ms']),
         (recording(t=T * 1e-6), None, ['5e-09 s apart']),
+        (recording(t=np.arange(T.size) * 1.0), None, ['1 s apart', '5e-05 to 0.25 s', 't_ms']),
+        (recording(t=T * 2e-3), None, ['1e-05 s apart']),
         (recording(position=recording().position * 1e3), None, ['position reaches', '10 m']),
         (
             recording(command=recording().command * 1e3),
@@ -79,6 +81,17 @@ def test_what_is_refused(one, p_max, words):
     assert str(caught.value).startswith('log')
     for word in words:
         assert word in str(caught.value)
+
+
+@pytest.mark.parametrize('position', [-1.0, -0.09, 0.41])
+def test_a_position_that_is_not_one_of_the_muscle(position):
+    one = recording(position=np.append(recording().position[1:], position))
+    words = (
+        rf'position = {position:g} m at 19\.995 s .* l0 = 0\.4 m: positions are -0\.08 to 0\.4 m'
+    )
+    with pytest.raises(RecordingError, match=words):
+        check(one, l0=0.4)
+    check(one)
 
 
 def test_a_moving_length_makes_up_for_a_constant_pressure():

@@ -3,6 +3,7 @@
 """Recordings read whole: measured data, bags, and files that cannot be used."""
 
 import hashlib
+import os
 
 import numpy as np
 import pytest
@@ -133,3 +134,9 @@ def test_values_that_cannot_be_right(tmp_path, row, words):
         read_recording(file)
     for word in words:
         assert word in str(caught.value)
+
+
+def test_a_pipe_is_refused_instead_of_waited_for(tmp_path):
+    os.mkfifo(tmp_path / 'pipe.csv')
+    with pytest.raises(RecordingError, match=r'pipe\.csv is neither a file nor a folder'):
+        read_recording(tmp_path / 'pipe.csv')
