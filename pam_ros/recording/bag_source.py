@@ -15,9 +15,8 @@ from collections.abc import Callable, Collection, Iterator
 from pathlib import Path
 from typing import Any, NamedTuple
 
-import yaml
-
-from pam_ros.errors import RecordingError
+from pam_ros.errors import ParameterError, RecordingError
+from pam_ros.plain_yaml import read_yaml
 
 METADATA = 'metadata.yaml'
 _MAGIC = b'\x89MCAP0\r\n'
@@ -96,10 +95,14 @@ def _metadata(path: Path) -> dict[str, Any]:
     if not file.exists():
         return {}
     try:
-        content = yaml.safe_load(file.read_text(encoding='utf-8'))
-        return dict(content['rosbag2_bagfile_information'])
-    except (OSError, UnicodeDecodeError, yaml.YAMLError, TypeError, KeyError, ValueError) as error:
-        raise RecordingError(f'{file} is no metadata of a rosbag2: {error}') from error
+        content = read_yaml(file)
+    except ParameterError as error:
+        raise RecordingError(str(error)) from error
+    information = 'rosbag2_bagfile_information'
+    found = content.get(information) if isinstance(content, dict) else None
+    if not isinstance(found, dict):
+        raise RecordingError(f'{file} is not the metadata of a rosbag2: {information} is missing')
+    return found
 
 
 def _is_unfinished(file: Path) -> bool:

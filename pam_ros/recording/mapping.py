@@ -14,10 +14,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-import yaml
-
 from pam_ros.arguments import as_path, sequence
-from pam_ros.errors import RecordingError
+from pam_ros.errors import ParameterError, RecordingError
+from pam_ros.plain_yaml import read_yaml
 from pam_ros.recording.quantities import QUANTITIES, Target, target_of
 
 IGNORE = 'ignore'
@@ -118,9 +117,9 @@ def _meaning(source: str, text: str) -> Meaning | None:
 
 def _read_yaml(file: Path) -> dict[str, str]:
     try:
-        content = yaml.safe_load(file.read_text(encoding='utf-8'))
-    except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
-        raise RecordingError(f'column mapping {file} cannot be read: {error}') from error
+        content = read_yaml(file)
+    except ParameterError as error:
+        raise RecordingError(f'column mapping {error}') from error
     columns = content.get('columns') if isinstance(content, dict) else None
     if not isinstance(columns, dict):
         raise RecordingError(

@@ -12,7 +12,6 @@ A file holds a table for each node name, ``/**`` for all of them, with dotted or
 """
 
 import os
-import re
 import tempfile
 from collections.abc import Iterator, Mapping
 from pathlib import Path
@@ -22,21 +21,11 @@ import numpy as np
 import yaml
 
 from pam_ros.errors import ParameterError
+from pam_ros.plain_yaml import read_yaml
 from pam_ros.settings.tables import Table, Value, refuse_mistyped
 
 TABLE = 'ros__parameters'
 PRESETS = ('muscles', 'rigs')
-
-
-class _Loader(yaml.SafeLoader):
-    """YAML as ROS reads it: 6e5 is a number."""
-
-
-_Loader.add_implicit_resolver(
-    'tag:yaml.org,2002:float',
-    re.compile(r'^[-+]?([0-9]+(\.[0-9]*)?|\.[0-9]+)[eE][-+]?[0-9]+$'),
-    list('-+.0123456789'),
-)
 
 
 class _Dumper(yaml.SafeDumper):
@@ -74,8 +63,11 @@ def find(name: str) -> Path:
     the names that there are.
     """
     path = Path(name)
-    if path.is_file():
-        return path
+    try:
+        if path.is_file():
+            return path
+    except OSError as error:  # too long for a path
+        raise ParameterError(f'{name} cannot be read: {error.strerror}') from error
     presets = {
         file.stem: file
         for folder in PRESETS
@@ -95,13 +87,7 @@ def read(path: Path, node: str = 'pam_sim') -> dict[str, Value]:
     Tables of other nodes are passed over. Raises ParameterError where the file cannot be read or
     has nothing for this node.
     """
-    try:
-        content = yaml.load(path.read_text(encoding='utf-8'), _Loader)
-    except (OSError, UnicodeDecodeError) as error:
-        raise ParameterError(f'{path} cannot be read: {error}') from error
-    except yaml.YAMLError as error:
-        raise ParameterError(f'{path} is no YAML: {" ".join(str(error).split())}') from error
-    tables = [table for name, table in _tables(content) if _is_for(name, node)]
+    tables = [table for name, table in _tables(read_yaml(path)) if _is_for(name, node)]
     if not tables:
         raise ParameterError(
             f'{path} has no parameters for {node}: a parameter file has a table {TABLE} below '

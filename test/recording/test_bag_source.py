@@ -130,8 +130,8 @@ def test_a_type_that_the_bag_defines_itself(tmp_path):
     [
         (lambda bag: [f.unlink() for f in bag.iterdir()], ['no rosbag2', '.mcap', '.db3']),
         (lambda bag: (bag / 'bag.mcap').unlink(), ['lists bag.mcap', 'not there']),
-        (lambda bag: (bag / 'metadata.yaml').write_text('{'), ['metadata.yaml', 'no metadata']),
-        (lambda bag: (bag / 'metadata.yaml').write_text('a: 1'), ['no metadata']),
+        (lambda bag: (bag / 'metadata.yaml').write_text('{'), ['metadata.yaml', 'not valid YAML']),
+        (lambda bag: (bag / 'metadata.yaml').write_text('a: 1'), ['not the metadata']),
         (
             lambda bag: (bag / 'metadata.yaml').write_text(
                 (bag / 'metadata.yaml').read_text().replace('version: 9', 'version: 99')

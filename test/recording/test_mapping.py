@@ -88,7 +88,7 @@ def test_a_rule_that_cannot_be_understood(rule, words):
         ('columns: [u]\n', ['columns']),
         ('columns:\n  u: 3\n', ["'u': 3"]),
         ('columns:\n  u: volts\n', ['volts']),
-        ('columns: {\n', ['cannot be read']),
+        ('columns: {\n', ['is not valid YAML', 'line 2']),
     ],
 )
 def test_a_file_that_cannot_be_understood(tmp_path, text, words):

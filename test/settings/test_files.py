@@ -14,7 +14,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from pam_ros.errors import ParameterError
-from pam_ros.settings.files import find, read, share, write
+from pam_ros.settings.files import find, read, read_known, share, write
 
 ROOT = Path(__file__).parents[2]
 MUSCLES = sorted(path.stem for path in (ROOT / 'config' / 'muscles').glob('*.yaml'))
@@ -56,7 +56,7 @@ def test_numbers_are_read_as_ros_reads_them(file):
 @pytest.mark.parametrize(
     ('text', 'sentence'),
     [
-        ('/**: [', 'is no YAML'),
+        ('/**: [', 'is not valid YAML: line 2'),
         ('', 'has no parameters for pam_sim'),
         ('pam_sim: {mass: 20}', 'has no parameters for pam_sim'),
         ('pam_control: {ros__parameters: {mass: 20}}', 'has no parameters for pam_sim'),
@@ -74,6 +74,8 @@ def test_what_is_no_parameter_file_is_refused_by_name(file, text, sentence):
 def test_a_missing_or_unreadable_file_is_refused(tmp_path):
     with pytest.raises(ParameterError, match='cannot be read'):
         read(tmp_path / 'nowhere.yaml')
+    with pytest.raises(ParameterError, match='cannot be read'):
+        read_known('x' * 5000, {})
     (tmp_path / 'binary').write_bytes(b'\xff\xfe\x00')
     with pytest.raises(ParameterError, match='cannot be read'):
         read(tmp_path / 'binary')

@@ -1,0 +1,108 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Read a YAML file that a user gives: plain data alone, within limits of size and nesting.
+
+All YAML files of users are read here. Plain data are mappings, lists, texts, numbers, true, false
+and null. Aliases are refused as ROS refuses them: a short file of them can stand for data without
+end.
+"""
+
+import re
+from pathlib import Path
+from typing import Any
+
+import yaml
+
+from pam_ros.errors import ParameterError
+
+MOST_BYTES = 4_000_000  # the metadata of a bag of ten thousand files have about 3 MB
+DEEPEST = 32  # mappings and lists within each other
+_TAG = 'tag:yaml.org,2002:'
+_KINDS = {'str': 'a text', 'int': 'a whole number', 'float': 'a number', 'bool': 'true or false'}
+_PLAIN_TAGS = {_TAG + kind for kind in (*_KINDS, 'null', 'seq', 'map')}
+_Base: Any = getattr(yaml, 'CSafeLoader', yaml.SafeLoader)  # the fast one where it was built
+
+
+class _Loader(_Base):  # type: ignore[misc]
+    """YAML as ROS reads it: 6e5 is a number, 2026-11-22 a text."""
+
+
+_Loader.yaml_implicit_resolvers = {
+    first: [(tag, pattern) for tag, pattern in resolvers if tag != _TAG + 'timestamp']
+    for first, resolvers in _Base.yaml_implicit_resolvers.items()
+}
+_Loader.add_implicit_resolver(
+    _TAG + 'float',
+    re.compile(r'^[-+]?([0-9]+(\.[0-9]*)?|\.[0-9]+)[eE][-+]?[0-9]+$'),
+    list('-+.0123456789'),
+)
+
+
+def _scalar(kind: str) -> Any:
+    """Return the constructor of a *kind* of scalar, with a YAMLError for a text that is none."""
+    construct = _Base.yaml_constructors[_TAG + kind]
+
+    def checked(loader: Any, node: yaml.Node) -> Any:
+        try:
+            return construct(loader, node)
+        except (ValueError, KeyError):  # what int(), float() and the table of booleans raise
+            what = f'{node.value!r} is not {_KINDS[kind]}'
+            raise yaml.MarkedYAMLError(problem=what, problem_mark=node.start_mark) from None
+
+    return checked
+
+
+for _kind in _KINDS:
+    _Loader.add_constructor(_TAG + _kind, _scalar(_kind))
+
+
+def read_yaml(path: Path) -> Any:
+    """Return the plain data in the YAML file at *path*; ParameterError where there are none."""
+    try:
+        if path.exists() and not path.is_file():
+            # A device may have no end, and a pipe nobody who writes.
+            raise ParameterError(f'{path} cannot be read: it is not a file')
+        with path.open('rb') as file:
+            data = file.read(MOST_BYTES + 1)
+        if len(data) > MOST_BYTES:
+            raise ParameterError(f'{path} has more than {MOST_BYTES} bytes, which are the most')
+        text = data.decode('utf-8-sig')
+    except OSError as error:
+        raise ParameterError(f'{path} cannot be read: {error.strerror}') from error
+    except ValueError as error:  # neither a path nor UTF-8 may hold all bytes
+        raise ParameterError(f'{path} cannot be read: {error}') from error
+    try:
+        _refuse_other_than_plain(text)
+        return yaml.load(text, _Loader)
+    except yaml.YAMLError as error:
+        raise ParameterError(f'{path} is not valid YAML: {_reason(error)}') from error
+
+
+def _refuse_other_than_plain(text: str) -> None:
+    """Raise a YAMLError for tags, anchors and deep nesting, before any data are made."""
+    depth = 0
+    for event in yaml.parse(text, _Base):
+        problem, tag = None, getattr(event, 'tag', None)
+        if isinstance(event, yaml.AliasEvent) or getattr(event, 'anchor', None):
+            problem = 'anchors and aliases (& and *) are not allowed: write the values out'
+        elif tag not in (None, '!', *_PLAIN_TAGS):
+            problem = f'the tag {tag} is not allowed: give plain values'
+        elif isinstance(event, yaml.CollectionStartEvent):
+            depth += 1
+            if depth > DEEPEST:
+                problem = f'more than {DEEPEST} mappings or lists are within each other'
+        elif isinstance(event, yaml.CollectionEndEvent):
+            depth -= 1
+        if problem is not None:
+            mark: Any = event.start_mark
+            raise yaml.MarkedYAMLError(problem=problem, problem_mark=mark)
+
+
+def _reason(error: yaml.YAMLError) -> str:
+    """Return in one line what is wrong, and where."""
+    mark = getattr(error, 'problem_mark', None)
+    if mark is None:
+        return ' '.join(str(error).split())
+    texts = (getattr(error, 'context', None), getattr(error, 'problem', None))
+    what = ', '.join(text for text in texts if text)
+    return f'line {mark.line + 1}, column {mark.column + 1}: {what}'
