@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pam_ros.errors import RecordingError
-from pam_ros.recording.bag_source import BagSource, Message, Topic, bag_files, open_bag
+from pam_ros.recording.bag_decode import Topic
+from pam_ros.recording.bag_source import BagSource, Message, bag_files, open_bag
 from pam_ros.recording.cdr import FLOAT64, FLUID_PRESSURE, JOINT_STATE, read_alike
 from pam_ros.recording.mapping import ColumnMapping, Meaning
 from pam_ros.recording.quantities import Target
@@ -186,8 +187,12 @@ def _samples(
         return _Samples(received, stamped, [alike.columns[path] for path in paths])
     getters = [_getter(path, field) for field in fields]
     stamps, rows = [], []
-    for message in messages:
-        content = source.decode(topic, message.data)
+    for number, message in enumerate(messages, 1):
+        try:
+            content = source.decode(topic, message.data)
+        except RecordingError as error:
+            where = f'{path.name}: {fields[0].topic}, message {number} of {len(messages)}'
+            raise RecordingError(f'{where}: {error}') from error
         stamp = getattr(getattr(content, 'header', None), 'stamp', None)
         stamps.append(0 if stamp is None else stamp.sec * 10**9 + stamp.nanosec)
         rows.append([get(content) for get in getters])
@@ -219,6 +224,8 @@ def _getter(path: Path, field: _Field) -> Callable[[Any], float]:
 
 
 def _element(where: str, message: Any, value: Any, index: str) -> Any:
+    if not hasattr(value, '__len__'):
+        raise RecordingError(f'{where} is not there: the message has one value, without an index')
     names = list(getattr(message, 'name', ()))
     if index in names:
         at = names.index(index)

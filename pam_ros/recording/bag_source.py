@@ -4,7 +4,8 @@
 
 ``rosbag2_py`` comes with a ROS installation, the ``rosbags`` library from PyPI. An MCAP file
 that its recorder did not close (killed, out of power) is read up to where it ends with ``mcap``.
-This is the one place outside ``pam_ros.nodes`` that may import ROS, where ROS is there.
+With ``bag_decode`` this is the one place outside ``pam_ros.nodes`` that may import ROS, where ROS
+is there.
 """
 
 import importlib
@@ -17,16 +18,11 @@ from typing import Any, NamedTuple
 
 from pam_ros.errors import ParameterError, RecordingError
 from pam_ros.plain_yaml import read_yaml
+from pam_ros.recording.bag_decode import RosbagsDecoder, Topic, decode_with_ros
 
 METADATA = 'metadata.yaml'
 _MAGIC = b'\x89MCAP0\r\n'
-
-
-class Topic(NamedTuple):
-    """A topic's type and, as the bag tells it, the text that defines the type (or '')."""
-
-    type: str
-    definition: str = ''
+_CUT = (EOFError, LookupError, OverflowError, ValueError, struct.error)  # of a record cut off
 
 
 class Message(NamedTuple):
@@ -54,9 +50,13 @@ def bag_files(path: Path) -> list[Path]:
     if path.is_file():
         return [path]
     listed = _metadata(path).get('relative_file_paths')
+    if not (listed is None or isinstance(listed, list)) or not _are_texts(listed or ()):
+        raise RecordingError(
+            f'{path / METADATA}: relative_file_paths = {listed!r} is not a list of file names'
+        )
     if listed:
-        files = [path / Path(str(name)).name for name in listed]
-        missing = [file.name for file in files if not file.exists()]
+        files = [path / Path(name).name for name in listed]
+        missing = [name for name, file in zip(listed, files, strict=True) if not file.is_file()]
         if missing:
             raise RecordingError(f'{path}: {METADATA} lists {missing[0]}, which is not there')
         return files
@@ -79,7 +79,7 @@ def open_bag(path: Path) -> BagSource:
             'Python package rosbags'
         )
     files = bag_files(path)
-    decode = _decode_with_ros if has_ros else _RosbagsDecoder()
+    decode = decode_with_ros if has_ros else RosbagsDecoder()
     if any(_is_unfinished(file) for file in files):
         notes = ['the bag was not closed by its recorder: read up to where it ends']
         topics, messages = _read_unfinished(files)
@@ -105,6 +105,10 @@ def _metadata(path: Path) -> dict[str, Any]:
     return found
 
 
+def _are_texts(values: Collection[Any]) -> bool:
+    return all(isinstance(value, str) for value in values)
+
+
 def _is_unfinished(file: Path) -> bool:
     """Say whether an MCAP lacks its end. Raises RecordingError where it is none."""
     if file.suffix != '.mcap':
@@ -115,6 +119,12 @@ def _is_unfinished(file: Path) -> bool:
         size = stream.seek(0, 2)
         stream.seek(size - len(_MAGIC))
         return stream.read() != _MAGIC or size == len(_MAGIC)
+
+
+def _unreadable(path: Path, error: Exception) -> RecordingError:
+    """Return what to raise for an *error* of a library that reads the bag at *path*."""
+    what = ' '.join(str(error).split()) or type(error).__name__
+    return RecordingError(f'{path} cannot be read as a rosbag2: {what}')
 
 
 Read = tuple[dict[str, Topic], Callable[[Collection[str]], Iterator[Message]]]
@@ -128,9 +138,15 @@ def _read_with_rosbags(path: Path, parts: list[Path]) -> Read:
         for part in parts:
             with Reader(part) as reader:
                 for connection in reader.connections:
+                    # The library takes both from the metadata as they are.
+                    if not _are_texts((connection.topic, connection.msgtype)):
+                        raise ValueError(
+                            f'{METADATA} has a topic {connection.topic!r} of type '
+                            f'{connection.msgtype!r}, which are not both texts'
+                        )
                     topics[connection.topic] = Topic(connection.msgtype, connection.msgdef.data)
     except Exception as error:  # the library raises whatever its parsing meets
-        raise RecordingError(f'{path} cannot be read as a rosbag2: {error}') from error
+        raise _unreadable(path, error) from error
 
     def messages(wanted: Collection[str]) -> Iterator[Message]:
         try:
@@ -140,7 +156,7 @@ def _read_with_rosbags(path: Path, parts: list[Path]) -> Read:
                     for connection, stamp, data in reader.messages(chosen) if chosen else ():
                         yield Message(connection.topic, stamp, bytes(data))
         except Exception as error:
-            raise RecordingError(f'{path} cannot be read as a rosbag2: {error}') from error
+            raise _unreadable(path, error) from error
 
     return topics, messages
 
@@ -162,15 +178,20 @@ def _read_with_ros(path: Path, parts: list[Path]) -> Read:
                 rosbag2_py.ConverterOptions('', ''),
             )
         except RuntimeError as error:
-            raise RecordingError(f'{path} cannot be read as a rosbag2: {error}') from error
+            raise _unreadable(path, error) from error
         return reader
 
     def messages(wanted: Collection[str]) -> Iterator[Message]:
         for part in parts if wanted else []:
             reader = opened(part)
             reader.set_filter(rosbag2_py.StorageFilter(topics=list(wanted)))
-            while reader.has_next():
-                topic, data, stamp = reader.read_next()
+            while True:
+                try:
+                    if not reader.has_next():
+                        break
+                    topic, data, stamp = reader.read_next()
+                except RuntimeError as error:
+                    raise _unreadable(path, error) from error
                 yield Message(topic, stamp, data)
 
     topics = {
@@ -184,12 +205,17 @@ def _read_with_ros(path: Path, parts: list[Path]) -> Read:
 class _Whole(io.BufferedReader):
     """A file that ends where less is left than was asked for."""
 
+    def __init__(self, raw: io.FileIO) -> None:
+        super().__init__(raw)
+        self._size = raw.seek(0, io.SEEK_END)
+        raw.seek(0)
+
     def read(self, size: int | None = -1, /) -> bytes:
         """Return exactly *size* bytes, or raise EOFError."""
-        data = super().read(size)
-        if size is not None and len(data) < size:
+        # A length that was not written whole may ask for more than there is memory for.
+        if size is not None and size > self._size - self.tell():
             raise EOFError
-        return data
+        return super().read(size)
 
 
 def _read_unfinished(files: list[Path]) -> Read:
@@ -208,7 +234,7 @@ def _read_unfinished(files: list[Path]) -> Read:
         for file in files:
             schemas: dict[int, Any] = {}
             channels: dict[int, Any] = {}
-            with _Whole(file.open('rb', buffering=0)) as stream:
+            with _Whole(io.FileIO(file)) as stream:
                 try:
                     for record in StreamReader(stream, validate_crcs=True).records:
                         if isinstance(record, Schema):
@@ -222,55 +248,10 @@ def _read_unfinished(files: list[Path]) -> Read:
                             name = channels[record.channel_id].topic
                             if name in wanted:
                                 yield name, topic, Message(name, record.log_time, record.data)
-                except (McapError, EOFError, LookupError, ValueError, struct.error):
+                except (McapError, *_CUT):
                     continue  # here ends what was written whole
 
     def messages(wanted: Collection[str]) -> Iterator[Message]:
         return (message for _, _, message in records(wanted) if message is not None)
 
     return {name: topic for name, topic, _ in records(None)}, messages
-
-
-class _RosbagsDecoder:
-    """Decode messages with ``rosbags``, by the definitions in the bag where it has them."""
-
-    def __init__(self) -> None:
-        from rosbags.typesys import Stores, get_typestore
-
-        self._known = get_typestore(Stores.ROS2_JAZZY)
-        self._stores: dict[Topic, Any] = {}
-
-    def __call__(self, topic: Topic, data: bytes) -> Any:
-        """Return the message of *topic* that *data* holds."""
-        if topic not in self._stores:
-            self._stores[topic] = self._store(topic)
-        return self._stores[topic].deserialize_cdr(data, topic.type)
-
-    def _store(self, topic: Topic) -> Any:
-        from rosbags.typesys import Stores, get_types_from_idl, get_types_from_msg, get_typestore
-
-        if not topic.definition:
-            if topic.type not in self._known.fielddefs:
-                raise RecordingError(
-                    f'the bag does not define {topic.type}, and it is none of the standard types'
-                )
-            return self._known
-        store = get_typestore(Stores.EMPTY)
-        parts = topic.definition.split('=' * 80 + '\n')
-        if parts[0] == '' and parts[-1].startswith('IDL: '):
-            for part in parts[1:]:
-                store.register(get_types_from_idl(part.split('\n', 1)[1]))
-        else:
-            store.register(get_types_from_msg(topic.definition, topic.type))
-        return store
-
-
-def _decode_with_ros(topic: Topic, data: bytes) -> Any:
-    package, _, name = topic.type.split('/')
-    try:
-        message_type = getattr(importlib.import_module(f'{package}.msg'), name)
-    except (ImportError, AttributeError) as error:
-        raise RecordingError(
-            f'message type {topic.type} is not installed here: source the workspace that has it'
-        ) from error
-    return importlib.import_module('rclpy.serialization').deserialize_message(data, message_type)

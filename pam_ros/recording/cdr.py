@@ -38,13 +38,15 @@ def read_alike(kind: str, fields: Sequence[str], messages: Sequence[bytes]) -> N
     if not messages or messages[0][:2] != _LITTLE_ENDIAN:
         return None
     size = len(messages[0])
-    if any(len(message) != size for message in messages):
-        return None
     try:
         places = _places(kind, messages[0])
     except (struct.error, IndexError):
         return None
     if places is None or any(field not in places for field in fields):
+        return None
+    behind = 8 if kind == FLUID_PRESSURE else 0  # its variance
+    is_cut = any(place is not None and place + 8 + behind > size for place in places.values())
+    if is_cut or any(len(message) != size for message in messages):
         return None
     block = np.frombuffer(b''.join(messages), np.uint8).reshape(len(messages), size)
     fixed = np.ones(size, dtype=bool)
@@ -54,8 +56,7 @@ def read_alike(kind: str, fields: Sequence[str], messages: Sequence[bytes]) -> N
     for place in places.values():
         if place is not None:
             fixed[place : place + 8] = False
-    if kind == FLUID_PRESSURE:
-        fixed[size - 8 :] = False  # its variance
+    fixed[size - behind :] = False
     if np.any(block[:, fixed] != block[0, fixed]):
         return None
     stamps = None

@@ -53,7 +53,10 @@ ALLOWED = {
     'pam_ros',
 }
 # Reads bags with ROS' own library where that is installed.
-MAY_SEE_ROS = {Path('pam_ros/recording/bag_source.py'): {'rosbag2_py', 'rclpy'}}
+MAY_SEE_ROS = {
+    Path('pam_ros/recording/bag_source.py'): {'rosbag2_py'},
+    Path('pam_ros/recording/bag_decode.py'): {'rclpy'},
+}
 
 
 ROOMS = [room for floor in FLOORS for room in floor]

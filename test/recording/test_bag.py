@@ -215,6 +215,27 @@ def test_what_is_refused(tmp_path, topics, rules, words):
         assert word in str(caught.value)
 
 
+@pytest.mark.parametrize('kind', [bags.FLOAT, bags.JOINT, bags.FLUID])
+@pytest.mark.parametrize('body', [b'', b'\0\1\0\0', b'\0\1\0\0' + b'\xff' * 7, b'rubbish' * 9])
+def test_a_message_that_is_not_of_its_type_is_named(tmp_path, monkeypatch, kind, body):
+    topics, _ = bags.rig_topics()
+    whole = bags.STORE.serialize_cdr
+    bodies = iter([body])
+
+    def spoiled(message, one):
+        return next(bodies, whole(message, one)) if one == kind else whole(message, one)
+
+    monkeypatch.setattr(bags.STORE, 'serialize_cdr', spoiled)
+    with pytest.raises(RecordingError, match=f'message 1 of .*: not a {kind}'):
+        read(tmp_path, topics)
+
+
+def test_an_index_into_a_single_number(tmp_path):
+    topics, _ = bags.rig_topics()
+    with pytest.raises(RecordingError, match='has one value, without an index'):
+        read(tmp_path, topics, ['/force.data[0]=force_N'])
+
+
 def test_a_topic_of_another_type_can_be_left_out(tmp_path):
     series, _ = read(tmp_path, forces_as_wrenches(), ['/force=ignore'])
     assert sorted(series) == ['position', 'pressure', 'pressure_command', 'velocity']

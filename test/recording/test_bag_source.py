@@ -31,6 +31,17 @@ def contents(source):
     ]
 
 
+def changed(old, new):
+    """Return a function that changes the metadata of a bag."""
+
+    def change(bag):
+        file = bag / 'metadata.yaml'
+        assert old in file.read_text()
+        file.write_text(file.read_text().replace(old, new))
+
+    return change
+
+
 def _number(message):
     for name in ('data', 'fluid_pressure'):
         if hasattr(message, name):
@@ -132,12 +143,11 @@ def test_a_type_that_the_bag_defines_itself(tmp_path):
         (lambda bag: (bag / 'bag.mcap').unlink(), ['lists bag.mcap', 'not there']),
         (lambda bag: (bag / 'metadata.yaml').write_text('{'), ['metadata.yaml', 'not valid YAML']),
         (lambda bag: (bag / 'metadata.yaml').write_text('a: 1'), ['not the metadata']),
-        (
-            lambda bag: (bag / 'metadata.yaml').write_text(
-                (bag / 'metadata.yaml').read_text().replace('version: 9', 'version: 99')
-            ),
-            ['cannot be read', '99'],
-        ),
+        (changed('- bag.mcap', '- 3'), ['relative_file_paths = [3] is not a list of file names']),
+        (changed('relative_file_paths:\n  - bag.mcap', 'relative_file_paths: 3'), ['paths = 3']),
+        (changed('name: /force', 'name: 3'), ['topic 3 of type', 'not both texts']),
+        (changed('type: std_msgs/msg/Float64', 'type: []'), ["topic '/force' of type []"]),
+        (changed('version: 9', 'version: 99'), ['cannot be read', '99']),
     ],
 )
 def test_what_is_no_bag(bag, spoil, words):
@@ -153,6 +163,13 @@ def test_a_file_that_only_has_the_name(tmp_path, name):
     (tmp_path / name).write_bytes(b'nothing of the kind' * 100)
     with pytest.raises(RecordingError, match=name):
         open_bag(tmp_path / name)
+
+
+def test_a_length_beyond_the_end_of_an_unfinished_file_is_not_asked_for(tmp_path):
+    """Reading it would take all memory."""
+    magic = b'\x89MCAP0\r\n'
+    (tmp_path / 'cut.mcap').write_bytes(magic + b'\1' + b'\xff' * 7 + b'\0' * 9)
+    assert open_bag(tmp_path / 'cut.mcap').topics == {}
 
 
 class FakeRosbag2Py:

@@ -63,6 +63,10 @@ def test_fluid_pressures(rows, frame):
     np.testing.assert_array_equal(found.columns['fluid_pressure'], [row[1] for row in rows])
 
 
+def cut(kind, message, count):
+    return serialised(kind, [message])[0][:-count]
+
+
 def big_endian():
     message = bags.number(1.0)
     return [bytes(bags.STORE.serialize_cdr(message, bags.FLOAT, little_endian=False))]
@@ -94,6 +98,10 @@ def big_endian():
         ),
         (bags.JOINT, 'position', [b'\0\1\0\0' + bytes(10)]),
         (bags.JOINT, 'position', [b'\0\1\0\0' + b'\xff' * 40]),
+        (bags.FLOAT, 'data', [b'\0\1\0\0']),
+        (bags.FLOAT, 'data', [cut(bags.FLOAT, bags.number(1.0), 3)]),
+        (bags.FLUID, 'fluid_pressure', [cut(bags.FLUID, bags.fluid(1, 2.0), 3)]),
+        (bags.JOINT, 'position', [cut(bags.JOINT, bags.joint(1, [1], [2], [3]), 3)]),
     ],
 )
 def test_what_must_be_decoded_singly(kind, field, data):

@@ -3,15 +3,21 @@
 """Good files with some of their bytes changed: read, or refused with a sentence of the package."""
 
 import contextlib
+from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from pam_ros.errors import PamError
+from pam_ros.recording.bag import read_bag
+from pam_ros.recording.bag_decode import RosbagsDecoder, Topic
+from pam_ros.recording.cdr import read_alike
 from pam_ros.recording.csv_file import read_csv
 from pam_ros.recording.mapping import ColumnMapping, read_mapping
 from pam_ros.settings.rig import load_rig
+from support import bags
 
 ROWS = [f'{k / 100},{100 + k % 7},{k / 8}' for k in range(12)]
 CSV = '\n'.join(['# a rig', 't_s,pressure_command_kPa,position_mm', *ROWS, '']).encode()
@@ -56,16 +62,31 @@ YAML_PARTS = (
         b'---\n',
     ),
 )
+BAG_PARTS = (b'\0', b'\xff' * 4, b'\xff' * 8, b'\1\0\0\0', b'\x89MCAP0\r\n')
+JOINT = bytes(bags.STORE.serialize_cdr(bags.joint(1, [0.5], [], [2.0]), bags.JOINT))
+DECODE = RosbagsDecoder()
 
 
-@st.composite
-def spoiled(draw, good, parts):
-    """Return the bytes *good* with up to four stretches replaced, removed or put in."""
-    data = good
-    for _ in range(draw(st.integers(1, 4))):
-        at = draw(st.integers(0, len(data)))
-        gone = draw(st.sampled_from((0, 1, 2, 9, len(data))))
-        put = draw(st.one_of(st.sampled_from((b'', *parts)), st.binary(max_size=8)))
+def bag():
+    """Return the bytes of a small bag."""
+    topics, _ = bags.rig_topics(duration=0.6, late=0.0)
+    with TemporaryDirectory() as folder:
+        return (bags.write_bag(Path(folder) / 'bag', topics) / 'bag.mcap').read_bytes()
+
+
+BAG = bag()
+
+
+def edits(parts):
+    """Return the strategy of up to four changes: where, how much goes, what takes its place."""
+    put = st.sampled_from((b'', *parts)) | st.binary(max_size=8)
+    gone = st.sampled_from((0, 1, 2, 9, 10**6))
+    return st.lists(st.tuples(st.floats(0.0, 1.0), gone, put), min_size=1, max_size=4)
+
+
+def spoiled(data, changes):
+    for share, gone, put in changes:
+        at = round(share * len(data))
         data = data[:at] + put + data[at + gone :]
     return data
 
@@ -79,18 +100,38 @@ def file(tmp_path_factory):
 
 
 @QUICK
-@given(data=spoiled(CSV, CSV_PARTS) | spoiled(CSV.decode().encode('utf-16'), CSV_PARTS))
-def test_csv(file, data):
-    file.write_bytes(data)
+@given(changes=edits(CSV_PARTS), code=st.sampled_from(('utf-8', 'utf-16')))
+def test_csv(file, changes, code):
+    file.write_bytes(spoiled(CSV.decode().encode(code), changes))
     with contextlib.suppress(PamError):
         read_csv(file, ColumnMapping())
 
 
 @QUICK
-@given(data=spoiled(YAML, YAML_PARTS))
-def test_yaml(file, data):
-    file.write_bytes(data)
+@given(changes=edits(YAML_PARTS))
+def test_yaml(file, changes):
+    file.write_bytes(spoiled(YAML, changes))
     with contextlib.suppress(PamError):
         load_rig(file)
     with contextlib.suppress(PamError):
         read_mapping(file=file)
+
+
+@QUICK
+@given(changes=edits(BAG_PARTS))
+def test_bag(file, changes):
+    mcap = file.with_suffix('.mcap')
+    mcap.write_bytes(spoiled(BAG, changes))
+    with contextlib.suppress(PamError):
+        read_bag(mcap, ColumnMapping())
+
+
+@QUICK
+@given(changes=edits(BAG_PARTS))
+def test_messages(changes):
+    data = spoiled(JOINT, changes)
+    topic = Topic(bags.JOINT)
+    found = read_alike(topic.type, ['position'], [data, data])
+    with contextlib.suppress(PamError):
+        position = DECODE(topic, data).position
+        assert found is None or found.columns['position'].tolist() == [*position, *position]
