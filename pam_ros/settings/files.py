@@ -22,7 +22,7 @@ import yaml
 
 from pam_ros.errors import ParameterError
 from pam_ros.plain_yaml import read_yaml
-from pam_ros.settings.tables import Table, Value, refuse_mistyped
+from pam_ros.settings.tables import Table, Value, refuse_mistyped, refuse_unknown_effects
 
 TABLE = 'ros__parameters'
 PRESETS = ('muscles', 'rigs')
@@ -129,10 +129,14 @@ def _flat(table: Any, prefix: str = '') -> Iterator[tuple[str, Any]]:
 
 
 def read_known(name: str, table: Table) -> dict[str, Value]:
-    """Return the values of a file or muscle *name*, none of them a mistyped one of *table*."""
+    """Return the values of a file or muscle *name*.
+
+    Raises ParameterError for a mistyped name of *table*, and for an effect that there is not.
+    """
     path = find(name)
     values = read(path)
     try:
+        refuse_unknown_effects(values)
         refuse_mistyped(values, table)
     except ParameterError as error:
         raise ParameterError(f'{path}: {error}') from error

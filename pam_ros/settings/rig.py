@@ -21,6 +21,7 @@ from pam_ros.errors import ParameterError
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig.arrangements import ARRANGEMENTS, LOAD
 from pam_ros.rig.joint import Actuator, Joint, split_effects
+from pam_ros.settings.contradictions import refuse_contradictions
 from pam_ros.settings.files import read_known
 from pam_ros.settings.sim import MUSCLE, SimSettings
 from pam_ros.settings.tables import (
@@ -67,6 +68,7 @@ class RigParameters:
 
     def __init__(self, given: Values) -> None:
         """Look at what is given; the values are checked later."""
+        refuse_unknown_effects(given)
         self.kind = KINDS.get(str(given.get('joint', LOAD.name)), LOAD)
         self._given = given
         per_joint = self.kind.muscles
@@ -220,12 +222,14 @@ class RigParameters:
             Actuator(build(Muscle, own), split_effects(effects_of(own))[0], contraction)
             for own, contraction in zip(muscles, contractions or [0.0], strict=True)
         )
-        return Joint(
+        made = Joint(
             actuators,
             build(kind.load, joint),
             build(kind.transmission, joint),
             split_effects(effects_of(joint))[1],
         )
+        refuse_contradictions(made)
+        return made
 
 
 def _found(values: Values, table: Table, names: Iterable[str]) -> dict[str, Any]:
@@ -254,7 +258,6 @@ def load_rig(
     texts = sequence('overrides', overrides, str, "a text such as 'mass=10'")
     values = read_known(name, table)
     values.update(override(text, table) for text in texts)
-    refuse_unknown_effects({flat: value for flat, value in values.items() if flat not in known})
     own = {flat: value for flat, value in values.items() if flat in known}
     (joint,) = RigParameters({}).build_joints(own)
     return joint, values

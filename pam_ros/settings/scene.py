@@ -31,6 +31,16 @@ class Scene(RigParameters):
 
     start: ClassVar[Table] = table_of(Start, 'initial.')
 
+    def __init__(self, given: Values) -> None:
+        """Look at what is given; a start of something that has none is refused."""
+        super().__init__(given)
+        for name in given:
+            if name.startswith('initial.') and name not in self.start:
+                raise ParameterError(
+                    f'{name} is not a parameter: give one of {", ".join(self.start)}; effects '
+                    'start as after a long rest'
+                )
+
     @property
     def common(self) -> Table:
         """The table of the parameters that are common to all beside the rig."""

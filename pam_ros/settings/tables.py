@@ -14,7 +14,7 @@ from typing import Any, TypeVar
 
 from pam_ros.effects import EFFECTS
 from pam_ros.effects.base import Effect
-from pam_ros.effects.names import EffectName, by_effect, flattened
+from pam_ros.effects.names import GROUP, EffectName, by_effect, flattened, parsed
 from pam_ros.effects.turned import turned
 from pam_ros.errors import ParameterError
 from pam_ros.muscle.muscle import Muscle
@@ -144,9 +144,18 @@ def refuse_mistyped(names: Iterable[str], known: Iterable[str]) -> list[str]:
 def refuse_unknown_effects(values: Values) -> None:
     """Raise ParameterError where *values* name an effect, or a parameter of one, that is unknown.
 
-    No other program has effects, so that a name of one can be no other program's.
+    No other program has effects, so that a name of one can be no other program's. The values of
+    known names are checked where they are used.
     """
-    given = effects_of(values)
+    known = effects_table()
+    strange = {name: value for name, value in values.items() if name not in known}
+    for name in strange:
+        if name.partition('.')[0] == GROUP and parsed(name) is None:
+            raise ParameterError(
+                f'{name} is not a parameter: give {GROUP}.<effect>.<parameter>, such as '
+                'effects.payload.mass'
+            )
+    given = effects_of(strange)
     split_effects(given)
     for effect in EFFECTS:
         effect.values(given.get(effect.name, {}))

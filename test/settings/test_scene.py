@@ -9,6 +9,8 @@ from pam_ros.errors import ParameterError
 from pam_ros.rig.joint import Joint, one_muscle
 from pam_ros.rig.rest import rest
 from pam_ros.rig.transmissions import Lever, Pulley
+from pam_ros.settings.files import write
+from pam_ros.settings.rig import load_rig
 from pam_ros.settings.scene import Scene
 from pam_ros.settings.tables import checked
 
@@ -37,6 +39,61 @@ def test_names_have_their_own_and_follow_in_the_rest():
     assert (a.load.mass, b.load.mass) == (12.0, 7.0)
     assert [joint.effects['coulomb_friction']['level'] for joint in (a, b)] == [5.0, 0.0]
     assert now.joint_names == now.muscle_names == ('a', 'b')
+
+
+STOPS = {'effects.end_stop.stiffness': 1e4, 'effects.end_stop.lower_stiffness': 1e4}
+
+
+@pytest.mark.parametrize(
+    ('given', 'words'),
+    [
+        ({'effects.nosuch.level': 3.0}, r'effects\.nosuch is not known: give one of dead_time'),
+        ({'effects.creep.nosuch': 3.0}, r'effects\.creep\.nosuch is not known: give one of '),
+        ({'effects.creep': 3.0}, r'effects\.creep is not a parameter: give effects\.<effect>\.<p'),
+        (
+            {'effects.payload.mass': -20.0},
+            r'mass = -20 kg leaves 0 kg of mass = 20 kg: give at le',
+        ),
+        ({'effects.payload.mass': -16.1}, r'leaves 3\.9 kg of mass = 20 kg: give at least -16 kg'),
+        ({'mass': 3.0, 'effects.payload.mass': -9.0}, r'leaves -6 kg of mass = 3 kg'),
+        (
+            STOPS | {'effects.end_stop.upper': 0.1, 'effects.end_stop.lower': 0.2},
+            r'end_stop\.lower = 0\.2 is not allowed: give less than .*upper = 0\.1',
+        ),
+        (
+            STOPS | {'effects.end_stop.lower': 0.25},
+            r'end_stop\.lower = 0\.25 is not allowed',
+        ),
+    ],
+)
+def test_what_makes_no_rig_is_refused(tmp_path, given, words):
+    """Given as parameters, and by a file in their place."""
+    with pytest.raises(ParameterError, match=words):
+        of({'mass': 20.0} | given)
+    path = tmp_path / 'rig.yaml'
+    write(path, {'mass': 20.0} | given)
+    with pytest.raises(ParameterError, match=words):
+        of({'muscle': str(path)})
+    with pytest.raises(ParameterError, match=words):
+        load_rig(path)
+
+
+def test_effects_have_no_start_of_their_own():
+    with pytest.raises(
+        ParameterError, match=r'initial\.creep\.strain is not a parameter: give one'
+    ):
+        of({'initial.creep.strain': 0.1})
+
+
+@pytest.mark.parametrize(
+    'given',
+    [
+        {'effects.payload.mass': -16.0},
+        {'effects.end_stop.lower': 0.3, 'effects.end_stop.lower_stiffness': 1e4},
+    ],
+)
+def test_what_makes_one_is_taken(given):
+    assert of({'mass': 20.0} | given)
 
 
 def test_only_what_a_name_is_given_is_declared_for_it():

@@ -124,6 +124,11 @@ def spin(node: TickingNode, executor: Executor, stop: StopRequest) -> None:
 def sentence(error: Exception) -> str:
     """Return the text of an error in one line, without rcl's places in its sources."""
     text = re.sub(r', at \S+\.c(pp)?:\d+', '', str(error))
+    text = re.sub(
+        r"^\['([^-].*:=.*)'\]$",
+        r'\1 is not a ROS argument: give -p before a parameter, -r before a remapping',
+        text,
+    )
     text = re.sub(r"^\['(-.*)'\]$", r'unknown ROS arguments: \1', text)
     text = text.replace('failed to initialize rcl: ', '')
     return ' '.join(text.split())
