@@ -2,9 +2,32 @@
 # SPDX-License-Identifier: Apache-2.0
 """The errors that a user sees: one family, each carrying the whole sentence."""
 
+import re
+
+LONGEST_WORD = 200  # characters that a terminal gets: a path may have as many
+LONGEST = 2000
+_CUT = ' [...] '
+
+
+def shown(text: str) -> str:
+    """Return *text* as a log or a terminal may have it: one line, printable, not too long.
+
+    Names in files can hold line breaks, escape sequences and a million letters.
+    """
+    plain = ''.join(c if c.isprintable() else ascii(c)[1:-1] for c in text)
+    plain = re.sub(
+        rf'\S{{{LONGEST_WORD + 1},}}', lambda word: f'{word[0][:150]}...{word[0][-40:]}', plain
+    )
+    if len(plain) > LONGEST:
+        plain = plain[: LONGEST - 500] + _CUT + plain[-400:]
+    return plain
+
 
 class PamError(Exception):
     """A mistake in what the user gave; the text is the sentence to show, exit code 2."""
+
+    def __init__(self, sentence: str) -> None:
+        super().__init__(shown(sentence))
 
 
 class ParameterError(PamError):

@@ -18,7 +18,7 @@ from pathlib import Path
 from types import FrameType
 from typing import NoReturn
 
-from pam_ros.errors import PamError
+from pam_ros.errors import PamError, shown
 
 BAD_INPUT, INTERRUPTED, TERMINATED = 2, 130, 143
 
@@ -28,7 +28,7 @@ class _Parser(argparse.ArgumentParser):
 
     def error(self, message: str) -> NoReturn:
         """Print the sentence and exit."""
-        self.exit(BAD_INPUT, f'{self.prog}: {message} (--help says more)\n')
+        self.exit(BAD_INPUT, f'{self.prog}: {shown(message)} (--help says more)\n')
 
 
 def parser() -> argparse.ArgumentParser:
@@ -144,7 +144,7 @@ def identify(given: argparse.Namespace, command: str) -> str:
             )
     for recording in (*recordings, *test):
         for warning in recording.warnings:
-            print(f'{recording.name}: {warning}', file=sys.stderr)
+            print(shown(f'{recording.name}: {warning}'), file=sys.stderr)
     if not HAVE_NUMBA:
         print('numba is not installed: this takes some hundred times as long', file=sys.stderr)
     source = provenance(model, given.params, given.set, recordings, test, command)

@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from pam_ros.arguments import as_path, instance, number
-from pam_ros.errors import RecordingError
+from pam_ros.errors import RecordingError, shown
 from pam_ros.recording.assemble import assemble
 from pam_ros.recording.bag import bag_files, read_bag
 from pam_ros.recording.csv_file import read_csv
@@ -56,7 +56,9 @@ def read_recording(
         series, notes = read_csv(path, mapping)
     recording = assemble(path.name or str(path), series, notes, kind, l0)
     warnings = check(recording, l0, p_max)
-    return replace(recording, warnings=(*recording.warnings, *warnings), digest=_digest(files))
+    # The notes name columns and topics as they stand in the file.
+    sentences = tuple(map(shown, (*recording.warnings, *warnings)))
+    return replace(recording, warnings=sentences, digest=_digest(files))
 
 
 def _digest(files: list[Path]) -> str:

@@ -136,6 +136,15 @@ def test_values_that_cannot_be_right(tmp_path, row, words):
         assert word in str(caught.value)
 
 
+def test_names_of_columns_are_harmless_in_warnings(tmp_path):
+    rows = [f'{k / 100},{k % 90},{k % 70},0' for k in range(400)]
+    header = 't_s,pressure_command_kPa,position_mm,\x1b[31m' + 'x' * 10**5
+    (tmp_path / 'red.csv').write_text('\n'.join([header, *rows, '']))
+    (warning,) = (one for one in read_recording(tmp_path / 'red.csv').warnings if 'column' in one)
+    assert warning.startswith(r'columns not used: \x1b[31mxxx')
+    assert len(warning) < 300
+
+
 def test_a_pipe_is_refused_instead_of_waited_for(tmp_path):
     os.mkfifo(tmp_path / 'pipe.csv')
     with pytest.raises(RecordingError, match=r'pipe\.csv is neither a file nor a folder'):

@@ -14,7 +14,7 @@ from rcl_interfaces.msg import (
 from rclpy.node import Node
 from rclpy.parameter import Parameter as RosParameter
 
-from pam_ros.errors import PamError
+from pam_ros.errors import PamError, shown
 from pam_ros.parameters import Parameter
 from pam_ros.settings.tables import Table, checked, refuse_mistyped
 
@@ -68,7 +68,9 @@ class NodeParameters(Generic[T]):
         """
         known = [name for name in given(self._node) if self._node.has_parameter(name)]
         for name in refuse_mistyped(given(self._node), [*known, *self._table]):
-            self._node.get_logger().warning(f'parameter {name} is not known here and not used')
+            self._node.get_logger().warning(
+                shown(f'parameter {name} is not known here and not used')
+            )
 
     def _to_float(self, parameters: list[RosParameter]) -> list[RosParameter]:
         return [

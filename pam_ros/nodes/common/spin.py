@@ -22,7 +22,7 @@ from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
 from rclpy.utilities import remove_ros_args
 
-from pam_ros.errors import PamError
+from pam_ros.errors import PamError, shown
 from pam_ros.processes.priority import NORMAL, prefer_real_time
 from pam_ros.processes.stop import StopRequest
 from pam_ros.timing.ticker import Ticker
@@ -131,4 +131,4 @@ def sentence(error: Exception) -> str:
     )
     text = re.sub(r"^\['(-.*)'\]$", r'unknown ROS arguments: \1', text)
     text = text.replace('failed to initialize rcl: ', '')
-    return ' '.join(text.split())
+    return shown(' '.join(text.split()))
