@@ -45,7 +45,7 @@ def _scalar(kind: str) -> Any:
     def checked(loader: Any, node: yaml.Node) -> Any:
         try:
             return construct(loader, node)
-        except (ValueError, KeyError):  # what int(), float() and the table of booleans raise
+        except (ValueError, LookupError):  # what the constructors of numbers and booleans raise
             what = f'{node.value!r} is not {_KINDS[kind]}'
             raise yaml.MarkedYAMLError(problem=what, problem_mark=node.start_mark) from None
 

@@ -58,6 +58,7 @@ def test_a_byte_order_mark_does_no_harm(file):
         ('a: !foo 3', 'the tag !foo is not allowed'),
         ('a: !!timestamp x', 'the tag .*timestamp is not allowed'),
         ('a: !!int abc', "line 1, column 4: 'abc' is not a whole number"),
+        ('a: !!int ', "'' is not a whole number"),
         ('a: !!float x', "'x' is not a number"),
         ('a: !!bool x', "'x' is not true or false"),
         ('a: 0x_', "'0x_' is not a whole number"),

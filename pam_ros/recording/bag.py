@@ -23,6 +23,7 @@ __all__ = ['bag_files', 'read_bag']
 ATMOSPHERE = 101325.0  # Pa: FluidPressure is absolute, a recording's pressures are gauge
 _LATENCY = (-2e-3, 0.5)  # s from a header's stamp to its receipt; outside, the clocks differ
 _SIMULATED = 10**18  # ns: no real clock is before 2001
+_LATEST = 2**63 - 1  # ns: that ROS counts; an MCAP file can hold twice as many
 _TICK = 0.1  # s by which a simulated clock, published in ticks, may be behind a header
 
 _FLOAT = (FLOAT64, 'std_msgs/msg/Float32')
@@ -178,6 +179,12 @@ def _samples(
     path: Path, source: BagSource, fields: list[_Field], messages: list[Message]
 ) -> _Samples:
     """Return the *fields* of the *messages* of one topic."""
+    last = max(message.stamp for message in messages)
+    if last > _LATEST:
+        raise RecordingError(
+            f'{path.name}: {fields[0].topic} has a message received at {last} ns: give stamps of '
+            f'at most {_LATEST} ns'
+        )
     received = np.array([message.stamp for message in messages], dtype=np.int64)
     topic: Topic = source.topics[fields[0].topic]
     paths = [field.path for field in fields]

@@ -230,6 +230,16 @@ def test_a_message_that_is_not_of_its_type_is_named(tmp_path, monkeypatch, kind,
         read(tmp_path, topics)
 
 
+def test_a_receipt_that_no_clock_has(tmp_path):
+    topics, _ = bags.rig_topics()
+    kind, messages = topics['/force']
+    topics['/force'] = (kind, [*messages, (2**63, bags.number(1.0))])
+    with pytest.raises(
+        RecordingError, match='/force has a message received at 9223372036854775808'
+    ):
+        read(tmp_path, topics)
+
+
 def test_an_index_into_a_single_number(tmp_path):
     topics, _ = bags.rig_topics()
     with pytest.raises(RecordingError, match='has one value, without an index'):
