@@ -22,6 +22,9 @@ class Received(NamedTuple):
     is_refusal_new: bool = False  # since the last report
     implausibility: str = ''  # what was last measured that cannot be true
     is_implausibility_new: bool = False  # since the last report
+    silences: int = 0  # times without a command for longer than the rig goes on by itself
+    silence: str = ''  # what the last of them was
+    is_silence_new: bool = False  # since the last report
 
 
 def values_of(loop: Loop, setup: ControlSetup, age: float | None) -> dict[str, Any]:
@@ -85,13 +88,17 @@ def control(loop: Loop, setup: ControlSetup, received: Received, fault: str) -> 
     why = trouble(loop, setup.settings.on_timeout, received.blindness, fault)
     values = values_of(loop, setup, received.age)
     values |= {'refused': received.refused, 'last reason': received.refusal}
+    values |= {'starts after a silence': received.silences, 'last silence': received.silence}
     is_blind = state == BLIND or (state == WAITING and bool(received.blindness))
     if is_blind or fault:
         return Health(Level.ERROR, why, values)
-    if received.is_refusal_new:
-        return Health(Level.WARN, received.refusal, values)
-    if received.is_implausibility_new:
-        return Health(Level.WARN, received.implausibility, values)
+    for is_new, what in (
+        (received.is_silence_new, received.silence),
+        (received.is_refusal_new, received.refusal),
+        (received.is_implausibility_new, received.implausibility),
+    ):
+        if is_new:
+            return Health(Level.WARN, what, values)
     if state == WAITING:
         return Health(Level.WARN, why, values)
     if state == RUNNING and received.blindness:

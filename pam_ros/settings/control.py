@@ -31,6 +31,7 @@ from pam_ros.settings.sim import SimSettings, Start
 from pam_ros.settings.tables import Table, Values, build, table_of
 
 MEASURED = 'use_measured_velocity'  # a gain that velocity_source stands for
+LEAST_PERIODS = 3  # of rate that the rig must go on with the last command
 NAMES = ('muscles', 'joint_names', 'muscle_topics')  # which pam_sim has, too
 
 
@@ -71,6 +72,14 @@ class ControlSettings:
         'what is commanded when joint states stay away: vent to 0 Pa, or hold the last pressure',
         choices=(VENT, HOLD),
     )
+    command_timeout: float = parameter(
+        1.0,
+        'how long the rig goes on with the last command: after a longer silence of its own the '
+        'controller starts again from the present state',
+        's',
+        low=0.01,
+        high=3600.0,
+    )
     pressure_wait: float = parameter(
         0.5,
         'longest wait for a measured pressure before control begins, so that it begins at that '
@@ -101,6 +110,11 @@ class ControlSettings:
     def __post_init__(self) -> None:
         """Check every field."""
         check_all(self)
+        if self.command_timeout * self.rate < LEAST_PERIODS:
+            raise ParameterError(
+                f'command_timeout {self.command_timeout:g} s is less than {LEAST_PERIODS} periods '
+                f'of rate {self.rate:g} Hz: the rig would not wait for the next command'
+            )
 
 
 class ControlParameters(RigParameters):

@@ -80,6 +80,7 @@ def test_only_another_rig_or_other_limits_need_a_new_law(change, needs):
         ({'gains.velocity_bandwidth': 1000.0}, 'too fast for a control rate of 500 Hz'),
         ({'gains.observer_bandwidth': 20.0}, 'observer_bandwidth = 20 rad/s is above bandwidth'),
         ({'limits.pressure_low': 700e3}, 'leaves no range below the p_max'),
+        ({'command_timeout': 0.1, 'rate': 20.0}, 'is less than 3 periods of rate 20 Hz'),
     ],
 )
 def test_what_does_not_go_together_is_refused(given, sentence):

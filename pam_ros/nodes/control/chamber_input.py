@@ -8,7 +8,6 @@ A controller that begins at the pressure that holds the load moves nothing, what
 from collections.abc import Callable
 from functools import partial
 from math import isfinite
-from time import monotonic_ns
 
 from sensor_msgs.msg import FluidPressure
 from std_msgs.msg import Float64MultiArray
@@ -18,6 +17,7 @@ from pam_ros.control.plausibility import fault_of_pressure
 from pam_ros.nodes.common.stamps import stamp_of
 from pam_ros.settings.control import ControlSetup
 from pam_ros.timing.pace import SECOND
+from pam_ros.timing.silence import steady_ns
 
 FRESH = SECOND  # ns that a pressure may be older than the state that control begins at
 LONGEST = SECOND // 10  # ns of one turn that count as waiting: else this process was held up
@@ -42,7 +42,7 @@ class ChamberInput:
         self._on_pressure, self._on_fault = on_pressure, on_fault
         self._found: list[tuple[int, int, float] | None] = [None] * len(setup.muscles)
         self._waited = 0
-        self._looked = monotonic_ns()
+        self._looked = steady_ns()
         if not setup.settings.pressure_wait:
             return
         for i, topic in enumerate(setup.pressure_topics):
@@ -62,7 +62,7 @@ class ChamberInput:
             self._on_pressure()
 
     def _note(self, muscle: int, stamp: int, pressure: float) -> None:
-        self._found[muscle] = (stamp, monotonic_ns(), pressure) if isfinite(pressure) else None
+        self._found[muscle] = (stamp, steady_ns(), pressure) if isfinite(pressure) else None
 
     def forget(self) -> None:
         """Wait anew for what there is."""
@@ -77,7 +77,7 @@ class ChamberInput:
         if stamp is None or loop.state not in (WAITING, BLIND):
             self._waited = 0
             return
-        now = monotonic_ns()
+        now = steady_ns()
         self._leave_out_faults(setup)
         fresh = [
             one[2] - setup.settings.ambient_pressure

@@ -2,34 +2,33 @@
 # SPDX-License-Identifier: Apache-2.0
 """The node of ``pam_control``: its topics and services are listed there."""
 
-from functools import partial
 from math import isfinite
 from time import monotonic_ns
 
-from rclpy.qos import QoSProfile, ReliabilityPolicy
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64
 from std_srvs.srv import SetBool
 from trajectory_msgs.msg import JointTrajectory
 
-from pam_ros.control.loop import BLIND, RUNNING, WAITING, Loop, Reading, warm_up
+from pam_ros.control.loop import BLIND, RUNNING, VENT, WAITING, Loop, Reading, warm_up
 from pam_ros.control.plausibility import Plausibility, bounds_of
 from pam_ros.control.signals import Pressures, term_names
 from pam_ros.errors import RangeError
 from pam_ros.health import controller as control_health
-from pam_ros.health.controller import Received
 from pam_ros.health.health import Health
+from pam_ros.health.reports import Reports
 from pam_ros.nodes.common.diagnostics import Diagnostics
 from pam_ros.nodes.common.node_parameters import NodeParameters, given
-from pam_ros.nodes.common.qos import DEPTH, open_qos
 from pam_ros.nodes.common.spin import TickingNode
 from pam_ros.nodes.common.stamps import stamp_of
 from pam_ros.nodes.control.chamber_input import ChamberInput
 from pam_ros.nodes.control.inputs import Sight, points_of, sight_of
+from pam_ros.nodes.control.intake import Intake
 from pam_ros.nodes.control.output import commands_of
 from pam_ros.nodes.control.state import StateTopic
 from pam_ros.settings.control import ControlSetup, settings_of
 from pam_ros.timing.pace import SECOND
+from pam_ros.timing.silence import steady_ns
 from pam_ros.timing.ticker import Ticker
 
 WATCH_RATE = 20.0  # Hz at which time-outs are looked for where states make the time
@@ -53,15 +52,20 @@ class PamControl(TickingNode):
         self._loop = self._make_loop()
         self._is_followed = bool(self.get_parameter('use_sim_time').value)
         self.keeps_wall_time = not self._is_followed
-        self._seen = monotonic_ns()  # steady time of the newest usable state, ns
+        self._seen = steady_ns()  # steady time of the newest usable state, ns
         self._stamp: int | None = None  # and its stamp
         self._last: Reading | None = None  # and what it was
         self._ticked = self._seen  # steady time of the last tick, ns
         self._has_waited = False
         self._answered = 0  # steady time of the last command, ns
         self._blindness = ''  # why the last state was not usable
-        self._implausibility, self._is_implausibility_new = '', False
-        self._refusal, self._refused, self._is_refusal_new = '', 0, False
+        self._reports = Reports(self.get_logger())
+        self._intake = Intake(
+            self,
+            self._is_followed,
+            lambda: self._setup.settings.command_timeout,
+            self._begin_anew,
+        )
         self._shown = 0  # ROS time of the last message on ~/state, ns
         self._fault = ''
         self._commanded = 0
@@ -81,29 +85,15 @@ class PamControl(TickingNode):
         return loop
 
     def _open_topics(self) -> None:
-        def subscribe(
-            kind: type, topic: str, callback, reliability=ReliabilityPolicy.RELIABLE
-        ) -> None:
-            quality = QoSProfile(depth=DEPTH, reliability=reliability)
-            self.create_subscription(
-                kind, topic, callback, quality, qos_overriding_options=open_qos()
-            )
-
-        # Where states make the time, one that is lost is one that is waited for. A rig in real
-        # time publishes the next one soon, reliably or not: best effort receives from both.
-        followed = ReliabilityPolicy.RELIABLE
-        states = followed if self._is_followed else ReliabilityPolicy.BEST_EFFORT
-        subscribe(JointState, 'joint_states', self._see, states)
-        subscribe(Float64, 'position_reference', self._take_reference)
-        subscribe(JointTrajectory, 'joint_trajectory', self._take_trajectory)
+        intake = self._intake
+        intake.measure(JointState, 'joint_states', self._see)
+        intake.subscribe(Float64, 'position_reference', self._take_reference)
+        intake.subscribe(JointTrajectory, 'joint_trajectory', self._take_trajectory)
         self._chambers = ChamberInput(
-            self._setup,
-            partial(subscribe, reliability=states),
-            self._begin,
-            self._leave_out,
+            self._setup, intake.measure, self._begin, self._reports.leave_out
         )
         if self._setup.can_stiffen:
-            subscribe(Float64, 'co_contraction_reference', self._take_co_contraction)
+            intake.subscribe(Float64, 'co_contraction_reference', self._take_co_contraction)
         self._states = StateTopic(self, term_names(len(self._setup.muscles)))
         self._commands = commands_of(self, self._setup)
 
@@ -113,12 +103,19 @@ class PamControl(TickingNode):
     def _tick_rate(self) -> float:
         return WATCH_RATE if self._is_followed else self._setup.settings.rate
 
+    def start(self) -> None:
+        """Begin to count time: making the node was no silence."""
+        super().start()
+        self._intake.mark(steady_ns())
+
     def tick(self) -> None:
         """Command; where the states make the time, only see whether they stay away."""
-        now = monotonic_ns()
+        now = steady_ns()
+        self._intake.look()
         self._chambers.prepare(self._loop, self._stamp, self._setup)
         if self._is_followed:
             self._watch(now)
+            self._intake.mark(now)
             return
         settings = self._setup.settings
         longest = max(0.5 * settings.state_timeout, 3.0 / settings.rate) * SECOND
@@ -126,6 +123,16 @@ class PamControl(TickingNode):
         self._ticked, self._has_waited = now, was_held_up
         if not was_held_up:  # else what came meanwhile is to be received first
             self._step(now / SECOND, self.get_clock().now().nanoseconds)
+            self._intake.mark(now)
+
+    def _begin_anew(self, silent: int) -> None:
+        """Forget what was before *silent* ns: neither the load nor the pressure is there now."""
+        self._loop.forget()
+        self._loop.pressures = None
+        self._chambers.forget()
+        self._stamp = None
+        if self._loop.is_enabled:
+            self._reports.begin_anew(silent, self._setup.settings.command_timeout)
 
     def _watch(self, steady: int) -> None:
         if self._stamp is None:
@@ -151,7 +158,7 @@ class PamControl(TickingNode):
             pressures = loop.tick(time)
         except ArithmeticError:
             pressures = (float('nan'),)
-        if pressures is None:
+        if pressures is None or self._intake.look():  # it may be stopped here as well as anywhere
             return
         if not all(map(isfinite, pressures)):
             loop.enable(False)
@@ -161,6 +168,11 @@ class PamControl(TickingNode):
         elif loop.state == BLIND != before:
             self.get_logger().error(self._trouble())
         self._publish(pressures)
+        if self._intake.look():
+            # Stopped while it published: the rig may have received the old command just now.
+            if loop.safe == VENT:
+                self._publish((0.0,) * len(pressures))
+            return
         rate = self._setup.settings.state_rate
         # A little early is on time: stamps of a grid are rounded.
         is_due = bool(rate) and not 0 <= stamp - self._shown < 0.99 * SECOND / rate
@@ -170,7 +182,7 @@ class PamControl(TickingNode):
 
     def _publish(self, pressures: Pressures) -> None:
         self._commands.publish(pressures)
-        self._answered = monotonic_ns()
+        self._answered = steady_ns()
         self._commanded += 1
 
     # In ------------------------------------------------------------------------------------
@@ -187,13 +199,17 @@ class PamControl(TickingNode):
         if sight.stamp and sight.stamp == self._stamp:
             self._see_again()
             return
-        before, self._stamp = self._stamp, sight.stamp
+        passed = 0 if self._stamp is None else sight.stamp - self._stamp
         if not self._is_followed:
-            self._take_in(sight, monotonic_ns())
+            self._stamp = sight.stamp
+            self._take_in(sight, steady_ns())
             return
-        if before is not None and sight.stamp < before:
+        if passed < 0:
             self._loop.forget()  # simulated time begins anew, and so does what happens in it
             self._chambers.forget()
+        elif self._loop.state == RUNNING and passed > settings.command_timeout * SECOND:
+            self._begin_anew(passed)
+        self._stamp = sight.stamp
         self._take_in(sight, sight.stamp)
         self._chambers.prepare(self._loop, self._stamp, self._setup)
         self._step(sight.stamp / SECOND, sight.stamp)
@@ -204,20 +220,15 @@ class PamControl(TickingNode):
         reading = Reading(time / SECOND, sight.position, sight.velocity, stamp)
         fault = self._loop.see(reading)
         if not fault:
-            self._seen, self._last = monotonic_ns(), reading
+            self._seen, self._last = steady_ns(), reading
             return
         self._blindness = f'joint_states has a {fault}: not used'
-        self._leave_out(self._blindness)
-
-    def _leave_out(self, what: str) -> None:
-        """Say that a measurement cannot be true and is not used."""
-        self._implausibility, self._is_implausibility_new = what, True
-        self.get_logger().warning(what, throttle_duration_sec=1.0)
+        self._reports.leave_out(self._blindness)
 
     def _see_again(self) -> None:
         """Answer a state that is published again: in lockstep the answer was not received."""
         last = self._loop.pressures
-        is_due = monotonic_ns() - self._answered > REPEAT
+        is_due = steady_ns() - self._answered > REPEAT
         if self._is_followed and self._loop.state == RUNNING and last is not None and is_due:
             self._publish(last)
 
@@ -226,14 +237,14 @@ class PamControl(TickingNode):
             try:
                 self._loop.course.set_target(message.data)
             except RangeError as error:
-                self._refuse(str(error))
+                self._reports.refuse(str(error))
 
     def _take_co_contraction(self, message: Float64) -> None:
         if self._is_ready('co_contraction_reference'):
             try:
                 self._loop.law.stiffen(message.data)
             except RangeError as error:
-                self._refuse(str(error))
+                self._reports.refuse(str(error))
 
     def _take_trajectory(self, message: JointTrajectory) -> None:
         if not self._is_ready('joint_trajectory'):
@@ -243,25 +254,20 @@ class PamControl(TickingNode):
             points = points_of(message, self._setup.settings.joint_name)
             self._loop.course.play(points, self._wait_for(begin) if begin else 0.0)
         except RangeError as error:
-            self._refuse(str(error))
+            self._reports.refuse(str(error))
 
     def _wait_for(self, begin: int) -> float:
         """Return how long after the loop's last step in s the ROS time *begin* in ns is."""
         if self._is_followed and self._stamp is not None:
             return (begin - self._stamp) / SECOND
-        since = monotonic_ns() / SECOND - self._loop.time
+        since = steady_ns() / SECOND - self._loop.time
         return (begin - self.get_clock().now().nanoseconds) / SECOND + since
 
     def _is_ready(self, topic: str) -> bool:
         is_ready = self._loop.state == RUNNING
         if not is_ready:
-            self._refuse(f'{topic} is not taken: {self._trouble()}')
+            self._reports.refuse(f'{topic} is not taken: {self._trouble()}')
         return is_ready
-
-    def _refuse(self, reason: str) -> None:
-        self._refusal, self._is_refusal_new = reason, True
-        self._refused += 1
-        self.get_logger().warning(reason, throttle_duration_sec=1.0)
 
     def _enable(self, request: SetBool.Request, response: SetBool.Response) -> SetBool.Response:
         self._loop.enable(request.data)
@@ -300,17 +306,8 @@ class PamControl(TickingNode):
         return control_health.trouble(self._loop, did, self._blindness, self._fault)
 
     def _control(self) -> Health:
-        age = None if self._stamp is None else (monotonic_ns() - self._seen) / SECOND
-        received = Received(
-            age=age,
-            blindness=self._blindness,
-            refused=self._refused,
-            refusal=self._refusal,
-            is_refusal_new=self._is_refusal_new,
-            implausibility=self._implausibility,
-            is_implausibility_new=self._is_implausibility_new,
-        )
-        self._is_refusal_new = self._is_implausibility_new = False
+        age = None if self._stamp is None else (steady_ns() - self._seen) / SECOND
+        received = self._reports.received(age, self._blindness)
         return control_health.control(self._loop, self._setup, received, self._fault)
 
     def _timing(self) -> Health:

@@ -1,0 +1,57 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""What a controller has to report of what it received, in its log and in its diagnostics."""
+
+from typing import Any
+
+from pam_ros.health.controller import Received
+from pam_ros.timing.pace import SECOND
+
+
+class Reports:
+    """Counts what went wrong with messages, and writes it to a log."""
+
+    def __init__(self, logger: Any) -> None:
+        """Write to *logger*, of rclpy."""
+        self._logger = logger
+        self._refusal, self._refused, self._is_refusal_new = '', 0, False
+        self._implausibility, self._is_implausibility_new = '', False
+        self._silence, self._silences, self._is_silence_new = '', 0, False
+
+    def refuse(self, reason: str) -> None:
+        """Say why a reference or a trajectory is not taken."""
+        self._refusal, self._is_refusal_new = reason, True
+        self._refused += 1
+        self._logger.warning(reason, throttle_duration_sec=1.0)
+
+    def leave_out(self, what: str) -> None:
+        """Say that a measurement cannot be true and is not used."""
+        self._implausibility, self._is_implausibility_new = what, True
+        self._logger.warning(what, throttle_duration_sec=1.0)
+
+    def begin_anew(self, silent: int, longest: float) -> None:
+        """Say that no command was given for *silent* ns, more than *longest* s."""
+        self._silence = (
+            f'no command was given for {silent / SECOND:.2f} s, longer than command_timeout '
+            f'({longest:g} s): control starts again from the present position'
+        )
+        self._is_silence_new = True
+        self._silences += 1
+        self._logger.warning(self._silence)
+
+    def received(self, age: float | None, blindness: str) -> Received:
+        """Return what is to be reported now; the next time it is not new any more."""
+        received = Received(
+            age=age,
+            blindness=blindness,
+            refused=self._refused,
+            refusal=self._refusal,
+            is_refusal_new=self._is_refusal_new,
+            implausibility=self._implausibility,
+            is_implausibility_new=self._is_implausibility_new,
+            silences=self._silences,
+            silence=self._silence,
+            is_silence_new=self._is_silence_new,
+        )
+        self._is_refusal_new = self._is_implausibility_new = self._is_silence_new = False
+        return received

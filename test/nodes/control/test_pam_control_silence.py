@@ -1,0 +1,101 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""``pam_control`` is stopped, its rig goes on, and the node wakes: the load does not jump."""
+
+import os
+import signal
+from contextlib import contextmanager
+
+import numpy as np
+import pytest
+from sensor_msgs.msg import JointState
+
+from support.control_watch import Watch, stamp
+from support.harness import Program, lose_nothing
+
+RIG = {'initial.pressure': 300e3}
+WAY = 0.01  # m
+VENTED = 0.02  # m: below this the load swings and rests without pressure; it is held at 75 mm
+BUMP = 2e-3  # m that the load may move where control begins
+COUNTER = 'starts after a silence'
+
+
+@pytest.fixture
+def watch(peer):
+    return Watch(peer)
+
+
+@contextmanager
+def stopped(program):
+    os.kill(program.process.pid, signal.SIGSTOP)
+    try:
+        yield
+    finally:
+        os.kill(program.process.pid, signal.SIGCONT)
+
+
+def values(status):
+    return {pair.key: pair.value for pair in status.values}
+
+
+@pytest.mark.parametrize(
+    ('seconds', 'on_timeout'), [(1.3, 'vent'), (2.0, 'vent'), (2.0, 'hold'), (5.0, 'vent')]
+)
+def test_a_rig_that_has_vented_does_not_jump(watch, seconds, on_timeout):
+    peer = watch.peer
+    states = peer.collect(JointState, 'joint_states')
+    given = {'on_timeout': on_timeout}
+    with Program('pam_sim', parameters=RIG), Program('pam_control', parameters=given) as control:
+        begin = watch.begin()
+        watch.refer(begin + WAY)
+        peer.until(lambda: abs(watch.latest('position') - begin - WAY) < 1e-4, 'the position')
+        with stopped(control):
+            peer.work(seconds)
+            woke = stamp(states[-1])
+
+        def again():
+            return [term for term in watch.terms if stamp(term) > woke]
+
+        peer.until(lambda: len(again()) > 100, 'control again')
+        began = stamp(again()[0])
+        free = np.array([one.position[0] for one in states if stamp(one) > woke])
+        held = np.array([one.position[0] for one in states if stamp(one) > began])
+        assert free.max() < VENTED
+        if seconds >= 2.0:  # before, the load still swings
+            assert np.ptp(held) < BUMP
+        reference = again()[0].position[watch.names.index('reference')]
+        assert reference == pytest.approx(held[0], abs=BUMP)
+
+        status = watch.status(lambda s: values(s)[COUNTER] == '1', 'the silence')
+        assert 'no command was given for' in values(status)['last silence']
+        assert control.output.count('control starts again from the present position') == 1
+        # A new reference is approached within the shape, as from the start.
+        last = stamp(states[-1])
+        watch.refer(reference + WAY)
+        peer.until(
+            lambda: abs(watch.latest('position') - reference - WAY) < 1e-3, 'the new position'
+        )
+        speeds = [one.velocity[0] for one in states if stamp(one) > last]
+        assert np.max(np.abs(speeds)) < 0.15  # m/s; max_velocity is 0.1
+
+
+@pytest.mark.at_any_pace
+def test_in_lockstep_nothing_begins_anew(watch):
+    peer = watch.peer
+    states = peer.collect(JointState, 'joint_states')
+    rig = {**RIG, 'time_mode': 'lockstep', **lose_nothing()}
+    with (
+        Program('pam_sim', parameters=rig),
+        Program('pam_control', parameters={'use_sim_time': True}) as control,
+    ):
+        begin = watch.begin()
+        watch.refer(begin + WAY)
+        peer.until(lambda: watch.latest('reference') > begin + 0.1 * WAY, 'the motion')
+        with stopped(control):
+            peer.work(2.0)
+        peer.until(lambda: watch.latest('reference') == begin + WAY, 'the reference')
+        peer.more(watch.arrays, 2)
+        status = watch.status(lambda s: s.message == 'controlling', 'control')
+        assert values(status)[COUNTER] == '0'
+        assert np.max(np.diff([stamp(one) for one in states])) < 2.1e-3  # each one is answered
+        assert np.min([one.position[0] for one in states]) > begin - 1e-4
