@@ -16,6 +16,7 @@ FEWEST = 100  # samples
 # s between samples: outside, the unit of time must be wrong. Milliseconds at 1 kHz that are taken
 # for seconds are 1 s apart, seconds at 100 Hz that are taken for milliseconds 10 us.
 PERIODS = (5e-5, 0.25)
+HELD_PERIOD = 2.0  # s: a muscle that is held has no oscillation that samples must resolve
 CONTRACTIONS = (-0.2, 1.0)  # of a muscle of length l0: outside, zero or direction must be wrong
 TOO_LOW = 1e-3  # an input that stays below this share of p_max is in another unit
 SHORT = 10.0  # s
@@ -37,6 +38,7 @@ def check(
     _refuse_position(recording, l0)
     _refuse_constant(recording)
     return (
+        *_warn_slow(recording),
         *_warn_gaps(recording),
         *_warn_range(recording, l0, p_max),
         *_warn_extremes(recording),
@@ -61,7 +63,7 @@ def _refuse_few(recording: Recording) -> None:
         raise RecordingError(
             f'{recording.name} has {n} usable samples: at least {FEWEST} are needed'
         )
-    low, high = PERIODS
+    low, high = PERIODS[0], HELD_PERIOD if recording.kind == 'held' else PERIODS[1]
     if not low <= recording.period <= high:
         raise RecordingError(
             f'{recording.name}: samples are {recording.period:.4g} s apart, outside {low:g} to '
@@ -131,6 +133,12 @@ def _is_constant(value: Array) -> bool:
         return False
     x = value - value.mean()
     return bool(np.sum(x[1:] * x[:-1]) < 0.5 * np.sum(x * x))
+
+
+def _warn_slow(recording: Recording) -> tuple[str, ...]:
+    if recording.period <= PERIODS[1]:
+        return ()
+    return (f'samples are {recording.period:.4g} s apart: is the time in another unit?',)
 
 
 def _warn_gaps(recording: Recording) -> list[str]:

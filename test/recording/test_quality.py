@@ -49,6 +49,11 @@ def test_the_input_over_the_samples_is_the_command_that_holds():
     assert value[[0, 200, 201, 399, 400]].tolist() == [1.0, 1.0, 2.0, 2.0, 3.0]
 
 
+def test_a_muscle_that_is_held_may_be_sampled_slowly_and_the_unit_is_asked_for():
+    (warning,) = check(held(t=np.arange(T.size) * 1.0), l0=0.4, p_max=6e5)
+    assert warning == 'samples are 1 s apart: is the time in another unit?'
+
+
 def constant(value):
     return {'command': np.full(T.size, value)}
 
@@ -61,6 +66,7 @@ def constant(value):
         (recording(t=T * 1e-6), None, ['5e-09 s apart']),
         (recording(t=np.arange(T.size) * 1.0), None, ['1 s apart', '5e-05 to 0.25 s', 't_ms']),
         (recording(t=T * 2e-3), None, ['1e-05 s apart']),
+        (held(t=np.arange(T.size) * 2.5), None, ['2.5 s apart', '5e-05 to 2 s']),
         (recording(position=recording().position * 1e3), None, ['position reaches', '10 m']),
         (
             recording(command=recording().command * 1e3),
