@@ -8,6 +8,7 @@ has a user write (``test/effects/test_guide.py``).
 """
 
 import importlib.util
+import shutil
 
 import pytest
 
@@ -23,17 +24,25 @@ def pytest_report_header():
     return [] if HAVE_SYBIL else ['without Sybil: the examples of the pages are not run']
 
 
-@pytest.fixture(scope='module')
-def working_folder(tmp_path_factory):
-    """Work in a folder with what the pages read: a bag, and the report of an identification."""
+@pytest.fixture(scope='session')
+def page_files(tmp_path_factory):
+    """Return a folder with what the pages read: a bag, and the report of an identification."""
     from pam_ros.report.write import write_report
     from support import bags, traces
 
-    folder = tmp_path_factory.mktemp('page')
+    folder = tmp_path_factory.mktemp('page_files')
     topics, _ = bags.rig_topics(duration=12.0)
     topics['/cell'] = topics.pop('/force')
     bags.write_bag(folder / 'monday', topics)
     write_report(folder / 'report', *traces.friction_trace())
+    return folder
+
+
+@pytest.fixture(scope='module')
+def working_folder(page_files, tmp_path_factory):
+    """Work in a copy of that folder, which a page may write to."""
+    folder = tmp_path_factory.mktemp('page') / 'work'
+    shutil.copytree(page_files, folder)
     with pytest.MonkeyPatch.context() as monkeypatch:
         monkeypatch.chdir(folder)
         yield folder

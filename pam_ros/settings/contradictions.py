@@ -2,14 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Values that are allowed one by one, and together make no joint."""
 
-from collections.abc import Mapping
-
-from pam_ros.effects import EFFECTS
-from pam_ros.effects.payload import LEAST_SHARE
+from pam_ros.effects import end_stop, payload
+from pam_ros.effects.base import Effect
 from pam_ros.errors import ParameterError
 from pam_ros.rig.joint import Joint
-
-NAMES = {effect.name: effect for effect in EFFECTS}
 
 
 def refuse_contradictions(joint: Joint) -> None:
@@ -18,13 +14,13 @@ def refuse_contradictions(joint: Joint) -> None:
     The equations keep a fifth of the mass whatever the payload, for the sake of fits that try
     values on their way; what a user declares is refused instead.
     """
-    mass, payload = joint.load.mass, _values(joint.effects, 'payload')['mass']
-    if mass + payload < LEAST_SHARE * mass:
+    mass, more = joint.load.mass, _values(joint, payload.EFFECT)['mass']
+    if mass + more < payload.LEAST_SHARE * mass:
         raise ParameterError(
-            f'effects.payload.mass = {payload:g} kg leaves {mass + payload:g} kg of mass = '
-            f'{mass:g} kg: give at least {(LEAST_SHARE - 1.0) * mass:g} kg'
+            f'effects.payload.mass = {more:g} kg leaves {mass + more:g} kg of mass = '
+            f'{mass:g} kg: give at least {(payload.LEAST_SHARE - 1.0) * mass:g} kg'
         )
-    stop = _values(joint.effects, 'end_stop')
+    stop = _values(joint, end_stop.EFFECT)
     has_both = stop['stiffness'] > 0.0 and stop['lower_stiffness'] > 0.0
     if has_both and stop['lower'] >= stop['upper']:
         raise ParameterError(
@@ -33,7 +29,7 @@ def refuse_contradictions(joint: Joint) -> None:
         )
 
 
-def _values(effects: Mapping[str, Mapping[str, float]], name: str) -> dict[str, float]:
-    """Return the parameters of an effect by name: those given, or their defaults."""
-    defaults = {parameter.name: parameter.default for parameter in NAMES[name].parameters}
-    return {**defaults, **effects.get(name, {})}
+def _values(joint: Joint, effect: Effect) -> dict[str, float]:
+    """Return the parameters of an effect by name: those of the joint, or their defaults."""
+    values = effect.values(joint.effects.get(effect.name, {}))
+    return {p.name: value for p, value in zip(effect.parameters, values, strict=True)}
