@@ -38,6 +38,7 @@ q[j + 1], ... in SI; the muscle's or joint's own are at the indices of
 from collections.abc import Callable, Mapping, MutableSequence
 from dataclasses import dataclass, field
 from enum import Enum
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -172,7 +173,7 @@ class Effect:
                 'follow: give lag, or Compensation.FEED_FORWARD or FEEDBACK'
             )
 
-    @property
+    @cached_property
     def acts_on_joint(self) -> bool:
         """Whether it acts on the joint, and not in a muscle or its pressure path."""
         return any(getattr(self, place) for place in ON_JOINT)

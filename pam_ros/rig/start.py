@@ -17,18 +17,25 @@ Array = NDArray[np.float64]
 
 
 def start_state(
-    layout: Layout, q: Array, pressures: Sequence[float] | Array, s: float, v: float
+    layout: Layout,
+    q: Array,
+    pressures: Sequence[float] | Array,
+    s: float,
+    v: float,
+    present: Sequence[Effect] | None = None,
 ) -> Array:
     """Return the state x at the coordinate s and velocity v after a long rest there.
 
     *q* are the parameters (rows, parameters), *pressures* those that are commanded in Pa, one a
-    muscle; hidden states are those of their effect's ``start``.
+    muscle; hidden states are those of their effect's ``start``. Those of effects that are not
+    among *present*, if they are named, are left 0: nothing reads them.
     """
     x = layout.state()
     x[at.JOINT, at.S], x[at.JOINT, at.V] = s, v
+    effects = layout.library if present is None else present
     for i, pressure in enumerate(pressures):
-        start_muscle(layout, q, x, i, float(pressure), layout.library)
-    start_joint(layout, q, x, layout.library)
+        start_muscle(layout, q, x, i, float(pressure), effects)
+    start_joint(layout, q, x, effects)
     return x
 
 

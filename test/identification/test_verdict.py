@@ -22,11 +22,18 @@ from pam_ros.identification.verdict import (
 from support import bench_truth, traces
 
 
+def with_errors(model, errors):
+    """Return a model that takes *errors* for its own: it does not look for them again."""
+    changed = replace(model)
+    vars(changed)['errors'] = errors
+    return changed
+
+
 def ended(found, best, retuned):
     """Return a search that ended with these errors in noise floors, the same on both parts."""
     noise = found.setting.noise
     pairs = [(found.best, best), (found.retuned, retuned)]
-    last, first = (replace(m, errors=Errors(*3 * (e * noise,))) for m, e in pairs)
+    last, first = (with_errors(m, Errors(*3 * (e * noise,))) for m, e in pairs)
     return Search(found.setting, first, last, found.looked_at)
 
 
@@ -43,7 +50,7 @@ def test_both_parts_must_be_explained(found):
     errors = one.best.errors
     high = 20.0 * found.setting.noise
     for name in ('fit', 'choose'):
-        one.best = replace(one.best, errors=replace(errors, **{name: high}))
+        one.best = with_errors(one.best, replace(errors, **{name: high}))
         assert not explains(one)
 
 

@@ -113,7 +113,7 @@ class Problem:
                     y0 = unknown.value(value)
             elif isinstance(of, MemoryStart) and of.run == run:
                 memories.append((of, unknown.value(value)))
-        x = start_state(self.layout, q, (s.first_pressure,), y0, v0)
+        x = start_state(self.layout, q, (s.first_pressure,), y0, v0, self._present)
         if memories:
             for of, away in memories:
                 x[of.row, of.column] += away
@@ -172,6 +172,18 @@ class Problem:
         run: Callable[..., object] = map if pool is None else pool.map
         found = list(run(column, columns))  # type: ignore[call-overload]
         return np.stack(found, axis=1) if found else np.empty((r.size, 0))
+
+    @cached_property
+    def _present(self) -> tuple[Effect, ...]:
+        """The effects that may be there, in the order of the library."""
+        free = {k.of.which.effect for k in self.unknowns if isinstance(k.of, OfEffect)}
+        index = self.layout.index
+
+        def has_strength(effect: Effect) -> bool:
+            pairs = enumerate(effect.parameters)
+            return any(p.strength and self.row[index(effect, k)] != 0.0 for k, p in pairs)
+
+        return tuple(e for e in self.layout.library if e.name in free or has_strength(e))
 
     # What residuals are worth ------------------------------------------------------------------
 

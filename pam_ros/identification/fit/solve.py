@@ -41,7 +41,8 @@ AGREED = 0.05  # change of the logarithms of size and time that is none
 class Solution:
     """Where a fit ended: u (k,), the residuals (n,) there in m or N, and dr/du (n, k).
 
-    ``discrepancy`` says how much the residuals count.
+    ``discrepancy`` says how much the residuals count. ``is_fresh`` says that the Jacobian was
+    computed there, or so near that steps along it lower the cost by nothing any more.
     """
 
     problem: Problem
@@ -49,6 +50,7 @@ class Solution:
     r: Array
     jacobian: Array
     discrepancy: Discrepancy = WHITE
+    is_fresh: bool = False
 
     @cached_property
     def whitenings(self) -> Sequence[Whitening]:
@@ -108,7 +110,7 @@ def solved(
     pool: Executor | None = None,
 ) -> Solution:
     """Return the most probable unknowns and the discrepancy of the best score, from u on."""
-    return settled(begun(problem, u, discrepancy, pool), iterations, pool, stale=False)
+    return settled(begun(problem, u, discrepancy, pool), iterations, pool)
 
 
 def begun(
@@ -117,17 +119,12 @@ def begun(
     """Return the place u, brought within its bounds, with the Jacobian there."""
     u = np.clip(u, *problem.bounds)
     r = problem.residuals(u)
-    return Solution(problem, u, r, problem.jacobian(u, r, pool), discrepancy)
+    return Solution(problem, u, r, problem.jacobian(u, r, pool), discrepancy, is_fresh=True)
 
 
-def settled(
-    known: Solution, iterations: int = 20, pool: Executor | None = None, stale: bool = True
-) -> Solution:
-    """Improve unknowns and discrepancy in turn until they agree.
-
-    The Jacobian is that of the place where the fit ends. *stale* as in :func:`improved`.
-    """
-    known = improved(known, iterations, pool, stale)
+def settled(known: Solution, iterations: int = 20, pool: Executor | None = None) -> Solution:
+    """Improve unknowns and discrepancy in turn until they agree; the Jacobian is fresh then."""
+    known = improved(known, iterations, pool)
     for _ in range(ALTERNATIONS):
         found = known.most_likely()
         if _agree(found, known.discrepancy):
@@ -139,32 +136,33 @@ def settled(
 def least_squares(known: Solution, iterations: int = 20, pool: Executor | None = None) -> Solution:
     """Minimise the residuals of *known* from there, however they are correlated.
 
-    The Jacobian of *known* must be of its place, and that of the result is of the place where the
-    fit ends.
+    The Jacobian is fresh then.
     """
-    return fresh(improved(replace(known, discrepancy=WHITE), iterations, pool, stale=False), pool)
+    return fresh(improved(replace(known, discrepancy=WHITE), iterations, pool), pool)
 
 
 def fresh(known: Solution, pool: Executor | None = None) -> Solution:
-    """Return *known* with the Jacobian computed where it is."""
+    """Return *known* with a Jacobian that is fresh."""
+    if known.is_fresh:
+        return known
     jacobian = known.problem.jacobian(known.u, known.r, pool)
-    return replace(known, jacobian=jacobian)
+    return replace(known, jacobian=jacobian, is_fresh=True)
 
 
 def improved(
     known: Solution,
     iterations: int = 20,
     pool: Executor | None = None,
-    stale: bool = True,
     renew: bool = True,
 ) -> Solution:
     """Minimise the cost of *known* from there, its discrepancy kept; never ends higher.
 
-    A *stale* Jacobian, not of this place, is used as it is and, like any other, kept up to date by
-    Broyden's rule; it is computed anew when steps stop to lower the cost by what they promise or
-    at all. Not to *renew* it makes a cheap look of a fit: it ends there.
+    A Jacobian that is not fresh is used as it is and, like any other, kept up to date by Broyden's
+    rule; it is computed anew when steps stop to lower the cost by what they promise or at all. Not
+    to *renew* it makes a cheap look of a fit: it ends there.
     """
     problem, u, r, j = known.problem, known.u, known.r, known.jacobian.copy()
+    stale = not known.is_fresh
     low, high = problem.bounds
     prior, maps = problem.prior, known.whitenings
     n = r.size
@@ -204,7 +202,7 @@ def improved(
             continue
         # Steps along an old Jacobian may have failed by its own fault: begin undamped.
         j, stale, damping = problem.jacobian(u, r, pool), False, LEAST_DAMPING
-    return Solution(problem, u, r, j, known.discrepancy)
+    return Solution(problem, u, r, j, known.discrepancy, is_fresh=not stale)
 
 
 def _agree(a: Discrepancy, b: Discrepancy) -> bool:

@@ -2,12 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """The moves of a search: an effect more, more of an effect, an effect less."""
 
-from dataclasses import replace
-
-from pam_ros.identification.fit.extend import without_effect
-from pam_ros.identification.fit.solve import settled
+from pam_ros.effects.base import Effect
+from pam_ros.identification.fit.extend import finer_starts, without_effect
+from pam_ros.identification.fit.solve import Solution, settled
 from pam_ros.identification.search.setting import Model, Setting
-from pam_ros.identification.search.starts import finer, looks
+from pam_ros.identification.search.starts import extended, looks
 
 
 def with_each(parent: Model, names: list[str], setting: Setting) -> list[Model]:
@@ -44,10 +43,28 @@ def _score(model: Model) -> float:
 
 
 def freed(model: Model, setting: Setting) -> list[Model]:
-    """Return *model* with more parameters of each of its effects."""
+    """Return *model* with more parameters of each of its effects; the best score first.
+
+    The best of them is fitted to its end.
+    """
+    known = model.solution
+    row = known.problem.row_at(known.u)
     effects = [setting.effect(name) for name in model.effects]
-    found = setting.pool.map(lambda effect: finer(model, effect, setting), effects)
-    return [setting.model(model.effects, one) for some in found for one in some]
+    options = [
+        (effect, option)
+        for effect in effects
+        for option in finer_starts(known.problem.unknowns, row, setting.joint, effect)
+    ]
+
+    def closer(option: tuple[Effect, dict[str, float]]) -> Model:
+        wider = extended(known, *option, setting)
+        return setting.model(model.effects, settled(wider, setting.budget.closer))
+
+    fits = sorted(setting.pool.map(closer, options), key=_score)
+    if fits:
+        best = settled(fits[0].solution, setting.budget.iterations)
+        fits[0] = setting.model(model.effects, best)
+    return fits
 
 
 def dropped(model: Model, name: str, setting: Setting) -> Model:
@@ -55,12 +72,17 @@ def dropped(model: Model, name: str, setting: Setting) -> Model:
 
     So no effect keeps the credit for where its start has led the rest.
     """
+    if name not in model.without:
+        model.without[name] = _dropped(model, name, setting)
+    return model.without[name]
+
+
+def _dropped(model: Model, name: str, setting: Setting) -> Model:
     known = model.solution
     problem, keep = without_effect(known.problem, setting.joint, setting.effect(name))
     u = known.u[keep]
-    less = replace(
-        known, problem=problem, u=u, r=problem.residuals(u), jacobian=known.jacobian[:, keep]
-    )
+    slopes = known.jacobian[:, keep]
+    less = Solution(problem, u, problem.residuals(u), slopes, known.discrepancy)
     effects = tuple(e for e in model.effects if e != name)
     return setting.model(effects, settled(less, setting.budget.iterations))
 

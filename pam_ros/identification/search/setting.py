@@ -9,7 +9,7 @@ errors cost little, and the free run of a model that lacks something drifts.
 
 from collections.abc import Sequence
 from concurrent.futures import Executor
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -55,20 +55,40 @@ class Errors:
 
 @dataclass(frozen=True, eq=False)
 class Model:
-    """A model that was fitted: the effects in it, where the fit ended, and its errors.
+    """A model that was fitted: the effects in it, and where the fit ended.
 
-    ``nearest`` (k,) are the unknowns with which its free run is nearest to the measurement.
+    Its errors are found when they are asked for: most models are refused by their scores alone.
+    ``without`` keeps what it becomes without one of its effects, which several moves ask for.
     """
 
     effects: tuple[str, ...]
     solution: Solution
-    nearest: Array
-    errors: Errors
+    setting: 'Setting'
+    is_look: bool
+    without: dict[str, 'Model'] = field(default_factory=dict, repr=False)
 
     @property
     def score(self) -> float:
         """-2 ln(evidence) but for a constant of the data: the lower, the better."""
         return self.solution.score
+
+    @cached_property
+    def _near(self) -> Solution:
+        plain = replace(self.solution, discrepancy=WHITE)
+        return improved(plain, self.setting.budget.nearer, renew=not self.is_look)
+
+    @property
+    def nearest(self) -> Array:
+        """The unknowns (k,) with which its free run is nearest to the measurement.
+
+        By least squares from where the fit ended; those of a cheap look are as cheap.
+        """
+        return self._near.u
+
+    @cached_property
+    def errors(self) -> Errors:
+        """The errors of the nearest free run."""
+        return self.setting.errors(self._near)
 
     @property
     def strain(self) -> float:
@@ -148,13 +168,8 @@ class Setting:
         ]
 
     def model(self, effects: tuple[str, ...], solution: Solution, is_look: bool = False) -> Model:
-        """Return the model of a solution with its errors, by least squares from there.
-
-        Those of a cheap look (*is_look*) are as cheap.
-        """
-        plain = replace(solution, discrepancy=WHITE)
-        near = improved(plain, self.budget.nearer, renew=not is_look)
-        return Model(effects, solution, near.u, self.errors(near))
+        """Return the model of a solution; *is_look* says that it comes from a cheap look."""
+        return Model(effects, solution, self, is_look)
 
     def errors(self, solution: Solution) -> Errors:
         """Return the errors of a solution as it is."""

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Fits with one more effect: a cheap look from every starting value, then fits to the end."""
+"""Fits with one more effect: a cheap look from every starting value."""
 
 from dataclasses import replace
 
@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from pam_ros.effects.base import Effect
 from pam_ros.identification.fit.discrepancy import WHITE, Discrepancy
-from pam_ros.identification.fit.extend import finer_starts, with_effect
-from pam_ros.identification.fit.solve import Solution, improved, settled
+from pam_ros.identification.fit.extend import with_effect
+from pam_ros.identification.fit.solve import Solution, improved
 from pam_ros.identification.fit.unknowns import Constant, MemoryStart
 from pam_ros.identification.search.setting import Model, Setting
 from pam_ros.rig import layout as at
@@ -54,7 +54,8 @@ def _grounds(known: Solution) -> list[tuple[Solution, list[Discrepancy]]]:
     constants = [isinstance(unknown.of, Constant) for unknown in known.problem.unknowns]
     if np.max(np.abs(known.z[constants]), initial=0.0) > 1.0:
         u = np.where(constants, 0.0, known.u)
-        declared = replace(known, u=u, r=known.problem.residuals(u))
+        r = known.problem.residuals(u)
+        declared = replace(known, u=u, r=r, is_fresh=False)
         found.append((declared, [WHITE]))
     return found
 
@@ -108,14 +109,3 @@ def guessed(parent: Model, effect: Effect) -> tuple[dict[str, float], ...]:
     position = s.target if is_free else out[:, at.RUN_S]
     l0 = problem.row[problem.layout.constant(at.L0)]
     return effect.guess(s.t, out[:, at.RUN_P], position / l0, residual)
-
-
-def finer(model: Model, effect: Effect, setting: Setting) -> list[Solution]:
-    """Return fits with more parameters of an *effect* that is in *model*, to their end."""
-    known = model.solution
-    problem = known.problem
-    options = finer_starts(problem.unknowns, problem.row_at(known.u), setting.joint, effect)
-    return [
-        settled(extended(known, effect, option, setting), setting.budget.iterations)
-        for option in options
-    ]

@@ -39,7 +39,7 @@ def test_the_covariance_is_that_of_the_linear_map_from_the_errors(process, prior
 @pytest.mark.parametrize('prior', [0.01, 100.0])
 def test_under_the_process_itself_it_is_that_of_generalised_least_squares(prior):
     values = LINE @ TRUTH + slow_error(np.random.default_rng(3), SLOW)
-    known = fresh(improved(begun(line(values, prior), TRUTH, SLOW), 40, stale=False))
+    known = fresh(improved(begun(line(values, prior), TRUTH, SLOW), 40))
     c = curves.covariance(SLOW)
     variance = known.r @ np.linalg.solve(c, known.r) / T.size
     normal = LINE.T @ np.linalg.solve(c, LINE) / variance + np.diag([prior**-2, 100.0**-2])
