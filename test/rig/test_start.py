@@ -28,6 +28,22 @@ def test_a_start_is_a_long_rest():
     assert x[at.MUSCLE, joint.layout.state_at['pressure_lag']] == 2.05e5
 
 
+def test_effects_that_are_not_there_need_no_start():
+    """What is known to be there begins as ever, and what is not leaves the run as it is."""
+    effects = LAG | {'creep': {'force': 0.03}, 'viscous_friction': {'coefficient': 20.0}}
+    joint = one_muscle(effects=effects)
+    layout, q = joint.layout, joint.parameters()
+    present = tuple(e for e in joint.library if e.name in effects)
+    x = start_state(layout, q, [2e5], 0.03, 0.1)
+    some = start_state(layout, q, [2e5], 0.03, 0.1, present)
+    assert some[at.MUSCLE, at.P] == x[at.MUSCLE, at.P]
+    for effect in present:
+        row = at.JOINT if effect.acts_on_joint else at.MUSCLE
+        i = layout.state_at[effect.name]
+        own = slice(i, i + len(effect.states))
+        np.testing.assert_array_equal(some[row, own], x[row, own])
+
+
 def test_one_effect_can_be_started_alone():
     joint = one_muscle(effects=LAG)
     layout, q = joint.layout, joint.parameters()

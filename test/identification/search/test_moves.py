@@ -53,6 +53,23 @@ def test_what_was_added_can_be_dropped(tried, retuned, setting):
     assert not [k for k in less.solution.problem.unknowns if k.name.startswith('effects')]
 
 
+def test_a_model_is_fitted_without_an_effect_once(tried, setting):
+    assert dropped(tried[0], 'pressure_lag', setting) is dropped(tried[0], 'pressure_lag', setting)
+
+
+def test_the_best_of_the_finer_ones_is_fitted_to_its_end(tried, setting):
+    short = replace(setting, budget=replace(BUDGET, closer=1))
+    best = freed(tried[0], short)[0]
+    assert best.score - settled(best.solution, 100).score < 0.1
+
+
+def test_errors_are_found_when_they_are_asked_for(tried):
+    model = replace(tried[-1])
+    assert 'errors' not in vars(model)
+    assert model.errors.fit > tried[0].errors.fit
+    assert 'errors' in vars(model)
+
+
 def test_another_effect_in_its_place(tried, setting):
     wrong = next(m for m in tried if m.effects == ('dead_time',))
     less, (right,) = swapped(wrong, 'dead_time', ['pressure_lag'], setting)
