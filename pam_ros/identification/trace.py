@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The trace: how wrong is the declared model, what does it lack, how wrong is it with that."""
 
+import os
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
@@ -36,6 +37,8 @@ from pam_ros.rig import layout as at
 from pam_ros.rig.joint import Joint
 
 Array = NDArray[np.float64]
+# Simulations run side by side, the rest of a fit, about a third of its time, does not.
+THREADS = 4
 
 
 def trace(
@@ -69,7 +72,7 @@ def trace(
             f'recording {recordings[0].name} is too short for a fit: it lasts '
             f'{recordings[0].duration:.3g} s; at least {CRITERIA.duration:g} s are needed'
         )
-    with ThreadPoolExecutor() as pool:
+    with ThreadPoolExecutor(min(os.cpu_count() or 1, THREADS)) as pool:
         setting = Setting(model, parts, CRITERIA, BUDGET, pool)
         lacking = too_little([part.segment for part in parts], setting.noise, CRITERIA)
         found = search(setting, tell)

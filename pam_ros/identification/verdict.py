@@ -3,6 +3,7 @@
 """From numbers to a sentence: which of five verdicts, and what to record next."""
 
 from collections.abc import Sequence
+from math import sqrt
 
 import numpy as np
 
@@ -35,15 +36,21 @@ def too_little(segments: Sequence[Segment], noise: float, criteria: Criteria) ->
 def explains(found: Search) -> bool:
     """Say whether the best model of a search leaves little enough of what re-tuning left.
 
-    Without effects: whether re-tuning itself leaves no more than noise.
+    On *fit*, and on *fit* and *choose* by the geometric mean: where a load sticks, a little less
+    friction than fitted lets it stick elsewhere, so that a right model that leaves hardly anything
+    of *fit* may be further off on *choose*. Without effects: whether re-tuning itself leaves no
+    more than noise.
     """
     setting, errors, before = found.setting, found.best.errors, found.retuned.errors
     now = [setting.above(e) for e in (errors.fit, errors.choose)]
     if not found.best.effects:
         return min(now) <= setting.noise
     whole = [setting.above(e) for e in (before.fit, before.choose)]
-    most = [max(setting.criteria.left * a, setting.noise) for a in whole]
-    return all(b <= a for b, a in zip(now, most, strict=True))
+    # What is no more than the noise cannot be seen, and counts as little enough.
+    fit, choose = (
+        b / max(a, setting.noise / setting.criteria.left) for b, a in zip(now, whole, strict=True)
+    )
+    return max(fit, sqrt(fit * choose)) <= setting.criteria.left
 
 
 def verdict(found: Search, declared: float, retuned: float) -> str:

@@ -2,12 +2,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """The state of a joint after a long rest: coordinates, pressures and hidden states."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pam_ros.arguments import instance, number
+from pam_ros.compiled import broadcast
 from pam_ros.effects.base import Effect
 from pam_ros.errors import ParameterError
 from pam_ros.rig import layout as at
@@ -135,4 +137,10 @@ def _behind(effect: Effect, pressure: float, x: Array, k: int, q: Array, j: int)
     """Return the pressure behind an effect of the path with *pressure* Pa before it, now."""
     if effect.pressure is None:
         return pressure
-    return effect.pressure(pressure, 0.0, 0.0, x, k, x.copy(), q, j)
+    return float(_in_python(effect.pressure)(pressure, 0.0, 0.0, x, k, x.copy(), q, j))
+
+
+@lru_cache
+def _in_python(function: Callable[..., float]) -> Callable[..., float]:
+    """Return *function* without compiled parts: for a call a run, the compiler takes too long."""
+    return broadcast(function)

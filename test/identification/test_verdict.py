@@ -45,13 +45,27 @@ def test_a_claim_must_explain_most_of_what_retuning_left(found):
     assert explains(ended(found, 1.4, 1.6))
 
 
-def test_both_parts_must_be_explained(found):
-    one = ended(found, 2.0, 33.0)
-    errors = one.best.errors
-    high = 20.0 * found.setting.noise
-    for name in ('fit', 'choose'):
-        one.best = with_errors(one.best, replace(errors, **{name: high}))
-        assert not explains(one)
+def ended_apart(found, fit, choose):
+    """Return a search that left 33 noise floors of each part, and then these."""
+    one = ended(found, 1.0, 33.0)
+    noise = found.setting.noise
+    errors = replace(one.best.errors, fit=fit * noise, choose=choose * noise)
+    one.best = with_errors(one.best, errors)
+    return one
+
+
+def test_what_is_fitted_must_be_explained(found):
+    assert explains(ended_apart(found, 9.8, 1.0))
+    assert not explains(ended_apart(found, 10.1, 1.0))
+
+
+def test_of_what_is_not_fitted_more_may_be_left_where_the_fit_leaves_less(found):
+    """A load that sticks elsewhere leaves little of *fit*, a sine in a random walk does not."""
+    assert explains(ended_apart(found, 1.4, 19.8))
+    assert not explains(ended_apart(found, 8.0, 19.8))
+    # The mean is at its limit: sqrt(0.151 * 0.6) = 0.301.
+    assert not explains(ended_apart(found, 5.08, 19.8))
+    assert explains(ended_apart(found, 5.0, 19.8))
 
 
 def test_without_an_effect_more_than_noise_is_structure_and_constants_may_be_wrong(found):

@@ -47,7 +47,8 @@ PRICE = 4.0
 # of a run would be an offset that costs nothing, and the level of what is measured would count for
 # nothing; and less than ten correlation times say little of a process.
 LONGEST = 0.1
-CLOSE = 0.1  # how near to its best the score is found: nothing beside a margin of 10
+CLOSE = 0.05  # how near to its best the score is found: nothing beside a margin of 10
+STEP = 1e-2  # of the logarithms, for the slopes of the score, which is smooth in them
 
 
 def score(whitened: Array, jacobian: Array, z: Array, prior: Array, log_det: float) -> float:
@@ -85,7 +86,7 @@ def most_likely(
     parts = np.split(np.column_stack([residuals, jacobian]), edges)
 
     def cost(z_of: Array) -> float:
-        return score_of(Discrepancy(*np.exp(np.clip(z_of, low, high))))
+        return score_of(Discrepancy(*np.exp(z_of)))
 
     def score_of(discrepancy: Discrepancy) -> float:
         maps = [discrepancy.whitening(stamps) for stamps in t]
@@ -107,16 +108,16 @@ def most_likely(
     ]
     # Where to begin, the likelihood of the residuals alone shows as well, and at little cost.
     start = min(grid, key=lambda z_of: _likely(Discrepancy(*np.exp(z_of)), t, residuals, edges))
-    simplex = np.array([[0.0, 0.0], [0.7, 0.0], [0.0, 0.7]]) + start
     found = minimize(
         cost,
         start,
-        method='Nelder-Mead',
-        options={'initial_simplex': simplex, 'xatol': 0.1, 'fatol': CLOSE},
+        method='SLSQP',
+        bounds=np.column_stack([low, high]),
+        options={'eps': STEP, 'ftol': CLOSE},
     )
     if found.fun > score_of(WHITE) - PRICE:
         return WHITE
-    size, time = np.exp(np.clip(found.x, low, high)).tolist()
+    size, time = np.exp(found.x).tolist()
     return Discrepancy(size, time)
 
 

@@ -25,7 +25,9 @@ def with_each(parent: Model, names: list[str], setting: Setting) -> list[Model]:
         return setting.model(model.effects, settled(model.solution, budget.closer))
 
     # An effect may have no start here: a frequency that nothing is read of.
-    some = [found for found in setting.pool.map(look, names) if found]
+    # Those with most starts begin first, so that no thread is left with a long one at the end.
+    longest = sorted(names, key=lambda name: -len(setting.effect(name).fit_starts))
+    some = [found for found in setting.pool.map(look, longest) if found]
     if not some:
         return []
     looked = sorted(some, key=lambda found: found[0].score)
@@ -34,7 +36,7 @@ def with_each(parent: Model, names: list[str], setting: Setting) -> list[Model]:
     best = fits[0].effects
     again = [m for found in rivals for m in found[1:] if m.effects == best]
     nearest = min([fits[0], *setting.pool.map(closer, again)], key=_score)
-    fits[0] = setting.model(best, settled(nearest.solution, budget.iterations))
+    fits[0] = setting.model(best, settled(nearest.solution, budget.iterations, setting.pool))
     return sorted([*fits, *others], key=_score)
 
 
@@ -43,9 +45,10 @@ def _score(model: Model) -> float:
 
 
 def freed(model: Model, setting: Setting) -> list[Model]:
-    """Return *model* with more parameters of each of its effects; the best score first.
+    """Return *model* with more parameters of each of its effects, each fitted to its end.
 
-    The best of them is fitted to its end.
+    An effect that is missed beside them makes these fits slow, and the choice of a few iterations
+    then leads away from it.
     """
     known = model.solution
     row = known.problem.row_at(known.u)
@@ -56,15 +59,11 @@ def freed(model: Model, setting: Setting) -> list[Model]:
         for option in finer_starts(known.problem.unknowns, row, setting.joint, effect)
     ]
 
-    def closer(option: tuple[Effect, dict[str, float]]) -> Model:
+    def fit(option: tuple[Effect, dict[str, float]]) -> Model:
         wider = extended(known, *option, setting)
-        return setting.model(model.effects, settled(wider, setting.budget.closer))
+        return setting.model(model.effects, settled(wider, setting.budget.iterations))
 
-    fits = sorted(setting.pool.map(closer, options), key=_score)
-    if fits:
-        best = settled(fits[0].solution, setting.budget.iterations)
-        fits[0] = setting.model(model.effects, best)
-    return fits
+    return list(setting.pool.map(fit, options))
 
 
 def dropped(model: Model, name: str, setting: Setting) -> Model:
@@ -84,7 +83,7 @@ def _dropped(model: Model, name: str, setting: Setting) -> Model:
     slopes = known.jacobian[:, keep]
     less = Solution(problem, u, problem.residuals(u), slopes, known.discrepancy)
     effects = tuple(e for e in model.effects if e != name)
-    return setting.model(effects, settled(less, setting.budget.iterations))
+    return setting.model(effects, settled(less, setting.budget.iterations, setting.pool))
 
 
 def swapped(

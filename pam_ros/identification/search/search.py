@@ -87,7 +87,7 @@ def confirmed(found: Search) -> Model:
     known = best.solution
     problem = replace(known.problem, step=known.problem.step / setting.budget.finer)
     fine = replace(known, problem=problem, r=problem.residuals(known.u), is_fresh=False)
-    now = setting.model(best.effects, settled(fine, setting.budget.iterations))
+    now = setting.model(best.effects, settled(fine, setting.budget.iterations, setting.pool))
     return _reduced(now, found)
 
 

@@ -26,6 +26,8 @@ def candidates(found: Search) -> tuple[Candidate, ...]:
             if model.effects:
                 *before, name = model.effects
                 children.setdefault((frozenset(before), name), model)
+    shown = {*parents.values(), *children.values()}
+    list(found.setting.pool.map(lambda model: model.errors, shown))  # found once, side by side
     made = []
     for effects in sorted(parents, key=len):
         tried = [child for (before, _), child in children.items() if before == effects]
