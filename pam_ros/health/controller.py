@@ -25,6 +25,7 @@ class Received(NamedTuple):
     silences: int = 0  # times without a command for longer than the rig goes on by itself
     silence: str = ''  # what the last of them was
     is_silence_new: bool = False  # since the last report
+    tracking: str = ''  # which error or saturation lasts
 
 
 def values_of(loop: Loop, setup: ControlSetup, age: float | None) -> dict[str, Any]:
@@ -103,6 +104,8 @@ def control(loop: Loop, setup: ControlSetup, received: Received, fault: str) -> 
         return Health(Level.WARN, why, values)
     if state == RUNNING and received.blindness:
         return Health(Level.WARN, received.blindness, values)
+    if state == RUNNING and received.tracking:
+        return Health(Level.WARN, received.tracking, values)
     return Health(Level.OK, why or 'controlling', values)
 
 

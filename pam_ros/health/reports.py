@@ -17,6 +17,7 @@ class Reports:
         self._refusal, self._refused, self._is_refusal_new = '', 0, False
         self._implausibility, self._is_implausibility_new = '', False
         self._silence, self._silences, self._is_silence_new = '', 0, False
+        self._tracking = ''
 
     def refuse(self, reason: str) -> None:
         """Say why a reference or a trajectory is not taken."""
@@ -39,6 +40,12 @@ class Reports:
         self._silences += 1
         self._logger.warning(self._silence)
 
+    def follow(self, tracking: str) -> None:
+        """Say which error or saturation lasts, '' where none does; in the log as it begins."""
+        if tracking and not self._tracking:
+            self._logger.warning(tracking)
+        self._tracking = tracking
+
     def received(self, age: float | None, blindness: str) -> Received:
         """Return what is to be reported now; the next time it is not new any more."""
         received = Received(
@@ -52,6 +59,7 @@ class Reports:
             silences=self._silences,
             silence=self._silence,
             is_silence_new=self._is_silence_new,
+            tracking=self._tracking,
         )
         self._is_refusal_new = self._is_implausibility_new = self._is_silence_new = False
         return received

@@ -21,6 +21,8 @@ NO_JOINT = 'joint_states has no joint pam'
 SILENCE = 'no command was given for 2.00 s, longer than command_timeout (1 s)'
 FALSE = 'joint_states has a position -1 m, which is beyond the travel of the joint'
 
+LASTS = 'the command is at a limit of pressure for more than 3 s'
+
 
 def setup_of(**given):
     table, build = settings_of(given)
@@ -54,6 +56,9 @@ def setup():
             Level.WARN,
             FALSE,
         ),
+        (RUNNING, {'tracking': LASTS}, '', Level.WARN, LASTS),
+        (RUNNING, {'tracking': LASTS, 'blindness': NO_JOINT}, '', Level.WARN, NO_JOINT),
+        (WAITING, {'tracking': LASTS}, '', Level.WARN, 'waits for joint_states'),
         (WAITING, {}, '', Level.WARN, 'waits for joint_states'),
         (
             WAITING,

@@ -17,6 +17,7 @@ from pam_ros.errors import RangeError
 from pam_ros.health import controller as control_health
 from pam_ros.health.health import Health
 from pam_ros.health.reports import Reports
+from pam_ros.health.tracking import Tracking
 from pam_ros.nodes.common.diagnostics import Diagnostics
 from pam_ros.nodes.common.node_parameters import NodeParameters, given
 from pam_ros.nodes.common.spin import TickingNode
@@ -59,7 +60,7 @@ class PamControl(TickingNode):
         self._has_waited = False
         self._answered = 0  # steady time of the last command, ns
         self._blindness = ''  # why the last state was not usable
-        self._reports = Reports(self.get_logger())
+        self._reports, self._tracking = Reports(self.get_logger()), Tracking()
         self._intake = Intake(
             self,
             self._is_followed,
@@ -158,6 +159,7 @@ class PamControl(TickingNode):
             pressures = loop.tick(time)
         except ArithmeticError:
             pressures = (float('nan'),)
+        self._tracking.see(loop)
         if pressures is None or self._intake.look():  # it may be stopped here as well as anywhere
             return
         if not all(map(isfinite, pressures)):
@@ -307,6 +309,7 @@ class PamControl(TickingNode):
 
     def _control(self) -> Health:
         age = None if self._stamp is None else (steady_ns() - self._seen) / SECOND
+        self._reports.follow(self._tracking.warning)
         received = self._reports.received(age, self._blindness)
         return control_health.control(self._loop, self._setup, received, self._fault)
 
