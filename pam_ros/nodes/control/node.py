@@ -27,6 +27,7 @@ from pam_ros.nodes.control.inputs import Sight, points_of, sight_of
 from pam_ros.nodes.control.intake import Intake
 from pam_ros.nodes.control.output import commands_of
 from pam_ros.nodes.control.state import StateTopic
+from pam_ros.nodes.control.topics import watch_topics
 from pam_ros.settings.control import ControlSetup, settings_of
 from pam_ros.timing.pace import SECOND
 from pam_ros.timing.silence import steady_ns
@@ -72,7 +73,9 @@ class PamControl(TickingNode):
         self._commanded = 0
         self._open_topics()
         self.create_service(SetBool, '~/enable', self._enable)
-        self._diagnostics = Diagnostics(self, {'timing': self._timing, 'control': self._control})
+        topics = watch_topics(self, self._setup, self._loop)
+        parts = {'timing': self._timing, 'control': self._control, 'topics': topics.health}
+        self._diagnostics = Diagnostics(self, parts)
         self._given.refuse_mistyped()
         self.ticker = Ticker(self._tick_rate)
 

@@ -1,0 +1,60 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Takes the newest messages of a topic now and then, without a callback for each of them."""
+
+from typing import NamedTuple
+
+from rclpy.node import Node
+from rclpy.qos import QoSProfile, ReliabilityPolicy
+
+# Messages that are kept between two samples: a second of 250 Hz. To take as many costs a node
+# about a millisecond.
+KEPT = 250
+
+
+class Sample(NamedTuple):
+    """A serialized message, and its number among those of its publisher.
+
+    The number is None where the middleware does not number messages.
+    """
+
+    message: bytes
+    number: int | None
+
+
+class Sampler:
+    """A subscription of a hidden node that no executor serves.
+
+    The executor of this package's nodes cannot give a callback the number of a message, and a
+    callback would cost a control loop time with each message.
+    """
+
+    def __init__(self, node: Node, kind: type, topic: str) -> None:
+        """Subscribe to *topic*, a full name, beside *node*."""
+        self._node = Node(
+            f'_{node.get_name()}_sampler',
+            context=node.context,
+            namespace=node.get_namespace(),
+            use_global_arguments=False,  # which rename nodes and topics
+            enable_rosout=False,
+            start_parameter_services=False,
+        )
+        quality = QoSProfile(depth=KEPT, reliability=ReliabilityPolicy.BEST_EFFORT)
+        self._subscription = self._node.create_subscription(
+            kind, topic, lambda message: None, quality, raw=True
+        )
+
+    def take(self) -> list[Sample]:
+        """Return the newest messages since the last call, in the order of their arrival."""
+        found: list[Sample] = []
+        while len(found) < KEPT:
+            taken = self._subscription.handle.take_message(self._subscription.msg_type, True)
+            if taken is None:
+                break
+            message, info = taken
+            found.append(Sample(message, info['publication_sequence_number']))
+        return found
+
+    def close(self) -> None:
+        """Release the subscription and its node."""
+        self._node.destroy_node()

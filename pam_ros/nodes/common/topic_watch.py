@@ -1,0 +1,101 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Looks once a second at who publishes and who subscribes to a node's topics."""
+
+from collections.abc import Callable, Sequence
+from typing import Any, NamedTuple
+
+from rclpy.node import Node
+
+from pam_ros.health import topics as topic_health
+from pam_ros.health.health import Health
+from pam_ros.health.topics import Senders, TopicHealth, names_one_of
+from pam_ros.nodes.common.sampler import Sampler
+
+
+class Watched(NamedTuple):
+    """A topic that one node alone may publish."""
+
+    kind: type
+    name: str
+    joints: tuple[str, ...] = ()  # of joint states: other nodes may publish other joints there
+    is_command: bool = False  # that a node of the rig must subscribe to
+
+
+def never() -> bool:
+    """Say that no command is published."""
+    return False
+
+
+class TopicWatch:
+    """Looks at topics in :meth:`health`, which is to be called once a second.
+
+    Messages are sampled only while a topic has more than one publisher: their sequence numbers say
+    whether more than one of them sends.
+    """
+
+    def __init__(
+        self, node: Node, watched: Sequence[Watched], is_commanding: Callable[[], bool] = never
+    ) -> None:
+        """Look at the topics of *node*; *is_commanding* says whether it publishes commands."""
+        self._node, self._is_commanding = node, is_commanding
+        self._each = [_Topic(node, one) for one in watched]
+
+    def health(self) -> Health:
+        """Look now; return the health of all topics. What begins is written to the log."""
+        is_commanding = self._is_commanding()
+        for topic in self._each:
+            for sentence in topic.look(is_commanding):
+                self._node.get_logger().warning(sentence)
+        return topic_health.topics(
+            [topic.health for topic in self._each], [topic.publishers for topic in self._each]
+        )
+
+
+class _Topic:
+    def __init__(self, node: Node, watched: Watched) -> None:
+        self._node, self._watched = node, watched
+        self.health = TopicHealth(node.resolve_topic_name(watched.name), watched.joints)
+        self.publishers = 0
+        self._senders = Senders()
+        self._sampler: Sampler | None = None
+
+    def look(self, is_commanding: bool) -> list[str]:
+        """Note how the topic is now; return what is to be written to the log."""
+        node, name = self._node, self.health.topic
+        self.publishers = node.count_publishers(name)
+        nodes = self._publishing_nodes() if self.publishers > 1 else []
+        has_several = self._has_several_senders()
+        is_unheard = self._watched.is_command and is_commanding and not self._has_subscriber()
+        return self.health.look(nodes, is_unheard, has_several)
+
+    def _publishing_nodes(self) -> list[str]:
+        infos = self._node.get_publishers_info_by_topic(self.health.topic)
+        return [_name_of(info) for info in infos]
+
+    def _has_subscriber(self) -> bool:
+        """Say whether a node subscribes that is not hidden, as samplers and tools are."""
+        infos = self._node.get_subscriptions_info_by_topic(self.health.topic)
+        return any(not info.node_name.startswith('_') for info in infos)
+
+    def _has_several_senders(self) -> bool:
+        """Say whether more than one publisher sends, from a sample of the newest messages."""
+        if self.publishers < 2:
+            if self._sampler:
+                self._sampler.close()
+                self._sampler = None
+            return False
+        if self._sampler is None:
+            self._senders = Senders()
+            self._sampler = Sampler(self._node, self._watched.kind, self.health.topic)
+        for message, number in self._sampler.take():
+            if not self._watched.joints or names_one_of(self._watched.joints, message):
+                self._senders.take(number)
+        return self._senders.are_several()
+
+
+def _name_of(info: Any) -> str:
+    """Return the full name of a node, '' where it is not known yet."""
+    if info.node_name.startswith('_NODE_NA'):
+        return ''
+    return f'{info.node_namespace.rstrip("/")}/{info.node_name}'

@@ -1,0 +1,28 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The topics of a controller that one node alone may publish, or that must have a subscriber."""
+
+from rclpy.node import Node
+from sensor_msgs.msg import FluidPressure, JointState
+from std_msgs.msg import Float64, Float64MultiArray
+
+from pam_ros.control.loop import BLIND, RUNNING, Loop
+from pam_ros.nodes.common.topic_watch import TopicWatch, Watched
+from pam_ros.settings.control import ControlSetup
+
+
+def watch_topics(node: Node, setup: ControlSetup, loop: Loop) -> TopicWatch:
+    """Return what looks at the topics of *node*, *loop* being what commands."""
+    return TopicWatch(node, watched_topics(setup), lambda: loop.state in (RUNNING, BLIND))
+
+
+def watched_topics(setup: ControlSetup) -> list[Watched]:
+    """Return them: the state of the joint, commands, and pressures where they are measured."""
+    command, pressure = (
+        (Float64MultiArray, Float64MultiArray) if setup.has_arrays else (Float64, FluidPressure)
+    )
+    found = [Watched(JointState, 'joint_states', (setup.settings.joint_name,))]
+    found += [Watched(command, topic, is_command=True) for topic in setup.command_topics]
+    if setup.settings.pressure_wait:
+        found += [Watched(pressure, topic) for topic in setup.pressure_topics]
+    return found
