@@ -2,12 +2,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """What ``pam_sim`` says of itself on ``/diagnostics``."""
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 
 from pam_ros.health.health import Health, Level
+from pam_ros.settings.scene import Simulation
 from pam_ros.settings.sim import SimSettings
+from pam_ros.simulator.contractions import Excess
 from pam_ros.simulator.plant import Plant
 from pam_ros.timing.ticker import Punctuality
 
@@ -39,6 +42,31 @@ def commands(plant: Plant, last: int) -> Health:
             whose = f' for {", ".join(names)}' + (' and others' if len(silent) > 5 else '')
         return Health(Level.WARN, f'no command{whose} for {age:.3g} s: {did}', values)
     return Health(Level.OK, 'commanded', values)
+
+
+def contraction(plant: Plant, found: Sequence[Excess]) -> Health:
+    """Return the health of the contractions; *found* are those beyond ``kappa_max``."""
+    simulation = plant.simulation
+    worst = max(found, key=lambda one: one.largest - simulation.rated[one.muscle], default=None)
+    values = {
+        'times beyond kappa_max': plant.contractions.count,
+        'muscles beyond kappa_max': len(found),
+        'largest contraction beyond kappa_max': worst.largest if worst else None,
+    }
+    if worst is None:
+        return Health(Level.OK, 'within kappa_max', values)
+    others = f' (and {len(found) - 1} more muscles beyond theirs)' if len(found) > 1 else ''
+    return Health(Level.WARN, sentence_of(simulation, worst) + others, values)
+
+
+def sentence_of(simulation: Simulation, excess: Excess) -> str:
+    """Return what is said of a muscle that contracts beyond ``kappa_max``."""
+    name, limit = simulation.muscle_names[excess.muscle], simulation.rated[excess.muscle]
+    return (
+        f'muscle {name} contracts by {100.0 * excess.largest:.1f} % of its length, more than the '
+        f'{100.0 * limit:.1f} % that it permits (kappa_max): a real muscle may not be used there, '
+        'and the model is extrapolated'
+    )
 
 
 class Progress(NamedTuple):

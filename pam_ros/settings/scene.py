@@ -138,6 +138,11 @@ class Simulation:
         return np.array([np.inf if m.is_load_only else 1.0 for m in self.muscles])
 
     @cached_property
+    def rated(self) -> Array:
+        """Largest permitted contraction of each muscle; inf where there is none."""
+        return np.array([np.inf if m.is_load_only else m.kappa_max for m in self.muscles])
+
+    @cached_property
     def limits(self) -> Array:
         """Least and largest pressure in Pa of each muscle, (2, muscles)."""
         return np.array([[m.p_min for m in self.muscles], [m.p_max for m in self.muscles]])

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from pam_ros.rig.rig import Rig
 from pam_ros.rig.sensors import Feedback, Sensors
 from pam_ros.settings.scene import Simulation
+from pam_ros.simulator.contractions import Contractions
 from pam_ros.simulator.pressure_input import PressureInput
 
 Array = NDArray[np.float64]
@@ -48,6 +49,7 @@ class Plant:
         self.inputs = [PressureInput(muscle) for muscle in simulation.muscles]
         self._rig = Rig(simulation.joints, 1.0 / simulation.settings.physics_rate)
         self._all = range(len(self.inputs))
+        self.contractions = Contractions()
         self.begin()
         self._rig.prepare()  # so that neither the first step nor a change of effects waits for it
 
@@ -59,6 +61,7 @@ class Plant:
         self._feedback = Feedback(simulation.sensors, len(positions))
         # Where they are not as many as joints, muscles have sensors, and noise, of their own.
         self._gauges = Feedback(self._gauge_sensors(simulation), len(pressures))
+        self.contractions.forget()
         self.step = 0
         self._ordered = pressures.copy()  # Pa, the last commands of the valves
         # Simulated time of each muscle's last good command, NaN before there was one.
@@ -169,6 +172,8 @@ class Plant:
         reach = self.simulation.reach.item() * self.simulation.muscles[0].l0
         if not (abs(position) < reach and math.isfinite(force + velocity)):
             raise ArithmeticError(f"at {position:g} m it is out of the muscle's reach")
+        l0 = self.simulation.muscles[0].l0
+        self.contractions.see(rig.time, position / l0, self.simulation.rated)
         if not self._feedback.is_ideal:
             sample = np.array([[position], [velocity], [pressure], [force], [acceleration]])
             reading = self._feedback.read(rig.time, sample)
@@ -181,10 +186,12 @@ class Plant:
         force, stiffness, damping, _ = rig.outputs().T
         position, velocity, pressure = rig.position, rig.velocity, rig.pressure
         effort, _, acceleration = rig.joint_outputs().T
-        is_there = np.abs(rig.contraction) < self.simulation.reach
+        contraction = rig.contraction
+        is_there = np.abs(contraction) < self.simulation.reach
         if not (np.all(is_there) and np.isfinite(np.sum(force) + np.sum(velocity))):
             lost = self.simulation.muscle_names[int(np.argmin(is_there))]
             raise ArithmeticError(f'{lost} is out of its reach')
+        self.contractions.see(rig.time, contraction, self.simulation.rated)
         if not self._feedback.is_ideal:
             if not self.simulation.are_direct:
                 end = np.zeros_like(force)

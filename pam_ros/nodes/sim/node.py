@@ -17,6 +17,7 @@ from pam_ros.nodes.common.node_parameters import NodeParameters, given
 from pam_ros.nodes.common.spin import TickingNode
 from pam_ros.nodes.common.topic_watch import TopicWatch
 from pam_ros.nodes.sim.commands import subscribe_commands
+from pam_ros.nodes.sim.contraction import ContractionReport
 from pam_ros.nodes.sim.lockstep import Turns
 from pam_ros.nodes.sim.output import Output
 from pam_ros.nodes.sim.sim_time import FollowedTime, OwnTime
@@ -68,10 +69,14 @@ class PamSim(TickingNode):
         self.create_service(Trigger, '~/reset', self._reset)
         self.create_service(SetBool, '~/pause', self._pause)
         self.create_service(Trigger, '~/step', self._step)
-        watch = TopicWatch(self, watched_topics(self._simulation))
         self._diagnostics = Diagnostics(
             self,
-            {'timing': self._timing, 'commands': self._commands, 'topics': watch.health},
+            {
+                'timing': self._timing,
+                'commands': self._commands,
+                'contraction': ContractionReport(self, self._plant).health,
+                'topics': TopicWatch(self, watched_topics(self._simulation)).health,
+            },
             None if self._is_followed else lambda: Time(nanoseconds=self._time.now()),
         )
         self._given.refuse_mistyped()

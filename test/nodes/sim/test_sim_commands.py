@@ -130,7 +130,8 @@ def test_diagnostics_tell_rate_and_lateness_once_a_second_and_sensors_have_their
         watch.peer.until(lambda: len(watch.arrays) >= 4, 'diagnostics')
         rest = watch.peer.get('pam_sim', 'l0')[0]
     statuses = {s.name: s for array in watch.arrays for s in array.status}
-    assert set(statuses) == {f'pam_sim: {part}' for part in ('timing', 'commands', 'topics')}
+    parts = ('timing', 'commands', 'contraction', 'topics')
+    assert set(statuses) == {f'pam_sim: {part}' for part in parts}
     values = {v.key: v.value for v in statuses['pam_sim: timing'].values}
     assert float(values['wanted publish rate (Hz)']) == 500.0
     assert float(values['publish rate (Hz)']) > 0.0
