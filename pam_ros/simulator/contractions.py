@@ -43,21 +43,27 @@ class Contractions:
         """Forget the events, but not their count: simulated time begins again."""
         self._events.clear()
 
+    def see_one(self, time: float, contraction: float, limit: float) -> None:
+        """Note the contraction of a muscle alone at *time* in s, a fraction as its *limit* is."""
+        if contraction - limit > MARGIN:
+            self._note(time, 0, contraction)
+
     def see(
-        self, time: float, contraction: NDArray[np.float64] | float, limits: NDArray[np.float64]
+        self, time: float, contraction: NDArray[np.float64], limits: NDArray[np.float64]
     ) -> None:
         """Note the contractions (muscles,) at *time* in s, fractions as their *limits* are."""
-        excess = contraction - limits
-        if not np.any(excess > MARGIN):
-            return
-        for muscle in np.flatnonzero(excess > MARGIN).tolist():
-            largest = float(limits[muscle] + excess[muscle])
-            event = self._events.get(muscle)
-            if event is None or time - event.last > CALM:
-                self._events[muscle] = _Event(largest, time)
-                self.count += 1
-            else:
-                event.largest, event.last = max(event.largest, largest), time
+        is_beyond = contraction - limits > MARGIN
+        if is_beyond.any():
+            for muscle in np.flatnonzero(is_beyond).tolist():
+                self._note(time, muscle, float(contraction[muscle]))
+
+    def _note(self, time: float, muscle: int, contraction: float) -> None:
+        event = self._events.get(muscle)
+        if event is None or time - event.last > CALM:
+            self._events[muscle] = _Event(contraction, time)
+            self.count += 1
+        else:
+            event.largest, event.last = max(event.largest, contraction), time
 
     def report(self, time: float) -> list[Excess]:
         """Return the events that go on at *time* in s, or began since the last call."""

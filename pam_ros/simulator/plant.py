@@ -173,7 +173,7 @@ class Plant:
         if not (abs(position) < reach and math.isfinite(force + velocity)):
             raise ArithmeticError(f"at {position:g} m it is out of the muscle's reach")
         l0 = self.simulation.muscles[0].l0
-        self.contractions.see(rig.time, position / l0, self.simulation.rated)
+        self.contractions.see_one(rig.time, position / l0, self.simulation.rated.item())
         if not self._feedback.is_ideal:
             sample = np.array([[position], [velocity], [pressure], [force], [acceleration]])
             reading = self._feedback.read(rig.time, sample)

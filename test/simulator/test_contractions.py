@@ -49,6 +49,14 @@ def test_a_load_that_swings_about_the_limit_is_one_event_and_a_later_one_another
     assert found.count == 2
 
 
+def test_a_muscle_alone_is_judged_as_one_of_several():
+    found = Contractions()
+    for time, kappa in ((1.0, 0.25 + 0.9 * MARGIN), (2.0, OVER), (2.5, 0.39), (2.6, 0.2)):
+        found.see_one(time, kappa, 0.25)
+    assert found.report(2.6) == [Excess(0, 0.39, is_new=True)]
+    assert found.count == 1
+
+
 def test_within_the_limit_and_its_margin_there_is_none():
     found = Contractions()
     found.see(1.0, LIMITS + 0.9 * MARGIN, LIMITS)

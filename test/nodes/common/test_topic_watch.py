@@ -3,14 +3,19 @@
 """Programs say who else publishes their topics, and that nobody subscribes to their commands."""
 
 import signal
+from types import SimpleNamespace
 
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+from rclpy.node import Node
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64
 from std_srvs.srv import SetBool
 
 from pam_ros.health.topics import LASTING
+from pam_ros.nodes.common import topic_watch
+from pam_ros.nodes.common.sampler import Sample
+from pam_ros.nodes.common.topic_watch import SAMPLED, TopicWatch, Watched
 from support.control_watch import Rig
 from support.harness import Program
 
@@ -69,16 +74,19 @@ def topics(peer):
 
 @pytest.mark.at_any_pace
 def test_two_simulators_and_then_one(topics):
-    with Program('pam_control', '-r', '__node:=elbow') as control, Program('pam_sim') as first:
-        with Program('pam_sim') as second:
-            for node in ('elbow', 'pam_sim'):
+    with (
+        Program('pam_control') as control,
+        Program('pam_sim', '-r', '__node:=first') as first,
+    ):
+        with Program('pam_sim', '-r', '__node:=second') as second:
+            for node in ('pam_control', 'first', 'second'):
                 message = topics.warns(node, STATES)
-                assert '2 publishers (/pam_sim, /pam_sim)' in message
+                assert '2 publishers (/first, /second)' in message
                 assert 'sends the joint pam: stop all but one' in message
-                assert '/pressure has 2 publishers' in message
+                topics.warns(node, '/pressure has 2 publishers')
             second.stop()
-        topics.is_calm('elbow')
-        topics.is_calm('pam_sim')
+        topics.is_calm('pam_control')
+        topics.is_calm('first')
         assert control.output.count(STATES) == 1
         assert first.output.count(STATES) == 1
 
@@ -142,6 +150,12 @@ def test_commands_that_nobody_receives(topics):
         rig.tell_until(lambda: len(topics.of('pam_control')) > 1, 'the first diagnostics')
         message = topics.warns('pam_control', ALONE)
         assert message.startswith('commands on /left/valve have no subscriber')
+        tool = Node('_tool', context=peer.context)
+        tool.create_subscription(Float64, 'left/valve', lambda message: None, 10)
+        peer.until(lambda: peer.node.count_subscribers('left/valve'), 'the tool')
+        peer.more(topics.arrays, 3)
+        assert ALONE in topics.warns('pam_control', ALONE)
+        tool.destroy_node()
         peer.collect(Float64, 'left/valve')
         topics.is_calm('pam_control')
         assert control.output.count(ALONE) == 1
@@ -155,3 +169,67 @@ def test_a_controller_and_its_rig_start_and_stop_without_a_warning(topics):
             assert {status.level for status in topics.of(node)} == {DiagnosticStatus.OK}
         # A controller that only waits commands nothing.
         assert ALONE not in control.output + sim.output
+
+
+# Without other programs --------------------------------------------------------------------------
+
+
+class Graph:
+    """A node that sees two publishers of each topic, and nodes of these names subscribe."""
+
+    def __init__(self, *subscribers):
+        self.subscribers, self.warnings = subscribers, []
+
+    def resolve_topic_name(self, name):
+        return f'/{name}'
+
+    def count_publishers(self, topic):
+        return 2
+
+    def get_publishers_info_by_topic(self, topic):
+        return [SimpleNamespace(node_namespace='/left', node_name=n) for n in ('a', 'b')]
+
+    def get_subscriptions_info_by_topic(self, topic):
+        return [SimpleNamespace(node_name=name) for name in self.subscribers]
+
+    def get_logger(self):
+        return SimpleNamespace(warning=self.warnings.append)
+
+
+def test_only_some_topics_are_sampled_at_a_time(monkeypatch):
+    sampled = []
+
+    class Sampler:
+        def __init__(self, node, kind, topic):
+            sampled.append(topic)
+
+        def take(self):
+            return [Sample(b'', 1), Sample(b'', 1)]
+
+    monkeypatch.setattr(topic_watch, 'Sampler', Sampler)
+    graph = Graph()
+    watch = TopicWatch(graph, [Watched(Float64, f't{i}') for i in range(2 * SAMPLED)])
+    for _ in range(LASTING):
+        health = watch.health()
+    assert sampled == [f'/t{i}' for i in range(SAMPLED)]
+    assert len(graph.warnings) == SAMPLED
+    assert '/t0 has 2 publishers (/left/a, /left/b)' in health.message
+    assert len(health.values) == 2 * SAMPLED
+
+
+@pytest.mark.parametrize(
+    ('subscribers', 'is_told'),
+    [
+        ((), True),
+        (('_ros2cli_1', '_pam_control_sampler'), True),
+        (('_ros2cli_1', 'valve'), False),
+        (('_NODE_NAME_UNKNOWN_',), False),
+    ],
+)
+def test_hidden_nodes_receive_no_commands(monkeypatch, subscribers, is_told):
+    graph = Graph(*subscribers)
+    monkeypatch.setattr(graph, 'count_publishers', lambda topic: 1)
+    watch = TopicWatch(graph, [Watched(Float64, 'valve', is_command=True)], lambda: True)
+    for _ in range(LASTING):
+        watch.health()
+    assert bool(graph.warnings) == is_told
