@@ -11,7 +11,8 @@ from math import isfinite
 
 from pam_ros.control.plausibility import Plausibility
 from pam_ros.control.reference.course import Course
-from pam_ros.control.reference.trajectory import Point, Trajectory
+from pam_ros.control.reference.points import Point, Points
+from pam_ros.control.reference.trajectory import Trajectory
 from pam_ros.control.signals import PositionLaw, Pressures, Reference
 
 HOLD, VENT = 'hold', 'vent'
@@ -163,7 +164,7 @@ def warm_up(law: PositionLaw, reach: tuple[float, float], period: float) -> None
     """Let *law* and trajectories compile and load all that they need, before time counts."""
     middle = 0.5 * (reach[0] + reach[1]) if isfinite(reach[0]) else 0.0
     for rest in ((), (0.0,), (0.0, 0.0)):  # each kind of interpolation
-        Trajectory(Reference(middle), [Point(1.0, middle, *rest)], reach)
+        Trajectory(Reference(middle), Points.of([Point(1.0, middle, *rest)]), reach)
     law.start(middle)
     for _ in range(3):
         law.update(period, Reference(middle), middle)

@@ -2,12 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Where the load shall go: hold, follow set positions or a trajectory, always without a jump."""
 
-from collections.abc import Sequence
 from math import isfinite
 
 from pam_ros.control.limits import refuse_unreachable
+from pam_ros.control.reference.points import Points
 from pam_ros.control.reference.shaping import Shape, Shaper
-from pam_ros.control.reference.trajectory import Point, Trajectory
+from pam_ros.control.reference.trajectory import Trajectory
 from pam_ros.control.signals import Reference
 from pam_ros.errors import RangeError
 
@@ -62,13 +62,13 @@ class Course:
             self._leave()
         self._shaper.take(position, ago)
 
-    def play(self, points: Sequence[Point], wait: float = 0.0) -> None:
+    def play(self, points: Points, wait: float = 0.0) -> None:
         """Follow *points* from *wait* s from now on, from between them where that is negative.
 
         Without points, stop where it is. Raises RangeError for points that make no motion within
         reach; then all stays as it was.
         """
-        if not points:
+        if not points.count:
             self._leave()
             return
         trajectory = Trajectory(self.reference, points, self.reach, self.unit)

@@ -3,27 +3,15 @@
 """A motion through points, as robot stacks send it."""
 
 from bisect import bisect_right
-from collections.abc import Sequence
-from dataclasses import dataclass
-from math import isfinite
 
 import numpy as np
 
 from pam_ros.control.limits import refuse_unreachable
+from pam_ros.control.reference.points import Floats, Point, Points
 from pam_ros.control.signals import Reference
-from pam_ros.errors import RangeError
 
-CHECKS = 32  # places a piece at which the reach is checked
-
-
-@dataclass(frozen=True)
-class Point:
-    """Where the load shall be *time* s after the start: m, and m/s and m/s^2 where given."""
-
-    time: float
-    position: float
-    velocity: float | None = None
-    acceleration: float | None = None
+CHECKS = 32  # parts of a piece between which the reach is checked
+BLOCK = 1024  # pieces that are checked at once: their numbers stay in the cache
 
 
 class Trajectory:
@@ -38,26 +26,22 @@ class Trajectory:
     def __init__(
         self,
         start: Reference,
-        points: Sequence[Point],
+        points: Points,
         reach: tuple[float, float],
         unit: str = 'm',
     ) -> None:
         """Pass through *points*, in order; one at time 0 takes the place of *start*."""
-        _refuse_bad(points)
-        if points[0].time > 0.0:
+        points.refuse_bad()
+        if points.times[0] > 0.0:
             first = Point(0.0, start.position, start.velocity, start.acceleration)
-            points = [first, *points]
-        elif len(points) == 1:
-            points = [points[0], Point(0.001, points[0].position, 0.0, 0.0)]
-        given = [p.velocity is not None for p in points[1:]]
-        full = [p.acceleration is not None for p in points[1:]]
-        self._times = [p.time for p in points]
-        self._pieces = _pieces(points, all(given), all(given) and all(full))
+            points = Points.of([first]).before(points)
+        elif points.count == 1:
+            end = Point(0.001, float(points.positions[0]), 0.0, 0.0)
+            points = points.before(Points.of([end]))
+        self._times: list[float] = points.times.tolist()
+        self._pieces = _pieces(points)
         self.duration = self._times[-1]
-        for n, begin in enumerate(self._times[:-1]):
-            for share in range(CHECKS + 1):
-                t = begin + (self._times[n + 1] - begin) * share / CHECKS
-                refuse_unreachable(self.at(t).position, reach, unit)
+        _refuse_out_of_reach(points, self._pieces, reach, unit)
 
     def at(self, t: float) -> Reference:
         """Return the reference *t* s after the start; before and after the ends, at rest."""
@@ -70,7 +54,7 @@ class Trajectory:
         x = t - self._times[n]
         y = v = a = j = 0.0
         # Horner's scheme for a polynomial and its derivatives at once.
-        for coefficient in self._pieces[n]:
+        for coefficient in self._pieces[n].tolist():
             j = j * x + a
             a = a * x + v
             v = v * x + y
@@ -78,36 +62,51 @@ class Trajectory:
         return Reference(y, v, 2.0 * a, 6.0 * j)
 
 
-def _refuse_bad(points: Sequence[Point]) -> None:
-    """Raise RangeError where there are no points, or stamps or values make no motion."""
-    if not points:
-        raise RangeError('a trajectory without points makes no motion')
-    last = -1.0
-    for n, p in enumerate(points):
-        values = (p.time, p.position, p.velocity or 0.0, p.acceleration or 0.0)
-        if not all(isfinite(value) for value in values):
-            raise RangeError(f'point {n} of the trajectory is not finite: {values}')
-        if p.time <= last and (n or p.time < 0.0):
-            raise RangeError(
-                f'point {n} of the trajectory is at {p.time:g} s: times must begin at 0 or later '
-                'and grow'
-            )
-        last = p.time
+def _pieces(points: Points) -> Floats:
+    """Return the coefficients between each two points (n - 1, order + 1), highest power first."""
+    from scipy.interpolate import CubicHermiteSpline, CubicSpline
+
+    t, y, v, a = points.times, points.positions, points.velocities, points.accelerations
+    if not points.has_velocity[1:].all():
+        spline = CubicSpline(t, y, bc_type=((1, float(v[0])), (1, 0.0)))
+        return np.ascontiguousarray(spline.c.T)
+    if not points.has_acceleration[1:].all():
+        return np.ascontiguousarray(CubicHermiteSpline(t, y, v).c.T)
+    # The polynomial of fifth order with the given values, first and second derivatives at both
+    # ends; b is what the Taylor polynomial at the begin lacks at the end, of each of the three.
+    h = np.diff(t)
+    begin, end = slice(None, -1), slice(1, None)
+    b0 = y[end] - (y[begin] + h * (v[begin] + 0.5 * h * a[begin]))
+    b1 = h * (v[end] - (v[begin] + h * a[begin]))
+    b2 = h * h * (a[end] - a[begin])
+    return np.stack(
+        [
+            (6.0 * b0 - 3.0 * b1 + 0.5 * b2) / h**5,
+            (-15.0 * b0 + 7.0 * b1 - b2) / h**4,
+            (10.0 * b0 - 4.0 * b1 + 0.5 * b2) / h**3,
+            0.5 * a[begin],
+            v[begin],
+            y[begin],
+        ],
+        axis=1,
+    )
 
 
-def _pieces(points: Sequence[Point], cubic: bool, quintic: bool) -> list[list[float]]:
-    """Return the coefficients between each two points, highest power first."""
-    from scipy.interpolate import BPoly, CubicSpline, PPoly
-
-    t = np.array([p.time for p in points])
-    y = np.array([p.position for p in points])
-    if not cubic:
-        begin = points[0].velocity or 0.0
-        spline = CubicSpline(t, y, bc_type=((1, begin), (1, 0.0)))
-        return [list(map(float, row)) for row in spline.c.T]
-    rows = [
-        [p.position, p.velocity or 0.0, *([p.acceleration or 0.0] if quintic else [])]
-        for p in points
-    ]
-    poly = PPoly.from_bernstein_basis(BPoly.from_derivatives(t, rows))
-    return [list(map(float, row)) for row in poly.c.T]
+def _refuse_out_of_reach(
+    points: Points, pieces: Floats, reach: tuple[float, float], unit: str
+) -> None:
+    """Raise RangeError where a point, or a place between two points, is out of reach."""
+    low, high = reach
+    # Points as they are given: one at the end of the reach is not refused for a rounding error.
+    blocks = [points.positions]
+    steps = np.diff(points.times)[:, None] * (np.arange(1, CHECKS) / CHECKS)
+    for n in range(0, len(pieces), BLOCK):
+        x = steps[n : n + BLOCK]
+        y = np.zeros_like(x)
+        for coefficient in pieces[n : n + BLOCK].T:
+            y = y * x + coefficient[:, None]
+        blocks.append(y)
+    for block in blocks:
+        is_out = ~((low <= block) & (block <= high))
+        if is_out.any():
+            refuse_unreachable(float(block[is_out][0]), reach, unit)

@@ -3,12 +3,11 @@
 """The stamps of messages, in ns and in s."""
 
 from sensor_msgs.msg import FluidPressure, JointState
-from trajectory_msgs.msg import JointTrajectory
 
 from pam_ros.timing.pace import SECOND
 
 
-def stamp_of(message: FluidPressure | JointState | JointTrajectory) -> int:
+def stamp_of(message: FluidPressure | JointState) -> int:
     """Return the stamp in ns."""
     return message.header.stamp.sec * SECOND + message.header.stamp.nanosec
 

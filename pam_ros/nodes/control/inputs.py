@@ -1,17 +1,14 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What a controller reads from messages: the state of its joint, and trajectories for it."""
+"""What a controller reads from joint states: the state of its joint."""
 
 from math import isfinite
 from typing import NamedTuple
 
 from sensor_msgs.msg import JointState
-from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
-from pam_ros.control.reference.trajectory import Point
 from pam_ros.errors import RangeError
 from pam_ros.nodes.common.stamps import stamp_of
-from pam_ros.timing.pace import SECOND
 
 
 class Sight(NamedTuple):
@@ -41,32 +38,3 @@ def sight_of(message: JointState, joint: str, needs_velocity: bool) -> Sight:
             f'{joint}, which velocity_source = measured needs'
         )
     return Sight(stamp_of(message), position, velocity if needs_velocity else None)
-
-
-def points_of(message: JointTrajectory, joint: str) -> list[Point]:
-    """Return the points that are for *joint*; raises RangeError where there can be none."""
-    names = list(message.joint_names)
-    if not message.points:
-        return []
-    if joint not in names:
-        there = ', '.join(names) or 'no joint at all'
-        raise RangeError(f'joint_trajectory is not for joint {joint} (joint_name), but {there}')
-    i, count = names.index(joint), len(names)
-    return [_point(n, point, i, count) for n, point in enumerate(message.points)]
-
-
-def _point(n: int, point: JointTrajectoryPoint, i: int, count: int) -> Point:
-    def value(kind: str) -> float | None:
-        values = getattr(point, kind)
-        if not len(values) and kind != 'positions':
-            return None
-        if len(values) != count:
-            raise RangeError(
-                f'point {n} of the trajectory has {len(values)} {kind} for {count} joints'
-            )
-        return float(values[i])
-
-    time = point.time_from_start.sec + point.time_from_start.nanosec / SECOND
-    position = value('positions')
-    assert position is not None
-    return Point(time, position, value('velocities'), value('accelerations'))

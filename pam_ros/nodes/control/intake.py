@@ -62,8 +62,10 @@ class Intake:
         topic: str,
         callback: Callable[[Any], None],
         reliability: ReliabilityPolicy = ReliabilityPolicy.RELIABLE,
+        *,
+        raw: bool = False,
     ) -> None:
-        """Call *callback* with each message of *topic*."""
+        """Call *callback* with each message of *topic*; with its bytes where *raw*."""
 
         def receive(message: Any) -> None:
             self.look()
@@ -71,7 +73,7 @@ class Intake:
 
         quality = QoSProfile(depth=DEPTH, reliability=reliability)
         self._node.create_subscription(
-            kind, topic, receive, quality, qos_overriding_options=open_qos()
+            kind, topic, receive, quality, qos_overriding_options=open_qos(), raw=raw
         )
 
     def measure(self, kind: type, topic: str, callback: Callable[[Any], None]) -> None:

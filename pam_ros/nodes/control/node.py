@@ -12,6 +12,7 @@ from trajectory_msgs.msg import JointTrajectory
 
 from pam_ros.control.loop import BLIND, RUNNING, VENT, WAITING, Loop, Reading, warm_up
 from pam_ros.control.plausibility import Plausibility, bounds_of
+from pam_ros.control.reference.serialised import read_trajectory
 from pam_ros.control.signals import Pressures, term_names
 from pam_ros.errors import RangeError
 from pam_ros.health import controller as control_health
@@ -21,9 +22,8 @@ from pam_ros.health.tracking import Tracking
 from pam_ros.nodes.common.diagnostics import Diagnostics
 from pam_ros.nodes.common.node_parameters import NodeParameters, given
 from pam_ros.nodes.common.spin import TickingNode
-from pam_ros.nodes.common.stamps import stamp_of
 from pam_ros.nodes.control.chamber_input import ChamberInput
-from pam_ros.nodes.control.inputs import Sight, points_of, sight_of
+from pam_ros.nodes.control.inputs import Sight, sight_of
 from pam_ros.nodes.control.intake import Intake
 from pam_ros.nodes.control.output import commands_of
 from pam_ros.nodes.control.state import StateTopic
@@ -92,7 +92,8 @@ class PamControl(TickingNode):
         intake = self._intake
         intake.measure(JointState, 'joint_states', self._see)
         intake.subscribe(Float64, 'position_reference', self._take_reference)
-        intake.subscribe(JointTrajectory, 'joint_trajectory', self._take_trajectory)
+        # As objects of Python its points would take longer than the commands may wait.
+        intake.subscribe(JointTrajectory, 'joint_trajectory', self._take_trajectory, raw=True)
         self._chambers = ChamberInput(
             self._setup, intake.measure, self._begin, self._reports.leave_out
         )
@@ -251,12 +252,11 @@ class PamControl(TickingNode):
             except RangeError as error:
                 self._reports.refuse(str(error))
 
-    def _take_trajectory(self, message: JointTrajectory) -> None:
+    def _take_trajectory(self, message: bytes) -> None:
         if not self._is_ready('joint_trajectory'):
             return
-        begin = stamp_of(message)
         try:
-            points = points_of(message, self._setup.settings.joint_name)
+            begin, points = read_trajectory(message, self._setup.settings.joint_name)
             self._loop.course.play(points, self._wait_for(begin) if begin else 0.0)
         except RangeError as error:
             self._reports.refuse(str(error))

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from pam_ros.control.reference.course import Course
+from pam_ros.control.reference.points import Point, Points
 from pam_ros.control.reference.shaping import Shape
-from pam_ros.control.reference.trajectory import Point
 from pam_ros.errors import RangeError
 
 DT = 2e-3
@@ -39,7 +39,7 @@ def test_a_trajectory_interrupts_a_step_and_a_step_a_trajectory():
     course = a_course()
     course.set_target(0.08)
     first = follow(course, 0.2)
-    course.play([Point(1.0, 0.05), Point(2.0, 0.03)])
+    course.play(Points.of([Point(1.0, 0.05), Point(2.0, 0.03)]))
     second = follow(course, 1.3)
     assert course.is_on_trajectory
     course.set_target(0.06)
@@ -51,7 +51,7 @@ def test_a_trajectory_interrupts_a_step_and_a_step_a_trajectory():
 
 def test_a_trajectory_is_passed_on_exactly_and_held_at_its_end():
     course = a_course()
-    course.play([Point(2.0, 0.05, 0.0, 0.0)])
+    course.play(Points.of([Point(2.0, 0.05, 0.0, 0.0)]))
     path = follow(course, 2.5)
     s = np.clip((np.arange(len(path)) + 1) * DT / 2.0, 0.0, 1.0)
     np.testing.assert_allclose(path[:, 0], 0.02 + 0.03 * (10 * s**3 - 15 * s**4 + 6 * s**5))
@@ -62,8 +62,8 @@ def test_a_trajectory_is_passed_on_exactly_and_held_at_its_end():
 def test_it_waits_for_a_start_to_come_and_joins_one_that_is_past():
     late, early = a_course(), a_course()
     points = [Point(0.0, 0.02), Point(1.0, 0.05)]
-    late.play(points, wait=0.5)
-    early.play(points, wait=-0.5)
+    late.play(Points.of(points), wait=0.5)
+    early.play(Points.of(points), wait=-0.5)
     assert follow(late, 0.5)[-1, 0] == pytest.approx(0.02)
     assert follow(late, 1.0)[-1, 0] == pytest.approx(0.05)
     path = follow(early, 1.5)
@@ -75,7 +75,7 @@ def test_it_waits_for_a_start_to_come_and_joins_one_that_is_past():
 def test_a_trajectory_goes_on_while_nobody_looks():
     course, other = a_course(), a_course()
     for one in (course, other):
-        one.play([Point(3.0, 0.08)])
+        one.play(Points.of([Point(3.0, 0.08)]))
     first = follow(course, 1.0)
     missed = course.follow(0.1, 0.3)  # which is 0.4 s in all
     last = follow(course, 1.6)
@@ -95,9 +95,9 @@ def test_a_step_waits_while_nobody_looks():
 
 def test_an_empty_trajectory_stops():
     course = a_course()
-    course.play([Point(2.0, 0.08)])
+    course.play(Points.of([Point(2.0, 0.08)]))
     follow(course, 1.0)
-    course.play([])
+    course.play(Points.of([]))
     path = follow(course, 1.0)
     assert path[-1, 1] == 0.0
     assert path[-1, 0] < 0.07
@@ -106,12 +106,12 @@ def test_an_empty_trajectory_stops():
 
 def test_what_cannot_be_is_refused_and_changes_nothing():
     course = a_course()
-    course.play([Point(2.0, 0.05)])
+    course.play(Points.of([Point(2.0, 0.05)]))
     for bad in (0.2, -0.5, math.nan, math.inf):
         with pytest.raises(RangeError):
             course.set_target(bad)
     with pytest.raises(RangeError):
-        course.play([Point(1.0, 0.3)])
+        course.play(Points.of([Point(1.0, 0.3)]))
     assert course.is_on_trajectory
     follow(course, 2.5)
     assert course.reference.position == pytest.approx(0.05)

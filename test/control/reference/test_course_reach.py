@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from pam_ros.control.reference.course import Course
+from pam_ros.control.reference.points import Point, Points
 from pam_ros.control.reference.shaping import Shape
-from pam_ros.control.reference.trajectory import Point
 from pam_ros.errors import RangeError
 
 DT, REACH, REST = 0.002, (0.0, 0.09), 0.06
@@ -71,7 +71,7 @@ def test_a_trajectory_that_begins_in_motion_is_followed_at_once(course):
         Point(t, REST + SWING * math.sin(TURN * t), SWING * TURN * math.cos(TURN * t))
         for t in times
     ]
-    course.play(points)
+    course.play(Points.of(points))
     way = follow(course, 3.9)
     told = REST + SWING * np.sin(TURN * DT * np.arange(1, way.size + 1))
     assert np.max(np.abs(way - told)) < 0.3e-3
