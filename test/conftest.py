@@ -21,8 +21,10 @@ NOT_PURE = {*DOMAINS, 'browser', 'clean_environment', 'sources'}
 
 
 def pytest_configure():
-    # Shells start programs in the background with interrupts ignored, which programs inherit.
+    # Shells start programs in the background with these signals ignored, which programs inherit.
     signal.signal(signal.SIGINT, signal.default_int_handler)
+    for kind in (signal.SIGHUP, signal.SIGQUIT):
+        signal.signal(kind, signal.SIG_DFL)
     os.environ['ROS_DOMAIN_ID'] = NOT_CLAIMED
     os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'] = 'LOCALHOST'
     os.environ.pop('ROS_STATIC_PEERS', None)

@@ -9,6 +9,7 @@ from importlib import import_module
 from pathlib import Path
 
 from pam_ros.errors import PamError
+from pam_ros.processes.ends import ignore_ends
 from pam_ros.processes.interrupts import heed
 
 BAD_INPUT, INTERRUPTED = 2, 130
@@ -27,7 +28,7 @@ def main() -> None:
     for name in given.chapters:
         if name not in CHAPTERS:
             parser.error(f'there is no chapter {name}: give one of ' + ', '.join(CHAPTERS))
-    # SIGTERM stops the programs that a chapter has started, as Ctrl-C does.
+    # Each signal that asks for the end stops the programs that a chapter has started.
     heed()
     # The demonstration needs no other machine, and no other should receive its messages.
     os.environ.setdefault('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
@@ -40,6 +41,8 @@ def main() -> None:
         sys.exit(BAD_INPUT)
     except KeyboardInterrupt:
         sys.exit(INTERRUPTED)
+    finally:
+        ignore_ends()
 
 
 if __name__ == '__main__':

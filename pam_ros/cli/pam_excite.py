@@ -13,16 +13,17 @@ Subscribes
 
 Commands at ``rate``; with use_sim_time it answers each joint state with one command instead.
 Stops and vents when the joint leaves contraction_min..contraction_max or is silent for
-``silence`` seconds, and on Ctrl-C. Limits, length and seed are parameters; those of the muscle
-(``-p muscle:=dmsp_20_400n``, or a parameter file) apply as well. Exit code 0 at the end or after
-Ctrl-C, 1 where it stopped or could not start, 2 for parameters that make no programme.
+``silence`` seconds, and on Ctrl-C, SIGTERM, SIGHUP (the terminal is closed) and SIGQUIT. Limits,
+length and seed are parameters; those of the muscle (``-p muscle:=dmsp_20_400n``, or a parameter
+file) apply as well. Exit code 0 at the end or after such a signal, 1 where it stopped or could not
+start, 2 for parameters that make no programme.
 """
 
 from pam_ros.cli.start import start_node
 
 
 def main() -> None:
-    """Play the programme to its end, or until Ctrl-C or SIGTERM."""
+    """Play the programme to its end, or until a signal asks for its end."""
     start_node('pam_ros.nodes.excite.node', 'PamExcite', __doc__)
 
 

@@ -6,14 +6,14 @@ Records ``joint_states``, ``pressure_command``, ``force``, ``stiffness``, ``damp
 ``pressure``, and the topics that are named, each as soon as it is published. Messages are
 kept as they came, with the time at which the middleware received them. The bag (MCAP, with
 metadata.yaml) is whole at every moment: when the recorder is killed, what is lost is the last
-second. Ctrl-C ends it.
+second. Ctrl-C ends it, and so do SIGTERM, SIGHUP (the terminal is closed) and SIGQUIT.
 """
 
 from pam_ros.cli.start import start_node
 
 
 def main() -> None:
-    """Record until Ctrl-C or SIGTERM."""
+    """Record until a signal asks for the end."""
     start_node('pam_ros.nodes.record.node', 'PamRecord', __doc__)
 
 

@@ -32,7 +32,7 @@ from pam_ros.cli.start import start_node
 
 
 def main() -> None:
-    """Run the simulator until Ctrl-C or SIGTERM."""
+    """Run the simulator until a signal asks for its end."""
     start_node('pam_ros.nodes.sim.node', 'PamSim', __doc__)
 
 

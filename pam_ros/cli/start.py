@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """How a node's program starts: signals first, then what takes time to import.
 
-So that Ctrl-C and SIGTERM end a program cleanly from its first tenth of a second on.
+So that Ctrl-C and the other signals end a program cleanly from its first tenth of a second on.
 """
 
 import gc
@@ -10,6 +10,7 @@ import sys
 from importlib import import_module
 from typing import NoReturn
 
+from pam_ros.processes.ends import ignore_ends
 from pam_ros.processes.stop import StopRequest
 
 
@@ -23,4 +24,8 @@ def start_node(module: str, name: str, about: str) -> NoReturn:
     gc.disable()
     spin = import_module('pam_ros.nodes.common.spin')
     node = getattr(import_module(module), name)
-    sys.exit(spin.run(node, stop, about))
+    try:
+        code = spin.run(node, stop, about)
+    finally:
+        ignore_ends()
+    sys.exit(code)

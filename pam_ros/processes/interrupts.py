@@ -1,14 +1,15 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Ctrl-C and SIGTERM as KeyboardInterrupt, but never in the middle of rclpy's own work.
+"""Signals that ask for the end as KeyboardInterrupt, but never in the middle of rclpy's own work.
 
 Raised while rclpy handles a message, it is lost in a destructor or comes out as another error.
 """
 
-import signal
 from collections.abc import Iterator
 from contextlib import contextmanager
 from types import FrameType
+
+from pam_ros.processes.ends import on_end
 
 
 class _Interrupt:
@@ -19,10 +20,9 @@ class _Interrupt:
 
 
 def heed() -> None:
-    """Let the first Ctrl-C or SIGTERM raise KeyboardInterrupt; later ones do no harm."""
+    """Let the first signal raise KeyboardInterrupt; later ones do no harm."""
     _Interrupt.is_made = False
-    for kind in (signal.SIGINT, signal.SIGTERM):
-        signal.signal(kind, _note)
+    on_end(_note)
 
 
 @contextmanager

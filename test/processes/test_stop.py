@@ -16,6 +16,29 @@ for _ in range(2):
     os.kill(os.getpid(), signal.{kind})
 print(stop.is_made)
 """
+LAST = """
+import os, signal
+from pam_ros.processes.ends import ignore_ends
+from pam_ros.processes.stop import StopRequest
+
+class Last:
+    def __del__(self, kill=os.kill, pid=os.getpid(), kind=signal.{kind}):
+        kill(pid, kind)
+
+import sys
+StopRequest()
+sys.last = Last()  # goes when the interpreter ends, behind all handlers of Python
+ignore_ends()
+print('ended')
+"""
+IGNORED = """
+import os, signal
+from pam_ros.processes.stop import StopRequest
+signal.signal(signal.{kind}, signal.SIG_IGN)
+stop = StopRequest()
+os.kill(os.getpid(), signal.{kind})
+print(stop.is_made)
+"""
 RAISED = """
 import os, signal
 from pam_ros.processes.interrupts import heed, held_back
@@ -31,13 +54,27 @@ print('once')
 """
 
 
-@pytest.mark.parametrize('kind', ['SIGINT', 'SIGTERM'])
+@pytest.mark.parametrize('kind', ['SIGINT', 'SIGTERM', 'SIGHUP', 'SIGQUIT'])
 @pytest.mark.parametrize(
     ('code', 'printed'),
     [(NOTED, ['False', 'True']), (RAISED, ['held', 'raised', 'once'])],
     ids=['noted', 'raised'],
 )
 def test_a_signal_that_comes_again_does_no_harm(code, printed, kind):
+    check(code, printed, kind)
+
+
+@pytest.mark.parametrize('kind', ['SIGINT', 'SIGTERM', 'SIGHUP', 'SIGQUIT'])
+def test_nor_does_one_when_the_interpreter_ends(kind):
+    check(LAST, ['ended'], kind)
+
+
+@pytest.mark.parametrize('kind', ['SIGHUP', 'SIGQUIT'])
+def test_a_signal_that_nohup_or_a_shell_has_ignored_stays_ignored(kind):
+    check(IGNORED, ['False'], kind)
+
+
+def check(code, printed, kind):
     done = subprocess.run(
         [sys.executable, '-c', code.format(kind=kind)],
         capture_output=True,

@@ -267,13 +267,18 @@ class PamExcite(TickingNode):
     def destroy_node(self) -> None:
         """Vent where something is left to vent: the node was asked to stop."""
         if self._pressure > 0.0:
-            self._bar.close()
-            print('pam_excite: asked to stop, venting', file=sys.stderr, flush=True)
-            while self._pressure > 0.0:
-                self._command(self._let_out())
-                time.sleep(1.0 / self._now.settings.rate)
-            self._publisher.wait_for_all_acked(Duration(seconds=1))
+            try:
+                self._bar.close()
+                print('pam_excite: asked to stop, venting', file=sys.stderr, flush=True)
+            finally:  # also where nobody reads any more what is printed
+                self._let_all_out()
         super().destroy_node()
+
+    def _let_all_out(self) -> None:
+        while self._pressure > 0.0:
+            self._command(self._let_out())
+            time.sleep(1.0 / self._now.settings.rate)
+        self._publisher.wait_for_all_acked(Duration(seconds=1))
 
 
 def _nothing_live(built: Experiment) -> None:

@@ -232,8 +232,10 @@ class PamRecord(TickingNode):
         except RecordingError as error:
             print(f'pam_record: {error}', file=sys.stderr)
             self.exit_code = 1
-        self._summarise()
-        super().destroy_node()
+        try:
+            self._summarise()
+        finally:  # also where nobody reads any more what is printed
+            super().destroy_node()
 
     def _summarise(self) -> None:
         lines = [f'{self._directory}: {self._writer.duration:.2f} s']

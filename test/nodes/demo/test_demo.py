@@ -60,7 +60,7 @@ def test_an_unknown_chapter_is_refused_with_those_that_there_are(tmp_path):
     assert not list(tmp_path.iterdir())
 
 
-@pytest.mark.parametrize('kind', [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize('kind', [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 def test_a_signal_leaves_no_simulator_behind(tmp_path, kind):
     with subprocess.Popen(
         [*DEMO, 'paper'],

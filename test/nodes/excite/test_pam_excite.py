@@ -2,7 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """``pam_excite`` as a process, on a rig that the test plays; simulated time where it is long."""
 
+import os
+import pty
 import signal
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -21,6 +25,13 @@ pytestmark = pytest.mark.usefixtures('domain')
 SHORT = {'duration': 30.0, 'countdown': 0.0}
 LONGEST = 0.1  # s without a command for which the pressure may change at once
 PATIENT = {**SHORT, 'silence': 30.0}  # a busy machine may keep the rig of the test quiet
+# Its standard input becomes the terminal that sends it SIGHUP.
+ON_TERMINAL = """
+import fcntl, termios
+from pam_ros.cli.pam_excite import main
+fcntl.ioctl(0, termios.TIOCSCTTY, 0)
+main()
+"""
 
 
 class Rig:
@@ -158,7 +169,7 @@ def test_a_joint_that_falls_silent_stops_it(rig, peer):
     check_vented(rig.commands)
 
 
-@pytest.mark.parametrize('kind', [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize('kind', [signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT])
 def test_a_signal_vents(rig, kind):
     with excite() as program:
         rig.until_pressed()
@@ -168,6 +179,38 @@ def test_a_signal_vents(rig, kind):
         assert 'asked to stop, venting' in program.output
         assert 'Traceback' not in program.output
     rig.until(lambda: rig.commands[-1] == 0.0, 'the last command')
+    check_vented(rig.commands)
+
+
+def test_a_terminal_that_is_closed_vents(rig):
+    terminal, end = pty.openpty()
+    with subprocess.Popen(
+        [sys.executable, '-c', ON_TERMINAL, '--ros-args', *ros_arguments(PATIENT)],
+        stdin=end,
+        stdout=end,
+        stderr=end,
+        start_new_session=True,
+    ) as program:
+        os.close(end)
+        rig.until_pressed()
+        os.close(terminal)
+        rig.until(lambda: program.poll() is not None, 'the end')
+        assert program.returncode == 0
+    rig.until(lambda: rig.commands[-1] == 0.0, 'the last command')
+    check_vented(rig.commands)
+
+
+def test_a_reader_of_its_output_that_ends_first_keeps_it_from_nothing(rig):
+    with subprocess.Popen(
+        [sys.executable, '-m', 'pam_ros.cli.pam_excite', '--ros-args', *ros_arguments(PATIENT)],
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+    ) as program:
+        rig.until_pressed()
+        program.stderr.close()
+        program.send_signal(signal.SIGINT)
+        rig.until(lambda: program.poll() is not None, 'the end')
+    rig.peer.work(0.5)  # what was sent is received by then: it waits for that
     check_vented(rig.commands)
 
 

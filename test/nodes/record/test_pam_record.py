@@ -49,7 +49,7 @@ def written(bag):
 
 
 @pytest.mark.at_any_pace
-@pytest.mark.parametrize('kind', [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize('kind', [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 def test_all_messages_of_a_rig_are_in_the_bag(peer, tmp_path, kind):
     count = 3000
     bag = tmp_path / 'rig'

@@ -3,6 +3,7 @@
 """``pam_sim`` as a process: names, neighbours, signals, exit codes, bad arguments."""
 
 import signal
+from time import sleep
 
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray
@@ -18,7 +19,11 @@ pytestmark = [pytest.mark.at_any_pace, pytest.mark.usefixtures('domain')]
 
 
 @pytest.mark.parametrize(
-    ('kind', 'times'), [(signal.SIGINT, 1), (signal.SIGINT, 3), (signal.SIGTERM, 1)]
+    ('kind', 'times'),
+    [
+        *[(signal.SIGINT, 1), (signal.SIGINT, 3), (signal.SIGTERM, 1)],
+        *[(signal.SIGHUP, 1), (signal.SIGQUIT, 1)],
+    ],
 )
 def test_a_signal_ends_it_cleanly(peer, kind, times):
     states = peer.collect(JointState, 'joint_states')
@@ -27,6 +32,17 @@ def test_a_signal_ends_it_cleanly(peer, kind, times):
         sim.interrupt(kind, times)
         assert sim.wait() == 0
         assert 'Traceback' not in sim.output
+
+
+def test_signals_that_come_until_it_has_ended_do_not_change_how_it_ends(peer):
+    states = peer.collect(JointState, 'joint_states')
+    for _ in range(3):
+        with Program('pam_sim') as sim:
+            peer.more(states)
+            while sim.is_running:
+                sim.interrupt()
+                sleep(2e-3)
+            assert sim.wait() == 0, sim.output
 
 
 def test_a_signal_during_the_start_ends_it_cleanly():
