@@ -50,6 +50,7 @@ class TickingNode(Node, ABC):
     ticker: Ticker
     exit_code: int | None = None
     keeps_wall_time = False
+    stop: StopRequest  # what takes long asks it meanwhile
     scheduling = NORMAL
 
     @classmethod
@@ -88,6 +89,7 @@ def run(kind: type[TickingNode], stop: StopRequest, about: str) -> int:
             )
             rclpy.init(args=sys.argv, signal_handler_options=SignalHandlerOptions.NO)
             node = kind.of_arguments(parser, remove_ros_args(sys.argv)[1:])
+            node.stop = stop
         except REFUSALS as error:
             print(f'{parser.prog}: {sentence(error)}', file=sys.stderr)
             return BAD_INPUT

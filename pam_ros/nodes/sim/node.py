@@ -298,7 +298,10 @@ class PamSim(TickingNode):
             return response
         periods = self._simulation.settings.step_periods
         self._sample_from_here()
-        for _ in range(periods):
+        for done in range(periods):
+            if self.stop.is_made:
+                response.message = f'asked to stop: simulated {done} of {periods} periods'
+                return response
             if self._is_followed:
                 # Each is stamped with the time at which it is published.
                 self._time.align(self._samples.next)

@@ -120,6 +120,28 @@ def test_a_dead_controller_is_waited_for_and_told_and_a_new_one_goes_on(peer):
     assert set(np.diff([stamp(m) for m in got])) == {PERIOD}
 
 
+def test_a_signal_ends_a_long_step_with_an_answer(peer):
+    """All periods take minutes; the service's client has no such patience."""
+    states = peer.collect(JointState, 'joint_states')
+    with Program('pam_sim', parameters={**MANY, 'step_periods': 100_000}) as sim:
+        peer.more(states)
+        assert peer.call(SetBool, 'pam_sim/pause', data=True).success
+        client = peer.node.create_client(Trigger, 'pam_sim/step')
+        peer.until(client.service_is_ready, 'the service')
+        before = stamp(states[-1])
+        answer = client.call_async(Trigger.Request())
+        peer.until(lambda: stamp(states[-1]) >= before + 50 * PERIOD, 'some periods')
+        sim.interrupt()
+        peer.until(lambda: not sim.is_running, 'the end')
+        assert sim.wait() == 0
+        peer.until(answer.done, 'the answer')
+    assert not answer.result().success
+    assert answer.result().message.startswith('asked to stop: simulated ')
+    assert answer.result().message.endswith(' of 100000 periods')
+    # As many were simulated when it was asked to stop, and not all that were wanted.
+    assert stamp(states[-1]) < before + 100_000 * PERIOD
+
+
 def test_pause_keeps_an_answer_and_step_goes_on_without_one(peer):
     with Program('pam_sim', parameters={**LOCKSTEP, **RELEASED, 'step_periods': 7}):
         controller = Controller(peer)
