@@ -19,7 +19,7 @@ from pam_ros.control.reference.points import Floats, Points
 from pam_ros.errors import RangeError
 from pam_ros.timing.pace import SECOND
 
-MOST_POINTS = 100_000  # of one trajectory: so many delay a command by less than 0.2 s
+MOST_POINTS = 100_000  # of one trajectory: so many delay a command by some 0.2 s
 WORD = 4  # bytes; all that stands in the message begins at a multiple of them
 KINDS = ('positions', 'velocities', 'accelerations', 'effort')
 USED = KINDS[:3]
