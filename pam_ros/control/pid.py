@@ -162,7 +162,7 @@ class Pid:
         self._pid.set_auto_mode(False)
         self._pid.set_auto_mode(True, last_output=before)
         self._error = self._filtered = 0.0
-        self._seen = position
+        self._seen, self._waited, self._output = position, 0.0, before
         self.terms = Terms(reference=position, position=position, pressures=commands)
         self._note_stiffness()
 
@@ -176,20 +176,19 @@ class Pid:
     ) -> Pressures:
         """Return the gauge pressures in Pa to command from now on, *dt* s after the last call.
 
-        What is not finite is taken, or refused, as
-        :meth:`pam_ros.control.signals.PositionLaw.update` says.
+        Without a new measurement the static part follows the reference, and the output of the PID
+        stays: the reference less an old position is no error. What is not finite is taken, or
+        refused, as :meth:`pam_ros.control.signals.PositionLaw.update` says.
         """
         position, _ = step_arguments(dt, reference, position, velocity, age)
-        if position is not None:
-            self._seen = position
+        self._waited += dt
         static, gains = self._static(reference.position), self.sharing.gains(reference.position)
         signs = self._signs(reference.position)
         # What the limits leave of the range: simple-pid stops its integral there.
         self._pid.output_limits = self._room(static, signs)
-        share = 1.0 - exp(-self.gains.filter_bandwidth * dt)
-        self._error += share * (reference.position - self._seen - self._error)
-        self._filtered += share * (self._error - self._filtered)
-        output = self._pid(-self._filtered, dt=dt)
+        if position is not None:
+            self._correct(reference.position, position)
+        output = self._output
         p, i, d = self._pid.components
         commands, cut = [], 0.0
         for limiter, sign, pressure, gain in zip(
@@ -211,6 +210,15 @@ class Pid:
         )
         self._note_stiffness()
         return self.terms.pressures
+
+    def _correct(self, reference: float, position: float) -> None:
+        """Take in a measured *position*, with the time since the last one."""
+        dt, self._waited = self._waited, 0.0
+        self._seen = position
+        share = 1.0 - exp(-self.gains.filter_bandwidth * dt)
+        self._error += share * (reference - position - self._error)
+        self._filtered += share * (self._error - self._filtered)
+        self._output = self._pid(-self._filtered, dt=dt)
 
     def _note_stiffness(self) -> None:
         """Put the stiffness that is set, and the one that the commands give, into the terms."""

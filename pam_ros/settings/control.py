@@ -61,8 +61,9 @@ class ControlSettings:
         100.0, 'messages per second on ~/state; 0: none', 'Hz', low=0.0, high=2000.0
     )
     state_timeout: float = parameter(
-        0.1,
-        'silence of joint_states after which on_timeout acts',
+        0.5,  # a loaded machine holds messages up for 0.1 s now and then
+        'silence of joint_states after which on_timeout acts; before that, control goes on by '
+        'the model',
         's',
         low=0.005,
         high=3600.0,

@@ -33,6 +33,8 @@ from pam_ros.timing.pace import SECOND
 from pam_ros.timing.silence import steady_ns
 from pam_ros.timing.ticker import Ticker
 
+# s; after a step that is later than this, what came meanwhile is received first.
+HELD_UP = 0.05
 WATCH_RATE = 20.0  # Hz at which time-outs are looked for where states make the time
 REPEAT = SECOND // 20  # ns after which a state that comes again asks for its answer again
 
@@ -123,7 +125,7 @@ class PamControl(TickingNode):
             self._intake.mark(now)
             return
         settings = self._setup.settings
-        longest = max(0.5 * settings.state_timeout, 3.0 / settings.rate) * SECOND
+        longest = max(min(0.5 * settings.state_timeout, HELD_UP), 3.0 / settings.rate) * SECOND
         was_held_up = now - self._ticked > longest and not self._has_waited
         self._ticked, self._has_waited = now, was_held_up
         if not was_held_up:  # else what came meanwhile is to be received first
