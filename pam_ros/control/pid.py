@@ -184,9 +184,9 @@ class Pid:
         self._waited += dt
         static, gains = self._static(reference.position), self.sharing.gains(reference.position)
         signs = self._signs(reference.position)
-        # What the limits leave of the range: simple-pid stops its integral there.
-        self._pid.output_limits = self._room(static, signs)
         if position is not None:
+            # What the limits leave of the range: simple-pid stops its integral there.
+            self._pid.output_limits = self._room(static, signs)
             self._correct(reference.position, position)
         output = self._output
         p, i, d = self._pid.components

@@ -37,7 +37,8 @@ from pam_ros.rig import layout as at
 from pam_ros.rig.joint import Joint
 
 Array = NDArray[np.float64]
-# Simulations run side by side, the rest of a fit, about a third of its time, does not.
+# Simulations run side by side; the rest of a fit, a third of its time, does not: more threads
+# would wait for each other.
 THREADS = 4
 
 

@@ -169,10 +169,10 @@ class Plant:
         force, stiffness, damping, acceleration = rig.outputs()[0].tolist()
         position, velocity = rig.position.item(), rig.velocity.item()
         pressure = rig.pressure.item()
-        reach = self.simulation.reach.item() * self.simulation.muscles[0].l0
+        l0 = self.simulation.muscles[0].l0
+        reach = self.simulation.reach.item() * l0
         if not (abs(position) < reach and math.isfinite(force + velocity)):
             raise ArithmeticError(f"at {position:g} m it is out of the muscle's reach")
-        l0 = self.simulation.muscles[0].l0
         self.contractions.see_one(rig.time, position / l0, self.simulation.rated.item())
         if not self._feedback.is_ideal:
             sample = np.array([[position], [velocity], [pressure], [force], [acceleration]])

@@ -26,8 +26,9 @@ def candidates(found: Search) -> tuple[Candidate, ...]:
             if model.effects:
                 *before, name = model.effects
                 children.setdefault((frozenset(before), name), model)
-    shown = {*parents.values(), *children.values()}
-    list(found.setting.pool.map(lambda model: model.errors, shown))  # found once, side by side
+    # Errors are found once; side by side from Python 3.12 on, where cached properties of several
+    # objects do not share a lock.
+    list(found.setting.pool.map(lambda m: m.errors, {*parents.values(), *children.values()}))
     made = []
     for effects in sorted(parents, key=len):
         tried = [child for (before, _), child in children.items() if before == effects]
