@@ -12,6 +12,8 @@ from typing import Any, TypeVar
 
 import numpy as np
 
+from pam_ros.code_cache import CodeCache
+
 numba: Any
 try:
     numba = import_module('numba')
@@ -49,12 +51,18 @@ def inner(function: F) -> F:
 
 
 def cached(function: F) -> F:
-    """As :func:`scalar`, with the machine code kept on disk between runs.
+    """As :func:`scalar`, with the machine code kept on disk between runs, where that is possible.
 
     numba's cache sees changes of the function's own file only. A caller that binds other
     functions into it must give it a name that changes with them (see ``rig/bind.py``).
     """
-    return function if numba is None else _compiled(function, cache=True)
+    if numba is None:
+        return function
+    compiled: Any = _compiled(function)
+    # As its enable_caching() does, with a cache of which no failure is an error.
+    compiled._cache = CodeCache(function)
+    kept: F = compiled
+    return kept
 
 
 def _inlined(function: F, **more: bool) -> F:

@@ -2,11 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Compile the kernels and keep them on disk, so that a node is up at once: run at set-up."""
 
+import logging
 import time
 from concurrent.futures import ProcessPoolExecutor
 
 import numpy as np
 
+from pam_ros import code_cache
 from pam_ros.compiled import HAVE_NUMBA
 from pam_ros.rig.arrangements import ARRANGEMENTS, Arrangement
 from pam_ros.rig.bind import bind
@@ -24,18 +26,21 @@ def warm() -> None:
     recordings for one muscle alone; each without effects, and with all. What is not among them,
     such as a joint of one's own, is compiled and kept when it is first used.
     """
-    with ProcessPoolExecutor(WORKERS) as pool:
+    # What the workers would log, each for itself, is logged here once.
+    with ProcessPoolExecutor(WORKERS, initializer=logging.disable) as pool:
         for done in [*(pool.submit(_step, kind) for kind in ARRANGEMENTS), pool.submit(_run)]:
-            done.result()
+            code_cache.warn(done.result())
     _run()  # from disk: what identifies in this process has them loaded
 
 
-def _step(kind: Arrangement) -> None:
+def _step(kind: Arrangement) -> str:
+    """Return why nothing is kept on disk, '' where it is; :func:`_run` as well."""
     actuator = Actuator(contraction=kind.contraction)
     Rig([Joint((actuator,) * kind.muscles, kind.load(), kind.transmission())]).prepare()
+    return code_cache.warned()
 
 
-def _run() -> None:
+def _run() -> str:
     joint = one_muscle()
     layout, q = joint.layout, joint.parameters()
     t, u = np.array([0.0, 1e-3]), np.zeros((2, layout.muscles))
@@ -46,6 +51,7 @@ def _run() -> None:
         kernel.simulate(x, xn, q, t, t, u, 1e-3, out, True)
         kernel.simulate_held(x, xn, q, t, u, t, t, 1e-3, out)
         kernel.simulate_along(x, xn, q, t, t, t, t, u, np.zeros((1, 2)))
+    return code_cache.warned()
 
 
 if __name__ == '__main__':
