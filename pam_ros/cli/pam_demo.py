@@ -11,6 +11,7 @@ from pathlib import Path
 from pam_ros.errors import PamError
 from pam_ros.processes.ends import ignore_ends
 from pam_ros.processes.interrupts import heed
+from pam_ros.processes.outputs import guard_outputs
 
 BAD_INPUT, INTERRUPTED = 2, 130
 # Each is a module of pam_ros.nodes.demo with a function play(stage).
@@ -19,6 +20,7 @@ CHAPTERS = ('paper', 'position', 'joint', 'loop')
 
 def main() -> None:
     """Play the chapters that the command line names, all of them by default."""
+    guard_outputs()
     parser = argparse.ArgumentParser(prog='pam_demo', description=__doc__)
     parser.add_argument(
         'chapters', nargs='*', metavar='CHAPTER', help='one of ' + ', '.join(CHAPTERS)

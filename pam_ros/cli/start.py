@@ -11,6 +11,7 @@ from importlib import import_module
 from typing import NoReturn
 
 from pam_ros.processes.ends import ignore_ends
+from pam_ros.processes.outputs import guard_outputs
 from pam_ros.processes.stop import StopRequest
 
 
@@ -20,6 +21,7 @@ def start_node(module: str, name: str, about: str) -> NoReturn:
     *about* is what ``--help`` shows.
     """
     stop = StopRequest()
+    guard_outputs()
     # What is imported stays: looking for garbage in it would take a fifth of the start.
     gc.disable()
     spin = import_module('pam_ros.nodes.common.spin')
