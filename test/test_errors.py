@@ -2,12 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """What users give stands in sentences so that no terminal or log takes harm."""
 
+import os
 import pickle
 
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pam_ros.errors import LONGEST, LONGEST_WORD, PamError, RecordingError, shown
+from pam_ros.errors import LONGEST, LONGEST_WORD, PamError, RecordingError, printable, shown
 
 
 def test_a_plain_sentence_is_left_as_it_is():
@@ -18,6 +19,15 @@ def test_a_plain_sentence_is_left_as_it_is():
 def test_control_characters_are_escaped():
     name = 'a\x1b[31mb\nc\rd\0e\u202ef\udcff'
     assert str(RecordingError(name)) == r'a\x1b[31mb\nc\rd\x00e\u202ef\udcff'
+
+
+def test_bytes_of_a_file_name_are_its_letters_where_they_are_utf_8():
+    name = 'größe'.encode().decode('ascii', 'surrogateescape')  # as the locale C has it
+    assert printable(name) == 'größe'
+    assert printable(os.fsdecode(b'm\xfcller.csv')) == r'm\udcfcller.csv'
+    assert printable('\ud800\n') == r'\ud800\n'
+    long = 'x' * 10**4
+    assert printable(long) == long
 
 
 def test_long_names_are_cut_in_their_middle():

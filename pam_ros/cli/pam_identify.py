@@ -18,7 +18,8 @@ from pathlib import Path
 from types import FrameType
 from typing import NoReturn
 
-from pam_ros.errors import PamError, shown
+from pam_ros.errors import PamError, printable, shown
+from pam_ros.processes.outputs import guard_outputs
 
 BAD_INPUT, INTERRUPTED, TERMINATED = 2, 130, 143
 
@@ -155,12 +156,13 @@ def identify(given: argparse.Namespace, command: str) -> str:
         write_report(given.out, answer, source)
     finally:
         progress.close()
-    return f'{last_line(answer)}; see {given.out / "report.html"}'
+    return printable(f'{last_line(answer)}; see {given.out / "report.html"}')
 
 
 def main() -> None:
     """Identify what the command line names; exit with the program's code."""
     signal.signal(signal.SIGTERM, _terminate)
+    guard_outputs()
     try:
         given = parser().parse_args()
         command = shlex.join(['pam_identify', *sys.argv[1:]])

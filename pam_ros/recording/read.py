@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from pam_ros.arguments import as_path, instance, number
-from pam_ros.errors import RecordingError, shown
+from pam_ros.errors import RecordingError, printable, shown
 from pam_ros.recording.assemble import assemble
 from pam_ros.recording.bag import bag_files, read_bag
 from pam_ros.recording.csv_file import read_csv
@@ -54,7 +54,7 @@ def read_recording(
     else:
         files = [path]
         series, notes = read_csv(path, mapping)
-    recording = assemble(path.name or str(path), series, notes, kind, l0)
+    recording = assemble(printable(path.name or str(path)), series, notes, kind, l0)
     warnings = check(recording, l0, p_max)
     # The notes name columns and topics as they stand in the file.
     sentences = tuple(map(shown, (*recording.warnings, *warnings)))

@@ -11,6 +11,7 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any
 
+from pam_ros.errors import printable
 from pam_ros.recording.recording import Recording
 from pam_ros.rig.joint import Joint
 from pam_ros.settings.files import find
@@ -51,10 +52,10 @@ def provenance(
     """Return the provenance of a trace that is made now with the libraries of this process."""
     path: Path = find(parameters)
     return Provenance(
-        command,
-        parameters,
+        printable(command),
+        printable(parameters),
         hashlib.sha256(path.read_bytes()).hexdigest(),
-        tuple(overrides),
+        tuple(map(printable, overrides)),
         flat_rig(model),
         tuple(recordings),
         tuple(test),

@@ -3,12 +3,14 @@
 """A report as a folder that is there whole or not at all."""
 
 import ctypes
+import fcntl
 import json
 import os
+import re
 import shutil
 import tempfile
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from pam_ros.errors import PamError
@@ -94,9 +96,12 @@ def replaced(folder: Path) -> Iterator[Path]:
     target = folder.resolve()
     try:
         target.parent.mkdir(parents=True, exist_ok=True)
-        new = Path(tempfile.mkdtemp(dir=target.parent, prefix=f'.{target.name}.'))
+        with suppress(OSError):  # of a folder that cannot be listed, or went meanwhile
+            _clear_abandoned(target)
+        new = Path(tempfile.mkdtemp(dir=target.parent, prefix=f'.{target.name}.{os.getpid()}.'))
     except OSError as error:
         raise PamError(f'{folder} cannot be made: {error.strerror}') from error
+    lock = _locked(new)
     try:
         new.chmod(0o777 & ~_umask())
         yield new
@@ -109,6 +114,55 @@ def replaced(folder: Path) -> Iterator[Path]:
     finally:
         # What was there before, or what is not to be there.
         shutil.rmtree(new, ignore_errors=True)
+        if lock is not None:
+            os.close(lock)
+
+
+def _clear_abandoned(target: Path) -> None:
+    """Remove the hidden siblings of *target* that programs left which were killed.
+
+    A program is known to have ended by its process id, and as nobody holds the lock: in
+    containers one id is of several programs.
+    """
+    hidden = re.compile(rf'\.{re.escape(target.name)}\.(\d+)\.[a-z0-9_]{{8}}')
+    for path in target.parent.iterdir():
+        match = hidden.fullmatch(path.name)
+        if match is None or path.is_symlink() or not path.is_dir() or _runs(int(match[1])):
+            continue
+        lock = _locked(path)
+        if lock is not None:
+            shutil.rmtree(path, ignore_errors=True)
+            os.close(lock)
+
+
+def _runs(process: int) -> bool:
+    """Return whether another process has this id."""
+    if process == os.getpid():
+        return False
+    try:
+        os.kill(process, 0)
+    except (ProcessLookupError, OverflowError):
+        return False
+    except PermissionError:  # it is another user's
+        return True
+    return True
+
+
+def _locked(folder: Path) -> int | None:
+    """Lock *folder* and return the descriptor that holds the lock; None where it is held.
+
+    None as well where the file system has no locks.
+    """
+    try:
+        number = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
+    except OSError:
+        return None
+    try:
+        fcntl.flock(number, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        os.close(number)
+        return None
+    return number
 
 
 def _exchange(new: Path, old: Path) -> None:

@@ -222,6 +222,36 @@ def test_other_names_are_mapped_on_the_command_line_and_in_a_file(bench, tmp_pat
 
 
 @pytest.mark.slow
+def test_report_is_written_for_any_name_in_locale_c_with_stdout_full(bench, tmp_path):
+    name = os.fsdecode(b'm\xfcller.csv')
+    (tmp_path / name).write_bytes((bench / 'friction.csv').read_bytes())
+    out = 'größe'
+    plain = {'LC_ALL': 'C', 'PYTHONUTF8': '0', 'PYTHONCOERCECLOCALE': '0'}
+    with Path('/dev/full').open('w', encoding='utf-8') as full:
+        done = subprocess.run(
+            [sys.executable, '-m', 'pam_ros.cli.pam_identify', name, *DECLARED, '--out', out],
+            cwd=tmp_path,
+            env={**os.environ, **plain},
+            stdout=full,
+            stderr=subprocess.PIPE,
+            text=True,
+            check=False,
+        )
+    assert done.returncode == 0, done.stderr
+    last = 'pam_identify: standard output cannot be written: No space left on device'
+    assert done.stderr.splitlines()[-1] == last
+    folder = tmp_path / out
+    assert sorted(p.name for p in folder.iterdir()) == sorted(FILES)
+    report = json.loads((folder / 'report.json').read_text(encoding='utf-8'))
+    (recording,) = report['data']['recordings']
+    assert recording['name'] == r'm\udcfcller.csv'
+    assert 'größe' in report['provenance']['command']
+    for file in ('report.html', 'identified.yaml', 'residual.csv'):
+        assert r'm\udcfcller.csv' in (folder / file).read_text(encoding='utf-8')
+    load_rig(str(folder / 'identified.yaml'))
+
+
+@pytest.mark.slow
 def test_it_needs_no_ros(bench):
     program = (
         'import sys\n'

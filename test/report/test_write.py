@@ -3,14 +3,22 @@
 """The folder of a report: whole or not at all, and never in the place of something else."""
 
 import json
+import os
 import shutil
 import stat
+import subprocess
+import sys
+from pathlib import Path
+from time import monotonic, sleep
 
 import pytest
 
 from pam_ros.errors import PamError
 from pam_ros.report import write
 from pam_ros.report.write import FILES, check_folder, replaced, write_report
+
+# An id that no process has: Linux gives none as high.
+ENDED = int(Path('/proc/sys/kernel/pid_max').read_text()) + 1
 
 
 def names(folder):
@@ -71,6 +79,73 @@ def test_nothing_is_left_where_writing_breaks_off(friction, reports, tmp_path, m
     assert names(target.parent) == ['report']
     assert names(target) == sorted(FILES)
     assert (target / 'report.json').read_bytes() == before
+
+
+KILLED = """
+import os, signal, sys
+from pathlib import Path
+from pam_ros.report.write import replaced
+with replaced(Path(sys.argv[1])) as new:
+    (new / 'report.json').write_text('half', encoding='utf-8')
+    {end}
+"""
+
+
+def writing(target, end):
+    """Start a program that begins a report in *target* and ends or waits as *end* says."""
+    return subprocess.Popen([sys.executable, '-c', KILLED.format(end=end), str(target)])
+
+
+def test_what_a_killed_program_left_is_removed_by_the_next(tmp_path):
+    target = tmp_path / 'report'
+    writing(target, 'os.kill(os.getpid(), signal.SIGKILL)').wait()
+    (left,) = names(tmp_path)
+    assert left.startswith('.report.')
+    with replaced(target) as new:
+        assert names(tmp_path) == [new.name]
+    assert names(tmp_path) == ['report']
+
+
+def test_what_another_program_is_writing_stays(tmp_path):
+    target = tmp_path / 'report'
+    other = writing(target, 'signal.pause()')
+    try:
+        end = monotonic() + 60.0
+        while not list(tmp_path.glob('.report.*/report.json')):
+            assert monotonic() < end
+            sleep(0.01)
+        with replaced(target):
+            assert len(names(tmp_path)) == 2
+        assert len(names(tmp_path)) == 2
+        # Its process id tells another container nothing, the lock does.
+        (kept,) = tmp_path.glob('.report.*')
+        ended = kept.with_name(f'.report.{ENDED}.{kept.name[-8:]}')
+        kept.rename(ended)
+        with replaced(target) as new:
+            assert names(tmp_path) == sorted([ended.name, new.name, 'report'])
+    finally:
+        other.kill()
+        other.wait()
+
+
+def test_hidden_folders_of_others_stay(tmp_path):
+    others = [
+        '.report.backup1',
+        f'.report.{ENDED}.abcdefg',
+        f'.report.{ENDED}.abcdefgh.old',  # may hold the only former report
+        f'.other.{ENDED}.abcdefgh',
+        f'report.{ENDED}.abcdefgh',
+        f'.report.{os.getppid()}.abcdefgh',
+    ]
+    for name in others:
+        (tmp_path / name).mkdir()
+    (tmp_path / f'.report.{ENDED}.file_abc').write_text('', encoding='utf-8')
+    (tmp_path / f'.report.{ENDED}.link_abc').symlink_to(tmp_path / 'report.backup1')
+    before = names(tmp_path)
+    (tmp_path / f'.report.{ENDED}.abcdefgh').mkdir()
+    with replaced(tmp_path / 'report'):
+        pass
+    assert names(tmp_path) == sorted([*before, 'report'])
 
 
 def test_a_full_disk_is_a_sentence(tmp_path):
