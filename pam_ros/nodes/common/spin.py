@@ -11,16 +11,19 @@ import gc
 import re
 import sys
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from time import monotonic_ns
+from typing import Any
 
 import rclpy
 from rclpy.exceptions import NameValidationException, ParameterException
 from rclpy.executors import Executor, SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
+from rclpy.subscription import Subscription
 from rclpy.utilities import remove_ros_args
+from rosgraph_msgs.msg import Clock
 
 from pam_ros.errors import PamError, shown
 from pam_ros.processes.priority import NORMAL, prefer_real_time
@@ -58,6 +61,39 @@ class TickingNode(Node, ABC):
         """Make the node of the command line's arguments, those for ROS left out: none."""
         parser.parse_args(given)
         return cls()
+
+    def create_subscription(
+        self,
+        msg_type: Any,
+        topic: str,
+        callback: Callable[[Any], None],
+        *more: Any,
+        **options: Any,
+    ) -> Subscription:
+        """Subscribe as any node does, but leave out times of ``/clock`` below 0.
+
+        rclpy's own subscription to ``/clock`` is made here as well, and would end the program: a
+        Time of rclpy cannot be negative.
+        """
+        if msg_type is not Clock:
+            return super().create_subscription(msg_type, topic, callback, *more, **options)
+
+        def not_negative(message: Clock) -> None:
+            if not self.refuses_time(message):
+                callback(message)
+
+        return super().create_subscription(msg_type, topic, not_negative, *more, **options)
+
+    def refuses_time(self, message: Clock) -> bool:
+        """Return whether a message of ``/clock`` is below 0; the first is warned of."""
+        is_negative = bool(message.clock.sec < 0)
+        if is_negative:
+            self.get_logger().warning(
+                f'/clock has a time of {message.clock.sec} s, which is not allowed: times below 0 '
+                'are left out',
+                once=True,
+            )
+        return is_negative
 
     def make_executor(self) -> Executor:
         """Return the executor that serves the node: the lightest there is."""

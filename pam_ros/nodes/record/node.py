@@ -188,8 +188,9 @@ class PamRecord(TickingNode):
                 recorded.count_lost(info['publication_sequence_number'], topic in self._sole)
         if self._clock_subscription:
             for message, info in all_of(self._clock_subscription):
-                now = message.clock.sec * SECOND + message.clock.nanosec
-                self._time.tell(info['source_timestamp'], now)
+                if not self.refuses_time(message):
+                    now = message.clock.sec * SECOND + message.clock.nanosec
+                    self._time.tell(info['source_timestamp'], now)
         for recorded in self._recorded.values():
             self._write_waiting(recorded, is_last)
 
