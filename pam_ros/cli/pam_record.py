@@ -6,7 +6,8 @@ Records ``joint_states``, ``pressure_command``, ``force``, ``stiffness``, ``damp
 ``pressure``, and the topics that are named, each as soon as it is published. Messages are
 kept as they came, with the time at which the middleware received them. The bag (MCAP, with
 metadata.yaml) is whole at every moment: when the recorder is killed, what is lost is the last
-second. Ctrl-C ends it, and so do SIGTERM, SIGHUP (the terminal is closed) and SIGQUIT.
+second. Ctrl-C ends it, and so do SIGTERM, SIGHUP (the terminal is closed) and SIGQUIT. On a full
+disk it ends with exit code 2; the bag has what was written before.
 """
 
 from pam_ros.cli.start import start_node

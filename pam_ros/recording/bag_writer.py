@@ -5,10 +5,14 @@
 Each :meth:`BagWriter.seal` leaves a complete bag behind: chunks, summary, footer and
 ``metadata.yaml``. What is written next takes the place of the summary and ends in a new one. A
 recorder that is killed therefore loses what came after the last seal, and nothing needs repair.
+Where a seal does not fit on the disk, the bag ends with the one before.
 """
 
 import io
 import os
+import shutil
+from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -92,7 +96,15 @@ class BagWriter:
         )
         self._writer.start(profile='ros2', library='pam_ros')
         self._is_sealed = False
-        self.seal()
+        self._sealed: tuple[int, bytes] = (0, b'')  # position and bytes of the last summary
+        self._sealed_counts: dict[str, int] = {}
+        self._sealed_spans: dict[str, tuple[int, int]] = {}
+        try:
+            self.seal()
+        except RecordingError:
+            os.close(self._file)
+            shutil.rmtree(directory, ignore_errors=True)
+            raise
 
     def add_topic(self, topic: BagTopic) -> int:
         """Add *topic* and return its channel."""
@@ -123,45 +135,60 @@ class BagWriter:
     def seal(self) -> None:
         """Make the bag on disk whole, with all that was written so far.
 
-        Raises RecordingError where the disk does not take it.
+        Raises RecordingError where the disk does not take it: the bag is then left as by the last
+        seal, and the next one tries to write all that came after it.
         """
         if self._is_sealed:
             return
         self._writer.flush()
-        end = self._tail.tell()
+        start, end = self._tail.start, self._tail.tell()
         self._writer.finish()
+        data = self._tail.getvalue()
         try:
-            self._put(self._tail.getvalue(), self._tail.start)
+            self._put(data, start)
             self._put_metadata()
         except OSError as error:
+            self._tail.seek(end - start)
+            self._tail.truncate()
+            self._back_to_last_seal()
             raise RecordingError(
-                f'{self._directory / self._name} cannot be written: {error.strerror}'
+                f'{self._directory / self._name} cannot be written: {error.strerror}; '
+                f'the bag ends after {_seconds(self._sealed_spans):.2f} s'
             ) from error
         self._tail.back_to(end)
+        self._sealed = end, data[end - start :]
+        self._sealed_counts, self._sealed_spans = dict(self.counts), dict(self._spans)
         self._is_sealed = True
 
+    def _back_to_last_seal(self) -> None:
+        position, summary = self._sealed
+        # It was there before, and cutting the file off makes room for it.
+        with suppress(OSError):
+            self._put(summary, position)
+
     def close(self) -> None:
-        """Seal the bag for good."""
+        """Seal the bag for good.
+
+        Raises RecordingError where the disk does not take it: counts and times are then those of
+        the last seal, as the bag is.
+        """
         try:
             self.seal()
+        except RecordingError:
+            self.counts, self._spans = self._sealed_counts, self._sealed_spans
+            raise
         finally:
             os.close(self._file)
 
     @property
     def duration(self) -> float:
         """Return the time in s from the first message to the last."""
-        start, end = self._span()
-        return (end - start) * 1e-9
+        return _seconds(self._spans)
 
     def rate(self, topic: str) -> float:
         """Return the messages a second of *topic* between its first and its last."""
         first, last = self._spans.get(topic, (0, 0))
         return (self.counts[topic] - 1) / ((last - first) * 1e-9) if last > first else 0.0
-
-    def _span(self) -> tuple[int, int]:
-        if not self._spans:
-            return _NO_TIME, _NO_TIME
-        return min(s for s, _ in self._spans.values()), max(e for _, e in self._spans.values())
 
     def _put(self, data: bytes, position: int) -> None:
         # The old summary goes first: a file that lacks its end is known to, one whose summary
@@ -174,7 +201,7 @@ class BagWriter:
 
     def _put_metadata(self) -> None:
         total = sum(self.counts.values())
-        first, last = self._span()
+        first, last = _whole(self._spans)
         duration = {'nanoseconds': last - first}
         start = {'nanoseconds_since_epoch': first}
         content = {
@@ -211,8 +238,24 @@ class BagWriter:
             'ros_distro': self._distro,
         }
         partial = self._directory / '.metadata.yaml.part'
-        partial.write_text(_dump({'rosbag2_bagfile_information': content}), encoding='utf-8')
-        partial.replace(self._directory / 'metadata.yaml')
+        try:
+            partial.write_text(_dump({'rosbag2_bagfile_information': content}), encoding='utf-8')
+            partial.replace(self._directory / 'metadata.yaml')
+        except OSError:
+            partial.unlink(missing_ok=True)
+            raise
+
+
+def _whole(spans: Mapping[str, tuple[int, int]]) -> tuple[int, int]:
+    """Return the first and the last time in ns of all topics."""
+    if not spans:
+        return _NO_TIME, _NO_TIME
+    return min(first for first, _ in spans.values()), max(last for _, last in spans.values())
+
+
+def _seconds(spans: Mapping[str, tuple[int, int]]) -> float:
+    first, last = _whole(spans)
+    return (last - first) * 1e-9
 
 
 class _Plain(yaml.SafeDumper):

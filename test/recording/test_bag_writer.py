@@ -4,6 +4,7 @@
 
 import os
 import shutil
+from pathlib import Path
 
 import pytest
 import yaml
@@ -247,3 +248,52 @@ def test_a_full_disk_is_said(tmp_path, monkeypatch):
             writer.seal()
     writer.close()
     assert numbers(tmp_path / 'bag') == {'/force': [1.0]}
+
+
+@pytest.mark.parametrize('part', ['data', 'metadata'])
+def test_a_full_disk_leaves_the_bag_as_it_was_before(tmp_path, monkeypatch, part):
+    writer = BagWriter(tmp_path / 'bag')
+    force = writer.add_topic(topic('/force', bags.FLOAT))
+    for k in range(100):
+        put(writer, force, k)
+    writer.seal()
+    room = (tmp_path / 'bag' / 'bag_0.mcap').stat().st_size + 500
+    for k in range(100, 3000):
+        put(writer, force, k)
+    pwrite = os.pwrite
+
+    def nearly_full(file, data, position):
+        if position >= room:
+            raise OSError(28, 'No space left on device')
+        return pwrite(file, data[: room - position], position)
+
+    def full(path, *_, **__):
+        path.touch()
+        raise OSError(28, 'No space left on device')
+
+    with monkeypatch.context() as patch:
+        if part == 'data':
+            patch.setattr(os, 'pwrite', nearly_full)
+        else:
+            patch.setattr(Path, 'write_text', full)
+        with pytest.raises(
+            RecordingError, match=r'No space left on device; the bag ends after 99'
+        ):
+            writer.seal()
+        assert numbers(tmp_path / 'bag') == {'/force': list(range(100))}
+        with pytest.raises(RecordingError, match='No space left on device'):
+            writer.close()
+    assert numbers(tmp_path / 'bag') == {'/force': list(range(100))}
+    assert writer.counts == {'/force': 100}
+    assert writer.duration == pytest.approx(99.0)
+    assert sorted(p.name for p in (tmp_path / 'bag').iterdir()) == ['bag_0.mcap', 'metadata.yaml']
+
+
+def test_a_bag_that_the_disk_has_no_room_for_is_not_begun(tmp_path, monkeypatch):
+    def full(*_):
+        raise OSError(28, 'No space left on device')
+
+    monkeypatch.setattr(os, 'pwrite', full)
+    with pytest.raises(RecordingError, match=r'bag_0\.mcap cannot be written: No space left'):
+        BagWriter(tmp_path / 'bag')
+    assert list(tmp_path.iterdir()) == []

@@ -18,7 +18,7 @@ from rclpy.subscription import Subscription
 from rosgraph_msgs.msg import Clock
 
 from pam_ros.errors import RecordingError
-from pam_ros.nodes.common.spin import TickingNode
+from pam_ros.nodes.common.spin import BAD_INPUT, TickingNode
 from pam_ros.nodes.record.message_text import message_text
 from pam_ros.nodes.record.qos import matching, metadata
 from pam_ros.nodes.record.taking import Recorded, Taken, all_of, never
@@ -54,7 +54,7 @@ class PamRecord(TickingNode):
         self._clock_subscription: Subscription | None = None
         self._lock = threading.Lock()  # of the writer and of what is recorded
         self._is_closing = threading.Event()
-        self._problem = ''
+        self._problem: Exception | None = None
         self._begun = monotonic_ns()
         self._reported = self._begun
         self._thread = threading.Thread(target=self._work, name='recorder')
@@ -96,8 +96,7 @@ class PamRecord(TickingNode):
     def tick(self) -> None:
         """Look for topics that are published now, and say how it is going."""
         if self._problem:
-            print(f'pam_record: {self._problem}', file=sys.stderr)
-            self.exit_code = 1
+            self._fail(self._problem)
             return
         kinds = dict(self.get_topic_names_and_types())
         clocks = self.get_publishers_info_by_topic('/clock') if self._is_simulated else []
@@ -168,7 +167,7 @@ class PamRecord(TickingNode):
                         self._writer.seal()
                         sealed = monotonic_ns()
         except Exception as error:  # whatever it is, nothing is recorded any more: say so
-            self._problem = str(error) or type(error).__name__
+            self._problem = error
 
     def _take(self, *, is_last: bool = False) -> None:
         """Take all messages that have come, and write those whose time is known: *is_last*, all.
@@ -227,16 +226,23 @@ class PamRecord(TickingNode):
             self._is_closing.set()
             self._thread.join()
         try:
-            if not self._problem:
+            if self._problem:
+                self._fail(self._problem)
+            else:
                 self._take(is_last=True)
             self._writer.close()
         except RecordingError as error:
-            print(f'pam_record: {error}', file=sys.stderr)
-            self.exit_code = 1
+            self._fail(error)
         try:
             self._summarise()
         finally:  # also where nobody reads any more what is printed
             super().destroy_node()
+
+    def _fail(self, error: Exception) -> None:
+        """Print once why nothing more is recorded, and end with the exit code of the reason."""
+        if self.exit_code is None:
+            print(f'pam_record: {str(error) or type(error).__name__}', file=sys.stderr)
+            self.exit_code = BAD_INPUT if isinstance(error, RecordingError) else 1
 
     def _summarise(self) -> None:
         lines = [f'{self._directory}: {self._writer.duration:.2f} s']
