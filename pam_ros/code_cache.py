@@ -127,6 +127,10 @@ def _checked_cache() -> Any:
     dumps = import_module('numba.core.serialize').dumps
 
     class Checked(caching.CompileResultCacheImpl):  # type: ignore[misc]
+        def get_filename_base(self, fullname: str, abiflags: str) -> str:
+            # Files of their own: numba's class would take those with a checksum for code.
+            return f'{super().get_filename_base(fullname, abiflags)}-checked'
+
         def reduce(self, cres: Any) -> tuple[bytes, bytes]:
             data = dumps(super().reduce(cres))
             return hashlib.sha256(data).digest(), data
