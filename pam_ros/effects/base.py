@@ -25,6 +25,10 @@ Places, in the order in which the kernel visits them, with the function each exp
 ``outside(f, p, y, v, t, h, x, i, xn, q, j) -> N, or N m``
     Force on the joint from outside the muscles, along its coordinate y; p is the mean pressure
     of the muscles. It acts on the joint.
+``drag(f, p, y, v, t, h, x, i, xn, q, j) -> N``
+    The same of an effect that is friction between the two ends of the actuator, where a machine
+    moves them along a prescribed position: it measures the friction with the force. No load swings
+    there, so that nothing has to be kept stable.
 
 Hidden states live in a row shared by all effects of a muscle, or of a joint: this effect's are
 x[i], x[i + 1], ... as they were at the start of the step, and the function writes to xn[i],
@@ -50,8 +54,8 @@ from pam_ros.parameters import Parameter
 Array = NDArray[np.float64]
 # A row of float64: numpy's array, or numba's; both are indexed like this.
 Row = MutableSequence[float]
-ON_JOINT = ('mass', 'outside')
-PLACES = ('delay', 'pressure', 'contraction', 'mass', 'force', 'damping', 'outside')
+ON_JOINT = ('mass', 'outside', 'drag')
+PLACES = ('delay', 'pressure', 'contraction', 'mass', 'force', 'damping', 'outside', 'drag')
 
 
 class Compensation(Enum):
@@ -149,6 +153,7 @@ class Effect:
     force: Callable[..., float] | None = None
     damping: Callable[..., float] | None = None
     outside: Callable[..., float] | None = None
+    drag: Callable[..., float] | None = None
     lag: Callable[[Any, int], tuple[float, float]] | None = None
     rivals: tuple[str, ...] = field(default=())
     contains: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
@@ -164,6 +169,10 @@ class Effect:
             raise ParameterError(
                 f'effect {self.name} acts in a muscle and on the joint ({", ".join(acts)}): '
                 'make two effects of it'
+            )
+        if self.drag and not self.outside:
+            raise ParameterError(
+                f'effect {self.name} has drag without outside: friction brakes a free load as well'
             )
         if not any(p.strength for p in self.parameters):
             raise ParameterError(f'effect {self.name} has no strength parameter to be absent by')

@@ -4,6 +4,7 @@
 
 from math import exp, hypot, sqrt
 
+from pam_ros.compiled import scalar
 from pam_ros.effects.base import Compensation, Effect, EffectParameter, HiddenState, Row
 from pam_ros.effects.rows import INERTIA
 
@@ -23,25 +24,64 @@ def outside(
 ) -> float:
     """Return f less the friction, which opposes motion and holds a load at rest.
 
-    Level: g = C + (S - C) exp(-(v / w)^2) + B p, with C, S, w, B = q[j] to q[j + 3] and S not
-    below C; (1 + A) g upwards and (1 - A) g downwards, A = q[j + 4]. Below it the contact is a
-    spring of length q[j + 5], x[i] its force and x[i + 1] the position before, with a damper;
-    both together never exceed g (Prandtl's element: no drift under loads that change). For a
-    step of length h = x[i + 2] that cannot resolve the spring, it is lengthened so that its
-    frequency on the load stays below 1/h.
+    The contact has a damper. For a step of length h = x[i + 2] that cannot resolve its spring, it
+    is longer, so that its frequency on the load stays below 1/h.
     """
     if q[j] == 0.0 and q[j + 1] == 0.0 and q[j + 3] == 0.0:
         return f
+    xn[i + 2] = h
+    return f - resistance(p, y, v, x[i + 2], 1.0, x, i, xn, q, j)
+
+
+def drag(
+    f: float,
+    p: float,
+    y: float,
+    v: float,
+    t: float,
+    h: float,
+    x: Row,
+    i: int,
+    xn: Row,
+    q: Row,
+    j: int,
+) -> float:
+    """Return f less the friction along a prescribed motion: nothing swings on the contact."""
+    if q[j] == 0.0 and q[j + 1] == 0.0 and q[j + 3] == 0.0:
+        return f
+    return f - resistance(p, y, v, 0.0, 0.0, x, i, xn, q, j)
+
+
+@scalar
+def resistance(
+    p: float,
+    y: float,
+    v: float,
+    step: float,
+    damping: float,
+    x: Row,
+    i: int,
+    xn: Row,
+    q: Row,
+    j: int,
+) -> float:
+    """Return the friction in N against an upward motion, and keep the state of the contact.
+
+    Level: g = C + (S - C) exp(-(v / w)^2) + B p, with C, S, w, B = q[j] to q[j + 3] and S not
+    below C; (1 + A) g upwards and (1 - A) g downwards, A = q[j + 4]. Below it the contact is a
+    spring of length q[j + 5], lengthened for a *step* in s, x[i] its force and x[i + 1] the
+    position before, with *damping* times that of an aperiodic load; both together never exceed g
+    (Prandtl's element: no drift under loads that change).
+    """
     level = q[j] + q[j + 3] * max(p, 0.0)
     if q[j + 1] > q[j]:
         level += (q[j + 1] - q[j]) * exp(-(v / q[j + 2]) * (v / q[j + 2]))
     up, down = (1.0 + q[j + 4]) * level, (1.0 - q[j + 4]) * level
-    k = level / hypot(q[j + 5], level * x[i + 2] * x[i + 2] / q[INERTIA])
+    k = level / hypot(q[j + 5], level * step * step / q[INERTIA])
     spring = min(max(x[i] + k * (y - x[i + 1]), -down), up)
     xn[i] = spring
     xn[i + 1] = y
-    xn[i + 2] = h
-    return f - min(max(spring + sqrt(k * q[INERTIA]) * v, -down), up)
+    return min(max(spring + damping * sqrt(k * q[INERTIA]) * v, -down), up)
 
 
 def start(q: Row, j: int, p: float, kappa: float, y: float) -> tuple[float, ...]:
@@ -133,4 +173,5 @@ EFFECT = Effect(
     start=start,
     rivals=('hysteresis', 'viscous_friction'),
     outside=outside,
+    drag=drag,
 )

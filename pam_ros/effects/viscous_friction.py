@@ -46,4 +46,5 @@ EFFECT = Effect(
     compensation=Compensation.MODEL,
     rivals=('pressure_dependent_damping',),
     outside=outside,
+    drag=outside,
 )

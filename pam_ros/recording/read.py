@@ -11,6 +11,7 @@ from pam_ros.errors import RecordingError, printable, shown
 from pam_ros.recording.assemble import assemble
 from pam_ros.recording.bag import bag_files, read_bag
 from pam_ros.recording.csv_file import read_csv
+from pam_ros.recording.direction import with_contraction_positive
 from pam_ros.recording.mapping import ColumnMapping
 from pam_ros.recording.quality import check
 from pam_ros.recording.recording import Recording
@@ -55,6 +56,7 @@ def read_recording(
         files = [path]
         series, notes = read_csv(path, mapping)
     recording = assemble(printable(path.name or str(path)), series, notes, kind, l0)
+    recording = with_contraction_positive(recording)
     warnings = check(recording, l0, p_max)
     # The notes name columns and topics as they stand in the file.
     sentences = tuple(map(shown, (*recording.warnings, *warnings)))

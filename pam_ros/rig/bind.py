@@ -42,7 +42,7 @@ _INNER_OF_RUNS = ('in_force', 'held_until', 'first_command')
 _LOOPS = ('advance', 'outputs')
 _LOOPS_OF_RUNS = ('simulate', 'simulate_held', 'simulate_along')
 _STATELESS = ('delay', 'contraction', 'mass', 'damping')
-_WITH_MEMORY = ('pressure', 'force', 'outside')
+_WITH_MEMORY = ('pressure', 'force', 'outside', 'drag')
 
 
 @dataclass(frozen=True)
@@ -80,7 +80,7 @@ def _pressures(inner: Function, f: Function, i: int, j: int) -> Function:
 
 
 def _forces(inner: Function, f: Function, i: int, j: int) -> Function:
-    """Chain for muscle forces and for outside forces: both have the same arguments."""
+    """Chain for muscle forces, outside forces and drag: they have the same arguments."""
 
     def chain(value, p, place, v, t, h, x, xn, q):  # type: ignore[no-untyped-def]
         return f(inner(value, p, place, v, t, h, x, xn, q), p, place, v, t, h, x, i, xn, q, j)
@@ -115,7 +115,17 @@ _CHAINED: dict[str, Callable[..., Function]] = {
     'pressure': _pressures,
     'force': _forces,
     'outside': _forces,
+    'drag': _forces,
 }
+
+
+def is_dragged(layout: Layout) -> bool:
+    """Say whether friction on the joint is in the force of a machine that moves its one muscle.
+
+    Muscle and load are then in one line, and what rubs is between the machine's clamps. Beside a
+    wheel or a second muscle the force cell is at a muscle's end, and does not feel the joint.
+    """
+    return layout.muscles == 1 and not layout.transmission.revolute
 
 
 @lru_cache(maxsize=32)
@@ -170,6 +180,7 @@ def bind(layout: Layout, active: tuple[Effect, ...]) -> Kernel:
         **_memories(offsets),
         'MUSCLES': layout.muscles,
         'HAS_OUTSIDE': any(effect.outside is not None for effect in active),
+        'IS_DRAGGED': is_dragged(layout) and any(effect.drag is not None for effect in active),
         'MEMORY_FROM': layout.memory_from,
         'WIDTH': layout.width,
         'LOAD': layout.load_at,

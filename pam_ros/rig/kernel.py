@@ -56,6 +56,7 @@ Row = Any  # float64 array; numba's and numpy's types differ, both index to floa
 # Bound to the joint's layout.
 MUSCLES = 1
 HAS_OUTSIDE = True  # whether an effect that acts from outside the muscles is in use
+IS_DRAGGED = True  # whether one in use is in the force of a machine that moves the joint
 MEMORY_FROM = 1  # first hidden state of a muscle that is not of its pressure path
 WIDTH = 2  # of a state
 LOAD, TRANSMISSION = JOINT_EFFECTS, JOINT_EFFECTS + 1  # where the numbers of both begin
@@ -97,6 +98,13 @@ def outside_chain(
     f: float, p: float, s: float, v: float, t: float, h: float, x: Row, xn: Row, q: Row
 ) -> float:
     """Return the effort on the joint from outside the muscles."""
+    return f
+
+
+def drag_chain(
+    f: float, p: float, s: float, v: float, t: float, h: float, x: Row, xn: Row, q: Row
+) -> float:
+    """Return the force on the joint that a machine feels that moves it: friction, no load."""
     return f
 
 

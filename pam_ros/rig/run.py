@@ -25,7 +25,8 @@ class Trajectory:
     """What a simulation gives at its stamps: s, then m and m/s (rad and rad/s), each (n,).
 
     Pressure in Pa gauge and force in N are (n,) for one muscle and (n, muscles) for several.
-    Force is the muscle's pull less its damping, which is what a force cell at its end reads.
+    Force is the muscle's pull less its damping, which is what a force cell at its end reads; where
+    a machine moves it, less friction, too: see :func:`simulate_held`.
     """
 
     t: Array
@@ -90,7 +91,10 @@ def simulate_held(
 
     t, position, velocity (n,): s, ascending, no two equal; m, m/s or rad, rad/s (default: the
     gradient of the position, which needs two stamps). pressure: gauge Pa, (n, muscles), for one
-    muscle also (n,). All are linear between stamps, in steps of at most *step* s. Raises
+    muscle also (n,). All are linear between stamps, in steps of at most *step* s. In the force of
+    one muscle in line with its coordinate is the friction on the joint, against the motion: what a
+    machine measures that moves the actuator, pull - damping - friction where it shortens and
+    pull + damping + friction where it lengthens; a payload and end stops are not. Raises
     ParameterError when shapes do not fit, stamps do not ascend, or a number is not finite.
     """
     instance('joint', joint, Joint, 'a Joint')

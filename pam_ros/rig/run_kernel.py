@@ -10,6 +10,7 @@ from math import ceil, exp
 from typing import Any
 
 from pam_ros.rig.kernel import (
+    IS_DRAGGED,
     LOAD,
     MEMORY_FROM,
     MUSCLES,
@@ -20,6 +21,7 @@ from pam_ros.rig.kernel import (
     begin,
     coefficient,
     delay_chain,
+    drag_chain,
     felt,
     inertia_of,
     keep_memories,
@@ -35,6 +37,7 @@ from pam_ros.rig.layout import (
     A3,
     HIDDEN,
     JOINT,
+    JOINT_HIDDEN,
     MASS,
     MUSCLE,
     RUN_F,
@@ -113,7 +116,8 @@ def simulate_held(
     """Run one joint whose coordinate is prescribed; the muscles do not move it.
 
     t (n,): stamps. p (n, muscles): pressures measured in Pa. s, v (n,): coordinate and velocity;
-    all are taken as linear between stamps. out as with :func:`simulate`, forces included.
+    all are taken as linear between stamps. out as with :func:`simulate`, forces included; in the
+    force of one muscle in line with the coordinate is the friction that a machine feels, too.
     """
     begin(x, xn)
     m = mass_chain(q[JOINT, MASS], q[JOINT])
@@ -126,7 +130,7 @@ def simulate_held(
         for i in range(MUSCLES):
             r = MUSCLE + i
             delay = delay_chain(q[r])
-            force = 0.0
+            force, drag = 0.0, 0.0
             for k in range(1, steps + 1):
                 part = k / steps
                 now = t[last] + k * h
@@ -147,13 +151,19 @@ def simulate_held(
                 force = pull(kappa, e, w, x[r, P], now, h, x[r], xn[r], q[r])
                 for c in range(HIDDEN, WIDTH):
                     x[r, c] = xn[r, c]
+                if IS_DRAGGED:
+                    drag = drag_chain(
+                        0.0, x[r, P], here, speed, now, h, x[JOINT], xn[JOINT], q[JOINT]
+                    )
+                    for c in range(JOINT_HIDDEN, WIDTH):
+                        x[JOINT, c] = xn[JOINT, c]
             arm = arm_of(s[n], i, q[JOINT], TRANSMISSION)
             w = arm * v[n]
             kappa = felt(s[n], i, q)
             e = exp(q[r, A3] * kappa)
             c_end = coefficient(kappa, e, w, x[r, P], share(arm, inertia), q[r])
             out[n, RUN_P + 2 * i] = x[r, P]
-            out[n, RUN_F + 2 * i] = force - c_end * w
+            out[n, RUN_F + 2 * i] = force - c_end * w + drag
         x[JOINT, S], x[JOINT, V] = s[n], v[n]
         out[n, RUN_S], out[n, RUN_V] = s[n], v[n]
 

@@ -6,6 +6,8 @@
 platforms.
 """
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -32,6 +34,13 @@ BY_RIG = pytest.mark.parametrize('name', RIGS)
 def model(name):
     rig = RIGS[name]
     return one_muscle(Muscle(**rig['muscle']), Mass(**rig['load']), rig['effects'])
+
+
+def without_drag(joint):
+    """Return *joint* without friction on it, which 0.1.0 left out of the force of held runs."""
+    dragged = {effect.name for effect in joint.library if effect.drag is not None}
+    kept = {name: given for name, given in joint.effects.items() if name not in dragged}
+    return replace(joint, effects=kept)
 
 
 def stepped(joints, muscles, seed=3):
@@ -92,7 +101,7 @@ def test_a_drive_without_a_muscle_runs_as_ever():
 def test_a_held_muscle_pulls_as_ever(name):
     t = cases.stamps()
     y, v, p = cases.motion(t)
-    compare(f'held/{name}', columns(simulate_held(model(name), t, p, y, v)))
+    compare(f'held/{name}', columns(simulate_held(without_drag(model(name)), t, p, y, v)))
 
 
 @BY_RIG

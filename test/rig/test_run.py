@@ -284,3 +284,79 @@ def test_held_muscles_remember_apart_and_friction_of_the_joint_is_not_felt():
         expected.append(-9.0 * (k - play) / 0.02)
     np.testing.assert_allclose(one.force[:, 1] - bare.force[:, 1], expected, atol=1e-9)
     assert np.ptp(expected) == pytest.approx(18.0)
+
+
+def friction_by_hand(y, level, up, down, presliding):
+    """Return the friction of a spring that slides at (1 + up), (1 - down) of *level* (n,)."""
+    found, spring = [], 0.0
+    for k in range(y.size):
+        spring += (level[k] / presliding) * (y[k] - y[k - 1] if k else 0.0)
+        spring = min(max(spring, -(1.0 - down) * level[k]), (1.0 + up) * level[k])
+        found.append(spring)
+    return np.array(found)
+
+
+def test_friction_is_in_the_force_of_a_machine_that_moves_the_actuator():
+    """To and fro at 12 mm/s at two pressures: pull - friction up, pull + friction down."""
+    t = np.arange(0.0, 4.0, 0.01)
+    y = 0.012 * np.abs((t + 0.5) % 2.0 - 1.0)
+    v = np.where((t + 0.5) % 2.0 < 1.0, -0.012, 0.012)
+    p = np.where(t < 2.1, 200.0, 600.0)
+    frictions = {
+        'coulomb_friction': {
+            'level': 5.0,
+            'per_pressure': 1e-2,
+            'asymmetry': 0.1,
+            'presliding': 1e-4,
+        },
+        'viscous_friction': {'coefficient': 150.0},
+    }
+    plain = simulate_held(one_muscle(SOURCE, FREE), t, p, y, v)
+    run = simulate_held(one_muscle(SOURCE, FREE, frictions), t, p, y, v)
+    np.testing.assert_array_equal(plain.force, p)
+    dry = friction_by_hand(y, 5.0 + 1e-2 * p, 0.1, 0.1, 1e-4)
+    np.testing.assert_allclose(run.force, p - dry - 150.0 * v, rtol=0.0, atol=1e-9)
+    slides = (t > 0.55) & (t < 1.45)
+    np.testing.assert_allclose(run.force[slides], 200.0 - 1.1 * 7.0 - 1.8, atol=1e-9)
+    slides = (t > 1.55) & (t < 2.05)
+    np.testing.assert_allclose(run.force[slides], 200.0 + 0.9 * 7.0 + 1.8, atol=1e-9)
+
+
+def test_friction_of_a_machine_takes_work_at_any_step_and_mass():
+    """Nothing swings on the contact: neither step nor load is in what a machine measures."""
+    t = np.linspace(0.0, 6.0, 601)
+    y = 0.02 * np.sin(2.0 * t)
+    friction = {'coulomb_friction': {'level': 8.0, 'breakaway': 12.0}}
+    runs = [
+        simulate_held(one_muscle(SOURCE, Mass(mass=mass), friction), t, 0.0 * t, y, step=step)
+        for mass, step in ((0.01, 1e-2), (50.0, 1e-2), (50.0, 2e-3))
+    ]
+    for run in runs:
+        work = np.trapezoid(run.force, y)
+        assert -12.0 < work / np.sum(np.abs(np.diff(y))) < -8.0
+    np.testing.assert_array_equal(runs[0].force, runs[1].force)
+    # In the turns a longer step passes more of the Stribeck curve at once.
+    np.testing.assert_allclose(runs[1].force, runs[2].force, atol=0.1)
+
+
+def test_what_acts_on_the_load_alone_is_not_in_the_force_of_a_machine():
+    t = np.linspace(0.0, 3.0, 301)
+    y, p = 0.04 + 0.04 * np.sin(3.0 * t), np.full(t.size, 3e5)
+    beside = {
+        'payload': {'mass': 4.0},
+        'end_stop': {'upper': 0.1, 'stiffness': 1e5},
+    }
+    alone, loaded = (simulate_held(one_muscle(effects=some), t, p, y) for some in ({}, beside))
+    # The mass is in the damping of equation (4): the payload there is that of the muscle's own.
+    still = np.abs(alone.velocity) < 1e-3
+    assert still.any()
+    np.testing.assert_allclose(loaded.force[still], alone.force[still], rtol=0.0, atol=0.1)
+
+
+def test_friction_of_a_wheel_is_not_in_the_force_of_its_muscles():
+    """The force cells are at the ends of the muscles, the bearing is beside them."""
+    t = np.linspace(0.0, 2.0, 201)
+    angle, p = 0.2 * np.sin(3.0 * t), np.full((t.size, 2), 2e5)
+    rubs = {'coulomb_friction': {'level': 2.0}, 'viscous_friction': {'coefficient': 1.0}}
+    plain = simulate_held(pair(), t, p, angle)
+    np.testing.assert_array_equal(simulate_held(pair(load=rubs), t, p, angle).force, plain.force)

@@ -13,10 +13,12 @@ from numpy.typing import NDArray
 from scipy.signal import savgol_filter
 
 from pam_ros.errors import RecordingError
+from pam_ros.identification.data.noise import noise_of
 from pam_ros.recording.recording import Recording
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
+NOISES = 2.0  # noises of the pressure that smoothing may take away: slow changes leave 1 to 1.3
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -119,8 +121,9 @@ def _segment(part: Recording) -> Segment:
             drive_t=drive_t,
             drive=drive,
         )
-    pressure = part.pressure
-    if pressure is None:
+    if part.pressure is not None:
+        pressure = _without_noise(part.t, part.pressure)
+    else:
         assert part.command_t is not None
         assert part.command is not None
         # A sample is the state before a command of the same stamp has acted.
@@ -128,16 +131,16 @@ def _segment(part: Recording) -> Segment:
         pressure = part.command[np.maximum(at, 0)]
     if part.force is None:
         raise RecordingError(f'{part.name}: a held recording needs the force')
-    velocity = _velocity(part.t, part.position)
+    position, velocity = _motion(part.t, part.position)
     return HeldSegment(
         name=part.name,
         t=part.t,
         target=part.force,
         fit=fit,
-        y0=part.position[0],
+        y0=position[0],
         v0=velocity[0],
         pressure=pressure,
-        position=part.position,
+        position=position,
         velocity=velocity,
     )
 
@@ -167,9 +170,26 @@ def start_of(t: Array, y: Array, degree: int = 2) -> tuple[float, float]:
     return float(curve(0.0)), float(curve.deriv()(0.0))
 
 
-def _velocity(t: Array, y: Array) -> Array:
+def _motion(t: Array, y: Array) -> tuple[Array, Array]:
+    """Return the position without its fast noise, which friction would turn round at, and rate."""
     if np.ptp(y) == 0.0:
-        return np.zeros_like(y)
+        return y, np.zeros_like(y)
+    smooth = _smooth(t, y)
+    return smooth, np.asarray(np.gradient(smooth, t), dtype=float)
+
+
+def _without_noise(t: Array, p: Array) -> Array:
+    """Return the pressure, smoothed where that takes hardly more than its noise away.
+
+    Noise of what goes in becomes noise of the force, which a lag of the pressure takes away: the
+    finder would name one. A pressure that jumps stays as it is.
+    """
+    smooth = _smooth(t, p)
+    noise = noise_of([(t, p)]).sigma
+    return smooth if float(np.std(p - smooth)) <= NOISES * noise else p
+
+
+def _smooth(t: Array, y: Array) -> Array:
+    """Return parabolas through the 0.1 s about each sample."""
     n = min(t.size, max(5, int(0.1 / np.median(np.diff(t))))) | 1
-    smooth = savgol_filter(y, n if n <= t.size else n - 2, 2)
-    return np.asarray(np.gradient(smooth, t), dtype=float)
+    return np.asarray(savgol_filter(y, n if n <= t.size else n - 2, 2), dtype=float)

@@ -85,7 +85,7 @@ def _begun(model: Model, whole: Problem, setting: Setting) -> tuple[Problem, Arr
         unknowns=(*(known.unknowns[k] for k in own), *starts),
     )
     # The short runs of a load without a spring are others than those of the search.
-    there = {} if setting.joint.is_driven else _starts_of(model)
+    there = {} if setting.drifts else _starts_of(model)
     moved = [one.coordinate(there[one.name]) if one.name in there else 0.0 for one in starts]
     # Thinned samples say less of a start than all of them.
     return problem, np.concatenate([model.nearest[own], np.clip(moved, -2.0, 2.0)])

@@ -132,14 +132,19 @@ class Setting:
         ]
         return self.problem_of(runs, self.step)
 
+    @property
+    def drifts(self) -> bool:
+        """Whether loads without a spring move freely: their runs are cut into short ones."""
+        return self.joint.is_driven and self.parts[0].segment.kind == 'free'
+
     def problem_of(self, runs: Sequence[Segment], step: float) -> Problem:
         """Return the problem of re-tuning the declared model to *runs*, by steps of *step* s.
 
         Those of a load without a spring are cut into short ones.
         """
-        if self.joint.is_driven:
+        if self.drifts:
             runs = [w for run in runs for w in windows(run, self.budget.window)]
-        sigma = np.inf if self.joint.is_driven else self.noise
+        sigma = np.inf if self.drifts else self.noise
         levels = level_unknowns(runs, self.joint.muscle.l0)
         unknowns = [*declared_unknowns(self.joint), *run_unknowns(runs, sigma), *levels]
         return Problem(
@@ -157,7 +162,7 @@ class Setting:
 
         The runs of a load without a spring are short ones, which begin somewhere else.
         """
-        return OF_RUNS if self.joint.is_driven else ()
+        return OF_RUNS if self.drifts else ()
 
     @cached_property
     def windows(self) -> list[Part]:
@@ -175,7 +180,7 @@ class Setting:
         """Return the errors of a solution as it is."""
         known = [part for part in self.thin if part.known.any()]
         whole = [part.segment for part in known]
-        if self.joint.is_driven:
+        if self.drifts:
             short = [part.segment for part in self.windows]
             fit, choose = _rms_of(self.windows, carried(solution, short, without=OF_RUNS))
             _, far = _rms_of(known, carried(solution, whole, without=OF_RUNS))

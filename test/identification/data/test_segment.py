@@ -77,11 +77,32 @@ def test_a_held_run_follows_the_length_and_its_velocity():
     (segment,) = segments_of([held()])
     assert segment.quantity == 'force'
     np.testing.assert_array_equal(segment.target, 500.0 + 10.0 * segment.t)
-    np.testing.assert_array_equal(segment.pressure, 3e5 - 1e3 * segment.t)
+    np.testing.assert_allclose(segment.pressure, 3e5 - 1e3 * segment.t, rtol=1e-12)
     truth = 0.004 * 2 * np.pi * 0.2 * np.cos(2 * np.pi * 0.2 * segment.t)
     inside = slice(20, -20)
     np.testing.assert_allclose(segment.velocity[inside], truth[inside], atol=2e-5)
-    assert segment.first_pressure == 3e5
+    assert segment.first_pressure == pytest.approx(3e5, rel=1e-12)
+
+
+def test_the_noise_of_a_slow_pressure_is_taken_away():
+    noise = 200.0 * np.random.default_rng(1).standard_normal(2000)
+    slow = held().pressure
+    (segment,) = segments_of([held(pressure=slow + noise)])
+    assert np.std(segment.pressure - slow) < 0.5 * np.std(noise)
+
+
+def test_a_pressure_that_jumps_stays_as_it_was_measured():
+    noise = 200.0 * np.random.default_rng(1).standard_normal(2000)
+    jumps = np.where(held().t % 4.0 < 2.0, 1e5, 3e5) + noise
+    (segment,) = segments_of([held(pressure=jumps)])
+    np.testing.assert_array_equal(segment.pressure, jumps)
+
+
+def test_noise_of_a_length_that_moves_hardly_reaches_it():
+    truth = held().position
+    noise = 1e-5 * np.random.default_rng(0).standard_normal(2000)
+    (segment,) = segments_of([held(position=truth + noise)])
+    assert np.std(segment.position - truth) < 0.5 * np.std(noise)
 
 
 def test_a_constant_length_has_no_velocity():
