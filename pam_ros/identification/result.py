@@ -61,7 +61,9 @@ class Candidate:
     score, -2 ln(evidence): 10 is very strong evidence. ``gain`` is the relative fall of
     ``choose_error``. ``p`` is that of the likelihood-ratio test (Wilks 1938), times the number of
     effects that were tried there (Bonferroni). ``interval_clear`` says that the 95 % intervals of
-    its strengths exclude 0. ``decision`` is chosen, ambiguous or rejected; ``reason`` says why.
+    its strengths exclude 0. ``decision`` is chosen, ambiguous, rejected or untestable: the
+    recordings could not have shown it, and p is NaN. ``reason`` says why, and of an untestable
+    effect what to record.
     """
 
     effect: str
@@ -108,3 +110,15 @@ class Trace:
     test: tuple[Segment, ...]
     warnings: tuple[str, ...]
     next_experiment: str
+
+    @property
+    def untestable(self) -> tuple[str, ...]:
+        """The effects that the recordings could not have shown."""
+        names = [c.effect for c in self.candidates if c.decision == 'untestable']
+        return tuple(dict.fromkeys(names))
+
+    @property
+    def tested(self) -> tuple[str, ...]:
+        """The effects that were tried and that the recordings could show."""
+        names = dict.fromkeys(c.effect for c in self.candidates)
+        return tuple(name for name in names if name not in self.untestable)

@@ -113,7 +113,7 @@ def next_experiment(answer: Trace, library: tuple[Effect, ...]) -> str:
             return f'To tell {rivals} apart, record: {known[first.name]}.'
         return f'To confirm {first.name}, record: {known[first.name]}.'
     if answer.verdict == 'unexplained_structure':
-        tried = [c for c in answer.candidates if c.gain > 0.0]
+        tried = [c for c in answer.candidates if c.gain > 0.0 and c.effect in answer.tested]
         if tried:
             best = max(tried, key=lambda c: c.gain).effect
             return (

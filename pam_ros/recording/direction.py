@@ -29,9 +29,11 @@ def with_contraction_positive(recording: Recording) -> Recording:
     Recordings of other kinds are returned as they are.
     """
     y, f, p = recording.position, recording.force, recording.pressure
-    if recording.kind != 'held' or recording.gaps or y is None or f is None or p is None:
+    if recording.kind != 'held' or y is None or f is None or p is None:
         return recording
-    work = work_of_cycles(y, f)
+    edges = np.searchsorted(recording.t, [end for _, end in recording.gaps])
+    parts = zip(np.split(y, edges), np.split(f, edges), strict=True)
+    work = [each for part in parts for each in work_of_cycles(*part)]
     if len(work) < ENOUGH or min(work) <= _least(y, f, p):
         return recording
     note = (

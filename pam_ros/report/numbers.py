@@ -16,7 +16,7 @@ from pam_ros.report.provenance import Provenance
 from pam_ros.report.runs import STAGES, Run, sizes
 
 # The first number rises when a key changes its meaning or goes, the second when one comes.
-SCHEMA_VERSION = '2.0'
+SCHEMA_VERSION = '2.1'
 
 Table = dict[str, Any]
 

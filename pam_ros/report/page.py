@@ -122,9 +122,12 @@ def not_excluded(trace: Trace, scale: Scale) -> list[str]:
         )
     elif trace.verdict == 'unexplained_structure':
         sentences.append(
-            f'Any effect beyond the {len(trace.candidates)} of the library could be the cause; '
-            'those were tried.'
+            f'Any effect beyond the {len(trace.tested)} of the library that were tested could be '
+            'the cause.'
         )
     elif trace.verdict == 'insufficient_data':
         sentences.append('No effect can be excluded with these data.')
+    if trace.untestable:
+        names = listed([name_in_words(name) for name in trace.untestable])
+        sentences.append(f'These data cannot show {names}: the table below says what to record.')
     return sentences

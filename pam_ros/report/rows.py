@@ -23,7 +23,7 @@ from pam_ros.report.wording import (
 )
 from pam_ros.settings.tables import rig_table
 
-ORDER = {'chosen': 0, 'ambiguous': 1, 'rejected': 2}
+ORDER = {'chosen': 0, 'ambiguous': 1, 'rejected': 2, 'untestable': 3}
 
 
 @dataclass(frozen=True)
@@ -69,7 +69,7 @@ def rounds(trace: Trace, scale: Scale) -> list[tuple[str, list[Row]]]:
             [
                 _candidate(candidate, scale)
                 for candidate in sorted(
-                    tried, key=lambda c: (ORDER.get(c.decision, 3), -c.score_fall)
+                    tried, key=lambda c: (ORDER.get(c.decision, 4), -c.score_fall)
                 )
             ],
         )

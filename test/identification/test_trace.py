@@ -15,7 +15,7 @@ from pam_ros.recording.mapping import read_mapping
 from pam_ros.recording.read import read_recording
 from pam_ros.rig.run import simulate
 from pam_ros.settings.rig import load_rig
-from support import bench_truth
+from support import bench_truth, moved_cylinders
 from truth import effect
 
 pytestmark = [pytest.mark.needs_numba, pytest.mark.slow]
@@ -160,7 +160,7 @@ def test_every_candidate_is_listed_with_a_reason():
     recording = bench_truth.free(effect('viscous_friction'), seed=8, duration=15.0)
     found = trace(bench_truth.declared(), [recording])
     decisions = {c.decision for c in found.candidates}
-    assert decisions <= {'chosen', 'ambiguous', 'rejected'}
+    assert decisions <= {'chosen', 'ambiguous', 'rejected', 'untestable'}
     assert [c.effect for c in found.candidates if c.decision == 'chosen'] == ['viscous_friction']
     assert all(c.reason for c in found.candidates)
     first = [c for c in found.candidates if c.parents == ()]
@@ -216,3 +216,57 @@ def test_the_measured_muscle_goes_slack(shared_data):
     assert augmented <= 8.0
     # The muscle settles at every length, from repeat to repeat.
     assert sum('differ by' in warning for warning in found.warnings) == 4
+
+
+def cylinder():
+    model, _ = load_rig(str(ROOT / 'config' / 'rigs' / 'cylinder_25mm.yaml'))
+    return model
+
+
+def test_friction_of_a_cylinder_that_a_machine_moves():
+    """Fitted at two constant pressures, tested at a third; what nothing excites is untestable."""
+    fitted = [
+        moved_cylinders.recording(bar, level=4.0, per_bar=1.0, seed=k)
+        for k, bar in enumerate((1.0, 5.0))
+    ]
+    other = moved_cylinders.recording(3.0, level=4.0, per_bar=1.0, seed=2)
+    found = trace(cylinder(), fitted, [other])
+    assert found.verdict == 'effect_found'
+    assert names(found) == ['coulomb_friction']
+    parameters = found.effects[0].parameters
+    assert parameters['level'].value == pytest.approx(4.0, rel=0.15)
+    assert parameters['per_pressure'].value == pytest.approx(1e-5, rel=0.15)
+    assert found.stages[2].held_error < 2.0 * moved_cylinders.NOISE < 0.2 * 7.0
+    assert {'payload', 'end_stop', 'dead_time', 'pressure_lag'} <= set(found.untestable)
+    for one in found.candidates:
+        if one.decision == 'untestable':
+            assert np.isnan(one.p)
+            assert 'record: ' in one.reason
+
+
+def test_no_friction_is_claimed_of_a_cylinder_without():
+    one, two, other = (
+        moved_cylinders.recording(bar, swing=0.2, seed=k) for k, bar in enumerate((1.0, 5.0, 3.0))
+    )
+    found = trace(cylinder(), [one, two], [other])
+    assert found.verdict == 'no_missing_effect'
+    assert {'coulomb_friction', 'viscous_friction'} <= set(found.tested)
+    assert {'payload', 'end_stop'} <= set(found.untestable)
+
+
+def test_the_measured_cylinder_has_friction(shared_data):
+    """Its seal, at pressures that were not fitted; the file counts the position against it."""
+    model = cylinder()
+
+    def at(bar):
+        file = shared_data / 'cylinder_friction' / f'Circle_{bar}bar.csv'
+        return read_recording(file, None, 'held', None, model.muscle.p_max)
+
+    found = trace(model, [at(1), at(5)], [at(3), at(7)])
+    assert found.verdict == 'effect_found'
+    assert names(found) == ['coulomb_friction']
+    assert found.stages[1].held_error > 5.0
+    for run, s in zip(found.stages[2].tested, found.test, strict=True):
+        assert np.sqrt(np.mean((run - s.target) ** 2)) < 4.0
+    assert {'payload', 'end_stop'} <= set(found.untestable)
+    assert sum('taken with the other sign' in warning for warning in found.warnings) == 4

@@ -93,6 +93,16 @@ def test_static_force_agrees_with_the_data_sheet(shared_data, name, size, share)
     assert np.sqrt(np.mean(error**2)) <= share * muscle.force_max
 
 
+def test_cylinder_is_an_area():
+    model = preset('../rigs/cylinder_25mm')
+    assert model.muscle.is_load_only
+    area = np.pi * 0.0125**2
+    np.testing.assert_allclose(
+        model.muscle.force([0.0, 1e5, 7e5], 0.02), [0, 1e5 * area, 7e5 * area]
+    )
+    assert (model.muscle.p_min, model.muscle.p_max) == (0.0, 8e5)
+
+
 def test_emps_is_a_mass_and_a_force():
     model = preset('../rigs/emps')
     assert model.muscle.is_load_only

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """A position that counts against the actuator's pull is found by the work of its cycles."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -41,6 +43,15 @@ def test_a_position_against_the_pull_is_turned_and_that_is_said():
     assert 'gives off 0.3 J in each cycle' in warning
     assert 'is taken with the other sign' in warning
     assert with_contraction_positive(turned) is turned
+
+
+def test_the_cycles_of_each_gapless_stretch_count():
+    whole = held(150.0 + 5.0 * UP)
+    keep = (T < 20.0) | (T > 21.0)
+    values = {name: getattr(whole, name)[keep] for name in ('t', 'position', 'velocity', 'force')}
+    gap = (float(T[T < 20.0][-1]), float(T[T > 21.0][0]))
+    broken = replace(whole, pressure=whole.pressure[keep], gaps=(gap,), **values)
+    np.testing.assert_array_equal(with_contraction_positive(broken).position, -broken.position)
 
 
 @pytest.mark.parametrize(

@@ -10,6 +10,7 @@ from html.parser import HTMLParser
 import numpy as np
 import pytest
 
+from pam_ros.effects import EFFECTS
 from pam_ros.report.numbers import numbers, to_json
 from pam_ros.report.page import VERDICTS, curves_of, not_excluded, page, warnings_of
 from pam_ros.report.runs import runs_of
@@ -141,6 +142,19 @@ def test_later_rounds_stand_below_the_first(friction):
     later = tuple(replace(c, parents=('coulomb_friction',)) for c in trace.candidates[:3])
     html = rendered((replace(trace, candidates=(*trace.candidates, *later)), source, runs))
     assert html.index('On top of re-tuning') < html.index('On top of coulomb friction')
+
+
+@pytest.mark.slow
+def test_what_the_data_cannot_show_is_said_with_what_to_record(held):
+    trace, *_ = held
+    assert trace.untestable == ('payload', 'end_stop')
+    assert not {*trace.untestable} & {*trace.tested}
+    assert len(trace.tested) == len(EFFECTS) - 2
+    sentences = not_excluded(trace, Scale(1.0, 'N'))
+    assert sentences[-1].startswith('These data cannot show payload and end stop: ')
+    html = rendered(held)
+    assert '<b class="tag untestable">untestable</b>' in html
+    assert 'these data cannot show it; record: touch it slowly' in html
 
 
 @pytest.mark.slow

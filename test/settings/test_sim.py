@@ -33,7 +33,7 @@ def test_sim_yaml_lists_all_that_is_not_the_rig_with_its_defaults():
     }
 
 
-@pytest.mark.parametrize('name', [*MUSCLES, str(CONFIG / 'rigs' / 'emps.yaml')])
+@pytest.mark.parametrize('name', [*MUSCLES, *map(str, sorted((CONFIG / 'rigs').glob('*.yaml')))])
 def test_every_muscle_and_rig_of_the_package_can_be_simulated(name):
     now = built({'muscle': name})
     ((pressure,), (position,), (velocity,)) = now.initial

@@ -105,7 +105,7 @@ def estimate(value, share, unit, at_bound=False):
     return Estimate(value, value - share * abs(value), value + share * abs(value), unit, at_bound)
 
 
-def candidates(chosen, ambiguous=()):
+def candidates(chosen, ambiguous=(), untestable=()):
     """Return one candidate for each effect of the library, with what could have been found."""
     found = []
     for k, effect in enumerate(EFFECTS):
@@ -115,9 +115,12 @@ def candidates(chosen, ambiguous=()):
         reason = 'lowers the score by 450' if is_chosen else 'gain below 3 %'
         if effect.name in ambiguous:
             decision, reason, gain = 'ambiguous', 'within one standard error of the winner', 0.89
+        p = 1e-12 if gain > 0.5 else 0.4
+        if effect.name in untestable:
+            decision, p = 'untestable', np.nan
+            reason = f'these data cannot show it; record: {effect.experiment}'
         name, scale = effect.parameters[0].name, effect.parameters[0].scale
         values = {name: estimate(scale, 0.3, effect.parameters[0].unit)}
-        p = 1e-12 if gain > 0.5 else 0.4
         error = 1e-3 * (1.0 - gain)
         found.append(
             Candidate(
@@ -174,7 +177,7 @@ def trace_of(recordings, test, declared, retuned, augmented, verdict, findings=(
             stage('augmented', augmented, segments, test_segments, {**moved, **added}),
         ),
         tuple(findings),
-        candidates(chosen, others),
+        candidates(chosen, others, ('payload', 'end_stop') if quantity == 'force' else ()),
         Structure(0.71, 0.0, 0.96),
         tuple(segments),
         tuple(test_segments),

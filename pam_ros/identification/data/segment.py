@@ -18,7 +18,9 @@ from pam_ros.recording.recording import Recording
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
-NOISES = 2.0  # noises of the pressure that smoothing may take away: slow changes leave 1 to 1.3
+# Noises of a pressure that smoothing may take away, of which its slow changes are 1 to 1.3, and
+# those that a constant may leave: a tenth above what noise alone is.
+NOISES, CONSTANT = 2.0, 1.1
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -179,13 +181,15 @@ def _motion(t: Array, y: Array) -> tuple[Array, Array]:
 
 
 def _without_noise(t: Array, p: Array) -> Array:
-    """Return the pressure, smoothed where that takes hardly more than its noise away.
+    """Return the pressure, constant or smoothed where that takes hardly more than its noise away.
 
     Noise of what goes in becomes noise of the force, which a lag of the pressure takes away: the
     finder would name one. A pressure that jumps stays as it is.
     """
-    smooth = _smooth(t, p)
     noise = noise_of([(t, p)]).sigma
+    if float(np.std(p)) <= CONSTANT * noise:
+        return np.full_like(p, np.mean(p))
+    smooth = _smooth(t, p)
     return smooth if float(np.std(p - smooth)) <= NOISES * noise else p
 
 

@@ -2,10 +2,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """Every model that a search looked at: on top of what, how good, and why it was not chosen."""
 
+from collections.abc import Sequence
+from dataclasses import replace
+from math import nan
+
 from scipy.stats import chi2
 
 from pam_ros.effects.names import by_effect
 from pam_ros.identification.result import Candidate
+from pam_ros.identification.search.power import hidden
 from pam_ros.identification.search.search import Search, alternatives, best_with, matters, no_worse
 from pam_ros.identification.search.setting import Model
 from pam_ros.identification.search.stages import estimates
@@ -33,7 +38,24 @@ def candidates(found: Search) -> tuple[Candidate, ...]:
     for effects in sorted(parents, key=len):
         tried = [child for (before, _), child in children.items() if before == effects]
         made += [_candidate(child, parents[effects], tried, found) for child in tried]
-    return tuple(made)
+    return _without_power(made, found)
+
+
+def _without_power(made: Sequence[Candidate], found: Search) -> tuple[Candidate, ...]:
+    """Return the candidates, those that the recordings could not show marked as untestable.
+
+    A row that lowers the score by the margin keeps its reason, whatever became of it.
+    """
+    margin = found.setting.criteria.margin
+    able = [c for c in made if c.decision == 'rejected' and c.score_fall < margin]
+    names = dict.fromkeys(c.effect for c in able if c.effect not in found.best.effects)
+    reasons = hidden(found.best, names, found.setting)
+    return tuple(
+        replace(c, p=nan, decision='untestable', reason=reasons[c.effect])
+        if c in able and c.effect in reasons
+        else c
+        for c in made
+    )
 
 
 def _candidate(model: Model, parent: Model, tried: list[Model], found: Search) -> Candidate:

@@ -1,0 +1,72 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Which effects the recordings could have shown at all: the power of a test for each."""
+
+from collections.abc import Iterable, Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pam_ros.effects.base import Effect
+from pam_ros.identification.fit.extend import with_effect
+from pam_ros.identification.search.setting import Model, Setting
+from pam_ros.identification.search.starts import guessed
+
+Array = NDArray[np.float64]
+
+
+def hidden(model: Model, names: Iterable[str], setting: Setting) -> dict[str, str]:
+    """Return those of the effects *names* that the recordings could not show, each with a reason.
+
+    Clearly present beside *model*, the best one, they would not lower the score by the margin.
+    """
+    effects = [setting.effect(name) for name in names]
+    powers = setting.pool.map(lambda effect: power(model, effect, setting), effects)
+    is_held = setting.parts[0].segment.kind == 'held'
+    return {
+        effect.name: _reason(effect, size, is_held)
+        for effect, size in zip(effects, powers, strict=True)
+        if size < setting.criteria.margin
+    }
+
+
+def power(model: Model, effect: Effect, setting: Setting) -> float:
+    """Return the most by which *effect*, clearly present, would lower the score of *model*.
+
+    That is the square of what it changes in the whitened run, over the variance of the noise: the
+    noncentrality of the likelihood-ratio test (Wald 1943). What the unknowns of *model* can make
+    up for is taken off. The effect is present as in its example, and as at each start of a fit.
+    """
+    known = model.solution
+    starts = (effect.example, *effect.fit_starts, *guessed(model, effect))
+    slopes = np.vstack(
+        [
+            known.problem.whitened(known.jacobian, known.whitenings) / known.noise,
+            np.diag(1.0 / known.problem.prior),
+        ]
+    )
+    return max(_fall(model, effect, start, slopes, setting) for start in starts)
+
+
+def _fall(
+    model: Model, effect: Effect, start: Mapping[str, float], slopes: Array, setting: Setting
+) -> float:
+    known = model.solution
+    problem, added = with_effect(known.problem, setting.joint, effect, start)
+    u = np.clip(np.concatenate([known.u, added]), *problem.bounds)
+    change = known.problem.whitened(problem.residuals(u) - known.r, known.whitenings) / known.noise
+    whole = np.concatenate([change, np.zeros(known.u.size)])
+    made_up = slopes @ np.linalg.lstsq(slopes, whole, rcond=None)[0]
+    return float(np.sum((whole - made_up) ** 2))
+
+
+def _reason(effect: Effect, size: float, is_held: bool) -> str:
+    if is_held and effect.acts_on_joint and effect.drag is None:
+        return (
+            'these data cannot show it: it acts on a load that moves freely, and a machine '
+            f'prescribes the position here; with a free load, record: {effect.experiment}'
+        )
+    return (
+        'these data cannot show it: clearly present, it would lower the score by '
+        f'{size:.1f}; record: {effect.experiment}'
+    )

@@ -1,0 +1,62 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""What recordings could have shown: closed forms on a cylinder that a machine moves."""
+
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from pam_ros.effects import EFFECTS
+from pam_ros.identification.data.parts import parts_of
+from pam_ros.identification.fit.solve import solved
+from pam_ros.identification.search.criteria import BUDGET, CRITERIA
+from pam_ros.identification.search.power import hidden, power
+from pam_ros.identification.search.setting import Setting
+from pam_ros.settings.rig import load_rig
+from support import moved_cylinders
+
+pytestmark = [pytest.mark.slow, pytest.mark.needs_numba]
+ROOT = Path(__file__).parents[3]
+EFFECT = {effect.name: effect for effect in EFFECTS}
+
+
+@pytest.fixture(scope='module')
+def retuned():
+    """Return the re-tuned model of a cylinder without friction at 3 bar."""
+    cylinder, _ = load_rig(str(ROOT / 'config' / 'rigs' / 'cylinder_25mm.yaml'))
+    parts = parts_of([moved_cylinders.recording(3.0)], CRITERIA.fit, CRITERIA.choose)
+    with ThreadPoolExecutor(1) as pool:
+        setting = Setting(cylinder, parts, CRITERIA, BUDGET, pool)
+        problem = setting.problem
+        yield setting.model((), solved(problem, np.zeros(len(problem.unknowns))))
+
+
+def test_power_is_what_an_effect_changes_over_the_noise(retuned):
+    """30 N s/m: the sum of (c v)^2 over the variance of the noise, re-tuning has no part in it."""
+    (segment,) = retuned.solution.problem.segments
+    _, v = moved_cylinders.to_and_fro(segment.t)
+    expected = np.sum((30.0 * v[segment.fit]) ** 2) / moved_cylinders.NOISE**2
+    found = power(retuned, EFFECT['viscous_friction'], retuned.setting)
+    assert found == pytest.approx(expected, rel=0.1)
+    assert found > 10.0 * CRITERIA.margin
+
+
+def test_what_retuning_makes_up_for_has_no_power(retuned):
+    """At one pressure an offset of it is a change of the area, as far as that may change."""
+    found = power(retuned, EFFECT['pressure_offset'], retuned.setting)
+    # Most of its starts changes 300 kPa by 1 kPa and 3 %, and the prior of the area is 3 %.
+    assert found == pytest.approx((10.0 / 9.0) ** 2, rel=1e-2)
+    assert found < CRITERIA.margin
+
+
+def test_what_nothing_excites_is_hidden_and_the_experiment_named(retuned):
+    names = ['dead_time', 'pressure_lag', 'payload', 'end_stop', 'coulomb_friction']
+    found = hidden(retuned, names, retuned.setting)
+    assert set(found) == {'dead_time', 'pressure_lag', 'payload', 'end_stop'}
+    for name, reason in found.items():
+        assert reason.startswith('these data cannot show it: ')
+        assert reason.endswith(f'record: {EFFECT[name].experiment}')
+    assert 'would lower the score by 0.0' in found['dead_time']
+    assert 'a machine prescribes the position here; with a free load' in found['payload']
