@@ -153,6 +153,8 @@ def test_an_effect_in_the_muscle_and_on_the_joint_at_once_is_refused():
     weak = (text[0], '', '', (), *text[4:])
     with pytest.raises(ParameterError, match='effect both has no strength'):
         Effect(*weak, force=anywhere)
+    with pytest.raises(ParameterError, match='effect both has drag without outside'):
+        Effect(*text, drag=anywhere)
 
 
 def test_only_one_muscle_can_be_asked_for_as_the_muscle():
