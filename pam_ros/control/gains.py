@@ -153,6 +153,32 @@ class Gains(JointSettings):
         above_low=True,
         turning=OnTurning(2e-4, 1.0),
     )
+    rejection: bool = parameter(
+        True,
+        'whether the bandwidths rise while a disturbance moves a load that shall rest, as far as '
+        'the delay of the rig allows',
+    )
+    rejection_bandwidth: float = parameter(
+        100.0,
+        'what the bandwidth of the disturbance observer rises to then',
+        'rad/s',
+        low=0.01,
+        high=1000.0,
+    )
+    rejection_surface: float = parameter(
+        25.0,
+        'what the natural frequency of the error on the sliding surface rises to then',
+        'rad/s',
+        low=0.1,
+        high=200.0,
+    )
+    rejection_damping: float = parameter(
+        1.0,
+        'damping ratio of the error on the sliding surface then',
+        '',
+        low=0.05,
+        high=5.0,
+    )
     learning: bool = parameter(
         True, 'whether undeclared friction, hysteresis and lag are learned from motion'
     )

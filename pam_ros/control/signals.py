@@ -46,6 +46,8 @@ class Terms:
         they give it as modelled
     bandwidth
         decay rate of the sliding variable in use, 1/s
+    rejection, highest_rejection
+        level at which disturbances are rejected, 0 to 1, and the highest that it may rise to
     cut
         force that is wanted and that a limit of pressure or of its rate cuts off
     """
@@ -64,6 +66,8 @@ class Terms:
     co_contraction: float = 0.0
     stiffness: float = 0.0
     bandwidth: float = 0.0
+    rejection: float = 0.0
+    highest_rejection: float = 0.0
     cut: float = 0.0
 
     @property
@@ -120,7 +124,8 @@ def start_arguments(position: float, pressures: Sequence[float] | None, muscles:
         refuse_shape('pressures', given, f'({muscles},), gauge Pa of each muscle, or None')
 
 
-# What a plot shows, in this order: m, m/s, N, Pa, 1/s (or rad, N m); saturated is 0 or 1.
+# What a plot shows, in this order: m, m/s, N, Pa, 1/s (or rad, N m); saturated is 0 or 1, and
+# rejection between them.
 TERMS = (
     'reference',
     'position',
@@ -134,6 +139,7 @@ TERMS = (
     'pressure',
     'bandwidth',
     'saturated',
+    'rejection',
 )
 
 
@@ -145,13 +151,14 @@ def term_names(muscles: int) -> tuple[str, ...]:
     """
     if muscles == 1:
         return TERMS
-    # What is learned comes last: plots that show terms by number know the others at their places.
+    # These two come last: plots that show terms by number know the others at their places.
+    last = ('learned', 'rejection')
     return (
-        *(name for name in TERMS if name != 'learned'),
+        *(name for name in TERMS if name not in last),
         *(f'pressure_{i + 1}' for i in range(muscles)),
         'co_contraction',
         'stiffness',
-        'learned',
+        *last,
     )
 
 

@@ -26,8 +26,9 @@ load to the reference, without noise and without lag, and -k e above takes accou
 joint's own sqrt(k / J) unless the gains ask for more; then (w^2 J - k) e is nothing. Muscles
 against each other have a stiffness as a second set-point, which does not move the coordinate.
 
-While the reference rests, the bandwidths shrink as the goal is reached (:mod:`.standstill`), and a
-load that sticks and slips is pushed to its goal (:mod:`.stiction`); what motion shows is learned
+While the reference rests, the bandwidths shrink as the goal is reached (:mod:`.standstill`), grow
+as a disturbance moves the load (:mod:`.rejection`), and a load that sticks and slips is pushed to
+its goal (:mod:`.stiction`); what motion shows is learned
 (:mod:`.learning`); declared effects are compensated (:mod:`.compensation`,
 :mod:`.pressure_path`).
 
@@ -48,7 +49,9 @@ from pam_ros.control.learning import Learner, LearningTuning
 from pam_ros.control.limits import Limiter, Limits
 from pam_ros.control.model import ControlModel
 from pam_ros.control.observer import Observer
+from pam_ros.control.oscillation import OscillationTuning
 from pam_ros.control.pressure_path import PressurePath
+from pam_ros.control.rejection import Rejection, RejectionTuning
 from pam_ros.control.sharing import sharing_of
 from pam_ros.control.signals import (
     Pressures,
@@ -126,6 +129,7 @@ class SlidingMode:
             gains.rest_tolerance, scaled(StandstillTuning(), length, force)
         )
         self._stiction = Stiction(gains.rest_tolerance, scaled(StictionTuning(), length, force))
+        self._rejection = Rejection(gains, RejectionTuning(), OscillationTuning())
         self._surface = Surface()
         self._stiffness = StiffnessCourse(wanted.wanted(self.sharing), wanted.co_contraction_rate)
         low, high = self.sharing.reach
@@ -134,7 +138,7 @@ class SlidingMode:
     def set_gains(self, gains: Gains) -> None:
         """Go on from the present state with other gains; ParameterError as for a new law."""
         gains.require(turning=self.joint.is_revolute)
-        self.gains = self._learner.gains = gains
+        self.gains = self._learner.gains = self._rejection.gains = gains
         for path in self._paths:
             path.quickest = gains.pressure_time
         self._standstill.tolerance = gains.rest_tolerance
@@ -180,6 +184,7 @@ class SlidingMode:
         self._losses.start(position, chambers)
         self._standstill.start()
         self._stiction.start()
+        self._rejection.start()
         self._pushed: float | None = None
         self._surface.start()
         self.sharing.start()
@@ -266,11 +271,18 @@ class SlidingMode:
         scale = gains.rest_factor + (1.0 - gains.rest_factor) * self._standstill.factor
         growth = learner.bandwidth / gains.bandwidth if gains.learning else 1.0
         scale *= growth
-        self._bandwidth = scale * gains.bandwidth
+        rejection, moves = self._rejection, self._standstill.is_moving
+        rejection.see(dt, error, position, moves=moves, is_cut=self.terms.saturated)
+        self._bandwidth = rejection.between(scale * gains.bandwidth, gains.bandwidth)
         waited = self._waited
         if position is not None:
             fast = min(scale, self._tuning.quickest) * gains.velocity_bandwidth
-            observer.correct(position, waited, fast, scale * gains.observer_bandwidth)
+            observer.correct(
+                position,
+                waited,
+                rejection.between(fast, gains.velocity_bandwidth),
+                rejection.between(scale * gains.observer_bandwidth, gains.rejection_bandwidth),
+            )
             self._waited = 0.0
         self._seen = observer.position if position is None else position
         if gains.learning:
@@ -285,8 +297,7 @@ class SlidingMode:
         s, v, a, jerk = reference
         self._k = k = model.stiffness(chambers, s) + model.gravity_stiffness(s)
         c = model.damping(chambers, s, v)
-        self._square = max(k / inertia, gains.surface_bandwidth * gains.surface_bandwidth)
-        self._decay = max(2.0 * gains.surface_damping * sqrt(self._square), c / inertia)
+        self._find_surface(c)
         if velocity is None or not gains.use_measured_velocity:
             velocity = observer.velocity
         self._error, self._error_rate = s - observer.position, v - velocity
@@ -313,16 +324,27 @@ class SlidingMode:
         terms.equivalent = foreseen + lost + shaping
         terms.switching, terms.observer, terms.learned = switching, taken, learned
         terms.bandwidth = self._bandwidth
+        terms.rejection, terms.highest_rejection = self._rejection.level, self._rejection.highest
         wanted = terms.equivalent + switching + taken + learned
         return wanted, foreseen + self._lost, rate + learned_rate
+
+    def _find_surface(self, c: float) -> None:
+        """Find w^2 and 2 z w of the surface; *c* is the damping of the joint."""
+        gains, inertia = self.gains, self.model.inertia
+        square = max(self._k / inertia, gains.surface_bandwidth * gains.surface_bandwidth)
+        decay = max(2.0 * gains.surface_damping * sqrt(square), c / inertia)
+        level, quick = self._rejection.level, gains.rejection_surface
+        self._square = square + level * (max(quick * quick, square) - square)
+        self._decay = decay + level * (max(2.0 * gains.rejection_damping * quick, decay) - decay)
 
     def _push(self, dt: float, reference: Reference, effort: float) -> float:
         """Return the effort to apply: pushes where the load sticks and slips, else *effort*."""
         stiction, standstill = self._stiction, self._standstill
-        if standstill.is_moving:
+        is_moved = standstill.is_moving or self._rejection.level > 0.0
+        if is_moved:
             stiction.start()
         pushed = None
-        if not standstill.is_moving:
+        if not is_moved:
             error = reference.position - self._seen
             pushed = stiction.follow(dt, error, effort, standstill.stiffness)
         if pushed is not None:
@@ -349,7 +371,7 @@ class SlidingMode:
         """Integrate the surface, and watch how the load answers to the wanted *effort*."""
         standstill, inertia = self._standstill, self.model.inertia
         spring = self._square * self._error
-        if standstill.stiffness > 1.0:
+        if standstill.stiffness > 1.0 and self._rejection.level == 0.0:
             # A load that sticks: load its contact faster, though not faster than it can be seen.
             most = max(abs(spring), self._tuning.stuck_rate / (inertia * self._bandwidth))
             spring = min(max(spring * standstill.stiffness, -most), most)

@@ -52,6 +52,8 @@ def values_of(loop: Loop, setup: ControlSetup, age: float | None) -> dict[str, A
         values[f'largest error within the disturbance bound ({unit})'] = gains.error_bound(
             gains.disturbance_bound, inertia, gains.surface_bandwidth
         )
+        values['rejection level'] = terms.rejection if is_running else None
+        values['highest rejection level'] = terms.highest_rejection if is_running else None
     feedback = left_to_feedback(setup.joint)
     if feedback:
         values['declared and left to the feedback'] = ', '.join(feedback)

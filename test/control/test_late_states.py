@@ -28,8 +28,8 @@ class Late:
     def __getattr__(self, name):
         return getattr(self.plant, name)
 
-    def step(self, pressure, dt):
-        measured = self.plant.step(pressure, dt)
+    def step(self, pressure, dt, push=0.0):
+        measured = self.plant.step(pressure, dt, push)
         self.time += dt
         return None if LATE < self.time < LATE + self.delay else measured
 

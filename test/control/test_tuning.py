@@ -9,7 +9,9 @@ import pytest
 from pam_ros.control.features import FeatureTuning
 from pam_ros.control.gains import OrderTuning
 from pam_ros.control.learning import LearningTuning
+from pam_ros.control.oscillation import OscillationTuning
 from pam_ros.control.reference.shaping import StreamTuning
+from pam_ros.control.rejection import RejectionTuning
 from pam_ros.control.sliding_mode import LawTuning
 from pam_ros.control.standstill import StandstillTuning
 from pam_ros.control.stiction import StictionTuning
@@ -20,6 +22,8 @@ TUNINGS = [
     LawTuning,
     LearningTuning,
     OrderTuning,
+    OscillationTuning,
+    RejectionTuning,
     StandstillTuning,
     StictionTuning,
     StreamTuning,

@@ -155,3 +155,11 @@ def test_the_bounds_of_the_surface_are_shown_and_pid_has_none():
     assert values[bound] == pytest.approx(width * area, rel=1e-3)
     pytest.importorskip('simple_pid', reason='the baseline needs simple-pid')
     assert bound not in values_of(controller='pid')
+
+
+def test_the_levels_of_rejection_are_shown_and_pid_has_none():
+    values = values_of(mass=20.0)
+    assert values['rejection level'] == 0.0
+    assert values['highest rejection level'] == 0.0  # no step was made
+    pytest.importorskip('simple_pid', reason='the baseline needs simple-pid')
+    assert 'rejection level' not in values_of(controller='pid')

@@ -69,11 +69,14 @@ def sine_target(amplitude, frequency):
     return lambda t: amplitude * sin(2.0 * pi * frequency * t)
 
 
-def close_loop(law, plant, target, duration, rate=500.0, shape=None, is_pressure_known=True):
+def close_loop(
+    law, plant, target, duration, rate=500.0, shape=None, is_pressure_known=True, push=None
+):
     """Run *law* on *plant*; *target* (s -> m) is relative to where the load rests at first.
 
     The law gets the target as samples every STREAM s, as from a topic, and measured positions of
-    the truth plant at its own *rate*; its state is the one at the end of each period.
+    the truth plant at its own *rate*; its state is the one at the end of each period. *push*
+    (s -> N) is a force on the load.
     """
     dt = 1.0 / rate
     count = round(duration * rate)
@@ -84,7 +87,10 @@ def close_loop(law, plant, target, duration, rate=500.0, shape=None, is_pressure
     measured = plant.measure()
     taken = None
     rows = np.zeros((count, 4))
-    names = ('error', 'surface', 'equivalent', 'switching', 'observer', 'learned', 'bandwidth')
+    names = (
+        *('error', 'surface', 'equivalent', 'switching', 'observer', 'learned', 'bandwidth'),
+        *('rejection', 'highest_rejection'),
+    )
     terms = np.zeros((count, len(names)))
     for n in range(count):
         t = n * dt
@@ -93,7 +99,7 @@ def close_loop(law, plant, target, duration, rate=500.0, shape=None, is_pressure
             taken = sample
             shaper.take(origin + target(sample * STREAM), t - sample * STREAM)
         (pressure,) = law.update(dt, shaper.reference, measured)
-        measured = plant.step(pressure, dt)
+        measured = plant.step(pressure, dt, push(t) if push else 0.0)
         shaper.follow(dt)
         end = (n + 1) * dt
         rows[n] = end, origin + target(end), plant.y, pressure

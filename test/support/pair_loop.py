@@ -47,10 +47,22 @@ def declared(effects=None, load=None):
     return Joint((actuator, actuator), Arm(), Pulley(), load or {})
 
 
-def close_pair(law, plant, target, duration, stiffness=None, *, rate=500.0, begin=0.0, shape=None):
+def close_pair(
+    law,
+    plant,
+    target,
+    duration,
+    stiffness=None,
+    *,
+    rate=500.0,
+    begin=0.0,
+    shape=None,
+    push=None,
+):
     """Run *law* on *plant* along *target* (s -> rad), with *stiffness* (s -> N m/rad).
 
-    Both come as samples every STREAM s, as from topics; the angle is measured at *rate*.
+    Both come as samples every STREAM s, as from topics; the angle is measured at *rate*. *push*
+    (s -> N m) is a torque on the joint.
     """
     dt, count = 1.0 / rate, round(duration * rate)
     law.start(begin)
@@ -69,7 +81,7 @@ def close_pair(law, plant, target, duration, stiffness=None, *, rate=500.0, begi
                 wanted = stiffness(t)
                 law.stiffen(wanted)
         pressures = law.update(dt, shaper.reference, measured)
-        measured = plant.step(pressures, dt)
+        measured = plant.step(pressures, dt, push(t) if push else 0.0)
         shaper.follow(dt)
         end = (n + 1) * dt
         true = plant.stiffness()

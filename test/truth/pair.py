@@ -22,7 +22,7 @@ from .muscles import GRAVITY, constants_si
 from .pneumatics import chamber, push_command, receive, working_pressure
 from .sensor import Sensor
 
-PAIR = ('radius', 'inertia', 'moment', 'hanging_at', 'x1', 'x2', 'q', 'rate')
+PAIR = ('radius', 'inertia', 'moment', 'hanging_at', 'x1', 'x2', 'q', 'rate', 'push')
 
 
 @jit
@@ -56,7 +56,7 @@ def pair_substep(P1, S1, P2, S2, PL, SL, G, d):
         S1.pull = tendon(P1, f1 - c1 * v)
         S2.pull = tendon(P2, f2 + c2 * v)
         torque = G.radius * (S1.pull - S2.pull) - friction(PL, SL, rate)
-        torque -= G.moment * math.sin(G.q - G.hanging_at)
+        torque += G.push - G.moment * math.sin(G.q - G.hanging_at)
         rate = G.rate + 0.5 * d * torque / G.inertia
     G.rate = 2.0 * rate - G.rate
 
@@ -173,9 +173,13 @@ class TruthPair:
                 S.slip[k] = S.pslip[k] = 0.0
                 S.slip_reach[k] = P.hyst_reach_m * 20.0 ** (k / (ELEMENTS - 1) - 1.0)
 
-    def step(self, u: tuple[float, float], h: float) -> float:
-        """Hold both commands (Pa) for h seconds; return the angle measured at the end, rad."""
+    def step(self, u: tuple[float, float], h: float, push: float = 0.0) -> float:
+        """Hold both commands (Pa) for h seconds; return the angle measured at the end, rad.
+
+        push is a torque in N m on the joint meanwhile.
+        """
         parameters, states = self._parameters, self._states
+        self.state.push = push
         hold_pair(parameters, states, self._geometry, float(u[0]), float(u[1]), h, self.dt)
         return self.measure()
 

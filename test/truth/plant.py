@@ -114,9 +114,12 @@ class TruthPlant:
                 high = mid
         return 0.5 * (low + high)
 
-    def step(self, u: float, h: float) -> float:
-        """Hold a command (Pa) for h seconds; return the position measured at the end, m."""
-        force = float(self._walk(np.array([h]))[0]) if self._walks else 0.0
+    def step(self, u: float, h: float, push: float = 0.0) -> float:
+        """Hold a command (Pa) for h seconds; return the position measured at the end, m.
+
+        push is a force in N that lifts the load meanwhile.
+        """
+        force = push + (float(self._walk(np.array([h]))[0]) if self._walks else 0.0)
         t, y = hold(self._parameters, self._states, float(u), force, h)
         return self.sensor.read(t, y)
 

@@ -1,0 +1,190 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""How hard disturbances are rejected: bandwidths that follow what the load shows.
+
+A fixed observer is a choice between noise and stiffness: with a high bandwidth it turns the noise
+of the sensor into pressure, with a low one a push moves the load. So the bandwidths are scheduled
+by the error, as in the variable-gain control of wafer stages (Heertjes, Schuurbiers & Nijmeijer
+2009): by a level between 0, at which the load is calm, and 1, at which it is held as hard as the
+gains allow. The level rises at once with the error of a load that shall rest, and falls slowly
+when the error has gone.
+
+What bounds the level is the delay between a command and its force, which nobody may have
+declared. Where the level is too high for it, the loop oscillates (:mod:`.oscillation`). That
+lowers the highest level; while the load is disturbed without such an oscillation, the highest
+level rises again, to below the level at which the loop oscillated last.
+
+After a motion of the reference the error is at first what friction and hysteresis leave, which
+:mod:`.standstill` and :mod:`.stiction` bring to its goal. The level begins to act when the error
+was within the noise for a moment, or when the load is shaken: it moves all the time, both ways.
+A load that sticks and slips moves for short times only.
+"""
+
+from dataclasses import dataclass
+from math import copysign, exp, sqrt
+
+from pam_ros.control.gains import Gains
+from pam_ros.control.oscillation import Oscillation, OscillationTuning
+from pam_ros.control.tuning import number
+
+
+@dataclass(frozen=True)
+class RejectionTuning:
+    """When a load is disturbed, and how high the level may be."""
+
+    window: float = number(0.02, 's', 'filter of the error: ten samples bring noise to a fifth')
+    tolerances: float = number(
+        2.0, '', 'rest tolerances that are no disturbance: beyond the 1.5 that stiction leaves'
+    )
+    noises: float = number(
+        1.0, '', 'noises of the position that are none: five times what the filter passes'
+    )
+    full: float = number(
+        2.0, '', 'times that error: error from which on the level is the highest; disturbance'
+    )
+    release: float = number(0.5, 's', 'in which the level falls: half a period of 1 Hz')
+    memory: float = number(0.5, 's', 'average of the noise of the position: 250 samples')
+    known: int = number(25, '', 'positions from which on that is known, to 15 %')
+    first: float = number(
+        0.35,
+        '',
+        'highest level before anything is known of the delay: the loop is still stable with the '
+        'undeclared lag of 50/70 ms of disturbance',
+    )
+    climb: float = number(
+        0.25, '1/s', 'by which the highest level rises: an oscillation is found before it is large'
+    )
+    quiet: float = number(0.6, 's', 'without a quick swing before it rises: five of them')
+    lower: float = number(
+        0.6, '', 'times the highest level after an oscillation: disturbance, lag'
+    )
+    below: float = number(
+        0.85, '', 'times the level of an oscillation that is reached again: disturbance, lag'
+    )
+    least: float = number(0.1, '', 'that the highest level is lowered to: stable with those lags')
+    forget: float = number(0.02, '1/s', 'by which it rises then: a rig changes in minutes')
+    calm: float = number(
+        0.6, 's', 'of no error that end a motion: two rests between pushes against stiction'
+    )
+    place: float = number(
+        0.05, 's', 'filter of the error that tells a load which moves: a slip lasts as long'
+    )
+    shake: float = number(1.0, 's', 'average of its moving: longer than two slips are apart')
+    shaken: float = number(
+        0.7, '', 'share of the time that a shaken load moves; control, friction has a third'
+    )
+
+
+class Rejection:
+    """The level at which disturbances are rejected.
+
+    level
+        0 (calm) to ``highest``
+    highest
+        what the level may rise to now, at most 1
+
+    Errors and positions are in m, or in rad of a joint that turns.
+    """
+
+    def __init__(
+        self, gains: Gains, tuning: RejectionTuning, oscillation: OscillationTuning
+    ) -> None:
+        """Begin; ``gains`` may be others later on."""
+        self.gains, self._tuning = gains, tuning
+        self._oscillation = Oscillation(oscillation)
+        self.start()
+
+    def start(self) -> None:
+        """Begin anew, at rest at the goal: nothing is known of the delay."""
+        self.level, self.highest = 0.0, self._tuning.first
+        self._bound = 1.0
+        self._error = 0.0
+        self._last = (0.0, 0.0)  # the two positions before
+        self._seen, self._variance = 0, 0.0
+        self._begin_rest()
+        self._acts = True
+
+    @property
+    def noise(self) -> float:
+        """The standard deviation of the measured positions, as seen at rest and in motion."""
+        return sqrt(self._variance)
+
+    def between(self, calm: float, full: float) -> float:
+        """Return the value at this level between those at 0 and 1, on a logarithmic scale."""
+        return calm if self.level == 0.0 else calm * (full / calm) ** self.level
+
+    def see(
+        self, dt: float, error: float, measured: float | None, *, moves: bool, is_cut: bool
+    ) -> None:
+        """Take in the *error* for *dt* s.
+
+        *measured* is the position if there is a new one, *moves* whether the reference does, and
+        *is_cut* whether a limit cuts the command.
+        """
+        tuning = self._tuning
+        if measured is not None:
+            self._see_noise(dt, measured)
+        self._error += (1.0 - exp(-dt / tuning.window)) * (error - self._error)
+        if moves or not self.gains.rejection:
+            self._begin_rest()
+            return
+        # The error from which on the load is disturbed.
+        least = max(tuning.tolerances * self.gains.rest_tolerance, tuning.noises * self.noise)
+        if self._seen < tuning.known:
+            return
+        if not self._acts:
+            self._see_rest(dt, least)
+            return
+        self._follow(dt, abs(self._error) / least)
+        surface = self.gains.rejection_surface
+        if self._oscillation.see(dt, self._error, least, surface, is_cut=is_cut):
+            self._bound = max(tuning.below * self.highest, tuning.least)
+            self.highest = max(tuning.lower * self.highest, tuning.least)
+            self.level = min(self.level, self.highest)
+
+    def _follow(self, dt: float, size: float) -> None:
+        """Let the levels follow an error of *size* times the least."""
+        tuning = self._tuning
+        wanted = self.highest * min(max((size - 1.0) / (tuning.full - 1.0), 0.0), 1.0)
+        if wanted >= self.level:
+            self.level = wanted
+        else:
+            self.level += dt / tuning.release * (wanted - self.level)
+            if self.level < 0.01:
+                self.level = 0.0
+        self._bound = min(self._bound + tuning.forget * dt, 1.0)
+        is_used = self.level > 0.5 * self.highest
+        if is_used and self._oscillation.quiet > tuning.quiet and self.highest < self._bound:
+            self.highest = min(self.highest + tuning.climb * dt, self._bound)
+
+    def _see_noise(self, dt: float, measured: float) -> None:
+        """Average the squares of second differences: those of white noise are six times it."""
+        first, second = self._last
+        self._last = second, measured
+        self._seen += 1
+        if self._seen < 3:
+            return
+        difference = measured - 2.0 * second + first
+        # At first the mean of all, so that it is right from the beginning.
+        share = max(dt / self._tuning.memory, 1.0 / (self._seen - 2))
+        self._variance += share * (difference * difference / 6.0 - self._variance)
+
+    def _begin_rest(self) -> None:
+        """Begin to look at the error that a motion leaves; until then the level is 0."""
+        self.level, self._acts = 0.0, False
+        self._calm = self._moving = self._direction = 0.0
+        self._place = self._error
+        self._oscillation.start(self._error)
+
+    def _see_rest(self, dt: float, least: float) -> None:
+        """Find out that the motion has ended, or that the load is shaken."""
+        tuning = self._tuning
+        self._calm = self._calm + dt if abs(self._error) < least else 0.0
+        self._place += (1.0 - exp(-dt / tuning.place)) * (self._error - self._place)
+        way = self._error - self._place
+        side = 0.0 if abs(way) < least else copysign(1.0, way)
+        share = 1.0 - exp(-dt / tuning.shake)
+        self._moving += share * (abs(side) - self._moving)
+        self._direction += share * (side - self._direction)
+        both_ways = abs(self._direction) < 1.0 - tuning.shaken
+        self._acts = self._calm > tuning.calm or (self._moving > tuning.shaken and both_ways)
