@@ -20,7 +20,15 @@ DOMAINS = {'domain', 'module_domain'}
 NOT_PURE = {*DOMAINS, 'browser', 'clean_environment', 'sources'}
 
 
-def pytest_configure():
+def pytest_addoption(parser):
+    parser.addoption(
+        '--full',
+        action='store_true',
+        help='1500 examples of generated input, and more command lines: see CONTRIBUTING.md',
+    )
+
+
+def pytest_configure(config):
     # Shells start programs in the background with these signals ignored, which programs inherit.
     signal.signal(signal.SIGINT, signal.default_int_handler)
     for kind in (signal.SIGHUP, signal.SIGQUIT):
@@ -36,7 +44,8 @@ def pytest_configure():
     os.environ['OPENBLAS_NUM_THREADS'] = '1'
     # A slow machine is no failure; and what passes once in CI passes each time.
     settings.register_profile('pam_ros', deadline=None, derandomize='CI' in os.environ)
-    settings.load_profile('pam_ros')
+    settings.register_profile('full', deadline=None, max_examples=1500)
+    settings.load_profile('full' if config.getoption('full') else 'pam_ros')
 
 
 def pytest_report_header():

@@ -88,8 +88,8 @@ class Muscle:
             self._refuse('stiffness k', self.stiffness(p, kappa), 'N/m', p, kappa)
             kappa = self._extremes_of_gain()
             self._refuse('pressure gain dF/dp', self.gain(kappa), 'N/Pa', 0.0 * kappa, kappa)
+            strongest = float(self.force(self.p_max, 0.0))
         # Pressure in the wrong unit changes no sign, but the force by a factor of 100 or more.
-        strongest = float(self.force(self.p_max, 0.0))
         if not self.force_max / FAR_OFF < strongest < self.force_max * FAR_OFF:
             raise ParameterError(
                 f'the constants a1..a6 give {strongest:.4g} N at p_max = {self.p_max / 1e3:g} kPa '

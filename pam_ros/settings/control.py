@@ -8,7 +8,10 @@ Muscles, joints and their effects are declared as to ``pam_sim``, so that one fi
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from math import isfinite, nan
 from typing import Any, ClassVar
+
+import numpy as np
 
 from pam_ros.control.co_contraction import CoContraction
 from pam_ros.control.gains import Gains
@@ -20,7 +23,7 @@ from pam_ros.control.pressure_path import PressurePath
 from pam_ros.control.reference.course import Course
 from pam_ros.control.reference.shaping import Shape
 from pam_ros.control.sharing import sharing_of
-from pam_ros.control.signals import PositionLaw, Pressures
+from pam_ros.control.signals import PositionLaw, Pressures, Reference
 from pam_ros.control.sliding_mode import SlidingMode
 from pam_ros.errors import ParameterError
 from pam_ros.parameters import check_all, parameter
@@ -31,6 +34,7 @@ from pam_ros.settings.sim import SimSettings, Start
 from pam_ros.settings.tables import Table, Values, build, table_of
 
 MEASURED = 'use_measured_velocity'  # a gain that velocity_source stands for
+TRIALS = 3  # commands of a law that must be finite
 LEAST_PERIODS = 3  # of rate that the rig must go on with the last command
 NAMES = ('muscles', 'joint_names', 'muscle_topics')  # which pam_sim has, too
 
@@ -186,7 +190,7 @@ class ControlParameters(RigParameters):
             self.muscles[n * (k or 0) : n * (k or 0) + n],
             has_topics,
         )
-        setup.make_law()  # which says what it lacks
+        setup.check_law()
         return setup
 
     def _controlled(self, name: str, *, has_topics: bool) -> int | None:
@@ -258,6 +262,27 @@ class ControlSetup:
         if self.settings.controller == 'pid':
             return Pid(self.joint, self.pid, self.limits, self.co_contraction)
         return SlidingMode(self.joint, self.gains, self.limits, self.co_contraction)
+
+    def check_law(self) -> None:
+        """Raise ParameterError where the law cannot be made, or where its numbers overflow.
+
+        Each parameter alone is in its range; what they give together is not finite.
+        """
+        low, high = self.reach
+        middle = 0.5 * (low + high) if isfinite(low) and isfinite(high) else 0.0
+        law = self.make_law()
+        try:
+            with np.errstate(all='ignore'):
+                law.start(middle)
+                for _ in range(TRIALS):
+                    command = law.update(1.0 / self.settings.rate, Reference(middle), middle)
+        except ArithmeticError:
+            command = (nan,)
+        if not all(map(isfinite, command)):
+            raise ParameterError(
+                'the law gives no finite pressure with these parameters: one of them is too large '
+                'or too close to 0, such as the mass or inertia of the load'
+            )
 
     def make_course(self) -> Course:
         """Return a new course, that has to be started."""

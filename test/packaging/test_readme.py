@@ -77,7 +77,9 @@ def check_make(words):
         if target == 'bench':
             check_benchmarks(value.split())
         else:
-            assert all((ROOT / path).exists() for path in value.split())
+            # Options of pytest stand beside the paths.
+            paths = [word for word in value.split() if not word.startswith('-')]
+            assert all((ROOT / path).exists() for path in paths), value
 
 
 def check_benchmarks(words):

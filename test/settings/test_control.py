@@ -77,6 +77,7 @@ def test_only_another_rig_or_other_limits_need_a_new_law(change, needs):
 @pytest.mark.parametrize(
     ('given', 'sentence'),
     [
+        ({'mass': 5e-324}, 'gives no finite pressure'),
         ({'gains.velocity_bandwidth': 1000.0}, 'too fast for a control rate of 500 Hz'),
         ({'gains.observer_bandwidth': 20.0}, 'observer_bandwidth = 20 rad/s is above bandwidth'),
         ({'limits.pressure_low': 700e3}, 'leaves no range below the p_max'),

@@ -32,9 +32,12 @@ class End(NamedTuple):
         return self.output.splitlines()[-1] if self.output else ''
 
 
-def ends(name, runs):
-    """Run the program ``pam_ros.cli.<name>`` with each of these ROS arguments; return the Ends."""
-    given = [name, *(['--ros-args', *arguments] for arguments in runs)]
+def ends(name, runs, *, is_once=False):
+    """Run the program ``pam_ros.cli.<name>`` with each of these ROS arguments; return the Ends.
+
+    With *is_once* a node whose arguments are good ticks once, and ends.
+    """
+    given = [name, is_once, *(['--ros-args', *arguments] for arguments in runs)]
     done = subprocess.run(
         [sys.executable, __file__],
         input=json.dumps(given),
@@ -82,8 +85,10 @@ def _run(main, arguments):
 
 
 def _main():
-    name, *runs = json.load(sys.stdin)
-    import_module('pam_ros.nodes.common.spin')
+    name, is_once, *runs = json.load(sys.stdin)
+    spin = import_module('pam_ros.nodes.common.spin')
+    if is_once:
+        spin.spin = lambda node, executor, stop: node.tick()
     import_module(f'pam_ros.nodes.{name.removeprefix("pam_")}.node')
     program = import_module(f'pam_ros.cli.{name}')
     sys.argv[0] = str(Path(program.__file__))
