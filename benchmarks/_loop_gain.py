@@ -13,7 +13,7 @@ from math import pi, sin
 import numpy as np
 
 from pam_ros.control.gains import Gains
-from pam_ros.control.rejection import Rejection
+from pam_ros.control.rest.rejection import Rejection
 from pam_ros.control.signals import Reference
 from pam_ros.control.sliding_mode import SlidingMode
 from pam_ros.rig.joint import Joint

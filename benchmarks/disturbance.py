@@ -26,7 +26,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / 'test'))
 from benchmarks._computed_force import ComputedForce
 from benchmarks._loop_gain import Margins, margins_of
 from pam_ros.control.pid import Pid
-from pam_ros.control.rejection import RejectionTuning
+from pam_ros.control.rest.rejection import RejectionTuning
 from pam_ros.control.signals import Reference, Terms
 from pam_ros.control.sliding_mode import SlidingMode
 from support.closed_loop import LAG, Run, close_loop, declared, truth

@@ -3,7 +3,7 @@
 """A muscle of a joint as a position law sees it: force, stiffness, damping and their inverse."""
 
 from collections.abc import Callable
-from math import exp
+from math import exp, inf
 
 from pam_ros.compiled import plain
 from pam_ros.effects.base import Compensation
@@ -14,6 +14,7 @@ from pam_ros.rig.joint import Joint
 # The law's own source: a controller steps in Python and must not wait for a compiler.
 _force_at, _slope_at, _gain = plain(law.force_at), plain(law.slope_at), plain(law.gain)
 _damping, _pressure_for_force = plain(law.damping), plain(law.pressure_for_force)
+PUSH = 1e6  # N: more than any muscle pushes; what is left of it is what a slack one does
 
 
 class MuscleModel:
@@ -46,6 +47,11 @@ class MuscleModel:
                 self._dampings.append((effect.damping, j))
             if effect.force is not None and effect.compensation is Compensation.MODEL:
                 self._forces.append((effect.force, j))
+
+    @property
+    def may_be_slack(self) -> bool:
+        """Whether an effect is declared that takes from the force law, such as slack."""
+        return bool(self._forces)
 
     # Where it is -----------------------------------------------------------------------------
 
@@ -84,6 +90,12 @@ class MuscleModel:
         for function, j in self._forces:
             f = function(f, p, kappa, 0.0, 0.0, 0.0, (), 0, (), self._row, j)
         return f
+
+    def slack_pressure(self, y: float) -> float:
+        """Return the pressure in Pa below which the muscle is slack; -inf where it never is."""
+        if not self._forces:
+            return -inf
+        return self.pressure_for(self._slack(-PUSH, 0.0, self.contraction(y)), y)
 
     def gain(self, y: float) -> float:
         """Return dF/dp in N/Pa."""

@@ -12,6 +12,7 @@ from pam_ros.control.co_contraction import CoContraction
 from pam_ros.control.joint_settings import JointSettings
 from pam_ros.control.limits import Limiter, Limits
 from pam_ros.control.model import ControlModel
+from pam_ros.control.pid_schedule import Schedule
 from pam_ros.control.pressure_path import PressurePath
 from pam_ros.control.sharing import sharing_of
 from pam_ros.control.signals import (
@@ -83,6 +84,11 @@ class PidGains(JointSettings):
         high=1e4,
         turning=OnTurning(326.0, 1e4),
     )
+    bounded: bool = parameter(
+        True,
+        'whether the gains are reduced at references at which the sensitivity of the declared '
+        'joint would exceed the bounds by which the defaults were found',
+    )
 
 
 class Pid:
@@ -104,7 +110,7 @@ class Pid:
         """Make it for a declared joint.
 
         Raises ParameterError where simple-pid is missing, or the gains are for the other kind of
-        joint.
+        joint, or no share of them is stable in all of the reach.
         """
         try:
             maker: Any = import_module('simple_pid').PID
@@ -126,6 +132,15 @@ class Pid:
         self._limiters = [
             Limiter(low, high, limits.pressure_rate) for low, high in self.sharing.ranges
         ]
+        self._schedule = (
+            Schedule(
+                self.sharing,
+                (gains.proportional, gains.integral, gains.derivative, gains.filter_bandwidth),
+                self._stiffness,
+            )
+            if gains.bounded
+            else None
+        )
         self._pid = maker(gains.proportional, gains.integral, gains.derivative, sample_time=None)
         self.start(0.0)
 
@@ -143,6 +158,8 @@ class Pid:
     def stiffen(self, stiffness: float) -> None:
         """Take a stiffness; raises RangeError where it cannot be had at the reference."""
         self.sharing.refuse_stiffness(stiffness, self.terms.reference)
+        if self._schedule is not None:
+            self._schedule.refuse_stiffness(stiffness)
         self._stiffness = stiffness
 
     def start(self, position: float, pressures: Pressures | None = None) -> None:
@@ -186,7 +203,7 @@ class Pid:
         signs = self._signs(reference.position)
         if position is not None:
             # What the limits leave of the range: simple-pid stops its integral there.
-            self._pid.output_limits = self._room(static, signs)
+            self._pid.output_limits = self._room(reference.position, static, signs)
             self._correct(reference.position, position)
         output = self._output
         p, i, d = self._pid.components
@@ -218,6 +235,14 @@ class Pid:
         share = 1.0 - exp(-self.gains.filter_bandwidth * dt)
         self._error += share * (reference - position - self._error)
         self._filtered += share * (self._error - self._filtered)
+        if self._schedule is not None:
+            of_all, of_integral = self._schedule.at(reference, self._stiffness)
+            gains = self.gains
+            self._pid.tunings = (
+                of_all * gains.proportional,
+                of_all * of_integral * gains.integral,
+                of_all * gains.derivative,
+            )
         self._output = self._pid(-self._filtered, dt=dt)
 
     def _note_stiffness(self) -> None:
@@ -232,13 +257,19 @@ class Pid:
         terms.co_contraction = self._stiffness
         terms.stiffness = self.model.stiffness(chambers, terms.position)
 
-    def _room(self, static: Pressures, signs: list[float]) -> tuple[float, float]:
+    def _room(
+        self, reference: float, static: Pressures, signs: list[float]
+    ) -> tuple[float, float]:
         """Return the least and the greatest output that leave one of the pressures a way to go.
 
-        Where the static part has a muscle at a limit already, the others go on alone.
+        Where the static part has a muscle at a limit already, the others go on alone. A muscle
+        that is slack at the reference is at a limit.
         """
         low, high = float('inf'), -float('inf')
-        for limiter, sign, pressure in zip(self._limiters, signs, static, strict=True):
-            ends = sorted((sign * (limiter.low - pressure), sign * (limiter.high - pressure)))
+        for limiter, path, sign, pressure, least in zip(
+            self._limiters, self._paths, signs, static, self.sharing.least(reference), strict=True
+        ):
+            slack = min(max(path.command_at_rest(least), limiter.low), limiter.high)
+            ends = sorted((sign * (slack - pressure), sign * (limiter.high - pressure)))
             low, high = min(low, ends[0]), max(high, ends[1])
         return low, high

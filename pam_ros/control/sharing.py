@@ -15,6 +15,7 @@ from typing import NamedTuple
 
 from pam_ros.control.limits import MARGIN, Limits
 from pam_ros.control.model import ControlModel
+from pam_ros.control.stretch import stretch
 from pam_ros.errors import ParameterError, RangeError
 from pam_ros.rig import pair, statics
 from pam_ros.rig.pair import Line
@@ -63,6 +64,10 @@ class Sharing(ABC):
         """Return the effort per pressure of each muscle, arm dF/dp with its sign."""
         return tuple(m.arm(s) * m.gain(m.position(s)) for m in self.model.muscles)
 
+    def least(self, s: float) -> tuple[float, ...]:
+        """Return the lowest pressures in Pa that have an effect at s."""
+        return tuple(low for low, _ in self.ranges)
+
     @abstractmethod
     def available(self) -> float:
         """Return by how much the effort changes over the range of pressure, at mid travel."""
@@ -88,11 +93,15 @@ class Sharing(ABC):
 
 
 class OneSide(Sharing):
-    """Muscles that all pull the same way, with one pressure: that for the effort, not clamped."""
+    """Muscles that all pull the same way, with one pressure: that for the effort.
+
+    It is not clamped to the limits, but where slack is declared no lower than slack muscles have.
+    """
 
     def __init__(self, model: ControlModel, limits: Limits) -> None:
         """Find the reach."""
         super().__init__(model, limits)
+        self._may_be_slack = any(muscle.may_be_slack for muscle in model.muscles)
         self.reach = self._reach()
 
     def split(self, effort: float, stiffness: float, s: float) -> Split:
@@ -101,13 +110,30 @@ class OneSide(Sharing):
             # The law's own inverse: the sums below round differently.
             muscle = self.model.muscles[0]
             p = muscle.pressure_for(effort / muscle.arm(s), muscle.position(s))
-            return Split((p,), 0.0)
+            return self._taut((p,), s)
         rest = gain = 0.0
         for muscle in self.model.muscles:
             arm, y = muscle.arm(s), muscle.position(s)
             rest += arm * muscle.force_law(0.0, y)
             gain += arm * muscle.gain(y)
-        return Split(((effort - rest) / gain,) * len(self.model.muscles), 0.0)
+        return self._taut(((effort - rest) / gain,) * len(self.model.muscles), s)
+
+    def _taut(self, pressures: tuple[float, ...], s: float) -> Split:
+        """Return *pressures* no lower than those at which the muscles are slack, where declared.
+
+        A lower one changes nothing, and would have to be made up for before they pull again.
+        """
+        if not self._may_be_slack:
+            return Split(pressures, 0.0)
+        least = self.least(s)
+        taut = tuple(max(p, low) for p, low in zip(pressures, least, strict=True))
+        cut = (p - q for p, q in zip(pressures, taut, strict=True))
+        return Split(taut, sum(g * each for g, each in zip(self.gains(s), cut, strict=True)))
+
+    def least(self, s: float) -> tuple[float, ...]:
+        """Return the pressures in Pa at which the muscles become slack, or their lowest ones."""
+        slack = min(muscle.slack_pressure(muscle.position(s)) for muscle in self.model.muscles)
+        return tuple(max(low, slack) for low, _ in self.ranges)
 
     def rates(
         self, dt: float, foreseen: float, rate: float, stiffness: float, s: float
@@ -140,6 +166,11 @@ class OneSide(Sharing):
         ends = [statics.equilibrium(joint, p) for p in (low + spare, high - spare)]
         bounds = statics.span(joint)
         found = max(min(ends), bounds[0]), min(max(ends), bounds[1])
+        if self._may_be_slack:
+            # Where the law has them push, what returns the load is gravity alone: an arm is not
+            # held below where it hangs, and a cart on a level track by no muscle of one side.
+            pressures = low + spare, high - spare
+            found = stretch(found, lambda s: self._is_pulled(s, pressures)) or found[::-1]
         if found[0] >= found[1]:
             unit = joint.transmission.equations.unit
             these = 'the muscle permits' if len(joint.muscles) == 1 else 'the muscles permit'
@@ -149,6 +180,14 @@ class OneSide(Sharing):
                 f'{bounds[1]:.4g} {unit}'
             )
         return found
+
+    def _is_pulled(self, s: float, pressures: tuple[float, float]) -> bool:
+        """Say whether the least pressures that have an effect hold less than the load at s."""
+        model = self.model
+        low, high = pressures
+        least = tuple(max(low, p) for p in self.least(s))
+        ends = sorted(model.effort(p, s) for p in (least, (high,) * len(model.muscles)))
+        return ends[0] <= model.gravity(s) <= ends[1]
 
 
 class TwoSides(Sharing):

@@ -26,11 +26,10 @@ load to the reference, without noise and without lag, and -k e above takes accou
 joint's own sqrt(k / J) unless the gains ask for more; then (w^2 J - k) e is nothing. Muscles
 against each other have a stiffness as a second set-point, which does not move the coordinate.
 
-While the reference rests, the bandwidths shrink as the goal is reached (:mod:`.standstill`), grow
-as a disturbance moves the load (:mod:`.rejection`), and a load that sticks and slips is pushed to
-its goal (:mod:`.stiction`); what motion shows is learned
-(:mod:`.learning`); declared effects are compensated (:mod:`.compensation`,
-:mod:`.pressure_path`).
+While the reference rests, the bandwidths shrink as the goal is reached (:mod:`.rest.standstill`)
+and grow as a disturbance moves the load (:mod:`.rest.rejection`), and a load that sticks and slips
+is pushed to its goal (:mod:`.rest.stiction`). What motion shows is learned (:mod:`.learning`);
+declared effects are compensated (:mod:`.compensation`, :mod:`.pressure_path`).
 
 Sources: Slotine & Li, Applied Nonlinear Control, 1991, chapter 7; Lilly & Quesada 2004 (sliding
 mode for a muscle, boundary layer under wrong coefficients); Levant 1993; Han 2009 (observer);
@@ -49,9 +48,11 @@ from pam_ros.control.learning import Learner, LearningTuning
 from pam_ros.control.limits import Limiter, Limits
 from pam_ros.control.model import ControlModel
 from pam_ros.control.observer import Observer
-from pam_ros.control.oscillation import OscillationTuning
 from pam_ros.control.pressure_path import PressurePath
-from pam_ros.control.rejection import Rejection, RejectionTuning
+from pam_ros.control.rest.oscillation import OscillationTuning
+from pam_ros.control.rest.rejection import Rejection, RejectionTuning
+from pam_ros.control.rest.standstill import Standstill, StandstillTuning
+from pam_ros.control.rest.stiction import Stiction, StictionTuning
 from pam_ros.control.sharing import sharing_of
 from pam_ros.control.signals import (
     Pressures,
@@ -60,8 +61,6 @@ from pam_ros.control.signals import (
     start_arguments,
     step_arguments,
 )
-from pam_ros.control.standstill import Standstill, StandstillTuning
-from pam_ros.control.stiction import Stiction, StictionTuning
 from pam_ros.control.switching import Surface
 from pam_ros.control.tuning import number, scaled
 from pam_ros.rig.joint import Joint
@@ -361,7 +360,8 @@ class SlidingMode:
         """Return the switching effort; sets the sliding variable."""
         gains, inertia, surface = self.gains, self.model.inertia, self._surface
         if gains.switching == SUPER_TWISTING:
-            term = surface.twist(self._error_rate, dt, *gains.super_twisting(inertia))
+            k1, k2 = gains.super_twisting(inertia)
+            term = surface.twist(self._error_rate, dt, k1, k2, self.terms.cut)
         else:
             term = surface.drive(self._error_rate, self._bandwidth, gains.switching_gain(inertia))
         self.terms.surface = surface.value
@@ -376,8 +376,7 @@ class SlidingMode:
             most = max(abs(spring), self._tuning.stuck_rate / (inertia * self._bandwidth))
             spring = min(max(spring * standstill.stiffness, -most), most)
         growth = (self._decay * self._error_rate + spring) * dt
-        # Anti-windup: at a limit the integral may only change away from it.
-        if growth * cut <= 0.0 and self._pushed is None:
-            self._surface.integral += growth
+        if self._pushed is None:
+            self._surface.integrate(growth, cut)
         standstill.see_force(dt, effort, self._seen, self._k)
         self._may_learn = standstill.is_moving and cut == 0.0

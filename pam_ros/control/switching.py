@@ -24,11 +24,15 @@ class SuperTwisting:
         """Begin with w = 0."""
         self.w = 0.0
 
-    def step(self, s: float, dt: float, k1: float, k2: float) -> float:
-        """Return the term in m/s^2 that acts against *s* m/s for the next *dt* s."""
+    def step(self, s: float, dt: float, k1: float, k2: float, cut: float = 0.0) -> float:
+        """Return the term in m/s^2 that acts against *s* m/s for the next *dt* s.
+
+        *cut* is what the limits took of the last wanted effort: w does not add to it.
+        """
         first = dt * k1
         root = 0.5 * (sqrt(first * first + 4.0 * abs(s)) - first)
-        self.w -= min(max(s / dt, -dt * k2), dt * k2)
+        if s * cut <= 0.0:
+            self.w -= min(max(s / dt, -dt * k2), dt * k2)
         return (k1 * root if s > 0.0 else -k1 * root) - self.w
 
 
@@ -48,6 +52,7 @@ class Surface:
         """Begin anew, with nothing integrated."""
         self._twisting.w = 0.0
         self._bandwidth = 0.0  # of the last step, 1/s
+        self._excess = 0.0  # by which bandwidth s is beyond the gain, with its sign, m/s^2
         self.integral = self.value = 0.0
 
     def drive(self, error_rate: float, bandwidth: float, gain: float) -> float:
@@ -57,9 +62,20 @@ class Surface:
             self.integral *= self._bandwidth / bandwidth
         self._bandwidth = bandwidth
         self.value = error_rate + self.integral
-        return boundary_layer(self.value, bandwidth, gain)
+        term = boundary_layer(self.value, bandwidth, gain)
+        self._excess = bandwidth * self.value - term
+        return term
 
-    def twist(self, error_rate: float, dt: float, k1: float, k2: float) -> float:
-        """Return the acceleration of super-twisting for the next *dt* s."""
+    def twist(self, error_rate: float, dt: float, k1: float, k2: float, cut: float = 0.0) -> float:
+        """Return the acceleration of super-twisting for the next *dt* s; *cut* as its step has."""
         self.value = error_rate + self.integral
-        return self._twisting.step(self.value, dt, k1, k2)
+        return self._twisting.step(self.value, dt, k1, k2, cut)
+
+    def integrate(self, growth: float, cut: float) -> None:
+        """Let the integral part grow by *growth* m/s, unless what it asks for is limited already.
+
+        Anti-windup: at a limit of the pressures, which *cut* some of the wanted effort, and beyond
+        the boundary layer, whose term is at its own limit, it may only change away from that.
+        """
+        if growth * cut <= 0.0 and growth * self._excess <= 0.0:
+            self.integral += growth

@@ -90,6 +90,51 @@ def test_the_reach_of_one_side_is_where_its_limits_hold_the_load(joint):
     assert sharing.reach[1] == pytest.approx(min(max(ends), bounds[1]))
 
 
+def hanging(at=0.0, **slack):
+    muscle = Actuator(effects={'slack': {'share': 1.0, **slack}}, contraction=0.1)
+    return Joint((muscle,), Arm(hanging_at=at), Lever())
+
+
+@pytest.mark.parametrize('at', [-0.6, 0.0, 0.5])
+def test_a_muscle_that_cannot_push_holds_no_arm_below_where_it_hangs(at):
+    joint = hanging(at)
+    sharing = shared(joint)
+    low, high = sharing.reach
+    pushing = shared(Joint((Actuator(contraction=0.1),), joint.load, joint.transmission)).reach
+    assert pushing[0] < at - 0.3
+    assert high == pytest.approx(pushing[1], rel=1e-6)
+    # It begins where the corner of the toe, a quarter of 2 N there, holds the arm.
+    arm = abs(float(statics.arm(joint, 0, low)))
+    assert 9.80665 * 0.25 * np.sin(low - at) == pytest.approx(0.25 * 2.0 * arm, rel=1e-3)
+
+
+def test_what_a_muscle_may_push_before_it_buckles_is_in_the_reach():
+    joint = hanging(push=10.0)
+    low = shared(joint).reach[0]
+    arm = abs(float(statics.arm(joint, 0, low)))
+    assert 9.80665 * 0.25 * np.sin(low) == pytest.approx((0.25 * 2.0 - 10.0) * arm, rel=1e-3)
+
+
+def test_muscles_that_pull_everywhere_in_the_reach_have_the_same_one_if_they_cannot_push():
+    assert shared(parallel(slack={'share': 1.0})).reach == pytest.approx(shared(parallel()).reach)
+
+
+def test_one_muscle_that_cannot_push_holds_no_cart_on_a_level_track():
+    muscle = Actuator(effects={'slack': {'share': 1.0}})
+    with pytest.raises(ParameterError, match='cannot be held anywhere'):
+        shared(Joint((muscle,), Mass(mount='horizontal'), Straight()))
+
+
+def test_a_muscle_is_given_no_pressure_that_is_too_low_to_have_an_effect():
+    sharing = shared(hanging())
+    (muscle,) = sharing.model.muscles
+    split = sharing.split(-2.0, 0.0, 0.2)
+    assert split.pressures == sharing.least(0.2)
+    assert muscle.force_law(split.pressures[0], muscle.position(0.2)) == pytest.approx(0, abs=1e-9)
+    assert split.short == pytest.approx(-2.0)
+    assert sharing.split(2.0, 0.0, 0.2).short == 0.0
+
+
 # Two sides ---------------------------------------------------------------------------------------
 
 SHARING = shared(pair())

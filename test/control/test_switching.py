@@ -96,3 +96,34 @@ def test_a_surface_twists_as_the_algorithm_does_and_forgets_with_it():
         assert surface.twist(rate, 2e-3, 3.0, 5.0) == alone.step(rate + 0.02, 2e-3, 3.0, 5.0)
     surface.start()
     assert surface.twist(0.1, 2e-3, 3.0, 5.0) == SuperTwisting().step(0.1, 2e-3, 3.0, 5.0)
+
+
+@pytest.mark.parametrize('sign', [1.0, -1.0])
+def test_the_integral_does_not_grow_beyond_the_boundary_layer(sign):
+    surface = Surface()
+    for _ in range(10_000):
+        surface.drive(0.0, 14.0, 10.0)
+        surface.integrate(sign * 0.01, 0.0)
+    width = 10.0 / 14.0
+    assert abs(surface.integral) == pytest.approx(width, abs=0.021)
+    surface.drive(0.0, 14.0, 10.0)
+    surface.integrate(-sign * 0.1, 0.0)  # back it may go
+    assert abs(surface.integral) < width - 0.05
+
+
+def test_the_integral_does_not_grow_while_the_limits_cut_the_effort():
+    surface = Surface()
+    surface.drive(0.0, 14.0, 10.0)
+    surface.integrate(0.1, 3.0)
+    assert surface.integral == 0.0
+    surface.integrate(0.1, -3.0)
+    assert surface.integral == 0.1
+
+
+def test_the_integral_of_super_twisting_does_not_grow_while_the_limits_cut_the_effort():
+    surface = Surface()
+    free = [surface.twist(0.1, 2e-3, 1.0, 50.0) for _ in range(100)]
+    surface.start()
+    cut = [surface.twist(0.1, 2e-3, 1.0, 50.0, cut=3.0) for _ in range(100)]
+    assert free[-1] > free[0] + 5.0
+    assert cut[-1] == cut[0]

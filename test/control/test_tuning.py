@@ -9,12 +9,12 @@ import pytest
 from pam_ros.control.features import FeatureTuning
 from pam_ros.control.gains import OrderTuning
 from pam_ros.control.learning import LearningTuning
-from pam_ros.control.oscillation import OscillationTuning
 from pam_ros.control.reference.shaping import StreamTuning
-from pam_ros.control.rejection import RejectionTuning
+from pam_ros.control.rest.oscillation import OscillationTuning
+from pam_ros.control.rest.rejection import RejectionTuning
+from pam_ros.control.rest.standstill import StandstillTuning
+from pam_ros.control.rest.stiction import StictionTuning
 from pam_ros.control.sliding_mode import LawTuning
-from pam_ros.control.standstill import StandstillTuning
-from pam_ros.control.stiction import StictionTuning
 from pam_ros.control.tuning import number, numbers_of, scaled
 
 TUNINGS = [

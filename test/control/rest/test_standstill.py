@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from pam_ros.control.standstill import Standstill, StandstillTuning
+from pam_ros.control.rest.standstill import Standstill, StandstillTuning
 
 DT = 2e-3
 K = 7000.0

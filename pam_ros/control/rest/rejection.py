@@ -24,7 +24,7 @@ from dataclasses import dataclass
 from math import copysign, exp, sqrt
 
 from pam_ros.control.gains import Gains
-from pam_ros.control.oscillation import Oscillation, OscillationTuning
+from pam_ros.control.rest.oscillation import Oscillation, OscillationTuning
 from pam_ros.control.tuning import number
 
 

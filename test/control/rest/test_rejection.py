@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from pam_ros.control.gains import Gains
-from pam_ros.control.oscillation import OscillationTuning
-from pam_ros.control.rejection import Rejection, RejectionTuning
+from pam_ros.control.rest.oscillation import OscillationTuning
+from pam_ros.control.rest.rejection import Rejection, RejectionTuning
 
 DT = 2e-3
 GAINS, TUNING = Gains(), RejectionTuning()

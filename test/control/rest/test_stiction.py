@@ -7,8 +7,8 @@ import pytest
 
 from pam_ros.control.gains import Gains
 from pam_ros.control.reference.shaping import Shape
+from pam_ros.control.rest.stiction import Stiction, StictionTuning
 from pam_ros.control.sliding_mode import SlidingMode
-from pam_ros.control.stiction import Stiction, StictionTuning
 from support.kinds import EACH_KIND, ONE, PAIR, at_end
 from truth.effects import effect
 from truth.pair import FEEDBACK_NOISE, TruthPair

@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from pam_ros.control.oscillation import Oscillation, OscillationTuning
+from pam_ros.control.rest.oscillation import Oscillation, OscillationTuning
 
 DT, LEAST, BANDWIDTH = 2e-3, 20e-6, 25.0
 TUNING = OscillationTuning()
