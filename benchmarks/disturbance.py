@@ -25,8 +25,10 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / 'test'))
 
 from benchmarks._computed_force import ComputedForce
 from benchmarks._loop_gain import Margins, margins_of
+from pam_ros.control.gains import Gains
 from pam_ros.control.pid import Pid
-from pam_ros.control.rest.rejection import RejectionTuning
+from pam_ros.control.rest.oscillation import OscillationTuning
+from pam_ros.control.rest.rejection import Rejection, RejectionTuning
 from pam_ros.control.signals import Reference, Terms
 from pam_ros.control.sliding_mode import SlidingMode
 from support.closed_loop import LAG, Run, close_loop, declared, truth
@@ -42,7 +44,8 @@ LEAST_DECLARED = {0.5: 10.0, 1.0: 6.0, 2.0: 5.0, 3.0: 6.0}  # the same with a de
 MOST = 1 / 1.6  # least of all frequencies
 HUNT = 0.05  # mm, most that a load may move after a push
 CLOSE = 1e-4  # m
-FIRST = RejectionTuning().first  # highest level before anything is known of the delay
+# The highest level before anything is known of the delay.
+FIRST = Rejection(Gains(), RejectionTuning(), OscillationTuning()).highest
 
 
 def lag(fill: float, vent: float) -> tuple[Any, ...]:

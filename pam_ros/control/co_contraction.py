@@ -68,6 +68,11 @@ class StiffnessCourse:
         """The stiffness that the joint shall have now."""
         return self.goal + self._offset.state[0]
 
+    @property
+    def is_moving(self) -> bool:
+        """Whether the stiffness is on its way to the goal."""
+        return self._is_new or any(self._offset.state)
+
     def start(self, stiffness: float) -> None:
         """Begin anew, at rest at *stiffness*, on the way to the goal."""
         self._offset.state = (stiffness - self.goal, 0.0, 0.0)

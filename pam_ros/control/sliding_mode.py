@@ -270,7 +270,9 @@ class SlidingMode:
         scale = gains.rest_factor + (1.0 - gains.rest_factor) * self._standstill.factor
         growth = learner.bandwidth / gains.bandwidth if gains.learning else 1.0
         scale *= growth
-        rejection, moves = self._rejection, self._standstill.is_moving
+        rejection = self._rejection
+        stiffens = self.sharing.can_stiffen and self._stiffness.is_moving
+        moves = self._standstill.is_moving or stiffens
         rejection.see(dt, error, position, moves=moves, is_cut=self.terms.saturated)
         self._bandwidth = rejection.between(scale * gains.bandwidth, gains.bandwidth)
         waited = self._waited

@@ -21,7 +21,7 @@ A load that sticks and slips moves for short times only.
 """
 
 from dataclasses import dataclass
-from math import copysign, exp, sqrt
+from math import copysign, exp, log, sqrt
 
 from pam_ros.control.gains import Gains
 from pam_ros.control.rest.oscillation import Oscillation, OscillationTuning
@@ -46,10 +46,10 @@ class RejectionTuning:
     memory: float = number(0.5, 's', 'average of the noise of the position: 250 samples')
     known: int = number(25, '', 'positions from which on that is known, to 15 %')
     first: float = number(
-        0.35,
-        '',
-        'highest level before anything is known of the delay: the loop is still stable with the '
-        'undeclared lag of 50/70 ms of disturbance',
+        12.3,
+        'rad/s',
+        'bandwidth of the observer at the highest level before anything is known of the delay: '
+        'the loop is still stable with the undeclared lag of 50/70 ms of disturbance',
     )
     climb: float = number(
         0.25, '1/s', 'by which the highest level rises: an oscillation is found before it is large'
@@ -69,7 +69,9 @@ class RejectionTuning:
     place: float = number(
         0.05, 's', 'filter of the error that tells a load which moves: a slip lasts as long'
     )
-    shake: float = number(1.0, 's', 'average of its moving: longer than two slips are apart')
+    shake: float = number(
+        2.5, 's', 'average of its moving: longer than a loop with a lag rings; pair_control, lag'
+    )
     shaken: float = number(
         0.7, '', 'share of the time that a shaken load moves; control, friction has a third'
     )
@@ -96,13 +98,21 @@ class Rejection:
 
     def start(self) -> None:
         """Begin anew, at rest at the goal: nothing is known of the delay."""
-        self.level, self.highest = 0.0, self._tuning.first
+        self.level, self.highest = 0.0, self._first_level()
         self._bound = 1.0
         self._error = 0.0
         self._last = (0.0, 0.0)  # the two positions before
         self._seen, self._variance = 0, 0.0
         self._begin_rest()
         self._acts = True
+
+    def _first_level(self) -> float:
+        """Return the level at which the observer has the first bandwidth."""
+        calm, full = self.gains.observer_bandwidth, self.gains.rejection_bandwidth
+        if full <= calm:
+            return 1.0
+        first = log(max(self._tuning.first / calm, 1.0)) / log(full / calm)
+        return min(max(first, self._tuning.least), 1.0)
 
     @property
     def noise(self) -> float:

@@ -16,6 +16,7 @@ DT = 2e-3
 GAINS, TUNING = Gains(), RejectionTuning()
 LEAST = TUNING.tolerances * GAINS.rest_tolerance  # m
 LARGE = 3.0 * LEAST
+FIRST = Rejection(GAINS, TUNING, OscillationTuning()).highest
 
 
 def rejection(**tuning):
@@ -38,12 +39,24 @@ def constant(error):
     return lambda t: error
 
 
+def test_the_first_highest_level_is_a_bandwidth_of_the_observer():
+    assert pytest.approx(TUNING.first) == 4.0 * 25.0**FIRST
+    assert pytest.approx(0.35, abs=0.01) == FIRST
+    turning = Rejection(Gains(observer_bandwidth=8.0), TUNING, OscillationTuning())
+    assert 8.0 * 12.5**turning.highest == pytest.approx(TUNING.first)
+    for own, highest in ((14.0, TUNING.least), (12.0, TUNING.least)):
+        one = Rejection(Gains(observer_bandwidth=own), TUNING, OscillationTuning())
+        assert one.highest == highest
+    slow = Rejection(Gains(rejection_bandwidth=3.0), TUNING, OscillationTuning())
+    assert slow.highest == 1.0
+
+
 def test_it_rises_with_an_error_at_once_and_falls_slowly():
     one = rejection()
     levels = follow(one, constant(LARGE), 0.1)
-    assert np.argmax(levels >= TUNING.first) * DT < 0.03
+    assert np.argmax(levels >= FIRST) * DT < 0.03
     levels = follow(one, constant(0.0), TUNING.release)
-    high = TUNING.first * math.exp(-1.0)
+    high = FIRST * math.exp(-1.0)
     assert levels[-1] == pytest.approx(high, rel=0.15)
     follow(one, constant(0.0), 10 * TUNING.release)
     assert one.level == 0.0
@@ -53,7 +66,7 @@ def test_it_is_proportional_to_the_error_between_two_bounds():
     one = rejection(climb=0.0, release=1e-3)
     for size, share in ((0.99, 0.0), (0.5 * (1.0 + TUNING.full), 0.5), (TUNING.full, 1.0)):
         follow(one, constant(size * LEAST), 1.0)
-        assert one.level == pytest.approx(share * TUNING.first, abs=1e-3)
+        assert one.level == pytest.approx(share * FIRST, abs=1e-3)
 
 
 def test_between_is_logarithmic():
@@ -68,12 +81,12 @@ def test_between_is_logarithmic():
 def test_the_highest_level_rises_while_it_is_used_and_not_else():
     one = rejection()
     follow(one, constant(LARGE), TUNING.quiet + 1.0)
-    assert one.highest == pytest.approx(TUNING.first + TUNING.climb, abs=0.01)
+    assert one.highest == pytest.approx(FIRST + TUNING.climb, abs=0.01)
     follow(one, constant(LARGE), 4.0)
     assert one.highest == one.level == 1.0
     one = rejection()
     follow(one, constant(0.0), 5.0)
-    assert one.highest == TUNING.first
+    assert one.highest == FIRST
 
 
 def test_an_oscillation_lowers_it_and_is_remembered():
@@ -154,18 +167,18 @@ def test_the_noise_is_measured_and_is_no_disturbance(noise):
     levels = follow(one, lambda t: drawn[round(t / DT)], 20.0, measured=place)
     assert one.noise == pytest.approx(noise, rel=0.15)
     assert np.mean(levels > 0.0) < 0.05
-    assert np.max(levels) < 0.5 * TUNING.first
+    assert np.max(levels) < 0.5 * FIRST
     # What is above it still is.
     follow(one, constant(3.0 * noise), 0.3, measured=lambda t: place(20.0 + t))
-    assert one.level > 0.5 * TUNING.first
+    assert one.level > 0.5 * FIRST
 
 
 def test_to_start_is_to_begin_anew():
     one = rejection()
     follow(one, constant(LARGE), 10.0, measured=lambda t: 1e-3 * (round(t / DT) % 2))
     one.start()
-    assert (one.level, one.highest, one.noise) == (0.0, TUNING.first, 0.0)
+    assert (one.level, one.highest, one.noise) == (0.0, FIRST, 0.0)
     follow(one, constant(LARGE), 0.9 * TUNING.known * DT)
     assert one.level == 0.0  # until the noise is known
     follow(one, constant(LARGE), 0.1)
-    assert one.level == TUNING.first
+    assert one.level == FIRST
