@@ -15,12 +15,10 @@ from typing import NamedTuple
 
 from pam_ros.control.limits import MARGIN, Limits
 from pam_ros.control.model import ControlModel
-from pam_ros.control.stretch import stretch
+from pam_ros.control.stretch import PLACES, stretch
 from pam_ros.errors import ParameterError, RangeError
 from pam_ros.rig import pair, statics
 from pam_ros.rig.pair import Line
-
-PLACES = 400  # of the travel at which the reach of two sides is looked for
 
 
 class Split(NamedTuple):

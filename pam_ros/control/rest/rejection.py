@@ -128,8 +128,8 @@ class Rejection:
     ) -> None:
         """Take in the *error* for *dt* s.
 
-        *measured* is the position if there is a new one, *moves* whether the reference does, and
-        *is_cut* whether a limit cuts the command.
+        *measured* is the position if there is a new one, *moves* whether the reference or the
+        stiffness that is set does, and *is_cut* whether a limit cuts the command.
         """
         tuning = self._tuning
         if measured is not None:
