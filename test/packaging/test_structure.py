@@ -12,6 +12,7 @@ from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
 from support.imports import imported, modules_of
+from support.pages import code, rows, text_of
 
 ROOT = Path(__file__).parents[2]
 PACKAGE = ROOT / 'pam_ros'
@@ -145,3 +146,16 @@ def test_modules_of_the_nodes_import_ros_themselves():
 def test_folders_can_be_overlooked():
     counts = Counter(path.parent for path in FILES if path.stem != '__init__')
     assert max(counts.values()) <= MOST_MODULES
+
+
+def test_the_page_on_the_architecture_shows_these_floors():
+    table = rows(text_of(ROOT / 'ARCHITECTURE.md'))[: len(FLOORS)]
+    assert [number for number, _, _ in table] == [str(n + 1) for n in range(len(FLOORS))]
+    shown = [
+        {
+            f'pam_ros.{name.replace("/", ".")}'.replace('pam_ros.pam_ros', 'pam_ros')
+            for name in code(cell)
+        }
+        for _, cell, _ in table
+    ]
+    assert shown == [set(floor) for floor in FLOORS]

@@ -8,7 +8,10 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
 README = ROOT / 'README.md'
-PAGES = [README, ROOT / 'CONTRIBUTING.md', *sorted((ROOT / 'docs').glob('*.md'))]
+DOCS = ROOT / 'docs'
+SIMULATOR, CONTROLLER = DOCS / 'simulator.md', DOCS / 'controller.md'
+AT_THE_TOP = [README, ROOT / 'ARCHITECTURE.md', ROOT / 'CONTRIBUTING.md']
+PAGES = [*AT_THE_TOP, *sorted(DOCS.rglob('*.md'))]
 SHELL_WORDS = ('make ', 'ros2 ', 'pam_', '.venv/bin/')
 
 
@@ -33,7 +36,12 @@ def prose(page):
 
 def names(page):
     """Return what stands in code within the text."""
-    return re.findall(r'`([^`\n]+)`', prose(page))
+    return code(prose(page))
+
+
+def code(text):
+    """Return what stands in code within a text, such as a cell of a table."""
+    return re.findall(r'`([^`\n]+)`', text)
 
 
 def commands(page):
