@@ -1,20 +1,64 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The page on joints: the transmission that it adds moves as it must."""
+"""The page on joints: its parameters are those of the code; its transmission moves as it must."""
 
 import importlib
 import sys
 
 import numpy as np
 import pytest
+import yaml
 from scipy.integrate import quad, solve_ivp
 
 from pam_ros import Arm, Joint, Rig, rest
+from pam_ros.rig.arrangements import ARRANGEMENTS
+from pam_ros.settings.control import settings_of
+from pam_ros.settings.scene import Scene
+from pam_ros.settings.tables import checked, joint_table
 from support import joints, paper
 from support.joint_models import UNEQUAL, actuators
-from support.pages import ROOT, blocks
+from support.pages import DOCS, blocks, code, part, rows
 
-_, _, OWN, _ = blocks(ROOT / 'docs' / 'joints.md', 'python')
+PAGE = DOCS / 'joints.md'
+_, _, OWN, _ = blocks(PAGE, 'python')
+
+
+def shown():
+    """Return what the table says: (joint, parameter) -> default and range as texts."""
+    return {
+        (kind, name): (default, allowed)
+        for names, kinds, default, allowed, _ in rows(part(PAGE, 'joint parameters'))
+        for kind in code(kinds)
+        for name in code(names)
+    }
+
+
+def written(default, unit):
+    if isinstance(default, str):
+        return f'`{default}`'
+    return f'{default:.5g} {"" if unit == "fraction" else unit}'.strip()
+
+
+def test_the_parameters_of_joints_are_those_of_the_code():
+    expected = {
+        (kind.name, name): (written(default, about.unit), about.allowed(of))
+        for kind in ARRANGEMENTS
+        for name, (of, default, about) in joint_table(kind).items()
+        if not name.startswith('effects.')
+    }
+    assert shown() == expected
+
+
+def test_the_file_of_a_lever_is_for_both_programs():
+    (text,) = blocks(PAGE, 'yaml')
+    given = yaml.safe_load(text)['/**']['ros__parameters']
+    assert given['joint'] == 'lever'
+    for table, build in (
+        (Scene(given).table(), Scene(given).build),
+        settings_of(given),
+    ):
+        assert given.keys() <= table.keys()
+        build(checked(table, given))
 
 
 @pytest.fixture
