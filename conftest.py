@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """The examples of the pages are tests: Sybil runs the Python that a page shows, in its order.
 
-What is no example to be run as it stands has a test of its own: the controller of the README,
-which needs a simulator (``test/nodes/test_readme.py``), and the two files that docs/effects.md
-has a user write (``test/effects/test_guide.py``).
+What is no example to be run as it stands has a test of its own: the controller of a
+tutorial, which needs a simulator (``test/nodes/test_pages.py``), and the two files that
+docs/effects.md has a user write (``test/effects/test_guide.py``).
 """
 
 import importlib.util
@@ -12,7 +12,7 @@ import shutil
 
 import pytest
 
-PAGES = ('README.md', 'CONTRIBUTING.md', 'docs/*.md')
+PAGES = ('README.md', 'ARCHITECTURE.md', 'CONTRIBUTING.md', 'docs/*.md', 'docs/*/*.md')
 FILES_OF_A_USER = ('docs/effects.md',)
 NEEDS_A_SIMULATOR = 'import rclpy'
 # Not everywhere where ROS is: rosdep has no key for it.

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""README.md and docs/: commands, options, files and links exist; pictures are small."""
+"""README.md and all pages: commands, options, files and links exist; pictures are small."""
 
 import json
 import re
@@ -23,6 +23,7 @@ from pam_ros.settings.scene import Scene
 from pam_ros.settings.tables import checked, override
 from support.domain import claimed
 from support.pages import (
+    DOCS,
     PAGES,
     README,
     ROOT,
@@ -47,9 +48,14 @@ OF_OTHERS = (
 )
 PROGRAMS = sorted(path.stem for path in (ROOT / 'pam_ros' / 'cli').glob('pam_*.py'))
 FILE = re.compile(r'[\w./*<>-]+\.(css|csv|html|json|md|png|py|rst|toml|txt|xml|yaml)')
-# What docs/effects.md has its reader write.
-OF_AN_EXAMPLE = {'pam_ros/effects/choked_valve.py', 'test/effects/test_choked_valve.py'}
+# What docs/effects.md and the tutorials have their readers write.
+OF_AN_EXAMPLE = {
+    'my_controller.py',
+    'pam_ros/effects/choked_valve.py',
+    'test/effects/test_choked_valve.py',
+}
 LARGEST = 300_000  # bytes of a picture
+LONGEST = 120  # lines of the README
 
 each_page = pytest.mark.parametrize('page', PAGES, ids=lambda page: page.name)
 
@@ -184,6 +190,16 @@ def test_the_readme_shows_how_to_begin():
     assert {'make demo', 'make test', 'colcon build'} <= shown
 
 
+def test_the_readme_is_short():
+    assert len(text_of(README).splitlines()) <= LONGEST
+
+
+def test_all_pages_are_checked():
+    written = set(ROOT.glob('*.md')) | set(DOCS.rglob('*.md'))
+    assert set(PAGES) == written
+    assert {ROOT / 'ARCHITECTURE.md', DOCS / 'tutorials' / 'your_own_rig.md'} <= written
+
+
 def test_the_readme_names_every_command_of_its_own():
     text = text_of(README)
     for name in PROGRAMS:
@@ -223,8 +239,9 @@ def test_links_lead_somewhere(page):
 
 
 def test_every_page_is_in_the_index():
-    listed = {target.partition('#')[0] for target in links(ROOT / 'docs' / 'README.md')}
-    assert {page.name for page in PAGES if page.parent.name == 'docs'} - {'README.md'} <= listed
+    index = DOCS / 'README.md'
+    listed = {(DOCS / target.partition('#')[0]).resolve() for target in links(index)}
+    assert set(PAGES) - {index} <= listed
 
 
 @cache
@@ -254,5 +271,6 @@ def test_pictures_are_small_and_shown(picture):
 def test_verdicts_are_those_of_the_report():
     schema = json.loads(text_of(ROOT / 'docs' / 'report.schema.json'))
     verdicts = schema['properties']['verdict']['enum']
-    shown = [row[0].strip('`') for row in rows(text_of(README)) if row[0].strip('`') in verdicts]
+    page = text_of(DOCS / 'report.md')
+    shown = [row[0].strip('`') for row in rows(page) if row[0].strip('`') in verdicts]
     assert sorted(shown) == sorted(verdicts)
