@@ -20,6 +20,10 @@ WAITING, RUNNING, BLIND, DISABLED = 'waiting', 'running', 'blind', 'disabled'
 # Shortest step in periods, since a law divides by it, and longest in s: what passes in a longer
 # one is not controlled, and a law that took it for one step would overshoot.
 LEAST, MOST = 0.1, 0.1
+# s for which 0 Pa is commanded where nothing is seen, so that a lost message does not matter. A
+# simulator or valve that starts again comes later, and must not obey a command that was meant for
+# the one that is gone.
+VENTING = 0.2
 
 
 @dataclass(frozen=True)
@@ -47,6 +51,8 @@ class Loop:
         of the last step, s
     implausible
         how many measurements were left out because they cannot be true
+    timeout, safe
+        age in s of the newest measurement after which the loop is BLIND, and what it then commands
     """
 
     def __init__(
@@ -63,7 +69,7 @@ class Loop:
         self.starts = 0
         self._seen: Reading | None = None
         self._is_new = False
-        self.time = 0.0
+        self._blind_since = self.time = 0.0
 
     @property
     def is_enabled(self) -> bool:
@@ -95,7 +101,8 @@ class Loop:
             self.implausible += 1
             return fault
         if self.plausibility.is_first and self.state == RUNNING:
-            self.state = BLIND  # either this or the one that control began at is false
+            # Either this one or the one that control began at is false.
+            self.state, self._blind_since = BLIND, reading.time
         self._seen, self._is_new = reading, True
         return ''
 
@@ -124,10 +131,10 @@ class Loop:
         reading = self._seen
         if reading is None or now - reading.time > self.timeout:
             self.plausibility.forget()
-            return self._stay_safe()
+            return self._stay_safe(now)
         if self.state != RUNNING:
             if self.awaits_chamber and self.chambers is None:
-                return self._stay_safe()
+                return self.pressures if self.state == BLIND and self.safe == HOLD else None
             self._start(reading, now)
         passed = max(now - self.time, LEAST * self.period)
         dt = min(passed, MOST)
@@ -149,15 +156,16 @@ class Loop:
         self.state = RUNNING
         self.starts += 1
 
-    def _stay_safe(self) -> Pressures | None:
+    def _stay_safe(self, now: float) -> Pressures | None:
         """Return what is commanded when nothing is seen: nothing before the first start."""
         if self.state == RUNNING:
-            self.state = BLIND
-        if self.state != BLIND:
+            self.state, self._blind_since = BLIND, now
+        if self.state != BLIND or self.pressures is None:
             return None
-        if self.safe == VENT and self.pressures is not None:
-            self.pressures = (0.0,) * len(self.pressures)
-        return self.pressures
+        if self.safe == HOLD:
+            return self.pressures
+        self.pressures = (0.0,) * len(self.pressures)
+        return self.pressures if now - self._blind_since <= VENTING else None
 
 
 def warm_up(law: PositionLaw, reach: tuple[float, float], period: float) -> None:

@@ -4,7 +4,17 @@
 
 import pytest
 
-from pam_ros.control.loop import BLIND, DISABLED, RUNNING, VENT, WAITING, Loop, Reading
+from pam_ros.control.loop import (
+    BLIND,
+    DISABLED,
+    HOLD,
+    RUNNING,
+    VENT,
+    VENTING,
+    WAITING,
+    Loop,
+    Reading,
+)
 from pam_ros.control.plausibility import MotionBounds, Plausibility
 from pam_ros.control.reference.course import Course
 from pam_ros.control.reference.shaping import Shape
@@ -116,6 +126,33 @@ def test_without_states_it_vents_where_that_is_wished(loop):
     loop.see(Reading(1.3, 0.01))
     loop.tick(1.3)
     assert loop.law.starts[-1] == (0.01, (0.0,))
+
+
+def test_a_rig_that_returns_later_finds_no_command_to_vent(loop):
+    loop.safe = VENT
+    loop.see(Reading(1.0, 0.05))
+    loop.tick(1.0)
+    assert loop.tick(2.0) == (0.0,)
+    assert loop.tick(2.0 + 0.9 * VENTING) == (0.0,)
+    assert loop.tick(2.0 + 1.1 * VENTING) is None
+    assert loop.state == BLIND
+    loop.see(Reading(3.0, 0.03))
+    assert loop.tick(3.0) == first(2)
+    assert loop.tick(4.0) == (0.0,)  # and again for a while where states stay away again
+
+
+@pytest.mark.parametrize(('safe', 'meanwhile'), [(VENT, None), (HOLD, first(1))])
+def test_where_states_return_it_waits_for_the_pressure_that_is_there_now(loop, safe, meanwhile):
+    loop.safe = safe
+    loop.see(Reading(1.0, 0.05))
+    loop.tick(1.0)
+    loop.tick(2.0)
+    loop.awaits_chamber = True
+    loop.see(Reading(3.0, 0.03))
+    assert loop.tick(3.0) == meanwhile
+    loop.chambers = (123e3,)
+    assert loop.tick(3.002) == first(2)
+    assert loop.law.starts[-1] == (0.03, (123e3,))
 
 
 def test_disabled_it_is_silent_and_enabled_it_begins_anew(loop):

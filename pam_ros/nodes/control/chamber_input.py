@@ -41,6 +41,7 @@ class ChamberInput:
         """
         self._on_pressure, self._on_fault = on_pressure, on_fault
         self._found: list[tuple[int, int, float] | None] = [None] * len(setup.muscles)
+        self._is_published = False  # on all topics, at some time
         self._waited = 0
         self._looked = steady_ns()
         if not setup.settings.pressure_wait:
@@ -63,16 +64,21 @@ class ChamberInput:
 
     def _note(self, muscle: int, stamp: int, pressure: float) -> None:
         self._found[muscle] = (stamp, steady_ns(), pressure) if isfinite(pressure) else None
+        self._is_published = self._is_published or all(self._found)
 
     def forget(self) -> None:
         """Wait anew for what there is."""
         self._found = [None] * len(self._found)
         self._waited = 0
 
-    def prepare(self, loop: Loop, stamp: int | None, setup: ControlSetup) -> None:
+    def prepare(
+        self, loop: Loop, stamp: int | None, setup: ControlSetup, *, is_seen: bool
+    ) -> None:
         """Say at which pressure *loop* is to begin at a state of *stamp* ns, or that it must wait.
 
-        Pressures count by their stamps, where both have one, else by when they came.
+        Pressures count by their stamps, where both have one, else by when they came. The loop
+        waits the first time, and again if they were published before, while joint states come:
+        *is_seen*.
         """
         if stamp is None or loop.state not in (WAITING, BLIND):
             self._waited = 0
@@ -85,10 +91,10 @@ class ChamberInput:
             if one and (abs(stamp - one[0]) if stamp and one[0] else now - one[1]) <= FRESH
         ]
         loop.chambers = setup.command_at(fresh) if len(fresh) == len(self._found) else None
-        self._waited += min(now - self._looked, LONGEST)
+        self._waited = self._waited + min(now - self._looked, LONGEST) if is_seen else 0
         self._looked = now
         is_early = self._waited < setup.settings.pressure_wait * SECOND
-        loop.awaits_chamber = loop.state == WAITING and is_early
+        loop.awaits_chamber = is_early and (loop.state == WAITING or self._is_published)
 
     def _leave_out_faults(self, setup: ControlSetup) -> None:
         ambient = setup.settings.ambient_pressure

@@ -119,9 +119,9 @@ class PamControl(TickingNode):
         """Command; where the states make the time, only see whether they stay away."""
         now = steady_ns()
         self._intake.look()
-        self._chambers.prepare(self._loop, self._stamp, self._setup)
+        self._prepare()
         if self._is_followed:
-            self._watch(now)
+            self._watch()
             self._intake.mark(now)
             return
         settings = self._setup.settings
@@ -141,21 +141,32 @@ class PamControl(TickingNode):
         if self._loop.is_enabled:
             self._reports.begin_anew(silent, self._setup.settings.command_timeout)
 
-    def _watch(self, steady: int) -> None:
+    def _watch(self) -> None:
         if self._stamp is None:
             return
-        now = self.get_clock().now().nanoseconds
-        # By both clocks: /clock may arrive before the states that belong to it.
-        age = min(now - self._stamp, steady - self._seen) / SECOND
-        if age > self._setup.settings.state_timeout:
-            self._step(now / SECOND, now)
-        else:
+        if self._is_seen():
             self._begin()
+        else:
+            now = self.get_clock().now().nanoseconds
+            self._step(now / SECOND, now)
+
+    def _is_seen(self) -> bool:
+        """Say whether the newest state is not older than the time-out."""
+        age = steady_ns() - self._seen
+        if self._is_followed and self._stamp is not None:
+            # By both clocks: /clock may arrive before the states that belong to it.
+            age = min(age, self.get_clock().now().nanoseconds - self._stamp)
+        return age <= self._setup.settings.state_timeout * SECOND
+
+    def _prepare(self) -> None:
+        """Look for the pressure at which to begin."""
+        self._chambers.prepare(self._loop, self._stamp, self._setup, is_seen=self._is_seen())
 
     def _begin(self) -> None:
         """Where states make the time, answer the one that control has waited at."""
-        if self._is_followed and self._stamp is not None and self._loop.state == WAITING:
-            self._chambers.prepare(self._loop, self._stamp, self._setup)
+        waits = self._loop.state in (WAITING, BLIND)
+        if self._is_followed and waits and self._stamp is not None and self._is_seen():
+            self._prepare()
             self._step(self._stamp / SECOND, self._stamp)
 
     def _step(self, time: float, stamp: int) -> None:
@@ -219,7 +230,7 @@ class PamControl(TickingNode):
             self._begin_anew(passed)
         self._stamp = sight.stamp
         self._take_in(sight, sight.stamp)
-        self._chambers.prepare(self._loop, self._stamp, self._setup)
+        self._prepare()
         self._step(sight.stamp / SECOND, sight.stamp)
 
     def _take_in(self, sight: Sight, time: int) -> None:

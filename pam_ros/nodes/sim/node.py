@@ -26,7 +26,8 @@ from pam_ros.processes.notice import notice
 from pam_ros.settings.scene import Scene, Simulation
 from pam_ros.simulator.plant import BadCommand, OneReading, Plant, Reading
 from pam_ros.timing.grid import Grid
-from pam_ros.timing.pace import SECOND
+from pam_ros.timing.pace import CATCH_UP, SECOND
+from pam_ros.timing.silence import Silence, steady_ns
 from pam_ros.timing.ticker import Ticker
 
 SLICE = 5_000_000  # ns of simulating after which commands and services get their turn
@@ -59,6 +60,7 @@ class PamSim(TickingNode):
         self._is_paused = False
         self._published = self._bad = 0
         self._said: tuple[int, Reading | OneReading] | None = None
+        self._silence = Silence(steady_ns())
         self._samples = Grid(settings.physics_rate)
         self._clock_ticks = Grid(settings.physics_rate)
         self._one = self._simulation.is_one
@@ -91,6 +93,7 @@ class PamSim(TickingNode):
     def start(self) -> None:
         """Let simulated time begin now."""
         super().start()
+        self._silence.mark(steady_ns())
         self._time.align(0)
         self._begin()
         if self._is_lockstep:
@@ -134,6 +137,8 @@ class PamSim(TickingNode):
 
     def tick(self) -> None:
         """Simulate what is due and publish it; where time stands still, repeat the last state."""
+        self._look_for_stop()
+        self._silence.mark(steady_ns())
         if self._is_paused:
             self._publish_again()
         elif self._is_lockstep:
@@ -214,13 +219,27 @@ class PamSim(TickingNode):
 
     # In ------------------------------------------------------------------------------------
 
+    def _look_for_stop(self) -> bool:
+        """Say whether commands that arrive now may have been sent while this process was stopped.
+
+        They belong to a time that is never simulated, and may be the vent of a controller that
+        saw nothing: the command from before holds.
+        """
+        longest = max(CATCH_UP, round(3 * SECOND / self._tick_rate))
+        self._silence.find(steady_ns(), longest)
+        return self._is_followed and not self._is_paused and self._silence.is_settling
+
     def _command(self, muscle: int, message: Float64) -> None:
+        if self._look_for_stop():
+            return
         if self._time_is_paced:
             self._run_to_now()
         self._complain(self._plant.take(muscle, message.data))
         self._answer(muscle)
 
     def _command_all(self, message: Float64MultiArray) -> None:
+        if self._look_for_stop():
+            return
         wanted, count = len(self._simulation.muscles), len(message.data)
         if count != wanted:
             reason = f'pressure_commands has {count} values for {wanted} muscles: nothing taken'
