@@ -13,13 +13,14 @@ export ROS_AUTOMATIC_DISCOVERY_RANGE := LOCALHOST
 export PYTHON
 
 .DEFAULT_GOAL := help
-.PHONY: help environment warm demo test test-fast test-oldest test-all lint docs bench clean
+.PHONY: help environment warm demo test test-fast test-oldest test-all faults lint docs bench clean
 
 help:
 	@echo 'make demo       the experiment of the paper, controllers and the closed loop, over ROS topics: see demo/'
 	@echo 'make test       the tests (make test ARGS="test/muscle -x" for some)'
 	@echo 'make test-fast  those of them that start no node and build nothing'
 	@echo 'make test-all   before a release: the tests, the oldest libraries, the demonstration'
+	@echo 'make faults     each fault of a node 20 times, and 1500 examples of generated input'
 	@echo 'make lint       style and types'
 	@echo 'make docs       write the tables of docs/effects.md anew, from the library of effects'
 	@echo 'make bench      the speed claims, measured on this machine (ARGS=plant_step for one)'
@@ -41,7 +42,7 @@ ifdef ARGS
 	$(PY) -m pytest $(ARGS)
 else
 	$(PY) -m pytest -n auto --dist loadfile -m 'not keeps_rate and not release'
-	$(PY) -m pytest -m 'keeps_rate and not release' test/nodes
+	$(PY) -m pytest -m 'keeps_rate and not release' test/nodes test/faults
 endif
 
 test-fast: warm
@@ -53,6 +54,11 @@ test-oldest: environment
 
 test-all: test
 	$(PY) -m pytest -m release
+
+# What a user, a machine or a disk can do to the programs, many times; prints each jump of the load.
+faults: warm
+	$(PY) -m pytest --full -rP test/faults test/settings/test_bad_values.py \
+	  test/cli/test_command_lines.py test/recording/test_spoiled.py $(ARGS)
 
 lint: environment
 	$(PY) -m ruff check .
