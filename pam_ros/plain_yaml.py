@@ -13,10 +13,12 @@ from typing import Any
 
 import yaml
 
-from pam_ros.errors import ParameterError
+from pam_ros.errors import ParameterError, printable
 
 MOST_BYTES = 4_000_000  # the metadata of a bag of ten thousand files have about 3 MB
 DEEPEST = 32  # mappings and lists within each other
+# A number for ROS; for YAML 1.1 only with a point and a signed exponent, and else a text.
+EXPONENTIAL = re.compile(r'^[-+]?([0-9]+(\.[0-9]*)?|\.[0-9]+)[eE][-+]?[0-9]+$')
 _TAG = 'tag:yaml.org,2002:'
 _KINDS = {'str': 'a text', 'int': 'a whole number', 'float': 'a number', 'bool': 'true or false'}
 _PLAIN_TAGS = {_TAG + kind for kind in (*_KINDS, 'null', 'seq', 'map')}
@@ -33,7 +35,7 @@ _Loader.yaml_implicit_resolvers = {
 }
 _Loader.add_implicit_resolver(
     _TAG + 'float',
-    re.compile(r'^[-+]?([0-9]+(\.[0-9]*)?|\.[0-9]+)[eE][-+]?[0-9]+$'),
+    EXPONENTIAL,
     list('-+.0123456789'),
 )
 
@@ -76,6 +78,16 @@ def read_yaml(path: Path) -> Any:
         return yaml.load(text, _Loader)
     except yaml.YAMLError as error:
         raise ParameterError(f'{path} is not valid YAML: {_reason(error)}') from error
+
+
+def plain_text(text: str) -> str:
+    """Return *text* in one line that YAML reads as itself: no word ends with a colon or is a #.
+
+    ``ros2 param load`` takes what it read in a file for YAML once more. The first word must be no
+    mark of YAML.
+    """
+    words = (word.rstrip(':').lstrip('#') for word in printable(text).split())
+    return ' '.join(filter(None, words))
 
 
 def _refuse_other_than_plain(text: str) -> None:

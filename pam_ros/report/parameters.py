@@ -8,6 +8,7 @@ from pathlib import Path
 
 from pam_ros.effects.names import parsed
 from pam_ros.identification.result import Trace
+from pam_ros.plain_yaml import plain_text
 from pam_ros.report.provenance import Provenance
 from pam_ros.report.summary import last_line
 from pam_ros.report.wording import listed
@@ -23,8 +24,8 @@ def identified(trace: Trace, source: Provenance) -> Joint:
     """
     model = trace.stages[-1].model
     names = listed([recording.name for recording in source.recordings])
-    text = f'pam_identify, re-tuned on {names}; declared: {source.parameters}'
-    return changed(model, replace(model.muscle, source=text), model.all_effects)
+    text = f'pam_identify, re-tuned on {names}; declared in {source.parameters}'
+    return changed(model, replace(model.muscle, source=plain_text(text)), model.all_effects)
 
 
 def values(model: Joint) -> Values:

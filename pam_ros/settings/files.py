@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 import yaml
 
-from pam_ros.errors import ParameterError
+from pam_ros.errors import ParameterError, printable
 from pam_ros.plain_yaml import read_yaml
 from pam_ros.settings.tables import Table, Value, refuse_mistyped, refuse_unknown_effects
 
@@ -156,7 +156,7 @@ def write(path: Path, values: Mapping[str, Value], about: str = '', node: str = 
             table = table.setdefault(group, {})
         plain = value.item() if isinstance(value, np.generic) else value
         table[last] = _Text(plain) if isinstance(plain, str) else plain
-    text = ''.join(f'# {line}'.rstrip() + '\n' for line in about.splitlines())
+    text = ''.join(f'# {printable(line)}'.rstrip() + '\n' for line in about.splitlines())
     text += yaml.dump({node: {TABLE: nested}}, Dumper=_Dumper, sort_keys=False, allow_unicode=True)
     path.parent.mkdir(parents=True, exist_ok=True)
     with tempfile.NamedTemporaryFile(

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import yaml
 
 from pam_ros.report.parameters import identified, write_identified
 from pam_ros.rig.joint import changed
@@ -54,6 +55,17 @@ def test_awkward_numbers_survive(friction, tmp_path):
     again = reloaded((other, source, None), tmp_path)
     assert np.array_equal(again.parameters(), odd.parameters())
     assert 'creep' not in (tmp_path / 'identified.yaml').read_text(encoding='utf-8')
+
+
+@pytest.mark.parametrize('name', ['C: a.csv', 'a #1: b', 'a:', '\x07\n#b\u2028 :c', ' : # '])
+def test_its_source_is_a_text_also_where_it_is_read_twice(friction, tmp_path, name):
+    trace, source, _ = friction
+    recordings = tuple(replace(one, name=name) for one in source.recordings)
+    other = replace(source, recordings=recordings, parameters=name)
+    write_identified(tmp_path / 'identified.yaml', trace, other)
+    written = yaml.safe_load((tmp_path / 'identified.yaml').read_text(encoding='utf-8'))
+    text = written['/**']['ros__parameters']['source']
+    assert yaml.safe_load(text) == text
 
 
 def test_constants_stay_in_the_units_of_their_source(friction, tmp_path):

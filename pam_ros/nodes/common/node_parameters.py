@@ -16,6 +16,7 @@ from rclpy.parameter import Parameter as RosParameter
 
 from pam_ros.errors import PamError, shown
 from pam_ros.parameters import Parameter
+from pam_ros.plain_yaml import EXPONENTIAL
 from pam_ros.settings.tables import Table, checked, refuse_mistyped
 
 T = TypeVar('T')
@@ -27,7 +28,8 @@ class NodeParameters(Generic[T]):
     *table* names them (see :mod:`pam_ros.settings.tables`), *build* makes of a complete set of
     values what the node works with, or raises PamError, and has no side effects. A set of changes
     is taken whole or refused whole, with the sentence of that error; then *apply* gets what was
-    made. A whole number is taken for a float. ``values`` and ``built`` are the ones in force.
+    made. A whole number is taken for a float, and so is a text such as 1e-05, as which the command
+    line sends that number. ``values`` and ``built`` are the ones in force.
 
     Raises PamError when the node was started with values that are not allowed.
     """
@@ -75,9 +77,7 @@ class NodeParameters(Generic[T]):
     def _to_float(self, parameters: list[RosParameter]) -> list[RosParameter]:
         return [
             RosParameter(p.name, RosParameter.Type.DOUBLE, float(p.value))
-            if p.type_ == RosParameter.Type.INTEGER
-            and p.name in self._table
-            and self._table[p.name][0] is float
+            if p.name in self._table and self._table[p.name][0] is float and _is_number(p)
             else p
             for p in parameters
         ]
@@ -110,10 +110,21 @@ class NodeParameters(Generic[T]):
         return self._last
 
 
+def _is_number(parameter: RosParameter) -> bool:
+    """Say whether a whole number is given, or a text that ROS reads as a number in files."""
+    if parameter.type_ == RosParameter.Type.STRING:
+        return EXPONENTIAL.fullmatch(parameter.value) is not None
+    return parameter.type_ == RosParameter.Type.INTEGER
+
+
 def given(node: Node) -> dict[str, Any]:
-    """Return the values that *node* was started with, declared or not, by name."""
+    """Return the values that *node* was started with, declared or not, by name.
+
+    An empty list has no type in YAML and arrives as not set, which nothing else can be here.
+    """
     # rclpy has no public way to look at them before they are declared.
-    return {name: p.value for name, p in node._parameter_overrides.items()}
+    overrides = node._parameter_overrides.items()
+    return {name: [] if p.value is None else p.value for name, p in overrides}
 
 
 def describe(about: Parameter, kind: type) -> ParameterDescriptor:
