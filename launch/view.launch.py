@@ -2,67 +2,73 @@
 # SPDX-License-Identifier: Apache-2.0
 """See a simulated muscle move: ``ros2 launch pam_ros view.launch.py model:=antagonistic_pair``."""
 
+import sys
 from pathlib import Path
 
+from ament_index_python.packages import PackageNotFoundError, get_package_prefix
 from launch import LaunchContext, LaunchDescription
 from launch.actions import DeclareLaunchArgument, OpaqueFunction
-from launch.conditions import IfCondition
 from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import Node
 from launch_ros.parameter_descriptions import ParameterValue
 
+from pam_ros.errors import PamError
+from pam_ros.settings.launch import ARGUMENTS, refuse_unknown
+
 # Where this file is installed the others are beside it, as they are in the sources.
 SHARE = Path(__file__).parents[1]
-ARGUMENTS = (
-    DeclareLaunchArgument(
-        'model',
-        default_value='rig',
-        description='rig, antagonistic_pair, or the path of a URDF with the joint of joint_states',
-    ),
-    DeclareLaunchArgument(
-        'rviz', default_value='true', description='false: publish the description and tf alone'
-    ),
-    DeclareLaunchArgument(
-        'namespace', default_value='', description='namespace of the simulator that is looked at'
-    ),
-    DeclareLaunchArgument(
-        'use_sim_time', default_value='false', description='follow /clock instead of the system'
-    ),
-)
+NAMES = ('model', 'rviz', 'use_sim_time', 'namespace')
+
+
+def refuse_missing(package: str, hint: str = '') -> None:
+    """Raise PamError where *package* is not installed."""
+    try:
+        get_package_prefix(package)
+    except PackageNotFoundError:
+        raise PamError(
+            f'{package} is not installed: sudo apt install ros-$ROS_DISTRO-'
+            f'{package.replace("_", "-")}{hint}'
+        ) from None
 
 
 def start(context: LaunchContext) -> list[Node]:
     """Return the publisher of the description, and RViz."""
-    model = LaunchConfiguration('model').perform(context)
+    refuse_unknown(__file__, NAMES, sys.argv)
+    given = {name: LaunchConfiguration(name).perform(context) for name in NAMES}
+    model = given['model']
     known = SHARE / 'urdf' / f'{model}.urdf'
-    text = (known if known.is_file() else Path(model)).read_text(encoding='utf-8')
-    use_sim_time = {
-        'use_sim_time': ParameterValue(LaunchConfiguration('use_sim_time'), value_type=bool)
-    }
-    namespace = LaunchConfiguration('namespace')
-    return [
+    path = known if known.is_file() else Path(model)
+    if not path.is_file():
+        models = ', '.join(sorted(file.stem for file in known.parent.glob('*.urdf')))
+        raise PamError(f'model = {model} is not allowed: give {models}, or the path of a URDF')
+    description = ParameterValue(path.read_text(encoding='utf-8'), value_type=str)
+    use_sim_time = {'use_sim_time': given['use_sim_time'] == 'true'}
+    refuse_missing('robot_state_publisher')
+    nodes = [
         Node(
             package='robot_state_publisher',
             executable='robot_state_publisher',
-            namespace=namespace,
-            parameters=[
-                use_sim_time,
-                {'robot_description': ParameterValue(text, value_type=str)},
-            ],
+            namespace=given['namespace'],
+            parameters=[use_sim_time, {'robot_description': description}],
             output='screen',
-        ),
-        Node(
-            package='rviz2',
-            executable='rviz2',
-            namespace=namespace,
-            arguments=['-d', str(SHARE / 'config' / 'rviz' / 'pam.rviz')],
-            parameters=[use_sim_time],
-            condition=IfCondition(LaunchConfiguration('rviz')),
-            output='screen',
-        ),
+        )
     ]
+    if given['rviz'] == 'true':
+        refuse_missing('rviz2', ', or rviz:=false')
+        nodes.append(
+            Node(
+                package='rviz2',
+                executable='rviz2',
+                namespace=given['namespace'],
+                arguments=['-d', str(SHARE / 'config' / 'rviz' / 'pam.rviz')],
+                parameters=[use_sim_time],
+                output='screen',
+            )
+        )
+    return nodes
 
 
 def generate_launch_description() -> LaunchDescription:
     """Return the arguments and the nodes."""
-    return LaunchDescription([*ARGUMENTS, OpaqueFunction(function=start)])
+    arguments = [DeclareLaunchArgument(name, **ARGUMENTS[name].declared) for name in NAMES]
+    return LaunchDescription([*arguments, OpaqueFunction(function=start)])

@@ -10,6 +10,13 @@ from pathlib import Path
 import pytest
 import setuptools
 
+from pam_ros.errors import ParameterError
+from pam_ros.settings.control import settings_of
+from pam_ros.settings.files import read
+from pam_ros.settings.launch import ARGUMENTS, refuse_unknown
+from pam_ros.settings.scene import Scene
+from support.launch_stand_in import Loaded
+
 ROOT = Path(__file__).parents[2]
 LAUNCH_FILES = sorted((ROOT / 'launch').glob('*.launch.py'))
 HAVE_LAUNCH = importlib.util.find_spec('launch_ros') is not None
@@ -71,9 +78,90 @@ def test_names_files_that_exist(path):
 
 
 @each
-def test_describes_every_argument(path):
-    for argument in calls(path, 'DeclareLaunchArgument'):
-        assert argument['description']
+def test_arguments_are_those_of_the_one_table(path, monkeypatch):
+    arguments = Loaded(monkeypatch, path).arguments
+    assert arguments
+    for name, argument in arguments.items():
+        about = ARGUMENTS[name]
+        assert argument.text == about.text
+        assert argument.default == about.default
+        assert tuple(argument.choices or ()) == about.choices
+
+
+@pytest.fixture(params=['sim.launch.py', 'closed_loop.launch.py'])
+def programs_of(request, monkeypatch):
+    """Return a function that gives the parameters of each program that is started."""
+    file = Loaded(monkeypatch, ROOT / 'launch' / request.param)
+    return lambda *words: {name: node.parameters for name, node in file.nodes(*words).items()}
+
+
+def test_what_is_given_reaches_every_program(programs_of):
+    for parameters in programs_of().values():
+        assert parameters == [{'muscle': 'dmsp_20_400n'}]
+    words = ('muscle:=dmsp_10', 'mass:=10', 'joint:=load', 'time_mode:=lockstep')
+    for name, (values,) in programs_of(*words).items():
+        own = {'time_mode': 'lockstep'} if name == 'pam_sim' else {'use_sim_time': True}
+        assert values == {'muscle': 'dmsp_10', 'joint': 'load', 'mass': 10.0, **own}
+        assert type(values['mass']) is float
+    for (values,) in programs_of('use_sim_time:=true').values():
+        assert values['use_sim_time'] is True
+
+
+def test_a_parameter_file_is_given_to_every_program_and_not_overruled(programs_of, tmp_path):
+    one, other = tmp_path / 'one.yaml', tmp_path / 'other.yaml'
+    one.touch()
+    other.touch()
+    for parameters in programs_of(f'params:={one}').values():
+        assert parameters == [str(one)]
+    for parameters in programs_of(f'params:={one},{other}', 'mass:=3.0').values():
+        assert parameters == [str(one), str(other), {'mass': 3.0}]
+    # The file may name a joint that needs no load.
+    for parameters in programs_of(f'params:={one}', 'mass:=0').values():
+        assert parameters == [str(one), {'mass': 0.0}]
+
+
+@pytest.mark.parametrize(
+    ('word', 'sentence'),
+    [
+        ('params:=nowhere.yaml', 'params = .nowhere.yaml. is not allowed: give the path'),
+        ('muscle:=dmsp_99', 'dmsp_99 is neither .* dmsp_20_400n'),
+        ('mass:=-1', 'mass = -1.0 is not allowed: give above 0'),
+        ('mass:=0', 'mass = 0.0 is not allowed: give above 0'),
+        ('mass:=heavy', 'mass = .heavy. is not allowed'),
+        ('publish_rate:=0', 'publish_rate = 0.0 is not allowed'),
+        ('mas:=10.0', 'mas is not a parameter: was mass meant'),
+        ('zeta:=0.2', r'zeta is no argument of .*launch.py: give one of muscle, .*, or a para'),
+        ('sim_params:=a.yaml', 'sim_params is no'),
+    ],
+)
+def test_what_is_not_allowed_is_one_sentence(programs_of, word, sentence):
+    with pytest.raises(ParameterError, match=sentence):
+        programs_of(word)
+
+
+@pytest.mark.parametrize('word', ['joint:=knee', 'time_mode:=fast', 'use_sim_time:=yes'])
+def test_choices_are_declared(programs_of, word):
+    with pytest.raises(RuntimeError, match='valid options are'):
+        programs_of(word)
+
+
+def test_arguments_of_a_file_that_includes_ours_are_its_own():
+    refuse_unknown('sim.launch.py', ['mass'], ['ros2', 'launch', 'mine.launch.py', 'mas:=1'])
+
+
+def test_the_settings_that_come_with_the_package_are_the_defaults():
+    """So that launch files need not pass them on."""
+    for file, program in (
+        ('sim', 'pam_sim'),
+        ('control', 'pam_control'),
+        ('antagonistic', 'pam_sim'),
+        ('antagonistic', 'pam_control'),
+    ):
+        values = read(ROOT / 'config' / f'{file}.yaml', program)
+        given = {'joint': values['joint']}
+        table = Scene(given).table() if program == 'pam_sim' else settings_of(given)[0]
+        del values['joint']
+        assert values == {name: table[name][1] for name in values}
 
 
 @pytest.mark.skipif(not HAVE_LAUNCH, reason='launch_ros is not installed: no wheels have it')

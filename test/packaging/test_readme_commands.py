@@ -22,6 +22,7 @@ from pam_ros.settings.rig import load_rig
 from pam_ros.settings.scene import Scene
 from pam_ros.settings.tables import checked, override
 from support.domain import claimed
+from support.launch_stand_in import Loaded
 from support.pages import (
     DOCS,
     PAGES,
@@ -143,8 +144,8 @@ def check_program(name, words):
 
 def check_launch(words):
     file, *arguments = words
-    source = text_of(ROOT / 'launch' / file)
-    known = re.findall(r"DeclareLaunchArgument\(\s*'(\w+)'", source)
+    with pytest.MonkeyPatch.context() as monkeypatch:
+        known = Loaded(monkeypatch, ROOT / 'launch' / file).arguments
     for word in arguments:
         assert word.partition(':=')[0] in known, f'{file} {word}'
 

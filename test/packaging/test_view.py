@@ -2,89 +2,80 @@
 # SPDX-License-Identifier: Apache-2.0
 """What view.launch.py starts, with stand-ins for launch, and what RViz is told to show."""
 
-import runpy
-import sys
 from pathlib import Path
-from types import ModuleType, SimpleNamespace
 
+import ament_index_python.packages as index
 import pytest
 import yaml
 from urdf_parser_py.urdf import URDF
 
+from pam_ros.errors import PamError
+from support.launch_stand_in import Loaded
+
 ROOT = Path(__file__).parents[2]
 FILE = ROOT / 'launch' / 'view.launch.py'
-MODULES = (
-    'launch',
-    'launch.actions',
-    'launch.conditions',
-    'launch.substitutions',
-    'launch_ros',
-    'launch_ros.actions',
-    'launch_ros.parameter_descriptions',
-)
-
-
-class Configuration:
-    """As LaunchConfiguration: looks its name up in the context."""
-
-    def __init__(self, name):
-        self.name = name
-
-    def perform(self, context):
-        return context[self.name]
 
 
 @pytest.fixture
-def view(monkeypatch):
-    """Return what the launch file defines, loaded with stand-ins that remember what they get."""
-    stand_ins = {
-        'LaunchConfiguration': Configuration,
-        'Node': SimpleNamespace,
-        'ParameterValue': lambda value, value_type: (value, value_type),
-        'IfCondition': lambda value: value,
-        'DeclareLaunchArgument': lambda name, **words: SimpleNamespace(name=name, **words),
-        'OpaqueFunction': lambda function: function,
-        'LaunchDescription': list,
-        'LaunchContext': dict,
-    }
-    for name in MODULES:
-        module = ModuleType(name)
-        for stand_in, value in stand_ins.items():
-            setattr(module, stand_in, value)
-        monkeypatch.setitem(sys.modules, name, module)
-    return runpy.run_path(str(FILE))
+def installed(monkeypatch):
+    """Return the packages that are found; a test may take one away."""
+    packages = {'robot_state_publisher', 'rviz2'}
+
+    def find(name):
+        if name not in packages:
+            raise index.PackageNotFoundError(name)
+        return '/opt'
+
+    monkeypatch.setattr(index, 'get_package_prefix', find)
+    return packages
+
+
+@pytest.fixture
+def view(monkeypatch, installed):
+    """Return the launch file, loaded with stand-ins that remember what they get."""
+    return Loaded(monkeypatch, FILE)
 
 
 @pytest.mark.parametrize('model', ['rig', 'antagonistic_pair'])
 def test_it_publishes_the_description_of_the_model(view, model):
-    publisher, rviz = view['start']({'model': model})
-    assert (publisher.package, publisher.executable) == 2 * ('robot_state_publisher',)
-    _, description = publisher.parameters
+    nodes = view.nodes(f'model:={model}', 'namespace:=left', 'use_sim_time:=true')
+    publisher, rviz = nodes['robot_state_publisher'], nodes['rviz2']
+    assert (publisher.package, rviz.package) == ('robot_state_publisher', 'rviz2')
+    time, description = publisher.parameters
     text, kind = description['robot_description']
     assert kind is str
     assert text == (ROOT / 'urdf' / f'{model}.urdf').read_text(encoding='utf-8')
-    assert (rviz.package, rviz.executable) == 2 * ('rviz2',)
-    assert rviz.condition.name == 'rviz'
-    assert publisher.namespace.name == rviz.namespace.name == 'namespace'
+    assert publisher.namespace == rviz.namespace == 'left'
+    assert time == rviz.parameters[0] == {'use_sim_time': True}
 
 
 def test_a_description_of_ones_own_is_read_from_its_path(view, tmp_path):
     own = tmp_path / 'arm.urdf'
     own.write_text('<robot name="arm"><link name="world"/></robot>', encoding='utf-8')
-    publisher, _ = view['start']({'model': str(own)})
+    publisher = view.nodes(f'model:={own}')['robot_state_publisher']
     assert publisher.parameters[1]['robot_description'][0] == own.read_text(encoding='utf-8')
 
 
-def test_all_that_is_looked_up_is_an_argument_with_a_default(view):
-    arguments = view['generate_launch_description']()[:-1]
-    assert {argument.name for argument in arguments} == {
-        'model', 'rviz', 'namespace', 'use_sim_time',
-    }  # fmt: skip
-    assert all(isinstance(argument.default_value, str) for argument in arguments)
+def test_a_model_that_there_is_not_is_refused_with_those_that_there_are(view):
+    with pytest.raises(PamError, match='model = arm is not allowed: give antagonistic_pair, rig'):
+        view.nodes('model:=arm')
+
+
+def test_without_rviz_it_starts_where_rviz_is_not_installed(view, installed):
+    installed.remove('rviz2')
+    assert set(view.nodes('rviz:=false')) == {'robot_state_publisher'}
+    with pytest.raises(PamError, match=r'rviz2 is not installed: .*, or rviz:=false'):
+        view.nodes()
+
+
+def test_a_missing_publisher_is_named(view, installed):
+    installed.remove('robot_state_publisher')
+    with pytest.raises(PamError, match=r'robot_state_publisher is not installed: .*-publisher$'):
+        view.nodes('rviz:=false')
 
 
 def test_rviz_shows_the_model_from_its_root(view):
-    _, rviz = view['start']({'model': 'rig'})
+    rviz = view.nodes()['rviz2']
     option, path = rviz.arguments
     assert option == '-d'
     shown = yaml.safe_load(Path(path).read_text(encoding='utf-8'))['Visualization Manager']

@@ -1,0 +1,143 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The arguments of the launch files, which mean the same in each, and what programs get of them.
+
+Nothing here needs ROS: a launch file declares those arguments that it uses.
+"""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from pam_ros.arguments import refuse
+from pam_ros.errors import ParameterError
+from pam_ros.rig.arrangements import LOAD
+from pam_ros.settings.control import ControlSettings
+from pam_ros.settings.files import find
+from pam_ros.settings.rig import KINDS
+from pam_ros.settings.sim import SimSettings
+from pam_ros.settings.tables import Table, joint_table, override, refuse_mistyped, table_of
+
+MUSCLE = 'dmsp_20_400n'
+SIM, CONTROL = table_of(SimSettings), table_of(ControlSettings)
+OWN_TIME = ('scaled', 'lockstep')
+TRUE_OR_FALSE = ('true', 'false')
+
+
+class Argument(NamedTuple):
+    """What ``--show-args`` prints of an argument."""
+
+    text: str
+    default: str = ''
+    choices: tuple[str, ...] = ()
+
+    @property
+    def declared(self) -> dict[str, Any]:
+        """The keywords of DeclareLaunchArgument."""
+        about = {'description': self.text, 'default_value': self.default}
+        return {**about, 'choices': list(self.choices)} if self.choices else about
+
+
+ARGUMENTS = {
+    'muscle': Argument(
+        'muscle of config/muscles, or the path of a parameter file of one; none: what params '
+        f'says, and without params {MUSCLE}'
+    ),
+    'joint': Argument('kind of the joint; none: what params says, or load', '', ('', *KINDS)),
+    'mass': Argument("kg of the load; none: what params says, or the muscle's"),
+    'params': Argument(
+        'ROS parameter file of the programs, such as an identified.yaml; of several, with commas '
+        'between them, the last one holds'
+    ),
+    'publish_rate': Argument('Hz of the simulated joint states; none: what params says, or 500'),
+    'rate': Argument("Hz of the controller's commands; none: what params says, or 500"),
+    'time_mode': Argument(
+        'how simulated time passes; a controller follows /clock where it is scaled or lockstep; '
+        'none: what params says, or real_time',
+        '',
+        ('', *SIM['time_mode'][2].choices),
+    ),
+    'use_sim_time': Argument(
+        'true: programs that do not make the time follow /clock; none: where time_mode says so',
+        '',
+        ('', *TRUE_OR_FALSE),
+    ),
+    'namespace': Argument('namespace of all nodes'),
+    'model': Argument(
+        'rig, antagonistic_pair, or the path of a URDF with the joint of joint_states', 'rig'
+    ),
+    'rviz': Argument(
+        'false: publish the description and tf alone, without RViz', 'true', TRUE_OR_FALSE
+    ),
+}
+
+
+def refuse_unknown(file: str, known: Iterable[str], words: Iterable[str]) -> None:
+    """Raise ParameterError for an argument that the launch file *file* does not have.
+
+    *words* are those of the command line. Where they start another launch file, which includes
+    this one, its arguments are its own.
+    """
+    words, known = list(words), list(known)
+    name = Path(file).name
+    if name not in (Path(word).name for word in words):
+        return
+    given = [word.partition(':=')[0] for word in words if ':=' in word]
+    for stranger in refuse_mistyped(given, known):
+        raise ParameterError(
+            f'{stranger} is no argument of {name}: give one of {", ".join(known)}, or a '
+            'parameter file as params'
+        )
+
+
+def simulator(given: Mapping[str, str]) -> list[Any]:
+    """Return the parameters of ``pam_sim``: files, then what is given beside them."""
+    values = _common(given)
+    values |= _of(given, SIM, 'publish_rate', 'time_mode')
+    if given['use_sim_time'] and given['time_mode'] not in OWN_TIME:
+        values['use_sim_time'] = given['use_sim_time'] == 'true'
+    return [*_files(given), *([values] if values else [])]
+
+
+def controller(given: Mapping[str, str]) -> list[Any]:
+    """Return the parameters of ``pam_control``: files, then what is given beside them."""
+    values = {**_common(given), **_of(given, CONTROL, 'rate')}
+    follows = given['use_sim_time'] or ('true' if given['time_mode'] in OWN_TIME else '')
+    if follows:
+        values['use_sim_time'] = follows == 'true'
+    return [*_files(given), *([values] if values else [])]
+
+
+def _common(given: Mapping[str, str]) -> dict[str, Any]:
+    """Return what both programs get, checked."""
+    muscle = given['muscle'] or ('' if given['params'] else MUSCLE)
+    if muscle:
+        find(muscle)
+    values = {'muscle': muscle, 'joint': given['joint']}
+    return {
+        **{name: value for name, value in values.items() if value},
+        **_of(given, _joint_table(given), 'mass'),
+    }
+
+
+def _joint_table(given: Mapping[str, str]) -> Table:
+    """Return the table of the joint; where a file may say which it is, with any mass of any."""
+    if given['joint'] or not given['params']:
+        return joint_table(KINDS[given['joint'] or LOAD.name])
+    kind, default, about = joint_table(LOAD)['mass']
+    return {'mass': (kind, default, replace(about, above_low=False))}
+
+
+def _of(given: Mapping[str, str], table: Table, *names: str) -> dict[str, Any]:
+    """Return those of *names* that are given, checked as the parameters of *table* are."""
+    return dict(override(f'{name}={given[name]}', table) for name in names if given[name])
+
+
+def _files(given: Mapping[str, str]) -> list[str]:
+    """Return the parameter files; ParameterError for one that there is not."""
+    files = [file.strip() for file in given['params'].split(',') if file.strip()]
+    for file in files:
+        if not Path(file).is_file():
+            refuse('params', file, 'the path of a ROS parameter file')
+    return files
