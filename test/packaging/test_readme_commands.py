@@ -29,6 +29,7 @@ from support.pages import (
     README,
     ROOT,
     anchors,
+    blocks,
     commands,
     links,
     names,
@@ -184,6 +185,23 @@ def check(words):
 def test_commands_exist(page):
     for words in commands(page):
         check(words)
+
+
+@each_page
+def test_a_block_that_starts_one_program_by_ros2_starts_all_so(page):
+    """In a workspace they are not on the path."""
+    for kind in ('bash', 'console'):
+        for block in blocks(page, kind):
+            first = {line.removeprefix('$ ').partition(' ')[0] for line in block.splitlines()}
+            assert 'ros2 run pam_ros' not in block or first.isdisjoint(PROGRAMS), block
+
+
+@each_page
+def test_a_transform_waits_for_its_topic(page):
+    """It ends at once where nobody publishes yet."""
+    for words in commands(page):
+        if words[:4] == ['ros2', 'run', 'topic_tools', 'transform']:
+            assert '--wait-for-start' in words
 
 
 def test_the_readme_shows_how_to_begin():
