@@ -3,7 +3,7 @@
 """The examples of the pages are tests: Sybil runs the Python that a page shows, in its order.
 
 What is no example to be run as it stands has a test of its own: the controller of a
-tutorial, which needs a simulator (``test/nodes/test_pages.py``), and the two files that
+tutorial, which needs a simulator (``test/nodes/test_page_tables.py``), and the two files that
 docs/effects.md has a user write (``test/effects/test_guide.py``).
 """
 
