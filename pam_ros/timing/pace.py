@@ -37,8 +37,10 @@ class Pace:
         self.origin = ros - round(step * SECOND / self.rate)
         self._ros, self._steady = ros, steady
 
-    def due(self, step: int, ros: int, steady: int, is_simulated: bool) -> int:
+    def due(self, step: int, ros: int, steady: int, is_simulated: bool, ahead: float = 0.0) -> int:
         """Return the step that is due now, when the simulation stands at *step*.
+
+        What is due within the next *ahead* steps counts as due, too: 0.5 gives the nearest step.
 
         *is_simulated* says that ROS time comes from ``/clock``: then it may run at any speed, and
         only going backwards or leaping ahead is a jump.
@@ -57,4 +59,4 @@ class Pace:
         if behind > CATCH_UP:
             self.lost += (behind - CATCH_UP) / SECOND
             self.origin += behind - CATCH_UP
-        return max(step, int((ros - self.origin) * self.rate) // SECOND)
+        return max(step, int((ros - self.origin) * self.rate + ahead * SECOND) // SECOND)

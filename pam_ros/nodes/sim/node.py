@@ -169,10 +169,18 @@ class PamSim(TickingNode):
             self._output.publish_clock(self._time.now())
             self._say(*self._said)
 
-    def _run_to_now(self) -> None:
-        """Simulate what is due, and publish each sample that is due on the way."""
+    def _run_to_now(self, ahead: float = 0.0) -> None:
+        """Simulate what is due in *ahead* steps, and publish each sample on the way."""
         if not (self._is_paused or self._is_lockstep):
-            self._run_to(self._time.due(self._plant.step), monotonic_ns() + SLICE)
+            self._run_to(self._time.due(self._plant.step, ahead), monotonic_ns() + SLICE)
+
+    def _run_to_command(self) -> None:
+        """Simulate up to the step that is nearest to the arrival of a command.
+
+        It acts from there on: half a step early or late at most, and on average neither.
+        """
+        if self._time_is_paced:
+            self._run_to_now(ahead=0.5)
 
     def _run_to(self, due: int, end: float = math.inf) -> None:
         """Simulate until the step *due*, or until the steady time *end* at a sample."""
@@ -232,8 +240,7 @@ class PamSim(TickingNode):
     def _command(self, muscle: int, message: Float64) -> None:
         if self._look_for_stop():
             return
-        if self._time_is_paced:
-            self._run_to_now()
+        self._run_to_command()
         self._complain(self._plant.take(muscle, message.data))
         self._answer(muscle)
 
@@ -245,8 +252,7 @@ class PamSim(TickingNode):
             reason = f'pressure_commands has {count} values for {wanted} muscles: nothing taken'
             self.get_logger().warning(reason, throttle_duration_sec=1.0)
             return
-        if self._time_is_paced:
-            self._run_to_now()
+        self._run_to_command()
         self._complain(self._plant.take_all(message.data.tolist()))
         self._answer(None)
 

@@ -48,9 +48,9 @@ class FollowedTime:
         """Return the steady time at which a step will be due."""
         return self._pace.steady_time(step)
 
-    def due(self, step: int) -> int:
-        """Return the step that is due now, when the simulation stands at *step*."""
-        return self._pace.due(step, self.now(), monotonic_ns(), self.follows_clock)
+    def due(self, step: int, ahead: float = 0.0) -> int:
+        """Return the step that is due in *ahead* steps, when the simulation stands at *step*."""
+        return self._pace.due(step, self.now(), monotonic_ns(), self.follows_clock, ahead)
 
     def align(self, step: int) -> None:
         """Let *step* be now, whatever has passed."""
@@ -93,8 +93,8 @@ class OwnTime:
             return monotonic_ns()
         return self._steady + round((step - self._step) * SECOND / (self.factor * self._rate))
 
-    def due(self, step: int) -> int:
-        """Return the step that is due now, when the simulation stands at *step*."""
+    def due(self, step: int, ahead: float = 0.0) -> int:
+        """Return the step that is due in *ahead* steps, when the simulation stands at *step*."""
         if not self.factor:
             return sys.maxsize
         now = monotonic_ns()
@@ -103,7 +103,7 @@ class OwnTime:
             self.lost += (behind - CATCH_UP) * self.factor / SECOND
             self._step, self._steady = step, now - CATCH_UP
         passed = (now - self._steady) * self.factor * self._rate
-        return max(step, self._step + int(passed / SECOND))
+        return max(step, self._step + int(passed / SECOND + ahead))
 
     def align(self, step: int) -> None:
         """Let *step* be due now, whatever has passed."""
