@@ -86,11 +86,12 @@ def read_bag(
     origin = min((one.received[0] for one in samples.values()), default=0)
     series: dict[str, Series] = {}
     for topic, one in samples.items():
-        stamps = one.stamped if use_header and one.stamped.min() > 0 else one.received
+        is_received = not use_header or one.stamped.min() <= 0
+        stamps = one.received if is_received else one.stamped
         t = 1e-9 * (stamps - origin).astype(float)
         own = [field for field in fields if field.topic == topic]
         for field, value in zip(own, one.columns, strict=True):
-            _add(series, path, field, t, value, notes)
+            _add(series, path, field, t, value, is_received, notes)
     return series, notes
 
 
@@ -283,6 +284,7 @@ def _add(
     field: _Field,
     t: NDArray[np.float64],
     value: NDArray[np.float64],
+    is_received: bool,
     notes: list[str],
 ) -> None:
     """Add one field's series, unless it was never filled."""
@@ -297,7 +299,8 @@ def _add(
         notes.append(f'{source} is not used: {series[quantity].source} gives the {quantity}')
         return
     factor, offset = field.meaning.to_si
-    series[quantity] = Series.taken(path.name, source, t, value * factor + offset)
+    value = value * factor + offset
+    series[quantity] = Series.taken(path.name, source, t, value, is_received)
 
 
 def _quantities(name: str) -> set[str]:

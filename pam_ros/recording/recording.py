@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from pam_ros.arguments import along, array, instance, refuse, refuse_shape, stamps
+from pam_ros.arguments import along, array, instance, number, refuse, refuse_shape, stamps
 from pam_ros.errors import ParameterError, RecordingError
 
 Array = NDArray[np.float64]
@@ -43,6 +43,9 @@ class Recording:
         Sentences on what is poor in the data.
     ``digest``
         SHA-256 of the file or files, for provenance.
+    ``command_spread``
+        Standard deviation in s of a constant by which the commands may have acted earlier or
+        later than their stamps say; 0 where one clock stamped all.
     """
 
     name: str
@@ -57,6 +60,7 @@ class Recording:
     gaps: tuple[tuple[float, float], ...] = ()
     warnings: tuple[str, ...] = ()
     digest: str = ''
+    command_spread: float = 0.0
 
     def __post_init__(self) -> None:
         """Check that the arrays fit together, and keep them as arrays."""
@@ -83,6 +87,8 @@ class Recording:
         if gaps.size and (gaps.ndim != 2 or gaps.shape[1] != 2):
             refuse_shape('gaps', gaps, '(k, 2), from and to of each in s')
         instance('warnings', self.warnings, Sequence, 'texts')
+        if number('command_spread', self.command_spread) < 0.0:
+            refuse('command_spread', self.command_spread, 'at least 0 s')
         for name, value in checked.items():
             object.__setattr__(self, name, value)
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """One signal as it was sampled, on its own stamps, before a recording is made of several."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,14 +19,20 @@ COARSE = 0.01  # share of equal stamps from which the clock is called too coarse
 
 @dataclass(frozen=True, eq=False)
 class Series:
-    """Values in SI over stamps in s, both (n,), as they came from *source*."""
+    """Values in SI over stamps in s, both (n,), as they came from *source*.
+
+    ``is_received`` says that the stamps are those of the receipt of messages.
+    """
 
     source: str
     t: Array
     value: Array
+    is_received: bool = False
 
     @classmethod
-    def taken(cls, name: str, source: str, t: Array, value: Array) -> 'Series':
+    def taken(
+        cls, name: str, source: str, t: Array, value: Array, is_received: bool = False
+    ) -> 'Series':
         """Return the samples that were taken: those of *value* that are not NaN.
 
         Single ones may be missing, or the column's rate may be lower than that of the stamps *t*.
@@ -37,7 +43,7 @@ class Series:
             at = t[np.argmax(np.isinf(value))]
             raise RecordingError(f'{name}: {source} is infinite at {at:.6g} s')
         taken = np.isfinite(value)
-        one = cls(source, t[taken], value[taken])
+        one = cls(source, t[taken], value[taken], is_received)
         edges = np.concatenate(([t[0]], one.t, [t[-1]]))
         limits = np.full(edges.size - 1, one.gap_limit)
         limits[0] = limits[-1] = max(one.gap_limit, EDGE)
@@ -76,7 +82,7 @@ class Series:
     def ascending(self) -> 'Series':
         """Return the series with strictly ascending stamps: of those with one, the last."""
         keep = np.append(np.diff(self.t) > 0.0, True)
-        return Series(self.source, self.t[keep], self.value[keep])
+        return replace(self, t=self.t[keep], value=self.value[keep])
 
 
 def refuse_backwards(t: Array, what: str) -> None:

@@ -110,6 +110,8 @@ def test_messages_without_a_stamp_are_taken_at_their_receipt(tmp_path):
     assert notes == []
     t = series['position'].t - series['force'].t[0]
     np.testing.assert_allclose(t, np.arange(800) / 200 + LATE, atol=1e-9)
+    received = {name for name, one in series.items() if one.is_received}
+    assert received == {'pressure_command', 'force', 'position', 'velocity'}
 
 
 def test_where_two_clocks_differ_all_are_taken_at_their_receipt(tmp_path):

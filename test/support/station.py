@@ -15,6 +15,7 @@ import yaml
 from sensor_msgs.msg import FluidPressure, JointState
 
 from pam_ros.control.reference.shaping import Shape
+from pam_ros.errors import PamError
 from support.bags import contents
 from support.control_watch import Watch, stamp
 from support.harness import Program
@@ -101,16 +102,22 @@ class Station:
 
     def is_recording(self):
         """Wait until the recorder has messages of all topics on the disk."""
-        file = self.bag / 'metadata.yaml'
+        file, found = self.bag / 'metadata.yaml', {}
 
         def has_all():
             if not file.exists():
                 return False
             about = yaml.safe_load(file.read_text())['rosbag2_bagfile_information']
-            counts = about['topics_with_message_count']
-            return len([one for one in counts if one['message_count']]) == len(RECORDED)
+            for one in about['topics_with_message_count']:
+                found[one['topic_metadata']['name']] = one['message_count']
+            return len([count for count in found.values() if count]) == len(RECORDED)
 
-        self.peer.until(has_all, 'a bag with all topics')
+        try:
+            self.peer.until(has_all, 'a bag with all topics')
+        except PamError as error:
+            raise AssertionError(
+                f'{error}: {found}, {self.programs["pam_record"].output}'
+            ) from error
 
     def mark(self):
         """Return which state and which terms come next."""

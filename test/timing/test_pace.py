@@ -43,6 +43,17 @@ def test_steps_are_never_ahead_of_time():
     assert clocks.passes(MS // 2) == 1
 
 
+@pytest.mark.parametrize('is_simulated', [False, True])
+def test_the_step_nearest_to_a_command_is_off_by_nothing_on_average(is_simulated):
+    off = []
+    for k in range(10):  # within the second step, from its beginning to its end
+        late = MS + MS * (2 * k + 1) // 20
+        step = Pace(1000.0, START, 0).due(0, START + late, late, is_simulated, ahead=0.5)
+        off.append(step - late / MS)
+    assert sum(off) == pytest.approx(0.0, abs=1e-9)
+    assert max(map(abs, off)) < 0.5
+
+
 def test_a_late_turn_loses_no_simulated_time():
     clocks = Clocks()
     assert clocks.passes(CATCH_UP) == 500

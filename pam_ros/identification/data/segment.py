@@ -51,7 +51,8 @@ class Segment(ABC):
 class FreeSegment(Segment):
     """A run of a rig whose load moves: commands in, position in m out.
 
-    drive_t, drive (m,): stamps in s and values in Pa of the commands.
+    drive_t, drive (m,): stamps in s and values in Pa of the commands, which may have acted earlier
+    or later by a constant of the standard deviation drive_spread in s.
     """
 
     kind: ClassVar[str] = 'free'
@@ -59,6 +60,7 @@ class FreeSegment(Segment):
 
     drive_t: Array
     drive: Array
+    drive_spread: float = 0.0
 
     @property
     def first_pressure(self) -> float:
@@ -122,6 +124,7 @@ def _segment(part: Recording) -> Segment:
             v0=v0,
             drive_t=drive_t,
             drive=drive,
+            drive_spread=part.command_spread,
         )
     if part.pressure is not None:
         pressure = _without_noise(part.t, part.pressure)

@@ -20,6 +20,7 @@ from pam_ros.identification.data.segment import FreeSegment, HeldSegment, Segmen
 from pam_ros.identification.data.thinning import HELD_STEP
 from pam_ros.identification.fit.discrepancy import Discrepancy, Whitening
 from pam_ros.identification.fit.unknowns import (
+    CommandTime,
     Constant,
     MemoryStart,
     OfEffect,
@@ -121,16 +122,30 @@ class Problem:
         return x
 
     def predict(self, u: Array, only: int | None = None) -> list[Array]:
-        """Return the simulated target of every segment, or of segment *only*, at u."""
+        """Return the simulated target of every segment, or of segment *only*, at u.
+
+        Where commands acted earlier than their stamps say, so did the motion: s(t + d) = s + v d.
+        """
         column = at.RUN_S if self.segments[0].kind == 'free' else at.RUN_F
         levels = {
             unknown.of.run: unknown.value(value)
             for unknown, value in zip(self.unknowns, u, strict=True)
             if isinstance(unknown.of, RunLevel)
         }
+        early = sum(
+            unknown.value(value)
+            for unknown, value in zip(self.unknowns, u, strict=True)
+            if isinstance(unknown.of, CommandTime)
+        )
         which = range(len(self.segments)) if only is None else (only,)
-        pairs = zip(which, self.runs(u, only), strict=True)
-        return [out[:, column] + levels.get(run, 0.0) for run, out in pairs]
+        found = []
+        for run, out in zip(which, self.runs(u, only), strict=True):
+            s = self.segments[run]
+            simulated = out[:, column] + levels.get(run, 0.0)
+            if early and isinstance(s, FreeSegment) and s.drive_spread:
+                simulated += early * out[:, at.RUN_V]
+            found.append(simulated)
+        return found
 
     def residuals(self, u: Array) -> Array:
         """Return simulated - measured (n,).
@@ -161,7 +176,7 @@ class Problem:
             h = DIFFERENCE if u[k] + DIFFERENCE <= unknown.bounds[1] else -DIFFERENCE
             moved = u.copy()
             moved[k] += h
-            if isinstance(unknown.of, Constant | OfEffect):
+            if isinstance(unknown.of, Constant | OfEffect | CommandTime):
                 return (self.residuals(moved) - r) / h
             run = unknown.of.run
             own = slice(starts[run], starts[run + 1])

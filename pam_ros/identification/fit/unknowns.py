@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from pam_ros.effects.base import Effect
 from pam_ros.effects.names import EffectName
-from pam_ros.identification.data.segment import HeldSegment, Segment, start_of
+from pam_ros.identification.data.segment import FreeSegment, HeldSegment, Segment, start_of
 from pam_ros.rig import layout as at
 from pam_ros.rig.joint import Joint
 from pam_ros.rig.layout import Layout
@@ -113,6 +113,17 @@ class RunLevel:
         return f'level[{self.run}]'
 
 
+@dataclass(frozen=True)
+class CommandTime:
+    """By how many s commands acted before the stamps of their receipt, in all runs alike.
+
+    It is unknown where the clock of the commands is not that of the outputs. A lag or a dead time
+    is known no better than this time.
+    """
+
+    name: str = 'command time'
+
+
 OF_RUNS = (RunStart, MemoryStart, RunLevel)
 
 
@@ -124,7 +135,7 @@ class Unknown:
     beforehand, infinite where nothing is known. ``low``, ``high`` bound the value.
     """
 
-    of: Constant | OfEffect | RunStart | MemoryStart | RunLevel
+    of: Constant | OfEffect | CommandTime | RunStart | MemoryStart | RunLevel
     base: float
     scale: float
     low: float = -np.inf
@@ -204,6 +215,12 @@ def run_unknowns(segments: Sequence[Segment], sigma: float) -> list[Unknown]:
             for is_velocity, first, scale in ((False, s.y0, y), (True, s.v0, v)):
                 found.append(Unknown(RunStart(k, is_velocity), first, scale, prior=prior))
     return found
+
+
+def time_unknowns(segments: Sequence[Segment]) -> list[Unknown]:
+    """Return the time between the stamps and the effect of commands, where it is unknown."""
+    spread = max((s.drive_spread for s in segments if isinstance(s, FreeSegment)), default=0.0)
+    return [Unknown(CommandTime(), 0.0, spread, prior=1.0)] if spread else []
 
 
 def repeats(segments: Sequence[Segment], l0: float) -> list[list[int]]:

@@ -31,6 +31,7 @@ from pam_ros.identification.fit.unknowns import (
     level_unknowns,
     proper,
     run_unknowns,
+    time_unknowns,
 )
 from pam_ros.identification.search.criteria import Budget, Criteria
 from pam_ros.rig.joint import Joint
@@ -146,7 +147,8 @@ class Setting:
             runs = [w for run in runs for w in windows(run, self.budget.window)]
         sigma = np.inf if self.drifts else self.noise
         levels = level_unknowns(runs, self.joint.muscle.l0)
-        unknowns = [*declared_unknowns(self.joint), *run_unknowns(runs, sigma), *levels]
+        starts = [*time_unknowns(runs), *run_unknowns(runs, sigma)]
+        unknowns = [*declared_unknowns(self.joint), *starts, *levels]
         return Problem(
             tuple(runs),
             self.joint.layout,

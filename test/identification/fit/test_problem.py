@@ -21,6 +21,7 @@ from pam_ros.identification.fit.unknowns import (
     memory_unknowns,
     proper,
     run_unknowns,
+    time_unknowns,
 )
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.recording.recording import Recording
@@ -183,6 +184,30 @@ def test_a_memory_begins_where_a_simulation_begins_that_is_told_so(name):
         hidden = {name: {one.of.state: 0.4 * one.scale}}
         expected = simulate(model, t, t, command, y[0], hidden=hidden).position
         np.testing.assert_allclose(problem.predict(u)[0], expected, atol=1e-9)
+
+
+@pytest.mark.parametrize('early', [0.8e-3, -0.4e-3])
+def test_commands_that_act_early_move_the_load_early(early):
+    """The run of commands whose stamps are corrected, and the slope by its unknown."""
+    t = np.arange(300) / 200.0
+    command_t = np.arange(0.0, 1.5, 0.25)
+    command = 3e5 + 4e4 * np.sin(9.0 * command_t)
+    y = np.full(t.size, rest(MUSCLE, command[0]))
+    recording = Recording('e', t, command_t, command, y, None, None, None, 'free')
+    (s,) = segments_of([replace(recording, command_spread=1e-3)])
+    without = problem_of(MUSCLE, [s])
+    problem = replace(without, unknowns=(*without.unknowns, *time_unknowns([s])))
+    u = np.zeros(len(problem.unknowns))
+    u[-1] = early / 1e-3
+    (found,) = problem.predict(u)
+    expected = simulate(MUSCLE, t, command_t - early, command, y[0]).position
+    (late,) = without.predict(u[:-1])
+    assert np.max(np.abs(found - expected)) < 1e-2 * np.max(np.abs(late - expected))
+    slope = problem.jacobian(u, problem.residuals(u))[:, -1]
+    np.testing.assert_allclose(slope * u[-1], found - late, atol=1e-12)
+    (same,) = segments_of([recording])
+    (kept,) = replace(problem, segments=(same,)).predict(u)
+    np.testing.assert_array_equal(kept, late)  # its commands were stamped by the clock of the rest
 
 
 def test_a_level_lifts_the_force_of_its_run_alone():

@@ -19,6 +19,7 @@ from pam_ros.identification.fit.unknowns import (
     effect_unknowns,
     level_unknowns,
     run_unknowns,
+    time_unknowns,
 )
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.recording.recording import Recording
@@ -95,6 +96,18 @@ def test_each_free_run_has_its_own_start():
     assert not any(u.is_parameter for u in found)
     assert [u.value(0.0) for u in found] == pytest.approx([0.01, 0.03, 0.01, 0.03], abs=1e-9)
     assert all(u.prior == np.inf for u in found)
+
+
+def test_when_commands_act_is_unknown_where_another_clock_stamped_them():
+    assert time_unknowns([run('free'), run('held')]) == []
+    (one,) = time_unknowns([replace(run('free'), drive_spread=1e-3), run('free')])
+    assert (one.name, one.value(0.0), one.value(2.0), one.prior) == (
+        'command time',
+        0.0,
+        2e-3,
+        1.0,
+    )
+    assert not one.is_parameter
 
 
 def test_a_held_run_has_no_start_of_its_own():

@@ -62,6 +62,21 @@ def test_the_last_one_has_the_effect_and_the_others_have_not(three):
     assert not any(name.startswith(('y0', 'v0')) for name in augmented.parameters)
 
 
+def test_stamps_of_another_clock_are_no_lag(recording, pool):
+    """Commands that acted 0.7 ms before they were stamped: the lag is found all the same."""
+    late = replace(recording, command_t=recording.command_t + 0.7e-3)
+
+    def lag_of(one):
+        found = found_in([one], pool)
+        return stages(final(found), found, ())[-1].parameters['effects.pressure_lag.fill']
+
+    fooled = lag_of(late)
+    assert not fooled.low < FILL < fooled.high
+    told = lag_of(replace(late, command_spread=1e-3))
+    assert told.low < FILL < told.high
+    assert told.high - told.low < 2e-3
+
+
 def test_what_is_declared_is_not_fitted_and_has_no_interval(three):
     declared, retuned, _ = three
     assert declared.parameters.keys() == retuned.parameters.keys()
