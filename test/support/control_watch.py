@@ -97,14 +97,11 @@ class Watch:
             self.peer.more(self.arrays, 2)
 
     def steady_command(self):
-        """Wait until what is commanded does not change any more, and return it."""
-
-        def last():
-            return {str(message.data) for message in self.commands[-20:]}
-
-        self.peer.more(self.commands, 20)
-        self.peer.until(lambda: len(last()) == 1, 'a steady command')
-        return self.commands[-1].data
+        """Return what is commanded once it is the same for two words of the diagnostics."""
+        last = None
+        while last != (last := self.commands[-1].data):
+            self.peer.more(self.arrays, 2)
+        return last
 
     def begin(self):
         """Wait until it controls; return where it holds the load."""
