@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Problems with one effect more, with more of an effect, or with one effect less."""
+"""Problems with one effect more or less, or with more or less of an effect."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
@@ -81,6 +81,38 @@ def without_effect(problem: Problem, joint: Joint, effect: Effect) -> tuple[Prob
     for k, p in enumerate(effect.parameters):
         row[joint.layout.index(effect, k)] = p.default
     keep = [k for k, unknown in enumerate(problem.unknowns) if not belongs(unknown, effect.name)]
+    unknowns = tuple(problem.unknowns[k] for k in keep)
+    return replace(problem, row=row, unknowns=unknowns), keep
+
+
+def plainer_sets(unknowns: Sequence[Unknown], effect: Effect) -> list[set[str]]:
+    """Return the smaller sets of parameters of *effect* with which a fit may begin as well."""
+    there = parameters_of(unknowns, effect.name)
+    found: list[set[str]] = []
+    for start in effect.fit_starts:
+        if {*start} < there and {*start} not in found:
+            found.append({*start})
+    return found
+
+
+def with_parameters(
+    problem: Problem, joint: Joint, effect: Effect, names: set[str]
+) -> tuple[Problem, list[int]]:
+    """Return the problem with *names* alone of the parameters of *effect* unknown.
+
+    The others are at their defaults. Also returns which of the unknowns are left.
+    """
+    row = problem.row.copy()
+    for k, p in enumerate(effect.parameters):
+        if p.name not in names:
+            row[joint.layout.index(effect, k)] = p.default
+    keep = [
+        k
+        for k, unknown in enumerate(problem.unknowns)
+        if not isinstance(unknown.of, OfEffect)
+        or unknown.of.which.effect != effect.name
+        or unknown.of.which.parameter in names
+    ]
     unknowns = tuple(problem.unknowns[k] for k in keep)
     return replace(problem, row=row, unknowns=unknowns), keep
 

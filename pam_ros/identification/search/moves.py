@@ -1,9 +1,15 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The moves of a search: an effect more, more of an effect, an effect less."""
+"""The moves of a search: an effect more or less, more or less of an effect."""
 
 from pam_ros.effects.base import Effect
-from pam_ros.identification.fit.extend import finer_starts, without_effect
+from pam_ros.identification.fit.extend import (
+    finer_starts,
+    plainer_sets,
+    with_parameters,
+    without_effect,
+)
+from pam_ros.identification.fit.problem import Problem
 from pam_ros.identification.fit.solve import Solution, settled
 from pam_ros.identification.search.setting import Model, Setting
 from pam_ros.identification.search.starts import extended, looks
@@ -66,6 +72,26 @@ def freed(model: Model, setting: Setting) -> list[Model]:
     return list(setting.pool.map(fit, options))
 
 
+def fixed(model: Model, setting: Setting) -> list[Model]:
+    """Return *model* with fewer parameters of each of its effects, each begun where it is.
+
+    Those that are left suffice for a fit of this effect alone; the others are at their defaults.
+    """
+    known = model.solution
+    options = [
+        (effect, names)
+        for effect in (setting.effect(name) for name in model.effects)
+        for names in plainer_sets(known.problem.unknowns, effect)
+    ]
+
+    def fit(option: tuple[Effect, set[str]]) -> Model:
+        return _less(
+            model.effects, known, *with_parameters(known.problem, setting.joint, *option), setting
+        )
+
+    return [fit(option) for option in options]
+
+
 def dropped(model: Model, name: str, setting: Setting) -> Model:
     """Return *model* without an effect, begun where the others now are.
 
@@ -77,12 +103,22 @@ def dropped(model: Model, name: str, setting: Setting) -> Model:
 
 
 def _dropped(model: Model, name: str, setting: Setting) -> Model:
-    known = model.solution
-    problem, keep = without_effect(known.problem, setting.joint, setting.effect(name))
+    problem, keep = without_effect(model.solution.problem, setting.joint, setting.effect(name))
+    effects = tuple(e for e in model.effects if e != name)
+    return _less(effects, model.solution, problem, keep, setting)
+
+
+def _less(
+    effects: tuple[str, ...],
+    known: Solution,
+    problem: Problem,
+    keep: list[int],
+    setting: Setting,
+) -> Model:
+    """Return the fit of a *problem* with the unknowns *keep* of *known*, from where they are."""
     u = known.u[keep]
     slopes = known.jacobian[:, keep]
     less = Solution(problem, u, problem.residuals(u), slopes, known.discrepancy)
-    effects = tuple(e for e in model.effects if e != name)
     return setting.model(effects, settled(less, setting.budget.iterations, setting.pool))
 
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from pam_ros.identification.fit.solve import settled, solved
-from pam_ros.identification.search.moves import dropped, freed, swapped, with_each
+from pam_ros.identification.search.moves import dropped, fixed, freed, swapped, with_each
 from pam_ros.identification.search.setting import Model, Setting
 
 Progress = Callable[[float, str], None]  # share of the work that is done, and what is done next
@@ -88,7 +88,7 @@ def confirmed(found: Search) -> Model:
     problem = replace(known.problem, step=known.problem.step / setting.budget.finer)
     fine = replace(known, problem=problem, r=problem.residuals(known.u), is_fresh=False)
     now = setting.model(best.effects, settled(fine, setting.budget.iterations, setting.pool))
-    return _reduced(now, found)
+    return _fixed(_reduced(now, found), found)
 
 
 def absent(model: Model, setting: Setting) -> list[str]:
@@ -172,6 +172,22 @@ def _reduced(now: Model, found: Search) -> Model:
             break
         now = min(able, key=lambda m: m.score)
     return now
+
+
+def _fixed(now: Model, found: Search) -> Model:
+    """Return *now* without those parameters of its effects that it does not need.
+
+    They were freed before the effects were there that came after.
+    """
+    setting = found.setting
+    while True:
+        less = fixed(now, setting)
+        found.looked_at += less
+        most = now.score + setting.criteria.margin
+        able = [m for m in less if m.score <= most and no_worse(m, now, setting)]
+        if not able:
+            return now
+        now = min(able, key=lambda m: m.score)
 
 
 def best_with(effects: set[str], step: float, found: Search) -> Model:

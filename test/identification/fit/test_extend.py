@@ -7,7 +7,13 @@ import pytest
 
 from pam_ros.effects import EFFECTS
 from pam_ros.identification.data.segment import segments_of
-from pam_ros.identification.fit.extend import belongs, with_effect, without_effect
+from pam_ros.identification.fit.extend import (
+    belongs,
+    plainer_sets,
+    with_effect,
+    with_parameters,
+    without_effect,
+)
 from pam_ros.identification.fit.problem import Problem
 from pam_ros.identification.fit.unknowns import declared_unknowns, run_unknowns
 from support import bench_truth
@@ -68,3 +74,27 @@ def test_an_effect_goes_with_all_that_is_its_own(problem):
     none, keep = without_effect(less, MODEL, EFFECT['pressure_lag'])
     assert none.unknowns == problem.unknowns
     assert not any(belongs(one, 'pressure_lag') for one in none.unknowns)
+
+
+def test_parameters_of_an_effect_go_back_to_their_defaults(problem):
+    friction = EFFECT['coulomb_friction']
+    start = {'level': 10.0, 'breakaway': 13.0, 'stribeck_speed': 0.02, 'asymmetry': 0.1}
+    with_lag, _ = with_effect(problem, MODEL, EFFECT['pressure_lag'], {'fill': 0.1, 'vent': 0.1})
+    new, added = with_effect(with_lag, MODEL, friction, start)
+    sets = plainer_sets(new.unknowns, friction)
+    assert sets == [{'level'}, {'level', 'asymmetry'}, {'level', 'breakaway', 'stribeck_speed'}]
+    assert plainer_sets(new.unknowns, EFFECT['pressure_lag']) == []
+    less, keep = with_parameters(new, MODEL, friction, {'level', 'asymmetry'})
+    gone = {one.name for one in new.unknowns} - {one.name for one in less.unknowns}
+    assert gone == {
+        'effects.coulomb_friction.breakaway',
+        'effects.coulomb_friction.stribeck_speed',
+    }
+    u = np.concatenate([np.zeros(len(with_lag.unknowns)), added])
+    row = less.row_at(u[keep])
+    for k, p in enumerate(friction.parameters):
+        kept = p.name in ('level', 'asymmetry')
+        expected = start[p.name] if kept else p.default
+        assert row[MODEL.layout.index(friction, k)] == pytest.approx(expected)
+    others = [k for k, one in enumerate(new.unknowns) if 'friction' not in one.name]
+    assert set(others) <= set(keep)

@@ -11,7 +11,7 @@ from pam_ros.identification.fit.solve import settled
 from pam_ros.identification.fit.unknowns import MemoryStart
 from pam_ros.identification.search import moves
 from pam_ros.identification.search.criteria import BUDGET, CRITERIA
-from pam_ros.identification.search.moves import dropped, freed, swapped, with_each
+from pam_ros.identification.search.moves import dropped, fixed, freed, swapped, with_each
 from pam_ros.identification.search.search import Search, alternatives, confirmed, exchanged
 from pam_ros.identification.search.starts import extended, guessed, looks
 
@@ -86,6 +86,23 @@ def test_finer_parameters_of_what_is_in(tried, setting):
         assert model.effects == ('pressure_lag',)
         assert len(model.solution.u) > len(tried[0].solution.u)
     assert min(m.solution.cost for m in wider) < tried[0].solution.cost + 1.0
+
+
+def test_parameters_that_were_freed_and_are_not_needed_are_fixed(tried, retuned, setting):
+    """The lag of this rig does not choke."""
+    wider = max(freed(tried[0], setting), key=lambda m: len(m.solution.u))
+    plain = {'effects.pressure_lag.fill', 'effects.pressure_lag.vent'}
+    less = fixed(wider, setting)
+    assert effects_in(less[0]) == plain
+    assert less[0].score < tried[0].score + 1.0
+    best = confirmed(Search(setting, retuned, wider, [retuned, *tried, wider]))
+    assert effects_in(best) == plain
+    assert fixed(best, setting) == []
+
+
+def effects_in(model):
+    names = {one.name for one in model.solution.problem.unknowns}
+    return {name for name in names if name.startswith('effects.')}
 
 
 def test_looks_come_best_first_and_never_worse_than_their_start(retuned, setting):
