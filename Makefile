@@ -13,7 +13,7 @@ export ROS_AUTOMATIC_DISCOVERY_RANGE := LOCALHOST
 export PYTHON
 
 .DEFAULT_GOAL := help
-.PHONY: help environment warm demo test test-fast test-oldest test-all faults lint docs bench clean
+.PHONY: help environment warm demo test test-fast test-oldest test-all faults lint docs tables bench clean
 
 help:
 	@echo 'make demo       the experiment of the paper, controllers and the closed loop, over ROS topics: see demo/'
@@ -22,7 +22,8 @@ help:
 	@echo 'make test-all   before a release: the tests, the oldest libraries, the demonstration'
 	@echo 'make faults     each fault of a node 20 times, and 1500 examples of generated input'
 	@echo 'make lint       style and types'
-	@echo 'make docs       write the tables of docs/effects.md anew, from the library of effects'
+	@echo 'make docs       the pages and the public names as a site: build/docs/index.html'
+	@echo 'make tables     write the tables of docs/effects.md again, from the library of effects'
 	@echo 'make bench      the speed claims, measured on this machine (ARGS=plant_step for one)'
 	@echo 'make clean      remove what these commands made'
 	@echo 'The first of them sets up the environment $(VENV); PYTHON=python3.12 chooses its Python.'
@@ -65,7 +66,13 @@ lint: environment
 	$(PY) -m ruff format --check .
 	$(PY) -m mypy
 
-docs: environment
+# An environment of its own, so that no other command has to wait for Sphinx.
+docs:
+	@tools/environment $(VENV)/docs requirements/docs.txt
+	$(VENV)/docs/bin/python -m sphinx -W --keep-going -q -E -c docs . build/docs
+	@echo 'build/docs/index.html is the start page.'
+
+tables: environment
 	$(PY) tools/tables.py
 
 bench: warm

@@ -1,0 +1,152 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""How Sphinx makes a site of the pages: ``make docs``.
+
+The pages are those that are read in the repository; nothing is written for the site alone but
+``api.rst``, which is filled here from the docstrings of the public names. The top folder of the
+repository is the source folder, so that links between pages are right as they are written. A link
+to another file of the repository becomes a download.
+"""
+
+import dataclasses
+import re
+import shutil
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).parents[1]
+sys.path.insert(0, str(ROOT))
+
+import pam_ros  # noqa: E402
+from pam_ros.parameters import described  # noqa: E402
+
+# The order of the pages at the side. Sphinx refuses a page that is missing here, or is not there.
+NAVIGATION = {
+    'Tutorials': (
+        'docs/tutorials/muscle_in_ten_minutes',
+        'docs/tutorials/your_own_rig',
+        'docs/tutorials/your_own_controller',
+    ),
+    'Programs': (
+        'docs/simulator',
+        'docs/controller',
+        'docs/recordings',
+        'docs/identification',
+        'docs/report',
+        'docs/time',
+        'docs/ros2_control',
+    ),
+    'Physics': (
+        'docs/model',
+        'docs/effects',
+        'docs/joints',
+    ),
+    'Python': (
+        'docs/python',
+        'docs/api',
+    ),
+    'More': (
+        'All pages <docs/README>',
+        'docs/results',
+        'docs/glossary',
+        'ARCHITECTURE',
+        'CONTRIBUTING',
+        'Change log <CHANGELOG>',
+    ),
+}
+START = 'README'
+
+project = 'pam_ros'
+version = release = pam_ros.__version__
+extensions = ['sphinx.ext.autodoc', 'myst_parser']
+root_doc = START
+include_patterns = ['*.md', '*.rst', 'docs/*.md', 'docs/*.rst', 'docs/tutorials/*.md']
+myst_heading_anchors = 6  # every heading can be linked to, by the name that it has on GitHub
+python_maximum_signature_line_length = 80
+toc_object_entries_show_parents = 'hide'
+autodoc_default_options = {'members': True, 'member-order': 'bysource'}
+autodoc_preserve_defaults = True
+
+html_theme = 'sphinx_rtd_theme'
+html_theme_options = {'navigation_depth': 3}
+html_title = f'pam_ros {release}'
+html_static_path = ['site']
+html_css_files = ['site.css']
+html_copy_source = False
+html_show_copyright = False
+templates_path: list[str] = []
+
+
+def groups_of_names() -> dict[str, list[str]]:
+    """Return the public names by what they are for, as the table of docs/python.md has them."""
+    page = (ROOT / 'docs' / 'python.md').read_text(encoding='utf-8')
+    table = page.partition('|---|---|\n')[2].partition('\n\n')[0]
+    rows = [line.strip('| ').split(' | ', 1) for line in table.splitlines()]
+    return {what: re.findall(r'`(\w+)`', names) for what, names in rows}
+
+
+def documented(name: str) -> str:
+    """Return the directive that takes the docstring of a public name."""
+    public = getattr(pam_ros, name)
+    if isinstance(public, type):
+        return f'.. autoclass:: pam_ros.{name}\n'
+    if callable(public):
+        return f'.. autofunction:: pam_ros.{name}\n'
+    listed = ', '.join(f'``{one.name}``' for one in public)
+    return f'.. py:data:: pam_ros.{name}\n\n   In their order: {listed}.\n'
+
+
+def reference() -> str:
+    """Return the sections of the reference as reStructuredText."""
+    parts = []
+    for what, names in groups_of_names().items():
+        title = what[0].upper() + what[1:]
+        parts += [f'{title}\n{"-" * len(title)}\n', *map(documented, names)]
+    return '\n'.join(parts)
+
+
+def navigation() -> str:
+    """Return the lists of pages as Markdown that is not shown on the start page itself."""
+    return '\n'.join(
+        '\n'.join(['```{toctree}', ':hidden:', f':caption: {caption}', '', *pages, '```', ''])
+        for caption, pages in NAVIGATION.items()
+    )
+
+
+def add_to_source(app, name, content):
+    """Add what the repository need not show to the source of a page."""
+    if name == START:
+        content[0] += '\n' + navigation()
+    if name == 'docs/api':
+        content[0] += '\n' + reference()
+
+
+def complete(app, what, name, public, options, lines):
+    """Make reStructuredText of a docstring, and add the fields of a dataclass to its own.
+
+    In docstrings ``|`` is an absolute value, but for what stands in code.
+    """
+    lines[:] = [re.sub(r'(``.*?``)|\|', lambda one: one[1] or r'\|', line) for line in lines]
+    if what == 'class' and dataclasses.is_dataclass(public):
+        lines += ['', *(f':param {field}: {text}' for field, text in fields(public)), '']
+
+
+def fields(public):
+    """Yield the name of each described field of a dataclass and what is known of it."""
+    for name, (kind, _, about) in described(public).items():
+        unit = f', {about.unit}' if about.unit else ''
+        yield name, f'{about.text}{unit} ({about.allowed(kind)})'
+
+
+def begin(app, problem):
+    """Let the folder of the site begin with the start page."""
+    if problem is None and app.builder.name == 'html':
+        folder = Path(app.outdir)
+        shutil.copyfile(folder / f'{START}.html', folder / 'index.html')
+
+
+def setup(app):
+    """Connect the above to the build."""
+    app.connect('source-read', add_to_source)
+    app.connect('autodoc-process-docstring', complete)
+    app.connect('build-finished', begin)
