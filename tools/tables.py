@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Write the tables of docs/effects.md anew, from the library of effects: ``make tables``."""
+"""Write the tables of docs/effects.md again, from the library of effects: ``make tables``."""
 
 from pathlib import Path
 

@@ -18,7 +18,7 @@ TABLES = runpy.run_path(str(ROOT / 'tools' / 'tables.py'))
 
 def test_tables_are_those_of_the_library():
     text = GUIDE.read_text(encoding='utf-8')
-    assert text == TABLES['with_tables'](text), 'make tables writes them anew'
+    assert text == TABLES['with_tables'](text), 'make tables writes them'
 
 
 def test_the_table_says_of_each_effect_all_that_it_says_itself():
