@@ -4,7 +4,7 @@
 
 What is no example to be run as it stands has a test of its own: the controller of a
 tutorial, which needs a simulator (``test/nodes/test_page_tables.py``), and the two files that
-docs/effects.md has a user write (``test/effects/test_guide.py``).
+docs/tutorials/add_an_effect.md has a user write (``test/effects/test_guide.py``).
 """
 
 import importlib.util
@@ -13,7 +13,7 @@ import shutil
 import pytest
 
 PAGES = ('README.md', 'ARCHITECTURE.md', 'CONTRIBUTING.md', 'docs/*.md', 'docs/*/*.md')
-FILES_OF_A_USER = ('docs/effects.md',)
+FILES_OF_A_USER = ('docs/tutorials/add_an_effect.md',)
 NEEDS_A_SIMULATOR = 'import rclpy'
 # Not everywhere where ROS is: rosdep has no key for it.
 HAVE_SYBIL = importlib.util.find_spec('sybil') is not None

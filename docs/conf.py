@@ -26,6 +26,8 @@ NAVIGATION = {
         'docs/tutorials/muscle_in_ten_minutes',
         'docs/tutorials/your_own_rig',
         'docs/tutorials/your_own_controller',
+        'docs/tutorials/your_own_muscle_and_joint',
+        'docs/tutorials/add_an_effect',
     ),
     'Programs': (
         'docs/simulator',

@@ -6,10 +6,16 @@ The examples themselves are tests of their pages, see ``conftest.py`` at the top
 """
 
 import re
+from pathlib import Path
 
 import pytest
+import yaml
 
-from support.pages import PAGES, blocks, fences
+from pam_ros import rest
+from pam_ros.settings.files import read_known
+from pam_ros.settings.scene import Scene
+from pam_ros.settings.tables import checked
+from support.pages import DOCS, PAGES, blocks, fences
 
 KINDS = {'bash', 'console', 'python', 'text', 'xml', 'yaml'}
 each_page = pytest.mark.parametrize('page', PAGES, ids=lambda page: page.name)
@@ -23,8 +29,8 @@ def test_blocks_are_of_a_known_kind_and_end(page):
     assert closed == [''] * len(opened)
 
 
-# An effect, which docs/effects.md writes, is a part of the package.
-OUTSIDE = [page for page in PAGES if page.name != 'effects.md' and blocks(page, 'python')]
+# An effect, which this tutorial writes, is a part of the package.
+OUTSIDE = [page for page in PAGES if page.name != 'add_an_effect.md' and blocks(page, 'python')]
 
 
 @pytest.mark.parametrize('page', OUTSIDE, ids=lambda page: page.name)
@@ -32,6 +38,31 @@ def test_examples_import_from_the_public_face_alone(page):
     for example in blocks(page, 'python'):
         for module in re.findall(r'^from (pam_ros\S*) import', example, re.MULTILINE):
             assert module == 'pam_ros'
+
+
+@pytest.mark.slow
+@pytest.mark.needs_numba
+def test_parameter_files_of_a_tutorial_make_the_joints_of_its_examples(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    page = DOCS / 'tutorials' / 'your_own_muscle_and_joint.md'
+    names = {}
+    for example in blocks(page, 'python'):
+        exec(example, names)
+    files = blocks(page, 'yaml')
+    for file, name in zip(files, ('elbow', 'lever', 'crank'), strict=True):
+        Path('joint.yaml').write_text(file, encoding='utf-8')
+        nested = yaml.safe_load(file)['/**']['ros__parameters']
+        given = {'joint': nested['joint'], 'muscle': nested['muscle']}
+        given |= read_known('joint.yaml', Scene(given).table())
+        scene = Scene(given)
+        (made,) = scene.build(checked(scene.table(), given)).joints
+        expected = names[name]
+        assert made.transmission == expected.transmission
+        assert made.load == expected.load
+        muscles = zip(made.actuators, expected.actuators, strict=True)
+        assert all(one.contraction == other.contraction for one, other in muscles)
+        pressures = [300e3, 200e3][: len(made.actuators)]
+        assert rest(made, pressures) == pytest.approx(rest(expected, pressures), rel=1e-12)
 
 
 def evaluated(source, tmp_path):

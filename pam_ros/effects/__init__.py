@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The physical effects that the paper's model lacks, in the order in which they act.
 
-To add one, write its file and add its line here; ``docs/effects.md`` shows how.
+To add one, write its file and add its line here; ``docs/tutorials/add_an_effect.md`` shows how.
 """
 
 from importlib import import_module

@@ -1,23 +1,25 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The guide in docs/effects.md: its example works, and its tables are those of the library."""
+"""The tables of docs/effects.md are those of the library; the example of the tutorial works."""
 
 import importlib
+import re
 import runpy
 
 import pytest
 
 import pam_ros
-from pam_ros.effects import EFFECTS
-from pam_ros.effects.base import Compensation
+from pam_ros.effects import EFFECTS, base
+from pam_ros.effects.base import PLACES, Compensation
 from support.pages import ROOT, blocks
 
-GUIDE = ROOT / 'docs' / 'effects.md'
+TABLES_PAGE = ROOT / 'docs' / 'effects.md'
+GUIDE = ROOT / 'docs' / 'tutorials' / 'add_an_effect.md'
 TABLES = runpy.run_path(str(ROOT / 'tools' / 'tables.py'))
 
 
 def test_tables_are_those_of_the_library():
-    text = GUIDE.read_text(encoding='utf-8')
+    text = TABLES_PAGE.read_text(encoding='utf-8')
     assert text == TABLES['with_tables'](text), 'make tables writes them'
 
 
@@ -34,6 +36,14 @@ def test_the_guide_names_every_compensation():
     text = GUIDE.read_text(encoding='utf-8')
     for compensation in Compensation:
         assert f'| `{compensation.name}` |' in text
+
+
+def test_the_guide_has_the_signature_of_every_place():
+    text = GUIDE.read_text(encoding='utf-8')
+    signatures = re.findall(r'^``(\w+\([\w, ]+\)) -> ', base.__doc__, re.MULTILINE)
+    assert [signature.partition('(')[0] for signature in signatures] == list(PLACES)
+    for signature in signatures:
+        assert f'| `{signature}` |' in text
 
 
 @pytest.mark.slow

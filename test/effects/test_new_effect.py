@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """A new effect is one file and one line: all that uses effects knows it then.
 
-The example of docs/effects.md is written into a copy of the sources, and looked for there by a
-Python of its own.
+The example of docs/tutorials/add_an_effect.md is written into a copy of the sources, and looked
+for there by a Python of its own.
 """
 
 import json
@@ -77,7 +77,7 @@ def found(tmp_path_factory):
         ignored = shutil.ignore_patterns('__pycache__')
         shutil.copytree(ROOT / part, folder / part, ignore=ignored)
     before = contents(folder)
-    guide = (ROOT / 'docs' / 'effects.md').read_text(encoding='utf-8')
+    guide = (ROOT / 'docs' / 'tutorials' / 'add_an_effect.md').read_text(encoding='utf-8')
     example, _ = re.findall(r'^```python\n(.*?)^```', guide, re.MULTILINE | re.DOTALL)
     (folder / NEW).write_text(example, encoding='utf-8')
     (line,) = re.findall(r"^```text\n(    '\w+',\n)```", guide, re.MULTILINE)

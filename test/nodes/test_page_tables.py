@@ -36,9 +36,10 @@ OF_EVERY_NODE = ('rcl_interfaces/', 'type_description_interfaces/')
 LENGTH = 2700  # states of 2 ms, so that the error decays to micrometres
 AGAIN = 500  # of a second run
 TEN_MINUTES = DOCS / 'tutorials' / 'muscle_in_ten_minutes.md'
+OWN_MUSCLE = DOCS / 'tutorials' / 'your_own_muscle_and_joint.md'
 SETTLED = 8.0  # s after which the load rests
 SETTINGS = ('effects.', 'initial.', 'sensor.')
-OF_AN_EXAMPLE = 'effects.choked_valve.slowness'  # the effect that docs/effects.md has one write
+OF_AN_EXAMPLE = 'effects.choked_valve.slowness'  # the effect that a tutorial writes
 DRY_RUNS = [
     words[words.index('--ros-args') + 1 :]
     for page in PAGES
@@ -245,7 +246,7 @@ def test_the_controller_of_the_first_minutes_reaches_its_reference(peer):
 
 def test_the_file_of_a_self_made_muscle_starts_the_simulator(peer, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    (own,) = (one for one in blocks(TEN_MINUTES, 'python') if 'fit_static_map' in one)
+    (own,) = (one for one in blocks(OWN_MUSCLE, 'python') if 'fit_static_map' in one)
     subprocess.run([sys.executable, '-c', own], check=True, timeout=DEADLINE)
     with Program('pam_sim', '--params-file', 'my_muscle.yaml'):
         assert peer.get('pam_sim', 'l0', 'p_max', 'mass') == [0.3, 400e3, 5.0]

@@ -50,9 +50,13 @@ OF_OTHERS = (
 )
 PROGRAMS = sorted(path.stem for path in (ROOT / 'pam_ros' / 'cli').glob('pam_*.py'))
 FILE = re.compile(r'[\w./*<>-]+\.(css|csv|html|json|md|png|py|rst|toml|txt|xml|yaml)')
-# What docs/effects.md and the tutorials have their readers write.
+# What the tutorials have their readers write.
 OF_AN_EXAMPLE = {
     'my_controller.py',
+    'my_crank.yaml',
+    'my_elbow.yaml',
+    'my_lever.yaml',
+    'my_muscle.yaml',
     'pam_ros/effects/choked_valve.py',
     'test/effects/test_choked_valve.py',
 }
