@@ -133,6 +133,24 @@ def complete(app, what, name, public, options, lines):
         lines += ['', *(f':param {field}: {text}' for field, text in fields(public)), '']
 
 
+# What types are called in the source, before Python spells them out.
+ARRAY_LIKE = re.compile(
+    r'_Buffer \| _SupportsArray\[.*?_NestedSequence\[complex \| bytes \| str\]'
+)
+ARRAY = re.compile(r'ndarray\[tuple\[Any, \.\.\.\], dtype\[float64\]\]')
+
+
+def shorten(app, what, name, public, options, signature, returned):
+    """Return a signature without the modules of its types, and as Sphinx can read it."""
+    return tuple(text and short(text) for text in (signature, returned))
+
+
+def short(text):
+    """Return types as they are written in the source."""
+    text = re.sub(r'~?\b(?:[A-Za-z_]\w*\.)+(?=[A-Za-z_])', '', text.replace('<factory>', '...'))
+    return ARRAY.sub('Array', ARRAY_LIKE.sub('ArrayLike', text.replace('~', '')))
+
+
 def fields(public):
     """Yield the name of each described field of a dataclass and what is known of it."""
     for name, (kind, _, about) in described(public).items():
@@ -151,4 +169,5 @@ def setup(app):
     """Connect the above to the build."""
     app.connect('source-read', add_to_source)
     app.connect('autodoc-process-docstring', complete)
+    app.connect('autodoc-process-signature', shorten)
     app.connect('build-finished', begin)
