@@ -68,8 +68,8 @@ lint: environment
 
 # An environment of its own, so that no other command has to wait for Sphinx.
 docs:
-	@tools/environment $(VENV)/docs requirements/docs.txt
-	$(VENV)/docs/bin/python -m sphinx -W --keep-going -q -E -c docs . build/docs
+	@tools/environment $(VENV)-docs requirements/docs.txt
+	$(VENV)-docs/bin/python -m sphinx -W --keep-going -q -E -c docs . build/docs
 	@echo 'build/docs/index.html is the start page.'
 
 tables: environment
@@ -79,6 +79,6 @@ bench: warm
 	$(PY) -m benchmarks $(ARGS)
 
 clean:
-	rm -rf $(VENV) demo build install log *.egg-info
+	rm -rf $(VENV) $(VENV)-docs demo build install log *.egg-info
 	rm -rf .hypothesis .mypy_cache .pytest_cache .ruff_cache
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +
