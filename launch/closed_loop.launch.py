@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Close the loop: ``ros2 launch pam_ros closed_loop.launch.py mass:=10.0``.
+"""Start a closed loop: ``ros2 launch pam_ros closed_loop.launch.py mass:=10.0``.
 
 With ``joint:=antagonistic`` two muscles turn a pulley against each other.
 """
@@ -21,7 +21,7 @@ NAMES = (
 
 
 def start(context: LaunchContext) -> list[Node]:
-    """Return both nodes; what the command line gives comes after the files."""
+    """Return both nodes; values of the command line override the files."""
     refuse_unknown(__file__, NAMES, sys.argv)
     given = {name: LaunchConfiguration(name).perform(context) for name in NAMES}
     return [

@@ -18,7 +18,7 @@ NAMES = (
 
 
 def start(context: LaunchContext) -> list[Node]:
-    """Return the node; what the command line gives comes after the files."""
+    """Return the node; values of the command line override the files."""
     refuse_unknown(__file__, NAMES, sys.argv)
     given = {name: LaunchConfiguration(name).perform(context) for name in NAMES}
     return [

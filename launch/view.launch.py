@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""See a simulated muscle move: ``ros2 launch pam_ros view.launch.py model:=antagonistic_pair``."""
+"""Show a muscle in RViz: ``ros2 launch pam_ros view.launch.py model:=antagonistic_pair``."""
 
 import sys
 from pathlib import Path
@@ -15,7 +15,7 @@ from launch_ros.parameter_descriptions import ParameterValue
 from pam_ros.errors import PamError
 from pam_ros.settings.launch import ARGUMENTS, refuse_unknown
 
-# Where this file is installed the others are beside it, as they are in the sources.
+# When this file is installed, the others are next to it, as they are in the sources.
 SHARE = Path(__file__).parents[1]
 NAMES = ('model', 'rviz', 'use_sim_time', 'namespace')
 
