@@ -69,7 +69,8 @@ class Loop:
         self.starts = 0
         self._seen: Reading | None = None
         self._is_new = False
-        self._blind_since = self.time = 0.0
+        self._lost: float | None = None  # since when nothing is seen, s
+        self.time = 0.0
 
     @property
     def is_enabled(self) -> bool:
@@ -101,8 +102,7 @@ class Loop:
             self.implausible += 1
             return fault
         if self.plausibility.is_first and self.state == RUNNING:
-            # Either this one or the one that control began at is false.
-            self.state, self._blind_since = BLIND, reading.time
+            self.state = BLIND  # either this or the one that control began at is false
         self._seen, self._is_new = reading, True
         return ''
 
@@ -132,6 +132,7 @@ class Loop:
         if reading is None or now - reading.time > self.timeout:
             self.plausibility.forget()
             return self._stay_safe(now)
+        self._lost = None
         if self.state != RUNNING:
             if self.awaits_chamber and self.chambers is None:
                 return self.pressures if self.state == BLIND and self.safe == HOLD else None
@@ -159,13 +160,14 @@ class Loop:
     def _stay_safe(self, now: float) -> Pressures | None:
         """Return what is commanded when nothing is seen: nothing before the first start."""
         if self.state == RUNNING:
-            self.state, self._blind_since = BLIND, now
+            self.state = BLIND
         if self.state != BLIND or self.pressures is None:
             return None
         if self.safe == HOLD:
             return self.pressures
         self.pressures = (0.0,) * len(self.pressures)
-        return self.pressures if now - self._blind_since <= VENTING else None
+        self._lost = now if self._lost is None else self._lost
+        return self.pressures if now - self._lost <= VENTING else None
 
 
 def warm_up(law: PositionLaw, reach: tuple[float, float], period: float) -> None:

@@ -141,6 +141,19 @@ def test_a_rig_that_returns_later_finds_no_command_to_vent(loop):
     assert loop.tick(4.0) == (0.0,)  # and again for a while where states stay away again
 
 
+def test_it_vents_as_long_each_time_that_states_stay_away(loop):
+    """Also where it has waited for a pressure between, without having begun."""
+    loop.safe = VENT
+    loop.see(Reading(1.0, 0.05))
+    loop.tick(1.0)
+    loop.tick(2.0)
+    loop.awaits_chamber = True
+    loop.see(Reading(3.0, 0.03))
+    assert loop.tick(3.0) is None
+    assert loop.tick(4.0) == (0.0,)
+    assert loop.tick(4.0 + 1.1 * VENTING) is None
+
+
 @pytest.mark.parametrize(('safe', 'meanwhile'), [(VENT, None), (HOLD, first(1))])
 def test_where_states_return_it_waits_for_the_pressure_that_is_there_now(loop, safe, meanwhile):
     loop.safe = safe

@@ -72,13 +72,17 @@ class ChamberInput:
         self._waited = 0
 
     def prepare(
-        self, loop: Loop, stamp: int | None, setup: ControlSetup, *, is_seen: bool
+        self,
+        loop: Loop,
+        stamp: int | None,
+        setup: ControlSetup,
+        is_seen: Callable[[], bool],
     ) -> None:
         """Say at which pressure *loop* is to begin at a state of *stamp* ns, or that it must wait.
 
         Pressures count by their stamps, where both have one, else by when they came. The loop
         waits the first time, and again if they were published before, while joint states come:
-        *is_seen*.
+        *is_seen*().
         """
         if stamp is None or loop.state not in (WAITING, BLIND):
             self._waited = 0
@@ -91,7 +95,7 @@ class ChamberInput:
             if one and (abs(stamp - one[0]) if stamp and one[0] else now - one[1]) <= FRESH
         ]
         loop.chambers = setup.command_at(fresh) if len(fresh) == len(self._found) else None
-        self._waited = self._waited + min(now - self._looked, LONGEST) if is_seen else 0
+        self._waited = self._waited + min(now - self._looked, LONGEST) if is_seen() else 0
         self._looked = now
         is_early = self._waited < setup.settings.pressure_wait * SECOND
         loop.awaits_chamber = is_early and (loop.state == WAITING or self._is_published)

@@ -160,7 +160,7 @@ class PamControl(TickingNode):
 
     def _prepare(self) -> None:
         """Look for the pressure at which to begin."""
-        self._chambers.prepare(self._loop, self._stamp, self._setup, is_seen=self._is_seen())
+        self._chambers.prepare(self._loop, self._stamp, self._setup, self._is_seen)
 
     def _begin(self) -> None:
         """Where states make the time, answer the one that control has waited at."""

@@ -289,6 +289,7 @@ class PamSim(TickingNode):
             self._clock_ticks.begin(self._clock_rate, sample=passed + 1)
         if self._tick_rate != self.ticker.rate:
             self.ticker.start(self._tick_rate, monotonic_ns())
+        self._silence.mark(steady_ns())  # compiling took its time: nobody has stopped it
 
     def _reset(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         self._begin_again()
@@ -321,22 +322,24 @@ class PamSim(TickingNode):
         if not self._is_paused:
             response.message = 'time goes on: pause first'
             return response
+        response.success, response.message = self._step_periods()
+        self._silence.mark(steady_ns())  # it was busy: nobody has stopped it
+        return response
+
+    def _step_periods(self) -> tuple[bool, str]:
+        """Simulate the periods of a step; return whether all of them were, and what to say."""
         periods = self._simulation.settings.step_periods
         self._sample_from_here()
         for done in range(periods):
             if self.stop.is_made:
-                response.message = f'asked to stop: simulated {done} of {periods} periods'
-                return response
+                return False, f'asked to stop: simulated {done} of {periods} periods'
             if self._is_followed:
                 # Each is stamped with the time at which it is published.
                 self._time.align(self._samples.next)
             self._run_to(self._samples.next)
             if self._fault:
-                response.message = self._fault
-                return response
-        response.success = True
-        response.message = f'simulated {periods} periods, until {self._plant.time:.9g} s'
-        return response
+                return False, self._fault
+        return True, f'simulated {periods} periods, until {self._plant.time:.9g} s'
 
     # Health --------------------------------------------------------------------------------
 

@@ -6,7 +6,7 @@ from itertools import groupby
 
 import numpy as np
 import pytest
-from sensor_msgs.msg import JointState
+from sensor_msgs.msg import FluidPressure, JointState
 from std_msgs.msg import Float64
 from std_srvs.srv import SetBool, Trigger
 
@@ -88,3 +88,17 @@ def test_a_command_during_a_pause_acts_when_time_goes_on(peer):
         assert states[-100].position[0] == at_rest
         peer.call(SetBool, 'pam_sim/pause', data=False)
         peer.until(lambda: states[-1].position[0] > at_rest + 0.01, 'motion')
+
+
+def test_a_command_right_after_a_long_step_acts(peer):
+    """The simulator was busy for more than half a second, but nobody has stopped it."""
+    pressures = peer.collect(FluidPressure, 'pressure')
+    slow = {'publish_rate': 10.0, 'step_periods': 20000, 'command_timeout': 0.0}
+    with Program('pam_sim', parameters=slow):
+        peer.publish(Float64(data=1e5), 'pressure_command')
+        peer.until(lambda: pressures and pressures[-1].fluid_pressure > 2e5, 'a first command')
+        assert peer.call(SetBool, 'pam_sim/pause', data=True).success
+        assert peer.call(Trigger, 'pam_sim/step').success
+        assert peer.call(SetBool, 'pam_sim/pause', data=False).success
+        peer.publish(Float64(data=2e5), 'pressure_command')
+        peer.until(lambda: pressures[-1].fluid_pressure > 3e5, 'the commanded pressure')
