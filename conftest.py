@@ -28,13 +28,13 @@ def pytest_report_header():
 def page_files(tmp_path_factory):
     """Return a folder with what the pages read: a bag, and the report of an identification."""
     from pam_ros.report.write import write_report
-    from support import bags, traces
+    from support import bags, results
 
     folder = tmp_path_factory.mktemp('page_files')
     topics, _ = bags.rig_topics(duration=12.0)
     topics['/cell'] = topics.pop('/force')
     bags.write_bag(folder / 'monday', topics)
-    write_report(folder / 'report', *traces.friction_trace())
+    write_report(folder / 'report', *results.friction_result())
     return folder
 
 

@@ -1,8 +1,8 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""How long a trace takes, and how a single fit compares with plain scipy.
+"""How long an identification takes, and how a single fit compares with plain scipy.
 
-The trace tries every effect of the library, for rigs that lack one or two of them. The fit is one
+It tries every effect of the library, for rigs that lack one or two of them. The fit is one
 candidate, a pressure lag: the declared parameters, the start and the lag's two times, once by the
 package and once by ``scipy.integrate.solve_ivp`` inside ``scipy.optimize.least_squares``, as one
 would write it in an afternoon, on the same recording and from the same start.
@@ -24,9 +24,9 @@ from pam_ros.effects import pressure_lag
 from pam_ros.identification.data.parts import parts_of
 from pam_ros.identification.fit.extend import with_effect
 from pam_ros.identification.fit.solve import solved
+from pam_ros.identification.identify import identify
 from pam_ros.identification.search.criteria import BUDGET, CRITERIA
 from pam_ros.identification.search.setting import Setting
-from pam_ros.identification.trace import trace
 from pam_ros.rig.warm import warm
 
 START = {'fill': 0.02, 'vent': 0.02}
@@ -41,13 +41,13 @@ SCIPY_SECONDS = 10.0  # of the recording for scipy's fit: its time grows in prop
 
 
 def main() -> None:
-    """Print the time of each trace, and of one fit both ways."""
+    """Print the time of each identification, and of one fit both ways."""
     warm()
     for kind, duration, rate, target in RUNS:
         trial = blind_trial(kind, 3, rate=rate, duration=duration)
         model, recording = declared_model(trial), recording_of(trial)
         began = time.perf_counter()
-        found = trace(model, [recording])
+        found = identify(model, [recording])
         took = time.perf_counter() - began
         print(
             f'{kind}, {duration:g} s at {rate:g} Hz, all candidates: {took:5.1f} s (aim '

@@ -27,8 +27,8 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / 'test'))
 
-from pam_ros.identification.result import Trace
-from pam_ros.identification.trace import trace
+from pam_ros.identification.identify import identify
+from pam_ros.identification.result import Identification
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.recording.recording import Recording
 from pam_ros.rig.joint import Joint, one_muscle
@@ -80,7 +80,7 @@ def run_trial(job: Job) -> dict[str, Any]:
     """Run one trial and return a row of what was there and what was found."""
     trial = DRAWS[job.draws](job.kind, job.seed)
     began = time.perf_counter()
-    found = answer(trace(declared_model(trial), [recording_of(trial)]))
+    found = answer(identify(declared_model(trial), [recording_of(trial)]))
     return {
         'kind': job.kind,
         'seed': job.seed,
@@ -94,7 +94,7 @@ def run_trial(job: Job) -> dict[str, Any]:
     }
 
 
-def answer(found: Trace) -> dict[str, Any]:
+def answer(found: Identification) -> dict[str, Any]:
     """Return what a search found; errors are those over held-out samples."""
     declared, retuned, augmented = found.stages
     return {

@@ -22,8 +22,8 @@ if TYPE_CHECKING:
     from pam_ros.effects import EFFECTS
     from pam_ros.effects.base import Effect
     from pam_ros.errors import PamError
-    from pam_ros.identification.result import Trace
-    from pam_ros.identification.trace import trace
+    from pam_ros.identification.identify import identify
+    from pam_ros.identification.result import Identification
     from pam_ros.muscle.fit import fit_static_map
     from pam_ros.muscle.muscle import Muscle
     from pam_ros.parameters import parameter
@@ -53,6 +53,7 @@ __all__ = [
     'CoContraction',
     'Effect',
     'Gains',
+    'Identification',
     'Joint',
     'Lever',
     'Limits',
@@ -69,12 +70,12 @@ __all__ = [
     'Rig',
     'SlidingMode',
     'Straight',
-    'Trace',
     'Trajectory',
     'Transmission',
     'TransmissionEquations',
     '__version__',
     'fit_static_map',
+    'identify',
     'load_rig',
     'one_muscle',
     'parameter',
@@ -86,7 +87,6 @@ __all__ = [
     'simulate_held',
     'stiffness',
     'stiffness_range',
-    'trace',
     'write_csv',
 ]
 
@@ -100,8 +100,8 @@ _PLACES = {
     'effects': ('EFFECTS',),
     'effects.base': ('Effect',),
     'errors': ('PamError',),
-    'identification.trace': ('trace',),
-    'identification.result': ('Trace',),
+    'identification.identify': ('identify',),
+    'identification.result': ('Identification',),
     'muscle.fit': ('fit_static_map',),
     'muscle.muscle': ('Muscle',),
     'parameters': ('parameter',),

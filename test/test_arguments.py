@@ -25,6 +25,7 @@ from pam_ros import (
     SlidingMode,
     Transmission,
     fit_static_map,
+    identify,
     load_rig,
     one_muscle,
     pressures,
@@ -35,7 +36,6 @@ from pam_ros import (
     simulate_held,
     stiffness,
     stiffness_range,
-    trace,
     write_csv,
 )
 
@@ -453,12 +453,12 @@ OBJECTS = {
     ),
     'gains of a muscle': (Gains.for_joint, (Muscle(),), 'joint = Muscle('),
     'PID gains of a muscle': (PidGains.for_joint, (Muscle(),), 'joint = Muscle('),
-    'trace of a muscle': (trace, (Muscle(), [recorded()]), 'model = Muscle('),
-    'trace of one recording': (trace, (ONE, recorded()), 'recordings = Recording('),
-    'trace of files': (trace, (ONE, ['a.csv']), "recordings[0] = 'a.csv'"),
-    'trace of nothing': (trace, (ONE, []), 'recordings is empty'),
-    'trace tested with one recording': (
-        trace,
+    'identification of a muscle': (identify, (Muscle(), [recorded()]), 'model = Muscle('),
+    'identification of one recording': (identify, (ONE, recorded()), 'recordings = Recording('),
+    'identification of files': (identify, (ONE, ['a.csv']), "recordings[0] = 'a.csv'"),
+    'identification of nothing': (identify, (ONE, []), 'recordings is empty'),
+    'identification tested with one recording': (
+        identify,
         (ONE, [recorded()], recorded()),
         'test = Recording(',
     ),

@@ -115,10 +115,10 @@ class Progress:
         self._bar.close()
 
 
-def identify(given: argparse.Namespace, command: str) -> str:
-    """Trace what the command line names, write the report, return its last line."""
+def run(given: argparse.Namespace, command: str) -> str:
+    """Identify what the command line names, write the report, return its last line."""
     from pam_ros.compiled import HAVE_NUMBA
-    from pam_ros.identification.trace import trace
+    from pam_ros.identification.identify import identify
     from pam_ros.recording.mapping import read_mapping
     from pam_ros.recording.read import read_recording
     from pam_ros.report.provenance import provenance
@@ -151,7 +151,7 @@ def identify(given: argparse.Namespace, command: str) -> str:
     source = provenance(model, given.params, given.set, recordings, test, command)
     progress = Progress()
     try:
-        answer = trace(model, recordings, test, progress)
+        answer = identify(model, recordings, test, progress)
         progress(1.0, 'writing the report')
         write_report(given.out, answer, source)
     finally:
@@ -166,7 +166,7 @@ def main() -> None:
     try:
         given = parser().parse_args()
         command = shlex.join(['pam_identify', *sys.argv[1:]])
-        print(identify(given, command))
+        print(run(given, command))
     except PamError as error:
         print(f'pam_identify: {error}', file=sys.stderr)
         sys.exit(BAD_INPUT)

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What the trace of a residual finds: the numbers behind the report."""
+"""What an identification finds: the numbers behind the report."""
 
 from dataclasses import dataclass
 
@@ -40,7 +40,7 @@ class Stage:
 
     Errors are RMSE in the unit of the target: over the samples fitted, and over those that were
     held out or the test recordings. ``simulated`` and ``tested`` are its free runs over the
-    segments of the trace, in their order.
+    segments of the identification, in their order.
     """
 
     name: str
@@ -90,7 +90,7 @@ class Finding:
 
 
 @dataclass(frozen=True, eq=False)
-class Trace:
+class Identification:
     """The whole answer; ``stages`` are declared, re-tuned and augmented, in this order.
 
     ``test`` are the segments of the test recordings, empty when a part of each recording was held

@@ -9,7 +9,7 @@ import numpy as np
 
 from pam_ros.effects.base import Effect
 from pam_ros.identification.data.segment import Segment
-from pam_ros.identification.result import Trace
+from pam_ros.identification.result import Identification
 from pam_ros.identification.search.criteria import Criteria
 from pam_ros.identification.search.search import Search
 
@@ -68,7 +68,7 @@ def verdict(found: Search, declared: float, retuned: float) -> str:
     return 'no_missing_effect' if is_same else 'parameters_wrong'
 
 
-def sentence(answer: Trace, lacking: str) -> str:
+def sentence(answer: Identification, lacking: str) -> str:
     """Return the verdict of *answer* with its numbers, as one paragraph of plain sentences.
 
     *lacking* is what :func:`too_little` returned.
@@ -101,7 +101,7 @@ def sentence(answer: Trace, lacking: str) -> str:
     )
 
 
-def next_experiment(answer: Trace, library: tuple[Effect, ...]) -> str:
+def next_experiment(answer: Identification, library: tuple[Effect, ...]) -> str:
     """Return which recording would settle what *answer* leaves open."""
     known = {e.name: e.experiment for e in library}
     if answer.verdict == 'insufficient_data':

@@ -1,3 +1,3 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What a trace found, written down: numbers, a page to read, a parameter file, the residuals."""
+"""The files of an identification: numbers, a page to read, a parameter file, the residuals."""

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""``report.json``: the whole trace in numbers, SI, described in ``docs/report.md``."""
+"""``report.json``: the whole identification in numbers, SI, described in ``docs/report.md``."""
 
 import json
 import math
@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from pam_ros.identification.result import Candidate, Estimate, Finding, Trace
+from pam_ros.identification.result import Candidate, Estimate, Finding, Identification
 from pam_ros.recording.recording import OUTPUTS, Recording
 from pam_ros.report.provenance import Provenance
 from pam_ros.report.runs import STAGES, Run, sizes
@@ -21,27 +21,27 @@ SCHEMA_VERSION = '2.1'
 Table = dict[str, Any]
 
 
-def numbers(trace: Trace, runs: list[Run], source: Provenance) -> Table:
-    """Return the content of ``report.json``; *runs* are those of the trace."""
+def numbers(result: Identification, runs: list[Run], source: Provenance) -> Table:
+    """Return the content of ``report.json``; *runs* are those of the result."""
     return {
         'schema_version': SCHEMA_VERSION,
-        'verdict': trace.verdict,
-        'sentence': trace.sentence,
-        'effects': [_effect(finding) for finding in trace.effects],
-        'error': _error(trace, runs),
+        'verdict': result.verdict,
+        'sentence': result.sentence,
+        'effects': [_effect(finding) for finding in result.effects],
+        'error': _error(result, runs),
         'structure': {
-            'ceiling': trace.structure.ceiling,
-            'whiteness_p': trace.structure.whiteness,
-            'share_above_noise': trace.structure.share,
+            'ceiling': result.structure.ceiling,
+            'whiteness_p': result.structure.whiteness,
+            'share_above_noise': result.structure.share,
         },
-        'candidates': [_candidate(candidate) for candidate in trace.candidates],
+        'candidates': [_candidate(candidate) for candidate in result.candidates],
         'parameters': {
             name: _estimates(stage.parameters)
-            for name, stage in zip(STAGES, trace.stages, strict=True)
+            for name, stage in zip(STAGES, result.stages, strict=True)
         },
         'data': _data(runs, source),
-        'warnings': list(trace.warnings),
-        'next_experiment': trace.next_experiment,
+        'warnings': list(result.warnings),
+        'next_experiment': result.next_experiment,
         'provenance': _provenance(source),
     }
 
@@ -76,15 +76,15 @@ def _estimates(parameters: Mapping[str, Estimate]) -> Table:
     return {name: asdict(estimate) for name, estimate in parameters.items()}
 
 
-def _error(trace: Trace, runs: list[Run]) -> Table:
+def _error(result: Identification, runs: list[Run]) -> Table:
     table: Table = {
-        'quantity': trace.quantity,
-        'unit': trace.unit,
-        'noise_floor': trace.noise.sigma,
-        'noise_correlation': trace.noise.rho,
-        'held_out': 'test recordings' if trace.test else 'part held out',
+        'quantity': result.quantity,
+        'unit': result.unit,
+        'noise_floor': result.noise.sigma,
+        'noise_correlation': result.noise.rho,
+        'held_out': 'test recordings' if result.test else 'part held out',
     }
-    for k, (name, stage) in enumerate(zip(STAGES, trace.stages, strict=True)):
+    for k, (name, stage) in enumerate(zip(STAGES, result.stages, strict=True)):
         fit, held = sizes(runs, k)
         table[name] = {
             'fit': stage.fit_error,

@@ -7,7 +7,7 @@ from itertools import pairwise
 import jinja2
 import numpy as np
 
-from pam_ros.identification.result import Trace
+from pam_ros.identification.result import Identification
 from pam_ros.report import plots, rows, style
 from pam_ros.report.numbers import Table
 from pam_ros.report.provenance import Provenance
@@ -34,13 +34,13 @@ VERDICTS = {
 }
 
 
-def page(trace: Trace, runs: list[Run], source: Provenance, content: Table) -> str:
+def page(result: Identification, runs: list[Run], source: Provenance, content: Table) -> str:
     """Return the page as HTML: styles and plots inside, no script, nothing fetched.
 
-    *runs* and *content* are those of the trace, see ``runs.py`` and ``numbers.py``.
+    *runs* and *content* are those of the result, see ``runs.py`` and ``numbers.py``.
     """
-    curves = curves_of(trace, runs)
-    scale = scale_for(trace.unit, trace.stages[-1].fit_error)
+    curves = curves_of(result, runs)
+    scale = scale_for(result.unit, result.stages[-1].fit_error)
     environment = jinja2.Environment(
         loader=jinja2.PackageLoader('pam_ros', 'report'),
         autoescape=True,
@@ -48,7 +48,7 @@ def page(trace: Trace, runs: list[Run], source: Provenance, content: Table) -> s
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    library = trace.stages[0].model.library
+    library = result.stages[0].model.library
     environment.filters |= {
         'words': name_in_words,
         'number': number,
@@ -56,30 +56,30 @@ def page(trace: Trace, runs: list[Run], source: Provenance, content: Table) -> s
         'spoken': lambda text: spoken(text, [effect.name for effect in library]),
     }
     return environment.get_template('report.html.j2').render(
-        trace=trace,
-        verdict=VERDICTS[trace.verdict],
-        not_excluded=not_excluded(trace, scale),
+        result=result,
+        verdict=VERDICTS[result.verdict],
+        not_excluded=not_excluded(result, scale),
         curves=curves,
         style=style,
         interval=interval,
         scale=scale,
-        held_out='test recordings' if trace.test else 'part held out',
+        held_out='test recordings' if result.test else 'part held out',
         errors=rows.errors(content, scale, {curve.stage: curve.label for curve in curves}),
-        pictures=plots.pictures(trace, runs, content, curves, scale),
-        rounds=rows.rounds(trace, scale),
-        parameters=rows.parameters(trace),
+        pictures=plots.pictures(result, runs, content, curves, scale),
+        rounds=rows.rounds(result, scale),
+        parameters=rows.parameters(result),
         recordings=rows.recordings(content),
         configuration=rows.configuration(source),
-        warnings=warnings_of(trace, source),
-        inputs='pressure and length' if trace.quantity == 'force' else 'command',
+        warnings=warnings_of(result, source),
+        inputs='pressure and length' if result.quantity == 'force' else 'command',
         content=content,
         source=source,
     )
 
 
-def curves_of(trace: Trace, runs: list[Run]) -> list[Curve]:
+def curves_of(result: Identification, runs: list[Run]) -> list[Curve]:
     """Return the models that differ, the declared one first, each with the name it goes by."""
-    names = [name_in_words(name) for name in added(trace)]
+    names = [name_in_words(name) for name in added(result)]
     labels = ('as declared', 're-tuned', 're-tuned + ' + (listed(names) or 'declared effects'))
     found = [Curve(0, labels[0])]
     for before, stage in pairwise(range(len(STAGES))):
@@ -88,20 +88,20 @@ def curves_of(trace: Trace, runs: list[Run]) -> list[Curve]:
     return found
 
 
-def warnings_of(trace: Trace, source: Provenance) -> list[tuple[str, str]]:
-    """Return (recording, what limits it) and, without a name, what limits the whole trace."""
+def warnings_of(result: Identification, source: Provenance) -> list[tuple[str, str]]:
+    """Return (recording, what limits it) and, without a name, what limits the whole result."""
     all_of_them = (*source.recordings, *source.test)
     shown = {warning for recording in all_of_them for warning in recording.warnings}
-    found = [('', warning) for warning in trace.warnings if warning not in shown]
+    found = [('', warning) for warning in result.warnings if warning not in shown]
     found += [(one.name, '; '.join(one.warnings)) for one in all_of_them if one.warnings]
     return found
 
 
-def not_excluded(trace: Trace, scale: Scale) -> list[str]:
+def not_excluded(result: Identification, scale: Scale) -> list[str]:
     """Return sentences on what the data leave open, whatever the verdict."""
-    floor = f'{scale.text(trace.noise.sigma)} {scale.unit}'
+    floor = f'{scale.text(result.noise.sigma)} {scale.unit}'
     sentences = []
-    for finding in trace.effects:
+    for finding in result.effects:
         name = name_in_words(finding.name)
         others = [name_in_words(other) for other in finding.alternatives]
         if others:
@@ -113,21 +113,21 @@ def not_excluded(trace: Trace, scale: Scale) -> list[str]:
             sentences.append(
                 f'No other effect of the library explains these data as well as {name}.'
             )
-    if trace.verdict == 'no_missing_effect':
+    if result.verdict == 'no_missing_effect':
         sentences.append(f'Effects that stay below the noise floor of {floor} could be there.')
-    elif trace.verdict == 'parameters_wrong':
+    elif result.verdict == 'parameters_wrong':
         sentences.append(
             'An effect that acts just like a change of the parameters could be there: a payload '
             'like a mass, an offset of pressure like a6.'
         )
-    elif trace.verdict == 'unexplained_structure':
+    elif result.verdict == 'unexplained_structure':
         sentences.append(
-            f'Any effect beyond the {len(trace.tested)} of the library that were tested could be '
+            f'Any effect beyond the {len(result.tested)} of the library that were tested could be '
             'the cause.'
         )
-    elif trace.verdict == 'insufficient_data':
+    elif result.verdict == 'insufficient_data':
         sentences.append('No effect can be excluded with these data.')
-    if trace.untestable:
-        names = listed([name_in_words(name) for name in trace.untestable])
+    if result.untestable:
+        names = listed([name_in_words(name) for name in result.untestable])
         sentences.append(f'These data cannot show {names}: the table below says what to record.')
     return sentences

@@ -1,13 +1,13 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""``identified.yaml``: the best model of a trace as the parameter file of a simulator."""
+"""``identified.yaml``: the identified model as the parameter file of a simulator."""
 
 import textwrap
 from dataclasses import replace
 from pathlib import Path
 
 from pam_ros.effects.names import parsed
-from pam_ros.identification.result import Trace
+from pam_ros.identification.result import Identification
 from pam_ros.plain_yaml import plain_text
 from pam_ros.report.provenance import Provenance
 from pam_ros.report.summary import last_line
@@ -17,12 +17,12 @@ from pam_ros.settings.files import write
 from pam_ros.settings.tables import Values, flat_rig
 
 
-def identified(trace: Trace, source: Provenance) -> Joint:
-    """Return the model that the trace ends with: re-tuned, with the effects that it found.
+def identified(result: Identification, source: Provenance) -> Joint:
+    """Return the identified model: re-tuned, with the effects that were found.
 
     Its constants are no longer those of the declared source, and say so.
     """
-    model = trace.stages[-1].model
+    model = result.stages[-1].model
     names = listed([recording.name for recording in source.recordings])
     text = f'pam_identify, re-tuned on {names}; declared in {source.parameters}'
     return changed(model, replace(model.muscle, source=plain_text(text)), model.all_effects)
@@ -39,15 +39,15 @@ def values(model: Joint) -> Values:
     return found
 
 
-def write_identified(path: Path, trace: Trace, source: Provenance) -> None:
+def write_identified(path: Path, result: Identification, source: Provenance) -> None:
     """Write the identified model as a ROS parameter file for every node that takes a rig.
 
     Constants are in the units of the declared file. Read again, it makes the same rig to the bit.
     """
-    write(path, values(identified(trace, source)), about(trace, source))
+    write(path, values(identified(result, source)), about(result, source))
 
 
-def about(trace: Trace, source: Provenance) -> str:
+def about(result: Identification, source: Provenance) -> str:
     """Return the comment at the head of the file: what it is, and where it comes from."""
     files = [
         ('Declared', source.parameters, source.digest),
@@ -56,7 +56,7 @@ def about(trace: Trace, source: Provenance) -> str:
     ]
     lines = [
         'Identified by pam_identify:',
-        *textwrap.wrap(last_line(trace), 95),
+        *textwrap.wrap(last_line(result), 95),
         'To simulate it: pam_sim --ros-args --params-file <this file>',
         '',
         *(f'{what} {name}\n  SHA-256 {digest}' for what, name, digest in files),

@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from pam_ros.identification.result import Trace
+from pam_ros.identification.result import Identification
 from pam_ros.report import residual_plots, style, time_plots
 from pam_ros.report.diagnostics import Size
 from pam_ros.report.numbers import Table
@@ -32,15 +32,15 @@ class Picture:
 
 
 def pictures(
-    trace: Trace, runs: list[Run], content: Table, curves: list[Curve], scale: Scale
+    result: Identification, runs: list[Run], content: Table, curves: list[Curve], scale: Scale
 ) -> dict[str, list[Picture]]:
     """Return the plots of each section of the page; *content* is that of ``report.json``."""
     with style.styled():
         return {
-            'errors': _errors(trace, content, curves, scale),
-            'time': _over_time(trace, runs, curves, scale),
-            'correlation': _correlation(trace, runs, _last_two(curves), scale),
-            'against': _against(trace, runs, _last_two(curves), scale),
+            'errors': _errors(result, content, curves, scale),
+            'time': _over_time(result, runs, curves, scale),
+            'correlation': _correlation(result, runs, _last_two(curves), scale),
+            'against': _against(result, runs, _last_two(curves), scale),
         }
 
 
@@ -60,7 +60,9 @@ def _narrow(name: str, title: str, caption: str, figure: Figure) -> Picture:
     return Picture(name, title, caption, style.svg(figure, name, title))
 
 
-def _errors(trace: Trace, content: Table, curves: list[Curve], scale: Scale) -> list[Picture]:
+def _errors(
+    result: Identification, content: Table, curves: list[Curve], scale: Scale
+) -> list[Picture]:
     details = [content['error'][STAGES[curve.stage]]['details'] for curve in curves]
     measured = [
         (curve, Size(**each['fit']), Size(**each['held_out']))
@@ -72,18 +74,20 @@ def _errors(trace: Trace, content: Table, curves: list[Curve], scale: Scale) -> 
             'RMSE of each model',
             'Open: fitted data. Filled: held-out data. Bars: 95 % intervals. A model that '
             'lacks nothing reaches the noise floor.',
-            lambda width: time_plots.errors(measured, trace.noise.sigma, scale, width),
+            lambda width: time_plots.errors(measured, result.noise.sigma, scale, width),
         )
     ]
 
 
-def _over_time(trace: Trace, runs: list[Run], curves: list[Curve], scale: Scale) -> list[Picture]:
-    quantity, noise = trace.quantity, trace.noise.sigma
+def _over_time(
+    result: Identification, runs: list[Run], curves: list[Curve], scale: Scale
+) -> list[Picture]:
+    quantity, noise = result.quantity, result.noise.sigma
     everything = time_plots.whole(runs)
     before = curves[-2].stage if len(curves) > 1 else curves[-1].stage
     close = time_plots.close_up(runs, before, curves[-1].stage)
     several = f'{len(runs)} runs side by side. ' if len(runs) > 1 else ''
-    tint = '' if trace.test else 'Tinted ground: held out. '
+    tint = '' if result.test else 'Tinted ground: held out. '
     band = 'Band: two standard deviations of the noise.'
     return [
         _wide(
@@ -106,7 +110,7 @@ def _over_time(trace: Trace, runs: list[Run], curves: list[Curve], scale: Scale)
 
 
 def _correlation(
-    trace: Trace, runs: list[Run], curves: list[Curve], scale: Scale
+    result: Identification, runs: list[Run], curves: list[Curve], scale: Scale
 ) -> list[Picture]:
     return [
         _narrow(
@@ -126,7 +130,7 @@ def _correlation(
             'spectrum',
             'Spectrum of the residual',
             'Broken line: the noise alone.',
-            residual_plots.spectrum(runs, curves, scale, trace.noise),
+            residual_plots.spectrum(runs, curves, scale, result.noise),
         ),
         _narrow(
             'coherence',
@@ -137,8 +141,10 @@ def _correlation(
     ]
 
 
-def _against(trace: Trace, runs: list[Run], curves: list[Curve], scale: Scale) -> list[Picture]:
-    muscle = trace.stages[0].model.muscle
+def _against(
+    result: Identification, runs: list[Run], curves: list[Curve], scale: Scale
+) -> list[Picture]:
+    muscle = result.stages[0].model.muscle
     pressures = np.concatenate([run.pressure for run in runs])
     pressure = scale_for('Pa', float(np.max(np.abs(pressures))))
     input_label = f'pressure, {pressure.unit}'
@@ -182,9 +188,9 @@ def _against(trace: Trace, runs: list[Run], curves: list[Curve], scale: Scale) -
         _narrow(
             'loop',
             'Loop',
-            f'{trace.quantity.capitalize()} over the input: {stretch.run.name}, from '
+            f'{result.quantity.capitalize()} over the input: {stretch.run.name}, from '
             f'{stretch.run.t[stretch.start]:.4g} s to {stretch.run.t[stretch.stop - 1]:.4g} s.',
-            residual_plots.loop(stretch, curves, scale, pressure, trace.quantity, input_label),
+            residual_plots.loop(stretch, curves, scale, pressure, result.quantity, input_label),
         )
     )
     return found

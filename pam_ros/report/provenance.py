@@ -23,7 +23,7 @@ LIBRARIES = ('numpy', 'scipy', 'numba')
 
 @dataclass(frozen=True, eq=False)
 class Provenance:
-    """What a trace was made of.
+    """What an identification was made of.
 
     ``command`` is the command line; ``parameters`` the file or preset as it was named, with its
     SHA-256 ``digest`` and the ``overrides``; ``configuration`` the flat values that all this
@@ -49,7 +49,7 @@ def provenance(
     test: Sequence[Recording],
     command: str,
 ) -> Provenance:
-    """Return the provenance of a trace that is made now with the libraries of this process."""
+    """Return the provenance of an identification that this process makes now."""
     path: Path = find(parameters)
     return Provenance(
         printable(command),

@@ -1,11 +1,11 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The rows of a page's tables: numbers of the trace as texts, in the units that people read."""
+"""The rows of a page's tables: numbers of the result as texts, in the units that people read."""
 
 from dataclasses import dataclass
 from typing import Any
 
-from pam_ros.identification.result import Candidate, Estimate, Trace
+from pam_ros.identification.result import Candidate, Estimate, Identification
 from pam_ros.recording.quantities import QUANTITIES
 from pam_ros.report.numbers import Table
 from pam_ros.report.provenance import Provenance
@@ -55,13 +55,13 @@ def errors(content: Table, scale: Scale, labels: dict[int, str]) -> list[Row]:
     return found
 
 
-def rounds(trace: Trace, scale: Scale) -> list[tuple[str, list[Row]]]:
+def rounds(result: Identification, scale: Scale) -> list[tuple[str, list[Row]]]:
     """Return for each round of the search what was tried on top of which model.
 
     Within a round those that count come first, then the others by their score.
     """
     found: dict[tuple[str, ...], list[Candidate]] = {}
-    for candidate in trace.candidates:
+    for candidate in result.candidates:
         found.setdefault(candidate.parents, []).append(candidate)
     return [
         (
@@ -91,15 +91,15 @@ def _candidate(candidate: Candidate, scale: Scale) -> Row:
     return Row(cells, candidate.decision)
 
 
-def parameters(trace: Trace) -> list[Row]:
+def parameters(result: Identification) -> list[Row]:
     """Return a row for each parameter that a stage has fitted: value and interval in each."""
     names: dict[str, None] = {}
-    for stage in trace.stages:
+    for stage in result.stages:
         names.update(dict.fromkeys(stage.parameters))
     table = rig_table()
     found = []
     for name in names:
-        stages = [stage.parameters.get(name) for stage in trace.stages]
+        stages = [stage.parameters.get(name) for stage in result.stages]
         known = next(estimate for estimate in stages if estimate is not None)
         is_at_bound = any(estimate is not None and estimate.at_bound for estimate in stages)
         cells: dict[str, Any] = {

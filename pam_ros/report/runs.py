@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The segments of a trace as a report looks at them: measured, three times simulated, inputs."""
+"""The segments of a result for the report: measured, three times simulated, inputs."""
 
 from dataclasses import dataclass
 
@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pam_ros.identification.data.segment import FreeSegment, HeldSegment, Segment
-from pam_ros.identification.result import Trace
+from pam_ros.identification.result import Identification
 from pam_ros.report.diagnostics import Size, size_of
 
 Array = NDArray[np.float64]
@@ -42,16 +42,16 @@ class Run:
         return self.target - self.simulated[stage]
 
 
-def runs_of(trace: Trace) -> list[Run]:
-    """Return the runs of a trace: its segments, then those of the test recordings."""
-    l0 = trace.stages[0].model.muscle.l0
+def runs_of(result: Identification) -> list[Run]:
+    """Return the runs of an identification: its segments, then those of the test recordings."""
+    l0 = result.stages[0].model.muscle.l0
     found = []
-    for k, segment in enumerate(trace.segments):
-        a, b, c = (_cut(stage.simulated[k]) for stage in trace.stages)
-        held = np.zeros_like(segment.fit) if trace.test else ~segment.fit
+    for k, segment in enumerate(result.segments):
+        a, b, c = (_cut(stage.simulated[k]) for stage in result.stages)
+        held = np.zeros_like(segment.fit) if result.test else ~segment.fit
         found.append(_run(segment, (a, b, c), held, False, l0))
-    for k, segment in enumerate(trace.test):
-        a, b, c = (_cut(stage.tested[k]) for stage in trace.stages)
+    for k, segment in enumerate(result.test):
+        a, b, c = (_cut(stage.tested[k]) for stage in result.stages)
         found.append(_run(segment, (a, b, c), np.ones_like(segment.fit), True, l0))
     return found
 

@@ -14,7 +14,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from pam_ros.errors import PamError
-from pam_ros.identification.result import Trace
+from pam_ros.identification.result import Identification
 from pam_ros.report.numbers import numbers, to_json
 from pam_ros.report.parameters import write_identified
 from pam_ros.report.provenance import Provenance
@@ -65,7 +65,7 @@ def _is_report(folder: Path) -> bool:
     return isinstance(content, dict) and 'schema_version' in content and 'verdict' in content
 
 
-def write_report(folder: Path, trace: Trace, source: Provenance) -> None:
+def write_report(folder: Path, result: Identification, source: Provenance) -> None:
     """Write all files of the report into *folder*, in place of a former report.
 
     Until the last moment nothing is to be seen but a hidden sibling, which goes when anything
@@ -74,17 +74,17 @@ def write_report(folder: Path, trace: Trace, source: Provenance) -> None:
     from pam_ros.report.page import page  # brings matplotlib, which nothing else needs
 
     check_folder(folder)
-    runs = runs_of(trace)
-    content = numbers(trace, runs, source)
+    runs = runs_of(result)
+    content = numbers(result, runs, source)
     parts: dict[str, Callable[[], str]] = {
         'report.json': lambda: to_json(content),
-        'report.html': lambda: page(trace, runs, source, content),
-        'residual.csv': lambda: residual_csv(runs, trace.quantity, trace.unit),
+        'report.html': lambda: page(result, runs, source, content),
+        'residual.csv': lambda: residual_csv(runs, result.quantity, result.unit),
     }
     with replaced(folder) as new:
         for name, text in parts.items():
             (new / name).write_text(text(), encoding='utf-8')
-        write_identified(new / 'identified.yaml', trace, source)
+        write_identified(new / 'identified.yaml', result, source)
 
 
 @contextmanager

@@ -20,7 +20,7 @@ from pam_ros.recording.read import read_recording
 from pam_ros.report.write import FILES
 from pam_ros.rig.run import simulate
 from pam_ros.settings.rig import load_rig
-from support import traces
+from support import results
 
 pytestmark = pytest.mark.needs_numba
 
@@ -33,10 +33,10 @@ FRICTION = 14.0  # N
 def bench(tmp_path_factory):
     """Return a folder with recordings of a rig with friction, and of others that are no use."""
     folder = tmp_path_factory.mktemp('bench')
-    truth = traces.rig(**{'effects.coulomb_friction.level': FRICTION, 'a5': 303.5, 'zeta': 0.2})
-    good = traces.free_recording(truth, 30.0, 200.0)
+    truth = results.rig(**{'effects.coulomb_friction.level': FRICTION, 'a5': 303.5, 'zeta': 0.2})
+    good = results.free_recording(truth, 30.0, 200.0)
     write_csv(good, folder / 'friction.csv')
-    write_csv(traces.free_recording(truth, 30.0, 200.0, 5), folder / 'other.csv')
+    write_csv(results.free_recording(truth, 30.0, 200.0, 5), folder / 'other.csv')
     write_csv(replace(good, position=good.position * 1e3), folder / 'millimetres.csv')
     (folder / 'no_time.csv').write_text('position_mm\n1\n2\n', encoding='utf-8')
     text = (folder / 'friction.csv').read_text(encoding='utf-8')
@@ -86,9 +86,9 @@ def test_friction_is_found_and_the_model_mended(found):
     level = report['effects'][0]['parameters']['level']
     assert level['value'] == pytest.approx(FRICTION, rel=0.05)
     error = report['error']
-    assert error['noise_floor'] == pytest.approx(traces.NOISE, rel=0.1)
-    assert error['augmented']['held_out'] < 1.2 * traces.NOISE
-    assert error['retuned']['held_out'] > 5.0 * traces.NOISE
+    assert error['noise_floor'] == pytest.approx(results.NOISE, rel=0.1)
+    assert error['augmented']['held_out'] < 1.2 * results.NOISE
+    assert error['retuned']['held_out'] > 5.0 * results.NOISE
     assert sorted(p.name for p in folder.iterdir()) == sorted(FILES)
     assert len(out.splitlines()) == 1
     assert out.startswith('effect_found (coulomb_friction): held-out error ')
@@ -125,7 +125,7 @@ def test_identified_file_starts_the_better_simulator(found, bench):
     for name, rig in (('declared', declared), ('identified', model)):
         y = simulate(rig, other.t, other.command_t, other.command).position
         rmse[name] = np.sqrt(np.mean((y - other.position)[200:] ** 2))
-    assert rmse['identified'] < 2.0 * traces.NOISE
+    assert rmse['identified'] < 2.0 * results.NOISE
     assert rmse['declared'] > 20.0 * rmse['identified']
 
 
@@ -261,7 +261,7 @@ def test_it_needs_no_ros(bench):
         '            raise ImportError(name)\n'
         'sys.meta_path.insert(0, Refuse())\n'
         'import pam_ros.cli.pam_identify as program\n'
-        'import pam_ros.identification.trace, pam_ros.report.page\n'
+        'import pam_ros.identification.identify, pam_ros.report.page\n'
         'program.parser().print_help()\n'
     )
     done = subprocess.run(

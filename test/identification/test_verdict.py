@@ -19,7 +19,7 @@ from pam_ros.identification.verdict import (
     too_little,
     verdict,
 )
-from support import bench_truth, traces
+from support import bench_truth, results
 
 
 def with_errors(model, errors):
@@ -107,7 +107,7 @@ def test_what_is_measured_must_change_by_more_than_its_noise():
 
 @pytest.mark.parametrize('name', VERDICTS)
 def test_each_verdict_has_its_sentence_and_its_next_experiment(name):
-    answer = replace(traces.friction_trace()[0], verdict=name)
+    answer = replace(results.friction_result()[0], verdict=name)
     text = sentence(answer, 'the recordings last 1.0 s; at least 5 s are needed')
     assert text.endswith('.')
     errors = [f'{1e3 * stage.held_error:.3g} mm' for stage in answer.stages]
@@ -130,7 +130,7 @@ def test_each_verdict_has_its_sentence_and_its_next_experiment(name):
 
 
 def test_rivals_are_told_apart_by_the_experiment_of_the_effect():
-    answer = replace(traces.friction_trace()[0], verdict='effect_found')
+    answer = replace(results.friction_result()[0], verdict='effect_found')
     first = replace(answer.effects[0], alternatives=('slack', 'leak'))
     answer = replace(answer, effects=(first, *answer.effects[1:]))
     assert f'{first.name} (or slack or leak)' in sentence(answer, '')
@@ -139,7 +139,7 @@ def test_rivals_are_told_apart_by_the_experiment_of_the_effect():
 
 
 def test_without_a_name_the_effect_that_comes_nearest_says_what_to_record():
-    answer = replace(traces.friction_trace()[0], verdict='unexplained_structure')
+    answer = replace(results.friction_result()[0], verdict='unexplained_structure')
     library = answer.stages[0].model.library
     best = max(answer.candidates, key=lambda c: c.gain)
     assert next_experiment(answer, library).startswith(f'{best.effect} comes nearest')

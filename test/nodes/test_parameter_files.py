@@ -8,7 +8,7 @@ import pytest
 
 from pam_ros.report.write import write_report
 from pam_ros.settings.files import read
-from support import traces
+from support import results
 from support.harness import Program
 from support.ros2param import dump, load, values_of
 
@@ -82,7 +82,7 @@ SHIPPED = sorted(p for p in CONFIG.rglob('*.yaml') if 'ros__parameters' in p.rea
 def identified(tmp_path_factory):
     """Return the parameter file of an identification."""
     folder = tmp_path_factory.mktemp('report')
-    write_report(folder, *traces.friction_trace())
+    write_report(folder, *results.friction_result())
     return folder / 'identified.yaml'
 
 

@@ -14,7 +14,7 @@ import pytest
 from pam_ros.report.numbers import numbers
 from pam_ros.report.page import page
 from pam_ros.report.runs import runs_of
-from support import traces
+from support import results
 
 SIZES = {1280: 900, 390: 844}
 SECTIONS = ['error', 'simulated', 'residual', 'shape', 'candidates', 'parameters', 'data']
@@ -86,9 +86,9 @@ def test_nothing_is_missing_overlapping_or_sticking_out(html, look):
 
 @pytest.mark.needs_numba
 def test_long_names_many_recordings_and_three_effects_find_their_room(look):
-    trace, source = traces.crowded_trace()
-    runs = runs_of(trace)
-    html = page(trace, runs, source, numbers(trace, runs, source))
+    result, source = results.crowded_result()
+    runs = runs_of(result)
+    html = page(result, runs, source, numbers(result, runs, source))
     for width, found in look(html).items():
         assert found['problems'] == {name: [] for name in found['problems']}, width
 

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""report.json: valid against its published schema, true to the trace, and described."""
+"""report.json: valid against its published schema, true to the result, and described."""
 
 import json
 import math
@@ -29,12 +29,12 @@ def validate(schema):
 
 
 def report_of(parts):
-    trace, source, runs = parts
-    return json.loads(to_json(numbers(trace, runs, source)))
+    result, source, runs = parts
+    return json.loads(to_json(numbers(result, runs, source)))
 
 
-def test_report_is_valid(any_trace, validate):
-    assert validate(report_of(any_trace)) == []
+def test_report_is_valid(any_result, validate):
+    assert validate(report_of(any_result)) == []
 
 
 def test_schema_refuses_what_is_missing_or_new(friction, validate):
@@ -65,8 +65,8 @@ def test_document_names_every_key_of_the_schema(schema):
     assert f'`{SCHEMA_VERSION}`' in text
 
 
-def test_numbers_are_those_of_the_trace(friction):
-    trace, _, (run,) = friction
+def test_numbers_are_those_of_the_result(friction):
+    result, _, (run,) = friction
     report = report_of(friction)
     assert report['verdict'] == 'effect_found'
     (effect,) = report['effects']
@@ -81,13 +81,13 @@ def test_numbers_are_those_of_the_trace(friction):
     assert effect['alternatives'] == ['hysteresis']
     error = report['error']
     assert (error['quantity'], error['unit'], error['noise_floor']) == ('position', 'm', 5e-5)
-    for name, stage in zip(('declared', 'retuned', 'augmented'), trace.stages, strict=True):
+    for name, stage in zip(('declared', 'retuned', 'augmented'), result.stages, strict=True):
         e = stage.simulated[0] - run.target
-        fit, held = e[trace.segments[0].fit], e[~trace.segments[0].fit]
+        fit, held = e[result.segments[0].fit], e[~result.segments[0].fit]
         assert error[name]['fit'] == pytest.approx(np.sqrt(np.mean(fit**2)))
         assert error[name]['held_out'] == pytest.approx(np.sqrt(np.mean(held**2)))
         assert error[name]['details']['held_out']['maximum'] == np.max(np.abs(held))
-    assert len(report['candidates']) == len(trace.candidates)
+    assert len(report['candidates']) == len(result.candidates)
     assert report['parameters']['retuned']['zeta']['at_bound'] is True
     assert 'effects.coulomb_friction.level' in report['parameters']['augmented']
 
@@ -119,9 +119,9 @@ def test_provenance_names_files_and_versions(tested):
 
 
 def test_what_is_not_finite_becomes_null(friction, validate):
-    trace, source, runs = friction
-    declared, *others = trace.stages
-    broken = replace(trace, stages=(replace(declared, held_error=math.nan), *others))
+    result, source, runs = friction
+    declared, *others = result.stages
+    broken = replace(result, stages=(replace(declared, held_error=math.nan), *others))
     text = to_json(numbers(broken, runs, source))
     assert 'NaN' not in text
     report = json.loads(text)

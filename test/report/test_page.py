@@ -60,8 +60,8 @@ def outline(html):
 
 
 def rendered(parts):
-    trace, source, runs = parts
-    return page(trace, runs, source, numbers(trace, runs, source))
+    result, source, runs = parts
+    return page(result, runs, source, numbers(result, runs, source))
 
 
 @pytest.fixture(scope='module')
@@ -91,16 +91,16 @@ def test_no_cell_shows_the_inside_of_the_program(html):
         assert not re.search(rf'(?<![A-Za-z]){re.escape(bad)}(?![a-z])', text), bad
 
 
-def test_page_says_the_numbers_of_the_trace(friction, friction_page):
-    trace, _, _ = friction
+def test_page_says_the_numbers_of_the_result(friction, friction_page):
+    result, _, _ = friction
     text = ' '.join(' '.join(outline(friction_page).text).split())
     assert 'Effect found : coulomb friction' in text.replace('found:', 'found :')
     assert 'Instead of coulomb friction it could be hysteresis' in text
-    for stage in trace.stages:
+    for stage in result.stages:
         assert f'{1e3 * stage.held_error:.3g}' in text
     assert '14.02 N' in text
     assert 'at its bound' in text
-    for candidate in trace.candidates:
+    for candidate in result.candidates:
         assert candidate.effect.replace('_', ' ') in text
     assert 64 * 'a' in text
 
@@ -119,8 +119,8 @@ def test_nothing_missing_says_what_would_not_be_seen(reports, clean):
 
 @pytest.mark.slow
 def test_user_text_cannot_become_markup(friction):
-    trace, source, runs = friction
-    html = rendered((replace(trace, sentence='1 < 2 & <b>3</b>'), source, runs))
+    result, source, runs = friction
+    html = rendered((replace(result, sentence='1 < 2 & <b>3</b>'), source, runs))
     assert '1 &lt; 2 &amp; &lt;b&gt;3&lt;/b&gt;' in html
 
 
@@ -131,26 +131,26 @@ def test_models_that_do_not_differ_are_drawn_once(clean, friction):
 
 
 def test_an_effect_that_did_not_suffice_is_named_all_the_same(friction):
-    trace, _, runs = friction
-    partial = replace(trace, verdict='unexplained_structure', effects=())
+    result, _, runs = friction
+    partial = replace(result, verdict='unexplained_structure', effects=())
     assert curves_of(partial, runs)[-1].label == 're-tuned + coulomb friction'
 
 
 @pytest.mark.slow
 def test_later_rounds_stand_below_the_first(friction):
-    trace, source, runs = friction
-    later = tuple(replace(c, parents=('coulomb_friction',)) for c in trace.candidates[:3])
-    html = rendered((replace(trace, candidates=(*trace.candidates, *later)), source, runs))
+    result, source, runs = friction
+    later = tuple(replace(c, parents=('coulomb_friction',)) for c in result.candidates[:3])
+    html = rendered((replace(result, candidates=(*result.candidates, *later)), source, runs))
     assert html.index('On top of re-tuning') < html.index('On top of coulomb friction')
 
 
 @pytest.mark.slow
 def test_what_the_data_cannot_show_is_said_with_what_to_record(held):
-    trace, *_ = held
-    assert trace.untestable == ('payload', 'end_stop')
-    assert not {*trace.untestable} & {*trace.tested}
-    assert len(trace.tested) == len(EFFECTS) - 2
-    sentences = not_excluded(trace, Scale(1.0, 'N'))
+    result, *_ = held
+    assert result.untestable == ('payload', 'end_stop')
+    assert not {*result.untestable} & {*result.tested}
+    assert len(result.tested) == len(EFFECTS) - 2
+    sentences = not_excluded(result, Scale(1.0, 'N'))
     assert sentences[-1].startswith('These data cannot show payload and end stop: ')
     html = rendered(held)
     assert '<b class="tag untestable">untestable</b>' in html
@@ -159,44 +159,44 @@ def test_what_the_data_cannot_show_is_said_with_what_to_record(held):
 
 @pytest.mark.slow
 def test_page_without_candidates_says_so(clean):
-    trace, source, runs = clean
-    html = rendered((replace(trace, candidates=(), next_experiment=''), source, runs))
+    result, source, runs = clean
+    html = rendered((replace(result, candidates=(), next_experiment=''), source, runs))
     assert 'None: the data do not allow it.' in html
     assert 'None is needed for this verdict.' in html
 
 
 def test_load_without_a_muscle_has_an_input_and_a_position(friction, friction_page):
-    trace, source, runs = friction
+    result, source, runs = friction
     assert 'Against pressure' in friction_page
-    model = trace.stages[0].model
+    model = result.stages[0].model
     muscle = replace(
         model.muscle,
         a1=0.0, a2=0.0, a3=0.0, a4=0.0, a6=0.0, a5=35.15, pressure_unit='Pa', zeta=0.0,
         p_min=-10.0, p_max=10.0, force_max=351.5,
     )  # fmt: skip
-    declared = replace(trace.stages[0], model=changed(model, muscle, {}))
-    html = rendered((replace(trace, stages=(declared, *trace.stages[1:])), source, runs))
+    declared = replace(result.stages[0], model=changed(model, muscle, {}))
+    html = rendered((replace(result, stages=(declared, *result.stages[1:])), source, runs))
     assert 'Against the input' in html
     assert 'Against position' in html
     assert 'contraction, %' not in html
 
 
 def test_warnings_are_told_once_with_the_recording_they_are_about(tested):
-    trace, source, _ = tested
-    told = (*trace.warnings, *(w for r in source.recordings for w in r.warnings))
-    found = warnings_of(replace(trace, warnings=told), source)
+    result, source, _ = tested
+    told = (*result.warnings, *(w for r in source.recordings for w in r.warnings))
+    found = warnings_of(replace(result, warnings=told), source)
     assert found == [('', 'the position covers 11 % of the stroke'), ('bench.csv', '1 gap(s)')]
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize('value', [np.nan, np.inf, -1e300])
 def test_a_model_that_diverges_is_drawn_and_its_numbers_stay_finite(clean, value):
-    trace, source, _ = clean
-    declared = trace.stages[0]
+    result, source, _ = clean
+    declared = result.stages[0]
     simulated = declared.simulated[0].copy()
     simulated[1500:] = value
     broken = replace(declared, simulated=(simulated,), fit_error=value, held_error=value)
-    changed = replace(trace, stages=(broken, *trace.stages[1:]))
+    changed = replace(result, stages=(broken, *result.stages[1:]))
     runs = runs_of(changed)
     content = numbers(changed, runs, source)
     assert json.loads(to_json(content))['error']['declared']['details']['fit']['maximum'] > 1e5

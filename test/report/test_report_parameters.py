@@ -15,24 +15,24 @@ from pam_ros.settings.rig import load_rig
 
 
 def reloaded(parts, tmp_path):
-    trace, source, _ = parts
-    write_identified(tmp_path / 'identified.yaml', trace, source)
+    result, source, _ = parts
+    write_identified(tmp_path / 'identified.yaml', result, source)
     return load_rig(str(tmp_path / 'identified.yaml'))[0]
 
 
-def test_loaded_again_it_is_the_same_rig(any_trace, tmp_path):
-    trace, source, _ = any_trace
-    model = reloaded(any_trace, tmp_path)
-    assert model == identified(trace, source)
-    last = trace.stages[-1].model
+def test_loaded_again_it_is_the_same_rig(any_result, tmp_path):
+    result, source, _ = any_result
+    model = reloaded(any_result, tmp_path)
+    assert model == identified(result, source)
+    last = result.stages[-1].model
     assert replace(model.muscle, source=last.muscle.source) == last.muscle
     assert np.array_equal(model.parameters(), last.parameters())
 
 
-def test_it_simulates_as_the_last_stage_did_to_the_bit(any_trace, tmp_path):
-    trace, _, _ = any_trace
-    model = reloaded(any_trace, tmp_path)
-    for s, simulated in zip(trace.segments, trace.stages[-1].simulated, strict=True):
+def test_it_simulates_as_the_last_stage_did_to_the_bit(any_result, tmp_path):
+    result, _, _ = any_result
+    model = reloaded(any_result, tmp_path)
+    for s, simulated in zip(result.segments, result.stages[-1].simulated, strict=True):
         if s.kind == 'free':
             again = simulate(model, s.t, s.drive_t, s.drive, s.y0, s.v0).position
         else:
@@ -41,8 +41,8 @@ def test_it_simulates_as_the_last_stage_did_to_the_bit(any_trace, tmp_path):
 
 
 def test_awkward_numbers_survive(friction, tmp_path):
-    trace, source, _ = friction
-    model = trace.stages[-1].model
+    result, source, _ = friction
+    model = result.stages[-1].model
     odd = changed(
         model,
         replace(model.muscle, a1=-4.1e-7, a5=302.00000000000006, a2=1e2 / 3.0),
@@ -51,7 +51,7 @@ def test_awkward_numbers_survive(friction, tmp_path):
             'creep': {},
         },
     )
-    other = replace(trace, stages=(*trace.stages[:2], replace(trace.stages[2], model=odd)))
+    other = replace(result, stages=(*result.stages[:2], replace(result.stages[2], model=odd)))
     again = reloaded((other, source, None), tmp_path)
     assert np.array_equal(again.parameters(), odd.parameters())
     assert 'creep' not in (tmp_path / 'identified.yaml').read_text(encoding='utf-8')
@@ -59,10 +59,10 @@ def test_awkward_numbers_survive(friction, tmp_path):
 
 @pytest.mark.parametrize('name', ['C: a.csv', 'a #1: b', 'a:', '\x07\n#b\u2028 :c', ' : # '])
 def test_its_source_is_a_text_also_where_it_is_read_twice(friction, tmp_path, name):
-    trace, source, _ = friction
+    result, source, _ = friction
     recordings = tuple(replace(one, name=name) for one in source.recordings)
     other = replace(source, recordings=recordings, parameters=name)
-    write_identified(tmp_path / 'identified.yaml', trace, other)
+    write_identified(tmp_path / 'identified.yaml', result, other)
     written = yaml.safe_load((tmp_path / 'identified.yaml').read_text(encoding='utf-8'))
     text = written['/**']['ros__parameters']['source']
     assert yaml.safe_load(text) == text

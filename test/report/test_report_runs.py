@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The segments of a trace as the report sees them."""
+"""The segments of an identification as the report sees them."""
 
 import numpy as np
 import pytest
@@ -9,31 +9,31 @@ from pam_ros.report.runs import runs_of, sizes
 
 
 def test_held_out_is_the_part_that_judges(friction):
-    trace, _, runs = friction
+    result, _, runs = friction
     assert len(runs) == 1
-    assert np.array_equal(runs[0].held, ~trace.segments[0].fit)
+    assert np.array_equal(runs[0].held, ~result.segments[0].fit)
     assert runs[0].held.mean() == pytest.approx(0.25, abs=0.01)
 
 
 def test_held_out_is_the_test_recording_where_there_is_one(tested):
-    trace, _, runs = tested
+    result, _, runs = tested
     assert [run.is_test for run in runs] == [False, False, True]
     assert [bool(run.held.all()) for run in runs] == [False, False, True]
     assert not runs[0].held.any()
     assert runs[2].name == 'other.csv'
-    assert runs[2].target is trace.test[0].target
+    assert runs[2].target is result.test[0].target
 
 
 def test_residual_is_measured_less_simulated(friction):
-    trace, _, runs = friction
-    segment = trace.segments[0]
-    for k, stage in enumerate(trace.stages):
+    result, _, runs = friction
+    segment = result.segments[0]
+    for k, stage in enumerate(result.stages):
         assert np.array_equal(runs[0].residual(k), segment.target - stage.simulated[0])
 
 
-def test_sizes_are_the_stages_own_errors(any_trace):
-    trace, _, runs = any_trace
-    for k, stage in enumerate(trace.stages):
+def test_sizes_are_the_stages_own_errors(any_result):
+    result, _, runs = any_result
+    for k, stage in enumerate(result.stages):
         fit, held = sizes(runs, k)
         assert fit.rmse == pytest.approx(stage.fit_error, rel=1e-12)
         assert held.rmse == pytest.approx(stage.held_error, rel=1e-12)
@@ -42,9 +42,9 @@ def test_sizes_are_the_stages_own_errors(any_trace):
 
 
 def test_inputs_of_a_free_load(friction):
-    trace, _, (run,) = friction
-    segment = trace.segments[0]
-    last = trace.stages[2].simulated[0]
+    result, _, (run,) = friction
+    segment = result.segments[0]
+    last = result.stages[2].simulated[0]
     assert run.contraction * 0.4 == pytest.approx(last)
     # The integral of the velocity is the way.
     way = np.sum(0.5 * (run.velocity[1:] + run.velocity[:-1]) * np.diff(run.t))
@@ -55,7 +55,7 @@ def test_inputs_of_a_free_load(friction):
 
 
 def test_inputs_of_a_held_length_are_measured(held):
-    trace, _, runs = held
+    result, _, runs = held
     assert [run.contraction[0] for run in runs] == pytest.approx([0.02, 0.1, 0.18])
-    assert all(run.pressure is s.pressure for run, s in zip(runs, trace.segments, strict=True))
-    assert runs_of(trace)[0].velocity.max() == 0.0
+    assert all(run.pressure is s.pressure for run, s in zip(runs, result.segments, strict=True))
+    assert runs_of(result)[0].velocity.max() == 0.0

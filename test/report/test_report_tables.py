@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""residual.csv, read back and compared with the trace."""
+"""residual.csv, read back and compared with the result."""
 
 import csv
 import io
@@ -18,8 +18,8 @@ def read(text):
 
 @pytest.mark.slow
 def test_every_sample_with_its_residuals(tested):
-    trace, _, runs = tested
-    rows = read(residual_csv(runs, trace.quantity, trace.unit))
+    result, _, runs = tested
+    rows = read(residual_csv(runs, result.quantity, result.unit))
     assert len(rows) == sum(run.t.size for run in runs)
     at = 0
     for k, run in enumerate(runs):
@@ -42,8 +42,8 @@ def test_every_sample_with_its_residuals(tested):
 
 
 def test_held_length_has_forces(held):
-    trace, _, runs = held
-    first = read(residual_csv(runs, trace.quantity, trace.unit))[0]
+    result, _, runs = held
+    first = read(residual_csv(runs, result.quantity, result.unit))[0]
     assert float(first['force_N']) == pytest.approx(runs[0].target[0])
     assert float(first['residual_declared_N']) == pytest.approx(
         runs[0].target[0] - runs[0].simulated[0][0], abs=1e-6
@@ -51,6 +51,6 @@ def test_held_length_has_forces(held):
 
 
 def test_a_name_with_a_comma_stays_one_cell(friction):
-    trace, _, (run,) = friction
-    text = residual_csv([replace(run, name='a, "b".csv')], trace.quantity, trace.unit)
+    result, _, (run,) = friction
+    text = residual_csv([replace(run, name='a, "b".csv')], result.quantity, result.unit)
     assert read(text)[3]['recording'] == 'a, "b".csv'

@@ -8,11 +8,11 @@ from pam_ros.report.summary import added, last_line
 
 
 def test_line_says_verdict_and_errors(friction):
-    trace, _, _ = friction
-    line = last_line(trace)
+    result, _, _ = friction
+    line = last_line(result)
     assert line.startswith('effect_found (coulomb_friction): held-out error ')
-    assert f'{1e3 * trace.stages[0].held_error:.3g} mm as declared' in line
-    assert f'{1e3 * trace.stages[2].held_error:.3g}' in line
+    assert f'{1e3 * result.stages[0].held_error:.3g} mm as declared' in line
+    assert f'{1e3 * result.stages[2].held_error:.3g}' in line
     assert line.endswith('noise 0.0500 mm')
     assert '\n' not in line
 
@@ -28,7 +28,7 @@ def test_force_is_in_newtons(held):
 
 
 def test_added_effects_are_those_that_were_not_declared(friction):
-    trace, _, _ = friction
-    assert added(trace) == ['coulomb_friction']
-    declared = replace(trace.stages[0], model=trace.stages[2].model)
-    assert added(replace(trace, stages=(declared, *trace.stages[1:]))) == []
+    result, _, _ = friction
+    assert added(result) == ['coulomb_friction']
+    declared = replace(result.stages[0], model=result.stages[2].model)
+    assert added(replace(result, stages=(declared, *result.stages[1:]))) == []

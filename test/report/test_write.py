@@ -41,8 +41,8 @@ def test_folder_has_the_permissions_of_any_other(folder, tmp_path):
 
 def test_former_report_is_replaced(reports, friction, clean, tmp_path):
     shutil.copytree(reports(friction), tmp_path / 'out')
-    trace, source, _ = clean
-    write_report(tmp_path / 'out', trace, source)
+    result, source, _ = clean
+    write_report(tmp_path / 'out', result, source)
     report = json.loads((tmp_path / 'out' / 'report.json').read_text(encoding='utf-8'))
     assert report['verdict'] == 'no_missing_effect'
     assert names(tmp_path) == ['out']
@@ -65,7 +65,7 @@ def test_replacing_swaps_two_folders(tmp_path, monkeypatch, swaps):
 @pytest.mark.slow
 @pytest.mark.parametrize('error', [KeyboardInterrupt, RuntimeError, SystemExit])
 def test_nothing_is_left_where_writing_breaks_off(friction, reports, tmp_path, monkeypatch, error):
-    trace, source, _ = friction
+    result, source, _ = friction
     target = tmp_path / 'deep' / 'report'
     shutil.copytree(reports(friction), target)
     before = (target / 'report.json').read_bytes()
@@ -75,7 +75,7 @@ def test_nothing_is_left_where_writing_breaks_off(friction, reports, tmp_path, m
 
     monkeypatch.setattr(write, 'write_identified', fail)
     with pytest.raises(error):
-        write_report(target, trace, source)
+        write_report(target, result, source)
     assert names(target.parent) == ['report']
     assert names(target) == sorted(FILES)
     assert (target / 'report.json').read_bytes() == before
@@ -159,10 +159,10 @@ def test_a_full_disk_is_a_sentence(tmp_path):
 
 
 def test_other_folders_are_refused(tmp_path, friction):
-    trace, source, _ = friction
+    result, source, _ = friction
     (tmp_path / 'notes.txt').write_text('mine', encoding='utf-8')
     with pytest.raises(PamError, match=r'holds notes\.txt, which is no report'):
-        write_report(tmp_path, trace, source)
+        write_report(tmp_path, result, source)
     assert names(tmp_path) == ['notes.txt']
 
 
@@ -184,9 +184,9 @@ def test_a_file_is_refused_and_an_empty_or_new_folder_taken(tmp_path):
 
 
 def test_a_link_stays_a_link(tmp_path, friction):
-    trace, source, _ = friction
+    result, source, _ = friction
     (tmp_path / 'real').mkdir()
     (tmp_path / 'link').symlink_to(tmp_path / 'real')
-    write_report(tmp_path / 'link', trace, source)
+    write_report(tmp_path / 'link', result, source)
     assert (tmp_path / 'link').is_symlink()
     assert names(tmp_path / 'real') == sorted(FILES)

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Traces made by hand from simulated recordings: what a report is made of, without a fit."""
+"""Results made by hand from simulated recordings: what a report is made of, without a fit."""
 
 from dataclasses import replace
 
@@ -9,7 +9,7 @@ import numpy as np
 from pam_ros.effects import EFFECTS
 from pam_ros.identification.data.noise import Noise
 from pam_ros.identification.data.segment import segments_of
-from pam_ros.identification.result import Candidate, Estimate, Finding, Stage, Trace
+from pam_ros.identification.result import Candidate, Estimate, Finding, Identification, Stage
 from pam_ros.identification.structure import Structure
 from pam_ros.recording.recording import Recording
 from pam_ros.report.provenance import provenance
@@ -140,8 +140,8 @@ def candidates(chosen, ambiguous=(), untestable=()):
     return tuple(found)
 
 
-def trace_of(recordings, test, declared, retuned, augmented, verdict, findings=(), quantity=None):
-    """Return the trace that three models make of the recordings."""
+def result_of(recordings, test, declared, retuned, augmented, verdict, findings=(), quantity=None):
+    """Return the result that three models make of the recordings."""
     segments = segments_of(recordings)
     if not test:
         segments = [replace(s, fit=s.t < s.t[0] + 0.75 * (s.t[-1] - s.t[0])) for s in segments]
@@ -165,7 +165,7 @@ def trace_of(recordings, test, declared, retuned, augmented, verdict, findings=(
     }
     chosen = [finding.name for finding in findings]
     others = [name for finding in findings for name in finding.alternatives]
-    return Trace(
+    return Identification(
         verdict,
         'The declared model lacks Coulomb friction.' if findings else 'Nothing is missing.',
         quantity,
@@ -194,30 +194,30 @@ FRICTION_FOUND = Finding(
 )
 
 
-def friction_trace(test=False, gap=False, seconds=SECONDS, rate=200.0):
-    """Return (trace, provenance) of a free rig with friction that was found."""
+def friction_result(test=False, gap=False, seconds=SECONDS, rate=200.0):
+    """Return (result, provenance) of a free rig with friction that was found."""
     truth = rig(**{'effects.coulomb_friction.level': 14.0, 'a5': 303.5, 'zeta': 0.2})
     recordings = [free_recording(truth, seconds, rate, gap=gap)]
     others = [free_recording(truth, seconds, rate, 5, 'other.csv')] if test else []
     declared, retuned = rig(), rig(a5=303.4, zeta=0.24)
     augmented = rig(**{'effects.coulomb_friction.level': 14.02, 'a5': 303.502, 'zeta': 0.201})
-    trace = trace_of(
+    result = result_of(
         recordings, others, declared, retuned, augmented, 'effect_found', (FRICTION_FOUND,)
     )
-    return trace, source_of(declared, recordings, others)
+    return result, source_of(declared, recordings, others)
 
 
-def clean_trace():
-    """Return (trace, provenance) of a free rig that lacks nothing: augmented is re-tuned."""
+def clean_result():
+    """Return (result, provenance) of a free rig that lacks nothing: augmented is re-tuned."""
     truth = rig()
     recordings = [free_recording(truth)]
     retuned = rig(a5=302.23)
-    trace = trace_of(recordings, [], truth, retuned, retuned, 'no_missing_effect')
-    return trace, source_of(truth, recordings, [])
+    result = result_of(recordings, [], truth, retuned, retuned, 'no_missing_effect')
+    return result, source_of(truth, recordings, [])
 
 
-def held_trace():
-    """Return (trace, provenance) of a muscle held at three lengths, with hysteresis found."""
+def held_result():
+    """Return (result, provenance) of a muscle held at three lengths, with hysteresis found."""
     hysteresis = next(e for e in EFFECTS if e.name == 'hysteresis')
     strength = next(p for p in hysteresis.parameters if p.strength)
     values = {f'effects.hysteresis.{strength.name}': 3.0 * strength.scale}
@@ -231,12 +231,12 @@ def held_trace():
         (),
         'loops',
     )
-    trace = trace_of(recordings, [], rig(), rig(a5=302.0), truth, 'effect_found', (found,))
-    return trace, source_of(rig(), recordings, [])
+    result = result_of(recordings, [], rig(), rig(a5=302.0), truth, 'effect_found', (found,))
+    return result, source_of(rig(), recordings, [])
 
 
-def crowded_trace():
-    """Return (trace, provenance) with long names, nine recordings and three effects."""
+def crowded_result():
+    """Return (result, provenance) with long names, nine recordings and three effects."""
     truth = rig(**{'effects.coulomb_friction.level': 14.0})
     names = [f'2026-11-20T10-15-{k:02d}_bench_south_muscle_dmsp_20_400n.csv' for k in range(9)]
     recordings = [free_recording(truth, 8.0, 200.0, k, name) for k, name in enumerate(names)]
@@ -249,12 +249,12 @@ def crowded_trace():
         Finding(effect.name, values, ('pressure_dependent_damping', 'hysteresis'), 3 * reason)
         for effect in EFFECTS[-3:]
     ]
-    trace = trace_of(recordings, [], rig(), rig(a5=304.0), truth, 'effect_found', findings)
+    result = result_of(recordings, [], rig(), rig(a5=304.0), truth, 'effect_found', findings)
     later = tuple(
         replace(
             c, parents=tuple(f.name for f in findings), reason=2 * reason, choose_error=123.4e-9
         )
-        for c in trace.candidates
+        for c in result.candidates
     )
     overrides = ('mass=20', 'zeta=0.2', 'effects.pressure_dependent_damping.per_pressure=1e-5')
     source = replace(
@@ -262,11 +262,11 @@ def crowded_trace():
         overrides=overrides,
         command='pam_identify ' + ' '.join(names) + ' --out /a/long/' + 40 * 'path' + '/out',
     )
-    return replace(trace, candidates=(*trace.candidates, *later), sentence=4 * reason), source
+    return replace(result, candidates=(*result.candidates, *later), sentence=4 * reason), source
 
 
 def source_of(declared, recordings, test):
-    """Return the provenance of a trace that was made by hand."""
+    """Return the provenance of a result that was made by hand."""
     return provenance(
         declared, PRESET, ('mass=20',), recordings, test, 'pam_identify bench.csv --out report'
     )

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The trace: how wrong is the declared model, what does it lack, how wrong is it with that."""
+"""How wrong is the nominal model, which effects does it lack, how wrong is it with them."""
 
 import os
 from collections.abc import Sequence
@@ -17,7 +17,7 @@ from pam_ros.identification.data.noise import Noise, noise_of
 from pam_ros.identification.data.parts import Part, parts_of
 from pam_ros.identification.data.segment import Segment, require_one_kind, segments_of
 from pam_ros.identification.fit.solve import Solution
-from pam_ros.identification.result import Finding, Stage, Trace
+from pam_ros.identification.result import Finding, Identification, Stage
 from pam_ros.identification.search.criteria import BUDGET, CRITERIA
 from pam_ros.identification.search.final import Final, final
 from pam_ros.identification.search.levels import apart
@@ -42,13 +42,13 @@ Array = NDArray[np.float64]
 THREADS = 4
 
 
-def trace(
+def identify(
     model: Joint,
     recordings: Sequence[Recording],
     test: Sequence[Recording] = (),
     progress: Progress | None = None,
-) -> Trace:
-    """Trace what *recordings* show beyond *model* to effects of the model's library.
+) -> Identification:
+    """Identify the effects of the model's library that *recordings* show beyond *model*.
 
     Errors are judged on *test*, or without it on the part of each recording that nothing saw
     before, see :mod:`pam_ros.identification.data.parts`. progress(share, text) is called with the
@@ -99,12 +99,12 @@ def trace(
     )
 
 
-def _answer(found: Search, ends: Final, tests: Sequence[Segment]) -> Trace:
-    """Return the numbers of a trace, with nothing said about them yet."""
+def _answer(found: Search, ends: Final, tests: Sequence[Segment]) -> Identification:
+    """Return the numbers of an identification, with nothing said about them yet."""
     three = stages(ends, found, tests)
     noise = _least(three, ends.parts)
     quantity = ends.parts[0].segment.quantity
-    return Trace(
+    return Identification(
         verdict='',
         sentence='',
         quantity=quantity,

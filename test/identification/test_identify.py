@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The whole trace, on the truth plant and on measured machines: what is there is named."""
+"""Whole identifications, on the truth plant and on measured machines: effects are named."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from pam_ros.errors import RecordingError
+from pam_ros.identification.identify import identify
 from pam_ros.identification.search.criteria import CRITERIA
-from pam_ros.identification.trace import trace
 from pam_ros.recording.mapping import read_mapping
 from pam_ros.recording.read import read_recording
 from pam_ros.rig.run import simulate
@@ -44,7 +44,7 @@ def names(found):
     ids=lambda one: getattr(one, 'kind', ''),
 )
 def test_an_effect_is_named_and_measured(there, numbers):
-    found = trace(bench_truth.declared(off=OFF), [bench_truth.free(there, seed=4)])
+    found = identify(bench_truth.declared(off=OFF), [bench_truth.free(there, seed=4)])
     assert found.verdict == 'effect_found'
     assert names(found) == [there.kind]
     for name, value in numbers.items():
@@ -62,7 +62,7 @@ def test_an_effect_is_named_and_measured(there, numbers):
 
 @pytest.mark.parametrize('rho', [0.0, 0.9])
 def test_a_model_that_is_right_lacks_nothing(rho):
-    found = trace(bench_truth.declared(), [bench_truth.free(seed=1, rho=rho)])
+    found = identify(bench_truth.declared(), [bench_truth.free(seed=1, rho=rho)])
     assert found.verdict == 'no_missing_effect'
     assert found.effects == ()
     assert found.stages[0].held_error < 1.2 * NOISE
@@ -70,7 +70,7 @@ def test_a_model_that_is_right_lacks_nothing(rho):
 
 @pytest.mark.parametrize('off', [OFF, [0.0, 0.0, 0.0, 0.0, 0.1, 0.0]], ids=['all', 'a5_by_10_%'])
 def test_constants_of_another_specimen_are_wrong_parameters(off):
-    found = trace(bench_truth.declared(off=off, zeta=0.2), [bench_truth.free(seed=3)])
+    found = identify(bench_truth.declared(off=off, zeta=0.2), [bench_truth.free(seed=3)])
     assert found.verdict == 'parameters_wrong'
     assert found.effects == ()
     assert found.stages[0].held_error > 10.0 * NOISE
@@ -78,7 +78,7 @@ def test_constants_of_another_specimen_are_wrong_parameters(off):
 
 
 def test_a_few_seconds_support_no_verdict():
-    found = trace(
+    found = identify(
         bench_truth.declared(), [bench_truth.free(effect('viscous_friction'), duration=4.0)]
     )
     assert found.verdict == 'insufficient_data'
@@ -90,12 +90,12 @@ def test_a_recording_without_enough_samples_for_a_fit_is_refused():
     whole = bench_truth.free(duration=6.0)
     short = replace(whole, t=whole.t[:20], position=whole.position[:20])
     with pytest.raises(RecordingError, match=r'truth\.csv is too short for a fit: it lasts 0\.19'):
-        trace(bench_truth.declared(), [short])
+        identify(bench_truth.declared(), [short])
 
 
 def test_without_test_recordings_the_last_quarter_judges():
     lag = effect('pressure_lag')
-    found = trace(bench_truth.declared(), [bench_truth.free(lag, seed=5, duration=20.0)])
+    found = identify(bench_truth.declared(), [bench_truth.free(lag, seed=5, duration=20.0)])
     (s,) = found.segments
     np.testing.assert_array_equal(s.fit, s.t < CRITERIA.choose * s.t[-1])
     for stage in found.stages:
@@ -109,7 +109,7 @@ def test_a_test_recording_judges_what_the_others_taught():
     first = bench_truth.free(lag, seed=5, name='first.csv')
     other = bench_truth.free(lag, seed=6, name='other.csv', duration=20.0)
     calls = []
-    found = trace(
+    found = identify(
         bench_truth.declared(off=OFF), [first], [other], lambda share, text: calls.append(share)
     )
     assert names(found) == ['pressure_lag']
@@ -128,7 +128,7 @@ def test_a_test_recording_judges_what_the_others_taught():
 
 def test_the_same_recording_gives_the_same_numbers():
     recording = bench_truth.free(effect('viscous_friction'), seed=7, duration=15.0)
-    one, two = (trace(bench_truth.declared(off=OFF), [recording]) for _ in range(2))
+    one, two = (identify(bench_truth.declared(off=OFF), [recording]) for _ in range(2))
     assert one.sentence == two.sentence
     assert one.candidates == two.candidates
     for a, b in zip(one.stages, two.stages, strict=True):
@@ -143,7 +143,7 @@ def test_the_same_recording_gives_the_same_numbers():
     ids=lambda one: one.kind,
 )
 def test_an_isometric_muscle(there):
-    found = trace(bench_truth.declared(off=OFF), [bench_truth.held(there, seed=1)])
+    found = identify(bench_truth.declared(off=OFF), [bench_truth.held(there, seed=1)])
     assert found.verdict == 'effect_found'
     assert names(found) == [there.kind]
     assert (found.quantity, found.unit) == ('force', 'N')
@@ -152,13 +152,13 @@ def test_an_isometric_muscle(there):
 
 
 def test_an_isometric_muscle_that_lacks_nothing():
-    found = trace(bench_truth.declared(), [bench_truth.held(seed=2)])
+    found = identify(bench_truth.declared(), [bench_truth.held(seed=2)])
     assert found.verdict == 'no_missing_effect'
 
 
 def test_every_candidate_is_listed_with_a_reason():
     recording = bench_truth.free(effect('viscous_friction'), seed=8, duration=15.0)
-    found = trace(bench_truth.declared(), [recording])
+    found = identify(bench_truth.declared(), [recording])
     decisions = {c.decision for c in found.candidates}
     assert decisions <= {'chosen', 'ambiguous', 'rejected', 'untestable'}
     assert [c.effect for c in found.candidates if c.decision == 'chosen'] == ['viscous_friction']
@@ -169,7 +169,7 @@ def test_every_candidate_is_listed_with_a_reason():
 
 def test_recordings_of_two_kinds_are_refused():
     with pytest.raises(RecordingError, match='recordings of one kind are needed'):
-        trace(bench_truth.declared(), [bench_truth.free(duration=6.0), bench_truth.held()])
+        identify(bench_truth.declared(), [bench_truth.free(duration=6.0), bench_truth.held()])
 
 
 def test_the_measured_drive_has_two_frictions(shared_data):
@@ -178,7 +178,7 @@ def test_the_measured_drive_has_two_frictions(shared_data):
     columns = read_mapping(['motor_voltage_V=pressure_command_Pa', 'reference_m=ignore'])
     file = shared_data / 'emps' / 'emps_estimation.csv'
     measured = read_recording(file, columns, None, model.muscle.l0, model.muscle.p_max)
-    found = trace(model, [measured])
+    found = identify(model, [measured])
     assert found.verdict == 'effect_found'
     assert set(names(found)) == {'viscous_friction', 'coulomb_friction'}
     by = {one.name: one.parameters for one in found.effects}
@@ -207,7 +207,7 @@ def test_the_measured_muscle_goes_slack(shared_data):
             read_recording(file, None, None, model.muscle.l0, model.muscle.p_max) for file in files
         ]
 
-    found = trace(model, [*repeat(1), *repeat(2), *repeat(3)], [*repeat(4), *repeat(5)])
+    found = identify(model, [*repeat(1), *repeat(2), *repeat(3)], [*repeat(4), *repeat(5)])
     assert found.verdict == 'effect_found'
     assert names(found) == ['slack']
     declared, retuned, augmented = (s.held_error for s in found.stages)
@@ -230,7 +230,7 @@ def test_friction_of_a_cylinder_that_a_machine_moves():
         for k, bar in enumerate((1.0, 5.0))
     ]
     other = moved_cylinders.recording(3.0, level=4.0, per_bar=1.0, seed=2)
-    found = trace(cylinder(), fitted, [other])
+    found = identify(cylinder(), fitted, [other])
     assert found.verdict == 'effect_found'
     assert names(found) == ['coulomb_friction']
     parameters = found.effects[0].parameters
@@ -248,7 +248,7 @@ def test_no_friction_is_claimed_of_a_cylinder_without():
     one, two, other = (
         moved_cylinders.recording(bar, swing=0.2, seed=k) for k, bar in enumerate((1.0, 5.0, 3.0))
     )
-    found = trace(cylinder(), [one, two], [other])
+    found = identify(cylinder(), [one, two], [other])
     assert found.verdict == 'no_missing_effect'
     assert {'coulomb_friction', 'viscous_friction'} <= set(found.tested)
     assert {'payload', 'end_stop'} <= set(found.untestable)
@@ -262,7 +262,7 @@ def test_the_measured_cylinder_has_friction(shared_data):
         file = shared_data / 'cylinder_friction' / f'Circle_{bar}bar.csv'
         return read_recording(file, None, 'held', None, model.muscle.p_max)
 
-    found = trace(model, [at(1), at(5)], [at(3), at(7)])
+    found = identify(model, [at(1), at(5)], [at(3), at(7)])
     assert found.verdict == 'effect_found'
     assert names(found) == ['coulomb_friction']
     assert found.stages[1].held_error > 5.0
