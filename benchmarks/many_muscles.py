@@ -17,7 +17,7 @@ import numpy as np
 from pam_ros.compiled import HAVE_NUMBA
 from pam_ros.rig.joint import Actuator, Joint, one_muscle
 from pam_ros.rig.loads import Arm, Mass
-from pam_ros.rig.rig import Rig
+from pam_ros.rig.simulation import Simulation
 from pam_ros.rig.transmissions import Pulley
 
 STEPS = 64_000  # of one muscle; fewer of many, so that each turn takes as long
@@ -28,20 +28,20 @@ MUSCLES = (1, 8, 64)
 SLIGHT = {'viscous_friction': {'coefficient': 1e-9}}
 
 
-def rigs(effects: dict[str, dict[str, float]]) -> dict[str, Rig]:
+def rigs(effects: dict[str, dict[str, float]]) -> dict[str, Simulation]:
     """Return rigs by name, with as many muscles as the name says."""
     single = one_muscle(effects=effects)
     hung = Actuator(contraction=0.1)
     pair = Joint((hung, hung), Arm(), Pulley(), effects)
     parallel = Joint((Actuator(), Actuator()), Mass(mass=40.0), effects=effects)
-    found = {f'{n:2} alone': Rig([single] * n, STEP) for n in MUSCLES}
-    found |= {f'{2 * n:2} in {n} pairs': Rig([pair] * n, STEP) for n in (1, 4, 32)}
-    found[' 2 in parallel'] = Rig([parallel], STEP)
-    found['64, 32 alone, 16 pairs'] = Rig([single] * 32 + [pair] * 16, STEP)
+    found = {f'{n:2} alone': Simulation([single] * n, STEP) for n in MUSCLES}
+    found |= {f'{2 * n:2} in {n} pairs': Simulation([pair] * n, STEP) for n in (1, 4, 32)}
+    found[' 2 in parallel'] = Simulation([parallel], STEP)
+    found['64, 32 alone, 16 pairs'] = Simulation([single] * 32 + [pair] * 16, STEP)
     return found
 
 
-def start(rig: Rig) -> None:
+def start(rig: Simulation) -> None:
     """Let a rig begin anew where it has something to do."""
     still = np.zeros(len(rig.position))
     rig.reset(np.full(len(rig.pressure), 3e5), still, still)

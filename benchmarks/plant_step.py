@@ -21,7 +21,7 @@ import numpy as np
 
 from pam_ros.compiled import HAVE_NUMBA
 from pam_ros.rig.joint import one_muscle
-from pam_ros.rig.rig import Rig
+from pam_ros.rig.simulation import Simulation
 
 STEPS = 100_000
 STEP = 1e-3  # s
@@ -79,7 +79,7 @@ def plain_c(folder: str, compiler: str) -> Callable[[], float]:
 
 def rig(effects: dict[str, dict[str, float]]) -> Callable[[], float]:
     """Return this package's rig as a node steps it."""
-    plant = Rig([one_muscle(effects=effects)], STEP)
+    plant = Simulation([one_muscle(effects=effects)], STEP)
 
     def run() -> float:
         plant.reset([PRESSURE], [0.0], [0.0])

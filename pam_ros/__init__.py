@@ -35,8 +35,8 @@ if TYPE_CHECKING:
     from pam_ros.rig.joint import Actuator, Joint, one_muscle
     from pam_ros.rig.loads import Arm, Load, LoadEquations, Mass
     from pam_ros.rig.rest import rest
-    from pam_ros.rig.rig import Rig
     from pam_ros.rig.run import Trajectory, simulate, simulate_held
+    from pam_ros.rig.simulation import Simulation
     from pam_ros.rig.transmissions import (
         Lever,
         Pulley,
@@ -67,7 +67,7 @@ __all__ = [
     'Pulley',
     'Recording',
     'Reference',
-    'Rig',
+    'Simulation',
     'SlidingMode',
     'Straight',
     'Trajectory',
@@ -113,7 +113,7 @@ _PLACES = {
     'rig.joint': ('Actuator', 'Joint', 'one_muscle'),
     'rig.loads': ('Arm', 'Load', 'LoadEquations', 'Mass'),
     'rig.rest': ('rest',),
-    'rig.rig': ('Rig',),
+    'rig.simulation': ('Simulation',),
     'rig.run': ('Trajectory', 'simulate', 'simulate_held'),
     'rig.transmissions': (
         'Lever',

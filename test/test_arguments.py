@@ -21,7 +21,7 @@ from pam_ros import (
     PidGains,
     Pulley,
     Recording,
-    Rig,
+    Simulation,
     SlidingMode,
     Transmission,
     fit_static_map,
@@ -84,10 +84,18 @@ ARRAYS = {
     ),
     'simulate_held position': (lambda v: simulate_held(ONE, T, COMMAND, v), STILL, set()),
     'simulate_held velocity': (lambda v: simulate_held(ONE, T, COMMAND, STILL, v), STILL, set()),
-    'rig.command pressure': (lambda v: Rig([ELBOW, ONE]).command(v), COMMAND, set()),
-    'rig.reset pressure': (lambda v: Rig([ELBOW, ONE]).reset(v, 0.0, 0.0), COMMAND, set()),
-    'rig.reset position': (lambda v: Rig([ELBOW, ONE]).reset(0.0, v, 0.0), [0.1, 0.0], set()),
-    'rig.reset velocity': (lambda v: Rig([ELBOW, ONE]).reset(0.0, 0.0, v), [0.1, 0.0], set()),
+    'rig.command pressure': (lambda v: Simulation([ELBOW, ONE]).command(v), COMMAND, set()),
+    'rig.reset pressure': (lambda v: Simulation([ELBOW, ONE]).reset(v, 0.0, 0.0), COMMAND, set()),
+    'rig.reset position': (
+        lambda v: Simulation([ELBOW, ONE]).reset(0.0, v, 0.0),
+        [0.1, 0.0],
+        set(),
+    ),
+    'rig.reset velocity': (
+        lambda v: Simulation([ELBOW, ONE]).reset(0.0, 0.0, v),
+        [0.1, 0.0],
+        set(),
+    ),
     'rest p': (lambda v: rest(ELBOW, v), [3e5, 2e5], set()),
     'stiffness p': (lambda v: stiffness(ELBOW, v, 0.1), [3e5, 2e5], set()),
     'stiffness s': (
@@ -262,7 +270,7 @@ def test_equal_stamps_are_good_for_a_run_and_not_where_there_is_a_gradient():
 
 
 def test_one_number_is_for_all_muscles_and_joints_of_a_rig_and_one_in_a_list_is_not():
-    rig = Rig([ELBOW, ONE])
+    rig = Simulation([ELBOW, ONE])
     rig.reset(2e5, 0.01, 0.0)
     np.testing.assert_array_equal(rig.pressure, [2e5] * 3)
     np.testing.assert_array_equal(rig.position, [0.01] * 2)
@@ -275,7 +283,7 @@ def test_one_number_is_for_all_muscles_and_joints_of_a_rig_and_one_in_a_list_is_
 
 
 def test_a_refused_command_or_start_leaves_the_rig_as_it_was():
-    rig = Rig([ELBOW])
+    rig = Simulation([ELBOW])
     rig.reset([3e5, 2e5], [0.1], [0.0])
     rig.advance(5)
     before = rig.time, rig.position, rig.pressure
@@ -300,8 +308,8 @@ NUMBERS = {
         hidden={'creep': {creep_state(): v}},
     ),
     'simulate_held step': lambda v: simulate_held(ONE, T, COMMAND, STILL, step=v),
-    'rig step': lambda v: Rig([ONE], v),
-    'rig pressure': lambda v: Rig([ONE]).command_one(0, v),
+    'rig step': lambda v: Simulation([ONE], v),
+    'rig pressure': lambda v: Simulation([ONE]).command_one(0, v),
     'stiffness_range s': lambda v: stiffness_range(ELBOW, v),
     'stiffness_range effort': lambda v: stiffness_range(ELBOW, 0.1, v),
     'pressures s': lambda v: pressures(ELBOW, v, 60.0),
@@ -343,7 +351,7 @@ def test_what_is_not_a_number_is_refused_with_a_sentence_that_names_it(name):
 def test_a_step_is_above_0(step):
     sentence = f'step = {step} is not allowed: give more than 0 s'
     assert refusal(simulate_held, ONE, T, COMMAND, STILL, step=step) == sentence
-    for call in (lambda: simulate(ONE, T, T, COMMAND, step=step), lambda: Rig([ONE], step)):
+    for call in (lambda: simulate(ONE, T, T, COMMAND, step=step), lambda: Simulation([ONE], step)):
         assert refusal(call).startswith(f'a physics step of {step:g} s is not allowed: give more')
 
 
@@ -359,19 +367,19 @@ def test_a_step_is_above_0(step):
     ],
 )
 def test_a_rig_advances_by_whole_steps(steps, sentence):
-    assert refusal(Rig([ONE]).advance, steps) == sentence
+    assert refusal(Simulation([ONE]).advance, steps) == sentence
 
 
 @pytest.mark.parametrize('steps', [0, 3, np.int64(3), np.array(3)])
 def test_whole_steps_of_each_kind_are_taken(steps):
-    rig = Rig([ONE])
+    rig = Simulation([ONE])
     rig.advance(steps)
     assert rig.time == pytest.approx(1e-3 * int(steps))
 
 
 @pytest.mark.parametrize('muscle', [-1, 2, 0.5, '0', None])
 def test_a_muscle_that_a_rig_does_not_have_is_not_commanded(muscle):
-    assert refusal(Rig([ELBOW]).command_one, muscle, 3e5).startswith(
+    assert refusal(Simulation([ELBOW]).command_one, muscle, 3e5).startswith(
         f'muscle = {muscle!r} is not allowed: give a whole number'
     )
 
@@ -422,10 +430,10 @@ OBJECTS = {
         'effects.viscous_friction = 30.0',
     ),
     'muscle of a text': (Muscle, ('4',), "a1 = '4'"),
-    'rig of a joint': (Rig, (ONE,), 'joints = Joint(actuators='),
-    'rig of muscles': (Rig, ([Muscle()],), 'joints[0] = Muscle('),
-    'rig of nothing': (Rig, ([],), 'joints is empty'),
-    'change to a joint': (Rig([ONE]).change, (ONE,), 'joints = Joint(actuators='),
+    'rig of a joint': (Simulation, (ONE,), 'joints = Joint(actuators='),
+    'rig of muscles': (Simulation, ([Muscle()],), 'joints[0] = Muscle('),
+    'rig of nothing': (Simulation, ([],), 'joints is empty'),
+    'change to a joint': (Simulation([ONE]).change, (ONE,), 'joints = Joint(actuators='),
     'simulate a muscle': (simulate, (Muscle(), T, T, COMMAND), 'joint = Muscle('),
     'simulate with hidden numbers': (
         lambda: simulate(one_muscle(effects=LAG), T, T, COMMAND, hidden={'pressure_lag': 3e4}),

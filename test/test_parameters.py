@@ -18,7 +18,7 @@ bound = st.none() | st.floats(-1e9, 1e9)
 
 
 @dataclass(frozen=True)
-class Rig:
+class Simulation:
     mass: float = parameter(20.0, 'mass', 'kg', low=0.0, high=100.0, above_low=True)
     mount: str = parameter('up', 'mount', choices=('up', 'down'), live=False)
     count: int = parameter(2, 'count', low=1, high=9)
@@ -83,7 +83,7 @@ SENTENCES = [
 @pytest.mark.parametrize(('fields', 'sentence'), SENTENCES)
 def test_refusals_name_the_thing_its_value_and_what_is_allowed(fields, sentence):
     with pytest.raises(ParameterError) as error:
-        Rig(**fields)
+        Simulation(**fields)
     assert str(error.value) == sentence
 
 
@@ -104,16 +104,16 @@ def test_what_is_allowed_in_words(about, kind, allowed):
 
 
 def test_values_are_normalised_to_their_type():
-    rig = Rig(mass=5, count=3.0)
+    rig = Simulation(mass=5, count=3.0)
     assert (type(rig.mass), type(rig.count)) == (float, int)
-    assert Rig(mass=Fraction(1, 4)).mass == 0.25
-    assert Rig(mass=np.float32(0.5)).mass == 0.5
+    assert Simulation(mass=Fraction(1, 4)).mass == 0.25
+    assert Simulation(mass=np.float32(0.5)).mass == 0.5
     with pytest.raises(ParameterError):
-        Rig(mass=10**400)
+        Simulation(mass=10**400)
 
 
 def test_described_lists_the_described_fields():
-    table = described(Rig)
+    table = described(Simulation)
     assert list(table) == ['mass', 'mount', 'count', 'loud']
     kind, default, about = table['mount']
     assert (kind, default, about.live, about.choices) == (str, 'up', False, ('up', 'down'))

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from pam_ros.health.health import Health, Level
-from pam_ros.settings.scene import Simulation
+from pam_ros.settings.scene import SimulationSetup
 from pam_ros.settings.sim import SimSettings
 from pam_ros.simulator.contractions import Excess
 from pam_ros.simulator.plant import Plant
@@ -34,11 +34,11 @@ def commands(plant: Plant, last: int) -> Health:
     if age is None:
         return Health(Level.OK, 'no command yet', values)
     if np.any(plant.is_silent):
-        did = {'vent': 'vented', 'hold': 'held'}[plant.simulation.settings.on_timeout]
+        did = {'vent': 'vented', 'hold': 'held'}[plant.setup.settings.on_timeout]
         whose = ''
         if len(inputs) > 1:
             silent = np.flatnonzero(plant.is_silent)
-            names = [plant.simulation.muscle_names[i] for i in silent[:5]]
+            names = [plant.setup.muscle_names[i] for i in silent[:5]]
             whose = f' for {", ".join(names)}' + (' and others' if len(silent) > 5 else '')
         return Health(Level.WARN, f'no command{whose} for {age:.3g} s: {did}', values)
     return Health(Level.OK, 'commanded', values)
@@ -46,8 +46,8 @@ def commands(plant: Plant, last: int) -> Health:
 
 def contraction(plant: Plant, found: Sequence[Excess]) -> Health:
     """Return the health of the contractions; *found* are those beyond ``kappa_max``."""
-    simulation = plant.simulation
-    worst = max(found, key=lambda one: one.largest - simulation.rated[one.muscle], default=None)
+    setup = plant.setup
+    worst = max(found, key=lambda one: one.largest - setup.rated[one.muscle], default=None)
     values = {
         'times beyond kappa_max': plant.contractions.count,
         'muscles beyond kappa_max': len(found),
@@ -56,12 +56,12 @@ def contraction(plant: Plant, found: Sequence[Excess]) -> Health:
     if worst is None:
         return Health(Level.OK, 'within kappa_max', values)
     others = f' (and {len(found) - 1} more muscles beyond theirs)' if len(found) > 1 else ''
-    return Health(Level.WARN, sentence_of(simulation, worst) + others, values)
+    return Health(Level.WARN, sentence_of(setup, worst) + others, values)
 
 
-def sentence_of(simulation: Simulation, excess: Excess) -> str:
+def sentence_of(setup: SimulationSetup, excess: Excess) -> str:
     """Return what is said of a muscle that contracts beyond ``kappa_max``."""
-    name, limit = simulation.muscle_names[excess.muscle], simulation.rated[excess.muscle]
+    name, limit = setup.muscle_names[excess.muscle], setup.rated[excess.muscle]
     return (
         f'muscle {name} contracts by {100.0 * excess.largest:.1f} % of its length, more than the '
         f'{100.0 * limit:.1f} % that it permits (kappa_max): a real muscle may not be used there, '

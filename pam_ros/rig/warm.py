@@ -13,7 +13,7 @@ from pam_ros.compiled import HAVE_NUMBA
 from pam_ros.rig.arrangements import ARRANGEMENTS, Arrangement
 from pam_ros.rig.bind import bind
 from pam_ros.rig.joint import Actuator, Joint, one_muscle
-from pam_ros.rig.rig import Rig
+from pam_ros.rig.simulation import Simulation
 from pam_ros.rig.start import start_state
 
 WORKERS = 2  # processes: each compiles all effects for itself, and takes half a gigabyte
@@ -36,7 +36,7 @@ def warm() -> None:
 def _step(kind: Arrangement) -> str:
     """Return why nothing is kept on disk, '' where it is; :func:`_run` as well."""
     actuator = Actuator(contraction=kind.contraction)
-    Rig([Joint((actuator,) * kind.muscles, kind.load(), kind.transmission())]).prepare()
+    Simulation([Joint((actuator,) * kind.muscles, kind.load(), kind.transmission())]).prepare()
     return code_cache.warned()
 
 

@@ -46,8 +46,8 @@ class Scene(RigParameters):
         """The table of the parameters that are common to all beside the rig."""
         return {**table_of(Sensors, 'sensor.'), **table_of(SimSettings)}
 
-    def build(self, values: Values) -> 'Simulation':
-        """Make the simulation of checked flat *values*; ParameterError where they make none."""
+    def build(self, values: Values) -> 'SimulationSetup':
+        """Make what is simulated of checked flat *values*; ParameterError where they make none."""
         starts = [
             build(Start, self.of_joint(values, k), 'initial.') for k in range(len(self.joints))
         ]
@@ -55,7 +55,7 @@ class Scene(RigParameters):
             build(Start, self.of_muscle(values, i), 'initial.').pressure
             for i in range(len(self.muscles))
         ]
-        return Simulation(
+        return SimulationSetup(
             self.build_joints(values),
             self.muscles,
             self.joints,
@@ -67,7 +67,7 @@ class Scene(RigParameters):
 
 
 @dataclass(frozen=True)
-class Simulation:
+class SimulationSetup:
     """All that is declared to the node, checked together.
 
     ``starts`` are those of the joints, ``pressures`` (Pa) those of the muscles.

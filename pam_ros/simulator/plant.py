@@ -9,9 +9,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from pam_ros.rig.rig import Rig
 from pam_ros.rig.sensors import Feedback, Sensors
-from pam_ros.settings.scene import Simulation
+from pam_ros.rig.simulation import Simulation
+from pam_ros.settings.scene import SimulationSetup
 from pam_ros.simulator.contractions import Contractions
 from pam_ros.simulator.pressure_input import PressureInput
 
@@ -43,24 +43,25 @@ class Reading:
 class Plant:
     """Muscles that take commands as valves do, and are read as sensors do."""
 
-    def __init__(self, simulation: Simulation) -> None:
+    def __init__(self, setup: SimulationSetup) -> None:
         """Make them at their initial state."""
-        self.simulation = simulation
-        self.inputs = [PressureInput(muscle) for muscle in simulation.muscles]
-        self._rig = Rig(simulation.joints, 1.0 / simulation.settings.physics_rate)
+        self.setup = setup
+        self.inputs = [PressureInput(muscle) for muscle in setup.muscles]
+        self._simulation = Simulation(setup.joints, 1.0 / setup.settings.physics_rate)
         self._all = range(len(self.inputs))
         self.contractions = Contractions()
         self.begin()
-        self._rig.prepare()  # so that neither the first step nor a change of effects waits for it
+        # So that neither the first step nor a change of effects waits for it.
+        self._simulation.prepare()
 
     def begin(self) -> None:
         """Go to the initial state; noise begins anew."""
-        simulation = self.simulation
-        pressures, positions, velocities = simulation.initial
-        self._rig.reset(pressures, positions, velocities)
-        self._feedback = Feedback(simulation.sensors, len(positions))
+        setup = self.setup
+        pressures, positions, velocities = setup.initial
+        self._simulation.reset(pressures, positions, velocities)
+        self._feedback = Feedback(setup.sensors, len(positions))
         # Where they are not as many as joints, muscles have sensors, and noise, of their own.
-        self._gauges = Feedback(self._gauge_sensors(simulation), len(pressures))
+        self._gauges = Feedback(self._gauge_sensors(setup), len(pressures))
         self.contractions.forget()
         self.step = 0
         self._ordered = pressures.copy()  # Pa, the last commands of the valves
@@ -70,21 +71,21 @@ class Plant:
         self._deadline = math.inf  # simulated time of the first silence to come
 
     @staticmethod
-    def _gauge_sensors(simulation: Simulation) -> Sensors:
-        return replace(simulation.sensors, seed=simulation.sensors.seed ^ 0x5EED)
+    def _gauge_sensors(setup: SimulationSetup) -> Sensors:
+        return replace(setup.sensors, seed=setup.sensors.seed ^ 0x5EED)
 
     @property
     def time(self) -> float:
         """Simulated time in s since the start or the last reset."""
-        return self._rig.time
+        return self._simulation.time
 
-    def change(self, simulation: Simulation) -> None:
+    def change(self, setup: SimulationSetup) -> None:
         """Go on with other parameters."""
-        self._rig.change(simulation.joints)
-        self.simulation = simulation
-        self._feedback.change(simulation.sensors)
-        self._gauges.change(self._gauge_sensors(simulation))
-        for given, muscle in zip(self.inputs, simulation.muscles, strict=True):
+        self._simulation.change(setup.joints)
+        self.setup = setup
+        self._feedback.change(setup.sensors)
+        self._gauges.change(self._gauge_sensors(setup))
+        for given, muscle in zip(self.inputs, setup.muscles, strict=True):
             given.muscle = muscle
         self._order_all(self._ordered)  # the limits may have changed
         self._set_deadline()
@@ -92,9 +93,9 @@ class Plant:
     def advance(self, step: int) -> None:
         """Simulate until this step."""
         if step > self.step:
-            self._rig.advance(step - self.step)
+            self._simulation.advance(step - self.step)
             self.step = step
-            if self._rig.time > self._deadline:
+            if self._simulation.time > self._deadline:
                 self._fall_silent()
 
     # Valves ----------------------------------------------------------------------------------
@@ -106,18 +107,18 @@ class Plant:
         if pressure is None:
             return self._bad(muscle, is_refused=True)
         self._order(muscle, pressure)
-        self.commanded_at[muscle] = self._rig.time
+        self.commanded_at[muscle] = self._simulation.time
         self.is_silent[muscle] = False
         self._set_deadline()
         return None if pressure == value else self._bad(muscle)
 
     def _bad(self, muscle: int, *, is_refused: bool = False) -> BadCommand:
-        whose = f'{self.simulation.muscle_names[muscle]}: ' if len(self.inputs) > 1 else ''
+        whose = f'{self.setup.muscle_names[muscle]}: ' if len(self.inputs) > 1 else ''
         return BadCommand(muscle, whose + self.inputs[muscle].reason, is_refused)
 
     def take_all(self, values: list[float]) -> BadCommand | None:
         """Command all muscles in Pa; a bad value leaves its muscle as it is."""
-        bad, now, ordered = None, self._rig.time, self._ordered
+        bad, now, ordered = None, self._simulation.time, self._ordered
         for i, (given, value) in enumerate(zip(self.inputs, values, strict=True)):
             pressure = given.take(value)
             if pressure != value:
@@ -126,20 +127,20 @@ class Plant:
                 ordered[i] = pressure
                 self.commanded_at[i] = now
                 self.is_silent[i] = False
-        self._rig.command(ordered)
+        self._simulation.command(ordered)
         self._set_deadline()
         return bad
 
     def _order(self, muscle: int, pressure: float) -> None:
         self._ordered[muscle] = pressure
-        self._rig.command_one(muscle, pressure)
+        self._simulation.command_one(muscle, pressure)
 
     def _order_all(self, pressures: Array) -> None:
-        self._ordered = np.clip(pressures, *self.simulation.limits)
-        self._rig.command(self._ordered)
+        self._ordered = np.clip(pressures, *self.setup.limits)
+        self._simulation.command(self._ordered)
 
     def _set_deadline(self) -> None:
-        timeout = self.simulation.settings.command_timeout
+        timeout = self.setup.settings.command_timeout
         if len(self.commanded_at) == 1:
             last = self.commanded_at.item()
             is_watched = timeout and not (math.isnan(last) or self.is_silent.item())
@@ -149,9 +150,9 @@ class Plant:
         self._deadline = float(last.min()) + timeout if timeout and last.size else math.inf
 
     def _fall_silent(self) -> None:
-        settings = self.simulation.settings
+        settings = self.setup.settings
         for i in self._all:
-            age = self._rig.time - self.commanded_at[i]
+            age = self._simulation.time - self.commanded_at[i]
             if age > settings.command_timeout and not self.is_silent[i]:
                 self.is_silent[i] = True
                 if settings.on_timeout == 'vent':
@@ -165,43 +166,49 @@ class Plant:
 
         Raises ArithmeticError where the muscle cannot be.
         """
-        rig = self._rig
-        force, stiffness, damping, acceleration = rig.outputs()[0].tolist()
-        position, velocity = rig.position.item(), rig.velocity.item()
-        pressure = rig.pressure.item()
-        l0 = self.simulation.muscles[0].l0
-        reach = self.simulation.reach.item() * l0
+        simulation = self._simulation
+        force, stiffness, damping, acceleration = simulation.outputs()[0].tolist()
+        position, velocity = simulation.position.item(), simulation.velocity.item()
+        pressure = simulation.pressure.item()
+        l0 = self.setup.muscles[0].l0
+        reach = self.setup.reach.item() * l0
         if not (abs(position) < reach and math.isfinite(force + velocity)):
             raise ArithmeticError(f"at {position:g} m it is out of the muscle's reach")
-        self.contractions.see_one(rig.time, position / l0, self.simulation.rated.item())
+        self.contractions.see_one(simulation.time, position / l0, self.setup.rated.item())
         if not self._feedback.is_ideal:
             sample = np.array([[position], [velocity], [pressure], [force], [acceleration]])
-            reading = self._feedback.read(rig.time, sample)
+            reading = self._feedback.read(simulation.time, sample)
             position, velocity, pressure, force = reading[:, 0].tolist()
         return position, velocity, pressure, force, stiffness, damping
 
     def read(self) -> Reading:
         """Return what the sensors say of all; raises ArithmeticError where one cannot be."""
-        rig = self._rig
-        force, stiffness, damping, _ = rig.outputs().T
-        position, velocity, pressure = rig.position, rig.velocity, rig.pressure
-        effort, _, acceleration = rig.joint_outputs().T
-        contraction = rig.contraction
-        is_there = np.abs(contraction) < self.simulation.reach
+        simulation = self._simulation
+        force, stiffness, damping, _ = simulation.outputs().T
+        position, velocity, pressure = (
+            simulation.position,
+            simulation.velocity,
+            simulation.pressure,
+        )
+        effort, _, acceleration = simulation.joint_outputs().T
+        contraction = simulation.contraction
+        is_there = np.abs(contraction) < self.setup.reach
         if not (np.all(is_there) and np.isfinite(np.sum(force) + np.sum(velocity))):
-            lost = self.simulation.muscle_names[int(np.argmin(is_there))]
+            lost = self.setup.muscle_names[int(np.argmin(is_there))]
             raise ArithmeticError(f'{lost} is out of its reach')
-        self.contractions.see(rig.time, contraction, self.simulation.rated)
+        self.contractions.see(simulation.time, contraction, self.setup.rated)
         if not self._feedback.is_ideal:
-            if not self.simulation.are_direct:
+            if not self.setup.are_direct:
                 end = np.zeros_like(force)
                 muscles = np.array([end, end, pressure, force, end])
-                pressure, force = self._gauges.read(rig.time, muscles)[2:]
+                pressure, force = self._gauges.read(simulation.time, muscles)[2:]
                 sample = [position, velocity, np.zeros_like(effort), effort, acceleration]
-                position, velocity, _, effort = self._feedback.read(rig.time, np.array(sample))
+                position, velocity, _, effort = self._feedback.read(
+                    simulation.time, np.array(sample)
+                )
             else:
                 sample = [position, velocity, pressure, force, acceleration]
-                reading = self._feedback.read(rig.time, np.array(sample))
+                reading = self._feedback.read(simulation.time, np.array(sample))
                 position, velocity, pressure, force = reading
                 effort = force
         return Reading(position, velocity, effort, pressure, force, stiffness, damping)

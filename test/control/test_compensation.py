@@ -13,8 +13,8 @@ from pam_ros.control.model import ControlModel
 from pam_ros.control.signals import Reference
 from pam_ros.control.sliding_mode import SlidingMode
 from pam_ros.rig.joint import Actuator, one_muscle
-from pam_ros.rig.rig import Rig
 from pam_ros.rig.run import simulate_held
+from pam_ros.rig.simulation import Simulation
 from support.pair_loop import declared
 
 DT = 2e-3
@@ -92,7 +92,7 @@ def sine(t):
 
 def rms(believed, true, seconds=6.0):
     """Return the error of a law that takes a joint for another one, and learns nothing."""
-    law, rig = SlidingMode(believed, Gains.turning(learning=False)), Rig([true])
+    law, rig = SlidingMode(believed, Gains.turning(learning=False)), Simulation([true])
     law.start(0.0)
     rig.reset(law.terms.pressures, [0.0], [0.0])
     errors = []

@@ -9,7 +9,7 @@ from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig import statics
 from pam_ros.rig.joint import Actuator, Joint, one_muscle
 from pam_ros.rig.loads import Arm, Mass
-from pam_ros.rig.rig import Rig
+from pam_ros.rig.simulation import Simulation
 from pam_ros.rig.transmissions import Lever, Straight
 from support import joints
 from support.joint_models import UNEQUAL, pair
@@ -28,7 +28,7 @@ EFFECTS = {
 @pytest.mark.parametrize('v', [0.1, -0.1])
 def test_it_is_the_rig_without_memory(effects, v):
     joint = one_muscle(Muscle(zeta=0.15), Mass(mass=20.0), effects)
-    rig, model = Rig([joint]), ControlModel(joint)
+    rig, model = Simulation([joint]), ControlModel(joint)
     p, y = (280e3,), 0.05
     rig.reset(p, [y], [v])
     force, stiffness, _, acceleration = rig.outputs()[0]
@@ -87,7 +87,7 @@ def test_the_arms_of_a_pair_are_the_radius():
 
 def test_the_acceleration_of_a_pair_is_the_rigs():
     joint = pair(load={'viscous_friction': {'coefficient': 0.2}, 'payload': {'mass': 0.4}})
-    model, rig = ControlModel(joint), Rig([joint])
+    model, rig = ControlModel(joint), Simulation([joint])
     rig.reset([4e5, 2e5], [0.1], [1.3])
     acceleration = rig.joint_outputs()[0, 2]
     net = model.pull((4e5, 2e5), 0.1, 1.3) / model.inertia
@@ -109,7 +109,7 @@ OTHERS = {
 @pytest.mark.parametrize('name', OTHERS)
 def test_the_model_of_every_joint_is_its_rig(name):
     joint = OTHERS[name]
-    model, rig = ControlModel(joint), Rig([joint])
+    model, rig = ControlModel(joint), Simulation([joint])
     n = len(joint.muscles)
     p, s, v = (3e5, 2.5e5)[:n], 0.02, 0.1
     rig.reset(p, [s], [v])

@@ -19,7 +19,7 @@ from pam_ros.control.sliding_mode import SlidingMode
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig.joint import one_muscle
 from pam_ros.rig.loads import Mass
-from pam_ros.rig.rig import Rig
+from pam_ros.rig.simulation import Simulation
 from support import closed_loop
 from support.joint_loop import JOINTS
 from support.joint_models import pair
@@ -56,7 +56,7 @@ def test_every_joint_has_bounds_around_its_reach(joint):
     assert found.low < reach[0] < reach[1] < found.high
     assert 0.0 < found.allowance < 0.01 * (found.high - found.low)
     # From rest at its softest, all pressure at once moves no joint faster.
-    rig = Rig([joint])
+    rig = Simulation([joint])
     for pressures in ((0.0, 600e3), (600e3, 0.0)):
         drive = [pressures[i % 2] for i in range(len(joint.muscles))]
         middle = 0.5 * (reach[0] + reach[1])

@@ -9,7 +9,7 @@ import pytest
 
 from pam_ros.control.pressure_path import PressurePath
 from pam_ros.rig.joint import one_muscle
-from pam_ros.rig.rig import Rig
+from pam_ros.rig.simulation import Simulation
 
 DT = 2e-3
 EFFECTS = {
@@ -21,7 +21,7 @@ EFFECTS = {
 
 def test_it_knows_the_chamber_of_the_rig():
     joint = one_muscle(effects=EFFECTS)
-    rig, path = Rig([joint]), PressurePath(joint, 0, 0.02)
+    rig, path = Simulation([joint]), PressurePath(joint, 0, 0.02)
     rig.reset([300e3], [0.06], [0.0])
     path.start(300e3)
     assert path.chamber.pressure == pytest.approx(rig.pressure[0])

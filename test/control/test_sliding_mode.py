@@ -18,7 +18,7 @@ from pam_ros.rig import statics
 from pam_ros.rig.joint import Actuator, Joint, one_muscle
 from pam_ros.rig.loads import Arm, Mass
 from pam_ros.rig.rest import rest
-from pam_ros.rig.rig import Rig
+from pam_ros.rig.simulation import Simulation
 from pam_ros.rig.transmissions import Pulley
 from support import closed_loop, pair_loop
 from support.bench import cart
@@ -53,7 +53,7 @@ def on_rig(law, case, way, seconds, effort=lambda t: 0.0):
 
     The reference goes *way* (s -> m or rad) from the beginning, under an outside *effort*.
     """
-    rig = Rig([case.joint])
+    rig = Simulation([case.joint])
     law.start(case.begin, case.pressures)
     rig.reset(law.terms.pressures, [case.begin], [0.0])
     rows = []
@@ -254,7 +254,7 @@ def test_a_stiffness_that_the_angle_does_not_leave_gives_way_and_comes_back():
             return Reference(0.0)
         return Reference(0.3 - 0.3 * math.cos(x), 0.3 * w * math.sin(x), 0.3 * w * w * math.cos(x))
 
-    rig = Rig([law.joint])
+    rig = Simulation([law.joint])
     rig.reset(law.terms.pressures, [0.0], [0.0])
     found, errors = [], []
     for n in range(round(4.0 / DT)):

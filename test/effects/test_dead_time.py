@@ -5,8 +5,8 @@
 import numpy as np
 import pytest
 
-from pam_ros.rig.rig import Rig
 from pam_ros.rig.run import simulate, simulate_held
+from pam_ros.rig.simulation import Simulation
 from support import bench
 
 COMMANDS = np.array([0.0, 0.3, 0.55, 0.9])
@@ -33,7 +33,7 @@ def test_a_force_source_moves_only_after_the_delay():
 
 
 def test_a_stepped_rig_takes_the_command_at_the_first_step_after_the_delay():
-    rig = Rig([bench.cart(dead_time={'delay': 0.0105})])
+    rig = Simulation([bench.cart(dead_time={'delay': 0.0105})])
     rig.command([5.0])
     pressures = []
     for _ in range(15):

@@ -13,7 +13,7 @@ from pam_ros.effects.base import ON_JOINT, Compensation, Effect, EffectParameter
 from pam_ros.effects.turned import turned
 from pam_ros.errors import ParameterError
 from pam_ros.rig.joint import one_muscle
-from pam_ros.rig.rig import Rig
+from pam_ros.rig.simulation import Simulation
 from pam_ros.units import TURNED, turned_unit
 from support.joint_models import lever, pair
 
@@ -105,7 +105,7 @@ def test_with_its_unit_named_it_acts_there(monkeypatch):
     bare = pair(library=(DRAG,))
     found = []
     for one in (joint, bare):
-        rig = Rig([one])
+        rig = Simulation([one])
         rig.reset([3e5, 3e5], [0.1], [-2.0])
         found.append(rig.joint_outputs()[0, 2])
     assert found[0] - found[1] == pytest.approx(0.3 * 2.0**2 / joint.inertia, rel=1e-9)
@@ -125,7 +125,7 @@ def test_what_is_given_in_these_units_acts_in_them(made, load, effort):
     """At 0.3 rad and 2 rad/s; a step of 1 ms softens a stop of 50 N m/rad by a billionth."""
     found = []
     for one in (made(load=load), made()):
-        rig = Rig([one])
+        rig = Simulation([one])
         rig.reset([3e5, 3e5], [0.3], [2.0])
         found.append(rig.joint_outputs()[0, 2])
     np.testing.assert_allclose((found[0] - found[1]) * made().inertia, effort, rtol=1e-6)

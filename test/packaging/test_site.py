@@ -69,10 +69,12 @@ def test_bars_of_a_docstring_are_escaped_but_in_code(settings):
 
 def test_types_in_signatures_are_short(settings):
     given = '(p: ~numpy._buffer._Buffer | ~numpy._a._SupportsArray[~numpy.dtype[~typing.Any]] | '
-    given += '_NestedSequence[complex | bytes | str], rig: pam_ros.rig.Rig = <factory>, x=1.5)'
+    given += (
+        '_NestedSequence[complex | bytes | str], rig: pam_ros.rig.Simulation = <factory>, x=1.5)'
+    )
     returned = '~numpy.ndarray[tuple[Any, ...], dtype[float64]]'
     shortened = settings['shorten'](None, 'function', '', None, None, given, returned)
-    assert shortened == ('(p: ArrayLike, rig: Rig = ..., x=1.5)', 'Array')
+    assert shortened == ('(p: ArrayLike, rig: Simulation = ..., x=1.5)', 'Array')
 
 
 def test_fields_of_a_dataclass_are_described(settings):

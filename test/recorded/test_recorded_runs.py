@@ -17,8 +17,8 @@ from pam_ros.rig.bind import bind
 from pam_ros.rig.joint import Actuator, Joint, one_muscle
 from pam_ros.rig.loads import Arm, Mass
 from pam_ros.rig.rest import rest
-from pam_ros.rig.rig import Rig
 from pam_ros.rig.run import acting_commands, delays_of, simulate, simulate_held
+from pam_ros.rig.simulation import Simulation
 from pam_ros.rig.start import start_state
 from pam_ros.rig.step_limit import longest_step
 from pam_ros.rig.transmissions import Pulley, Straight
@@ -45,7 +45,7 @@ def without_drag(joint):
 
 def stepped(joints, muscles, seed=3):
     """Step a rig under commands, some of all muscles and some of one; return rows of all."""
-    rig = Rig(joints, cases.STEP)
+    rig = Simulation(joints, cases.STEP)
     random = np.random.default_rng(seed)
     rows = []
     for k in range(60):

@@ -11,7 +11,7 @@ from pam_ros.rig.arrangements import ANTAGONISTIC, ARRANGEMENTS, CRANK, LEVER
 from pam_ros.rig.joint import Actuator, Joint, one_muscle
 from pam_ros.rig.loads import GRAVITY, Mass
 from pam_ros.rig.rest import rest
-from pam_ros.rig.rig import Rig
+from pam_ros.rig.simulation import Simulation
 from support import joints
 from support.joint_models import BOTH_LONG, muscle, parallel
 
@@ -61,7 +61,7 @@ def test_a_crank_is_raised_by_its_one_muscle():
 
 
 def test_each_of_two_equal_muscles_carries_half_the_weight():
-    rig = Rig([parallel(50.0, BOTH_LONG)])
+    rig = Simulation([parallel(50.0, BOTH_LONG)])
     rig.command(4e5)
     rig.advance(8000)
     for force in rig.outputs()[:, 0]:

@@ -20,7 +20,7 @@ from pam_ros.rig.bind import bind
 from pam_ros.rig.joint import one_muscle
 from pam_ros.rig.layout import layout_of
 from pam_ros.rig.loads import Arm, Mass
-from pam_ros.rig.rig import Rig
+from pam_ros.rig.simulation import Simulation
 from pam_ros.rig.transmissions import Lever, Pulley, Straight
 
 ROOT = Path(__file__).parents[2]
@@ -158,7 +158,7 @@ class Cam(Transmission):
 RUN_CAM = """
 import runpy, sys
 from importlib import import_module
-from pam_ros import Actuator, Arm, Joint, Rig
+from pam_ros import Actuator, Arm, Joint, Simulation
 from pam_ros.rig.bind import bind
 
 folder, name = sys.argv[1:]
@@ -168,7 +168,7 @@ if name.endswith('.py'):
 else:
     cam = import_module(name).Cam
 joint = Joint((Actuator(contraction=0.1),), Arm(), cam(), library=())
-rig = Rig([joint], 5e-4)
+rig = Simulation([joint], 5e-4)
 rig.reset(3e5, 0.1, 0.0)
 rig.advance(100)
 compiled = bind(joint.layout, ()).advance.stats.cache_misses
@@ -206,7 +206,7 @@ if {blocked}:
 from pam_ros.compiled import HAVE_NUMBA
 from pam_ros.rig.joint import Actuator, Joint, one_muscle
 from pam_ros.rig.loads import Arm, Mass
-from pam_ros.rig.rig import Rig
+from pam_ros.rig.simulation import Simulation
 from pam_ros.rig.run import simulate, simulate_held
 from pam_ros.rig.transmissions import Lever, Pulley
 assert HAVE_NUMBA is not {blocked}
@@ -218,7 +218,7 @@ effects = {{
 }}
 found = []
 for model in (one_muscle(), one_muscle(load=Mass(mass=8.0), effects=effects)):
-    rig = Rig([model])
+    rig = Simulation([model])
     for p in (4e5, 1e5, 6e5):
         rig.command(p)
         rig.advance(100)
@@ -234,7 +234,7 @@ for model in (
     Joint(lagging, Arm(), Pulley(), on_load),
     Joint(two, Arm(), Lever()),
 ):
-    rig = Rig([model])
+    rig = Simulation([model])
     for p in ([4e5, 3e5], [1e5, 5e5]):
         rig.command(p)
         rig.advance(100)
@@ -280,7 +280,7 @@ def test_an_effect_of_ones_own_acts():
     drag = effect_of(SOURCE)
     load = Mass(mass=10.0)
     bare, slowed = (
-        Rig([one_muscle(load=load, effects=effects, library=(drag,))])
+        Simulation([one_muscle(load=load, effects=effects, library=(drag,))])
         for effects in ({}, {'drag': {'strength': 30.0}})
     )
     for rig in (bare, slowed):

@@ -8,7 +8,7 @@ import pytest
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig.joint import Actuator, Joint, one_muscle
 from pam_ros.rig.loads import Mass
-from pam_ros.rig.rig import Rig
+from pam_ros.rig.simulation import Simulation
 from support import joints, smooth_supply
 from support.joint_models import BOTH_LONG, UNEQUAL, lever, muscle, pair, parallel
 from support.joint_runs import MASS, run
@@ -30,7 +30,7 @@ MIXED = (
 
 
 def driven(models, commands):
-    rig = Rig(models)
+    rig = Simulation(models)
     for row in commands:
         rig.command(row)
         rig.advance(37)

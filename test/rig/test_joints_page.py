@@ -10,7 +10,7 @@ import pytest
 import yaml
 from scipy.integrate import quad, solve_ivp
 
-from pam_ros import Arm, Joint, Rig, rest
+from pam_ros import Arm, Joint, Simulation, rest
 from pam_ros.rig.arrangements import ARRANGEMENTS
 from pam_ros.settings.control import settings_of
 from pam_ros.settings.scene import Scene
@@ -101,7 +101,7 @@ def test_a_transmission_of_ones_own_moves_as_its_equations_say(cam):
 
     t = np.linspace(0.0, 1.0, 51)
     found = solve_ivp(rhs, (0.0, 1.0), (0.25, 0.0), 'DOP853', t, rtol=1e-9, atol=1e-11)
-    rig = Rig([joint], 5e-4)
+    rig = Simulation([joint], 5e-4)
     rig.reset([4e5, 3e5], [0.25], [0.0])
     angle = [0.25]
     for _ in t[1:]:

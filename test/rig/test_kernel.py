@@ -14,8 +14,8 @@ from pam_ros.rig import layout as at
 from pam_ros.rig.joint import Joint, one_muscle
 from pam_ros.rig.loads import Mass
 from pam_ros.rig.rest import rest
-from pam_ros.rig.rig import Rig
 from pam_ros.rig.run import simulate
+from pam_ros.rig.simulation import Simulation
 from pam_ros.rig.start import start_state
 from support import joints, paper, smooth_supply
 from support.joint_models import BOTH_LONG, UNEQUAL, lever, muscle, pair, parallel
@@ -189,7 +189,7 @@ def test_a_staircase_of_commands_is_within_a_nanometre_of_dop853(case):
     """Commands at 50 Hz, each held to the next: the solver starts anew at each."""
     muscles = len(case.joint.muscles)
     start = 0.0 if case is TWO else rest(case.joint, 3e5)
-    rigs = [Rig([case.joint], step) for step, _ in case.bounds]
+    rigs = [Simulation([case.joint], step) for step, _ in case.bounds]
     for rig in rigs:
         rig.reset([3e5] * muscles, [start], [0.0])
     state = np.array([start, 0.0])
@@ -214,7 +214,7 @@ def energy(rig):
 def test_energy_without_damping_drifts_by_a_ten_millionth_in_a_minute():
     """Swinging by 75 mm with 9.7 J: the scheme takes 1.1e-8 J a second and gives none."""
     model = one_muscle(Muscle(zeta=0.0))
-    rig = Rig([model])
+    rig = Simulation([model])
     rig.reset([6e5], [rest(model, 6e5)], [0.0])
     bottom = energy(rig)
     rig.reset([6e5], [0.06], [0.0])
@@ -228,7 +228,7 @@ def test_energy_without_damping_drifts_by_a_ten_millionth_in_a_minute():
     assert max(drift) < 1e-7  # it comes and goes by that much within a period
     # It is the scheme's own loss, a fifth power of the step, and not a fault: half the step,
     # a thirty-second of the loss.
-    fine = Rig([model], 5e-4)
+    fine = Simulation([model], 5e-4)
     fine.reset([6e5], [0.06], [0.0])
     fine.advance(120_000)
     assert (energy(fine) - start) / drift[-1] == pytest.approx(1.0 / 32.0, rel=0.2)
@@ -255,7 +255,7 @@ def test_energy_without_damping_drifts_by_a_millionth_in_a_minute(made, torque, 
         return 0.5 * joints.J * rate**2 - work
 
     joint = made(strands, zeta=0.0)
-    rig = Rig([joint])
+    rig = Simulation([joint])
     at_rest = rest(joint, BAR * np.array(p))
     away = at_rest + (0.4 if len(p) == 2 else -0.5)
     rig.reset(BAR * np.array(p), [away], [0.0])
@@ -291,7 +291,7 @@ def test_two_equal_muscles_are_one_with_half_the_mass():
 def test_a_pair_of_equal_muscles_rings_down_with_their_damping_ratio():
     """In the middle and for small swings, Lehr's ratio of the joint is that of its muscles."""
     same = {'contraction_1': 0.1, 'contraction_2': 0.1, 'plane': 'horizontal'}
-    rig = Rig([pair(BOTH_LONG, zeta=0.08, **same)], 1e-4)
+    rig = Simulation([pair(BOTH_LONG, zeta=0.08, **same)], 1e-4)
     rig.reset([3e5, 3e5], [1e-6], [0.0])
     peaks, last = [], (1e-6, 0.0)
     for _ in range(20_000):

@@ -8,7 +8,7 @@ from scipy.integrate import solve_ivp
 
 from pam_ros.rig import statics
 from pam_ros.rig.rest import rest
-from pam_ros.rig.rig import Rig
+from pam_ros.rig.simulation import Simulation
 from support import joints, paper
 from support.joint_models import UNEQUAL, pair
 from support.joint_runs import BAR, run, solve
@@ -17,7 +17,7 @@ from support.joint_runs import BAR, run, solve
 def test_a_lag_in_one_muscle_of_the_pair():
     lag = {'pressure_lag': {'fill': 0.08, 'vent': 0.2}}
     t = np.linspace(0.0, 1.0, 101)
-    rig = Rig([pair(effects=({}, lag))])
+    rig = Simulation([pair(effects=({}, lag))])
     rig.reset([3e5, 3e5], [0.0], [0.0])
     rig.command([2e5, 5e5])
     found = [0.0]
@@ -80,7 +80,7 @@ def test_friction_of_the_pivot_and_a_payload_on_the_arm():
 
 def test_dry_friction_of_the_pivot_holds_the_arm():
     """It stays where the muscles' torque and gravity differ by less than the friction."""
-    rig = Rig([pair(load={'coulomb_friction': {'level': 0.8}})])
+    rig = Simulation([pair(load={'coulomb_friction': {'level': 0.8}})])
     at_rest = rest(rig.joints[0], [4e5, 3e5])
     k = joints.R**2 * sum(
         strand.stiffness(p, y)
@@ -97,7 +97,7 @@ def test_dry_friction_of_the_pivot_holds_the_arm():
 
 
 def test_a_stop_begins_at_its_angle():
-    rig = Rig([pair(load={'end_stop': {'upper': 0.2, 'stiffness': 1e4}})])
+    rig = Simulation([pair(load={'end_stop': {'upper': 0.2, 'stiffness': 1e4}})])
     assert statics.equilibrium(rig.joints[0], [5e5, 1e5]) > 0.5
     rig.command([5e5, 1e5])
     rig.advance(3000)

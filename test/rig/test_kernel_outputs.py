@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from pam_ros.rig.joint import one_muscle
-from pam_ros.rig.rig import Rig
+from pam_ros.rig.simulation import Simulation
 from support import joints, paper
 from support.joint_models import UNEQUAL, lever, pair
 
@@ -15,7 +15,7 @@ WEIGHT = MASS * paper.G
 
 
 def test_outputs_are_the_papers():
-    rig = Rig([one_muscle()])
+    rig = Simulation([one_muscle()])
     rig.reset([4e5], [0.05], [0.3])
     force, k, c, acceleration = rig.outputs()[0]
     assert force == pytest.approx(paper.force(4.0, 12.5), abs=1e-9)
@@ -25,7 +25,7 @@ def test_outputs_are_the_papers():
 
 
 def test_outputs_are_those_of_the_equations():
-    rig = Rig([pair()])
+    rig = Simulation([pair()])
     rig.reset([4.2e5, 2.9e5], [0.3], [2.0])
     p, y = (4.2, 2.9), joints.ends(0.3, UNEQUAL)
     found, (effort, stiffness, acceleration) = rig.outputs(), rig.joint_outputs()[0]
@@ -47,7 +47,7 @@ def test_outputs_are_those_of_the_equations():
 
 def test_outputs_of_a_lever_are_those_of_the_equations():
     """The ends of the muscles accelerate also because their arms change: arm' v^2."""
-    rig, angle, rate, h = Rig([lever()]), 0.3, 2.0, 1e-5
+    rig, angle, rate, h = Simulation([lever()]), 0.3, 2.0, 1e-5
     rig.reset([4.2e5, 2.9e5], [angle], [rate])
     p, kappas = (4.2, 2.9), (joints.KAPPA_1, joints.KAPPA_2)
     y = [kappas[i] * strand.l0 + joints.drawn(angle, i) for i, strand in enumerate(UNEQUAL)]

@@ -11,7 +11,7 @@ from pam_ros.rig import statics
 from pam_ros.rig.joint import one_muscle
 from pam_ros.rig.loads import GRAVITY, Mass
 from pam_ros.rig.rest import held, rest
-from pam_ros.rig.rig import Rig
+from pam_ros.rig.simulation import Simulation
 from support import joints, paper
 from support.joint_models import UNEQUAL, lever, pair, parallel
 
@@ -33,7 +33,7 @@ CASES = [
 def test_a_joint_that_starts_at_rest_stays_there(kind, effects, load, p):
     joint = kind(effects=effects, load=load)
     place = rest(joint, p)
-    rig = Rig([joint])
+    rig = Simulation([joint])
     rig.reset(p, [place], [0.0])
     rig.advance(1000)
     assert rig.position[0] == pytest.approx(place, abs=1e-9)

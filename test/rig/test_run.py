@@ -16,8 +16,8 @@ from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig.joint import one_muscle
 from pam_ros.rig.loads import Mass
 from pam_ros.rig.rest import rest
-from pam_ros.rig.rig import Rig
 from pam_ros.rig.run import acting_commands, simulate, simulate_held
+from pam_ros.rig.simulation import Simulation
 from support import joints, paper
 from support.joint_models import UNEQUAL, lever, pair, parallel
 from support.joint_runs import CASES
@@ -41,7 +41,7 @@ EACH = pytest.mark.parametrize('case', CASES.values(), ids=CASES)
 
 def stepped(joint, begin):
     """Return position, velocity and pressures of a rig, each ms."""
-    rig, muscles = Rig([joint]), len(joint.muscles)
+    rig, muscles = Simulation([joint]), len(joint.muscles)
     rig.reset(U[0, :muscles], [begin], [0.0])
     commands = {round(stamp * 1e3): row for stamp, row in zip(AT, U[:, :muscles], strict=True)}
     found = []

@@ -12,7 +12,7 @@ from pam_ros.rig import statics
 from pam_ros.rig.joint import Actuator, Joint, one_muscle
 from pam_ros.rig.loads import Mass
 from pam_ros.rig.rest import rest
-from pam_ros.rig.rig import Rig
+from pam_ros.rig.simulation import Simulation
 from support import joints, paper
 from support.joint_models import BOTH_LONG, UNEQUAL, lever, pair, parallel
 
@@ -32,7 +32,7 @@ def test_a_pair_rests_where_torques_balance(strands, p):
 
 
 def test_it_comes_to_rest_there():
-    rig = Rig([pair()])
+    rig = Simulation([pair()])
     rig.command([4e5, 2e5])
     rig.advance(8000)
     assert rig.position[0] == pytest.approx(brentq(net, -2.0, 2.0, ((4.0, 2.0),)), abs=1e-9)

@@ -12,7 +12,7 @@ from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig import statics
 from pam_ros.rig.joint import Actuator, Joint, one_muscle
 from pam_ros.rig.loads import Arm, Mass
-from pam_ros.rig.rig import Rig
+from pam_ros.rig.simulation import Simulation
 from pam_ros.rig.step_limit import check_step, longest_step
 from pam_ros.rig.transmissions import Lever, Pulley, Straight
 from support import joints, paper
@@ -204,7 +204,7 @@ def drive(load, transmission, contraction, zeta, commanded):
         joint = Joint((actuator, actuator), load, transmission)
     except ParameterError:
         return
-    rig = Rig([joint], longest_step(joint))
+    rig = Simulation([joint], longest_step(joint))
     for *p, steps in commanded:
         rig.command(p)
         rig.advance(steps)

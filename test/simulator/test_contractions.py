@@ -67,7 +67,7 @@ def test_within_the_limit_and_its_margin_there_is_none():
 
 def test_a_muscle_that_is_driven_beyond_is_told_with_name_contraction_and_limit():
     rig = plant(mass=1.0, initial__pressure=600e3)
-    kappa = rig.read_one()[0] / rig.simulation.muscles[0].l0
+    kappa = rig.read_one()[0] / rig.setup.muscles[0].l0
     assert kappa > 0.26
     health = contraction(rig, rig.contractions.report(rig.time))
     assert health.level == Level.WARN

@@ -32,7 +32,7 @@ def test_a_change_of_effects_finds_its_machine_code_loaded(kind, before, after):
     """While it is loaded, or even compiled, time stands still and no state is published."""
     bind.cache_clear()  # as in a program of its own
     plant = Plant(simulation(kind, **before))
-    joint = plant.simulation.joints[0]
+    joint = plant.setup.joints[0]
     at_start = loaded(joint)
     plant.change(simulation(kind, **after))
     plant.take(0, 3e5)

@@ -109,7 +109,7 @@ class Watch:
         return self.latest('reference')
 
 
-class Rig:
+class Simulation:
     """Joint states that the test publishes itself: of a load that does not move."""
 
     def __init__(self, peer, name='pam'):

@@ -9,7 +9,7 @@ import numpy as np
 from pam_ros.control.reference.shaping import Shape, Shaper
 from pam_ros.rig.joint import Actuator, Joint
 from pam_ros.rig.loads import Arm, Mass
-from pam_ros.rig.rig import Rig
+from pam_ros.rig.simulation import Simulation
 from pam_ros.rig.transmissions import Lever, Pulley, Straight
 
 HUNG = Actuator(contraction=0.1)
@@ -48,7 +48,7 @@ def close_joint(law, joint, target, duration, begin=None, noise=0.0, seed=0, rat
     dt, random = 1.0 / rate, np.random.default_rng(seed)
     origin = 0.5 * sum(law.sharing.reach) if begin is None else begin
     law.start(origin)
-    rig = Rig([joint])
+    rig = Simulation([joint])
     rig.reset(law.terms.pressures, [origin], [0.0])
     shaper = Shaper(Shape.turning() if joint.is_revolute else Shape())
     shaper.start(origin)

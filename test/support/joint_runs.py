@@ -9,7 +9,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from pam_ros.rig.joint import one_muscle
-from pam_ros.rig.rig import Rig
+from pam_ros.rig.simulation import Simulation
 from support import joints
 from support.joint_models import UNEQUAL, lever, pair
 
@@ -25,7 +25,7 @@ def solve(rhs, start, t):
 
 def run(model, t, start, pressure=(0.0, 0.0), step=1e-3):
     """Return coordinate and speed at the stamps t, whole numbers of steps apart."""
-    rig = Rig([model], step)
+    rig = Simulation([model], step)
     rig.reset(pressure, [start[0]], [start[1]])
     found = [start]
     for span in np.diff(t):

@@ -11,12 +11,12 @@ from std_msgs.msg import Float64, Float64MultiArray
 
 from pam_ros.nodes.common.qos import DEPTH, open_qos
 from pam_ros.nodes.sim.lockstep import Turns
-from pam_ros.settings.scene import Simulation
+from pam_ros.settings.scene import SimulationSetup
 
 
 def subscribe_commands(
     node: Node,
-    simulation: Simulation,
+    setup: SimulationSetup,
     turns: Turns,
     take: Callable[[int, Float64], None],
     take_all: Callable[[Float64MultiArray], None],
@@ -33,10 +33,10 @@ def subscribe_commands(
         )
         turns.watch(subscription)
 
-    if simulation.is_one:
+    if setup.is_one:
         subscribe(Float64, 'pressure_command', partial(take, 0))
         return
     subscribe(Float64MultiArray, 'pressure_commands', take_all)
-    if simulation.settings.muscle_topics:
-        for i, name in enumerate(simulation.muscle_names):
+    if setup.settings.muscle_topics:
+        for i, name in enumerate(setup.muscle_names):
             subscribe(Float64, f'{name}/pressure_command', partial(take, i))

@@ -21,6 +21,6 @@ class ContractionReport:
         found = self._plant.contractions.report(self._plant.time)
         for excess in found:
             if excess.is_new:
-                sentence = sim_health.sentence_of(self._plant.simulation, excess)
+                sentence = sim_health.sentence_of(self._plant.setup, excess)
                 self._node.get_logger().warning(sentence)
         return sim_health.contraction(self._plant, found)

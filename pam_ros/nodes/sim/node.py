@@ -23,7 +23,7 @@ from pam_ros.nodes.sim.output import Output
 from pam_ros.nodes.sim.sim_time import FollowedTime, OwnTime
 from pam_ros.nodes.sim.topics import watched_topics
 from pam_ros.processes.notice import notice
-from pam_ros.settings.scene import Scene, Simulation
+from pam_ros.settings.scene import Scene, SimulationSetup
 from pam_ros.simulator.plant import BadCommand, OneReading, Plant, Reading
 from pam_ros.timing.grid import Grid
 from pam_ros.timing.pace import CATCH_UP, SECOND
@@ -272,7 +272,7 @@ class PamSim(TickingNode):
             if self._turns.is_complete and not self._is_paused:
                 self._run_to(self._samples.next)
 
-    def _change(self, now: Simulation) -> None:
+    def _change(self, now: SimulationSetup) -> None:
         """Go on with other parameters."""
         self._run_to_now()
         before, self._simulation = self._simulation.settings, now

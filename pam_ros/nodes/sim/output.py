@@ -10,7 +10,7 @@ from rosgraph_msgs.msg import Clock
 from pam_ros.nodes.common.qos import DEPTH
 from pam_ros.nodes.sim.telemetry import Telemetry
 from pam_ros.nodes.sim.telemetry_arrays import ArrayTelemetry, MuscleTelemetry
-from pam_ros.settings.scene import Simulation
+from pam_ros.settings.scene import SimulationSetup
 from pam_ros.simulator.plant import OneReading, Reading
 from pam_ros.timing.pace import SECOND
 
@@ -18,30 +18,28 @@ from pam_ros.timing.pace import SECOND
 class Output:
     """The topics of one muscle or of several, and ``/clock`` where the time is the simulator's."""
 
-    def __init__(self, node: Node, simulation: Simulation) -> None:
+    def __init__(self, node: Node, setup: SimulationSetup) -> None:
         """Create the publishers on *node*."""
-        settings = simulation.settings
+        settings = setup.settings
         if settings.has_own_time:
             self._clock = Clock()
             self._clock_publisher = node.create_publisher(Clock, '/clock', DEPTH)
         # Each takes what the plant reads: of one muscle alone, or of several.
         self._telemetry: list[Any]
-        if simulation.is_one:
-            self._telemetry = [Telemetry(node, simulation.joint_names[0])]
+        if setup.is_one:
+            self._telemetry = [Telemetry(node, setup.joint_names[0])]
         else:
-            self._telemetry = [
-                ArrayTelemetry(node, simulation.joint_names, simulation.muscle_names)
-            ]
+            self._telemetry = [ArrayTelemetry(node, setup.joint_names, setup.muscle_names)]
             if settings.muscle_topics:
                 have_loads = settings.joint == 'load'
-                self._telemetry.append(MuscleTelemetry(node, simulation.muscle_names, have_loads))
-        self.describe(simulation)
+                self._telemetry.append(MuscleTelemetry(node, setup.muscle_names, have_loads))
+        self.describe(setup)
 
-    def describe(self, simulation: Simulation) -> None:
+    def describe(self, setup: SimulationSetup) -> None:
         """Publish from now on with the frame, variance and ambient pressure of these settings."""
-        settings = simulation.settings
+        settings = setup.settings
         self._ambient = settings.ambient_pressure
-        frame, variance = settings.frame_id, simulation.sensors.pressure_noise**2
+        frame, variance = settings.frame_id, setup.sensors.pressure_noise**2
         for telemetry in self._telemetry:
             telemetry.describe(frame, variance)
 

@@ -7,24 +7,24 @@ from sensor_msgs.msg import FluidPressure, JointState
 from std_msgs.msg import Float64, Float64MultiArray
 
 from pam_ros.nodes.common.topic_watch import Watched
-from pam_ros.settings.scene import Simulation
+from pam_ros.settings.scene import SimulationSetup
 
 
-def watched_topics(simulation: Simulation) -> list[Watched]:
+def watched_topics(setup: SimulationSetup) -> list[Watched]:
     """Return them: commands, states and pressures, and the clock where it is the simulator's.
 
     Two simulators share their other topics where they share these.
     """
-    settings = simulation.settings
-    found = [Watched(JointState, 'joint_states', tuple(simulation.joint_names))]
+    settings = setup.settings
+    found = [Watched(JointState, 'joint_states', tuple(setup.joint_names))]
     if settings.has_own_time:
         found.append(Watched(Clock, '/clock'))
-    if simulation.is_one:
+    if setup.is_one:
         return [*found, *_muscle()]
     found.append(Watched(Float64MultiArray, 'pressure_commands'))
     found.append(Watched(Float64MultiArray, 'pressures'))
     if settings.muscle_topics:
-        for name in simulation.muscle_names:
+        for name in setup.muscle_names:
             found += _muscle(f'{name}/')
             if settings.joint == 'load':
                 found.append(Watched(JointState, f'{name}/joint_states', (name,)))

@@ -16,7 +16,7 @@ from pam_ros.health.topics import LASTING
 from pam_ros.nodes.common import topic_watch
 from pam_ros.nodes.common.sampler import Sample
 from pam_ros.nodes.common.topic_watch import SAMPLED, TopicWatch, Watched
-from support.control_watch import Rig
+from support.control_watch import Simulation
 from support.harness import Program
 
 STATES, COMMANDS = '/joint_states has ', '/pressure_command has '
@@ -144,7 +144,7 @@ def test_a_simulator_that_was_killed_and_started_again_is_one(topics):
 @pytest.mark.at_any_pace
 def test_commands_that_nobody_receives(topics):
     peer = topics.peer
-    rig = Rig(peer)
+    rig = Simulation(peer)
     arguments = ('-r', 'pressure_command:=left/valve')
     with Program('pam_control', *arguments, parameters={'state_timeout': 60.0}) as control:
         rig.tell_until(lambda: len(topics.of('pam_control')) > 1, 'the first diagnostics')

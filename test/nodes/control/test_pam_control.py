@@ -16,7 +16,7 @@ from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
 from pam_ros.control.signals import term_names
 from pam_ros.rig import statics
-from support.control_watch import LOSE_NO_TERMS, Rig, Watch, columns
+from support.control_watch import LOSE_NO_TERMS, Simulation, Watch, columns
 from support.harness import Program
 from support.pair_loop import declared
 
@@ -166,7 +166,7 @@ def test_a_set_point_is_reached_in_real_time(watch, kind):
 @both
 @pytest.mark.parametrize(('action', 'word'), [('vent', 'vents'), ('hold', 'holds')])
 def test_silence_of_the_joint_is_answered_safely(watch, kind, action, word):
-    rig = Rig(watch.peer)
+    rig = Simulation(watch.peer)
     given = {**kind.given, 'on_timeout': action, 'state_timeout': 0.2}
     with Program('pam_control', parameters=given):
         rig.tell_until(lambda: len(watch.terms) > 10, 'control', kind.middle)
@@ -232,7 +232,7 @@ def test_bad_references_are_refused_with_the_range(watch, kind):
 @both
 @pytest.mark.at_any_pace
 def test_disabled_it_commands_nothing_and_enabled_it_holds_the_load_where_it_is(watch, kind):
-    rig = Rig(watch.peer)
+    rig = Simulation(watch.peer)
     given = {**kind.given, **PATIENT, 'start_enabled': False}
     with Program('pam_control', parameters=given):
         rig.tell_until(lambda: watch.arrays, 'the diagnostics')

@@ -8,7 +8,7 @@ from builtin_interfaces.msg import Time
 from diagnostic_msgs.msg import DiagnosticStatus
 from sensor_msgs.msg import FluidPressure, JointState
 
-from support.control_watch import Rig, Watch
+from support.control_watch import Simulation, Watch
 from support.harness import Program
 
 FALSE = [-1.0, -0.3, 0.0, 0.3, 1.0, 1e300]  # m; the load is at 60 mm
@@ -60,7 +60,7 @@ def test_false_states_do_not_move_the_load_and_are_counted(watch):
 
 @pytest.mark.at_any_pace
 def test_states_that_stay_false_are_no_states(watch):
-    rig = Rig(watch.peer)
+    rig = Simulation(watch.peer)
     with Program('pam_control', parameters={'state_timeout': 0.2}):
         rig.tell_until(lambda: len(watch.terms) > 10, 'control', 0.06)
         rig.tell_until(
@@ -81,7 +81,7 @@ def test_states_that_stay_false_are_no_states(watch):
 @pytest.mark.at_any_pace
 @pytest.mark.parametrize('false', [-20e3, 5e6])
 def test_control_does_not_begin_at_a_pressure_that_cannot_be(watch, false):
-    rig, peer = Rig(watch.peer), watch.peer
+    rig, peer = Simulation(watch.peer), watch.peer
     with Program(
         'pam_control', parameters={'pressure_wait': 0.5, 'state_timeout': 60.0}
     ) as control:

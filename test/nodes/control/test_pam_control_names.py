@@ -11,7 +11,7 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64, Float64MultiArray
 
 from pam_ros.control.signals import term_names
-from support.control_watch import LOSE_NO_TERMS, Rig, Watch
+from support.control_watch import LOSE_NO_TERMS, Simulation, Watch
 from support.ends import check_refusals
 from support.harness import Program
 
@@ -26,7 +26,7 @@ def watch(peer):
 
 @pytest.mark.at_any_pace
 def test_a_wrong_joint_name_is_named_and_nothing_is_commanded(watch):
-    rig = Rig(watch.peer)
+    rig = Simulation(watch.peer)
     with Program('pam_control', parameters={'joint_name': 'elbow'}) as control:
 
         def is_said():
@@ -40,7 +40,7 @@ def test_a_wrong_joint_name_is_named_and_nothing_is_commanded(watch):
 
 @pytest.mark.at_any_pace
 def test_a_position_that_is_no_number_is_not_used(watch):
-    rig = Rig(watch.peer)
+    rig = Simulation(watch.peer)
     with Program('pam_control'):
         rig.tell_until(lambda: watch.commands, 'control')
         rig.tell_until(

@@ -34,7 +34,7 @@ main()
 """
 
 
-class Rig:
+class Simulation:
     """Answers commands with joint states, and keeps what it was told."""
 
     def __init__(self, peer, name='pam'):
@@ -74,7 +74,7 @@ class Rig:
 
 @pytest.fixture
 def rig(peer):
-    return Rig(peer)
+    return Simulation(peer)
 
 
 def excite(parameters=PATIENT, *arguments):

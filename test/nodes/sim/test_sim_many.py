@@ -15,7 +15,7 @@ from pam_ros.rig.joint import Actuator, Joint, one_muscle
 from pam_ros.rig.loads import Arm as ArmLoad
 from pam_ros.rig.loads import Mass
 from pam_ros.rig.rest import rest
-from pam_ros.rig.rig import Rig
+from pam_ros.rig.simulation import Simulation
 from pam_ros.rig.transmissions import Pulley
 from support.ends import check_refusals
 from support.harness import Program
@@ -72,7 +72,7 @@ class Arm:
 
 def simulated(models, pressures, periods=PERIODS):
     """Return a rig after the same run."""
-    rig = Rig(models, 1e-3)
+    rig = Simulation(models, 1e-3)
     rig.reset(0.0, [rest(joint, 0.0) for joint in models], 0.0)
     rig.command(pressures)
     for _ in range(periods):

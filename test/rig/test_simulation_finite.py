@@ -12,7 +12,7 @@ from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig.joint import one_muscle
 from pam_ros.rig.loads import Mass
 from pam_ros.rig.rest import rest
-from pam_ros.rig.rig import Rig
+from pam_ros.rig.simulation import Simulation
 from pam_ros.rig.step_limit import longest_step
 
 
@@ -31,7 +31,7 @@ def state(rig):
 )
 def test_a_step_that_resolves_nothing_is_refused(step, sentence):
     with pytest.raises(ParameterError) as error:
-        Rig([one_muscle()], step)
+        Simulation([one_muscle()], step)
     assert str(error.value).startswith(sentence)
 
 
@@ -62,7 +62,7 @@ def test_no_rig_that_is_accepted_gives_nan(a, zeta, l0, mass, mount, commands, s
         model = one_muscle(muscle, Mass(mass=mass, mount=mount))
     except ParameterError:
         return
-    rig = Rig([model], longest_step(model))
+    rig = Simulation([model], longest_step(model))
     rig.reset([start], [rest(model, start)], [0.0])
     for p, steps in commands:
         rig.command(p)
@@ -78,7 +78,7 @@ def test_nor_does_one_without_damping_after_a_step(p0, p1, mass, l0):
         model = one_muscle(Muscle(zeta=0.0, l0=l0), Mass(mass=mass))
     except ParameterError:
         return
-    rig = Rig([model], longest_step(model))
+    rig = Simulation([model], longest_step(model))
     rig.reset([p0], [rest(model, p0)], [0.0])
     rig.command(p1)
     rig.advance(2000)

@@ -20,7 +20,7 @@ from pam_ros.rig.step_limit import check_step
 Array = NDArray[np.float64]
 
 
-class Rig:
+class Simulation:
     """One or more joints with their muscles, stepped together at a fixed step.
 
     All quantities are arrays. With one entry a joint, in the order of *joints*: position m and
@@ -34,7 +34,7 @@ class Rig:
     """
 
     def __init__(self, joints: Sequence[Joint], step: float = 1e-3) -> None:
-        """Make the rig at rest at 0 Pa; see :meth:`reset` to start elsewhere."""
+        """Start at rest at 0 Pa; see :meth:`reset` to start elsewhere."""
         self.step = step = number('step', step)
         self.joints = joints = _joints(joints)
         for joint in joints:
@@ -66,13 +66,15 @@ class Rig:
         """Go on from the present state with other parameters; with these errors, with the old.
 
         Hidden states are kept; an effect that was absent starts as after a long rest here.
-        Raises ParameterError for joints of other kinds: those are another rig.
+        Raises ParameterError for joints of other kinds: make a new Simulation for those.
         """
         joints = _joints(joints)
         for joint in joints:
             check_step(joint, self.step)
         if [_kind(joint) for joint in joints] != [_kind(joint) for joint in self.joints]:
-            raise ParameterError('a rig that runs keeps its joints: make a new one for others')
+            raise ParameterError(
+                'a simulation keeps the kinds of its joints: make a new Simulation for others'
+            )
         self.joints = joints
         left = iter(joints)
         for group in self._groups:

@@ -12,7 +12,7 @@ from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig.joint import one_muscle
 from pam_ros.rig.loads import Mass
 from pam_ros.rig.rest import rest
-from pam_ros.rig.rig import Rig
+from pam_ros.rig.simulation import Simulation
 from support import joints
 from support.joint_models import UNEQUAL, lever, pair, parallel
 
@@ -47,7 +47,7 @@ def state(rig):
 
 def drive(split=(400,), look=False):
     """Run 0.4 s with new commands every 0.1 s, 100 steps made in the given pieces."""
-    rig = Rig(MODELS)
+    rig = Simulation(MODELS)
     for row in np.random.default_rng(4).uniform(0.0, 6e5, (4, MUSCLES)):
         rig.command(row)
         left = 100
@@ -72,7 +72,7 @@ def test_steps_may_be_split_into_any_calls_and_looked_at(split, look):
 
 
 def test_arrays_have_one_entry_a_joint_or_one_a_muscle():
-    rig = Rig(MODELS)
+    rig = Simulation(MODELS)
     assert rig.position.shape == rig.velocity.shape == (len(MODELS),)
     assert rig.pressure.shape == rig.contraction.shape == (MUSCLES,)
     assert rig.outputs().shape == (MUSCLES, 4)
@@ -80,7 +80,7 @@ def test_arrays_have_one_entry_a_joint_or_one_a_muscle():
 
 
 def test_what_was_read_stays_as_it_was():
-    rig = Rig(MODELS)
+    rig = Simulation(MODELS)
     read = (
         *(rig.position, rig.velocity, rig.pressure, rig.contraction),
         *(rig.outputs(), rig.joint_outputs()),
@@ -95,7 +95,7 @@ def test_what_was_read_stays_as_it_was():
 
 
 def test_a_muscle_with_a_load_of_its_own_has_the_same_outputs_by_joint():
-    rig = Rig([one_muscle(), one_muscle(effects=LAG)])
+    rig = Simulation([one_muscle(), one_muscle(effects=LAG)])
     rig.command([3e5, 5e5])
     rig.advance(50)
     out = rig.outputs()
@@ -104,7 +104,7 @@ def test_a_muscle_with_a_load_of_its_own_has_the_same_outputs_by_joint():
 
 
 def test_time_is_counted():
-    rig = Rig([one_muscle()], step=1e-3)
+    rig = Simulation([one_muscle()], step=1e-3)
     for _ in range(1000):
         rig.advance(7)
     assert rig.time == 7.0
@@ -115,7 +115,7 @@ def test_time_is_counted():
 @pytest.mark.parametrize(('delay', 'late'), [(0.0, 0), (0.003, 3), (0.0031, 4), (1.0, 1000)])
 def test_a_command_acts_when_its_dead_time_is_over(delay, late):
     """At the first step that starts at or after that moment."""
-    rig = Rig([one_muscle(effects={'dead_time': {'delay': delay}})])
+    rig = Simulation([one_muscle(effects={'dead_time': {'delay': delay}})])
     rig.advance(5)
     rig.command(4e5)
     rig.advance(late)
@@ -126,7 +126,7 @@ def test_a_command_acts_when_its_dead_time_is_over(delay, late):
 
 def test_each_muscle_of_a_joint_hears_its_own_command_after_its_own_dead_time():
     late = pair(effects=({'dead_time': {'delay': 0.003}}, {'dead_time': {'delay': 0.005}}))
-    rig = Rig([one_muscle(), late])
+    rig = Simulation([one_muscle(), late])
     rig.command([1e5, 2e5, 3e5])
     heard = []
     for _ in range(7):
@@ -139,7 +139,7 @@ def test_each_muscle_of_a_joint_hears_its_own_command_after_its_own_dead_time():
 
 def test_all_commands_of_a_long_dead_time_arrive_in_order():
     """A second of delay with a command at each step: a thousand are under way."""
-    rig = Rig([one_muscle(effects={'dead_time': {'delay': 1.0}})] * 2)
+    rig = Simulation([one_muscle(effects={'dead_time': {'delay': 1.0}})] * 2)
     heard = []
     for k in range(2200):
         rig.command([100.0 * k, 50.0 * k])
@@ -151,7 +151,7 @@ def test_all_commands_of_a_long_dead_time_arrive_in_order():
 
 
 def test_the_last_of_several_commands_at_one_moment_counts():
-    rig = Rig([one_muscle(effects=DELAY)])
+    rig = Simulation([one_muscle(effects=DELAY)])
     for p in range(5000):
         rig.command(float(p))
     rig.advance(14)
@@ -159,7 +159,7 @@ def test_the_last_of_several_commands_at_one_moment_counts():
 
 
 def test_one_muscle_can_be_commanded_alone():
-    rig = Rig([one_muscle(), pair()])
+    rig = Simulation([one_muscle(), pair()])
     rig.command([1e5, 2e5, 3e5])
     rig.advance()
     rig.command_one(2, 4e5)
@@ -172,7 +172,7 @@ def test_one_muscle_can_be_commanded_alone():
 
 
 def test_reset_goes_to_any_state_and_forgets_the_commands_under_way():
-    rig = Rig([pair(effects=(DELAY, LAG)), one_muscle()])
+    rig = Simulation([pair(effects=(DELAY, LAG)), one_muscle()])
     rig.command(4e5)
     rig.advance(3)
     rig.reset([1e5, 2e5, 3e5], [0.2, 0.05], [1.0, -0.1])
@@ -186,7 +186,7 @@ def test_reset_goes_to_any_state_and_forgets_the_commands_under_way():
 
 
 def test_it_starts_at_rest_without_pressure():
-    rig = Rig(MODELS)
+    rig = Simulation(MODELS)
     np.testing.assert_array_equal(rig.pressure, 0.0)
     before = rig.position
     np.testing.assert_allclose(before, [rest(m, 0.0) for m in MODELS])
@@ -204,7 +204,7 @@ def test_it_starts_at_rest_without_pressure():
 )
 def test_parameters_change_while_it_runs(first, then):
     """A third of a second of one joint, then of another from the same state: as if begun there."""
-    rig, other = Rig([first]), Rig([then])
+    rig, other = Simulation([first]), Simulation([then])
     rig.command([4e5, 3e5][: len(first.muscles)])
     rig.advance(330)
     rig.change([then])
@@ -232,7 +232,7 @@ def test_parameters_change_while_it_runs(first, then):
 )
 def test_an_effect_that_appears_starts_from_the_present_state(first, then, later):
     """Without that, the lag would start from the pressure of the last reset."""
-    rig = Rig([first])
+    rig = Simulation([first])
     rig.command(4e5)
     rig.advance(100)
     before = rig.position[0], rig.velocity[0]
@@ -253,7 +253,7 @@ def test_an_effect_that_appears_starts_from_the_present_state(first, then, later
 
 
 def test_a_change_that_is_refused_leaves_the_rig_as_it_was():
-    rig, other = Rig([one_muscle()]), Rig([one_muscle()])
+    rig, other = Simulation([one_muscle()]), Simulation([one_muscle()])
     for each in (rig, other):
         each.command(3e5)
         each.advance(50)
@@ -264,8 +264,8 @@ def test_a_change_that_is_refused_leaves_the_rig_as_it_was():
     np.testing.assert_array_equal(state(rig), state(other))
 
 
-def test_a_rig_that_runs_keeps_its_joints():
-    rig = Rig([pair(), one_muscle()])
+def test_a_simulation_keeps_the_kinds_of_its_joints():
+    rig = Simulation([pair(), one_muscle()])
     rig.command(3e5)
     rig.advance(10)
     before = state(rig)
@@ -278,5 +278,7 @@ def test_a_rig_that_runs_keeps_its_joints():
     ):
         with pytest.raises(ParameterError) as error:
             rig.change(others)
-        assert str(error.value) == ('a rig that runs keeps its joints: make a new one for others')
+        assert str(error.value) == (
+            'a simulation keeps the kinds of its joints: make a new Simulation for others'
+        )
     np.testing.assert_array_equal(state(rig), before)
