@@ -22,8 +22,9 @@ OUTPUTS = ('position', 'velocity', 'force', 'pressure')
 class Recording:
     """What was commanded and measured, and when.
 
-    Contraction is positive (the load moves up), pressures are gauge. Arrays hold no NaN. Raises
-    RecordingError for arrays that do not fit together or hold something else than finite numbers.
+    Contraction is positive (the load moves up), pressures are gauge. Arrays hold no NaN; what was
+    not recorded is None, as it is by default. Raises RecordingError for arrays that do not fit
+    together or hold something else than finite numbers.
 
     ``name``
         File or bag, for reports.
@@ -50,13 +51,13 @@ class Recording:
 
     name: str
     t: Array
-    command_t: Array | None
-    command: Array | None
-    position: Array | None
-    velocity: Array | None
-    force: Array | None
-    pressure: Array | None
-    kind: str
+    command_t: Array | None = None
+    command: Array | None = None
+    position: Array | None = None
+    velocity: Array | None = None
+    force: Array | None = None
+    pressure: Array | None = None
+    kind: str = 'free'
     gaps: tuple[tuple[float, float], ...] = ()
     warnings: tuple[str, ...] = ()
     digest: str = ''

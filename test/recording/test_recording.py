@@ -24,6 +24,13 @@ def recording(t, command_t=None, command=None, **signals):
     )
 
 
+def test_what_is_not_given_was_not_recorded_and_the_load_is_free():
+    one = Recording('made', [0.0, 0.1], [0.0], [3e5], [0.01, 0.02])
+    assert (one.velocity, one.force, one.pressure, one.kind) == (None, None, None, 'free')
+    held = Recording('held', [0.0, 0.1], position=[0.1, 0.1], pressure=[1e5, 2e5], kind='held')
+    assert held.command_t is held.command is held.force is None
+
+
 def test_period_and_duration():
     one = recording([0.0, 0.1, 0.2, 0.3, 5.0])
     assert one.period == pytest.approx(0.1)
