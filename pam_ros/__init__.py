@@ -36,7 +36,7 @@ if TYPE_CHECKING:
     from pam_ros.rig.loads import Arm, Load, LoadEquations, Mass
     from pam_ros.rig.rest import rest
     from pam_ros.rig.run import Trajectory, simulate, simulate_held
-    from pam_ros.rig.simulation import Simulation
+    from pam_ros.rig.simulation import JointOutputs, MuscleOutputs, Simulation
     from pam_ros.rig.transmissions import (
         Lever,
         Pulley,
@@ -55,12 +55,14 @@ __all__ = [
     'Gains',
     'Identification',
     'Joint',
+    'JointOutputs',
     'Lever',
     'Limits',
     'Load',
     'LoadEquations',
     'Mass',
     'Muscle',
+    'MuscleOutputs',
     'PamError',
     'Pid',
     'PidGains',
@@ -113,7 +115,7 @@ _PLACES = {
     'rig.joint': ('Actuator', 'Joint', 'one_muscle'),
     'rig.loads': ('Arm', 'Load', 'LoadEquations', 'Mass'),
     'rig.rest': ('rest',),
-    'rig.simulation': ('Simulation',),
+    'rig.simulation': ('JointOutputs', 'MuscleOutputs', 'Simulation'),
     'rig.run': ('Trajectory', 'simulate', 'simulate_held'),
     'rig.transmissions': (
         'Lever',

@@ -5,6 +5,7 @@
 from collections.abc import Sequence
 from itertools import groupby
 from operator import index
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -18,6 +19,32 @@ from pam_ros.rig.rest import rest
 from pam_ros.rig.step_limit import check_step
 
 Array = NDArray[np.float64]
+
+
+class MuscleOutputs(NamedTuple):
+    """What the muscles do, each (muscles,), in the order of joints and of muscles within them.
+
+    ``force`` is the pull in N, effects included, without the damping; ``stiffness`` is in N/m,
+    ``damping`` in N s/m; ``acceleration`` is that of the muscle's end in m/s^2.
+    """
+
+    force: Array
+    stiffness: Array
+    damping: Array
+    acceleration: Array
+
+
+class JointOutputs(NamedTuple):
+    """What the joints do, each (joints,), in N and m, or N m and rad for a revolute joint.
+
+    ``effort`` in N or N m is what the muscles exert, effects included, without their damping;
+    ``stiffness`` in N/m or N m/rad is that of the muscles, without gravity; ``acceleration`` is in
+    m/s^2 or rad/s^2.
+    """
+
+    effort: Array
+    stiffness: Array
+    acceleration: Array
 
 
 class Simulation:
@@ -56,7 +83,7 @@ class Simulation:
         """Load all machine code that these joints and any :meth:`change` of them can need.
 
         What is not on disk is compiled, which takes many seconds; afterwards neither
-        :meth:`advance` nor :meth:`outputs` waits for it.
+        :meth:`advance` nor :meth:`muscle_outputs` waits for it.
         """
         for group in self._groups:
             group.prepare()
@@ -149,24 +176,15 @@ class Simulation:
         """Gauge pressure in the chamber in Pa (muscles,)."""
         return _joined([group.p.ravel() for group in self._groups])
 
-    def outputs(self) -> Array:
-        """Return force N, stiffness N/m, damping N s/m, acceleration m/s^2 as (muscles, 4).
-
-        Force is the muscle's pull, effects included, without its damping; the acceleration is
-        that of the muscle's end.
-        """
+    def muscle_outputs(self) -> MuscleOutputs:
+        """Return force, stiffness, damping and acceleration of each muscle."""
         self._look()
-        return _joined([group.out.reshape(-1, 4) for group in self._groups])
+        return MuscleOutputs(*_joined([group.out.reshape(-1, 4) for group in self._groups]).T)
 
-    def joint_outputs(self) -> Array:
-        """Return effort, stiffness and acceleration as (joints, 3).
-
-        Effort in N or N m is what the muscles pull, effects included, without their damping;
-        stiffness in N/m or N m/rad is what they give, gravity apart; acceleration in m/s^2 or
-        rad/s^2.
-        """
+    def joint_outputs(self) -> JointOutputs:
+        """Return effort, stiffness and acceleration of each joint."""
         self._look()
-        return _joined([group.joint_out for group in self._groups])
+        return JointOutputs(*_joined([group.joint_out for group in self._groups]).T)
 
     def _look(self) -> None:
         if not self._has_looked:

@@ -167,7 +167,9 @@ class Plant:
         Raises ArithmeticError where the muscle cannot be.
         """
         simulation = self._simulation
-        force, stiffness, damping, acceleration = simulation.outputs()[0].tolist()
+        force, stiffness, damping, acceleration = (
+            column.item() for column in simulation.muscle_outputs()
+        )
         position, velocity = simulation.position.item(), simulation.velocity.item()
         pressure = simulation.pressure.item()
         l0 = self.setup.muscles[0].l0
@@ -184,13 +186,13 @@ class Plant:
     def read(self) -> Reading:
         """Return what the sensors say of all; raises ArithmeticError where one cannot be."""
         simulation = self._simulation
-        force, stiffness, damping, _ = simulation.outputs().T
+        force, stiffness, damping, _ = simulation.muscle_outputs()
         position, velocity, pressure = (
             simulation.position,
             simulation.velocity,
             simulation.pressure,
         )
-        effort, _, acceleration = simulation.joint_outputs().T
+        effort, _, acceleration = simulation.joint_outputs()
         contraction = simulation.contraction
         is_there = np.abs(contraction) < self.setup.reach
         if not (np.all(is_there) and np.isfinite(np.sum(force) + np.sum(velocity))):

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What the controller takes for a joint, against the rig itself and equations of its own."""
 
+import numpy as np
 import pytest
 
 from pam_ros.control.model import ControlModel
@@ -31,7 +32,7 @@ def test_it_is_the_rig_without_memory(effects, v):
     rig, model = Simulation([joint]), ControlModel(joint)
     p, y = (280e3,), 0.05
     rig.reset(p, [y], [v])
-    force, stiffness, _, acceleration = rig.outputs()[0]
+    force, stiffness, _, acceleration = np.ravel(rig.muscle_outputs())
     assert model.effort(p, y) == pytest.approx(force, rel=1e-12)
     assert model.stiffness(p, y) == pytest.approx(stiffness, rel=1e-12)
     net = (model.pull(p, y, v) - model.weight) / model.inertia
@@ -89,7 +90,7 @@ def test_the_acceleration_of_a_pair_is_the_rigs():
     joint = pair(load={'viscous_friction': {'coefficient': 0.2}, 'payload': {'mass': 0.4}})
     model, rig = ControlModel(joint), Simulation([joint])
     rig.reset([4e5, 2e5], [0.1], [1.3])
-    acceleration = rig.joint_outputs()[0, 2]
+    acceleration = rig.joint_outputs().acceleration[0]
     net = model.pull((4e5, 2e5), 0.1, 1.3) / model.inertia
     assert net == pytest.approx(acceleration, rel=1e-9)
 
@@ -113,7 +114,7 @@ def test_the_model_of_every_joint_is_its_rig(name):
     n = len(joint.muscles)
     p, s, v = (3e5, 2.5e5)[:n], 0.02, 0.1
     rig.reset(p, [s], [v])
-    effort, stiffness, acceleration = rig.joint_outputs()[0]
+    effort, stiffness, acceleration = np.ravel(rig.joint_outputs())
     assert model.effort(p, s) == pytest.approx(effort, rel=1e-9)
     assert model.stiffness(p, s) == pytest.approx(stiffness, rel=1e-9)
     net = (model.pull(p, s, v) - model.weight) / model.inertia

@@ -61,8 +61,8 @@ def stepped(joints, muscles, seed=3):
                     rig.velocity,
                     rig.pressure,
                     rig.contraction,
-                    rig.outputs().ravel(),
-                    rig.joint_outputs().ravel(),
+                    np.ravel(rig.muscle_outputs(), order='F'),
+                    np.ravel(rig.joint_outputs(), order='F'),
                 ]
             )
         )

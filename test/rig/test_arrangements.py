@@ -64,9 +64,9 @@ def test_each_of_two_equal_muscles_carries_half_the_weight():
     rig = Simulation([parallel(50.0, BOTH_LONG)])
     rig.command(4e5)
     rig.advance(8000)
-    for force in rig.outputs()[:, 0]:
+    for force in rig.muscle_outputs().force:
         assert force == pytest.approx(25.0 * GRAVITY, abs=1e-6)
-    assert rig.joint_outputs()[0, 0] == pytest.approx(50.0 * GRAVITY, abs=1e-6)
+    assert rig.joint_outputs().effort[0] == pytest.approx(50.0 * GRAVITY, abs=1e-6)
 
 
 def test_it_rests_where_one_of_two_equal_muscles_rests_with_half_the_mass():

@@ -201,6 +201,7 @@ def test_a_kernel_on_disk_does_not_ask_for_the_file_of_a_transmission(tmp_path):
 
 RUN = """
 import json, sys
+import numpy as np
 if {blocked}:
     sys.modules['numba'] = None  # as if it were not installed
 from pam_ros.compiled import HAVE_NUMBA
@@ -222,7 +223,7 @@ for model in (one_muscle(), one_muscle(load=Mass(mass=8.0), effects=effects)):
     for p in (4e5, 1e5, 6e5):
         rig.command(p)
         rig.advance(100)
-        found += [rig.position[0], rig.velocity[0], rig.pressure[0], *rig.outputs()[0]]
+        found += [*rig.position, *rig.velocity, *rig.pressure, *np.ravel(rig.muscle_outputs())]
     run = simulate(model, [0.0, 0.05, 0.1], [0.0, 0.031], [2e5, 5e5])
     found += [*run.position, *run.velocity, *run.force]
 in_muscle = {{name: effects[name] for name in ('pressure_lag', 'dead_time', 'creep')}}
@@ -238,8 +239,8 @@ for model in (
     for p in ([4e5, 3e5], [1e5, 5e5]):
         rig.command(p)
         rig.advance(100)
-        found += [*rig.position, *rig.velocity, *rig.pressure, *rig.outputs().ravel(),
-                  *rig.joint_outputs()[0]]
+        found += [*rig.position, *rig.velocity, *rig.pressure,
+                  *np.ravel(rig.muscle_outputs()), *np.ravel(rig.joint_outputs())]
     run = simulate(model, [0.0, 0.05, 0.1], [0.0, 0.031], [[2e5, 3e5], [4e5, 2e5]])
     held = simulate_held(model, [0.0, 0.1], [[2e5, 3e5], [4e5, 2e5]], [0.0, 0.2])
     found += [*run.position, *run.velocity, *run.force.ravel(), *held.force.ravel()]
@@ -285,5 +286,5 @@ def test_an_effect_of_ones_own_acts():
     )
     for rig in (bare, slowed):
         rig.reset([3e5], [0.05], [0.7])
-    difference = slowed.outputs()[0, 3] - bare.outputs()[0, 3]
+    difference = slowed.muscle_outputs().acceleration[0] - bare.muscle_outputs().acceleration[0]
     assert difference == pytest.approx(-30.0 * 2.0 * 0.7 / 10.0)

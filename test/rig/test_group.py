@@ -42,10 +42,10 @@ def state(rig, joints_at, muscles_at):
         [
             rig.position[joints_at],
             rig.velocity[joints_at],
-            rig.joint_outputs()[joints_at].ravel(),
+            *(each[joints_at] for each in rig.joint_outputs()),
             rig.pressure[muscles_at],
             rig.contraction[muscles_at],
-            rig.outputs()[muscles_at].ravel(),
+            *(each[muscles_at] for each in rig.muscle_outputs()),
         ]
     )
 

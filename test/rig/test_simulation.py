@@ -39,8 +39,8 @@ def state(rig):
             rig.velocity,
             rig.pressure,
             rig.contraction,
-            rig.outputs().ravel(),
-            rig.joint_outputs().ravel(),
+            *rig.muscle_outputs(),
+            *rig.joint_outputs(),
         ]
     )
 
@@ -75,31 +75,31 @@ def test_arrays_have_one_entry_a_joint_or_one_a_muscle():
     rig = Simulation(MODELS)
     assert rig.position.shape == rig.velocity.shape == (len(MODELS),)
     assert rig.pressure.shape == rig.contraction.shape == (MUSCLES,)
-    assert rig.outputs().shape == (MUSCLES, 4)
-    assert rig.joint_outputs().shape == (len(MODELS), 3)
+    assert {each.shape for each in rig.muscle_outputs()} == {(MUSCLES,)}
+    assert {each.shape for each in rig.joint_outputs()} == {(len(MODELS),)}
 
 
 def test_what_was_read_stays_as_it_was():
     rig = Simulation(MODELS)
     read = (
         *(rig.position, rig.velocity, rig.pressure, rig.contraction),
-        *(rig.outputs(), rig.joint_outputs()),
+        *(*rig.muscle_outputs(), *rig.joint_outputs()),
     )
     before = [each.copy() for each in read]
     rig.command(5e5)
     rig.advance(20)
     for each, old in zip(read, before, strict=True):
         np.testing.assert_array_equal(each, old)
-    assert not np.array_equal(rig.outputs(), before[-2])
-    assert not np.array_equal(rig.joint_outputs(), before[-1])
+    assert not np.array_equal(rig.muscle_outputs().force, before[4])
+    assert not np.array_equal(rig.joint_outputs().acceleration, before[-1])
 
 
 def test_a_muscle_with_a_load_of_its_own_has_the_same_outputs_by_joint():
     rig = Simulation([one_muscle(), one_muscle(effects=LAG)])
     rig.command([3e5, 5e5])
     rig.advance(50)
-    out = rig.outputs()
-    np.testing.assert_array_equal(rig.joint_outputs(), out[:, [0, 1, 3]])
+    force, stiffness, _, acceleration = rig.muscle_outputs()
+    np.testing.assert_array_equal(rig.joint_outputs(), (force, stiffness, acceleration))
     np.testing.assert_array_equal(rig.contraction, rig.position / 0.4)
 
 

@@ -17,7 +17,7 @@ from pam_ros.rig.step_limit import longest_step
 
 
 def state(rig):
-    return np.concatenate([rig.position, rig.velocity, rig.pressure, rig.outputs().ravel()])
+    return np.concatenate([rig.position, rig.velocity, rig.pressure, *rig.muscle_outputs()])
 
 
 @pytest.mark.parametrize(

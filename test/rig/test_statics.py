@@ -37,7 +37,7 @@ def test_it_comes_to_rest_there():
     rig.advance(8000)
     assert rig.position[0] == pytest.approx(brentq(net, -2.0, 2.0, ((4.0, 2.0),)), abs=1e-9)
     assert rest(rig.joints[0], [4e5, 2e5]) == pytest.approx(rig.position[0], abs=1e-9)
-    np.testing.assert_allclose(rig.joint_outputs()[0, 0], joints.gravity(rig.position[0]))
+    np.testing.assert_allclose(rig.joint_outputs().effort[0], joints.gravity(rig.position[0]))
 
 
 def test_two_muscles_hold_the_weight_together():

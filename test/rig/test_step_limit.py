@@ -209,5 +209,5 @@ def drive(load, transmission, contraction, zeta, commanded):
         rig.command(p)
         rig.advance(steps)
         assert np.all(np.isfinite(rig.position))
-        assert np.all(np.isfinite(rig.outputs()))
+        assert np.all(np.isfinite(rig.muscle_outputs()))
         assert np.all(np.abs(rig.contraction) < 1.0)

@@ -84,8 +84,8 @@ def is_as(arm, states, rig):
     """Assert that the last state and arrays are those of *rig*, to the bit."""
     assert list(states[-1].position) == rig.position.tolist()
     assert list(states[-1].velocity) == rig.velocity.tolist()
-    assert list(states[-1].effort) == rig.joint_outputs()[:, 0].tolist()
-    force, stiffness, damping, _ = rig.outputs().T
+    assert list(states[-1].effort) == rig.joint_outputs().effort.tolist()
+    force, stiffness, damping, _ = rig.muscle_outputs()
     arm.comes_to('pressures', rig.pressure + AMBIENT)
     arm.comes_to('forces', force)
     arm.comes_to('stiffnesses', stiffness)
