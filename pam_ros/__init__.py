@@ -26,15 +26,19 @@ if TYPE_CHECKING:
     from pam_ros.identification.result import Identification
     from pam_ros.muscle.fit import fit_static_map
     from pam_ros.muscle.muscle import Muscle
-    from pam_ros.parameters import parameter
+    from pam_ros.parameters import parameter_field
     from pam_ros.recording.csv_file import write_csv
     from pam_ros.recording.mapping import read_mapping
     from pam_ros.recording.read import read_recording
     from pam_ros.recording.recording import Recording
-    from pam_ros.rig.co_contraction import pressures, stiffness, stiffness_range
+    from pam_ros.rig.co_contraction import (
+        co_contraction_pressures,
+        joint_stiffness,
+        joint_stiffness_range,
+    )
+    from pam_ros.rig.equilibrium import equilibrium
     from pam_ros.rig.joint import Actuator, Joint, one_muscle
     from pam_ros.rig.loads import Arm, Load, LoadEquations, Mass
-    from pam_ros.rig.rest import rest
     from pam_ros.rig.run import Trajectory, simulate, simulate_held
     from pam_ros.rig.simulation import JointOutputs, MuscleOutputs, Simulation
     from pam_ros.rig.transmissions import (
@@ -76,19 +80,19 @@ __all__ = [
     'Transmission',
     'TransmissionEquations',
     '__version__',
+    'co_contraction_pressures',
+    'equilibrium',
     'fit_static_map',
     'identify',
+    'joint_stiffness',
+    'joint_stiffness_range',
     'load_rig',
     'one_muscle',
-    'parameter',
-    'pressures',
+    'parameter_field',
     'read_mapping',
     'read_recording',
-    'rest',
     'simulate',
     'simulate_held',
-    'stiffness',
-    'stiffness_range',
     'write_csv',
 ]
 
@@ -106,15 +110,15 @@ _PLACES = {
     'identification.result': ('Identification',),
     'muscle.fit': ('fit_static_map',),
     'muscle.muscle': ('Muscle',),
-    'parameters': ('parameter',),
+    'parameters': ('parameter_field',),
     'recording.csv_file': ('write_csv',),
     'recording.mapping': ('read_mapping',),
     'recording.read': ('read_recording',),
     'recording.recording': ('Recording',),
-    'rig.co_contraction': ('pressures', 'stiffness', 'stiffness_range'),
+    'rig.co_contraction': ('co_contraction_pressures', 'joint_stiffness', 'joint_stiffness_range'),
     'rig.joint': ('Actuator', 'Joint', 'one_muscle'),
     'rig.loads': ('Arm', 'Load', 'LoadEquations', 'Mass'),
-    'rig.rest': ('rest',),
+    'rig.equilibrium': ('equilibrium',),
     'rig.simulation': ('JointOutputs', 'MuscleOutputs', 'Simulation'),
     'rig.run': ('Trajectory', 'simulate', 'simulate_held'),
     'rig.transmissions': (

@@ -97,7 +97,7 @@ class Parameter:
         return low_fits and (high is None or number <= high)
 
 
-def parameter(default: Any, text: str, unit: str = '', **kwargs: Any) -> Any:
+def parameter_field(default: Any, text: str, unit: str = '', **kwargs: Any) -> Any:
     """Return a dataclass field with *default* that carries a :class:`Parameter`."""
     return field(default=default, metadata={_KEY: Parameter(text, unit, **kwargs)})
 

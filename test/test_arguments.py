@@ -24,18 +24,18 @@ from pam_ros import (
     Simulation,
     SlidingMode,
     Transmission,
+    co_contraction_pressures,
+    equilibrium,
     fit_static_map,
     identify,
+    joint_stiffness,
+    joint_stiffness_range,
     load_rig,
     one_muscle,
-    pressures,
     read_mapping,
     read_recording,
-    rest,
     simulate,
     simulate_held,
-    stiffness,
-    stiffness_range,
     write_csv,
 )
 
@@ -96,10 +96,10 @@ ARRAYS = {
         [0.1, 0.0],
         set(),
     ),
-    'rest p': (lambda v: rest(ELBOW, v), [3e5, 2e5], set()),
-    'stiffness p': (lambda v: stiffness(ELBOW, v, 0.1), [3e5, 2e5], set()),
-    'stiffness s': (
-        lambda v: stiffness(ELBOW, 3e5, v),
+    'equilibrium p': (lambda v: equilibrium(ELBOW, v), [3e5, 2e5], set()),
+    'joint_stiffness p': (lambda v: joint_stiffness(ELBOW, v, 0.1), [3e5, 2e5], set()),
+    'joint_stiffness s': (
+        lambda v: joint_stiffness(ELBOW, 3e5, v),
         [0.1, 0.2],
         {ANY_LENGTH, EMPTY_IS_GOOD},
     ),
@@ -131,7 +131,7 @@ ARRAYS = {
     'fit_static_map force': (lambda v: mapped(force=v), FORCE, set()),
 }
 # Where single numbers stand for all, and shapes are broadcast, more dimensions may be no mistake.
-BROADCAST = {name for name in ARRAYS if name.startswith(('muscle.', 'stiffness s'))}
+BROADCAST = {name for name in ARRAYS if name.startswith(('muscle.', 'joint_stiffness s'))}
 
 
 def changed(good, last):
@@ -211,7 +211,7 @@ def test_a_good_array_is_taken_in_each_form(name):
 def test_whole_numbers_are_numbers():
     run = simulate(ONE, [0, 1], [0], [300_000])
     np.testing.assert_array_equal(run.pressure, [3e5, 3e5])
-    assert rest(ONE, 300_000) == rest(ONE, 3e5)
+    assert equilibrium(ONE, 300_000) == equilibrium(ONE, 3e5)
 
 
 # Which shapes commands may have ---------------------------------------------------------------
@@ -310,10 +310,10 @@ NUMBERS = {
     'simulate_held step': lambda v: simulate_held(ONE, T, COMMAND, STILL, step=v),
     'rig step': lambda v: Simulation([ONE], v),
     'rig pressure': lambda v: Simulation([ONE]).command_one(0, v),
-    'stiffness_range s': lambda v: stiffness_range(ELBOW, v),
-    'stiffness_range effort': lambda v: stiffness_range(ELBOW, 0.1, v),
-    'pressures s': lambda v: pressures(ELBOW, v, 60.0),
-    'pressures stiffness': lambda v: pressures(ELBOW, 0.1, v),
+    'joint_stiffness_range s': lambda v: joint_stiffness_range(ELBOW, v),
+    'joint_stiffness_range effort': lambda v: joint_stiffness_range(ELBOW, 0.1, v),
+    'co_contraction_pressures s': lambda v: co_contraction_pressures(ELBOW, v, 60.0),
+    'co_contraction_pressures stiffness': lambda v: co_contraction_pressures(ELBOW, 0.1, v),
     'actuator contraction': lambda v: Actuator(contraction=v),
     'mass mass': lambda v: Mass(mass=v),
     'muscle.equilibrium p': lambda v: Muscle().equilibrium(v, 100.0),
@@ -446,10 +446,10 @@ OBJECTS = {
         'hidden = 30000.0',
     ),
     'hold a muscle': (simulate_held, (Muscle(), T, COMMAND, STILL), 'joint = Muscle('),
-    'rest of a muscle': (rest, (Muscle(), 3e5), 'joint = Muscle('),
-    'stiffness of a muscle': (stiffness, (Muscle(), 3e5, 0.0), 'joint = Muscle('),
-    'stiffness range of a list': (stiffness_range, ([ELBOW], 0.0), 'joint = [Joint('),
-    'pressures of None': (pressures, (None, 0.0, 60.0), 'joint = None'),
+    'equilibrium of a muscle': (equilibrium, (Muscle(), 3e5), 'joint = Muscle('),
+    'stiffness of a muscle': (joint_stiffness, (Muscle(), 3e5, 0.0), 'joint = Muscle('),
+    'stiffness range of a list': (joint_stiffness_range, ([ELBOW], 0.0), 'joint = [Joint('),
+    'pressures of None': (co_contraction_pressures, (None, 0.0, 60.0), 'joint = None'),
     'law of a muscle': (SlidingMode, (Muscle(),), 'joint = Muscle('),
     'law with the limits as gains': (SlidingMode, (ONE, Limits()), 'gains = Limits('),
     'law with the gains of another': (SlidingMode, (ONE, PidGains()), 'gains = PidGains('),

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 import yaml
 
-from pam_ros import rest
+from pam_ros import equilibrium
 from pam_ros.settings.files import read_known
 from pam_ros.settings.scene import Scene
 from pam_ros.settings.tables import checked
@@ -62,7 +62,9 @@ def test_parameter_files_of_a_tutorial_make_the_joints_of_its_examples(tmp_path,
         muscles = zip(made.actuators, expected.actuators, strict=True)
         assert all(one.contraction == other.contraction for one, other in muscles)
         pressures = [300e3, 200e3][: len(made.actuators)]
-        assert rest(made, pressures) == pytest.approx(rest(expected, pressures), rel=1e-12)
+        assert equilibrium(made, pressures) == pytest.approx(
+            equilibrium(expected, pressures), rel=1e-12
+        )
 
 
 def evaluated(source, tmp_path):

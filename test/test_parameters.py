@@ -12,17 +12,17 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from pam_ros.errors import ParameterError
-from pam_ros.parameters import Parameter, check_all, described, parameter
+from pam_ros.parameters import Parameter, check_all, described, parameter_field
 
 bound = st.none() | st.floats(-1e9, 1e9)
 
 
 @dataclass(frozen=True)
 class Simulation:
-    mass: float = parameter(20.0, 'mass', 'kg', low=0.0, high=100.0, above_low=True)
-    mount: str = parameter('up', 'mount', choices=('up', 'down'), live=False)
-    count: int = parameter(2, 'count', low=1, high=9)
-    loud: bool = parameter(False, 'whether')
+    mass: float = parameter_field(20.0, 'mass', 'kg', low=0.0, high=100.0, above_low=True)
+    mount: str = parameter_field('up', 'mount', choices=('up', 'down'), live=False)
+    count: int = parameter_field(2, 'count', low=1, high=9)
+    loud: bool = parameter_field(False, 'whether')
     undescribed: float = 1.0
 
     def __post_init__(self):

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from pam_ros.control.reference.profile import Bounds, Rest
 from pam_ros.control.sharing import Sharing
-from pam_ros.parameters import check_all, parameter
+from pam_ros.parameters import check_all, parameter_field
 
 RISE = 0.05  # s in which the rate is reached, and its change: some three samples of a 50 Hz topic
 
@@ -18,7 +18,7 @@ class CoContraction:
     In N/m, or N m/rad of a joint that turns.
     """
 
-    co_contraction: float = parameter(
+    co_contraction: float = parameter_field(
         0.0,
         'stiffness that the muscles shall give the joint, until co_contraction_reference says '
         'otherwise; 0: in the middle of what can be had at the middle of the reach',
@@ -26,7 +26,7 @@ class CoContraction:
         low=0.0,
         high=1e6,
     )
-    co_contraction_rate: float = parameter(
+    co_contraction_rate: float = parameter_field(
         100.0,
         'rate at which another stiffness is approached',
         'N/(m s)',

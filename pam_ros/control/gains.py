@@ -9,7 +9,7 @@ from pam_ros.control.joint_settings import JointSettings
 from pam_ros.control.sharing import Sharing
 from pam_ros.control.tuning import number
 from pam_ros.errors import ParameterError
-from pam_ros.parameters import OnTurning, parameter
+from pam_ros.parameters import OnTurning, parameter_field
 
 BOUNDARY_LAYER, SUPER_TWISTING = 'boundary_layer', 'super_twisting'
 
@@ -59,7 +59,7 @@ class Gains(JointSettings):
     the rig fail; :meth:`check` has the others.
     """
 
-    bandwidth: float = parameter(
+    bandwidth: float = parameter_field(
         14.0,
         'decay rate of the sliding variable in the boundary layer; a loop with an undeclared '
         'pressure lag of 1/bandwidth is still well damped',
@@ -68,14 +68,14 @@ class Gains(JointSettings):
         high=200.0,
         turning=OnTurning(25.0, 200.0),
     )
-    fast_bandwidth: float = parameter(
+    fast_bandwidth: float = parameter_field(
         50.0,
         'what the bandwidth grows to once learning has found that the pressure follows fast',
         '1/s',
         low=0.5,
         high=200.0,
     )
-    surface_bandwidth: float = parameter(
+    surface_bandwidth: float = parameter_field(
         8.0,
         'least natural frequency of the error on the sliding surface; where the spring of the '
         'muscle gives more, that is left to it',
@@ -83,7 +83,7 @@ class Gains(JointSettings):
         low=0.1,
         high=200.0,
     )
-    surface_damping: float = parameter(
+    surface_damping: float = parameter_field(
         0.28,
         'damping ratio of the error on the sliding surface',
         '',
@@ -91,7 +91,7 @@ class Gains(JointSettings):
         high=5.0,
         turning=OnTurning(0.5, 5.0),
     )
-    disturbance_bound: float = parameter(
+    disturbance_bound: float = parameter_field(
         200.0,
         'largest force that the switching term must overcome',
         'N',
@@ -100,13 +100,13 @@ class Gains(JointSettings):
         above_low=True,
         turning=OnTurning(5.0, 1e5),
     )
-    switching: str = parameter(
+    switching: str = parameter_field(
         BOUNDARY_LAYER,
         'switching term: boundary_layer (saturation), or super_twisting (second order; for a '
         'pressure that follows at once)',
         choices=(BOUNDARY_LAYER, SUPER_TWISTING),
     )
-    disturbance_rate: float = parameter(
+    disturbance_rate: float = parameter_field(
         100.0,
         'largest rate of the disturbance that super_twisting must follow',
         'N/s',
@@ -115,8 +115,8 @@ class Gains(JointSettings):
         above_low=True,
         turning=OnTurning(5.0, 1e6),
     )
-    observer: bool = parameter(True, 'whether the disturbance observer acts')
-    observer_bandwidth: float = parameter(
+    observer: bool = parameter_field(True, 'whether the disturbance observer acts')
+    observer_bandwidth: float = parameter_field(
         4.0,
         'bandwidth of the disturbance observer',
         'rad/s',
@@ -124,7 +124,7 @@ class Gains(JointSettings):
         high=200.0,
         turning=OnTurning(8.0, 200.0),
     )
-    velocity_bandwidth: float = parameter(
+    velocity_bandwidth: float = parameter_field(
         126.0,
         'bandwidth of the velocity estimate, which lags what the model does not foresee by '
         '2/velocity_bandwidth',
@@ -132,10 +132,10 @@ class Gains(JointSettings):
         low=5.0,
         high=2000.0,
     )
-    use_measured_velocity: bool = parameter(
+    use_measured_velocity: bool = parameter_field(
         False, 'whether the velocity of the joint state is used instead of the estimate'
     )
-    rest_factor: float = parameter(
+    rest_factor: float = parameter_field(
         0.2,
         'factor by which all bandwidths are multiplied while the reference rests and is reached',
         '',
@@ -143,7 +143,7 @@ class Gains(JointSettings):
         high=1.0,
         turning=OnTurning(0.3, 1.0),
     )
-    rest_tolerance: float = parameter(
+    rest_tolerance: float = parameter_field(
         12e-6,
         'error below which a resting reference counts as reached; from 2.5 times this on the '
         'full bandwidths act',
@@ -153,36 +153,36 @@ class Gains(JointSettings):
         above_low=True,
         turning=OnTurning(2e-4, 1.0),
     )
-    rejection: bool = parameter(
+    rejection: bool = parameter_field(
         True,
         'whether the bandwidths rise while a disturbance moves a load that shall rest, as far as '
         'the delay of the rig allows',
     )
-    rejection_bandwidth: float = parameter(
+    rejection_bandwidth: float = parameter_field(
         100.0,
         'what the bandwidth of the disturbance observer rises to then',
         'rad/s',
         low=0.01,
         high=1000.0,
     )
-    rejection_surface: float = parameter(
+    rejection_surface: float = parameter_field(
         25.0,
         'what the natural frequency of the error on the sliding surface rises to then',
         'rad/s',
         low=0.1,
         high=200.0,
     )
-    rejection_damping: float = parameter(
+    rejection_damping: float = parameter_field(
         1.0,
         'damping ratio of the error on the sliding surface then',
         '',
         low=0.05,
         high=5.0,
     )
-    learning: bool = parameter(
+    learning: bool = parameter_field(
         True, 'whether undeclared friction, hysteresis and lag are learned from motion'
     )
-    pressure_time: float = parameter(
+    pressure_time: float = parameter_field(
         0.02,
         'time constant down to which a declared or learned pressure lag is inverted',
         's',

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from pam_ros.errors import ParameterError, RangeError
 from pam_ros.muscle.muscle import Muscle
-from pam_ros.parameters import check_all, parameter
+from pam_ros.parameters import check_all, parameter_field
 
 MARGIN = 0.02  # share of the range of pressure that is kept for control at both ends
 
@@ -15,10 +15,10 @@ MARGIN = 0.02  # share of the range of pressure that is kept for control at both
 class Limits:
     """Limits of the commanded pressure, within those of the muscle."""
 
-    pressure_low: float = parameter(
+    pressure_low: float = parameter_field(
         0.0, 'lowest gauge pressure that is commanded', 'Pa', low=0.0, high=5e6
     )
-    pressure_high: float = parameter(
+    pressure_high: float = parameter_field(
         5e6,
         "highest gauge pressure that is commanded, where the muscle's p_max is not below it",
         'Pa',
@@ -26,7 +26,7 @@ class Limits:
         high=5e6,
         above_low=True,
     )
-    pressure_rate: float = parameter(
+    pressure_rate: float = parameter_field(
         20e6, 'fastest change of the commanded pressure', 'Pa/s', low=1e3, high=1e9
     )
 

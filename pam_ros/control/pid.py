@@ -23,7 +23,7 @@ from pam_ros.control.signals import (
     step_arguments,
 )
 from pam_ros.errors import ParameterError
-from pam_ros.parameters import OnTurning, parameter
+from pam_ros.parameters import OnTurning, parameter_field
 from pam_ros.rig.joint import Joint
 
 
@@ -52,7 +52,7 @@ class PidGains(JointSettings):
     and the noise are what bounds them.
     """
 
-    proportional: float = parameter(
+    proportional: float = parameter_field(
         0.82e6,
         'pressure per error',
         'Pa/m',
@@ -60,7 +60,7 @@ class PidGains(JointSettings):
         high=1e9,
         turning=OnTurning(49.1e3, 1e9),
     )
-    integral: float = parameter(
+    integral: float = parameter_field(
         39e6,
         'rate of pressure per error',
         'Pa/(m s)',
@@ -68,7 +68,7 @@ class PidGains(JointSettings):
         high=1e10,
         turning=OnTurning(1.91e6, 1e10),
     )
-    derivative: float = parameter(
+    derivative: float = parameter_field(
         194e3,
         'pressure per rate of the error',
         'Pa s/m',
@@ -76,7 +76,7 @@ class PidGains(JointSettings):
         high=1e9,
         turning=OnTurning(9.09e3, 1e9),
     )
-    filter_bandwidth: float = parameter(
+    filter_bandwidth: float = parameter_field(
         282.0,
         'bandwidth of the filter of the measured position',
         'rad/s',
@@ -84,7 +84,7 @@ class PidGains(JointSettings):
         high=1e4,
         turning=OnTurning(326.0, 1e4),
     )
-    bounded: bool = parameter(
+    bounded: bool = parameter_field(
         True,
         'whether the gains are reduced at references at which the sensitivity of the declared '
         'joint would exceed the bounds by which the defaults were found',

@@ -6,20 +6,20 @@ from dataclasses import dataclass, replace
 
 from pam_ros.errors import ParameterError
 from pam_ros.muscle.muscle import Muscle
-from pam_ros.parameters import check_all, parameter
+from pam_ros.parameters import check_all, parameter_field
 
 
 @dataclass(frozen=True)
 class Excitation:
     """Limits and shape of a pressure programme. Raises ParameterError where they contradict."""
 
-    pressure_min: float = parameter(
+    pressure_min: float = parameter_field(
         50e3, 'lowest gauge pressure of the programme', 'Pa', low=0.0, high=5e6, live=False
     )
-    pressure_max: float = parameter(
+    pressure_max: float = parameter_field(
         450e3, 'highest gauge pressure of the programme', 'Pa', low=0.0, high=5e6, live=False
     )
-    pressure_rate: float = parameter(
+    pressure_rate: float = parameter_field(
         1.5e6,
         'fastest change of pressure, venting in an emergency included',
         'Pa/s',
@@ -27,7 +27,7 @@ class Excitation:
         high=1e9,
         live=False,
     )
-    contraction_min: float = parameter(
+    contraction_min: float = parameter_field(
         -0.04,
         'contraction below which the programme stops and vents',
         'fraction of l0',
@@ -35,7 +35,7 @@ class Excitation:
         high=1.0,
         live=False,
     )
-    contraction_max: float = parameter(
+    contraction_max: float = parameter_field(
         0.25,
         'contraction above which the programme stops and vents',
         'fraction of l0',
@@ -43,7 +43,7 @@ class Excitation:
         high=1.0,
         live=False,
     )
-    silence: float = parameter(
+    silence: float = parameter_field(
         0.5,
         'silence of joint_states after which the programme stops and vents',
         's',
@@ -51,20 +51,22 @@ class Excitation:
         high=60.0,
         live=False,
     )
-    duration: float = parameter(
+    duration: float = parameter_field(
         85.0, 'length of the whole programme', 's', low=30.0, high=3600.0, live=False
     )
-    frequency_max: float = parameter(
+    frequency_max: float = parameter_field(
         8.0, 'highest frequency of multisine and chirp', 'Hz', low=0.5, high=100.0, live=False
     )
-    rate: float = parameter(200.0, 'commands per second', 'Hz', low=20.0, high=2000.0, live=False)
-    seed: int = parameter(
+    rate: float = parameter_field(
+        200.0, 'commands per second', 'Hz', low=20.0, high=2000.0, live=False
+    )
+    seed: int = parameter_field(
         0, 'chooses the levels and phases; same seed, same programme', '', low=0, live=False
     )
-    countdown: float = parameter(
+    countdown: float = parameter_field(
         3.0, 'time to read the plan before it starts', 's', low=0.0, high=60.0, live=False
     )
-    patience: float = parameter(
+    patience: float = parameter_field(
         10.0,
         'how long joint_states and a subscriber of pressure_command are waited for',
         's',
@@ -72,7 +74,7 @@ class Excitation:
         high=3600.0,
         live=False,
     )
-    joint_name: str = parameter(
+    joint_name: str = parameter_field(
         '', "joint to watch in joint_states; '' where there is only one", live=False
     )
 

@@ -13,7 +13,7 @@ from pam_ros.arguments import alike, array, number
 from pam_ros.errors import ParameterError, RangeError
 from pam_ros.muscle import law
 from pam_ros.muscle.constants import CONTRACTION_UNITS, PRESSURE_UNITS, Constants, to_si
-from pam_ros.parameters import check_all, parameter
+from pam_ros.parameters import check_all, parameter_field
 
 Array = NDArray[np.float64]
 FAR_OFF = 20.0  # times the rated force, up or down: no muscle of that rating
@@ -33,43 +33,43 @@ class Muscle:
     the position: a drive whose input then stands in for the pressure, in its own unit.
     """
 
-    a1: float = parameter(-4.35573, 'constant a1 of the force law', 'N/pressure_unit')
-    a2: float = parameter(281.22370, 'constant a2 of the force law', 'N')
-    a3: float = parameter(-0.32866, 'constant a3 of the force law', '1/contraction_unit')
-    a4: float = parameter(
+    a1: float = parameter_field(-4.35573, 'constant a1 of the force law', 'N/pressure_unit')
+    a2: float = parameter_field(281.22370, 'constant a2 of the force law', 'N')
+    a3: float = parameter_field(-0.32866, 'constant a3 of the force law', '1/contraction_unit')
+    a4: float = parameter_field(
         -9.27035, 'constant a4 of the force law', 'N/(pressure_unit contraction_unit)'
     )
-    a5: float = parameter(302.20107, 'constant a5 of the force law', 'N/pressure_unit')
-    a6: float = parameter(-263.69185, 'constant a6 of the force law', 'N')
-    pressure_unit: str = parameter(
+    a5: float = parameter_field(302.20107, 'constant a5 of the force law', 'N/pressure_unit')
+    a6: float = parameter_field(-263.69185, 'constant a6 of the force law', 'N')
+    pressure_unit: str = parameter_field(
         'bar', 'unit of pressure in a1, a4 and a5', choices=tuple(PRESSURE_UNITS), live=False
     )
-    contraction_unit: str = parameter(
+    contraction_unit: str = parameter_field(
         'percent', 'unit of contraction in a3 and a4', choices=tuple(CONTRACTION_UNITS), live=False
     )
-    zeta: float = parameter(
+    zeta: float = parameter_field(
         0.15, "Lehr's damping ratio; not in the paper, a choice", '', low=0.0, high=5.0
     )
-    l0: float = parameter(0.4, 'length of the muscle at rest', 'm', low=0.001, high=10.0)
-    inside_diameter: float = parameter(
+    l0: float = parameter_field(0.4, 'length of the muscle at rest', 'm', low=0.001, high=10.0)
+    inside_diameter: float = parameter_field(
         0.02, 'inside diameter at rest', 'm', low=0.001, high=0.2, live=False
     )
-    p_min: float = parameter(
+    p_min: float = parameter_field(
         0.0, 'lowest gauge pressure; below 0: a vacuum', 'Pa', low=-101325.0, high=0.0
     )
-    p_max: float = parameter(
+    p_max: float = parameter_field(
         600e3, 'highest gauge pressure', 'Pa', low=0.0, high=5e6, above_low=True
     )
-    kappa_min: float = parameter(
+    kappa_min: float = parameter_field(
         -0.04, 'contraction at the largest permissible pretension', 'fraction', low=-0.5, high=0.0
     )
-    kappa_max: float = parameter(
+    kappa_max: float = parameter_field(
         0.25, 'largest permissible contraction', 'fraction', low=0.0, high=0.9, above_low=True
     )
-    force_max: float = parameter(
+    force_max: float = parameter_field(
         1500.0, 'rated lifting force', 'N', low=0.0, high=1e5, above_low=True
     )
-    source: str = parameter('', 'where the constants come from', live=False)
+    source: str = parameter_field('', 'where the constants come from', live=False)
 
     def __post_init__(self) -> None:
         """Check every field, then the muscle they make."""

@@ -16,7 +16,7 @@ from pam_ros.rig import pair, statics
 from pam_ros.rig.joint import Joint
 
 
-def stiffness(joint: Joint, p: ArrayLike, s: ArrayLike) -> Any:
+def joint_stiffness(joint: Joint, p: ArrayLike, s: ArrayLike) -> Any:
     """Return the stiffness that the muscles give the joint at s, without that of gravity.
 
     p: gauge Pa, (muscles,) or one number for all. s: m or rad, a number or an array, whose shape
@@ -27,15 +27,15 @@ def stiffness(joint: Joint, p: ArrayLike, s: ArrayLike) -> Any:
     return statics.stiffness(joint, one_each('p', p, muscles, 'muscle'), array('s', s))
 
 
-def pressures(
+def co_contraction_pressures(
     joint: Joint, s: float, stiffness: float, effort: float | None = None
 ) -> tuple[float, float]:
     """Return the pressures at which two muscles give *effort* and *stiffness* at s.
 
     The default effort holds the load there. Raises RangeError where the stiffness is outside
-    :func:`stiffness_range`.
+    :func:`joint_stiffness_range`.
     """
-    low, high = stiffness_range(joint, s, effort)
+    low, high = joint_stiffness_range(joint, s, effort)
     number('stiffness', stiffness)
     geometry = joint.transmission.equations
     if not low * (1.0 - 1e-9) <= stiffness <= high * (1.0 + 1e-9):
@@ -47,7 +47,9 @@ def pressures(
     return pair.pressures(_line(joint, 0, s), _line(joint, 1, s), tau, stiffness)
 
 
-def stiffness_range(joint: Joint, s: float, effort: float | None = None) -> tuple[float, float]:
+def joint_stiffness_range(
+    joint: Joint, s: float, effort: float | None = None
+) -> tuple[float, float]:
     """Return the least and the greatest stiffness with which two muscles give *effort* at s.
 
     The default effort holds the load there. Within the range both muscles pull, or just do not

@@ -13,7 +13,7 @@ from math import cos, pi, sin
 from typing import Any, ClassVar
 
 from pam_ros.errors import ParameterError
-from pam_ros.parameters import check_all, parameter
+from pam_ros.parameters import check_all, parameter_field
 
 Row = Any  # float64 row; numba's and numpy's types differ, both index to float
 GRAVITY = 9.80665  # m/s^2, standard
@@ -78,8 +78,10 @@ class Mass(Load):
     without gravity (the paper's future work; friction of its guide is an effect).
     """
 
-    mass: float = parameter(20.0, 'mass of the load', 'kg', low=0.0, high=1e4, above_low=True)
-    mount: str = parameter(
+    mass: float = parameter_field(
+        20.0, 'mass of the load', 'kg', low=0.0, high=1e4, above_low=True
+    )
+    mount: str = parameter_field(
         'vertical',
         'vertical: the load hangs on the muscle; horizontal: it slides without gravity',
         choices=('vertical', 'horizontal'),
@@ -129,15 +131,17 @@ def _pendulum_slope(s: float, m: float, inertia: float, q: Row, j: int) -> float
 class Arm(Load):
     """An arm that turns about a pivot, with a mass at its end."""
 
-    inertia: float = parameter(
+    inertia: float = parameter_field(
         0.02, 'moment of inertia of pulley and arm about the pivot', 'kg m^2', low=0.0, high=1e3
     )
-    mass: float = parameter(1.0, 'mass of the load on the arm', 'kg', low=0.0, high=1e3)
-    arm: float = parameter(0.25, 'distance of the load from the pivot', 'm', low=0.0, high=10.0)
-    hanging_at: float = parameter(
+    mass: float = parameter_field(1.0, 'mass of the load on the arm', 'kg', low=0.0, high=1e3)
+    arm: float = parameter_field(
+        0.25, 'distance of the load from the pivot', 'm', low=0.0, high=10.0
+    )
+    hanging_at: float = parameter_field(
         0.0, 'angle at which the arm points straight down', 'rad', low=-pi, high=pi
     )
-    plane: str = parameter(
+    plane: str = parameter_field(
         'vertical',
         'vertical: the arm swings up and down; horizontal: it swings without gravity',
         choices=('vertical', 'horizontal'),

@@ -11,9 +11,9 @@ from numpy.typing import ArrayLike, NDArray
 from pam_ros.arguments import along, array, instance, number, refuse, refuse_shape, stamps
 from pam_ros.rig import layout as at
 from pam_ros.rig.bind import bind
+from pam_ros.rig.equilibrium import equilibrium
 from pam_ros.rig.joint import Joint
 from pam_ros.rig.layout import Layout
-from pam_ros.rig.rest import rest
 from pam_ros.rig.start import disturb, start_state
 from pam_ros.rig.step_limit import check_step
 
@@ -69,7 +69,7 @@ def simulate(
         command[max(np.searchsorted(command_t + delay, t[0]) - 1, 0), i]
         for i, delay in enumerate(delays)
     ]
-    s = rest(joint, first) if position is None else number('position', position)
+    s = equilibrium(joint, first) if position is None else number('position', position)
     x = start_state(layout, q, first, s, velocity)
     if hidden:
         disturb(layout, q, x, first, hidden)

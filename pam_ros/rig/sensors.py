@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from pam_ros.parameters import check_all, parameter
+from pam_ros.parameters import check_all, parameter_field
 
 Array = NDArray[np.float64]
 POSITION, VELOCITY, PRESSURE, FORCE, ACCELERATION = range(5)
@@ -22,34 +22,34 @@ class Sensors:
     readings give the same noise. A resolution of 0 means none.
     """
 
-    latency: float = parameter(
+    latency: float = parameter_field(
         0.0, 'age of the feedback when it is published', 's', low=0.0, high=1.0
     )
-    position_offset: float = parameter(
+    position_offset: float = parameter_field(
         0.0, 'constant error of the position sensor', 'm', low=-1.0, high=1.0
     )
-    position_noise: float = parameter(
+    position_noise: float = parameter_field(
         0.0, 'standard deviation of the noise of position', 'm', low=0.0, high=0.1
     )
-    velocity_noise: float = parameter(
+    velocity_noise: float = parameter_field(
         0.0, 'standard deviation of the noise of velocity', 'm/s', low=0.0, high=10.0
     )
-    pressure_noise: float = parameter(
+    pressure_noise: float = parameter_field(
         0.0, 'standard deviation of the noise of pressure', 'Pa', low=0.0, high=1e6
     )
-    force_noise: float = parameter(
+    force_noise: float = parameter_field(
         0.0, 'standard deviation of the noise of force', 'N', low=0.0, high=1e4
     )
-    position_resolution: float = parameter(
+    position_resolution: float = parameter_field(
         0.0, 'step of the position sensor, 0 for none', 'm', low=0.0, high=0.1
     )
-    pressure_resolution: float = parameter(
+    pressure_resolution: float = parameter_field(
         0.0, 'step of the pressure sensor, 0 for none', 'Pa', low=0.0, high=1e6
     )
-    force_resolution: float = parameter(
+    force_resolution: float = parameter_field(
         0.0, 'step of the force sensor, 0 for none', 'N', low=0.0, high=1e4
     )
-    seed: int = parameter(0, 'seed of the noise', '', low=0, high=2**31 - 1)
+    seed: int = parameter_field(0, 'seed of the noise', '', low=0, high=2**31 - 1)
 
     def __post_init__(self) -> None:
         """Check every field."""

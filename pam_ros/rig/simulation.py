@@ -12,10 +12,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from pam_ros.arguments import number, one_each, refuse, sequence
 from pam_ros.errors import ParameterError
+from pam_ros.rig.equilibrium import equilibrium
 from pam_ros.rig.group import Group
 from pam_ros.rig.joint import Joint
 from pam_ros.rig.layout import Layout
-from pam_ros.rig.rest import rest
 from pam_ros.rig.step_limit import check_step
 
 Array = NDArray[np.float64]
@@ -77,7 +77,9 @@ class Simulation:
             for a in range(len(group.joints))
             for i in range(group.muscles)
         ]
-        self.reset(np.zeros(len(self._muscles)), [rest(joint, 0.0) for joint in joints], 0.0)
+        self.reset(
+            np.zeros(len(self._muscles)), [equilibrium(joint, 0.0) for joint in joints], 0.0
+        )
 
     def prepare(self) -> None:
         """Load all machine code that these joints and any :meth:`change` of them can need.

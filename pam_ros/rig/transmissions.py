@@ -19,7 +19,7 @@ from dataclasses import astuple, dataclass
 from math import acos, cos, pi, sin, sqrt
 from typing import Any, ClassVar
 
-from pam_ros.parameters import check_all, parameter
+from pam_ros.parameters import check_all, parameter_field
 
 Row = Any  # float64 row; numba's and numpy's types differ, both index to float
 
@@ -130,7 +130,9 @@ def _turned(travel: float, i: int, q: Row, j: int) -> float:
 class Pulley(Transmission):
     """A pulley that the muscles turn by belts or chains."""
 
-    radius: float = parameter(0.04, 'radius of the pulley', 'm', low=0.0, high=1.0, above_low=True)
+    radius: float = parameter_field(
+        0.04, 'radius of the pulley', 'm', low=0.0, high=1.0, above_low=True
+    )
 
     equations: ClassVar = TransmissionEquations(
         'pulley', True, 1, travel=_belt, arm=_radius, arm_slope=_none, coordinate=_turned
@@ -191,10 +193,10 @@ DEAD_CENTRE = 0.995  # cosine of the angle next to a dead centre, where the arm 
 class Lever(Transmission):
     """A lever that the muscles turn at a crank, so that their arms change with the angle."""
 
-    crank: float = parameter(
+    crank: float = parameter_field(
         0.04, 'distance of the attachment from the pivot', 'm', low=0.0, high=1.0, above_low=True
     )
-    anchor: float = parameter(
+    anchor: float = parameter_field(
         0.45,
         'distance of the fixed end of the muscle from the pivot',
         'm',
@@ -202,7 +204,7 @@ class Lever(Transmission):
         high=20.0,
         above_low=True,
     )
-    angle: float = parameter(
+    angle: float = parameter_field(
         0.5 * pi, 'angle between crank and anchor at coordinate 0', 'rad', low=0.1, high=3.0
     )
 

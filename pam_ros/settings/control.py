@@ -26,7 +26,7 @@ from pam_ros.control.sharing import sharing_of
 from pam_ros.control.signals import PositionLaw, Pressures, Reference
 from pam_ros.control.sliding_mode import SlidingMode
 from pam_ros.errors import ParameterError
-from pam_ros.parameters import check_all, parameter
+from pam_ros.parameters import check_all, parameter_field
 from pam_ros.rig.arrangements import ARRANGEMENTS, LOAD
 from pam_ros.rig.joint import Joint
 from pam_ros.settings.rig import RigParameters
@@ -43,28 +43,28 @@ NAMES = ('muscles', 'joint_names', 'muscle_topics')  # which pam_sim has, too
 class ControlSettings:
     """Law, rates, safety and names of the controller node."""
 
-    controller: str = parameter(
+    controller: str = parameter_field(
         'sliding_mode',
         'law that controls: sliding_mode, or pid as a baseline (needs simple-pid)',
         choices=('sliding_mode', 'pid'),
     )
-    velocity_source: str = parameter(
+    velocity_source: str = parameter_field(
         'estimated',
         'where the law has its velocity from: estimated from positions, or measured in '
         'joint_states',
         choices=('estimated', 'measured'),
     )
-    rate: float = parameter(
+    rate: float = parameter_field(
         500.0,
         'commands per second; with use_sim_time each new joint state is answered instead',
         'Hz',
         low=10.0,
         high=2000.0,
     )
-    state_rate: float = parameter(
+    state_rate: float = parameter_field(
         100.0, 'messages per second on ~/state; 0: none', 'Hz', low=0.0, high=2000.0
     )
-    state_timeout: float = parameter(
+    state_timeout: float = parameter_field(
         0.5,  # a loaded machine holds messages up for 0.1 s now and then
         'silence of joint_states after which on_timeout acts; before that, control goes on by '
         'the model',
@@ -72,12 +72,12 @@ class ControlSettings:
         low=0.005,
         high=3600.0,
     )
-    on_timeout: str = parameter(
+    on_timeout: str = parameter_field(
         VENT,
         'what is commanded when joint states stay away: vent to 0 Pa, or hold the last pressure',
         choices=(VENT, HOLD),
     )
-    command_timeout: float = parameter(
+    command_timeout: float = parameter_field(
         1.0,
         'how long the rig goes on with the last command: after a longer silence of its own the '
         'controller starts again from the present state',
@@ -85,7 +85,7 @@ class ControlSettings:
         low=0.01,
         high=3600.0,
     )
-    pressure_wait: float = parameter(
+    pressure_wait: float = parameter_field(
         0.5,
         'longest wait for a measured pressure before control begins, so that it begins at that '
         'pressure; 0: none is asked for',
@@ -94,23 +94,23 @@ class ControlSettings:
         high=60.0,
         live=False,
     )
-    ambient_pressure: float = parameter(
+    ambient_pressure: float = parameter_field(
         101325.0,
         'pressure around the muscle, which measured ones include',
         'Pa',
         low=0.0,
         high=2e5,
     )
-    start_enabled: bool = parameter(
+    start_enabled: bool = parameter_field(
         True, 'whether it controls from the start; false: from ~/enable on', live=False
     )
-    joint: str = parameter(
+    joint: str = parameter_field(
         LOAD.name,
         'the joint that is controlled; ' + '; '.join(f'{k.name}: {k.text}' for k in ARRANGEMENTS),
         choices=tuple(kind.name for kind in ARRANGEMENTS),
         live=False,
     )
-    joint_name: str = parameter('pam', 'name of the joint in joint_states', live=False)
+    joint_name: str = parameter_field('pam', 'name of the joint in joint_states', live=False)
 
     def __post_init__(self) -> None:
         """Check every field."""

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from pam_ros.errors import ParameterError
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig import statics
+from pam_ros.rig.equilibrium import equilibrium
 from pam_ros.rig.joint import Joint
-from pam_ros.rig.rest import rest
 from pam_ros.rig.sensors import Sensors
 from pam_ros.rig.step_limit import check_step
 from pam_ros.settings.rig import RigParameters
@@ -158,7 +158,7 @@ class SimulationSetup:
             if start.at_rest:
                 key = id(joint), p
                 if key not in rests:
-                    rests[key] = rest(joint, p)
+                    rests[key] = equilibrium(joint, p)
                 positions.append(rests[key])
                 velocities.append(0.0)
             else:

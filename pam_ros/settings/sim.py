@@ -5,7 +5,7 @@
 from dataclasses import dataclass
 
 from pam_ros.errors import ParameterError
-from pam_ros.parameters import Parameter, check_all, parameter
+from pam_ros.parameters import Parameter, check_all, parameter_field
 from pam_ros.rig.arrangements import ARRANGEMENTS
 from pam_ros.settings.tables import Table
 
@@ -27,36 +27,36 @@ MUSCLE: Table = {
 class SimSettings:
     """Time, rates, safety and names of the simulator node."""
 
-    time_mode: str = parameter(
+    time_mode: str = parameter_field(
         'real_time',
         'real_time: as fast as ROS time; scaled: speed_factor times as fast as the wall clock; '
         'lockstep: one period of publish_rate for each pressure command',
         choices=('real_time', 'scaled', 'lockstep'),
         live=False,
     )
-    speed_factor: float = parameter(
+    speed_factor: float = parameter_field(
         1.0,
         'simulated seconds a second in time_mode scaled, 0.1 or more; 0: as fast as possible',
         low=0.0,
         high=1000.0,
     )
-    clock_rate: float = parameter(
+    clock_rate: float = parameter_field(
         100.0,
         'messages on /clock per simulated second, in time_mode scaled and lockstep',
         'Hz',
         low=1.0,
         high=5000.0,
     )
-    step_periods: int = parameter(
+    step_periods: int = parameter_field(
         1, 'periods of publish_rate that ~/step simulates', '', low=1, high=100_000
     )
-    physics_rate: float = parameter(
+    physics_rate: float = parameter_field(
         1000.0, 'integration steps per second', 'Hz', low=100.0, high=100e3, live=False
     )
-    publish_rate: float = parameter(
+    publish_rate: float = parameter_field(
         500.0, 'messages per second on each topic', 'Hz', low=1.0, high=5000.0
     )
-    command_timeout: float = parameter(
+    command_timeout: float = parameter_field(
         1.0,
         'silence of pressure_command after which on_timeout acts, once a command has come; '
         '0: never',
@@ -64,35 +64,35 @@ class SimSettings:
         low=0.0,
         high=3600.0,
     )
-    on_timeout: str = parameter(
+    on_timeout: str = parameter_field(
         'vent',
         'what the valve does when commands stay away: vent to 0 Pa, or hold the last one',
         choices=('vent', 'hold'),
     )
-    ambient_pressure: float = parameter(
+    ambient_pressure: float = parameter_field(
         101325.0,
         'absolute pressure around the muscle, added to the gauge pressure on topic pressure',
         'Pa',
         low=0.0,
         high=1e6,
     )
-    joint: str = parameter(
+    joint: str = parameter_field(
         'load',
         '; '.join(f'{kind.name}: {kind.text}' for kind in ARRANGEMENTS),
         choices=tuple(kind.name for kind in ARRANGEMENTS),
         live=False,
     )
-    muscles: tuple[str, ...] = parameter(
+    muscles: tuple[str, ...] = parameter_field(
         (), 'names of the muscles in order, two in a row for a joint of two; none: one', live=False
     )
-    muscle_topics: bool = parameter(
+    muscle_topics: bool = parameter_field(
         False, 'beside the arrays, topics of each muscle below its name', live=False
     )
-    joint_name: str = parameter('pam', 'name of the joint in joint_states', live=False)
-    joint_names: tuple[str, ...] = parameter(
+    joint_name: str = parameter_field('pam', 'name of the joint in joint_states', live=False)
+    joint_names: tuple[str, ...] = parameter_field(
         (), 'names of the joints in joint_states where they are several', live=False
     )
-    frame_id: str = parameter('', 'frame in the headers of joint_states and pressure')
+    frame_id: str = parameter_field('', 'frame in the headers of joint_states and pressure')
 
     def __post_init__(self) -> None:
         """Check every field, then the rates against each other."""
@@ -120,18 +120,20 @@ class SimSettings:
 class Start:
     """The state at the start and after each reset, long at rest there as far as memories go."""
 
-    pressure: float = parameter(0.0, 'gauge pressure at the start', 'Pa', low=-101325.0, high=5e6)
-    at_rest: bool = parameter(
+    pressure: float = parameter_field(
+        0.0, 'gauge pressure at the start', 'Pa', low=-101325.0, high=5e6
+    )
+    at_rest: bool = parameter_field(
         True, 'start where the load rests at initial.pressure; false: at initial.position'
     )
-    position: float = parameter(
+    position: float = parameter_field(
         0.0,
         'contraction at the start unless initial.at_rest; rad for a pulley',
         'm',
         low=-5.0,
         high=9.0,
     )
-    velocity: float = parameter(
+    velocity: float = parameter_field(
         0.0,
         'velocity at the start unless initial.at_rest; rad/s for a pulley',
         'm/s',

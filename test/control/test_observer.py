@@ -9,9 +9,9 @@ import pytest
 
 from pam_ros.control.model import ControlModel
 from pam_ros.control.observer import Observer
+from pam_ros.rig.equilibrium import equilibrium
 from pam_ros.rig.joint import one_muscle
 from pam_ros.rig.loads import Mass
-from pam_ros.rig.rest import rest
 from pam_ros.rig.simulation import Simulation
 from support.bench import cart
 
@@ -21,7 +21,7 @@ DT = 2e-3
 def test_a_constant_force_is_found_and_leaves_no_bias():
     joint = one_muscle(load=Mass(mass=20.0))
     rig, model = Simulation([joint]), ControlModel(joint)
-    rig.reset([300e3], [rest(joint, 300e3)], [0.0])
+    rig.reset([300e3], [equilibrium(joint, 300e3)], [0.0])
     observer = Observer(model)
     observer.start(rig.position[0], 0.0)
     # The controller believes in 10 kPa more than there are: a force of -10 kPa dF/dp.

@@ -160,7 +160,7 @@ def test_the_split_holds_the_load_with_any_stiffness_that_can_be_had(angle, shar
     k = low + share * (high - low)
     split = SHARING.split(MODEL.gravity(angle), k, angle)
     assert split.short == 0.0
-    expected = co_contraction.pressures(MODEL.joint, angle, k)
+    expected = co_contraction.co_contraction_pressures(MODEL.joint, angle, k)
     np.testing.assert_allclose(split.pressures, expected, rtol=1e-6, atol=1e-3)
     assert MODEL.effort(split.pressures, angle) == pytest.approx(MODEL.gravity(angle), abs=1e-9)
     assert MODEL.stiffness(split.pressures, angle) == pytest.approx(k, rel=1e-9)
@@ -168,7 +168,7 @@ def test_the_split_holds_the_load_with_any_stiffness_that_can_be_had(angle, shar
 
 def test_the_range_is_that_of_the_rig_less_the_margin():
     low, high = SHARING.stiffness_range(0.1)
-    least, most = co_contraction.stiffness_range(MODEL.joint, 0.1)
+    least, most = co_contraction.joint_stiffness_range(MODEL.joint, 0.1)
     assert least * (1.0 - 1e-9) <= low < high < most
     with pytest.raises(RangeError, match=rf'99 N m/rad.*0.1 rad.*{low:.4g} to {high:.4g} N m/rad'):
         SHARING.refuse_stiffness(99.0, 0.1)

@@ -15,9 +15,9 @@ from pam_ros.control.sliding_mode import SlidingMode
 from pam_ros.errors import RangeError
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig import statics
+from pam_ros.rig.equilibrium import equilibrium
 from pam_ros.rig.joint import Actuator, Joint, one_muscle
 from pam_ros.rig.loads import Arm, Mass
-from pam_ros.rig.rest import rest
 from pam_ros.rig.simulation import Simulation
 from pam_ros.rig.transmissions import Pulley
 from support import closed_loop, pair_loop
@@ -42,7 +42,7 @@ class Case:
 
 ONE = closed_loop.declared()
 CASES = {
-    'one muscle': Case(ONE, rest(ONE, 300e3), (300e3,), 1e-3, 30.0),
+    'one muscle': Case(ONE, equilibrium(ONE, 300e3), (300e3,), 1e-3, 30.0),
     'pair': Case(pair(), 0.1, None, DEGREE, 1.0),
 }
 EACH = pytest.mark.parametrize('case', CASES.values(), ids=CASES)
@@ -154,7 +154,7 @@ def test_an_arm_that_hangs_on_vented_muscles_stays_where_it_is(hanging_at):
     # Slack muscles hold nothing, where the bare law would let them push.
     slack = Actuator(effects={'slack': {'share': 1.0}}, contraction=0.1)
     joint = Joint((slack, slack), Arm(hanging_at=hanging_at), Pulley())
-    begin = rest(joint, [0.0, 0.0])
+    begin = equilibrium(joint, [0.0, 0.0])
     assert begin == pytest.approx(hanging_at, abs=0.01)
     law = SlidingMode(joint, Gains.turning())
     case = Case(joint, begin, (0.0, 0.0), DEGREE, 0.0)

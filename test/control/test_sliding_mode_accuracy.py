@@ -108,7 +108,7 @@ def test_the_stiffness_is_what_is_set_while_the_angle_holds(plant):
         assert run.stiffness[n] == pytest.approx(wanted, rel=1e-3)
         assert abs(run.error[n]) < 0.03 * DEGREE
     if plant == 'nominal':
-        expected = co_contraction.pressures(declared(), goal, 36.0)
+        expected = co_contraction.co_contraction_pressures(declared(), goal, 36.0)
         np.testing.assert_allclose(run.pressure[:, -1], expected, rtol=2e-3)
     assert np.max(np.abs(run.error[run.t > 3.0])) < 0.03 * DEGREE
 

@@ -7,9 +7,9 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from pam_ros.muscle.muscle import Muscle
+from pam_ros.rig.equilibrium import equilibrium
 from pam_ros.rig.joint import one_muscle
 from pam_ros.rig.loads import Mass
-from pam_ros.rig.rest import rest
 from pam_ros.rig.run import simulate
 from support import bench
 
@@ -41,8 +41,8 @@ def test_stuck_load_stays_where_it_is(mass, level):
     # Shifted from its equilibrium by half of what friction holds: tanh laws creep back here.
     muscle = Muscle(zeta=bench.ZETA)
     model = one_muscle(muscle, Mass(mass=mass), dry(level=level))
-    stiffness = float(muscle.stiffness(3e5, rest(model, 3e5) / muscle.l0))
-    y0 = rest(model, 3e5) + 0.5 * level / stiffness
+    stiffness = float(muscle.stiffness(3e5, equilibrium(model, 3e5) / muscle.l0))
+    y0 = equilibrium(model, 3e5) + 0.5 * level / stiffness
     t = np.linspace(0.0, 20.0, 201)
     run = simulate(model, t, [0.0], [3e5], position=y0)
     give = 1e-5 + level * 1e-6 / mass

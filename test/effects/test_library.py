@@ -15,8 +15,8 @@ from pam_ros.compiled import HAVE_NUMBA
 from pam_ros.effects import EFFECTS
 from pam_ros.effects.base import PLACES, Compensation
 from pam_ros.rig.bind import bind
+from pam_ros.rig.equilibrium import equilibrium
 from pam_ros.rig.joint import one_muscle
-from pam_ros.rig.rest import rest
 from pam_ros.rig.run import acting_commands, delays_of, simulate, simulate_held
 from pam_ros.rig.start import start_state
 from pam_ros.rig.step_limit import longest_step
@@ -51,7 +51,7 @@ def run_bound(active, effects, step=1e-3, mass=bench.MASS):
     """Run the free rig on the kernel into which only *active* are bound."""
     joint = bench.hanging(mass, **effects)
     layout, q = joint.layout, joint.parameters()
-    x = start_state(layout, q, U[:1], rest(joint, U[0]), 0.0)
+    x = start_state(layout, q, U[:1], equilibrium(joint, U[0]), 0.0)
     out = np.empty((T.size, layout.run_columns))
     at, u = acting_commands(AT, U[:, None], delays_of(layout, q))
     bind(layout, active).simulate(x, layout.scratch(), q, T, at, u, step, out, True)

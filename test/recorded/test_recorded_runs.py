@@ -14,9 +14,9 @@ import pytest
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig import statics
 from pam_ros.rig.bind import bind
+from pam_ros.rig.equilibrium import equilibrium
 from pam_ros.rig.joint import Actuator, Joint, one_muscle
 from pam_ros.rig.loads import Arm, Mass
-from pam_ros.rig.rest import rest
 from pam_ros.rig.run import acting_commands, delays_of, simulate, simulate_held
 from pam_ros.rig.simulation import Simulation
 from pam_ros.rig.start import start_state
@@ -123,7 +123,7 @@ def test_accelerations_along_a_motion_are_as_ever(name):
 def test_rest_step_and_weight_of_one_muscle_are_as_ever(name):
     joint = model(name)
     weight = float(statics.weight(joint, 0.0))
-    found = rest(joint, 3e5), longest_step(joint), joint.moved_mass, weight
+    found = equilibrium(joint, 3e5), longest_step(joint), joint.moved_mass, weight
     compare(f'rest/{name}', np.array(found))
 
 
@@ -155,5 +155,5 @@ def test_joints_of_two_muscles_move_as_ever(name):
     ('name', 'joint'), [('pair all', JOINTS['pair all']), ('parallel', parallel({}, {}))]
 )
 def test_rest_and_step_of_two_muscles_are_as_ever(name, joint):
-    found = rest(joint, (3e5, 2e5)), longest_step(joint), joint.moved_mass, joint.inertia
+    found = equilibrium(joint, (3e5, 2e5)), longest_step(joint), joint.moved_mass, joint.inertia
     compare(f'joint rest/{name}', np.array([*found, *statics.span(joint)]))

@@ -8,9 +8,9 @@ import pytest
 from pam_ros.errors import ParameterError
 from pam_ros.rig import statics
 from pam_ros.rig.arrangements import ANTAGONISTIC, ARRANGEMENTS, CRANK, LEVER
+from pam_ros.rig.equilibrium import equilibrium
 from pam_ros.rig.joint import Actuator, Joint, one_muscle
 from pam_ros.rig.loads import GRAVITY, Mass
-from pam_ros.rig.rest import rest
 from pam_ros.rig.simulation import Simulation
 from support import joints
 from support.joint_models import BOTH_LONG, muscle, parallel
@@ -34,7 +34,7 @@ def test_parts_go_together_and_rest_over_the_whole_range_of_pressures(kind):
     low, high = statics.span(joint)
     assert low < 0.0 < high
     for p in (0.0, 3e5, 6e5):
-        s = rest(joint, p)
+        s = equilibrium(joint, p)
         left = statics.effort(joint, p, s) - statics.weight(joint, s)
         assert left == pytest.approx(0.0, abs=1e-8)
         k = statics.stiffness(joint, p, s) + statics.weight_stiffness(joint, s)
@@ -45,15 +45,15 @@ def test_parts_go_together_and_rest_over_the_whole_range_of_pressures(kind):
 def test_equal_muscles_against_each_other_rest_in_the_middle(kind):
     joint = made(kind)
     for p in (0.0, 2e5, 6e5):
-        assert rest(joint, p) == pytest.approx(0.0, abs=1e-12)
-    one, other = rest(joint, (4e5, 2e5)), rest(joint, (2e5, 4e5))
+        assert equilibrium(joint, p) == pytest.approx(0.0, abs=1e-12)
+    one, other = equilibrium(joint, (4e5, 2e5)), equilibrium(joint, (2e5, 4e5))
     assert one == pytest.approx(-other, abs=1e-10)
     assert one > 0.1
 
 
 def test_a_crank_is_raised_by_its_one_muscle():
     joint = made(CRANK)
-    angles = [rest(joint, p) for p in (0.0, 1e5, 2e5, 3e5)]
+    angles = [equilibrium(joint, p) for p in (0.0, 1e5, 2e5, 3e5)]
     assert np.all(np.diff(angles) > 0.1)
 
 
@@ -72,7 +72,9 @@ def test_each_of_two_equal_muscles_carries_half_the_weight():
 def test_it_rests_where_one_of_two_equal_muscles_rests_with_half_the_mass():
     one = one_muscle(muscle(joints.LONG), Mass(mass=25.0))
     for p in (1e5, 4e5):
-        assert rest(parallel(50.0, BOTH_LONG), p) == pytest.approx(rest(one, p), abs=1e-12)
+        assert equilibrium(parallel(50.0, BOTH_LONG), p) == pytest.approx(
+            equilibrium(one, p), abs=1e-12
+        )
 
 
 def test_a_crank_with_a_load_that_no_muscle_lifts_is_refused():

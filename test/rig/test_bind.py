@@ -122,7 +122,7 @@ from dataclasses import dataclass
 from math import exp
 from typing import ClassVar
 
-from pam_ros import Transmission, TransmissionEquations, parameter
+from pam_ros import Transmission, TransmissionEquations, parameter_field
 from pam_ros.compiled import scalar
 
 GROWTH = 0.5  # 1/rad
@@ -151,7 +151,7 @@ def coordinate(travel, i, q, j):
 
 @dataclass(frozen=True)
 class Cam(Transmission):
-    at_zero: float = parameter(0.04, 'radius at 0', 'm', low=0.0, high=1.0, above_low=True)
+    at_zero: float = parameter_field(0.04, 'radius at 0', 'm', low=0.0, high=1.0, above_low=True)
     equations: ClassVar = TransmissionEquations('cam', True, 1, travel, arm, arm_slope, coordinate)
 """
 

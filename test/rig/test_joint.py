@@ -11,9 +11,9 @@ from pam_ros.errors import ParameterError
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig import layout as at
 from pam_ros.rig import statics
+from pam_ros.rig.equilibrium import equilibrium
 from pam_ros.rig.joint import Actuator, Joint, changed, one_muscle, split_effects
 from pam_ros.rig.loads import GRAVITY, Arm, Mass
-from pam_ros.rig.rest import rest
 from pam_ros.rig.transmissions import Lever, Pulley, Straight
 from support import joints
 from support.joint_models import UNEQUAL, lever, muscle, pair, parallel
@@ -38,7 +38,7 @@ def test_by_default_it_is_the_papers_rig():
 def test_two_muscles_and_a_pulley_are_a_pair_that_hangs():
     joint = Joint(TWO, **PAIR)
     assert joint.is_revolute
-    assert rest(joint, 3e5) == pytest.approx(0.0, abs=1e-12)
+    assert equilibrium(joint, 3e5) == pytest.approx(0.0, abs=1e-12)
     assert joint.present == ((), (), ())
     assert joint.active == ()
     assert joint.at_zero == (0.1 * 0.4, 0.1 * 0.4)
@@ -53,7 +53,7 @@ def test_an_undeclared_payload_moves_and_weighs():
     joint = one_muscle(effects={'payload': {'mass': 4.0}})
     assert joint.moved_mass == 24.0
     assert statics.weight(joint, 0.0) == pytest.approx(24.0 * GRAVITY)
-    assert rest(joint, 6e5) < rest(one_muscle(), 6e5)
+    assert equilibrium(joint, 6e5) < equilibrium(one_muscle(), 6e5)
 
 
 # What is refused -------------------------------------------------------------------------------

@@ -10,7 +10,7 @@ import pytest
 import yaml
 from scipy.integrate import quad, solve_ivp
 
-from pam_ros import Arm, Joint, Simulation, rest
+from pam_ros import Arm, Joint, Simulation, equilibrium
 from pam_ros.rig.arrangements import ARRANGEMENTS
 from pam_ros.settings.control import settings_of
 from pam_ros.settings.scene import Scene
@@ -110,4 +110,4 @@ def test_a_transmission_of_ones_own_moves_as_its_equations_say(cam):
     assert np.ptp(angle) > 0.05
     np.testing.assert_allclose(angle, found.y[0], atol=1e-8)
     rig.advance(20_000)
-    assert rig.position[0] == pytest.approx(rest(joint, [4e5, 3e5]), abs=1e-9)
+    assert rig.position[0] == pytest.approx(equilibrium(joint, [4e5, 3e5]), abs=1e-9)

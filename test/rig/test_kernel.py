@@ -11,9 +11,9 @@ from scipy.integrate import quad
 
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig import layout as at
+from pam_ros.rig.equilibrium import equilibrium
 from pam_ros.rig.joint import Joint, one_muscle
 from pam_ros.rig.loads import Mass
-from pam_ros.rig.rest import rest
 from pam_ros.rig.run import simulate
 from pam_ros.rig.simulation import Simulation
 from pam_ros.rig.start import start_state
@@ -188,7 +188,7 @@ def test_the_order_of_convergence_is_four(swing):
 def test_a_staircase_of_commands_is_within_a_nanometre_of_dop853(case):
     """Commands at 50 Hz, each held to the next: the solver starts anew at each."""
     muscles = len(case.joint.muscles)
-    start = 0.0 if case is TWO else rest(case.joint, 3e5)
+    start = 0.0 if case is TWO else equilibrium(case.joint, 3e5)
     rigs = [Simulation([case.joint], step) for step, _ in case.bounds]
     for rig in rigs:
         rig.reset([3e5] * muscles, [start], [0.0])
@@ -215,7 +215,7 @@ def test_energy_without_damping_drifts_by_a_ten_millionth_in_a_minute():
     """Swinging by 75 mm with 9.7 J: the scheme takes 1.1e-8 J a second and gives none."""
     model = one_muscle(Muscle(zeta=0.0))
     rig = Simulation([model])
-    rig.reset([6e5], [rest(model, 6e5)], [0.0])
+    rig.reset([6e5], [equilibrium(model, 6e5)], [0.0])
     bottom = energy(rig)
     rig.reset([6e5], [0.06], [0.0])
     start = energy(rig)
@@ -256,7 +256,7 @@ def test_energy_without_damping_drifts_by_a_millionth_in_a_minute(made, torque, 
 
     joint = made(strands, zeta=0.0)
     rig = Simulation([joint])
-    at_rest = rest(joint, BAR * np.array(p))
+    at_rest = equilibrium(joint, BAR * np.array(p))
     away = at_rest + (0.4 if len(p) == 2 else -0.5)
     rig.reset(BAR * np.array(p), [away], [0.0])
     start = energy(away, 0.0)
@@ -276,7 +276,7 @@ def test_a_horizontal_load_feels_no_gravity():
     found = simulate(model, t, [0.0], [3e5], position=0.05)
     y, _ = solve(hanging(lambda _: (3.0,), g=0.0), (0.05, 0.0), t)
     assert np.max(np.abs(found.position - y)) < 1e-9
-    assert found.position[-1] == pytest.approx(rest(model, 3e5), abs=1e-5)
+    assert found.position[-1] == pytest.approx(equilibrium(model, 3e5), abs=1e-5)
     assert found.force[-1] == pytest.approx(0.0, abs=0.1)
 
 

@@ -7,7 +7,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from pam_ros.rig import statics
-from pam_ros.rig.rest import rest
+from pam_ros.rig.equilibrium import equilibrium
 from pam_ros.rig.simulation import Simulation
 from support import joints, paper
 from support.joint_models import UNEQUAL, pair
@@ -81,7 +81,7 @@ def test_friction_of_the_pivot_and_a_payload_on_the_arm():
 def test_dry_friction_of_the_pivot_holds_the_arm():
     """It stays where the muscles' torque and gravity differ by less than the friction."""
     rig = Simulation([pair(load={'coulomb_friction': {'level': 0.8}})])
-    at_rest = rest(rig.joints[0], [4e5, 3e5])
+    at_rest = equilibrium(rig.joints[0], [4e5, 3e5])
     k = joints.R**2 * sum(
         strand.stiffness(p, y)
         for strand, p, y in zip(UNEQUAL, (4.0, 3.0), joints.ends(at_rest, UNEQUAL), strict=True)

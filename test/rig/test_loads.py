@@ -9,9 +9,9 @@ import pytest
 
 from pam_ros.errors import ParameterError
 from pam_ros.rig import statics
+from pam_ros.rig.equilibrium import equilibrium
 from pam_ros.rig.joint import Joint
 from pam_ros.rig.loads import GRAVITY, Arm, Mass
-from pam_ros.rig.rest import rest
 from support import joints, paper
 from support.joint_models import BOTH_LONG, actuators, pair
 
@@ -42,7 +42,7 @@ def test_a_mass_may_slide_without_gravity():
     muscles = actuators(BOTH_LONG, (0.0, 0.0))
     joint = Joint(muscles, Mass(mass=5.0, mount='horizontal'))
     assert statics.weight(joint, 0.01) == 0.0
-    at_rest = rest(joint, 3e5)
+    at_rest = equilibrium(joint, 3e5)
     assert joints.LONG.force(3.0, at_rest) == pytest.approx(0.0, abs=1e-9)
 
 

@@ -10,9 +10,9 @@ from scipy.optimize import brentq
 
 from pam_ros.errors import RangeError
 from pam_ros.rig import statics
-from pam_ros.rig.co_contraction import pressures, stiffness_range
+from pam_ros.rig.co_contraction import co_contraction_pressures, joint_stiffness_range
+from pam_ros.rig.equilibrium import equilibrium
 from pam_ros.rig.joint import one_muscle
-from pam_ros.rig.rest import rest
 from support import joints
 from support.joint_models import BOTH_LONG, UNEQUAL, lever, pair, parallel
 
@@ -37,7 +37,7 @@ def searched(angle, tau):
 @pytest.mark.parametrize(('angle', 'tau'), [(0.0, None), (0.5, None), (-0.4, 2.0), (0.2, -5.0)])
 def test_the_range_of_stiffness_is_all_that_can_be_had(angle, tau):
     effort = joints.gravity(angle) if tau is None else tau
-    low, high = stiffness_range(pair(), angle, tau)
+    low, high = joint_stiffness_range(pair(), angle, tau)
     a_step = 0.002 * 0.01 * (high - low) + 0.02  # of the walk
     assert (low, high) == pytest.approx(searched(angle, effort), abs=a_step)
     assert high > 1.5 * low
@@ -47,11 +47,11 @@ def test_the_range_of_stiffness_is_all_that_can_be_had(angle, tau):
 def test_pressures_give_the_wanted_effort_and_stiffness(angle, share, tau):
     joint = pair()
     try:
-        low, high = stiffness_range(joint, angle, tau)
+        low, high = joint_stiffness_range(joint, angle, tau)
     except RangeError:
         assume(False)
     wanted = low + share * (high - low)
-    p = pressures(joint, angle, wanted, tau)
+    p = co_contraction_pressures(joint, angle, wanted, tau)
     bar = np.array(p) / BAR
     assert joints.torque(bar, angle, UNEQUAL) == pytest.approx(tau, abs=1e-9)
     y, k = joints.ends(angle, UNEQUAL), 0.0
@@ -64,41 +64,43 @@ def test_pressures_give_the_wanted_effort_and_stiffness(angle, share, tau):
 
 def test_pressures_for_an_angle_make_the_joint_rest_there():
     joint = pair()
-    low, high = stiffness_range(joint, 0.3)
+    low, high = joint_stiffness_range(joint, 0.3)
     for k in (low, 0.5 * (low + high), high):
-        assert rest(joint, pressures(joint, 0.3, k)) == pytest.approx(0.3, abs=1e-9)
+        assert equilibrium(joint, co_contraction_pressures(joint, 0.3, k)) == pytest.approx(
+            0.3, abs=1e-9
+        )
 
 
 def test_two_unequal_muscles_side_by_side_can_choose_a_stiffness_too():
     joint = parallel(60.0)
-    low, high = stiffness_range(joint, 0.02)
-    p = pressures(joint, 0.02, 0.5 * (low + high))
-    assert rest(joint, p) == pytest.approx(0.02, abs=1e-9)
+    low, high = joint_stiffness_range(joint, 0.02)
+    p = co_contraction_pressures(joint, 0.02, 0.5 * (low + high))
+    assert equilibrium(joint, p) == pytest.approx(0.02, abs=1e-9)
     assert statics.stiffness(joint, p, 0.02) == pytest.approx(0.5 * (low + high))
 
 
 def test_what_is_out_of_reach_is_refused_with_a_sentence():
     joint = pair()
     with pytest.raises(RangeError) as error:
-        pressures(joint, 0.3, 500.0)
-    low, high = stiffness_range(joint, 0.3)
+        co_contraction_pressures(joint, 0.3, 500.0)
+    low, high = joint_stiffness_range(joint, 0.3)
     assert str(error.value) == (
         f'a stiffness of 500 N m/rad at 0.3 rad is out of reach: {low:.6g} to {high:.6g} can be '
         'had there'
     )
     with pytest.raises(RangeError) as error:
-        pressures(joint, 0.3, 20.0, 100.0)
+        co_contraction_pressures(joint, 0.3, 20.0, 100.0)
     assert str(error.value) == (
         'an effort of 100 N m at 0.3 rad is out of reach: there are no pressures within p_min '
         'and p_max that give it and leave no muscle pushing'
     )
     with pytest.raises(RangeError) as error:
-        stiffness_range(parallel(60.0, BOTH_LONG), 0.02)
+        joint_stiffness_range(parallel(60.0, BOTH_LONG), 0.02)
     assert str(error.value) == (
         'the muscles have one stiffness for 588.4 N at 0.02 m: there is none to choose'
     )
     with pytest.raises(RangeError) as error:
-        stiffness_range(one_muscle(), 0.02)
+        joint_stiffness_range(one_muscle(), 0.02)
     assert str(error.value) == 'a stiffness can be chosen for two muscles: this joint has 1'
 
 
@@ -106,13 +108,13 @@ def test_what_is_out_of_reach_is_refused_with_a_sentence():
 def test_a_lever_chooses_its_stiffness_as_a_pair_does(angle):
     """The arms change with the angle, so that the forces themselves add to the stiffness."""
     joint, h = lever(), 1e-5
-    low, high = stiffness_range(joint, angle)
+    low, high = joint_stiffness_range(joint, angle)
     assert high > 1.3 * low
     for wanted in (low, 0.5 * (low + high), high):
-        bar = np.array(pressures(joint, angle, wanted)) / BAR
+        bar = np.array(co_contraction_pressures(joint, angle, wanted)) / BAR
         tau = joints.lever_torque(bar, angle, UNEQUAL)
         assert tau == pytest.approx(joints.gravity(angle), abs=1e-9)
         ends = (joints.lever_torque(bar, angle + way, UNEQUAL) for way in (h, -h))
         assert (next(ends) - next(ends)) / (2.0 * h) == pytest.approx(-wanted, rel=1e-6)
         # By the effort that holds it, the angle is where it rests.
-        assert rest(joint, bar * BAR) == pytest.approx(angle, abs=1e-8)
+        assert equilibrium(joint, bar * BAR) == pytest.approx(angle, abs=1e-8)

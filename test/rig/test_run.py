@@ -13,9 +13,9 @@ from scipy.integrate import solve_ivp
 
 from pam_ros.errors import ParameterError
 from pam_ros.muscle.muscle import Muscle
+from pam_ros.rig.equilibrium import equilibrium
 from pam_ros.rig.joint import one_muscle
 from pam_ros.rig.loads import Mass
-from pam_ros.rig.rest import rest
 from pam_ros.rig.run import acting_commands, simulate, simulate_held
 from pam_ros.rig.simulation import Simulation
 from support import joints, paper
@@ -173,7 +173,7 @@ def test_it_starts_at_rest_under_the_commands_in_force(joint, command, acting):
     """Of each muscle the last before the first sample, if it has acted; a lag has followed."""
     run = simulate(joint, [2.2, 2.25], [1.0, 2.0, 6.0], command)
     np.testing.assert_allclose(run.pressure, [acting] * 2, rtol=1e-15)
-    np.testing.assert_allclose(run.position, rest(joint, acting), atol=1e-12)
+    np.testing.assert_allclose(run.position, equilibrium(joint, acting), atol=1e-12)
 
 
 def test_a_late_command_is_not_yet_in_force_at_the_start():

@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 
 from pam_ros.errors import ParameterError
 from pam_ros.muscle.muscle import Muscle
+from pam_ros.rig.equilibrium import equilibrium
 from pam_ros.rig.joint import one_muscle
 from pam_ros.rig.loads import Mass
-from pam_ros.rig.rest import rest
 from pam_ros.rig.simulation import Simulation
 from support import joints
 from support.joint_models import UNEQUAL, lever, pair, parallel
@@ -189,7 +189,7 @@ def test_it_starts_at_rest_without_pressure():
     rig = Simulation(MODELS)
     np.testing.assert_array_equal(rig.pressure, 0.0)
     before = rig.position
-    np.testing.assert_allclose(before, [rest(m, 0.0) for m in MODELS])
+    np.testing.assert_allclose(before, [equilibrium(m, 0.0) for m in MODELS])
     rig.advance(300)
     np.testing.assert_allclose(rig.position, before, atol=1e-12)
 

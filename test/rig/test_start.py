@@ -8,8 +8,8 @@ import pytest
 from pam_ros.effects import EFFECTS
 from pam_ros.errors import ParameterError
 from pam_ros.rig import layout as at
+from pam_ros.rig.equilibrium import equilibrium
 from pam_ros.rig.joint import one_muscle
-from pam_ros.rig.rest import rest
 from pam_ros.rig.run import simulate
 from pam_ros.rig.start import start_joint, start_muscle, start_state
 from support import bench, joints
@@ -102,7 +102,7 @@ def test_a_chamber_that_begins_away_from_the_command_comes_to_it_with_its_time_c
 def test_the_coordinate_begins_at_rest_under_the_command():
     joint = one_muscle(effects=LAG)
     run = simulate(joint, T, [0.0], [3e5], hidden={'pressure_lag': {'pressure': -4e4}})
-    assert run.position[0] == rest(joint, 3e5)
+    assert run.position[0] == equilibrium(joint, 3e5)
     assert np.ptp(run.position) > 1e-3
 
 

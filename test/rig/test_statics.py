@@ -9,9 +9,9 @@ from scipy.optimize import brentq
 from pam_ros.errors import RangeError
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig import statics
+from pam_ros.rig.equilibrium import equilibrium
 from pam_ros.rig.joint import Actuator, Joint, one_muscle
 from pam_ros.rig.loads import Mass
-from pam_ros.rig.rest import rest
 from pam_ros.rig.simulation import Simulation
 from support import joints, paper
 from support.joint_models import BOTH_LONG, UNEQUAL, lever, pair, parallel
@@ -36,7 +36,7 @@ def test_it_comes_to_rest_there():
     rig.command([4e5, 2e5])
     rig.advance(8000)
     assert rig.position[0] == pytest.approx(brentq(net, -2.0, 2.0, ((4.0, 2.0),)), abs=1e-9)
-    assert rest(rig.joints[0], [4e5, 2e5]) == pytest.approx(rig.position[0], abs=1e-9)
+    assert equilibrium(rig.joints[0], [4e5, 2e5]) == pytest.approx(rig.position[0], abs=1e-9)
     np.testing.assert_allclose(rig.joint_outputs().effort[0], joints.gravity(rig.position[0]))
 
 
@@ -49,7 +49,7 @@ def test_two_muscles_hold_the_weight_together():
 
     for p, q in PRESSURES:
         root = brentq(left, -0.05, 0.2, (p, q), xtol=1e-15)
-        assert rest(joint, [p * BAR, q * BAR]) == pytest.approx(root, abs=1e-12)
+        assert equilibrium(joint, [p * BAR, q * BAR]) == pytest.approx(root, abs=1e-12)
 
 
 @pytest.mark.parametrize('strands', [UNEQUAL, UNEQUAL[:1]], ids=['two', 'one'])
@@ -140,7 +140,7 @@ def test_only_one_muscle_on_a_mass_has_its_coordinate_from_its_length():
     moved = Joint((Actuator(Muscle(), {}, 0.1),), Mass())
     assert not any(map(statics.is_direct, (pair(), lever(), parallel(50.0), moved)))
     # It rests as far up as the other does, counted from where it is mounted.
-    shift = rest(one_muscle(), 3e5) - rest(moved, 3e5)
+    shift = equilibrium(one_muscle(), 3e5) - equilibrium(moved, 3e5)
     assert shift == pytest.approx(0.1 * 0.4, abs=1e-12)
 
 
@@ -157,11 +157,11 @@ def test_a_load_that_stands_on_soft_muscles_falls_to_either_side():
     heavy = {'mass': 6.0, 'hanging_at': np.pi, 'contraction_1': 0.1, 'contraction_2': 0.1}
     joint = pair(BOTH_LONG, **heavy)
     assert statics.stiffness(joint, 0.0, 0.0) + statics.weight_stiffness(joint, 0.0) < 0.0
-    angle = rest(joint, 0.0)
+    angle = equilibrium(joint, 0.0)
     assert abs(angle) > 0.1
     assert statics.effort(joint, 0.0, angle) == pytest.approx(statics.weight(joint, angle))
     assert statics.stiffness(joint, 0.0, angle) + statics.weight_stiffness(joint, angle) > 0.0
-    assert rest(joint, 6e5) == pytest.approx(0.0, abs=1e-12)  # filled, it stands
+    assert equilibrium(joint, 6e5) == pytest.approx(0.0, abs=1e-12)  # filled, it stands
 
 
 def test_the_span_is_where_both_muscles_have_permissible_lengths():

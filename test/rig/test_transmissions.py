@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from pam_ros.errors import ParameterError
 from pam_ros.rig import statics
-from pam_ros.rig.rest import rest
+from pam_ros.rig.equilibrium import equilibrium
 from pam_ros.rig.transmissions import DEAD_CENTRE, Lever, Pulley, Straight
 from support import joints
 from support.joint_models import UNEQUAL, lever, pair, parallel
@@ -95,13 +95,13 @@ def test_a_positive_angle_shortens_the_first_muscle_and_lengthens_the_second():
 def test_pressure_in_the_first_muscle_turns_it_to_positive_angles():
     for joint in (pair(), lever()):
         p = [4e5, 2e5], [3e5, 3e5], [2e5, 4e5]
-        assert rest(joint, p[0]) > rest(joint, p[1]) > rest(joint, p[2])
+        assert equilibrium(joint, p[0]) > equilibrium(joint, p[1]) > equilibrium(joint, p[2])
 
 
 def test_co_contraction_stiffens_it():
     """And moves it, for unequal muscles: less than a tenth of a radian here."""
     for joint in (pair(), lever()):
-        soft, stiff = (statics.stiffness(joint, p, rest(joint, p)) for p in (2e5, 5e5))
+        soft, stiff = (statics.stiffness(joint, p, equilibrium(joint, p)) for p in (2e5, 5e5))
         assert stiff > 1.5 * soft
 
 

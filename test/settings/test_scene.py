@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from pam_ros.errors import ParameterError
+from pam_ros.rig.equilibrium import equilibrium
 from pam_ros.rig.joint import Joint, one_muscle
-from pam_ros.rig.rest import rest
 from pam_ros.rig.transmissions import Lever, Pulley
 from pam_ros.settings.files import write
 from pam_ros.settings.rig import load_rig
@@ -118,8 +118,8 @@ def test_equal_muscles_are_one_joint():
     assert len({id(joint) for joint in now.joints}) == 2
     pressure, position, velocity = now.initial
     assert pressure.shape == position.shape == velocity.shape == (64,)
-    at_rest = [rest(one_muscle(), 0.0)] * 64
-    at_rest[3] = rest(now.joints[3], 0.0)
+    at_rest = [equilibrium(one_muscle(), 0.0)] * 64
+    at_rest[3] = equilibrium(now.joints[3], 0.0)
     np.testing.assert_array_equal(position, at_rest)
 
 
@@ -142,7 +142,7 @@ def test_a_pair_starts_at_rest_under_its_own_pressures():
     now = built(joint='antagonistic', initial__pressure=2e5, pam_1__initial__pressure=3e5)
     pressure, position, _ = now.initial
     np.testing.assert_array_equal(pressure, [3e5, 2e5])
-    assert position[0] == rest(now.joints[0], (3e5, 2e5)) > 0.0
+    assert position[0] == equilibrium(now.joints[0], (3e5, 2e5)) > 0.0
 
 
 @pytest.mark.parametrize(('kind', 'muscles'), [('lever', 2), ('crank', 1)])
@@ -165,7 +165,7 @@ def test_a_lever_is_declared_by_its_geometry(kind, muscles):
     assert now.joint_names == ('elbow',)
     assert len(now.muscle_names) == muscles
     assert not now.is_one
-    np.testing.assert_array_equal(now.initial[1], [rest(joint, 2e5)])
+    np.testing.assert_array_equal(now.initial[1], [equilibrium(joint, 2e5)])
 
 
 @pytest.mark.parametrize(

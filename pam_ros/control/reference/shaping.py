@@ -14,7 +14,7 @@ from pam_ros.control.joint_settings import JointSettings
 from pam_ros.control.reference.profile import Bounds, Rest, advance, change
 from pam_ros.control.signals import Reference
 from pam_ros.control.tuning import number
-from pam_ros.parameters import OnTurning, parameter
+from pam_ros.parameters import OnTurning, parameter_field
 
 
 @dataclass(frozen=True)
@@ -45,7 +45,7 @@ STREAM = StreamTuning()
 class Shape(JointSettings):
     """Bounds of the motion to a target that jumps; in rad of a joint that turns."""
 
-    max_velocity: float = parameter(
+    max_velocity: float = parameter_field(
         0.1,
         'velocity of the reference after a step',
         'm/s',
@@ -54,7 +54,7 @@ class Shape(JointSettings):
         above_low=True,
         turning=OnTurning(2.0, 100.0),
     )
-    max_acceleration: float = parameter(
+    max_acceleration: float = parameter_field(
         0.5,
         'acceleration of the reference after a step',
         'm/s^2',
@@ -63,7 +63,7 @@ class Shape(JointSettings):
         above_low=True,
         turning=OnTurning(15.0, 1e4),
     )
-    max_jerk: float = parameter(
+    max_jerk: float = parameter_field(
         6.0,
         'jerk of the reference after a step',
         'm/s^3',

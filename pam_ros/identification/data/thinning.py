@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pam_ros.identification.data.segment import FreeSegment, HeldSegment, Segment
+from pam_ros.rig.equilibrium import equilibrium
 from pam_ros.rig.joint import Joint
-from pam_ros.rig.rest import rest
 
 Array = NDArray[np.float64]
 
@@ -31,7 +31,7 @@ def coarse_step(model: Joint) -> float:
         return STEPS[1]
     muscle = model.muscle
     ends = (0.0, muscle.p_max)
-    k = max(float(muscle.stiffness(p, rest(model, p) / muscle.l0)) for p in ends)
+    k = max(float(muscle.stiffness(p, equilibrium(model, p) / muscle.l0)) for p in ends)
     return float(np.clip(PHASE / np.sqrt(k / model.load.mass), *STEPS))
 
 

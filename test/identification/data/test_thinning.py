@@ -12,9 +12,9 @@ from pam_ros.identification.data.thinning import HELD_STEP, PHASE, STEPS, coarse
 from pam_ros.identification.fit.problem import Problem
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.recording.recording import Recording
+from pam_ros.rig.equilibrium import equilibrium
 from pam_ros.rig.joint import one_muscle
 from pam_ros.rig.loads import Mass
-from pam_ros.rig.rest import rest
 
 STEP = 6e-3
 
@@ -139,7 +139,7 @@ def test_the_step_turns_the_rigs_fastest_swing_by_a_set_angle():
     # Stiffness of Sarosi's law by hand, p in bar and kappa in percent: -dF/dkappa / l0 in N/m.
     k = []
     for p in (0.0, 6.0):
-        percent = 100.0 * rest(model, p * 1e5) / 0.4
+        percent = 100.0 * equilibrium(model, p * 1e5) / 0.4
         slope = (-4.35573 * p + 281.2237) * -0.32866 * np.exp(-0.32866 * percent) - 9.27035 * p
         k.append(-100.0 * slope / 0.4)
     expected = PHASE / np.sqrt(max(k) / 10.0)
@@ -161,7 +161,7 @@ def test_a_thinned_run_moves_like_the_full_one():
     rng = np.random.default_rng(0)
     t = np.arange(20_000) * 1e-3
     command = wave(t) + 1e4 * np.sin(2 * np.pi * 4.0 * t) + 4e4 * (uneven(rng, t.size) // 1.7 % 2)
-    segment = recorded(t, t, command, np.full(t.size, rest(model, command[0])))
+    segment = recorded(t, t, command, np.full(t.size, equilibrium(model, command[0])))
     thin = thinned(segment, coarse_step(model))
     stride = round(thin.t[1] / t[1])
     assert stride >= 5

@@ -26,9 +26,9 @@ from pam_ros.identification.fit.unknowns import (
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.recording.recording import Recording
 from pam_ros.rig import layout as at
+from pam_ros.rig.equilibrium import equilibrium
 from pam_ros.rig.joint import one_muscle
 from pam_ros.rig.loads import Mass
-from pam_ros.rig.rest import rest
 from pam_ros.rig.run import simulate
 from support.equations import unknown
 
@@ -172,7 +172,7 @@ def test_a_memory_begins_where_a_simulation_begins_that_is_told_so(name):
     model = one_muscle(Muscle(), Mass(mass=20.0), {name: effect.example})
     t = np.arange(60) / 50.0
     command = 3e5 + 5e4 * np.sin(6.0 * t)
-    y = np.full(t.size, rest(model, command[0]))
+    y = np.full(t.size, equilibrium(model, command[0]))
     recording = Recording('m', t, t, command, y, None, None, None, 'free')
     problem = problem_of(model, segments_of([recording]), [name])
     u = np.zeros(len(problem.unknowns))
@@ -192,7 +192,7 @@ def test_commands_that_act_early_move_the_load_early(early):
     t = np.arange(300) / 200.0
     command_t = np.arange(0.0, 1.5, 0.25)
     command = 3e5 + 4e4 * np.sin(9.0 * command_t)
-    y = np.full(t.size, rest(MUSCLE, command[0]))
+    y = np.full(t.size, equilibrium(MUSCLE, command[0]))
     recording = Recording('e', t, command_t, command, y, None, None, None, 'free')
     (s,) = segments_of([replace(recording, command_spread=1e-3)])
     without = problem_of(MUSCLE, [s])
@@ -251,7 +251,7 @@ def test_jacobian_of_a_swinging_muscle_against_scipy():
     )
     t = np.arange(400) / 100.0
     command = 3e5 + 5e4 * np.sin(2 * np.pi * 1.3 * t)
-    y = np.full(t.size, rest(MUSCLE, 3e5))
+    y = np.full(t.size, equilibrium(MUSCLE, 3e5))
     recording = Recording('m', t, t, command, y, None, None, None, 'free')
     problem = problem_of(model, segments_of([recording]), ['creep'])
     u = np.random.default_rng(3).uniform(-0.5, 0.5, len(problem.unknowns))

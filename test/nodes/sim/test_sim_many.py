@@ -11,10 +11,10 @@ from std_msgs.msg import Float64, Float64MultiArray
 from std_srvs.srv import SetBool, Trigger
 
 from pam_ros.muscle.muscle import Muscle
+from pam_ros.rig.equilibrium import equilibrium
 from pam_ros.rig.joint import Actuator, Joint, one_muscle
 from pam_ros.rig.loads import Arm as ArmLoad
 from pam_ros.rig.loads import Mass
-from pam_ros.rig.rest import rest
 from pam_ros.rig.simulation import Simulation
 from pam_ros.rig.transmissions import Pulley
 from support.ends import check_refusals
@@ -73,7 +73,7 @@ class Arm:
 def simulated(models, pressures, periods=PERIODS):
     """Return a rig after the same run."""
     rig = Simulation(models, 1e-3)
-    rig.reset(0.0, [rest(joint, 0.0) for joint in models], 0.0)
+    rig.reset(0.0, [equilibrium(joint, 0.0) for joint in models], 0.0)
     rig.command(pressures)
     for _ in range(periods):
         rig.advance(2)
@@ -263,7 +263,7 @@ def test_pause_step_and_reset_are_for_all_of_them(peer):
         assert peer.call(Trigger, 'pam_sim/step').success
         peer.until(lambda: stamp(arm.states[-1]) == stamp(before) + 5 * 2_000_000, 'five periods')
         assert peer.call(Trigger, 'pam_sim/reset').success
-        at_rest = rest(one_muscle(), 0.0)
+        at_rest = equilibrium(one_muscle(), 0.0)
         peer.until(lambda: list(arm.states[-1].position) == [at_rest] * 2, 'the start')
 
 

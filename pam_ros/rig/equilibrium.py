@@ -17,7 +17,7 @@ STEPS = 100  # over the span in which a rest is sought
 PRECISION = 1e-13  # m or rad
 
 
-def rest(joint: Joint, p: ArrayLike) -> float:
+def equilibrium(joint: Joint, p: ArrayLike) -> float:
     """Return the coordinate at which the joint rests when *p* Pa has long been commanded.
 
     p is gauge, (muscles,) or one number for all. For one muscle on a mass the coordinate is the
