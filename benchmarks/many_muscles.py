@@ -15,9 +15,10 @@ import time
 import numpy as np
 
 from pam_ros.compiled import HAVE_NUMBA
-from pam_ros.rig.joint import Actuator, Joint, one_muscle
+from pam_ros.rig.joint import Actuator, Joint
 from pam_ros.rig.loads import Arm, Mass
 from pam_ros.rig.simulation import Simulation
+from pam_ros.rig.standard_joints import single_muscle_joint
 from pam_ros.rig.transmissions import Pulley
 
 STEPS = 64_000  # of one muscle; fewer of many, so that each turn takes as long
@@ -30,7 +31,7 @@ SLIGHT = {'viscous_friction': {'coefficient': 1e-9}}
 
 def rigs(effects: dict[str, dict[str, float]]) -> dict[str, Simulation]:
     """Return rigs by name, with as many muscles as the name says."""
-    single = one_muscle(effects=effects)
+    single = single_muscle_joint(effects=effects)
     hung = Actuator(contraction=0.1)
     pair = Joint((hung, hung), Arm(), Pulley(), effects)
     parallel = Joint((Actuator(), Actuator()), Mass(mass=40.0), effects=effects)

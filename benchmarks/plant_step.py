@@ -20,8 +20,8 @@ from pathlib import Path
 import numpy as np
 
 from pam_ros.compiled import HAVE_NUMBA
-from pam_ros.rig.joint import one_muscle
 from pam_ros.rig.simulation import Simulation
+from pam_ros.rig.standard_joints import single_muscle_joint
 
 STEPS = 100_000
 STEP = 1e-3  # s
@@ -64,7 +64,7 @@ def plain_c(folder: str, compiler: str) -> Callable[[], float]:
     pointer = ctypes.POINTER(ctypes.c_double)
     advance.argtypes = [pointer, pointer, ctypes.c_double, ctypes.c_long, ctypes.c_double]
     advance.restype = None
-    joint = one_muscle()
+    joint = single_muscle_joint()
     muscle, load = joint.muscle, joint.load
     constants = np.array([*muscle.si, muscle.zeta, muscle.l0, load.mass, *load.numbers])
 
@@ -79,7 +79,7 @@ def plain_c(folder: str, compiler: str) -> Callable[[], float]:
 
 def rig(effects: dict[str, dict[str, float]]) -> Callable[[], float]:
     """Return this package's rig as a node steps it."""
-    plant = Simulation([one_muscle(effects=effects)], STEP)
+    plant = Simulation([single_muscle_joint(effects=effects)], STEP)
 
     def run() -> float:
         plant.reset([PRESSURE], [0.0], [0.0])

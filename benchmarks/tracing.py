@@ -31,8 +31,9 @@ from pam_ros.identification.identify import identify
 from pam_ros.identification.result import Identification
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.recording.recording import Recording
-from pam_ros.rig.joint import Joint, one_muscle
+from pam_ros.rig.joint import Joint
 from pam_ros.rig.loads import Mass
+from pam_ros.rig.standard_joints import single_muscle_joint
 from truth import KINDS, NOISE_ONLY, OUT_OF_LIBRARY, PAIRS, Trial, blind_trial, wide_trial
 
 TARGETS = {
@@ -51,7 +52,7 @@ def declared_model(trial: Trial) -> Joint:
     muscle = Muscle(
         *d.constants_si, pressure_unit='Pa', contraction_unit='fraction', zeta=d.zeta, l0=d.l0
     )
-    return one_muscle(muscle, Mass(mass=d.mass))
+    return single_muscle_joint(muscle, Mass(mass=d.mass))
 
 
 def recording_of(trial: Trial) -> Recording:

@@ -37,10 +37,11 @@ if TYPE_CHECKING:
         joint_stiffness_range,
     )
     from pam_ros.rig.equilibrium import equilibrium
-    from pam_ros.rig.joint import Actuator, Joint, one_muscle
+    from pam_ros.rig.joint import Actuator, Joint
     from pam_ros.rig.loads import Arm, Load, LoadEquations, Mass
     from pam_ros.rig.run import Trajectory, simulate, simulate_held
     from pam_ros.rig.simulation import JointOutputs, MuscleOutputs, Simulation
+    from pam_ros.rig.standard_joints import antagonistic_joint, single_muscle_joint
     from pam_ros.rig.transmissions import (
         Lever,
         Pulley,
@@ -80,6 +81,7 @@ __all__ = [
     'Transmission',
     'TransmissionEquations',
     '__version__',
+    'antagonistic_joint',
     'co_contraction_pressures',
     'equilibrium',
     'fit_static_map',
@@ -87,12 +89,12 @@ __all__ = [
     'joint_stiffness',
     'joint_stiffness_range',
     'load_rig',
-    'one_muscle',
     'parameter_field',
     'read_mapping',
     'read_recording',
     'simulate',
     'simulate_held',
+    'single_muscle_joint',
     'write_csv',
 ]
 
@@ -116,11 +118,12 @@ _PLACES = {
     'recording.read': ('read_recording',),
     'recording.recording': ('Recording',),
     'rig.co_contraction': ('co_contraction_pressures', 'joint_stiffness', 'joint_stiffness_range'),
-    'rig.joint': ('Actuator', 'Joint', 'one_muscle'),
+    'rig.joint': ('Actuator', 'Joint'),
     'rig.loads': ('Arm', 'Load', 'LoadEquations', 'Mass'),
     'rig.equilibrium': ('equilibrium',),
     'rig.simulation': ('JointOutputs', 'MuscleOutputs', 'Simulation'),
     'rig.run': ('Trajectory', 'simulate', 'simulate_held'),
+    'rig.standard_joints': ('antagonistic_joint', 'single_muscle_joint'),
     'rig.transmissions': (
         'Lever',
         'Pulley',

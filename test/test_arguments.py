@@ -31,15 +31,15 @@ from pam_ros import (
     joint_stiffness,
     joint_stiffness_range,
     load_rig,
-    one_muscle,
     read_mapping,
     read_recording,
     simulate,
     simulate_held,
+    single_muscle_joint,
     write_csv,
 )
 
-ONE = one_muscle()
+ONE = single_muscle_joint()
 STRAND = Actuator(contraction=0.1)
 ELBOW = Joint((STRAND, STRAND), Arm(), Pulley())
 T = [0.0, 0.005, 0.02]
@@ -301,7 +301,7 @@ NUMBERS = {
     'simulate velocity': lambda v: simulate(ONE, T, T, COMMAND, velocity=v),
     'simulate step': lambda v: simulate(ONE, T, T, COMMAND, step=v),
     'simulate hidden.creep.force': lambda v: simulate(
-        one_muscle(effects={'creep': {'stiffness': 300.0, 'time': 0.5}}),
+        single_muscle_joint(effects={'creep': {'stiffness': 300.0, 'time': 0.5}}),
         T,
         T,
         COMMAND,
@@ -420,12 +420,20 @@ OBJECTS = {
         (Muscle(), {'leak': 0.1}),
         'effects.leak = 0.1',
     ),
-    'one muscle of a mass': (one_muscle, (Mass(mass=20.0),), 'muscle = Mass(mass=20.0, mount='),
-    'one muscle on a number': (one_muscle, (None, 20.0), 'load = 20.0'),
-    'one muscle of 0': (one_muscle, (0,), 'muscle = 0 '),
-    'one muscle with effects as a number': (one_muscle, (None, None, 30.0), 'effects = 30.0'),
+    'one muscle of a mass': (
+        single_muscle_joint,
+        (Mass(mass=20.0),),
+        'muscle = Mass(mass=20.0, mount=',
+    ),
+    'one muscle on a number': (single_muscle_joint, (None, 20.0), 'load = 20.0'),
+    'one muscle of 0': (single_muscle_joint, (0,), 'muscle = 0 '),
+    'one muscle with effects as a number': (
+        single_muscle_joint,
+        (None, None, 30.0),
+        'effects = 30.0',
+    ),
     'one muscle with an effect as a number': (
-        one_muscle,
+        single_muscle_joint,
         (None, None, {'viscous_friction': 30.0}),
         'effects.viscous_friction = 30.0',
     ),
@@ -436,12 +444,14 @@ OBJECTS = {
     'change to a joint': (Simulation([ONE]).change, (ONE,), 'joints = Joint(actuators='),
     'simulate a muscle': (simulate, (Muscle(), T, T, COMMAND), 'joint = Muscle('),
     'simulate with hidden numbers': (
-        lambda: simulate(one_muscle(effects=LAG), T, T, COMMAND, hidden={'pressure_lag': 3e4}),
+        lambda: simulate(
+            single_muscle_joint(effects=LAG), T, T, COMMAND, hidden={'pressure_lag': 3e4}
+        ),
         (),
         'hidden.pressure_lag = 30000.0',
     ),
     'simulate with a hidden number': (
-        lambda: simulate(one_muscle(effects=LAG), T, T, COMMAND, hidden=3e4),
+        lambda: simulate(single_muscle_joint(effects=LAG), T, T, COMMAND, hidden=3e4),
         (),
         'hidden = 30000.0',
     ),

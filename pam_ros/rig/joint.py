@@ -54,7 +54,8 @@ class Joint:
     a ``Pulley``, a ``Lever`` or one of your own. ``effects`` are those on the joint, such as
     friction, in the joint's units; effect values map an effect's name to its parameters in SI,
     and what is not given has its default, absent. ``library`` are the effects that the kernel
-    knows. The paper's rig, one muscle on a mass, is what :func:`one_muscle` makes.
+    knows. The paper's rig, one muscle on a mass, is what
+    :func:`pam_ros.single_muscle_joint` makes.
 
     Raises ParameterError for effects that are unknown, out of range or at the wrong place, and
     for a joint that has no equilibrium over the range of pressures.
@@ -106,7 +107,7 @@ class Joint:
             given = getattr(part, 'equations', None)
             instance(f'{name}.equations', given, kind, f'{kind.__name__}, as a field of its class')
         _refuse_other_than_effects(self.effects)
-        object.__setattr__(self, 'library', _library(self.library))
+        object.__setattr__(self, 'library', library_of(self.library))
 
     def _known(self, name: str, *, on_joint: bool) -> Effect:
         """Return the effect with the units that it has here, or say why it is none."""
@@ -265,29 +266,8 @@ class Joint:
                 ]
 
 
-def one_muscle(
-    muscle: Muscle | None = None,
-    load: Mass | None = None,
-    effects: EffectValues | None = None,
-    library: Sequence[Effect] | None = None,
-) -> Joint:
-    """Return one muscle on a mass, the paper's rig, with *effects* in the one and on the other.
-
-    What is None has its default: ``Muscle()``, ``Mass()``, no effects, and EFFECTS as the library.
-    Raises ParameterError as Joint does.
-    """
-    library = EFFECTS if library is None else _library(library)
-    in_muscle, on_joint = split_effects({} if effects is None else effects, library)
-    return Joint(
-        (Actuator(Muscle() if muscle is None else muscle, in_muscle),),
-        Mass() if load is None else load,
-        Straight(),
-        on_joint,
-        library,
-    )
-
-
-def _library(library: Sequence[Effect]) -> tuple[Effect, ...]:
+def library_of(library: Sequence[Effect]) -> tuple[Effect, ...]:
+    """Return *library* as a tuple; raises ParameterError where something in it is no Effect."""
     return sequence('library', library, Effect, 'an Effect, such as those of EFFECTS')
 
 

@@ -12,8 +12,9 @@ from pam_ros import code_cache
 from pam_ros.compiled import HAVE_NUMBA
 from pam_ros.rig.arrangements import ARRANGEMENTS, Arrangement
 from pam_ros.rig.bind import bind
-from pam_ros.rig.joint import Actuator, Joint, one_muscle
+from pam_ros.rig.joint import Actuator, Joint
 from pam_ros.rig.simulation import Simulation
+from pam_ros.rig.standard_joints import single_muscle_joint
 from pam_ros.rig.start import start_state
 
 WORKERS = 2  # processes: each compiles all effects for itself, and takes half a gigabyte
@@ -41,7 +42,7 @@ def _step(kind: Arrangement) -> str:
 
 
 def _run() -> str:
-    joint = one_muscle()
+    joint = single_muscle_joint()
     layout, q = joint.layout, joint.parameters()
     t, u = np.array([0.0, 1e-3]), np.zeros((2, layout.muscles))
     out = np.zeros((2, layout.run_columns))

@@ -7,7 +7,7 @@ import pytest
 
 from pam_ros.control.co_contraction import RISE, CoContraction, StiffnessCourse
 from pam_ros.errors import ParameterError, RangeError
-from pam_ros.rig.joint import one_muscle
+from pam_ros.rig.standard_joints import single_muscle_joint
 from support.closed_loop import shared
 from support.pair_loop import declared
 
@@ -21,7 +21,7 @@ def test_unless_it_is_set_it_is_in_the_middle_of_what_can_be_had():
 
 
 def test_where_the_effort_settles_the_stiffness_none_is_wanted():
-    assert CoContraction(30.0).wanted(shared(one_muscle())) == 0.0
+    assert CoContraction(30.0).wanted(shared(single_muscle_joint())) == 0.0
 
 
 def test_one_that_cannot_be_had_is_refused():

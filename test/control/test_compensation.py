@@ -12,9 +12,10 @@ from pam_ros.control.gains import Gains
 from pam_ros.control.model import ControlModel
 from pam_ros.control.signals import Reference
 from pam_ros.control.sliding_mode import SlidingMode
-from pam_ros.rig.joint import Actuator, one_muscle
+from pam_ros.rig.joint import Actuator
 from pam_ros.rig.run import simulate_held
 from pam_ros.rig.simulation import Simulation
+from pam_ros.rig.standard_joints import single_muscle_joint
 from support.pair_loop import declared
 
 DT = 2e-3
@@ -31,7 +32,7 @@ def losses_of(joint):
 
 
 def test_losses_along_a_motion_are_what_the_rig_pulls_less():
-    joint, bare = one_muscle(effects=LOSSES), one_muscle()
+    joint, bare = single_muscle_joint(effects=LOSSES), single_muscle_joint()
     t = np.arange(0.0, 4.0, DT)
     y = 0.05 + 0.02 * np.sin(2.0 * t) ** 2
     v = np.gradient(y, t)
@@ -50,7 +51,7 @@ def test_losses_along_a_motion_are_what_the_rig_pulls_less():
 
 
 def test_friction_turns_over_with_the_motion():
-    losses = losses_of(one_muscle(effects={'coulomb_friction': {'level': 15.0}}))
+    losses = losses_of(single_muscle_joint(effects={'coulomb_friction': {'level': 15.0}}))
     losses.start(0.05, (300e3,))
     for n in range(100):
         up = losses.follow(DT, Reference(0.05 + 1e-4 * n, 0.05), (300e3,))
@@ -62,12 +63,12 @@ def test_friction_turns_over_with_the_motion():
 
 
 def test_without_effects_nothing_is_lost():
-    losses = losses_of(one_muscle())
+    losses = losses_of(single_muscle_joint())
     assert losses.follow(DT, Reference(0.05, 0.1), (300e3,)) == 0.0
 
 
 def test_it_says_what_it_leaves_to_feedback():
-    joint = one_muscle(
+    joint = single_muscle_joint(
         effects={'payload': {'mass': 1.0}, 'leak': {'rate': 0.1}, 'hysteresis': {'slip': 3.0}}
     )
     assert left_to_feedback(joint) == ('leak',)

@@ -11,7 +11,7 @@ from scipy.signal import TransferFunction, impulse
 
 from pam_ros.control.gains import Gains
 from pam_ros.errors import ParameterError
-from pam_ros.rig.joint import one_muscle
+from pam_ros.rig.standard_joints import single_muscle_joint
 from support.closed_loop import shared
 from support.pair_loop import declared
 
@@ -42,7 +42,7 @@ def test_an_observer_that_is_off_needs_no_bandwidth():
 
 
 def test_gains_that_do_not_suit_a_rig_or_a_rate_are_refused():
-    sharing = shared(one_muscle())
+    sharing = shared(single_muscle_joint())
     Gains().check(sharing, 0.002)
     with pytest.raises(ParameterError, match='too fast for a control rate of 50 Hz'):
         Gains().check(sharing, 0.02)
@@ -75,7 +75,7 @@ def test_the_error_bound_is_the_absolute_area_of_the_impulse_response(damping):
 
 def test_a_joint_that_turns_has_defaults_of_its_own():
     assert Gains.for_joint(declared()) == Gains.turning()
-    assert Gains.for_joint(one_muscle()) == Gains()
+    assert Gains.for_joint(single_muscle_joint()) == Gains()
     assert Gains.turning().is_turning
     assert Gains.turning(bandwidth=30.0).bandwidth == 30.0
     assert Gains.turning().disturbance_bound < Gains().disturbance_bound

@@ -10,7 +10,7 @@ from pam_ros.control.reference.course import Course
 from pam_ros.control.reference.shaping import Shape
 from pam_ros.control.sliding_mode import SlidingMode
 from pam_ros.errors import ParameterError
-from pam_ros.rig.joint import one_muscle
+from pam_ros.rig.standard_joints import single_muscle_joint
 from support.pair_loop import declared as elbow
 
 KINDS = (Gains, PidGains, Shape)
@@ -18,7 +18,7 @@ KINDS = (Gains, PidGains, Shape)
 
 @pytest.mark.parametrize('kind', KINDS)
 def test_the_joint_says_which_defaults_hold(kind):
-    assert kind.for_joint(one_muscle()) == kind()
+    assert kind.for_joint(single_muscle_joint()) == kind()
     assert kind.for_joint(elbow()) == kind.turning() != kind()
     assert kind.for_joint(elbow()).is_turning
 
@@ -36,7 +36,7 @@ def test_what_is_given_goes_before_the_defaults_of_the_joint(kind, given):
 
 def test_values_are_checked_in_the_units_of_the_joint():
     with pytest.raises(ParameterError, match=r'max_velocity = 50\.0'):
-        Shape.for_joint(one_muscle(), max_velocity=50.0)
+        Shape.for_joint(single_muscle_joint(), max_velocity=50.0)
 
 
 SLIDES = 'the joint slides .m, N. and {} has the units of one that turns .rad, N m.'
@@ -47,10 +47,10 @@ TURNS = 'the joint turns .rad, N m. and {} has the units of one that slides .m, 
     ('make', 'sentence'),
     [
         (lambda: SlidingMode(elbow(), Gains(bandwidth=20.0)), TURNS.format('Gains')),
-        (lambda: SlidingMode(one_muscle(), Gains.turning()), SLIDES.format('Gains')),
+        (lambda: SlidingMode(single_muscle_joint(), Gains.turning()), SLIDES.format('Gains')),
         (lambda: SlidingMode(elbow()).set_gains(Gains()), TURNS.format('Gains')),
         (lambda: Pid(elbow(), PidGains()), TURNS.format('PidGains')),
-        (lambda: Pid(one_muscle(), PidGains.turning()), SLIDES.format('PidGains')),
+        (lambda: Pid(single_muscle_joint(), PidGains.turning()), SLIDES.format('PidGains')),
         (lambda: Course(Shape(), (-1.0, 1.0), 'rad'), TURNS.format('Shape')),
         (lambda: Course(Shape.turning(), (0.0, 0.1)), SLIDES.format('Shape')),
         (lambda: Course(Shape(), (0.0, 0.1)).set_shape(Shape.turning()), SLIDES.format('Shape')),

@@ -8,9 +8,10 @@ import pytest
 from pam_ros.control.model import ControlModel
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig import statics
-from pam_ros.rig.joint import Actuator, Joint, one_muscle
+from pam_ros.rig.joint import Actuator, Joint
 from pam_ros.rig.loads import Arm, Mass
 from pam_ros.rig.simulation import Simulation
+from pam_ros.rig.standard_joints import single_muscle_joint
 from pam_ros.rig.transmissions import Lever, Straight
 from support import joints
 from support.joint_models import UNEQUAL, pair
@@ -28,7 +29,7 @@ EFFECTS = {
 @pytest.mark.parametrize('effects', [{}, EFFECTS])
 @pytest.mark.parametrize('v', [0.1, -0.1])
 def test_it_is_the_rig_without_memory(effects, v):
-    joint = one_muscle(Muscle(zeta=0.15), Mass(mass=20.0), effects)
+    joint = single_muscle_joint(Muscle(zeta=0.15), Mass(mass=20.0), effects)
     rig, model = Simulation([joint]), ControlModel(joint)
     p, y = (280e3,), 0.05
     rig.reset(p, [y], [v])
@@ -41,14 +42,16 @@ def test_it_is_the_rig_without_memory(effects, v):
 
 
 def test_the_inverse_is_one():
-    muscle = ControlModel(one_muscle(effects={'length_offset': {'offset': 0.02}})).muscles[0]
+    muscle = ControlModel(
+        single_muscle_joint(effects={'length_offset': {'offset': 0.02}})
+    ).muscles[0]
     assert muscle.force(muscle.pressure_for(200.0, 0.03), 0.03) == pytest.approx(200.0)
     slope = (muscle.force(301e3, 0.03) - muscle.force(300e3, 0.03)) / 1e3
     assert muscle.gain(0.03) == pytest.approx(slope, rel=1e-9)
 
 
 def test_gravity_is_the_weight_of_the_moved_mass_and_adds_no_stiffness():
-    model = ControlModel(one_muscle(effects={'payload': {'mass': 5.0}}))
+    model = ControlModel(single_muscle_joint(effects={'payload': {'mass': 5.0}}))
     assert model.gravity(0.05) == model.weight == pytest.approx(25.0 * 9.80665)
     assert model.gravity_stiffness(0.05) == 0.0
     assert (model.arm, model.arms) == (1.0, 1.0)

@@ -10,16 +10,16 @@ import pytest
 from pam_ros.control.model import ControlModel
 from pam_ros.control.observer import Observer
 from pam_ros.rig.equilibrium import equilibrium
-from pam_ros.rig.joint import one_muscle
 from pam_ros.rig.loads import Mass
 from pam_ros.rig.simulation import Simulation
+from pam_ros.rig.standard_joints import single_muscle_joint
 from support.bench import cart
 
 DT = 2e-3
 
 
 def test_a_constant_force_is_found_and_leaves_no_bias():
-    joint = one_muscle(load=Mass(mass=20.0))
+    joint = single_muscle_joint(load=Mass(mass=20.0))
     rig, model = Simulation([joint]), ControlModel(joint)
     rig.reset([300e3], [equilibrium(joint, 300e3)], [0.0])
     observer = Observer(model)

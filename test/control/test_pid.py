@@ -13,7 +13,7 @@ from pam_ros.control.pid import Pid, PidGains
 from pam_ros.control.signals import Reference
 from pam_ros.errors import RangeError
 from pam_ros.rig import statics
-from pam_ros.rig.joint import one_muscle
+from pam_ros.rig.standard_joints import single_muscle_joint
 from support.closed_loop import step_target
 from support.joint_loop import JOINTS, close_joint
 from support.kinds import EACH_KIND, ONE, PAIR, at_end, rms
@@ -24,7 +24,7 @@ DT = 2e-3
 
 def test_a_joint_that_turns_has_gains_of_its_own():
     assert PidGains.for_joint(PAIR.declared()) == PidGains.turning() == Pid(PAIR.declared()).gains
-    assert PidGains.for_joint(one_muscle()) == PidGains()
+    assert PidGains.for_joint(single_muscle_joint()) == PidGains()
     assert PidGains.turning(integral=0.0).integral == 0.0
 
 
@@ -108,13 +108,15 @@ def test_what_one_muscle_gets_the_other_loses():
 
 
 def test_it_starts_at_the_pressures_that_are_there():
-    law = Pid(one_muscle())
+    law = Pid(single_muscle_joint())
     law.start(0.0644, (310e3,))
     assert law.update(DT, Reference(0.0644), 0.0644) == pytest.approx((310e3,))
     law.start(0.0644)
     (held,) = law.update(DT, Reference(0.0644), 0.0644)
     weight = 20 * 9.80665
-    assert held == pytest.approx(one_muscle().muscle.pressure_for_force(weight, 0.161), rel=1e-6)
+    assert held == pytest.approx(
+        single_muscle_joint().muscle.pressure_for_force(weight, 0.161), rel=1e-6
+    )
     law = Pid(PAIR.declared())
     law.start(0.1, (3e5, 1.5e5))
     found = law.update(DT, Reference(0.1), 0.1)

@@ -9,8 +9,9 @@ from pam_ros.control.co_contraction import CoContraction
 from pam_ros.control.pid import Pid, PidGains
 from pam_ros.control.pid_schedule import Schedule, plant_at
 from pam_ros.errors import ParameterError, RangeError
-from pam_ros.rig.joint import Actuator, Joint, one_muscle
+from pam_ros.rig.joint import Actuator, Joint
 from pam_ros.rig.loads import Arm
+from pam_ros.rig.standard_joints import single_muscle_joint
 from pam_ros.rig.transmissions import Pulley
 from support import pair_loop
 from support.bench import cart
@@ -27,7 +28,9 @@ def schedule(joint, gains=GAINS):
     return Schedule(sharing, gains, CoContraction().wanted(sharing)), sharing
 
 
-@pytest.mark.parametrize('joint', [one_muscle(), pair_loop.declared()], ids=['one', 'pair'])
+@pytest.mark.parametrize(
+    'joint', [single_muscle_joint(), pair_loop.declared()], ids=['one', 'pair']
+)
 def test_the_rigs_of_the_defaults_have_all_of_the_gains_at_all_places(joint):
     law = Pid(joint)
     low, high = law.sharing.reach

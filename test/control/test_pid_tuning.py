@@ -30,7 +30,7 @@ S = 1j * np.geomspace(0.3, 1500.0, 900)
 
 
 @cache
-def one_muscle(place, payload=0.0):
+def single_muscle_joint(place, payload=0.0):
     """Return inertia, damping, stiffness, and effort per pressure of 20 kg on a muscle."""
     model = ControlModel(closed_loop.declared())
     (muscle,) = model.muscles
@@ -67,7 +67,7 @@ class Bench(NamedTuple):
 ANGLES = (0.0, 0.2, 0.4, 0.6, 0.8)  # rad
 BENCHES = {
     'one muscle': Bench(
-        PidGains(), one_muscle, 20e-6, (0.045, 0.055, 0.065, 0.075, 0.085), 5.0, 50.0
+        PidGains(), single_muscle_joint, 20e-6, (0.045, 0.055, 0.065, 0.075, 0.085), 5.0, 50.0
     ),
     'pair': Bench(PidGains.turning(), pair, radians(0.02), ANGLES, 0.3, 2.0),
 }

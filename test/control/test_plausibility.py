@@ -17,9 +17,9 @@ from pam_ros.control.reference.shaping import Shape
 from pam_ros.control.sharing import sharing_of
 from pam_ros.control.sliding_mode import SlidingMode
 from pam_ros.muscle.muscle import Muscle
-from pam_ros.rig.joint import one_muscle
 from pam_ros.rig.loads import Mass
 from pam_ros.rig.simulation import Simulation
+from pam_ros.rig.standard_joints import single_muscle_joint
 from support import closed_loop
 from support.joint_loop import JOINTS
 from support.joint_models import pair
@@ -41,7 +41,7 @@ def bounds_for(joint):
 def test_one_muscle_goes_as_fast_as_its_greatest_force_less_its_weight_twice():
     """The printed force law at the ends of pressure and length, with half the load."""
     muscle = Muscle()
-    joint = one_muscle(muscle, Mass(mass=20.0))
+    joint = single_muscle_joint(muscle, Mass(mass=20.0))
     found = bounds_for(joint)
     pull = float(muscle.force(muscle.p_max, muscle.kappa_min))
     assert found.acceleration == pytest.approx(2.0 * (pull / 20.0 + 9.80665), rel=1e-3)

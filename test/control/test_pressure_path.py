@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from pam_ros.control.pressure_path import PressurePath
-from pam_ros.rig.joint import one_muscle
 from pam_ros.rig.simulation import Simulation
+from pam_ros.rig.standard_joints import single_muscle_joint
 
 DT = 2e-3
 EFFECTS = {
@@ -20,7 +20,7 @@ EFFECTS = {
 
 
 def test_it_knows_the_chamber_of_the_rig():
-    joint = one_muscle(effects=EFFECTS)
+    joint = single_muscle_joint(effects=EFFECTS)
     rig, path = Simulation([joint]), PressurePath(joint, 0, 0.02)
     rig.reset([300e3], [0.06], [0.0])
     path.start(300e3)
@@ -35,7 +35,7 @@ def test_it_knows_the_chamber_of_the_rig():
 
 @pytest.mark.parametrize('effects', [{}, EFFECTS])
 def test_a_foreseen_pressure_arrives_without_lag(effects):
-    path = PressurePath(one_muscle(effects=effects), 0, 0.02)
+    path = PressurePath(single_muscle_joint(effects=effects), 0, 0.02)
     start = path.command_at_rest(300e3)
     path.start(start)
     error = []
@@ -50,7 +50,7 @@ def test_a_foreseen_pressure_arrives_without_lag(effects):
 
 
 def test_at_rest_the_chamber_has_the_wanted_pressure():
-    path = PressurePath(one_muscle(effects=EFFECTS), 0, 0.02)
+    path = PressurePath(single_muscle_joint(effects=EFFECTS), 0, 0.02)
     path.start(0.0)
     for _ in range(1000):
         path.follow(path.command_for(250e3, 0.0), DT)
@@ -59,7 +59,7 @@ def test_at_rest_the_chamber_has_the_wanted_pressure():
 
 def test_the_lag_of_what_is_not_foreseen_shrinks_to_the_quickest():
     path = PressurePath(
-        one_muscle(effects={'pressure_lag': {'fill': 0.06, 'vent': 0.06}}), 0, 0.02
+        single_muscle_joint(effects={'pressure_lag': {'fill': 0.06, 'vent': 0.06}}), 0, 0.02
     )
     path.start(100e3)
     for n in range(100):

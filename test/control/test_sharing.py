@@ -13,8 +13,9 @@ from pam_ros.control.sharing import OneSide, TwoSides
 from pam_ros.errors import ParameterError, RangeError
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig import co_contraction, statics
-from pam_ros.rig.joint import Actuator, Joint, one_muscle
+from pam_ros.rig.joint import Actuator, Joint
 from pam_ros.rig.loads import Arm, Mass
+from pam_ros.rig.standard_joints import single_muscle_joint
 from pam_ros.rig.transmissions import Lever, Pulley, Straight
 from support.bench import cart, rest
 from support.closed_loop import shared
@@ -24,13 +25,13 @@ from support.joint_models import pair
 
 
 def test_the_reach_is_that_of_the_muscles_curve():
-    joint = one_muscle(Muscle(), Mass(mass=20.0))
+    joint = single_muscle_joint(Muscle(), Mass(mass=20.0))
     weight = float(statics.weight(joint, 0.0))
     low, high = shared(joint).reach
     assert low == pytest.approx(rest(0.02 * 600e3, weight), abs=1e-6)
     assert high == pytest.approx(rest(0.98 * 600e3, weight), abs=1e-6)
     # A light load is bounded by the contraction that the maker permits.
-    assert shared(one_muscle(load=Mass(mass=2.0))).reach[1] == pytest.approx(0.25 * 0.4)
+    assert shared(single_muscle_joint(load=Mass(mass=2.0))).reach[1] == pytest.approx(0.25 * 0.4)
     narrow = Limits(pressure_low=200e3, pressure_high=300e3)
     low, high = shared(joint, narrow).reach
     assert low == pytest.approx(rest(202e3, weight), abs=1e-6)
@@ -42,7 +43,7 @@ def test_a_load_without_a_muscle_has_no_bounds():
 
 
 def test_a_load_beyond_the_limits_of_pressure_is_refused():
-    heavy = one_muscle(load=Mass(mass=130.0))
+    heavy = single_muscle_joint(load=Mass(mass=130.0))
     with pytest.raises(ParameterError, match='cannot be held anywhere'):
         shared(heavy, Limits(pressure_high=100e3))
 
@@ -56,7 +57,9 @@ def crank():
     return Joint((Actuator(contraction=0.1),), Arm(hanging_at=-0.6), Lever())
 
 
-@pytest.mark.parametrize('joint', [one_muscle(), parallel(), crank()], ids=['one', 'two', 'crank'])
+@pytest.mark.parametrize(
+    'joint', [single_muscle_joint(), parallel(), crank()], ids=['one', 'two', 'crank']
+)
 def test_one_side_has_the_pressure_that_gives_the_effort(joint):
     sharing = shared(joint)
     assert isinstance(sharing, OneSide)

@@ -10,7 +10,7 @@ from pam_ros.control.pid import Pid
 from pam_ros.control.signals import Reference
 from pam_ros.control.sliding_mode import SlidingMode
 from pam_ros.errors import ParameterError, RangeError
-from pam_ros.rig.joint import one_muscle
+from pam_ros.rig.standard_joints import single_muscle_joint
 from support.joint_models import pair
 
 DT = 2e-3
@@ -19,7 +19,9 @@ BEGIN = 0.055
 
 
 EACH_LAW = pytest.mark.parametrize('law', [SlidingMode, Pid])
-EACH_JOINT = pytest.mark.parametrize('joint', [one_muscle(), pair()], ids=['one muscle', 'pair'])
+EACH_JOINT = pytest.mark.parametrize(
+    'joint', [single_muscle_joint(), pair()], ids=['one muscle', 'pair']
+)
 
 
 def twins(law, joint):

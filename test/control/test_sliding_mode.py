@@ -16,9 +16,10 @@ from pam_ros.errors import RangeError
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig import statics
 from pam_ros.rig.equilibrium import equilibrium
-from pam_ros.rig.joint import Actuator, Joint, one_muscle
+from pam_ros.rig.joint import Actuator, Joint
 from pam_ros.rig.loads import Arm, Mass
 from pam_ros.rig.simulation import Simulation
+from pam_ros.rig.standard_joints import single_muscle_joint
 from pam_ros.rig.transmissions import Pulley
 from support import closed_loop, pair_loop
 from support.bench import cart
@@ -106,7 +107,7 @@ def test_coefficients_that_are_wrong_by_half_leave_no_error_at_rest(scale):
     wrong = Muscle(
         scale * m.a1, scale * m.a2, m.a3, scale * m.a4, scale * m.a5, scale * m.a6, zeta=0.15
     )
-    law = SlidingMode(one_muscle(wrong, Mass(mass=15.0)), Gains())
+    law = SlidingMode(single_muscle_joint(wrong, Mass(mass=15.0)), Gains())
     _, e, _, (pressure,) = on_rig(law, CASES['one muscle'], lambda t: 0.005, 8.0)
     assert np.max(np.abs(e[-500:])) < 1e-6
     assert np.ptp(pressure[-500:]) < 100.0

@@ -8,10 +8,10 @@ from matplotlib.image import imread
 
 from pam_ros.demo.figures import figure_5, figure_6, figure_steps, save
 from pam_ros.demo.run import PublishedRun
-from pam_ros.rig.joint import one_muscle
 from pam_ros.rig.run import simulate
+from pam_ros.rig.standard_joints import single_muscle_joint
 
-MODEL = one_muscle()
+MODEL = single_muscle_joint()
 
 
 @pytest.fixture(scope='module')

@@ -7,10 +7,10 @@ import pytest
 
 from pam_ros.demo import paper
 from pam_ros.demo.run import PublishedRun
-from pam_ros.rig.joint import one_muscle
 from pam_ros.rig.loads import Mass
+from pam_ros.rig.standard_joints import single_muscle_joint
 
-MODEL = one_muscle()
+MODEL = single_muscle_joint()
 
 
 def swing(hertz, decay, rest, amplitude=0.02, seconds=3.0, rate=500.0):
@@ -48,7 +48,7 @@ def test_between_takes_the_begin_and_leaves_the_end():
 def test_acceleration_is_equation_3():
     run = swing(4.0, 6.0, 0.09)
     for mount, gravity in (('vertical', 9.80665), ('horizontal', 0.0)):
-        joint = one_muscle(load=Mass(8.0, mount))
+        joint = single_muscle_joint(load=Mass(8.0, mount))
         wanted = (run.force - run.damping * run.velocity) / 8.0 - gravity
         np.testing.assert_allclose(run.acceleration(joint), wanted, rtol=1e-12)
 

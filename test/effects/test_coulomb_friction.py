@@ -8,9 +8,9 @@ from scipy.integrate import solve_ivp
 
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig.equilibrium import equilibrium
-from pam_ros.rig.joint import one_muscle
 from pam_ros.rig.loads import Mass
 from pam_ros.rig.run import simulate
+from pam_ros.rig.standard_joints import single_muscle_joint
 from support import bench
 
 
@@ -40,7 +40,7 @@ def test_coasting_load_brakes_evenly_and_then_stands(v0, level):
 def test_stuck_load_stays_where_it_is(mass, level):
     # Shifted from its equilibrium by half of what friction holds: tanh laws creep back here.
     muscle = Muscle(zeta=bench.ZETA)
-    model = one_muscle(muscle, Mass(mass=mass), dry(level=level))
+    model = single_muscle_joint(muscle, Mass(mass=mass), dry(level=level))
     stiffness = float(muscle.stiffness(3e5, equilibrium(model, 3e5) / muscle.l0))
     y0 = equilibrium(model, 3e5) + 0.5 * level / stiffness
     t = np.linspace(0.0, 20.0, 201)

@@ -16,8 +16,8 @@ from pam_ros.effects import EFFECTS
 from pam_ros.effects.base import PLACES, Compensation
 from pam_ros.rig.bind import bind
 from pam_ros.rig.equilibrium import equilibrium
-from pam_ros.rig.joint import one_muscle
 from pam_ros.rig.run import acting_commands, delays_of, simulate, simulate_held
+from pam_ros.rig.standard_joints import single_muscle_joint
 from pam_ros.rig.start import start_state
 from pam_ros.rig.step_limit import longest_step
 from support import bench
@@ -108,8 +108,8 @@ def test_what_a_controller_does_about_it_is_what_it_can_do(effect):
     elif effect.compensation is Compensation.FEED_FORWARD:
         assert effect.force is not None or effect.outside is not None
     if effect.lag is not None:
-        layout = one_muscle().layout
-        q = one_muscle(effects=clear(effect)).parameters()[1]
+        layout = single_muscle_joint().layout
+        q = single_muscle_joint(effects=clear(effect)).parameters()[1]
         assert min(effect.lag(q, layout.parameter_at[effect.name])) > 0.0
 
 

@@ -27,7 +27,7 @@ from pam_ros.control.compensation import left_to_feedback
 from pam_ros.effects import EFFECTS
 from pam_ros.identification.fit.unknowns import effect_unknowns
 from pam_ros.rig.arrangements import ARRANGEMENTS
-from pam_ros.rig.joint import one_muscle
+from pam_ros.rig.standard_joints import single_muscle_joint
 from pam_ros.rig.run import simulate
 from pam_ros.settings.scene import Scene
 from pam_ros.settings.tables import checked, rig_table
@@ -51,7 +51,7 @@ print(json.dumps({
     ],
     'pressure': list(run.pressure),
     'hidden': beside.pressure[0],
-    'candidates': [effect.name for effect in one_muscle().library],
+    'candidates': [effect.name for effect in single_muscle_joint().library],
     'unknown': [u.name for u in effect_unknowns(joint, new, new.example)],
     'feedback': list(left_to_feedback(joint)),
     'rows': [line for line in text.splitlines() if line.startswith('| `choked_valve')],

@@ -12,8 +12,8 @@ from pam_ros.effects import EFFECTS
 from pam_ros.effects.base import ON_JOINT, Compensation, Effect, EffectParameter
 from pam_ros.effects.turned import turned
 from pam_ros.errors import ParameterError
-from pam_ros.rig.joint import one_muscle
 from pam_ros.rig.simulation import Simulation
+from pam_ros.rig.standard_joints import single_muscle_joint
 from pam_ros.units import TURNED, turned_unit
 from support.joint_models import lever, pair
 
@@ -91,7 +91,7 @@ def test_a_unit_of_which_nobody_has_said_what_it_is_there_is_refused():
         turned(DRAG)
     assert str(error.value) == sentence
     library = (DRAG,)
-    one_muscle(effects={'air_drag': {'strength': 1.0}}, library=library)  # it slides
+    single_muscle_joint(effects={'air_drag': {'strength': 1.0}}, library=library)  # it slides
     with pytest.raises(ParameterError) as error:
         pair(load={'air_drag': {'strength': 1.0}}, library=library)
     assert str(error.value) == sentence

@@ -11,8 +11,8 @@ from pam_ros.compiled import HAVE_NUMBA
 from pam_ros.errors import PamError
 from pam_ros.excitation.programme import limit_rate, plan, programme, write_csv
 from pam_ros.excitation.settings import Excitation
-from pam_ros.rig.joint import one_muscle
 from pam_ros.rig.run import simulate
+from pam_ros.rig.standard_joints import single_muscle_joint
 
 
 @settings(max_examples=25, deadline=None)
@@ -84,7 +84,7 @@ def test_the_first_steps_come_again_just_so():
 @pytest.mark.parametrize('seed', range(6) if HAVE_NUMBA else [0])
 def test_the_default_keeps_the_papers_rig_within_the_default_window(seed):
     """With a fifth of the room to spare, on either side."""
-    chosen, model = Excitation(seed=seed), one_muscle()
+    chosen, model = Excitation(seed=seed), single_muscle_joint()
     made = programme(chosen)
     moved = simulate(model, made.t, made.t, made.pressure).position / model.muscle.l0
     assert moved.min() > 0.8 * chosen.contraction_min

@@ -15,12 +15,12 @@ from pam_ros.identification.source_units import in_source_units, with_row
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.recording.recording import Recording
 from pam_ros.rig import layout as at
-from pam_ros.rig.joint import one_muscle
 from pam_ros.rig.loads import Mass
+from pam_ros.rig.standard_joints import single_muscle_joint
 
-BAR = one_muscle(Muscle(), Mass(mass=20.0))
+BAR = single_muscle_joint(Muscle(), Mass(mass=20.0))
 # The same muscle in other units: p in Pa, contraction as a fraction, by hand.
-SI = one_muscle(
+SI = single_muscle_joint(
     replace(
         BAR.muscle,
         a1=-4.35573e-5, a2=281.22370, a3=-32.866, a4=-9.27035e-3, a5=302.20107e-5, a6=-263.69185,

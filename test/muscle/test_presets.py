@@ -10,8 +10,8 @@ import pytest
 import yaml
 
 from pam_ros.muscle.muscle import Muscle
-from pam_ros.rig.joint import one_muscle
 from pam_ros.rig.loads import Mass
+from pam_ros.rig.standard_joints import single_muscle_joint
 from pam_ros.rig.step_limit import longest_step
 
 CONFIG = Path(__file__).parents[2] / 'config'
@@ -31,7 +31,7 @@ def load(path):
 def rig(path):
     values = load(path)
     muscle = Muscle(**{k: v for k, v in values.items() if k in OF_MUSCLE})
-    return one_muscle(muscle, Mass(**{k: v for k, v in values.items() if k in OF_LOAD}))
+    return single_muscle_joint(muscle, Mass(**{k: v for k, v in values.items() if k in OF_LOAD}))
 
 
 def preset(name):

@@ -11,8 +11,8 @@ from urdf_parser_py.urdf import URDF
 
 from pam_ros.rig import statics
 from pam_ros.rig.arrangements import ANTAGONISTIC
-from pam_ros.rig.joint import one_muscle
 from pam_ros.rig.loads import Mass
+from pam_ros.rig.standard_joints import single_muscle_joint
 from pam_ros.settings.rig import RigParameters
 from pam_ros.settings.sim import SimSettings
 
@@ -138,7 +138,7 @@ def test_what_is_seen_has_a_material_that_is_defined(path):
 
 
 def test_the_rig_is_the_default_one():
-    described, model = robot(FOLDER / 'rig.urdf'), one_muscle()
+    described, model = robot(FOLDER / 'rig.urdf'), single_muscle_joint()
     (joint,), muscle = moving(described), model.muscle
     assert joint.type == 'prismatic'
     assert joint.limit.lower == pytest.approx(muscle.kappa_min * muscle.l0)

@@ -60,7 +60,7 @@ DRIVE = {
 STEP = 1e-3  # s
 
 
-def one_muscle() -> dict[str, dict[str, Any]]:
+def single_muscle_joint() -> dict[str, dict[str, Any]]:
     """Return the rigs of one muscle: muscle, load and effects by name."""
     effects = {**MUSCLE_EFFECTS, **JOINT_EFFECTS}
     return {

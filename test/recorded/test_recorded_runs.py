@@ -15,10 +15,11 @@ from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig import statics
 from pam_ros.rig.bind import bind
 from pam_ros.rig.equilibrium import equilibrium
-from pam_ros.rig.joint import Actuator, Joint, one_muscle
+from pam_ros.rig.joint import Actuator, Joint
 from pam_ros.rig.loads import Arm, Mass
 from pam_ros.rig.run import acting_commands, delays_of, simulate, simulate_held
 from pam_ros.rig.simulation import Simulation
+from pam_ros.rig.standard_joints import single_muscle_joint
 from pam_ros.rig.start import start_state
 from pam_ros.rig.step_limit import longest_step
 from pam_ros.rig.transmissions import Pulley, Straight
@@ -27,13 +28,13 @@ from recorded.platform import compare
 
 # Plain Python is compared with what is compiled elsewhere.
 pytestmark = pytest.mark.needs_numba
-RIGS = cases.one_muscle()
+RIGS = cases.single_muscle_joint()
 BY_RIG = pytest.mark.parametrize('name', RIGS)
 
 
 def model(name):
     rig = RIGS[name]
-    return one_muscle(Muscle(**rig['muscle']), Mass(**rig['load']), rig['effects'])
+    return single_muscle_joint(Muscle(**rig['muscle']), Mass(**rig['load']), rig['effects'])
 
 
 def without_drag(joint):
@@ -92,7 +93,7 @@ def test_one_muscle_runs_over_stamps_as_ever(name):
 
 def test_a_drive_without_a_muscle_runs_as_ever():
     effects = {'viscous_friction': {'coefficient': 200.0}, 'coulomb_friction': {'level': 20.0}}
-    drive = one_muscle(Muscle(**cases.DRIVE), Mass(95.0, 'horizontal'), effects)
+    drive = single_muscle_joint(Muscle(**cases.DRIVE), Mass(95.0, 'horizontal'), effects)
     at, u = cases.commands()
     compare('free/drive', columns(simulate(drive, cases.stamps(), at, u * 1e-5 - 3, position=0.0)))
 

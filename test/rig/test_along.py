@@ -8,9 +8,9 @@ import pytest
 from pam_ros.effects import EFFECTS
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig.bind import bind
-from pam_ros.rig.joint import one_muscle
 from pam_ros.rig.loads import Mass
 from pam_ros.rig.run import acting_commands, by_muscle, delays_of, simulate
+from pam_ros.rig.standard_joints import single_muscle_joint
 from pam_ros.rig.start import start_state
 from support import bench
 from support.joint_models import lever, pair
@@ -32,7 +32,7 @@ def along(joint, t, y, v, command_t, command):
 
 def test_a_command_within_an_interval_counts_from_its_stamp():
     gain, mass = 35.0, 5.0
-    model = one_muscle(
+    model = single_muscle_joint(
         Muscle(0.0, 0.0, 0.0, 0.0, gain, 0.0, pressure_unit='Pa', zeta=0.0, p_max=10.0),
         Mass(mass=mass, mount='horizontal'),
     )

@@ -9,9 +9,10 @@ from pam_ros.errors import ParameterError
 from pam_ros.rig import statics
 from pam_ros.rig.arrangements import ANTAGONISTIC, ARRANGEMENTS, CRANK, LEVER
 from pam_ros.rig.equilibrium import equilibrium
-from pam_ros.rig.joint import Actuator, Joint, one_muscle
+from pam_ros.rig.joint import Actuator, Joint
 from pam_ros.rig.loads import GRAVITY, Mass
 from pam_ros.rig.simulation import Simulation
+from pam_ros.rig.standard_joints import single_muscle_joint
 from support import joints
 from support.joint_models import BOTH_LONG, muscle, parallel
 
@@ -70,7 +71,7 @@ def test_each_of_two_equal_muscles_carries_half_the_weight():
 
 
 def test_it_rests_where_one_of_two_equal_muscles_rests_with_half_the_mass():
-    one = one_muscle(muscle(joints.LONG), Mass(mass=25.0))
+    one = single_muscle_joint(muscle(joints.LONG), Mass(mass=25.0))
     for p in (1e5, 4e5):
         assert equilibrium(parallel(50.0, BOTH_LONG), p) == pytest.approx(
             equilibrium(one, p), abs=1e-12

@@ -17,10 +17,10 @@ from pam_ros.compiled import HAVE_NUMBA
 from pam_ros.effects import EFFECTS
 from pam_ros.effects.base import Compensation, Effect, EffectParameter
 from pam_ros.rig.bind import bind
-from pam_ros.rig.joint import one_muscle
 from pam_ros.rig.layout import layout_of
 from pam_ros.rig.loads import Arm, Mass
 from pam_ros.rig.simulation import Simulation
+from pam_ros.rig.standard_joints import single_muscle_joint
 from pam_ros.rig.transmissions import Lever, Pulley, Straight
 
 ROOT = Path(__file__).parents[2]
@@ -95,10 +95,11 @@ def twice(s, *_):
 @pytest.mark.skipif(not HAVE_NUMBA, reason='nothing is kept on disk without numba')
 def test_the_fingerprint_is_the_same_in_every_process():
     code = (
-        'from pam_ros.rig.joint import one_muscle; from pam_ros.rig.bind import bind; '
-        'm = one_muscle(); print(bind(m.layout, m.library).advance.__qualname__)'
+        'from pam_ros.rig.standard_joints import single_muscle_joint\n'
+        'from pam_ros.rig.bind import bind\n'
+        'm = single_muscle_joint(); print(bind(m.layout, m.library).advance.__qualname__)'
     )
-    model = one_muscle()
+    model = single_muscle_joint()
     here = bind(model.layout, model.library).advance.__qualname__
     for seed in ('1', '2'):
         assert run(code, {'PYTHONHASHSEED': seed}) == here
@@ -205,7 +206,8 @@ import numpy as np
 if {blocked}:
     sys.modules['numba'] = None  # as if it were not installed
 from pam_ros.compiled import HAVE_NUMBA
-from pam_ros.rig.joint import Actuator, Joint, one_muscle
+from pam_ros.rig.joint import Actuator, Joint
+from pam_ros.rig.standard_joints import single_muscle_joint
 from pam_ros.rig.loads import Arm, Mass
 from pam_ros.rig.simulation import Simulation
 from pam_ros.rig.run import simulate, simulate_held
@@ -218,7 +220,7 @@ effects = {{
     'coulomb_friction': {{'level': 5.0}},
 }}
 found = []
-for model in (one_muscle(), one_muscle(load=Mass(mass=8.0), effects=effects)):
+for model in (single_muscle_joint(), single_muscle_joint(load=Mass(mass=8.0), effects=effects)):
     rig = Simulation([model])
     for p in (4e5, 1e5, 6e5):
         rig.command(p)
@@ -281,7 +283,7 @@ def test_an_effect_of_ones_own_acts():
     drag = effect_of(SOURCE)
     load = Mass(mass=10.0)
     bare, slowed = (
-        Simulation([one_muscle(load=load, effects=effects, library=(drag,))])
+        Simulation([single_muscle_joint(load=load, effects=effects, library=(drag,))])
         for effects in ({}, {'drag': {'strength': 30.0}})
     )
     for rig in (bare, slowed):

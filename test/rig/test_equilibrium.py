@@ -9,9 +9,9 @@ from scipy.optimize import brentq
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig import statics
 from pam_ros.rig.equilibrium import equilibrium, held
-from pam_ros.rig.joint import one_muscle
 from pam_ros.rig.loads import GRAVITY, Mass
 from pam_ros.rig.simulation import Simulation
+from pam_ros.rig.standard_joints import single_muscle_joint
 from support import joints, paper
 from support.joint_models import UNEQUAL, lever, pair, parallel
 
@@ -70,10 +70,10 @@ def test_without_effects_it_is_the_equilibrium():
 
 
 def test_one_muscle_rests_where_it_holds_the_load():
-    joint = one_muscle()
+    joint = single_muscle_joint()
     y = equilibrium(joint, 6e5)
     assert paper.force(6.0, 100.0 * y / paper.L0) == pytest.approx(20.0 * GRAVITY, abs=1e-9)
-    free = one_muscle(load=Mass(mount='horizontal'))
+    free = single_muscle_joint(load=Mass(mount='horizontal'))
     assert paper.force(6.0, 100.0 * equilibrium(free, 6e5) / paper.L0) == pytest.approx(
         0.0, abs=1e-9
     )
@@ -81,7 +81,7 @@ def test_one_muscle_rests_where_it_holds_the_load():
 
 def test_a_load_that_a_known_force_drives_rests_at_0():
     source = Muscle(a1=0.0, a2=0.0, a3=0.0, a4=0.0, a5=1.0, a6=0.0, pressure_unit='Pa', zeta=0.0)
-    assert equilibrium(one_muscle(source, Mass(mount='horizontal')), 100.0) == 0.0
+    assert equilibrium(single_muscle_joint(source, Mass(mount='horizontal')), 100.0) == 0.0
 
 
 def test_two_muscles_on_a_mass_rest_where_they_hold_it_together():

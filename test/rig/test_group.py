@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 
 from pam_ros.muscle.muscle import Muscle
-from pam_ros.rig.joint import Actuator, Joint, one_muscle
+from pam_ros.rig.joint import Actuator, Joint
 from pam_ros.rig.loads import Mass
 from pam_ros.rig.simulation import Simulation
+from pam_ros.rig.standard_joints import single_muscle_joint
 from support import joints, smooth_supply
 from support.joint_models import BOTH_LONG, UNEQUAL, lever, muscle, pair, parallel
 from support.joint_runs import MASS, run
@@ -18,14 +19,14 @@ CREEP = {'creep': {'stiffness': 300.0, 'time': 0.5}}
 IN_MUSCLE = CREEP | {'dead_time': {'delay': 0.0125}}
 ON_LOAD = {'coulomb_friction': {'level': 0.5}, 'payload': {'mass': 0.5}}
 MIXED = (
-    one_muscle(effects=IN_MUSCLE | ON_LOAD),
+    single_muscle_joint(effects=IN_MUSCLE | ON_LOAD),
     pair(effects=(IN_MUSCLE, {}), load=ON_LOAD),
     parallel(MASS, effects=({}, IN_MUSCLE)),
-    one_muscle(load=Mass(mount='horizontal'), effects={'hysteresis': {'slip': 3.0}}),
+    single_muscle_joint(load=Mass(mount='horizontal'), effects={'hysteresis': {'slip': 3.0}}),
     lever(effects=({}, IN_MUSCLE), load=ON_LOAD),
     lever(UNEQUAL[:1], effects=(IN_MUSCLE,)),
     pair(BOTH_LONG, load=ON_LOAD, plane='horizontal'),
-    one_muscle(),
+    single_muscle_joint(),
 )
 
 
@@ -51,17 +52,27 @@ def state(rig, joints_at, muscles_at):
 
 
 # One kernel knows the effects of its own joints: those of another library are beside it.
-SWINGS = one_muscle(effects={'smooth_supply': {'mean': 3e5}}, library=(smooth_supply.EFFECT,))
-QUICK = one_muscle(Muscle(zeta=0.3), Mass(mass=5.0), LAG)
+SWINGS = single_muscle_joint(
+    effects={'smooth_supply': {'mean': 3e5}}, library=(smooth_supply.EFFECT,)
+)
+QUICK = single_muscle_joint(Muscle(zeta=0.3), Mass(mass=5.0), LAG)
 RIGS = {
     'all kinds': MIXED,
     # Neighbours of one kind are stepped in one call; others in calls of their own.
     'sorted': sorted(MIXED, key=lambda joint: joint.transmission.equations.name),
-    'plain': (one_muscle(), pair(), lever(), lever(UNEQUAL[:1])),
-    'equal': (one_muscle(), one_muscle()),
-    'lag': (one_muscle(), QUICK, one_muscle(load=Mass(mount='horizontal'), effects=CREEP | LAG)),
-    'delay': (one_muscle(load=Mass(mass=8.0), effects=IN_MUSCLE), QUICK, one_muscle()),
-    'libraries': (SWINGS, one_muscle(), SWINGS),
+    'plain': (single_muscle_joint(), pair(), lever(), lever(UNEQUAL[:1])),
+    'equal': (single_muscle_joint(), single_muscle_joint()),
+    'lag': (
+        single_muscle_joint(),
+        QUICK,
+        single_muscle_joint(load=Mass(mount='horizontal'), effects=CREEP | LAG),
+    ),
+    'delay': (
+        single_muscle_joint(load=Mass(mass=8.0), effects=IN_MUSCLE),
+        QUICK,
+        single_muscle_joint(),
+    ),
+    'libraries': (SWINGS, single_muscle_joint(), SWINGS),
 }
 
 
@@ -86,7 +97,7 @@ def test_one_muscle_mounted_elsewhere_is_the_same_muscle():
     """A contraction at position 0 only moves where the position is counted from."""
     moved = Joint((Actuator(muscle(joints.LONG), {}, 0.1),), Mass())
     t = np.linspace(0.0, 2.0, 201)
-    there = run(one_muscle(muscle(joints.LONG)), t, (0.06, 0.2), (3e5,))
+    there = run(single_muscle_joint(muscle(joints.LONG)), t, (0.06, 0.2), (3e5,))
     here = run(moved, t, (0.06 - 0.1 * joints.LONG.l0, 0.2), (3e5,))
     np.testing.assert_allclose(here[0] + 0.1 * joints.LONG.l0, there[0], atol=1e-12)
     np.testing.assert_allclose(here[1], there[1], atol=1e-11)

@@ -12,8 +12,9 @@ from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig import layout as at
 from pam_ros.rig import statics
 from pam_ros.rig.equilibrium import equilibrium
-from pam_ros.rig.joint import Actuator, Joint, changed, one_muscle, split_effects
+from pam_ros.rig.joint import Actuator, Joint, changed, split_effects
 from pam_ros.rig.loads import GRAVITY, Arm, Mass
+from pam_ros.rig.standard_joints import single_muscle_joint
 from pam_ros.rig.transmissions import Lever, Pulley, Straight
 from support import joints
 from support.joint_models import UNEQUAL, lever, muscle, pair, parallel
@@ -27,7 +28,7 @@ TWO = (Actuator(contraction=0.1), Actuator(contraction=0.1))
 
 def test_by_default_it_is_the_papers_rig():
     joint = Joint()
-    assert joint == one_muscle()
+    assert joint == single_muscle_joint()
     assert (joint.muscle, joint.load) == (Muscle(), Mass())
     assert joint.transmission == Straight()
     assert (joint.present, joint.active, joint.all_present) == (((), ()), (), ())
@@ -45,15 +46,15 @@ def test_two_muscles_and_a_pulley_are_a_pair_that_hangs():
 
 
 def test_a_known_force_in_the_place_of_a_muscle_drives_it():
-    assert one_muscle(SOURCE, Mass(mount='horizontal')).is_driven
-    assert not one_muscle(muscle(joints.LONG)).is_driven
+    assert single_muscle_joint(SOURCE, Mass(mount='horizontal')).is_driven
+    assert not single_muscle_joint(muscle(joints.LONG)).is_driven
 
 
 def test_an_undeclared_payload_moves_and_weighs():
-    joint = one_muscle(effects={'payload': {'mass': 4.0}})
+    joint = single_muscle_joint(effects={'payload': {'mass': 4.0}})
     assert joint.moved_mass == 24.0
     assert statics.weight(joint, 0.0) == pytest.approx(24.0 * GRAVITY)
-    assert equilibrium(joint, 6e5) < equilibrium(one_muscle(), 6e5)
+    assert equilibrium(joint, 6e5) < equilibrium(single_muscle_joint(), 6e5)
 
 
 # What is refused -------------------------------------------------------------------------------
@@ -82,7 +83,7 @@ ALONE = [
 @pytest.mark.parametrize(('parts', 'sentence'), ALONE)
 def test_what_makes_no_rig_of_one_muscle_is_refused_with_a_sentence(parts, sentence):
     with pytest.raises(ParameterError) as error:
-        one_muscle(**parts)
+        single_muscle_joint(**parts)
     assert str(error.value).startswith(sentence)
 
 
@@ -166,15 +167,15 @@ def test_only_one_muscle_can_be_asked_for_as_the_muscle():
 
 
 def test_effects_are_active_together_as_soon_as_one_is_present():
-    none = one_muscle(effects={'dead_time': {'delay': 0.0}})
+    none = single_muscle_joint(effects={'dead_time': {'delay': 0.0}})
     assert (none.all_present, none.active) == ((), ())
-    one = one_muscle(effects={'dead_time': {'delay': 0.1}} | LAG)
+    one = single_muscle_joint(effects={'dead_time': {'delay': 0.1}} | LAG)
     assert [effect.name for effect in one.all_present] == ['dead_time', 'pressure_lag']
     assert one.active == one.library
 
 
 def test_effects_of_one_muscle_are_split_by_where_they_act():
-    joint = one_muscle(effects=LAG | RUB)
+    joint = single_muscle_joint(effects=LAG | RUB)
     assert (joint.actuators[0].effects, joint.effects) == (LAG, RUB)
     assert joint.all_effects == LAG | RUB
     assert [[effect.name for effect in row] for row in joint.present] == [
@@ -187,16 +188,16 @@ def test_effects_of_one_muscle_are_split_by_where_they_act():
 
 
 def test_a_joint_of_one_muscle_can_be_changed():
-    heavy = one_muscle(load=Mass(mass=7.0), effects=LAG)
+    heavy = single_muscle_joint(load=Mass(mass=7.0), effects=LAG)
     other = changed(heavy, Muscle(zeta=0.3), RUB)
-    assert other == one_muscle(Muscle(zeta=0.3), Mass(mass=7.0), RUB)
+    assert other == single_muscle_joint(Muscle(zeta=0.3), Mass(mass=7.0), RUB)
 
 
 # The kernel's parameters ------------------------------------------------------------------------
 
 
 def test_rows_of_one_muscle_hold_everything_in_si():
-    joint = one_muscle(effects=LAG)
+    joint = single_muscle_joint(effects=LAG)
     q, layout = joint.parameters(), joint.layout
     np.testing.assert_array_equal(q[at.MUSCLE, at.A1 : at.A6 + 1], joint.muscle.si)
     np.testing.assert_array_equal(q[at.MUSCLE, [at.ZETA, at.L0, at.AT_ZERO]], [0.15, 0.4, 0.0])
@@ -205,7 +206,7 @@ def test_rows_of_one_muscle_hold_everything_in_si():
     j = layout.parameter_at['pressure_lag']
     np.testing.assert_array_equal(q[at.MUSCLE, j : j + 2], [0.1, 0.2])
     assert q.shape == (2, layout.parameters)
-    flat = one_muscle(load=Mass(mount='horizontal'))
+    flat = single_muscle_joint(load=Mass(mount='horizontal'))
     assert flat.parameters()[at.JOINT, flat.layout.load_at] == 0.0
 
 

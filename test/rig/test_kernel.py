@@ -12,10 +12,11 @@ from scipy.integrate import quad
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig import layout as at
 from pam_ros.rig.equilibrium import equilibrium
-from pam_ros.rig.joint import Joint, one_muscle
+from pam_ros.rig.joint import Joint
 from pam_ros.rig.loads import Mass
 from pam_ros.rig.run import simulate
 from pam_ros.rig.simulation import Simulation
+from pam_ros.rig.standard_joints import single_muscle_joint
 from pam_ros.rig.start import start_state
 from support import joints, paper, smooth_supply
 from support.joint_models import BOTH_LONG, UNEQUAL, lever, muscle, pair, parallel
@@ -55,7 +56,7 @@ class Case:
         return self.equations(lambda _: self.bar)
 
 
-ALONE = Case(one_muscle(), hanging, (6.0,), ((1e-3, 1e-9),), 0.0)
+ALONE = Case(single_muscle_joint(), hanging, (6.0,), ((1e-3, 1e-9),), 0.0)
 TWO = Case(pair(), lambda p: joints.pair(p, UNEQUAL), (4.2, 2.9))
 CASES = {
     'one muscle': (ALONE, (0.0, 0.0), (0.05, 0.0), (0.0973, 0.0)),
@@ -110,7 +111,7 @@ def test_a_joint_that_is_let_go_is_within_a_nanometre_of_dop853(case, start):
 
 
 def test_the_experiment_of_the_paper_comes_to_rest():
-    found = simulate(one_muscle(), [0.0, 10.0], [0.0], [6e5], position=0.05)
+    found = simulate(single_muscle_joint(), [0.0, 10.0], [0.0], [6e5], position=0.05)
     assert found.force[-1] == pytest.approx(WEIGHT, abs=1e-6)
 
 
@@ -142,7 +143,7 @@ EACH_SWING = pytest.mark.parametrize(
     'swing',
     [
         Swing(
-            one_muscle(library=LIBRARY),
+            single_muscle_joint(library=LIBRARY),
             hanging(lambda t: (smooth_supply.at(t),)),
             *(ALONE.bounds, (6e-3, 3e-3, 1.5e-3, 0.75e-3), 0.01),
         ),
@@ -213,7 +214,7 @@ def energy(rig):
 @pytest.mark.needs_numba
 def test_energy_without_damping_drifts_by_a_ten_millionth_in_a_minute():
     """Swinging by 75 mm with 9.7 J: the scheme takes 1.1e-8 J a second and gives none."""
-    model = one_muscle(Muscle(zeta=0.0))
+    model = single_muscle_joint(Muscle(zeta=0.0))
     rig = Simulation([model])
     rig.reset([6e5], [equilibrium(model, 6e5)], [0.0])
     bottom = energy(rig)
@@ -271,7 +272,7 @@ def test_energy_without_damping_drifts_by_a_millionth_in_a_minute(made, torque, 
 
 
 def test_a_horizontal_load_feels_no_gravity():
-    model = one_muscle(load=Mass(mount='horizontal'))
+    model = single_muscle_joint(load=Mass(mount='horizontal'))
     t = np.linspace(0.0, 3.0, 301)
     found = simulate(model, t, [0.0], [3e5], position=0.05)
     y, _ = solve(hanging(lambda _: (3.0,), g=0.0), (0.05, 0.0), t)
@@ -283,7 +284,7 @@ def test_a_horizontal_load_feels_no_gravity():
 def test_two_equal_muscles_are_one_with_half_the_mass():
     t = np.linspace(0.0, 2.0, 201)
     two = run(parallel(30.0, BOTH_LONG), t, (0.03, 0.1), (4e5, 4e5))
-    alone = one_muscle(muscle(joints.LONG), Mass(mass=15.0))
+    alone = single_muscle_joint(muscle(joints.LONG), Mass(mass=15.0))
     one = run(alone, t, (0.03, 0.1), (4e5,))
     np.testing.assert_allclose(two, one, rtol=0.0, atol=1e-12)
 
@@ -309,7 +310,7 @@ def test_templates_run_as_they_stand():
     """Unbound and uncompiled they are the paper's rig, as their module says."""
     from pam_ros.rig import kernel
 
-    model = one_muscle(library=())
+    model = single_muscle_joint(library=())
     q = model.parameters()
     x = start_state(model.layout, q, [3e5], 0.02, 0.0)
     scratch = model.layout.scratch()

@@ -5,8 +5,8 @@
 import numpy as np
 import pytest
 
-from pam_ros.rig.joint import one_muscle
 from pam_ros.rig.simulation import Simulation
+from pam_ros.rig.standard_joints import single_muscle_joint
 from support import joints, paper
 from support.joint_models import UNEQUAL, lever, pair
 
@@ -15,7 +15,7 @@ WEIGHT = MASS * paper.G
 
 
 def test_outputs_are_the_papers():
-    rig = Simulation([one_muscle()])
+    rig = Simulation([single_muscle_joint()])
     rig.reset([4e5], [0.05], [0.3])
     force, k, c, acceleration = np.ravel(rig.muscle_outputs())
     assert force == pytest.approx(paper.force(4.0, 12.5), abs=1e-9)

@@ -7,10 +7,10 @@ import pytest
 
 from pam_ros.effects import EFFECTS
 from pam_ros.rig import layout as at
-from pam_ros.rig.joint import one_muscle
+from pam_ros.rig.standard_joints import single_muscle_joint
 from support.joint_models import lever, pair, parallel
 
-KINDS = (one_muscle(), pair(), parallel(50.0), lever())
+KINDS = (single_muscle_joint(), pair(), parallel(50.0), lever())
 
 
 @pytest.mark.parametrize('joint', KINDS, ids=['one', 'pair', 'parallel', 'lever'])

@@ -12,7 +12,7 @@ from pam_ros.errors import RangeError
 from pam_ros.rig import statics
 from pam_ros.rig.co_contraction import co_contraction_pressures, joint_stiffness_range
 from pam_ros.rig.equilibrium import equilibrium
-from pam_ros.rig.joint import one_muscle
+from pam_ros.rig.standard_joints import single_muscle_joint
 from support import joints
 from support.joint_models import BOTH_LONG, UNEQUAL, lever, pair, parallel
 
@@ -100,7 +100,7 @@ def test_what_is_out_of_reach_is_refused_with_a_sentence():
         'the muscles have one stiffness for 588.4 N at 0.02 m: there is none to choose'
     )
     with pytest.raises(RangeError) as error:
-        joint_stiffness_range(one_muscle(), 0.02)
+        joint_stiffness_range(single_muscle_joint(), 0.02)
     assert str(error.value) == 'a stiffness can be chosen for two muscles: this joint has 1'
 
 

@@ -14,10 +14,10 @@ from scipy.integrate import solve_ivp
 from pam_ros.errors import ParameterError
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig.equilibrium import equilibrium
-from pam_ros.rig.joint import one_muscle
 from pam_ros.rig.loads import Mass
 from pam_ros.rig.run import acting_commands, simulate, simulate_held
 from pam_ros.rig.simulation import Simulation
+from pam_ros.rig.standard_joints import single_muscle_joint
 from support import joints, paper
 from support.joint_models import UNEQUAL, lever, pair, parallel
 from support.joint_runs import CASES
@@ -57,7 +57,7 @@ def stepped(joint, begin):
 @pytest.mark.parametrize(
     ('joint', 'bound'),
     [
-        (one_muscle(load=Mass(mass=8.0), effects=LATE | CREEP), 1e-12),
+        (single_muscle_joint(load=Mass(mass=8.0), effects=LATE | CREEP), 1e-12),
         (pair(effects=(LATE, LATER)), 1e-11),
         (lever(effects=(LATE, LATER)), 1e-11),
         (parallel(50.0), 1e-11),
@@ -102,7 +102,7 @@ stamps = st.lists(stamp, min_size=1, max_size=12).map(sorted)
 @given(stamps, stamps, st.integers(0, 2**32 - 1), st.sampled_from([0.0, 0.004, 0.0137]))
 def test_commands_act_at_their_very_stamps(t, command_t, seed, delay):
     command = np.random.default_rng(seed).uniform(-100.0, 100.0, len(command_t))
-    model = one_muscle(SOURCE, FREE, {'dead_time': {'delay': delay}})
+    model = single_muscle_joint(SOURCE, FREE, {'dead_time': {'delay': delay}})
     found = simulate(model, t, command_t, command, position=0.3, velocity=-0.1)
     y, v = parabolas(t, command_t, command, 0.3, -0.1, delay)
     np.testing.assert_allclose(found.position, y, rtol=0.0, atol=1e-12)
@@ -139,7 +139,7 @@ def test_commands_act_at_their_very_stamps_in_each_muscle(made, equations):
 
 def test_a_sample_is_the_state_before_the_command_of_its_stamp():
     t = [0.0, 0.1, 0.2]
-    found = simulate(one_muscle(SOURCE, FREE), t, [0.0, 0.1], [0.0, 40.0], position=0.0)
+    found = simulate(single_muscle_joint(SOURCE, FREE), t, [0.0, 0.1], [0.0, 40.0], position=0.0)
     np.testing.assert_allclose(found.position, [0.0, 0.0, 0.1], atol=1e-15)
     np.testing.assert_array_equal(found.pressure, [0.0, 0.0, 40.0])
     np.testing.assert_array_equal(found.force, [0.0, 0.0, 40.0])
@@ -147,7 +147,7 @@ def test_a_sample_is_the_state_before_the_command_of_its_stamp():
 
 def test_viscous_friction_follows_its_exponential():
     """2 y'' = p - c y' with c = 5: v = p/c (1 - exp(-c t / m)); the step divides nothing."""
-    model = one_muscle(SOURCE, FREE, {'viscous_friction': {'coefficient': 5.0}})
+    model = single_muscle_joint(SOURCE, FREE, {'viscous_friction': {'coefficient': 5.0}})
     t = np.array([0.0, 0.0123, 0.5, 0.50031, 2.0])
     found = simulate(model, t, [0.0], [30.0], position=0.0)
     rate, end = 5.0 / 2.0, 30.0 / 5.0
@@ -159,8 +159,12 @@ def test_viscous_friction_follows_its_exponential():
 @pytest.mark.parametrize(
     ('joint', 'command', 'acting'),
     [
-        (one_muscle(), [1e5, 3e5, 6e5], 3e5),
-        (one_muscle(effects={'pressure_lag': {'fill': 0.1, 'vent': 0.1}}), [1e5, 3e5, 6e5], 3e5),
+        (single_muscle_joint(), [1e5, 3e5, 6e5], 3e5),
+        (
+            single_muscle_joint(effects={'pressure_lag': {'fill': 0.1, 'vent': 0.1}}),
+            [1e5, 3e5, 6e5],
+            3e5,
+        ),
         (
             lever(effects=({'dead_time': {'delay': 0.3}}, {})),
             [[2e5, 3e5], [4e5, 3.5e5], [6e5, 6e5]],
@@ -177,7 +181,7 @@ def test_it_starts_at_rest_under_the_commands_in_force(joint, command, acting):
 
 
 def test_a_late_command_is_not_yet_in_force_at_the_start():
-    model = one_muscle(effects={'dead_time': {'delay': 0.3}})
+    model = single_muscle_joint(effects={'dead_time': {'delay': 0.3}})
     found = simulate(model, [2.2, 2.3, 2.4], [1.0, 2.0], [1e5, 3e5])
     np.testing.assert_array_equal(found.pressure, [1e5, 1e5, 3e5])
 
@@ -194,7 +198,7 @@ def test_the_force_of_each_muscle_is_its_pull_less_its_damping(case):
 
 def test_a_step_that_is_too_long_is_refused_with_a_sentence():
     with pytest.raises(ParameterError) as error:
-        simulate(one_muscle(), [0.0, 1.0], [0.0], [0.0], step=0.02)
+        simulate(single_muscle_joint(), [0.0, 1.0], [0.0], [0.0], step=0.02)
     assert str(error.value) == (
         'a physics step of 20 ms does not resolve a mass of 20 kg on this muscle: give at least '
         '148 steps a second, or more mass'
@@ -247,8 +251,8 @@ def test_a_joint_that_is_held_gives_the_forces_of_the_law(case):
 
 def test_a_held_rig_takes_a_given_velocity():
     t, p, y = [0.0, 0.1], [2e5, 2e5], [0.02, 0.02]
-    still = simulate_held(one_muscle(), t, p, y)
-    moving = simulate_held(one_muscle(), t, p, y, velocity=[0.0, 0.5])
+    still = simulate_held(single_muscle_joint(), t, p, y)
+    moving = simulate_held(single_muscle_joint(), t, p, y, velocity=[0.0, 0.5])
     c = paper.damping(2.0, 5.0, 20.0, 0.15)
     np.testing.assert_allclose(moving.force - still.force, [0.0, -0.5 * c], atol=1e-9)
 
@@ -311,8 +315,8 @@ def test_friction_is_in_the_force_of_a_machine_that_moves_the_actuator():
         },
         'viscous_friction': {'coefficient': 150.0},
     }
-    plain = simulate_held(one_muscle(SOURCE, FREE), t, p, y, v)
-    run = simulate_held(one_muscle(SOURCE, FREE, frictions), t, p, y, v)
+    plain = simulate_held(single_muscle_joint(SOURCE, FREE), t, p, y, v)
+    run = simulate_held(single_muscle_joint(SOURCE, FREE, frictions), t, p, y, v)
     np.testing.assert_array_equal(plain.force, p)
     dry = friction_by_hand(y, 5.0 + 1e-2 * p, 0.1, 0.1, 1e-4)
     np.testing.assert_allclose(run.force, p - dry - 150.0 * v, rtol=0.0, atol=1e-9)
@@ -328,7 +332,9 @@ def test_friction_of_a_machine_takes_work_at_any_step_and_mass():
     y = 0.02 * np.sin(2.0 * t)
     friction = {'coulomb_friction': {'level': 8.0, 'breakaway': 12.0}}
     runs = [
-        simulate_held(one_muscle(SOURCE, Mass(mass=mass), friction), t, 0.0 * t, y, step=step)
+        simulate_held(
+            single_muscle_joint(SOURCE, Mass(mass=mass), friction), t, 0.0 * t, y, step=step
+        )
         for mass, step in ((0.01, 1e-2), (50.0, 1e-2), (50.0, 2e-3))
     ]
     for run in runs:
@@ -346,7 +352,9 @@ def test_what_acts_on_the_load_alone_is_not_in_the_force_of_a_machine():
         'payload': {'mass': 4.0},
         'end_stop': {'upper': 0.1, 'stiffness': 1e5},
     }
-    alone, loaded = (simulate_held(one_muscle(effects=some), t, p, y) for some in ({}, beside))
+    alone, loaded = (
+        simulate_held(single_muscle_joint(effects=some), t, p, y) for some in ({}, beside)
+    )
     # The mass is in the damping of equation (4): the payload there is that of the muscle's own.
     still = np.abs(alone.velocity) < 1e-3
     assert still.any()

@@ -10,9 +10,9 @@ from hypothesis import strategies as st
 from pam_ros.errors import ParameterError
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig.equilibrium import equilibrium
-from pam_ros.rig.joint import one_muscle
 from pam_ros.rig.loads import Mass
 from pam_ros.rig.simulation import Simulation
+from pam_ros.rig.standard_joints import single_muscle_joint
 from support import joints
 from support.joint_models import UNEQUAL, lever, pair, parallel
 
@@ -21,12 +21,12 @@ LAG = {'pressure_lag': {'fill': 0.05, 'vent': 0.1}}
 DELAY = {'dead_time': {'delay': 0.0125}}
 CREEP = {'creep': {'stiffness': 300.0, 'time': 0.5}}
 MODELS = (
-    one_muscle(),
+    single_muscle_joint(),
     pair(effects=(LAG, DELAY), load={'viscous_friction': {'coefficient': 0.1}}),
-    one_muscle(Muscle(zeta=0.3), Mass(mass=5.0), LAG),
-    one_muscle(load=Mass(mount='horizontal'), effects=CREEP | LAG),
+    single_muscle_joint(Muscle(zeta=0.3), Mass(mass=5.0), LAG),
+    single_muscle_joint(load=Mass(mount='horizontal'), effects=CREEP | LAG),
     parallel(50.0, effects=(CREEP, {})),
-    one_muscle(load=Mass(mass=8.0), effects=DELAY | CREEP),
+    single_muscle_joint(load=Mass(mass=8.0), effects=DELAY | CREEP),
     lever(effects=(DELAY, LAG)),
 )
 MUSCLES = sum(len(model.muscles) for model in MODELS)
@@ -95,7 +95,7 @@ def test_what_was_read_stays_as_it_was():
 
 
 def test_a_muscle_with_a_load_of_its_own_has_the_same_outputs_by_joint():
-    rig = Simulation([one_muscle(), one_muscle(effects=LAG)])
+    rig = Simulation([single_muscle_joint(), single_muscle_joint(effects=LAG)])
     rig.command([3e5, 5e5])
     rig.advance(50)
     force, stiffness, _, acceleration = rig.muscle_outputs()
@@ -104,7 +104,7 @@ def test_a_muscle_with_a_load_of_its_own_has_the_same_outputs_by_joint():
 
 
 def test_time_is_counted():
-    rig = Simulation([one_muscle()], step=1e-3)
+    rig = Simulation([single_muscle_joint()], step=1e-3)
     for _ in range(1000):
         rig.advance(7)
     assert rig.time == 7.0
@@ -115,7 +115,7 @@ def test_time_is_counted():
 @pytest.mark.parametrize(('delay', 'late'), [(0.0, 0), (0.003, 3), (0.0031, 4), (1.0, 1000)])
 def test_a_command_acts_when_its_dead_time_is_over(delay, late):
     """At the first step that starts at or after that moment."""
-    rig = Simulation([one_muscle(effects={'dead_time': {'delay': delay}})])
+    rig = Simulation([single_muscle_joint(effects={'dead_time': {'delay': delay}})])
     rig.advance(5)
     rig.command(4e5)
     rig.advance(late)
@@ -126,7 +126,7 @@ def test_a_command_acts_when_its_dead_time_is_over(delay, late):
 
 def test_each_muscle_of_a_joint_hears_its_own_command_after_its_own_dead_time():
     late = pair(effects=({'dead_time': {'delay': 0.003}}, {'dead_time': {'delay': 0.005}}))
-    rig = Simulation([one_muscle(), late])
+    rig = Simulation([single_muscle_joint(), late])
     rig.command([1e5, 2e5, 3e5])
     heard = []
     for _ in range(7):
@@ -139,7 +139,7 @@ def test_each_muscle_of_a_joint_hears_its_own_command_after_its_own_dead_time():
 
 def test_all_commands_of_a_long_dead_time_arrive_in_order():
     """A second of delay with a command at each step: a thousand are under way."""
-    rig = Simulation([one_muscle(effects={'dead_time': {'delay': 1.0}})] * 2)
+    rig = Simulation([single_muscle_joint(effects={'dead_time': {'delay': 1.0}})] * 2)
     heard = []
     for k in range(2200):
         rig.command([100.0 * k, 50.0 * k])
@@ -151,7 +151,7 @@ def test_all_commands_of_a_long_dead_time_arrive_in_order():
 
 
 def test_the_last_of_several_commands_at_one_moment_counts():
-    rig = Simulation([one_muscle(effects=DELAY)])
+    rig = Simulation([single_muscle_joint(effects=DELAY)])
     for p in range(5000):
         rig.command(float(p))
     rig.advance(14)
@@ -159,7 +159,7 @@ def test_the_last_of_several_commands_at_one_moment_counts():
 
 
 def test_one_muscle_can_be_commanded_alone():
-    rig = Simulation([one_muscle(), pair()])
+    rig = Simulation([single_muscle_joint(), pair()])
     rig.command([1e5, 2e5, 3e5])
     rig.advance()
     rig.command_one(2, 4e5)
@@ -172,7 +172,7 @@ def test_one_muscle_can_be_commanded_alone():
 
 
 def test_reset_goes_to_any_state_and_forgets_the_commands_under_way():
-    rig = Simulation([pair(effects=(DELAY, LAG)), one_muscle()])
+    rig = Simulation([pair(effects=(DELAY, LAG)), single_muscle_joint()])
     rig.command(4e5)
     rig.advance(3)
     rig.reset([1e5, 2e5, 3e5], [0.2, 0.05], [1.0, -0.1])
@@ -197,7 +197,7 @@ def test_it_starts_at_rest_without_pressure():
 @pytest.mark.parametrize(
     ('first', 'then'),
     [
-        (one_muscle(), one_muscle(load=Mass(mass=35.0))),
+        (single_muscle_joint(), single_muscle_joint(load=Mass(mass=35.0))),
         (pair(), pair(mass=2.5, contraction_1=0.1)),
     ],
     ids=['one muscle', 'pair'],
@@ -222,9 +222,9 @@ def test_parameters_change_while_it_runs(first, then):
     ('first', 'then', 'later'),
     [
         (
-            one_muscle(),
-            one_muscle(effects=LAG | CREEP),
-            one_muscle(load=Mass(mass=21.0), effects=LAG | CREEP),
+            single_muscle_joint(),
+            single_muscle_joint(effects=LAG | CREEP),
+            single_muscle_joint(load=Mass(mass=21.0), effects=LAG | CREEP),
         ),
         (pair(), pair(effects=(LAG, {})), pair(mass=1.6, effects=(LAG, {}))),
     ],
@@ -253,28 +253,28 @@ def test_an_effect_that_appears_starts_from_the_present_state(first, then, later
 
 
 def test_a_change_that_is_refused_leaves_the_rig_as_it_was():
-    rig, other = Simulation([one_muscle()]), Simulation([one_muscle()])
+    rig, other = Simulation([single_muscle_joint()]), Simulation([single_muscle_joint()])
     for each in (rig, other):
         each.command(3e5)
         each.advance(50)
     with pytest.raises(ParameterError, match='physics step of 1 ms does not resolve a mass of'):
-        rig.change([one_muscle(load=Mass(mass=0.01))])
+        rig.change([single_muscle_joint(load=Mass(mass=0.01))])
     for each in (rig, other):
         each.advance(50)
     np.testing.assert_array_equal(state(rig), state(other))
 
 
 def test_a_simulation_keeps_the_kinds_of_its_joints():
-    rig = Simulation([pair(), one_muscle()])
+    rig = Simulation([pair(), single_muscle_joint()])
     rig.command(3e5)
     rig.advance(10)
     before = state(rig)
     for others in (
-        [one_muscle(), pair()],
+        [single_muscle_joint(), pair()],
         [pair()],
-        [parallel(50.0), one_muscle()],
-        [lever(), one_muscle()],
-        [pair(), one_muscle(library=())],
+        [parallel(50.0), single_muscle_joint()],
+        [lever(), single_muscle_joint()],
+        [pair(), single_muscle_joint(library=())],
     ):
         with pytest.raises(ParameterError) as error:
             rig.change(others)

@@ -10,9 +10,9 @@ from hypothesis import strategies as st
 from pam_ros.errors import ParameterError
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig.equilibrium import equilibrium
-from pam_ros.rig.joint import one_muscle
 from pam_ros.rig.loads import Mass
 from pam_ros.rig.simulation import Simulation
+from pam_ros.rig.standard_joints import single_muscle_joint
 from pam_ros.rig.step_limit import longest_step
 
 
@@ -31,7 +31,7 @@ def state(rig):
 )
 def test_a_step_that_resolves_nothing_is_refused(step, sentence):
     with pytest.raises(ParameterError) as error:
-        Simulation([one_muscle()], step)
+        Simulation([single_muscle_joint()], step)
     assert str(error.value).startswith(sentence)
 
 
@@ -59,7 +59,7 @@ def test_no_rig_that_is_accepted_gives_nan(a, zeta, l0, mass, mount, commands, s
     names = ('a1', 'a2', 'a3', 'a4', 'a5', 'a6')
     try:
         muscle = Muscle(**dict(zip(names, a, strict=True)), zeta=zeta, l0=l0)
-        model = one_muscle(muscle, Mass(mass=mass, mount=mount))
+        model = single_muscle_joint(muscle, Mass(mass=mass, mount=mount))
     except ParameterError:
         return
     rig = Simulation([model], longest_step(model))
@@ -75,7 +75,7 @@ def test_no_rig_that_is_accepted_gives_nan(a, zeta, l0, mass, mount, commands, s
 @given(st.floats(0.0, 6e5), st.floats(0.0, 6e5), st.floats(0.01, 100.0), st.floats(0.03, 3.0))
 def test_nor_does_one_without_damping_after_a_step(p0, p1, mass, l0):
     try:
-        model = one_muscle(Muscle(zeta=0.0, l0=l0), Mass(mass=mass))
+        model = single_muscle_joint(Muscle(zeta=0.0, l0=l0), Mass(mass=mass))
     except ParameterError:
         return
     rig = Simulation([model], longest_step(model))

@@ -9,8 +9,8 @@ from pam_ros.effects import EFFECTS
 from pam_ros.errors import ParameterError
 from pam_ros.rig import layout as at
 from pam_ros.rig.equilibrium import equilibrium
-from pam_ros.rig.joint import one_muscle
 from pam_ros.rig.run import simulate
+from pam_ros.rig.standard_joints import single_muscle_joint
 from pam_ros.rig.start import start_joint, start_muscle, start_state
 from support import bench, joints
 from support.joint_models import UNEQUAL, lever, pair
@@ -21,7 +21,7 @@ T = np.linspace(0.0, 1.0, 101)
 
 def test_a_start_is_a_long_rest():
     """A lagging chamber is full, and what is downstream of an offset has got it."""
-    joint = one_muscle(effects=LAG | {'pressure_offset': {'offset': 5e3}})
+    joint = single_muscle_joint(effects=LAG | {'pressure_offset': {'offset': 5e3}})
     x = start_state(joint.layout, joint.parameters(), [2e5], 0.03, 0.1)
     assert list(x[at.JOINT, [at.S, at.V]]) == [0.03, 0.1]
     assert x[at.MUSCLE, at.P] == 2.05e5
@@ -31,7 +31,7 @@ def test_a_start_is_a_long_rest():
 def test_effects_that_are_not_there_need_no_start():
     """What is known to be there begins as ever, and what is not leaves the run as it is."""
     effects = LAG | {'creep': {'force': 0.03}, 'viscous_friction': {'coefficient': 20.0}}
-    joint = one_muscle(effects=effects)
+    joint = single_muscle_joint(effects=effects)
     layout, q = joint.layout, joint.parameters()
     present = tuple(e for e in joint.library if e.name in effects)
     x = start_state(layout, q, [2e5], 0.03, 0.1)
@@ -45,7 +45,7 @@ def test_effects_that_are_not_there_need_no_start():
 
 
 def test_one_effect_can_be_started_alone():
-    joint = one_muscle(effects=LAG)
+    joint = single_muscle_joint(effects=LAG)
     layout, q = joint.layout, joint.parameters()
     x = start_state(layout, q, [2e5], 0.03, 0.1)
     before = x.copy()
@@ -91,16 +91,16 @@ def test_a_chamber_that_begins_away_from_the_command_comes_to_it_with_its_time_c
     """From above with that of venting, from below with that of filling."""
     for away, tau in ((4e4, 0.2), (-4e4, 0.1)):
         hidden = {'pressure_lag': {'pressure': away}}
-        run = simulate(one_muscle(effects=LAG), T, [0.0], [3e5], hidden=hidden)
+        run = simulate(single_muscle_joint(effects=LAG), T, [0.0], [3e5], hidden=hidden)
         np.testing.assert_allclose(run.pressure, 3e5 + away * np.exp(-T / tau), rtol=1e-12)
         # The force is that of the pressure, at the first sample, too.
-        muscle = one_muscle().muscle
+        muscle = single_muscle_joint().muscle
         pull = muscle.force(run.pressure[0], run.position[0] / muscle.l0)
         assert run.force[0] == pytest.approx(float(pull), rel=1e-12)
 
 
 def test_the_coordinate_begins_at_rest_under_the_command():
-    joint = one_muscle(effects=LAG)
+    joint = single_muscle_joint(effects=LAG)
     run = simulate(joint, T, [0.0], [3e5], hidden={'pressure_lag': {'pressure': -4e4}})
     assert run.position[0] == equilibrium(joint, 3e5)
     assert np.ptp(run.position) > 1e-3
@@ -127,7 +127,7 @@ def test_what_creeps_begins_unrelaxed_and_relaxes():
 
 
 def test_nothing_is_moved_where_nothing_is_said():
-    joint = one_muscle(effects=LAG)
+    joint = single_muscle_joint(effects=LAG)
     bare, said = (simulate(joint, T, [0.0], [3e5], hidden=hidden) for hidden in (None, {}))
     for one, other in zip(vars(bare).values(), vars(said).values(), strict=True):
         np.testing.assert_array_equal(one, other)
@@ -136,9 +136,9 @@ def test_nothing_is_moved_where_nothing_is_said():
 def test_an_absent_effect_may_begin_anywhere():
     """Its hidden states are there but do nothing."""
     hidden = {'pressure_lag': {'pressure': 5e4}, 'hysteresis': {'loop': 0.5}}
-    bare = simulate(one_muscle(effects={'payload': {'mass': 1.0}}), T, [0.0], [3e5])
+    bare = simulate(single_muscle_joint(effects={'payload': {'mass': 1.0}}), T, [0.0], [3e5])
     moved = simulate(
-        one_muscle(effects={'payload': {'mass': 1.0}}), T, [0.0], [3e5], hidden=hidden
+        single_muscle_joint(effects={'payload': {'mass': 1.0}}), T, [0.0], [3e5], hidden=hidden
     )
     np.testing.assert_array_equal(bare.position, moved.position)
     np.testing.assert_array_equal(bare.pressure, moved.pressure)
@@ -161,7 +161,7 @@ def test_an_absent_effect_may_begin_anywhere():
 )
 def test_a_name_that_nothing_has_is_refused_with_a_sentence(hidden, sentence):
     with pytest.raises(ParameterError) as error:
-        simulate(one_muscle(), T, [0.0], [3e5], hidden=hidden)
+        simulate(single_muscle_joint(), T, [0.0], [3e5], hidden=hidden)
     assert str(error.value).startswith(sentence)
 
 

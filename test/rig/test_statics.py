@@ -10,9 +10,10 @@ from pam_ros.errors import RangeError
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig import statics
 from pam_ros.rig.equilibrium import equilibrium
-from pam_ros.rig.joint import Actuator, Joint, one_muscle
+from pam_ros.rig.joint import Actuator, Joint
 from pam_ros.rig.loads import Mass
 from pam_ros.rig.simulation import Simulation
+from pam_ros.rig.standard_joints import single_muscle_joint
 from support import joints, paper
 from support.joint_models import BOTH_LONG, UNEQUAL, lever, pair, parallel
 
@@ -136,11 +137,11 @@ def test_a_joint_without_an_equilibrium_says_what_is_left_over():
 
 
 def test_only_one_muscle_on_a_mass_has_its_coordinate_from_its_length():
-    assert statics.is_direct(one_muscle())
+    assert statics.is_direct(single_muscle_joint())
     moved = Joint((Actuator(Muscle(), {}, 0.1),), Mass())
     assert not any(map(statics.is_direct, (pair(), lever(), parallel(50.0), moved)))
     # It rests as far up as the other does, counted from where it is mounted.
-    shift = equilibrium(one_muscle(), 3e5) - equilibrium(moved, 3e5)
+    shift = equilibrium(single_muscle_joint(), 3e5) - equilibrium(moved, 3e5)
     assert shift == pytest.approx(0.1 * 0.4, abs=1e-12)
 
 

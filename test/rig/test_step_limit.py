@@ -10,9 +10,10 @@ from hypothesis import strategies as st
 from pam_ros.errors import ParameterError
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig import statics
-from pam_ros.rig.joint import Actuator, Joint, one_muscle
+from pam_ros.rig.joint import Actuator, Joint
 from pam_ros.rig.loads import Arm, Mass
 from pam_ros.rig.simulation import Simulation
+from pam_ros.rig.standard_joints import single_muscle_joint
 from pam_ros.rig.step_limit import check_step, longest_step
 from pam_ros.rig.transmissions import Lever, Pulley, Straight
 from support import joints, paper
@@ -30,12 +31,12 @@ def test_for_one_muscle_it_is_a_radian_of_the_stiffest_place_of_a_fall():
         y += h * v
     stiffest = max(paper.stiffness(p, 100.0 * y / paper.L0) for p in (0.0, 6.0))
     expected = np.sqrt(20.0 / stiffest)
-    free = longest_step(one_muscle())
+    free = longest_step(single_muscle_joint())
     assert free == pytest.approx(expected, rel=0.03)
     # A strongly damped rig creeps, but its fast root is 2 zeta times as fast: 9.9 at zeta 5.
-    damped = longest_step(one_muscle(Muscle(zeta=5.0)))
+    damped = longest_step(single_muscle_joint(Muscle(zeta=5.0)))
     assert damped == pytest.approx(free / (5.0 + np.sqrt(24.0)))
-    assert longest_step(one_muscle(SOURCE)) == np.inf
+    assert longest_step(single_muscle_joint(SOURCE)) == np.inf
 
 
 def of_pulley(p, angle):
@@ -113,16 +114,16 @@ def test_drag_shortens_the_step():
 
 def test_two_equal_muscles_need_the_step_of_one_with_half_the_mass():
     """Nearly: the energy of the fall is the same, the place that it is let go from is."""
-    one = longest_step(one_muscle(load=Mass(mass=15.0)))
+    one = longest_step(single_muscle_joint(load=Mass(mass=15.0)))
     assert longest_step(parallel(30.0, BOTH_LONG)) == pytest.approx(one, rel=0.15)
 
 
 @pytest.mark.parametrize(
     ('joint', 'step', 'sentence'),
     [
-        (one_muscle(), 0.0, 'a physics step of 0 s is not allowed: give more than 0'),
+        (single_muscle_joint(), 0.0, 'a physics step of 0 s is not allowed: give more than 0'),
         (
-            one_muscle(),
+            single_muscle_joint(),
             0.1,
             'a physics step of 100 ms does not resolve a mass of 20 kg on this muscle: give',
         ),

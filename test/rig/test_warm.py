@@ -12,7 +12,7 @@ import numpy as np
 from numba.core import event
 from pam_ros.rig.arrangements import ARRANGEMENTS
 from pam_ros.rig.bind import bind
-from pam_ros.rig.joint import one_muscle
+from pam_ros.rig.standard_joints import single_muscle_joint
 from pam_ros.rig.run import simulate, simulate_held
 from pam_ros.rig.start import start_state
 from pam_ros.settings.scene import Scene
@@ -37,7 +37,7 @@ for kind in ARRANGEMENTS:
         plant.read()
 t, p = np.array([0.0, 0.01]), np.array([1e5, 2e5])
 for effects in ({}, {'viscous_friction': {'coefficient': 0.1}}):
-    alone = one_muscle(effects=effects)
+    alone = single_muscle_joint(effects=effects)
     simulate(alone, t, t, p)
     simulate_held(alone, t, p, t)
     layout, q, out = alone.layout, alone.parameters(), np.empty((1, 2))

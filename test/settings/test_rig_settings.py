@@ -9,8 +9,8 @@ import pytest
 from pam_ros.effects import EFFECTS
 from pam_ros.effects.names import flattened
 from pam_ros.errors import ParameterError
-from pam_ros.rig.joint import one_muscle
 from pam_ros.rig.loads import Mass
+from pam_ros.rig.standard_joints import single_muscle_joint
 from pam_ros.settings.rig import RigParameters, load_rig
 from pam_ros.settings.scene import Scene
 from pam_ros.settings.tables import checked, flat_rig, rig_table
@@ -40,14 +40,14 @@ def built(values, **given):
 
 def test_defaults_make_the_default_rig():
     table = rig_table()
-    assert built({}) == (one_muscle(),)
+    assert built({}) == (single_muscle_joint(),)
     (joint,) = built(checked(table, {}))
-    assert (joint.muscle, joint.load) == (one_muscle().muscle, Mass())
+    assert (joint.muscle, joint.load) == (single_muscle_joint().muscle, Mass())
     assert not joint.all_present
 
 
 def test_a_joint_has_the_effects_that_are_given_and_no_others():
-    assert built({'mass': 7.0, RUBS: 12.0}) == (one_muscle(load=Mass(7.0), effects=RUB),)
+    assert built({'mass': 7.0, RUBS: 12.0}) == (single_muscle_joint(load=Mass(7.0), effects=RUB),)
 
 
 def test_what_nobody_gives_a_name_has_its_default_and_equal_joints_are_one():
@@ -68,7 +68,7 @@ def test_which_of_two_muscles_a_value_is_of_makes_another_joint():
 def test_common_values_make_a_joint_that_has_nobodys_own():
     values = {'mass': 3.0, 'a.mass': 4.0}
     joint = RigParameters({'muscles': ['a']}).build_common(values)
-    assert joint == one_muscle(load=Mass(3.0))
+    assert joint == single_muscle_joint(load=Mass(3.0))
 
 
 # Joints of a file ------------------------------------------------------------------------------
@@ -84,7 +84,7 @@ def test_every_muscle_of_the_package_makes_a_rig(name):
 
 def test_the_built_in_muscle_is_the_papers():
     model, _ = load_rig('dmsp_20_400n')
-    assert (model.parameters() == one_muscle().parameters()).all()
+    assert (model.parameters() == single_muscle_joint().parameters()).all()
 
 
 def test_a_mistyped_name_in_a_file_is_refused_and_a_strangers_is_not(file):
@@ -100,7 +100,7 @@ def test_a_file_makes_the_rig_that_it_gives_and_nothing_else(file):
     """Names, kinds of joints and muscles' own values are those of programs that know them."""
     path = file(f'mass: 7, {RUBS}: 12, joint: crank, muscles: [pam], pam.mass: 9')
     model, values = load_rig(path, ['zeta=0.2'])
-    assert model == one_muscle(model.muscle, Mass(7.0), RUB)
+    assert model == single_muscle_joint(model.muscle, Mass(7.0), RUB)
     assert model.muscle.zeta == 0.2
     assert values == {
         'mass': 7,

@@ -7,7 +7,8 @@ import pytest
 
 from pam_ros.errors import ParameterError
 from pam_ros.rig.equilibrium import equilibrium
-from pam_ros.rig.joint import Joint, one_muscle
+from pam_ros.rig.joint import Joint
+from pam_ros.rig.standard_joints import single_muscle_joint
 from pam_ros.rig.transmissions import Lever, Pulley
 from pam_ros.settings.files import write
 from pam_ros.settings.rig import load_rig
@@ -118,7 +119,7 @@ def test_equal_muscles_are_one_joint():
     assert len({id(joint) for joint in now.joints}) == 2
     pressure, position, velocity = now.initial
     assert pressure.shape == position.shape == velocity.shape == (64,)
-    at_rest = [equilibrium(one_muscle(), 0.0)] * 64
+    at_rest = [equilibrium(single_muscle_joint(), 0.0)] * 64
     at_rest[3] = equilibrium(now.joints[3], 0.0)
     np.testing.assert_array_equal(position, at_rest)
 

@@ -10,8 +10,8 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from pam_ros.muscle.muscle import Muscle
-from pam_ros.rig.joint import one_muscle
 from pam_ros.rig.loads import Mass
+from pam_ros.rig.standard_joints import single_muscle_joint
 from support import paper
 
 L0 = paper.L0
@@ -22,7 +22,7 @@ ZETA = 0.15
 
 def hanging(mass=MASS, **effects):
     """Return the paper's muscle with a hanging load."""
-    return one_muscle(Muscle(zeta=ZETA), Mass(mass=mass), effects)
+    return single_muscle_joint(Muscle(zeta=ZETA), Mass(mass=mass), effects)
 
 
 def cart(mass=MASS, **effects):
@@ -41,7 +41,7 @@ def cart(mass=MASS, **effects):
         p_min=-1e5,
         p_max=1e5,
     )
-    return one_muscle(drawn, Mass(mass=mass, mount='horizontal'), effects)
+    return single_muscle_joint(drawn, Mass(mass=mass, mount='horizontal'), effects)
 
 
 def pull(p, y):

@@ -4,8 +4,8 @@
 
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.recording.recording import Recording
-from pam_ros.rig.joint import one_muscle
 from pam_ros.rig.loads import GRAVITY, Mass
+from pam_ros.rig.standard_joints import single_muscle_joint
 from truth import held_record, record
 from truth.muscles import GRAVITY as TRUE_GRAVITY
 from truth.muscles import constants_si
@@ -42,4 +42,4 @@ def declared(mass=MASS, zeta=0.15, off=None):
     if off is not None:
         constants = [a * (1.0 + share) for a, share in zip(constants, off, strict=True)]
     muscle = Muscle(*constants, pressure_unit='Pa', contraction_unit='fraction', zeta=zeta)
-    return one_muscle(muscle, Mass(mass=mass))
+    return single_muscle_joint(muscle, Mass(mass=mass))

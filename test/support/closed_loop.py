@@ -12,8 +12,8 @@ from pam_ros.control.model import ControlModel
 from pam_ros.control.reference.shaping import Shape, Shaper
 from pam_ros.control.sharing import sharing_of
 from pam_ros.muscle.muscle import Muscle
-from pam_ros.rig.joint import one_muscle
 from pam_ros.rig.loads import Mass
+from pam_ros.rig.standard_joints import single_muscle_joint
 from truth import CONTROL_PLANTS, Sensor, TruthPlant
 from truth.control_plants import FEEDBACK_NOISE
 
@@ -51,7 +51,7 @@ def truth(name, mass=20.0, p0=300e3, noise=FEEDBACK_NOISE, seed=0, **more):
 
 def declared(mass=20.0, effects=None, **muscle):
     """Return the rig as it is declared to the controller."""
-    return one_muscle(Muscle(zeta=0.15, **muscle), Mass(mass=mass), effects or {})
+    return single_muscle_joint(Muscle(zeta=0.15, **muscle), Mass(mass=mass), effects or {})
 
 
 def shared(joint, limits=None):

@@ -7,9 +7,9 @@ from scipy.signal import lfilter
 
 from pam_ros.effects.names import parsed
 from pam_ros.identification.fit.unknowns import Constant, OfEffect, RunStart, Unknown
-from pam_ros.rig.joint import one_muscle
+from pam_ros.rig.standard_joints import single_muscle_joint
 
-LAYOUT = one_muscle().layout
+LAYOUT = single_muscle_joint().layout
 
 
 def unknown(name, base=0.0, scale=1.0, *numbers, index=0, run=None, **more):

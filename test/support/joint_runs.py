@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from pam_ros.rig.joint import one_muscle
 from pam_ros.rig.simulation import Simulation
+from pam_ros.rig.standard_joints import single_muscle_joint
 from support import joints
 from support.joint_models import UNEQUAL, lever, pair
 
@@ -60,7 +60,7 @@ def ends_on_lever(s):
 
 CASES = {
     'one muscle': Case(
-        lambda effects=({}, {}): one_muscle(effects=effects[0]),
+        lambda effects=({}, {}): single_muscle_joint(effects=effects[0]),
         *(20.0, lambda s: [s], lambda s: [1.0]),
     ),
     'pair': Case(

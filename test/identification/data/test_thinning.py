@@ -13,8 +13,8 @@ from pam_ros.identification.fit.problem import Problem
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.recording.recording import Recording
 from pam_ros.rig.equilibrium import equilibrium
-from pam_ros.rig.joint import one_muscle
 from pam_ros.rig.loads import Mass
+from pam_ros.rig.standard_joints import single_muscle_joint
 
 STEP = 6e-3
 
@@ -135,7 +135,7 @@ def test_what_is_sampled_coarsely_is_not_thinned():
 
 
 def test_the_step_turns_the_rigs_fastest_swing_by_a_set_angle():
-    model = one_muscle(Muscle(), Mass(mass=10.0))
+    model = single_muscle_joint(Muscle(), Mass(mass=10.0))
     # Stiffness of Sarosi's law by hand, p in bar and kappa in percent: -dF/dkappa / l0 in N/m.
     k = []
     for p in (0.0, 6.0):
@@ -148,16 +148,16 @@ def test_the_step_turns_the_rigs_fastest_swing_by_a_set_angle():
 
 
 def test_the_step_stays_between_its_limits():
-    heavy = one_muscle(Muscle(), Mass(mass=40.0, mount='horizontal'))
+    heavy = single_muscle_joint(Muscle(), Mass(mass=40.0, mount='horizontal'))
     assert STEPS[0] <= coarse_step(heavy) <= STEPS[1]
     source = Muscle(a1=0.0, a2=0.0, a4=0.0, zeta=0.0)
-    assert coarse_step(one_muscle(source, Mass(mass=5.0, mount='horizontal'))) == STEPS[1]
+    assert coarse_step(single_muscle_joint(source, Mass(mass=5.0, mount='horizontal'))) == STEPS[1]
 
 
 @pytest.mark.slow
 @pytest.mark.needs_numba
 def test_a_thinned_run_moves_like_the_full_one():
-    model = one_muscle(Muscle(), Mass(mass=20.0))
+    model = single_muscle_joint(Muscle(), Mass(mass=20.0))
     rng = np.random.default_rng(0)
     t = np.arange(20_000) * 1e-3
     command = wave(t) + 1e4 * np.sin(2 * np.pi * 4.0 * t) + 4e4 * (uneven(rng, t.size) // 1.7 % 2)

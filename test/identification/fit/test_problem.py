@@ -27,12 +27,12 @@ from pam_ros.muscle.muscle import Muscle
 from pam_ros.recording.recording import Recording
 from pam_ros.rig import layout as at
 from pam_ros.rig.equilibrium import equilibrium
-from pam_ros.rig.joint import one_muscle
 from pam_ros.rig.loads import Mass
 from pam_ros.rig.run import simulate
+from pam_ros.rig.standard_joints import single_muscle_joint
 from support.equations import unknown
 
-MUSCLE = one_muscle(Muscle(), Mass(mass=20.0))
+MUSCLE = single_muscle_joint(Muscle(), Mass(mass=20.0))
 # A force source of 0.01 N/Pa moves 5 kg on a rail: its motion is a parabola.
 GAIN, MASS = 0.01, 5.0
 FORCE = Muscle(
@@ -40,7 +40,7 @@ FORCE = Muscle(
     contraction_unit='fraction', l0=1.0,
 )  # fmt: skip
 RAIL = Mass(mass=MASS, mount='horizontal')
-SOURCE = one_muscle(FORCE, RAIL)
+SOURCE = single_muscle_joint(FORCE, RAIL)
 PRESSURE = 100.0  # Pa: 0.2 m/s^2
 LIBRARY = {effect.name: effect for effect in EFFECTS}
 
@@ -144,7 +144,7 @@ def test_jacobian_of_the_force_law_in_closed_form():
 
 def lagging(tau):
     """Return a force source whose pressure lags by *tau* s."""
-    return one_muscle(FORCE, RAIL, {'pressure_lag': {'fill': tau, 'vent': tau}})
+    return single_muscle_joint(FORCE, RAIL, {'pressure_lag': {'fill': tau, 'vent': tau}})
 
 
 @pytest.mark.parametrize('away', [0.5, -1.0])
@@ -169,7 +169,7 @@ def test_a_pressure_that_begins_away_from_rest_decays_as_its_lag_says(away):
 @pytest.mark.parametrize('name', [e.name for e in EFFECTS if any(s.spread for s in e.states)])
 def test_a_memory_begins_where_a_simulation_begins_that_is_told_so(name):
     effect = LIBRARY[name]
-    model = one_muscle(Muscle(), Mass(mass=20.0), {name: effect.example})
+    model = single_muscle_joint(Muscle(), Mass(mass=20.0), {name: effect.example})
     t = np.arange(60) / 50.0
     command = 3e5 + 5e4 * np.sin(6.0 * t)
     y = np.full(t.size, equilibrium(model, command[0]))
@@ -246,7 +246,7 @@ def test_a_state_that_is_always_known_is_no_unknown():
 
 @pytest.mark.needs_numba
 def test_jacobian_of_a_swinging_muscle_against_scipy():
-    model = one_muscle(
+    model = single_muscle_joint(
         Muscle(), Mass(mass=20.0), {'creep': {'stiffness': 500.0, 'pressure': 0.02, 'time': 0.7}}
     )
     t = np.arange(400) / 100.0

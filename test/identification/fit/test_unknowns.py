@@ -24,11 +24,11 @@ from pam_ros.identification.fit.unknowns import (
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.recording.recording import Recording
 from pam_ros.rig import layout as at
-from pam_ros.rig.joint import one_muscle
 from pam_ros.rig.loads import Mass
+from pam_ros.rig.standard_joints import single_muscle_joint
 from support.equations import unknown
 
-RIG = one_muscle(Muscle(), Mass(mass=20.0))
+RIG = single_muscle_joint(Muscle(), Mass(mass=20.0))
 
 
 @given(st.floats(-5.0, 5.0), st.booleans())
@@ -75,7 +75,7 @@ def test_constants_and_damping_are_retuned_but_not_what_scale_and_rule_measure()
 
 
 def test_what_is_zero_stays_zero():
-    drive = one_muscle(
+    drive = single_muscle_joint(
         Muscle(a1=0.0, a2=0.0, a4=0.0, a3=0.0, a6=0.0, zeta=0.0),
         Mass(mass=95.0, mount='horizontal'),
     )

@@ -16,9 +16,9 @@ from pam_ros.identification.search.criteria import BUDGET, CRITERIA
 from pam_ros.identification.search.setting import Setting
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.recording.recording import Recording
-from pam_ros.rig.joint import one_muscle
 from pam_ros.rig.loads import Mass
 from pam_ros.rig.run import simulate, simulate_held
+from pam_ros.rig.standard_joints import single_muscle_joint
 from support import bench_truth
 
 NOISE = 20e-6
@@ -37,7 +37,7 @@ def test_errors_are_those_of_one_free_run_through_all_parts(setting, retuned):
     muscle = replace(
         setting.joint.muscle, **{f'a{k}': u[f'a{k}'] for k in range(1, 7)}, zeta=u['zeta']
     )
-    model = one_muscle(muscle, setting.joint.load)
+    model = single_muscle_joint(muscle, setting.joint.load)
     run = simulate(model, s.t, s.drive_t, s.drive, u['y0[0]'], u['v0[0]'])
     e = run.position - s.target
     assert retuned.errors.fit == pytest.approx(rms(e[part.fit]), rel=0.01)
@@ -73,7 +73,7 @@ def test_at_a_prescribed_length_what_chooses_begins_at_rest():
         unsettled = setting.errors(begun(problem, np.where(memories, 5.0, u)))
         (part,) = setting.thin
         s = part.segment
-        creeping = one_muscle(joint.muscle, joint.load, effects={'creep': start})
+        creeping = single_muscle_joint(joint.muscle, joint.load, effects={'creep': start})
         run = simulate_held(creeping, s.t, s.pressure, s.position)
         e = run.force - s.target
         assert unsettled.choose == pytest.approx(rms(e[part.choose]), rel=0.02)
@@ -109,12 +109,12 @@ def test_strain_is_the_prior_chi_square_of_constants_alone(setting):
 SOURCE = {'a1': 0.0, 'a2': 0.0, 'a3': 0.0, 'a4': 0.0, 'a6': 0.0, 'zeta': 0.0, 'l0': 1.0}
 UNITS = {'pressure_unit': 'Pa', 'contraction_unit': 'fraction'}
 RAIL = Mass(mass=5.0, mount='horizontal')
-DECLARED = one_muscle(Muscle(a5=0.0102, **SOURCE, **UNITS), RAIL)
+DECLARED = single_muscle_joint(Muscle(a5=0.0102, **SOURCE, **UNITS), RAIL)
 
 
 def on_a_rail(begin=0.0, gain=0.0100):
     """Return 16 s of a load that a force source of *gain* N/Pa moves, from *begin* on."""
-    truth = one_muscle(Muscle(a5=gain, **SOURCE, **UNITS), RAIL)
+    truth = single_muscle_joint(Muscle(a5=gain, **SOURCE, **UNITS), RAIL)
     t = np.arange(1600) / 100.0
     command = 100.0 * np.where(np.sin(1.3 * t) > 0.0, 1.0, -1.0)
     y = simulate(truth, t, t, command, 0.1).position

@@ -12,9 +12,9 @@ from pam_ros.identification.search.final import final
 from pam_ros.identification.search.stages import stages
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.recording.recording import Recording
-from pam_ros.rig.joint import one_muscle
 from pam_ros.rig.loads import Mass
 from pam_ros.rig.run import simulate
+from pam_ros.rig.standard_joints import single_muscle_joint
 from support import bench_truth
 from support.searches import FILL, found_in
 from truth import effect
@@ -107,9 +107,9 @@ def test_a_load_without_a_spring_is_shown_in_one_run_from_its_measured_start(poo
     source = {'a1': 0.0, 'a2': 0.0, 'a3': 0.0, 'a4': 0.0, 'a6': 0.0, 'zeta': 0.0, 'l0': 1.0}
     units = {'pressure_unit': 'Pa', 'contraction_unit': 'fraction'}
     rail = Mass(mass=5.0, mount='horizontal')
-    declared = one_muscle(Muscle(a5=0.0102, **source, **units), rail)
+    declared = single_muscle_joint(Muscle(a5=0.0102, **source, **units), rail)
     there = {'viscous_friction': {'coefficient': 4.0}}
-    true = replace(one_muscle(Muscle(a5=0.0100, **source, **units), rail), effects=there)
+    true = replace(single_muscle_joint(Muscle(a5=0.0100, **source, **units), rail), effects=there)
     t = np.arange(1600) / 100.0
     command = 100.0 * np.where(np.sin(1.3 * t) > 0.0, 1.0, -1.0)
     y = simulate(true, t, t, command, 0.1).position

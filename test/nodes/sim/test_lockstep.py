@@ -12,8 +12,8 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64, Float64MultiArray
 from std_srvs.srv import SetBool, Trigger
 
-from pam_ros.rig.joint import one_muscle
 from pam_ros.rig.simulation import Simulation
+from pam_ros.rig.standard_joints import single_muscle_joint
 from support.harness import Peer, Program, lose_nothing
 
 pytestmark = pytest.mark.at_any_pace
@@ -61,7 +61,7 @@ class Controller:
 
 def expected(periods):
     """Return positions and velocities of the released rig, period by period."""
-    rig = Simulation([one_muscle()], 1e-3)
+    rig = Simulation([single_muscle_joint()], 1e-3)
     rig.reset([0.0], [0.0], [0.0])
     found = []
     for k in range(periods):
@@ -266,7 +266,7 @@ def test_a_controller_that_answers_too_often_gets_the_same_run(peer):
             count = len(naive.heard)
             peer.until(lambda n=count: len(naive.heard) > n + 300, 'more periods')
     got = sorted(set(naive.heard))
-    rig = Simulation([one_muscle()], 1e-3)
+    rig = Simulation([single_muscle_joint()], 1e-3)
     rig.reset([0.0], [0.0], [0.0])
     assert len(got) > 600
     assert set(np.diff([time for time, *_ in got])) == {PERIOD}

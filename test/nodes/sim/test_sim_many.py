@@ -12,10 +12,11 @@ from std_srvs.srv import SetBool, Trigger
 
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig.equilibrium import equilibrium
-from pam_ros.rig.joint import Actuator, Joint, one_muscle
+from pam_ros.rig.joint import Actuator, Joint
 from pam_ros.rig.loads import Arm as ArmLoad
 from pam_ros.rig.loads import Mass
 from pam_ros.rig.simulation import Simulation
+from pam_ros.rig.standard_joints import single_muscle_joint
 from pam_ros.rig.transmissions import Pulley
 from support.ends import check_refusals
 from support.harness import Program
@@ -108,9 +109,11 @@ def test_each_muscle_is_its_own_and_what_it_is_not_told_is_everybodys(peer):
     with Program('pam_sim', parameters=given):
         states = arm.run(pressures)
         models = [
-            one_muscle(load=Mass(mass=7.0)),
-            one_muscle(Muscle(a1=-4.0), Mass(mass=15.0, mount='horizontal')),
-            one_muscle(load=Mass(mass=15.0), effects={'viscous_friction': {'coefficient': 30.0}}),
+            single_muscle_joint(load=Mass(mass=7.0)),
+            single_muscle_joint(Muscle(a1=-4.0), Mass(mass=15.0, mount='horizontal')),
+            single_muscle_joint(
+                load=Mass(mass=15.0), effects={'viscous_friction': {'coefficient': 30.0}}
+            ),
         ]
         is_as(arm, states, simulated(models, pressures))
         assert states[-1].name == names
@@ -263,7 +266,7 @@ def test_pause_step_and_reset_are_for_all_of_them(peer):
         assert peer.call(Trigger, 'pam_sim/step').success
         peer.until(lambda: stamp(arm.states[-1]) == stamp(before) + 5 * 2_000_000, 'five periods')
         assert peer.call(Trigger, 'pam_sim/reset').success
-        at_rest = equilibrium(one_muscle(), 0.0)
+        at_rest = equilibrium(single_muscle_joint(), 0.0)
         peer.until(lambda: list(arm.states[-1].position) == [at_rest] * 2, 'the start')
 
 

@@ -14,8 +14,8 @@ from std_srvs.srv import SetBool, Trigger
 
 from pam_ros.nodes.sim import sim_time
 from pam_ros.nodes.sim.sim_time import FIRST, OwnTime
-from pam_ros.rig.joint import one_muscle
 from pam_ros.rig.simulation import Simulation
+from pam_ros.rig.standard_joints import single_muscle_joint
 from pam_ros.timing.pace import CATCH_UP, SECOND
 from support.harness import Program, lose_nothing
 
@@ -112,7 +112,7 @@ def test_the_motion_is_the_same_at_any_speed(peer, factor):
     given = {**SCALED, **RELEASED, 'speed_factor': factor, 'publish_rate': 100.0}
     with Program('pam_sim', parameters=given):
         peer.until(lambda: len(states) > 100 and len(clocks) > 100, 'states')
-    rig = Simulation([one_muscle()], 1e-3)
+    rig = Simulation([single_muscle_joint()], 1e-3)
     rig.reset([6e5], [0.0], [0.0])
     path = {}
     for k in range(max((stamp(m) - FIRST) // (10 * MS) for m in states) + 1):
@@ -194,7 +194,7 @@ def test_step_in_real_time_is_of_exact_periods(peer):
         peer.call(Trigger, 'pam_sim/reset')
         peer.until(lambda: states[-1].position[0] == 0.0, 'the initial state')
         assert peer.call(Trigger, 'pam_sim/step').success
-        rig = Simulation([one_muscle()], 1e-3)
+        rig = Simulation([single_muscle_joint()], 1e-3)
         rig.reset([6e5], [0.0], [0.0])
         rig.advance(80)
         peer.until(lambda: states[-1].position[0] == rig.position.item(), 'the state after 40')
