@@ -49,7 +49,7 @@ if TYPE_CHECKING:
         Transmission,
         TransmissionEquations,
     )
-    from pam_ros.settings.rig import load_rig
+    from pam_ros.settings.load import load_joint, load_muscle
 
 __all__ = [
     'EFFECTS',
@@ -88,7 +88,8 @@ __all__ = [
     'identify',
     'joint_stiffness',
     'joint_stiffness_range',
-    'load_rig',
+    'load_joint',
+    'load_muscle',
     'parameter_field',
     'read_mapping',
     'read_recording',
@@ -131,7 +132,7 @@ _PLACES = {
         'Transmission',
         'TransmissionEquations',
     ),
-    'settings.rig': ('load_rig',),
+    'settings.load': ('load_joint', 'load_muscle'),
 }
 _PLACE_OF = {name: place for place, names in _PLACES.items() for name in names}
 

@@ -124,10 +124,10 @@ def run(given: argparse.Namespace, command: str) -> str:
     from pam_ros.report.provenance import provenance
     from pam_ros.report.summary import last_line
     from pam_ros.report.write import check_folder, write_report
-    from pam_ros.settings.rig import load_rig
+    from pam_ros.settings.rig import joint_and_values
 
     check_folder(given.out)
-    model, _ = load_rig(given.params, given.set)
+    model, _ = joint_and_values(given.params, given.set)
     mapping = read_mapping(given.column, given.mapping)
     muscle = model.muscle
     l0 = None if model.is_driven else muscle.l0  # a drive has no length to be within

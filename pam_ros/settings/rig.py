@@ -243,10 +243,10 @@ def _found(values: Values, table: Table, names: Iterable[str]) -> dict[str, Any]
     return found
 
 
-def load_rig(
+def joint_and_values(
     name: str | Path, overrides: Iterable[str] = (), table: Table | None = None
 ) -> tuple[Joint, dict[str, Value]]:
-    """Return the rig that a file or muscle *name* declares, and its flat values.
+    """Return the nominal model of ``pam_identify``, one muscle on a mass, and its flat values.
 
     *overrides* are ``name=value`` texts that come last. *table* are the names that the caller
     knows (default: the rig's). Names that are not known here are passed over, for they may

@@ -18,7 +18,7 @@ from pam_ros.cli import pam_identify
 from pam_ros.errors import ParameterError
 from pam_ros.settings import excite
 from pam_ros.settings.control import settings_of
-from pam_ros.settings.rig import load_rig
+from pam_ros.settings.rig import joint_and_values
 from pam_ros.settings.scene import Scene
 from pam_ros.settings.tables import checked, override
 from support.domain import claimed
@@ -140,7 +140,9 @@ def check_program(name, words):
         given = pam_identify.parser().parse_args(own)
         known = not given.params.startswith(('MUSCLE', 'FILE'))
         if known:
-            load_rig(str(ROOT / given.params) if '/' in given.params else given.params, given.set)
+            joint_and_values(
+                str(ROOT / given.params) if '/' in given.params else given.params, given.set
+            )
         return
     for word in own:
         if word.startswith('-'):

@@ -11,13 +11,13 @@ import yaml
 from pam_ros.report.parameters import identified, write_identified
 from pam_ros.rig.joint import changed
 from pam_ros.rig.run import simulate, simulate_held
-from pam_ros.settings.rig import load_rig
+from pam_ros.settings.rig import joint_and_values
 
 
 def reloaded(parts, tmp_path):
     result, source, _ = parts
     write_identified(tmp_path / 'identified.yaml', result, source)
-    return load_rig(str(tmp_path / 'identified.yaml'))[0]
+    return joint_and_values(str(tmp_path / 'identified.yaml'))[0]
 
 
 def test_loaded_again_it_is_the_same_rig(any_result, tmp_path):

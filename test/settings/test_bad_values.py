@@ -17,7 +17,7 @@ from pam_ros.control.signals import Reference
 from pam_ros.errors import PamError
 from pam_ros.rig.arrangements import ARRANGEMENTS
 from pam_ros.settings.control import settings_of
-from pam_ros.settings.rig import load_rig
+from pam_ros.settings.rig import joint_and_values
 from pam_ros.settings.scene import Scene
 from pam_ros.settings.tables import checked, override
 from support.bad_values import ANY, TEXTS, YAML_TRAPS, fits, values
@@ -133,7 +133,7 @@ def test_a_parameter_file(file, name, text):
     file.write_text(f'/**:\n  ros__parameters:\n    {name}: {text}\n')
     table = TABLES[scene_of, 'load']
     try:
-        _, found = load_rig(file, table=table)
+        _, found = joint_and_values(file, table=table)
         found = checked(table, found)
     except PamError as error:
         check_sentence(error)

@@ -11,7 +11,7 @@ from pam_ros.effects.names import flattened
 from pam_ros.errors import ParameterError
 from pam_ros.rig.loads import Mass
 from pam_ros.rig.standard_joints import single_muscle_joint
-from pam_ros.settings.rig import RigParameters, load_rig
+from pam_ros.settings.rig import RigParameters, joint_and_values
 from pam_ros.settings.scene import Scene
 from pam_ros.settings.tables import checked, flat_rig, rig_table
 
@@ -19,16 +19,6 @@ ROOT = Path(__file__).parents[2]
 MUSCLES = sorted(path.stem for path in (ROOT / 'config' / 'muscles').glob('*.yaml'))
 RUB = {'coulomb_friction': {'level': 12.0}}
 RUBS = 'effects.coulomb_friction.level'
-
-
-@pytest.fixture
-def file(tmp_path):
-    def made(values):
-        path = tmp_path / 'given.yaml'
-        path.write_text('/**: {ros__parameters: {' + values + '}}\n')
-        return str(path)
-
-    return made
 
 
 def built(values, **given):
@@ -77,29 +67,29 @@ def test_common_values_make_a_joint_that_has_nobodys_own():
 @pytest.mark.parametrize('name', MUSCLES)
 def test_every_muscle_of_the_package_makes_a_rig(name):
     assert MUSCLES
-    model, values = load_rig(name, ['mass=5'])
+    model, values = joint_and_values(name, ['mass=5'])
     assert model.load.mass == values['mass'] == 5.0
     assert values['source']
 
 
 def test_the_built_in_muscle_is_the_papers():
-    model, _ = load_rig('dmsp_20_400n')
+    model, _ = joint_and_values('dmsp_20_400n')
     assert (model.parameters() == single_muscle_joint().parameters()).all()
 
 
 def test_a_mistyped_name_in_a_file_is_refused_and_a_strangers_is_not(file):
     path = file('mass: 7, robot_name: arm')
-    model, _ = load_rig(path)
+    model, _ = joint_and_values(path)
     assert model.load.mass == 7.0
     path = file('mas: 7')
     with pytest.raises(ParameterError, match=r'given.yaml: mas .* was mass meant'):
-        load_rig(path)
+        joint_and_values(path)
 
 
 def test_a_file_makes_the_rig_that_it_gives_and_nothing_else(file):
     """Names, kinds of joints and muscles' own values are those of programs that know them."""
     path = file(f'mass: 7, {RUBS}: 12, joint: crank, muscles: [pam], pam.mass: 9')
-    model, values = load_rig(path, ['zeta=0.2'])
+    model, values = joint_and_values(path, ['zeta=0.2'])
     assert model == single_muscle_joint(model.muscle, Mass(7.0), RUB)
     assert model.muscle.zeta == 0.2
     assert values == {
@@ -128,7 +118,7 @@ def test_a_file_makes_the_rig_that_it_gives_and_nothing_else(file):
 )
 def test_a_file_that_makes_no_rig_is_refused(file, given, sentence):
     with pytest.raises(ParameterError, match=sentence):
-        load_rig(file(given))
+        joint_and_values(file(given))
 
 
 def test_the_rig_of_a_file_is_the_one_that_is_simulated(file):
@@ -139,6 +129,6 @@ def test_the_rig_of_a_file_is_the_one_that_is_simulated(file):
     whole = ', '.join(f'{name}: {value!r}' for name, value in flat_rig(simulated).items())
     assert whole.count('effects.') == sum(len(effect.parameters) for effect in EFFECTS)
     for name in (path, file(whole)):
-        model, _ = load_rig(name)
+        model, _ = joint_and_values(name)
         assert model.parameters().tobytes() == simulated.parameters().tobytes()
         assert [effect.name for effect in model.all_present] == ['coulomb_friction']

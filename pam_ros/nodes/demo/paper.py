@@ -13,7 +13,7 @@ from pam_ros.nodes.common.rig_log import RigLog, lose_nothing
 from pam_ros.nodes.common.stamps import seconds
 from pam_ros.nodes.demo.stage import Stage, hold_pressure
 from pam_ros.processes.children import Program
-from pam_ros.settings.rig import load_rig
+from pam_ros.settings.load import load_joint
 
 MUSCLE = 'dmsp_20_400n'
 RELEASE = 3.0  # s
@@ -25,7 +25,7 @@ def play(stage: Stage) -> None:
     """Run the experiment, and leave figures 5 and 6, the steps and the table."""
     stage.say(f'The experiment of the paper: {MUSCLE}, 600 kPa, 20 kg, over ROS topics')
     released, steps = record(stage)
-    model, _ = load_rig(MUSCLE, [f'mass={paper.MASS:g}'])
+    model = load_joint(MUSCLE, mass=paper.MASS)
     stage.say('  drawing')
     from pam_ros.demo import figures
 

@@ -1,0 +1,133 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The joint or the muscle that a parameter file of ``pam_sim`` describes, for programs."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from pam_ros.arguments import as_path, instance
+from pam_ros.effects.names import GROUP
+from pam_ros.errors import ParameterError
+from pam_ros.muscle.muscle import Muscle
+from pam_ros.rig.joint import Joint
+from pam_ros.settings.files import find, read
+from pam_ros.settings.scene import Scene
+from pam_ros.settings.tables import (
+    Table,
+    Values,
+    build,
+    checked,
+    effects_of,
+    refuse_mistyped,
+    refuse_unknown_effects,
+    rig_table,
+)
+
+# Of the simulator's own parameters those that say which joint it is; the others are no joint's.
+ABOUT_JOINTS = frozenset({'joint', 'muscles', 'joint_name', 'joint_names'})
+
+
+def load_joint(
+    name: str | Path, /, values: Mapping[str, Any] | None = None, **parameters: Any
+) -> Joint:
+    """Return the joint that a parameter file, or a muscle or rig of this package, describes.
+
+    *name* is a path, such as that of an ``identified.yaml``, or the name of a preset, such as
+    ``'dmsp_20_400n'``. *parameters* and *values* replace those of the file, by the names and in
+    the SI units that ``pam_sim`` has: ``mass=10``, ``joint='antagonistic'``; names with dots are
+    keys of *values*: ``{'effects.slack.share': 1.0}``. The joint is the one that ``pam_sim``
+    simulates with this file and these parameters. Where ``joint`` is given here and not in the
+    file, the file describes a muscle: its load does not count.
+
+    Raises ParameterError for a file that cannot be read, a name that is not a parameter, a value
+    that is not allowed, and a file with more than one joint.
+    """
+    scene, known = _read(name, {**_overrides(values), **parameters})
+    joints = scene.build_joints(known)
+    if len(joints) > 1:
+        raise ParameterError(
+            f'{name} describes {len(joints)} joints, {", ".join(scene.joints)}: give a file '
+            'with one joint'
+        )
+    return joints[0]
+
+
+def load_muscle(name: str | Path, /) -> Muscle:
+    """Return the muscle of a preset of this package, such as ``'dmsp_10'``, or of a file.
+
+    *name* is that of the preset, or a path. Raises ParameterError for a file that cannot be read,
+    a value that is not allowed, and a file with muscles that differ.
+    """
+    scene, known = _read(name, {})
+    made = [build(Muscle, scene.of_muscle(known, i)) for i in range(len(scene.muscles))]
+    if any(muscle != made[0] for muscle in made):
+        raise ParameterError(
+            f'{name} describes muscles that differ, {", ".join(scene.muscles)}: load the joint, '
+            'and take one of its muscles'
+        )
+    return made[0]
+
+
+def _overrides(values: Mapping[str, Any] | None) -> dict[str, Any]:
+    if values is None:
+        return {}
+    example = "values by the names of parameters, such as {'effects.slack.share': 1.0}"
+    return dict(instance('values', values, Mapping, example))
+
+
+def _read(name: str | Path, overrides: Values) -> tuple[Scene, dict[str, Any]]:
+    """Return the scene of a file with *overrides*, and all of its flat values, checked."""
+    text = str(as_path('name', name, 'a path, or the name of a muscle or rig of this package'))
+    path = find(text)
+    from_file = read(path)
+    try:
+        refuse_unknown_effects(from_file)
+    except ParameterError as error:
+        raise ParameterError(f'{path}: {error}') from error
+    refuse_unknown_effects(overrides)
+    if 'joint' in overrides and 'joint' not in from_file:
+        from_file = {'muscle': text}
+    given = {**from_file, **overrides}
+    scene = Scene(given)
+    table = scene.table()
+    _refuse_mistyped(path, from_file, scene, table)
+    _refuse_others(overrides, scene, table)
+    return scene, _without_absent_effects(checked(table, given), scene)
+
+
+def _refuse_mistyped(path: Path, values: Values, scene: Scene, table: Table) -> None:
+    """Raise ParameterError for a mistyped name of a file; the scene has checked own names."""
+    own = {*scene.muscles, *scene.joints}
+    try:
+        refuse_mistyped([flat for flat in values if flat.partition('.')[0] not in own], table)
+    except ParameterError as error:
+        raise ParameterError(f'{path}: {error}') from error
+
+
+def _refuse_others(overrides: Values, scene: Scene, table: Table) -> None:
+    """Raise ParameterError for an override that is not a parameter of the joint."""
+    simulator = {*scene.common, *scene.start} - ABOUT_JOINTS
+    for name in overrides:
+        if name in simulator:
+            raise ParameterError(
+                f'{name} is a parameter of pam_sim, not of a joint: give one such as mass or zeta'
+            )
+        if name not in table:
+            refuse_mistyped([name], table)
+            raise ParameterError(
+                f'{name} is not a parameter of joint = {scene.kind.name}: give one such as mass '
+                'or zeta'
+            )
+
+
+def _without_absent_effects(values: Values, scene: Scene) -> dict[str, Any]:
+    """Return *values* without the effects that nobody gave, which a joint does not list."""
+    plain = rig_table(scene.kind)
+    absent = effects_of({flat: default for flat, (_, default, _) in plain.items()})
+    left_out = tuple(
+        f'{GROUP}.{effect}.'
+        for effect, given in effects_of(values).items()
+        if given == absent[effect]
+    )
+    return {flat: value for flat, value in values.items() if not flat.startswith(left_out)}
