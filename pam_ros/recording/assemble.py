@@ -2,13 +2,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """From signals on stamps of their own to one recording: one clock, one kind, gaps known."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pam_ros.errors import RecordingError
-from pam_ros.recording.recording import KINDS, OUTPUTS, Recording
+from pam_ros.recording.of_joint import of_joint
+from pam_ros.recording.recording import KINDS, OUTPUTS, Recording, interpolated
 from pam_ros.recording.series import GAP_SECONDS, Series, refuse_backwards
 
 Array = NDArray[np.float64]
@@ -27,8 +29,12 @@ def assemble(
     notes: list[str],
     kind: str | None = None,
     l0: float | None = None,
+    muscles: Sequence[str] = (),
 ) -> Recording:
-    """Return the recording that *series* (quantity -> signal in SI) make.
+    """Return the recording that *series* (signal -> its values in SI) make.
+
+    Of a joint of several muscles each has signals of its own, called ``agonist.pressure``;
+    *muscles* are their names in the order in which the joint has them.
 
     Outputs get the stamps of the signal that is predicted: the position of a free load, the force
     of a held length. Others are taken as linear between their samples. Samples before the first
@@ -39,6 +45,8 @@ def assemble(
     """
     notes = list(notes)
     series = {quantity: one for quantity, one in series.items() if one.t.size}
+    series, names = of_joint(name, series, muscles, notes)
+    unit = 'rad' if 'angle' in series else 'm'
     _make_position(name, series, l0, notes)
     if 'pressure_command' not in series and 'pressure' not in series:
         raise RecordingError(f'{name} has no pressure_command and no pressure: nothing drives it')
@@ -69,6 +77,8 @@ def assemble(
         force=_at(t, series.get('force')),
         pressure=_at(t, series.get('pressure')),
         kind=kind,
+        muscles=names,
+        unit=unit,
     )
     if command is not None:
         first = max(int(np.searchsorted(command.t, origin, side='right')) - 1, 0)
@@ -112,6 +122,15 @@ def _ascending(
 def _make_position(
     name: str, series: dict[str, Series], l0: float | None, notes: list[str]
 ) -> None:
+    for angular, linear in (('angle', 'position'), ('angular_velocity', 'velocity')):
+        if angular in series:
+            if linear in series:
+                one, other = series[angular].source, series[linear].source
+                raise RecordingError(
+                    f'{name}: {one} is an angle and {other} a length: one of them is of another '
+                    "joint: leave it out with --column 'NAME=ignore'"
+                )
+            series[linear] = series.pop(angular)
     contraction = series.pop('contraction', None)
     if contraction is None:
         return
@@ -183,7 +202,7 @@ def spread(value: Array) -> float:
 
 
 def _at(t: Array, one: Series | None) -> Array | None:
-    return None if one is None else np.interp(t, one.t, one.value)
+    return None if one is None else interpolated(t, one.t, one.value)
 
 
 def _gaps(t: Array) -> list[tuple[float, float]]:

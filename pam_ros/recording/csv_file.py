@@ -39,7 +39,9 @@ class _Table:
 
 
 def read_csv(path: Path, mapping: ColumnMapping) -> tuple[dict[str, Series], list[str]]:
-    """Return (quantity -> series in SI, warnings) of a CSV file.
+    """Return (signal -> series in SI, warnings) of a CSV file.
+
+    A signal is a quantity, such as ``pressure``, or that of one muscle: ``agonist.pressure``.
 
     The first line that is no comment names the columns. Cells are separated by commas,
     semicolons or tabs. An empty cell (or NaN) is a sample that was not taken: columns may have
@@ -74,7 +76,8 @@ def read_csv(path: Path, mapping: ColumnMapping) -> tuple[dict[str, Series], lis
         if not present.any():
             notes.append(f'column {source} is empty')
             continue
-        if quantity == 'pressure_command' and present.mean() < _DENSE:
+        is_command = columns[quantity][1].target.quantity == 'pressure_command'
+        if is_command and present.mean() < _DENSE:
             series[quantity] = Series(source, t[present], value[present])
         else:
             series[quantity] = Series.taken(path.name, source, t, value)
@@ -90,22 +93,25 @@ def write_csv(recording: Recording, path: str | Path) -> None:
     """
     instance('recording', recording, Recording, 'a Recording')
     path = as_path('path', path, 'the path of a file')
-    names = {'position': 'm', 'velocity': 'm_s', 'force': 'N', 'pressure': 'Pa'}
-    columns = [name for name in OUTPUTS if getattr(recording, name) is not None]
-    header = ['t_s', *(f'{name}_{names[name]}' for name in columns)]
+    units = {'velocity': f'{recording.unit}_s', 'force': 'N', 'pressure': 'Pa'}
+    units['position'] = recording.unit
     stamps = recording.t
+    columns: list[tuple[str, Array, Array]] = []  # header, stamps and values of each
     if recording.command_t is not None and recording.command is not None:
-        header.insert(1, 'pressure_command_Pa')
         stamps = np.union1d(recording.t, recording.command_t)
-    out: dict[str, Sequence[str]] = {'t_s': [repr(float(x)) for x in stamps]}
-    if recording.command_t is not None and recording.command is not None:
-        out['pressure_command_Pa'] = _spread(stamps, recording.command_t, recording.command)
-    for name in columns:
-        out[f'{name}_{names[name]}'] = _spread(stamps, recording.t, getattr(recording, name))
+        for whose, value in _by_muscle(recording, recording.command):
+            columns.append((f'{whose}pressure_command_Pa', recording.command_t, value))
+    for name in OUTPUTS:
+        measured = getattr(recording, name)
+        if measured is not None:
+            for whose, value in _by_muscle(recording, measured):
+                columns.append((f'{whose}{name}_{units[name]}', recording.t, value))
+    cells: list[Sequence[str]] = [[repr(float(x)) for x in stamps]]
+    cells += [_spread(stamps, t, value) for _, t, value in columns]
     text = io.StringIO()
     writer = csv.writer(text, lineterminator='\n')
-    writer.writerow(header)
-    writer.writerows(zip(*(out[name] for name in header), strict=True))
+    writer.writerow(['t_s', *(header for header, _, _ in columns)])
+    writer.writerows(zip(*cells, strict=True))
     partial = path.with_name(path.name + '.part')
     try:
         partial.write_text(text.getvalue(), encoding='utf-8')
@@ -113,6 +119,13 @@ def write_csv(recording: Recording, path: str | Path) -> None:
     except OSError as error:
         partial.unlink(missing_ok=True)
         raise RecordingError(f'{path} cannot be written: {error.strerror}') from error
+
+
+def _by_muscle(recording: Recording, values: Array) -> list[tuple[str, Array]]:
+    """Return what stands before the name of a column, and its values (n,), muscle by muscle."""
+    if values.ndim == 1:
+        return [('', values)]
+    return [(f'{name}.', values[:, i]) for i, name in enumerate(recording.muscles)]
 
 
 def _spread(stamps: Array, t: Array, value: Array) -> list[str]:
@@ -212,7 +225,7 @@ def _decode(path: Path, data: bytes) -> str:
 def _choose(
     path: Path, header: list[str], mapping: ColumnMapping
 ) -> tuple[dict[str, tuple[int, Meaning]], list[str]]:
-    """Return quantity -> (column, meaning), and the note on columns that are not used."""
+    """Return signal -> (column, meaning), and the note on columns that are not used."""
     columns: dict[str, tuple[int, Meaning]] = {}
     unused = []
     for index, name in enumerate(header):
@@ -224,14 +237,14 @@ def _choose(
             if name not in mapping:
                 unused.append(name)
             continue
-        quantity = meaning.target.quantity
-        if quantity in columns:
-            other = header[columns[quantity][0]]
+        key = meaning.target.key
+        if key in columns:
+            other = header[columns[key][0]]
             raise RecordingError(
-                f'{path.name}: columns {other!r} and {name!r} both give the {quantity}: leave one '
+                f'{path.name}: columns {other!r} and {name!r} both give the {key}: leave one '
                 f"out with --column '{name}=ignore'"
             )
-        columns[quantity] = (index, meaning)
+        columns[key] = (index, meaning)
     notes = [f'columns not used: {", ".join(unused)}'] if unused else []
     return columns, notes
 

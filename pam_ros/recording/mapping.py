@@ -22,7 +22,7 @@ from pam_ros.recording.quantities import QUANTITIES, Target, target_of
 IGNORE = 'ignore'
 _NUMBER = r'[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?'
 _RULE = re.compile(
-    rf'(?P<target>[A-Za-z_/]+)\s*(?:\*\s*(?P<scale>{_NUMBER}))?\s*'
+    rf'(?P<target>(?:[A-Za-z]\w*\.)?[A-Za-z_/]+)\s*(?:\*\s*(?P<scale>{_NUMBER}))?\s*'
     rf'(?P<offset>[+-]\s*(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)?'
 )
 

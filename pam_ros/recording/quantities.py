@@ -3,7 +3,8 @@
 """The quantities of a recording, the units they come in, and what can be right."""
 
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from math import pi
 
 from pam_ros.errors import RecordingError
 
@@ -21,6 +22,8 @@ _LENGTH = {'m': 1.0, 'cm': 1e-2, 'mm': 1e-3, 'um': 1e-6}
 _FORCE = {'N': 1.0, 'kN': 1e3}
 _SPEED = {'m_s': 1.0, 'mm_s': 1e-3}
 _CONTRACTION = {'fraction': 1.0, 'percent': 1e-2}
+_ANGLE = {'rad': 1.0, 'deg': pi / 180.0}
+_TURN = {'rad_s': 1.0, 'deg_s': pi / 180.0}
 
 
 @dataclass(frozen=True)
@@ -46,19 +49,34 @@ QUANTITIES = {
         Quantity('contraction', _CONTRACTION, 'fraction', 1.0),
         Quantity('velocity', _SPEED, 'm/s', 100.0),
         Quantity('force', _FORCE, 'N', 1e6),
+        Quantity('angle', _ANGLE, 'rad', 2.0 * pi),
+        Quantity('angular_velocity', _TURN, 'rad/s', 1e3),
     )
 }
+# What a position and a velocity of a joint that turns are, by the units that say so.
+_TURNED = {'position': 'angle', 'velocity': 'angular_velocity'}
+OF_MUSCLE = ('pressure_command', 'pressure', 'force')  # what each muscle of a joint has
 # Spellings of the time axis without a unit; ROS and most loggers mean seconds.
 _BARE_TIME = ('t', 'time')
+_OF_ONE = re.compile(r'(?P<muscle>[A-Za-z]\w*)\.(?P<rest>.+)')
 _TIME_NAMES = ('t', 'time', 'timestamp', 'stamp', 'elapsed', 'elapsed_time')
 
 
 @dataclass(frozen=True)
 class Target:
-    """A quantity in a unit: what a column or a field of a message means."""
+    """A quantity in a unit: what a column or a field of a message means.
+
+    ``muscle`` is the name of the muscle of a joint that it belongs to, empty where there is one.
+    """
 
     quantity: str
     unit: str
+    muscle: str = ''
+
+    @property
+    def key(self) -> str:
+        """Return the name of the signal: ``pressure``, or ``agonist.pressure``."""
+        return f'{self.muscle}.{self.quantity}' if self.muscle else self.quantity
 
     @property
     def factor(self) -> float:
@@ -67,16 +85,27 @@ class Target:
 
     def __str__(self) -> str:
         """Return the column name that says the same."""
-        return f'{"t" if self.quantity == "time" else self.quantity}_{self.unit}'
+        return f'{"t" if self.quantity == "time" else self.key}_{self.unit}'
 
 
 def target_of(name: str) -> Target | None:
     """Return what a column called *name* means, or None when it is none of ours.
 
-    ``position_mm``, ``position [mm]`` and ``Position (mm)`` are the same. Raises
-    RecordingError for a quantity of ours without a unit or with one that is not known.
+    ``position_mm``, ``position [mm]`` and ``Position (mm)`` are the same; the name of a muscle may
+    stand before what each muscle has: ``agonist.pressure_kPa``. Raises RecordingError for a
+    quantity of ours without a unit or with one that is not known.
     """
-    words = re.sub(r'[\s\[\](){},/]+', '_', name.strip().replace('%', 'percent'))
+    match = _OF_ONE.fullmatch(name.strip())
+    if match:
+        target = _target(name, match['rest'])
+        is_own = target is not None and target.quantity in OF_MUSCLE
+        return replace(target, muscle=match['muscle']) if target and is_own else None
+    return _target(name, name)
+
+
+def _target(name: str, rest: str) -> Target | None:
+    """Return what *rest*, a column's *name* without that of its muscle, means."""
+    words = re.sub(r'[\s\[\](){},/]+', '_', rest.strip().replace('%', 'percent'))
     words = words.strip('_')
     if words.lower() in _BARE_TIME:
         return Target('time', 's')
@@ -86,17 +115,21 @@ def target_of(name: str) -> Target | None:
                 raise RecordingError(_unit_sentence(name, quantity, 'has no unit'))
             if not words.lower().startswith(spelling + '_'):
                 continue
-            rest = words[len(spelling) + 1 :]
-            unit = _unit(rest, QUANTITIES[quantity].units)
+            word = words[len(spelling) + 1 :]
+            unit = _unit(word, QUANTITIES[quantity].units)
             if unit is not None:
                 return Target(quantity, unit)
-            unit = _unit(rest, _LENGTH)
+            unit = _unit(word, _LENGTH)
             if quantity == 'contraction' and unit is not None:
                 return Target('position', unit)
+            turned = _TURNED.get(quantity)
+            unit = None if turned is None else _unit(word, QUANTITIES[turned].units)
+            if turned is not None and unit is not None:
+                return Target(turned, unit)
             # One more word is meant as a unit; several make another signal's name.
-            if '_' not in rest:
+            if '_' not in word:
                 raise RecordingError(
-                    _unit_sentence(name, quantity, f'has the unit {rest!r}, which is not known')
+                    _unit_sentence(name, quantity, f'has the unit {word!r}, which is not known')
                 )
     return None
 
@@ -110,7 +143,8 @@ def _unit(word: str, units: dict[str, float]) -> str | None:
 
 
 def _unit_sentence(name: str, quantity: str, what: str) -> str:
-    units = ', '.join(QUANTITIES[quantity].units)
+    turned = QUANTITIES[_TURNED[quantity]].units if quantity in _TURNED else {}
+    units = ', '.join((*QUANTITIES[quantity].units, *turned))
     example = Target(quantity, next(iter(QUANTITIES[quantity].units)))
     return (
         f'{name!r} {what}: {quantity} is given in {units}; say what it is with '

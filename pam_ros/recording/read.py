@@ -3,10 +3,11 @@
 """Read any recording: a rosbag2 directory, one of its files, or a CSV file."""
 
 import hashlib
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from pam_ros.arguments import as_path, instance, number
+from pam_ros.arguments import array, as_path, instance, number, sequence
 from pam_ros.errors import RecordingError, printable, shown
 from pam_ros.recording.assemble import assemble
 from pam_ros.recording.bag import bag_files, read_bag
@@ -24,16 +25,24 @@ def read_recording(
     mapping: ColumnMapping | None = None,
     kind: str | None = None,
     l0: float | None = None,
-    p_max: float | None = None,
+    p_max: float | Sequence[float] | None = None,
     namespace: str | None = None,
+    muscles: Sequence[str] = (),
+    unit: str | None = None,
+    reach: tuple[float, float] | None = None,
 ) -> Recording:
     """Read the recording at *path*, checked, in SI.
 
     ``mapping`` says what columns or topics with other names are, ``kind`` whether the load was
     ``free`` or the length ``held`` (found from the data where None). ``l0`` in m turns a
     contraction into a position, and a position must be a contraction of it; ``p_max`` in gauge Pa
-    is the muscle's highest pressure, against which the unit of the input is judged.
-    ``namespace`` chooses a rig in a bag of several.
+    is the muscle's highest pressure, against which the unit of the input is judged, one for each
+    muscle where there are several. ``namespace`` chooses a rig in a bag of several.
+
+    Of a joint, ``muscles`` are the names of its muscles in order (without them, the order in which
+    they appear), ``unit`` is that of its position (``m``, or ``rad`` where it turns), and
+    ``reach`` the least and the greatest position that it can have. Columns that belong to a muscle
+    have its name before a dot: ``agonist.pressure_command_kPa``.
 
     Raises RecordingError, with the sentence for the user, for what cannot be used, and
     ParameterError for arguments of another kind.
@@ -41,9 +50,11 @@ def read_recording(
     path = as_path('path', path, 'the path of a bag or a CSV file')
     mapping = ColumnMapping() if mapping is None else mapping
     instance('mapping', mapping, ColumnMapping, 'what read_mapping returns')
-    for name, value in (('l0', l0), ('p_max', p_max)):
-        if value is not None:
-            number(name, value)
+    if l0 is not None:
+        number('l0', l0)
+    muscles = sequence('muscles', muscles, str, 'the name of a muscle')
+    if p_max is not None:
+        array('p_max', p_max)
     if not path.exists():
         raise RecordingError(f'recording {path} does not exist')
     if not (path.is_dir() or path.is_file()):
@@ -55,9 +66,14 @@ def read_recording(
     else:
         files = [path]
         series, notes = read_csv(path, mapping)
-    recording = assemble(printable(path.name or str(path)), series, notes, kind, l0)
+    recording = assemble(printable(path.name or str(path)), series, notes, kind, l0, muscles)
+    if unit is not None and recording.unit != unit:
+        raise RecordingError(
+            f'{recording.name}: the position is in {recording.unit}, and the model moves in '
+            f'{unit}: is it a recording of another joint?'
+        )
     recording = with_contraction_positive(recording)
-    warnings = check(recording, l0, p_max)
+    warnings = check(recording, l0, p_max, reach)
     # The notes name columns and topics as they stand in the file.
     sentences = tuple(map(shown, (*recording.warnings, *warnings)))
     return replace(recording, warnings=sentences, digest=_digest(files))

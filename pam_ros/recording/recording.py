@@ -10,12 +10,23 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from pam_ros.arguments import along, array, instance, number, refuse, refuse_shape, stamps
+from pam_ros.arguments import (
+    along,
+    array,
+    instance,
+    number,
+    refuse,
+    refuse_shape,
+    sequence,
+    stamps,
+)
 from pam_ros.errors import ParameterError, RecordingError
 
 Array = NDArray[np.float64]
 KINDS = ('free', 'held')
+UNITS = ('m', 'rad')
 OUTPUTS = ('position', 'velocity', 'force', 'pressure')
+OF_MUSCLES = ('command', 'pressure')  # what each muscle of a joint has
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,7 +46,7 @@ class Recording:
         (m,) s on the same clock, ascending, and (m,) Pa; each holds from its stamp to the next.
         The first is at or before t[0]. None where no command was recorded.
     ``position``, ``velocity``, ``force``, ``pressure``
-        (n,) m, m/s, N and Pa measured, or None.
+        (n,) m, m/s, N and Pa measured, or None; rad and rad/s where ``unit`` says so.
     ``kind``
         ``free``: the load moves; ``held``: the length is prescribed, constant or moving.
     ``gaps``
@@ -47,6 +58,11 @@ class Recording:
     ``command_spread``
         Standard deviation in s of a constant by which the commands may have acted earlier or
         later than their stamps say; 0 where one clock stamped all.
+    ``muscles``
+        Names of the muscles of a joint that has several. ``command`` and ``pressure`` then have a
+        column for each, (m, muscles) and (n, muscles), and there is no ``force``.
+    ``unit``
+        Of the position: ``m``, or ``rad`` for a joint that turns.
     """
 
     name: str
@@ -62,6 +78,8 @@ class Recording:
     warnings: tuple[str, ...] = ()
     digest: str = ''
     command_spread: float = 0.0
+    muscles: tuple[str, ...] = ()
+    unit: str = 'm'
 
     def __post_init__(self) -> None:
         """Check that the arrays fit together, and keep them as arrays."""
@@ -74,16 +92,19 @@ class Recording:
         instance('name', self.name, str, 'a text')
         if self.kind not in KINDS:
             refuse('kind', self.kind, f'one of {", ".join(KINDS)}')
+        if self.unit not in UNITS:
+            refuse('unit', self.unit, f'one of {", ".join(UNITS)}')
+        self._check_muscles()
         t = stamps('t', self.t, strict=True)
         checked: dict[str, Any] = {'t': t}
         for name in OUTPUTS:
             value = getattr(self, name)
-            checked[name] = None if value is None else along(name, value, 't', t.size)
+            checked[name] = None if value is None else self._along(name, value, 't', t.size)
         if self.command_t is None and self.command is not None:
             refuse('command_t', None, 'the stamps of command')
         if self.command_t is not None:
             checked['command_t'] = at = stamps('command_t', self.command_t)
-            checked['command'] = along('command', self.command, 'command_t', at.size)
+            checked['command'] = self._along('command', self.command, 'command_t', at.size)
         gaps = array('gaps', self.gaps)
         if gaps.size and (gaps.ndim != 2 or gaps.shape[1] != 2):
             refuse_shape('gaps', gaps, '(k, 2), from and to of each in s')
@@ -92,6 +113,25 @@ class Recording:
             refuse('command_spread', self.command_spread, 'at least 0 s')
         for name, value in checked.items():
             object.__setattr__(self, name, value)
+
+    def _check_muscles(self) -> None:
+        muscles = sequence('muscles', self.muscles, str, 'the name of a muscle')
+        object.__setattr__(self, 'muscles', muscles)
+        if len(muscles) == 1 or len({*muscles}) < len(muscles):
+            refuse('muscles', muscles, 'no name, or those of several muscles, each once')
+        if muscles and self.kind == 'held':
+            refuse('kind', self.kind, 'free for a joint of several muscles')
+        if muscles and self.force is not None:
+            refuse('force', self.force, 'None for a joint of several muscles')
+
+    def _along(self, name: str, value: Any, clock: str, count: int) -> Array:
+        """Return *value* as (count,), or (count, muscles) where each muscle has its own."""
+        if not (self.muscles and name in OF_MUSCLES):
+            return along(name, value, clock, count)
+        found, wanted = array(name, value), (count, len(self.muscles))
+        if found.shape != wanted:
+            refuse_shape(name, found, f'{wanted}, a row for each stamp, a column for each muscle')
+        return found
 
     @property
     def period(self) -> float:
@@ -134,9 +174,10 @@ class Recording:
     def drive(self, step: float) -> tuple[Array, Array]:
         """Return (stamps in s, values in Pa) of the input, each held to the next stamp.
 
-        The command as it was recorded. Where there is none, the measured pressure, which is no
-        held signal: it is taken as linear between its samples, and each stretch of at most
-        *step* s gets its mean, so that holding it delays nothing.
+        Values are (m,) as the stamps, of several muscles (m, muscles). They are the command as it
+        was recorded. Where there is none, the measured pressure is taken as linear between its
+        samples, and each stretch of at most *step* s gets its mean, so that holding it delays
+        nothing.
 
         Raises RecordingError where neither was recorded.
         """
@@ -151,4 +192,12 @@ class Recording:
         width = np.repeat(np.diff(self.t) / count, count)
         inside = np.arange(left.size) - np.repeat(np.cumsum(count) - count, count)
         stamps = left + inside * width
-        return stamps, np.interp(stamps + 0.5 * width, self.t, self.pressure)
+        middle = stamps + 0.5 * width
+        return stamps, interpolated(middle, self.t, self.pressure)
+
+
+def interpolated(t: Array, known_t: Array, values: Array) -> Array:
+    """Return *values* (n,) or (n, muscles) at *known_t* as linear between them, at *t*."""
+    if values.ndim == 1:
+        return np.interp(t, known_t, values)
+    return np.stack([np.interp(t, known_t, column) for column in values.T], axis=1)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from pam_ros.errors import RecordingError
-from pam_ros.recording.quality import check, driving
+from pam_ros.recording.quality import check
 from pam_ros.recording.recording import Recording
 
 T = np.arange(4000) * 0.005
@@ -40,13 +40,6 @@ def held(**changes):
 def test_a_good_recording_has_no_warnings():
     assert check(recording(), l0=0.4, p_max=6e5) == ()
     assert check(held(), l0=0.4, p_max=6e5) == ()
-
-
-def test_the_input_over_the_samples_is_the_command_that_holds():
-    one = recording(command_t=np.array([0.0, 1.0025, 2.0]), command=np.array([1.0, 2.0, 3.0]))
-    name, value = driving(one)
-    assert name == 'pressure_command'
-    assert value[[0, 200, 201, 399, 400]].tolist() == [1.0, 1.0, 2.0, 2.0, 3.0]
 
 
 def test_a_muscle_that_is_held_may_be_sampled_slowly_and_the_unit_is_asked_for():

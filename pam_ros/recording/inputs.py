@@ -1,0 +1,94 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""What drives a recording and what was measured, muscle by muscle."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pam_ros.arguments import one_each
+from pam_ros.errors import RecordingError
+from pam_ros.recording.assemble import AT_REST, spread
+from pam_ros.recording.quantities import QUANTITIES, Quantity
+from pam_ros.recording.recording import OUTPUTS, Recording
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Input:
+    """An input over the samples (n,) in Pa: the command or the pressure of a muscle.
+
+    ``p_max`` is the muscle's highest pressure in Pa, None where it is not known.
+    """
+
+    name: str
+    values: Array
+    p_max: float | None
+
+    @property
+    def quantity(self) -> str:
+        """Return which quantity it is, without the name of a muscle."""
+        return self.name.rpartition('.')[2]
+
+
+def driving(recording: Recording, p_max: float | Sequence[float] | None = None) -> list[Input]:
+    """Return the inputs over the samples: of each muscle the command, or the pressure.
+
+    *p_max* in Pa is that of each muscle, or one for all. Raises RecordingError where nothing was
+    recorded that drives it.
+    """
+    if recording.command is not None and recording.command_t is not None:
+        at = np.searchsorted(recording.command_t, recording.t, side='right') - 1
+        name, values = 'pressure_command', recording.command[np.maximum(at, 0)]
+    elif recording.pressure is not None:
+        name, values = 'pressure', recording.pressure
+    else:
+        raise RecordingError(f'{recording.name}: nothing drives it')
+    names = [f'{muscle}.{name}' for muscle in recording.muscles] or [name]
+    highest: Sequence[float | None] = [None] * len(names)
+    if p_max is not None:
+        highest = one_each('p_max', p_max, len(names), 'muscle').tolist()
+    columns = values.reshape(recording.t.size, -1).T
+    return [Input(*one) for one in zip(names, columns, highest, strict=True)]
+
+
+def quantity_of(recording: Recording, name: str) -> Quantity:
+    """Return the quantity that the output *name* of *recording* is."""
+    turned = {'position': 'angle', 'velocity': 'angular_velocity'}
+    return QUANTITIES[turned.get(name, name) if recording.unit == 'rad' else name]
+
+
+def outputs(recording: Recording) -> list[tuple[str, Array, str]]:
+    """Return name, values (n,) and SI unit of each measured output, muscle by muscle."""
+    found = []
+    for name in OUTPUTS:
+        value = getattr(recording, name)
+        if value is not None:
+            names = [name] if value.ndim == 1 else [f'{m}.{name}' for m in recording.muscles]
+            si = quantity_of(recording, name).si
+            columns = value.reshape(recording.t.size, -1).T
+            found += [(one, column, si) for one, column in zip(names, columns, strict=True)]
+    return found
+
+
+def is_constant(value: Array) -> bool:
+    """Say whether a signal is one level, with or without white noise on it."""
+    low, high = np.percentile(value, (2.0, 98.0))
+    if np.ptp(value) <= 1e-9 * np.max(np.abs(value)):
+        return True
+    if high - low > 0.02 * np.max(np.abs(value)) or np.unique(value).size < 20:
+        return False
+    x = value - value.mean()
+    return bool(np.sum(x[1:] * x[:-1]) < 0.5 * np.sum(x * x))
+
+
+def is_stretched(recording: Recording) -> bool:
+    """Say whether a prescribed length moves: an input beside the pressure."""
+    return (
+        recording.kind == 'held'
+        and recording.position is not None
+        and spread(recording.position) > AT_REST
+    )
