@@ -20,7 +20,6 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import least_squares
 
 from benchmarks.tracing import blind_trial, declared_model, recording_of
-from pam_ros.effects import pressure_lag
 from pam_ros.identification.data.parts import parts_of
 from pam_ros.identification.fit.extend import with_effect
 from pam_ros.identification.fit.solve import solved
@@ -63,7 +62,7 @@ def compare() -> None:
     parts = parts_of([recording], 1.0, 1.0)
     with ThreadPoolExecutor() as pool:
         setting = Setting(model, parts, CRITERIA, BUDGET, pool)
-        problem, added = with_effect(setting.problem, model, pressure_lag.EFFECT, START)
+        problem, added = with_effect(setting.problem, model, setting.places['pressure_lag'], START)
         u = np.concatenate([np.zeros(len(problem.unknowns) - len(added)), added])
         began = time.perf_counter()
         ours = solved(problem, u, pool=pool)

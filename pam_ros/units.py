@@ -34,6 +34,24 @@ TURNED = {
     'Pa': 'Pa',
 }
 
+# The power of the arm in m by which a value in this unit changes with it; all others keep theirs.
+ARM_POWER = {
+    'm': -1,
+    'm/s': -1,
+    'm/s^2': -1,
+    'm/s^3': -1,
+    'N': 1,
+    'N/s': 1,
+    'N/m': 2,
+    'N/(m s)': 2,
+    'N s/m': 2,
+    'N/Pa': 1,
+    's/m': 1,
+    'Pa/m': 1,
+    'Pa/(m s)': 1,
+    'Pa s/m': 1,
+}
+
 
 def turned_unit(unit: str, whose: str) -> str:
     """Return what *unit* is on a joint that turns; raises ParameterError where it is not known.

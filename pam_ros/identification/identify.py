@@ -11,11 +11,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pam_ros.arguments import instance, sequence
-from pam_ros.effects.names import by_effect
 from pam_ros.errors import RecordingError
 from pam_ros.identification.data.noise import Noise, noise_of
 from pam_ros.identification.data.parts import Part, parts_of
-from pam_ros.identification.data.segment import Segment, require_one_kind, segments_of
+from pam_ros.identification.data.segment import (
+    Segment,
+    require_joint,
+    require_one_kind,
+    segments_of,
+)
 from pam_ros.identification.fit.solve import Solution
 from pam_ros.identification.result import Finding, Identification, Stage
 from pam_ros.identification.search.criteria import BUDGET, CRITERIA
@@ -23,7 +27,7 @@ from pam_ros.identification.search.final import Final, final
 from pam_ros.identification.search.levels import apart
 from pam_ros.identification.search.search import Progress, Search, alternatives, search
 from pam_ros.identification.search.setting import Setting, elsewhere
-from pam_ros.identification.search.stages import stages
+from pam_ros.identification.search.stages import at_place, stages
 from pam_ros.identification.search.table import candidates, reason_for
 from pam_ros.identification.structure import Structure, structure_of
 from pam_ros.identification.verdict import (
@@ -64,6 +68,8 @@ def identify(
         raise RecordingError('recordings is empty: give at least one Recording')
     tell: Progress = progress or (lambda share, text: None)
     require_one_kind([*recordings, *test])
+    for recording in (*recordings, *test):
+        require_joint(recording, model)
     tests = segments_of(test)
     # With test recordings none of the others has to judge.
     shares = (CRITERIA.fit / CRITERIA.choose, 1.0) if test else (CRITERIA.fit, CRITERIA.choose)
@@ -74,7 +80,7 @@ def identify(
             f'{recordings[0].duration:.3g} s; at least {CRITERIA.duration:g} s are needed'
         )
     with ThreadPoolExecutor(min(os.cpu_count() or 1, THREADS)) as pool:
-        setting = Setting(model, parts, CRITERIA, BUDGET, pool)
+        setting = Setting(model, parts, CRITERIA, BUDGET, pool, recordings[0].muscles)
         lacking = too_little([part.segment for part in parts], setting.noise, CRITERIA)
         found = search(setting, tell)
         tell(0.9, 'fitting the chosen models in full')
@@ -108,7 +114,7 @@ def _answer(found: Search, ends: Final, tests: Sequence[Segment]) -> Identificat
         verdict='',
         sentence='',
         quantity=quantity,
-        unit='m' if quantity == 'position' else 'N',
+        unit=ends.parts[0].segment.unit,
         noise=noise,
         stages=three,
         effects=_findings(found, three[2]),
@@ -143,13 +149,18 @@ def _structure(ends: Final, found: Search, floor: float) -> Structure:
     out = problem.runs(u, longest)[0]
     s = segments[longest]
     run = problem.predict(u, longest)[0]
-    inputs = (out[:, at.RUN_P], out[:, at.RUN_S], out[:, at.RUN_V])
+    inputs = (*out[:, at.RUN_P :: 2].T, out[:, at.RUN_S], out[:, at.RUN_V])
     return structure_of(s.t, s.target - run, inputs, floor)
 
 
 def _findings(found: Search, last: Stage) -> tuple[Finding, ...]:
-    values = by_effect(last.parameters)
+    places = found.setting.places
     return tuple(
-        Finding(name, values.get(name, {}), alternatives(found, name), reason_for(found, name))
+        Finding(
+            name,
+            at_place(last.parameters, places[name]),
+            alternatives(found, name),
+            reason_for(found, name),
+        )
         for name in found.best.effects
     )

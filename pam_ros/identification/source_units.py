@@ -9,15 +9,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from pam_ros.effects.names import EffectName
+from pam_ros.effects.turned import turned
 from pam_ros.errors import ParameterError
 from pam_ros.identification.data.segment import HeldSegment, Segment
-from pam_ros.identification.fit.unknowns import CONSTANTS, OfEffect, Unknown
+from pam_ros.identification.fit.places import Place, effect_of
+from pam_ros.identification.fit.unknowns import CONSTANTS, Constant, OfEffect, Unknown
 from pam_ros.identification.result import Estimate
 from pam_ros.muscle.constants import Constants, from_si
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig import layout as at
-from pam_ros.rig.joint import Joint, changed
+from pam_ros.rig import statics
+from pam_ros.rig.joint import Joint
 
 Array = NDArray[np.float64]
 
@@ -29,17 +31,15 @@ def in_source_units(
 
     *sides* are the low end of its interval, its value and the high end, in SI.
     """
-    if isinstance(unknown.of, OfEffect):
-        unit = _effect_unit(model, unknown.of.which)
-    elif unknown.name in CONSTANTS:
-        k = CONSTANTS.index(unknown.name)
-        muscle = model.muscle
+    of, unit = unknown.of, ''
+    if isinstance(of, OfEffect):
+        unit = _effect_unit(model, effect_of(of.place), of.parameter)
+    elif isinstance(of, Constant) and of.which != at.ZETA:
+        k, muscle = of.which - at.A1, model.muscles[of.muscle]
         sides = [
             from_si(_only(k, x), muscle.pressure_unit, muscle.contraction_unit)[k] for x in sides
         ]
-        unit = _constant_unit(model, unknown.name)
-    else:
-        unit = ''  # zeta
+        unit = _constant_unit(muscle, CONSTANTS[k])
     return Estimate(sides[1], min(sides), max(sides), unit, at_bound)
 
 
@@ -50,8 +50,8 @@ def _only(k: int, value: float) -> Constants:
     return a1, a2, a3, a4, a5, a6
 
 
-def _constant_unit(model: Joint, name: str) -> str:
-    p, kappa = model.muscle.pressure_unit, model.muscle.contraction_unit
+def _constant_unit(muscle: Muscle, name: str) -> str:
+    p, kappa = muscle.pressure_unit, muscle.contraction_unit
     return {
         'a1': f'N/{p}',
         'a2': 'N',
@@ -62,49 +62,69 @@ def _constant_unit(model: Joint, name: str) -> str:
     }[name]
 
 
-def _effect_unit(model: Joint, name: EffectName) -> str:
-    effect = next(e for e in model.library if e.name == name.effect)
-    return next(p.unit for p in effect.parameters if p.name == name.parameter)
+def _effect_unit(model: Joint, effect: str, parameter: str) -> str:
+    found = next(e for e in model.library if e.name == effect)
+    if found.acts_on_joint and model.is_revolute:
+        found = turned(found)
+    return next(p.unit for p in found.parameters if p.name == parameter)
 
 
-def with_row(model: Joint, q: Array, segments: Sequence[Segment], effects: Sequence[str]) -> Joint:
+def with_row(model: Joint, q: Array, segments: Sequence[Segment], added: Sequence[Place]) -> Joint:
     """Return *model* with the parameter row q: constants in the units in which it gives them.
 
-    *effects* are the names of those that a fit to *segments* added to the declared ones. Constants
-    that were fitted where the rig went may make no muscle beyond: then the model's contraction is
-    limited to where it went, and in the last resort its constants are taken back towards those
-    declared until they make a muscle.
+    *added* are the places of the effects that a fit to *segments* added to the declared ones.
+    Constants that were fitted where the rig went may make no muscle beyond: then the contractions
+    of the model are limited to where it went, and in the last resort its constants are taken back
+    towards those declared until they make muscles.
     """
-    values = {name: dict(given) for name, given in model.all_effects.items()}
-    for effect in model.library:
-        if effect.name in effects:
-            values[effect.name] = {
-                p.name: float(q[model.layout.index(effect, k)])
-                for k, p in enumerate(effect.parameters)
-            }
+    in_muscles = [dict(actuator.effects) for actuator in model.actuators]
+    on_joint = dict(model.effects)
+    for place in added:
+        values = {
+            p.name: float(q[place.indices(model.layout, k)[0]])
+            for k, p in enumerate(place.effect.parameters)
+        }
+        for target in [in_muscles[i] for i in place.muscles] or [on_joint]:
+            target[place.effect.name] = values
     went = np.concatenate(
         [s.position if isinstance(s, HeldSegment) else s.target for s in segments]
     )
-    limits = {
-        'kappa_min': min(0.0, float(went.min()) / model.muscle.l0),
-        'kappa_max': max(0.01, float(went.max()) / model.muscle.l0),
-    }
     declared = model.parameters().ravel()
-    for back, changes in ((0.0, {}), *((a, limits) for a in np.linspace(0.0, 1.0, 11))):
+    for back, is_limited in ((0.0, False), *((a, True) for a in np.linspace(0.0, 1.0, 11))):
         row = q + back * (declared - q)
         try:
-            return changed(model, _muscle(model, row, changes), values)
+            actuators = tuple(
+                replace(
+                    actuator,
+                    muscle=_muscle(model, row, i, _limits(model, i, went) if is_limited else {}),
+                    effects=in_muscles[i],
+                )
+                for i, actuator in enumerate(model.actuators)
+            )
+            return replace(model, actuators=actuators, effects=on_joint)
         except ParameterError:
             continue
-    return changed(model, model.muscle, values)
-
-
-def _muscle(model: Joint, q: Array, changes: dict[str, float]) -> Muscle:
-    si = tuple(float(q[model.layout.constant(a)]) for a in range(at.A1, at.A6 + 1))
-    source = from_si(
-        (si[0], si[1], si[2], si[3], si[4], si[5]),
-        model.muscle.pressure_unit,
-        model.muscle.contraction_unit,
+    plain = zip(model.actuators, in_muscles, strict=True)
+    return replace(
+        model,
+        actuators=tuple(replace(actuator, effects=own) for actuator, own in plain),
+        effects=on_joint,
     )
+
+
+def _limits(model: Joint, i: int, went: Array) -> dict[str, float]:
+    """Return the limits of contraction that muscle i reaches at the positions *went* to."""
+    contraction = statics.contraction(model, i, went)
+    return {
+        'kappa_min': min(0.0, float(contraction.min())),
+        'kappa_max': max(0.01, float(contraction.max())),
+    }
+
+
+def _muscle(model: Joint, q: Array, i: int, changes: dict[str, float]) -> Muscle:
+    """Return muscle number i with its constants of the row q."""
+    muscle, constant = model.muscles[i], model.layout.constant
+    a1, a2, a3, a4, a5, a6 = (float(q[constant(a, i)]) for a in range(at.A1, at.A6 + 1))
+    source = from_si((a1, a2, a3, a4, a5, a6), muscle.pressure_unit, muscle.contraction_unit)
     values: dict[str, Any] = {**dict(zip(CONSTANTS, source, strict=True)), **changes}
-    return replace(model.muscle, **values, zeta=float(q[model.layout.constant(at.ZETA)]))
+    return replace(muscle, **values, zeta=float(q[constant(at.ZETA, i)]))

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Is a residual structured? What a generic regressor can predict of it, and where it sits."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -30,14 +31,12 @@ class Structure:
     share: float
 
 
-def structure_of(
-    t: Array, residual: Array, inputs: tuple[Array, Array, Array], floor: float
-) -> Structure:
+def structure_of(t: Array, residual: Array, inputs: Sequence[Array], floor: float) -> Structure:
     """Return the structure of *residual* (n,) at stamps t (n,), gapless.
 
-    *inputs* are pressure, position and velocity (n,) of the model, without the noise of the
-    measurement: a regressor on measured signals would predict their noise by itself. *floor* is
-    the standard deviation of the noise.
+    *inputs* are the pressure of each muscle, then position and velocity (n,) of the model, without
+    the noise of the measurement: a regressor on measured signals would predict their noise by
+    itself. *floor* is the standard deviation of the noise.
     """
     period = float(np.median(np.diff(t)))
     stride = max(1, round(1.0 / (RATE * period)))
@@ -58,11 +57,13 @@ def _thin(values: Array, stride: int) -> Array:
 
 
 def _features(t: Array, signals: list[Array], period: float) -> Array:
-    scaled = [(s - s.mean()) / (s.std() + 1e-12) for s in signals]
-    p, y, v = scaled
+    p, *others, y, v = [(s - s.mean()) / (s.std() + 1e-12) for s in signals]
     sign = np.tanh(v / 0.05)
     base = [p, y, v, sign, p * p, y * y, p * y, p * v, y * v, v * np.abs(v), p * sign, y * sign]
     cubic = [y**3, p**3, y * y * p, np.sin(3.0 * y), np.cos(3.0 * y), np.sin(6.0 * y)]
+    for other in others:
+        base += [other, other * other, other * y, other * v, other * sign, other * p]
+        cubic += [other**3, y * y * other]
     columns = []
     for lag in LAGS:
         k = round(lag / period)

@@ -9,6 +9,7 @@ import pytest
 
 from pam_ros.identification.data.segment import segments_of
 from pam_ros.identification.fit.extend import with_effect
+from pam_ros.identification.fit.places import places_of
 from pam_ros.identification.fit.problem import Problem
 from pam_ros.identification.fit.unknowns import SPECIMEN, declared_unknowns, proper
 from pam_ros.identification.source_units import in_source_units, with_row
@@ -49,7 +50,8 @@ def problem_of(model):
 
 
 def model_at(model, problem, u, effects=()):
-    return with_row(model, problem.row_at(u), problem.segments, effects)
+    places = [places_of(model)[name] for name in effects]
+    return with_row(model, problem.row_at(u), problem.segments, places)
 
 
 def test_the_declared_model_comes_back():
@@ -74,7 +76,9 @@ def test_a_fitted_model_is_the_row_that_was_fitted(model):
 def test_effects_of_the_model_hold_what_was_fitted():
     problem = problem_of(BAR)
     friction = next(e for e in BAR.library if e.name == 'coulomb_friction')
-    wider, added = with_effect(problem, BAR, friction, {'level': 7.0, 'asymmetry': 0.1})
+    wider, added = with_effect(
+        problem, BAR, places_of(BAR)['coulomb_friction'], {'level': 7.0, 'asymmetry': 0.1}
+    )
     back = model_at(BAR, wider, np.append(np.zeros(7), added), ['coulomb_friction'])
     values = back.all_effects['coulomb_friction']
     assert (values['level'], values['asymmetry']) == pytest.approx((7.0, 0.1))
@@ -118,7 +122,7 @@ def test_constants_are_told_in_the_units_of_their_source():
 
 
 def test_a_parameter_of_an_effect_has_the_unit_that_the_effect_declares():
-    viscous = next(e for e in BAR.library if e.name == 'viscous_friction')
+    viscous = places_of(BAR)['viscous_friction']
     problem, _ = with_effect(problem_of(BAR), BAR, viscous, {'coefficient': 30.0})
     found = in_source_units(problem.unknowns[-1], [0.0, 0.0, 3.0], BAR, True)
     assert (found.value, found.low, found.high, found.unit) == (0.0, 0.0, 3.0, 'N s/m')

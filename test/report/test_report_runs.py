@@ -51,7 +51,7 @@ def test_inputs_of_a_free_load(friction):
     assert way == pytest.approx(last[-1] - last[0], abs=1e-4)
     for k in (0, 777, run.t.size - 1):
         holding = segment.drive[segment.drive_t <= run.t[k]][-1]
-        assert run.pressure[k] == holding
+        assert run.pressures[k] == holding
 
 
 def test_inputs_of_a_held_length_are_measured(held):

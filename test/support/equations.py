@@ -7,6 +7,7 @@ from scipy.signal import lfilter
 
 from pam_ros.effects.names import parsed
 from pam_ros.identification.fit.unknowns import Constant, OfEffect, RunStart, Unknown
+from pam_ros.rig import layout as at
 from pam_ros.rig.standard_joints import single_muscle_joint
 
 LAYOUT = single_muscle_joint().layout
@@ -17,9 +18,9 @@ def unknown(name, base=0.0, scale=1.0, *numbers, index=0, run=None, **more):
     if run is not None:
         of = RunStart(run, name.startswith('v'))
     elif parsed(name):
-        of = OfEffect(parsed(name), index)
+        of = OfEffect(*parsed(name), name, (index,))
     else:
-        of = Constant(name, index)
+        of = Constant(name, (index,), at.A1)
     return Unknown(of, base, scale, *numbers, **more)
 
 

@@ -15,6 +15,7 @@ from scipy.signal import savgol_filter
 from pam_ros.errors import RecordingError
 from pam_ros.identification.data.noise import noise_of
 from pam_ros.recording.recording import Recording
+from pam_ros.rig.joint import Joint
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -27,14 +28,16 @@ NOISES, CONSTANT = 2.0, 1.1
 class Segment(ABC):
     """A run of the simulator, compared with what was measured.
 
-    t (n,) s; target (n,) what the simulation must give; fit (n,) marks the samples that may be
-    used for fitting, the others are held out. y0, v0: first guess of the state at t[0].
+    t (n,) s; target (n,) what the simulation must give, in ``unit``; fit (n,) marks the samples
+    that may be used for fitting, the others are held out. y0, v0: first guess of the state at
+    t[0].
     """
 
     kind: ClassVar[str]  # as a recording has it
     quantity: ClassVar[str]  # name of the target
 
     name: str
+    unit: str
     t: Array
     target: Array
     fit: Mask
@@ -43,16 +46,16 @@ class Segment(ABC):
 
     @property
     @abstractmethod
-    def first_pressure(self) -> float:
-        """Pressure in Pa, commanded or measured, under which the run begins."""
+    def first_pressures(self) -> Array:
+        """Pressure in Pa of each muscle, commanded or measured, under which the run begins."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class FreeSegment(Segment):
-    """A run of a rig whose load moves: commands in, position in m out.
+    """A run of a rig whose load moves: commands in, position in m or rad out.
 
-    drive_t, drive (m,): stamps in s and values in Pa of the commands, which may have acted earlier
-    or later by a constant of the standard deviation drive_spread in s.
+    drive_t (m,), drive (m, muscles): stamps in s and values in Pa of the commands, which may have
+    acted earlier or later by a constant of the standard deviation drive_spread in s.
     """
 
     kind: ClassVar[str] = 'free'
@@ -63,10 +66,10 @@ class FreeSegment(Segment):
     drive_spread: float = 0.0
 
     @property
-    def first_pressure(self) -> float:
-        """Commanded pressure in Pa under which the run begins."""
+    def first_pressures(self) -> Array:
+        """Commanded pressure in Pa of each muscle under which the run begins."""
         before = int(np.searchsorted(self.drive_t, self.t[0], side='right')) - 1
-        return float(self.drive[max(before, 0)])
+        return np.asarray(self.drive[max(before, 0)])
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -81,9 +84,9 @@ class HeldSegment(Segment):
     velocity: Array
 
     @property
-    def first_pressure(self) -> float:
+    def first_pressures(self) -> Array:
         """Measured pressure in Pa under which the run begins."""
-        return float(self.pressure[0])
+        return self.pressure[:1]
 
 
 def require_one_kind(recordings: Sequence[Recording]) -> None:
@@ -92,6 +95,25 @@ def require_one_kind(recordings: Sequence[Recording]) -> None:
     if len(kinds) > 1:
         names = ', '.join(f'{r.name} is {r.kind}' for r in recordings)
         raise RecordingError(f'recordings of one kind are needed: {names}')
+
+
+def require_joint(recording: Recording, joint: Joint) -> None:
+    """Raise RecordingError where *recording* cannot be one of *joint*."""
+    count, named = len(joint.muscles), len(recording.muscles) or 1
+    if named != count:
+        raise RecordingError(
+            f'{recording.name} is a recording of {named} muscle(s), and the joint has {count}'
+        )
+    unit = joint.transmission.equations.unit
+    if recording.unit != unit:
+        raise RecordingError(
+            f'{recording.name}: the position is in {recording.unit}, and the joint moves in {unit}'
+        )
+    if recording.kind == 'held' and (count > 1 or joint.is_revolute):
+        raise RecordingError(
+            f'{recording.name} is held at a prescribed position, which is for one muscle in line '
+            'with its load: record the joint while it moves freely'
+        )
 
 
 def segments_of(recordings: Sequence[Recording]) -> list[Segment]:
@@ -117,13 +139,14 @@ def _segment(part: Recording) -> Segment:
         y0, v0 = start_of(part.t, part.position)
         return FreeSegment(
             name=part.name,
+            unit=part.unit,
             t=part.t,
             target=part.position,
             fit=fit,
             y0=y0,
             v0=v0,
             drive_t=drive_t,
-            drive=drive,
+            drive=drive.reshape(drive_t.size, -1),
             drive_spread=part.command_spread,
         )
     if part.pressure is not None:
@@ -139,6 +162,7 @@ def _segment(part: Recording) -> Segment:
     position, velocity = _motion(part.t, part.position)
     return HeldSegment(
         name=part.name,
+        unit='N',
         t=part.t,
         target=part.force,
         fit=fit,

@@ -8,11 +8,13 @@ keeps its stamp, because half a stride of delay would show above the noise.
 """
 
 from dataclasses import replace
+from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pam_ros.identification.data.segment import FreeSegment, HeldSegment, Segment
+from pam_ros.rig import statics
 from pam_ros.rig.equilibrium import equilibrium
 from pam_ros.rig.joint import Joint
 
@@ -29,10 +31,21 @@ def coarse_step(model: Joint) -> float:
     """Return a step in s that resolves the oscillation of the rig at rest, stiffest 20-fold."""
     if model.is_driven:
         return STEPS[1]
+    if len(model.muscles) > 1 or model.is_revolute:
+        return float(np.clip(PHASE / np.sqrt(_stiffest(model) / model.inertia), *STEPS))
     muscle = model.muscle
     ends = (0.0, muscle.p_max)
     k = max(float(muscle.stiffness(p, equilibrium(model, p) / muscle.l0)) for p in ends)
     return float(np.clip(PHASE / np.sqrt(k / model.load.mass), *STEPS))
+
+
+def _stiffest(joint: Joint) -> float:
+    """Return the largest stiffness in N/m or N m/rad where the joint rests with full pressures."""
+    found = []
+    for p in product(*((0.0, muscle.p_max) for muscle in joint.muscles)):
+        s = statics.equilibrium(joint, p)
+        found.append(statics.stiffness(joint, p, s) + statics.weight_stiffness(joint, s))
+    return float(max(found))
 
 
 def thinned(segment: Segment, step: float) -> Segment:
@@ -63,30 +76,33 @@ def thinned(segment: Segment, step: float) -> Segment:
 
 
 def _merged(at: Array, u: Array, t: Array) -> tuple[Array, Array]:
-    """Return commands with one mean a sample interval where they vary little within it."""
+    """Return commands with one mean a sample interval where they vary little within it.
+
+    at (m,), u (m, muscles), t (n,) are the stamps and values of commands, and the samples' stamps.
+    """
     if at.size < 2 or at.size <= t.size:
         return at, u
     # Time-weighted mean of the held command over each interval, by its integral, and its moment
     # about the interval's middle.
     i = np.clip(np.searchsorted(at, t, side='right') - 1, 0, at.size - 1)
-    integral = np.concatenate([[0.0], np.cumsum(u[:-1] * np.diff(at))])
-    first = np.concatenate([[0.0], np.cumsum(u[:-1] * np.diff(0.5 * (at - t[0]) ** 2))])
-    impulse = np.diff(integral[i] + u[i] * (t - at[i]))
-    middle = 0.5 * (t[1:] + t[:-1]) - t[0]
-    arms = np.diff(first[i] + 0.5 * u[i] * ((t - t[0]) ** 2 - (at[i] - t[0]) ** 2))
-    span = np.diff(t)
-    mean, moment = impulse / span, arms - middle * impulse
+    integral, first = _sums(u, np.diff(at)), _sums(u, np.diff(0.5 * (at - t[0]) ** 2))
+    impulse = np.diff(integral[i] + u[i] * _column(t - at[i]), axis=0)
+    middle = _column(0.5 * (t[1:] + t[:-1]) - t[0])
+    arms = first[i] + 0.5 * u[i] * _column((t - t[0]) ** 2 - (at[i] - t[0]) ** 2)
+    span = _column(np.diff(t))
+    mean, moment = impulse / span, np.diff(arms, axis=0) - middle * impulse
     cell = np.searchsorted(t, at, side='right') - 1
-    inside = (cell >= 0) & (cell < mean.size)
-    jump = np.zeros(mean.size, dtype=bool)
-    large = np.flatnonzero(np.abs(np.diff(u)) > JUMP * np.ptp(u)) + 1
+    inside = (cell >= 0) & (cell < len(mean))
+    jump = np.zeros(len(mean), dtype=bool)
+    leaps = (np.abs(np.diff(u, axis=0)) > JUMP * np.ptp(u, axis=0)).any(axis=1)
+    large = np.flatnonzero(leaps) + 1
     jump[cell[large][inside[large]]] = True
     # A mean that is held has no moment: its neighbours are given it, as a pair that pushes and
     # pulls, or quick waves would come out too small.
     moment[jump] = 0.0
     mean[1:] += 0.5 * moment[:-1] / span[1:] ** 2
     mean[:-1] -= 0.5 * moment[1:] / span[:-1] ** 2
-    keep = ~inside | jump[np.clip(cell, 0, mean.size - 1)]
+    keep = ~inside | jump[np.clip(cell, 0, len(mean) - 1)]
     # A cell that keeps its own commands starts with the one that holds at its first stamp.
     cells = np.flatnonzero(~jump)
     firsts = t[:-1][jump]
@@ -97,3 +113,14 @@ def _merged(at: Array, u: Array, t: Array) -> tuple[Array, Array]:
     stamps, values = stamps[order], values[order]
     once = np.concatenate([stamps[1:] > stamps[:-1], [True]])
     return stamps[once], values[once]
+
+
+def _sums(u: Array, widths: Array) -> Array:
+    """Return the sums of held commands u (m, muscles) over these widths (m - 1,), from 0 on."""
+    steps = np.cumsum(u[:-1] * _column(widths), axis=0)
+    return np.concatenate([np.zeros((1, u.shape[1])), steps])
+
+
+def _column(values: Array) -> Array:
+    """Return *values* (n,) as a column (n, 1), to be multiplied with those of each muscle."""
+    return values[:, None]

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from pam_ros.effects.base import Effect
+from pam_ros.identification.fit.places import Place
 from pam_ros.identification.fit.problem import Problem
 from pam_ros.identification.fit.unknowns import (
     MemoryStart,
@@ -25,21 +25,22 @@ Array = NDArray[np.float64]
 
 
 def with_effect(
-    problem: Problem, joint: Joint, effect: Effect, start: Mapping[str, float]
+    problem: Problem, joint: Joint, place: Place, start: Mapping[str, float]
 ) -> tuple[Problem, Array]:
-    """Return the problem with the parameters of *effect* that *start* names, and their u there.
+    """Return the problem with those parameters of an effect that *start* names, and their u there.
 
-    Of an effect that the problem lacks the others keep their defaults, and where its memory stands
-    at the start of each run becomes unknown, too; of one that it has they stay as they are.
+    Of an effect that the problem lacks at *place* the others keep their defaults, and where its
+    memory stands at the start of each run becomes unknown, too; of one that it has they stay as
+    they are.
     """
-    added = [proper(one) for one in effect_unknowns(joint, effect, dict(start))]
-    is_new = not parameters_of(problem.unknowns, effect.name)
+    added = [proper(one) for one in effect_unknowns(joint, place, start)]
+    is_new = not parameters_of(problem.unknowns, place.name)
     row = problem.row.copy()
-    for k, p in enumerate(effect.parameters):
-        index = joint.layout.index(effect, k)
-        row[index] = start.get(p.name, p.default if is_new else row[index])
-    memory = memory_unknowns(joint.layout, effect, len(problem.segments)) if is_new else []
-    u = [k.coordinate(start[k.of.which.parameter]) for k in added if isinstance(k.of, OfEffect)]
+    for k, p in enumerate(place.effect.parameters):
+        indices = place.indices(joint.layout, k)
+        row[indices] = start.get(p.name, p.default if is_new else row[indices[0]])
+    memory = memory_unknowns(joint.layout, place, len(problem.segments)) if is_new else []
+    u = [k.coordinate(start[k.of.parameter]) for k in added if isinstance(k.of, OfEffect)]
     new = replace(
         problem,
         row=row,
@@ -50,16 +51,18 @@ def with_effect(
 
 
 def finer_starts(
-    unknowns: Sequence[Unknown], row: Array, joint: Joint, effect: Effect
+    unknowns: Sequence[Unknown], row: Array, joint: Joint, place: Place
 ) -> list[dict[str, float]]:
-    """Return values from which to free the parameters of *effect* that are not among *unknowns*.
+    """Return values from which to free the parameters at *place* that are not among *unknowns*.
 
     All of them from where they are in the parameter *row*, or some from where a start has them;
     strengths in the proportion to one that is fitted already in which that start has both.
     """
-    there = parameters_of(unknowns, effect.name)
+    effect = place.effect
+    there = parameters_of(unknowns, place.name)
     values = {
-        p.name: float(row[joint.layout.index(effect, k)]) for k, p in enumerate(effect.parameters)
+        p.name: float(row[place.indices(joint.layout, k)[0]])
+        for k, p in enumerate(effect.parameters)
     }
     rest = {name: value for name, value in values.items() if name not in there}
     units = {p.name: p.unit for p in effect.parameters if p.strength}
@@ -75,51 +78,48 @@ def finer_starts(
     return options
 
 
-def without_effect(problem: Problem, joint: Joint, effect: Effect) -> tuple[Problem, list[int]]:
-    """Return the problem without *effect*, and which of the unknowns are left."""
+def without_effect(problem: Problem, joint: Joint, place: Place) -> tuple[Problem, list[int]]:
+    """Return the problem without the effect at *place*, and which of the unknowns are left."""
     row = problem.row.copy()
-    for k, p in enumerate(effect.parameters):
-        row[joint.layout.index(effect, k)] = p.default
-    keep = [k for k, unknown in enumerate(problem.unknowns) if not belongs(unknown, effect.name)]
+    for k, p in enumerate(place.effect.parameters):
+        row[place.indices(joint.layout, k)] = p.default
+    keep = [k for k, unknown in enumerate(problem.unknowns) if not belongs(unknown, place.name)]
     unknowns = tuple(problem.unknowns[k] for k in keep)
     return replace(problem, row=row, unknowns=unknowns), keep
 
 
-def plainer_sets(unknowns: Sequence[Unknown], effect: Effect) -> list[set[str]]:
-    """Return the smaller sets of parameters of *effect* with which a fit may begin as well."""
-    there = parameters_of(unknowns, effect.name)
+def plainer_sets(unknowns: Sequence[Unknown], place: Place) -> list[set[str]]:
+    """Return the smaller sets of parameters at *place* with which a fit may begin as well."""
+    there = parameters_of(unknowns, place.name)
     found: list[set[str]] = []
-    for start in effect.fit_starts:
+    for start in place.effect.fit_starts:
         if {*start} < there and {*start} not in found:
             found.append({*start})
     return found
 
 
 def with_parameters(
-    problem: Problem, joint: Joint, effect: Effect, names: set[str]
+    problem: Problem, joint: Joint, place: Place, names: set[str]
 ) -> tuple[Problem, list[int]]:
-    """Return the problem with *names* alone of the parameters of *effect* unknown.
+    """Return the problem with *names* alone of the parameters at *place* unknown.
 
     The others are at their defaults. Also returns which of the unknowns are left.
     """
     row = problem.row.copy()
-    for k, p in enumerate(effect.parameters):
+    for k, p in enumerate(place.effect.parameters):
         if p.name not in names:
-            row[joint.layout.index(effect, k)] = p.default
+            row[place.indices(joint.layout, k)] = p.default
     keep = [
         k
         for k, unknown in enumerate(problem.unknowns)
         if not isinstance(unknown.of, OfEffect)
-        or unknown.of.which.effect != effect.name
-        or unknown.of.which.parameter in names
+        or unknown.of.place != place.name
+        or unknown.of.parameter in names
     ]
     unknowns = tuple(problem.unknowns[k] for k in keep)
     return replace(problem, row=row, unknowns=unknowns), keep
 
 
-def belongs(unknown: Unknown, effect: str) -> bool:
-    """Say whether an unknown is a parameter or a memory of the effect of this name."""
-    of = unknown.of
-    if isinstance(of, OfEffect):
-        return of.which.effect == effect
-    return isinstance(of, MemoryStart) and of.effect == effect
+def belongs(unknown: Unknown, place: str) -> bool:
+    """Say whether an unknown is a parameter or a memory of the effect at the *place* so called."""
+    return isinstance(unknown.of, OfEffect | MemoryStart) and unknown.of.place == place

@@ -19,6 +19,7 @@ from pam_ros.effects.base import Effect
 from pam_ros.identification.data.segment import FreeSegment, HeldSegment, Segment
 from pam_ros.identification.data.thinning import HELD_STEP
 from pam_ros.identification.fit.discrepancy import Discrepancy, Whitening
+from pam_ros.identification.fit.places import effect_of
 from pam_ros.identification.fit.unknowns import (
     CommandTime,
     Constant,
@@ -72,14 +73,14 @@ class Problem:
         q: Array = self.row.copy()
         for unknown, value in zip(self.unknowns, u, strict=True):
             if isinstance(unknown.of, Constant | OfEffect):
-                q[unknown.of.index] = unknown.value(value)
+                q[list(unknown.of.indices)] = unknown.value(value)
         return q
 
     def runs(self, u: Array, only: int | None = None) -> list[Array]:
         """Return the free run of every segment, or of segment *only*, at u.
 
-        Each is (n, 4): position m, velocity m/s, chamber pressure Pa, and for held segments
-        the force N.
+        Each is (n, 2 + 2 muscles): position and velocity (m or rad), then of each muscle the
+        chamber pressure Pa, and for held segments the force N.
         """
         q = self.row_at(u).reshape(self.layout.rows, self.layout.parameters)
         kernel, scratch = bind(self.layout, self.active), self.layout.scratch()
@@ -90,7 +91,7 @@ class Problem:
             x = self._start(k, q, u)
             out = np.empty((s.t.size, self.layout.run_columns))
             if isinstance(s, FreeSegment):
-                act_t, acting = acting_commands(s.drive_t, s.drive[:, None], delays)
+                act_t, acting = acting_commands(s.drive_t, s.drive, delays)
                 kernel.simulate(x, scratch, q, s.t, act_t, acting, self.step, out, False)
             elif isinstance(s, HeldSegment):
                 pressure = s.pressure[:, None]
@@ -114,11 +115,11 @@ class Problem:
                     y0 = unknown.value(value)
             elif isinstance(of, MemoryStart) and of.run == run:
                 memories.append((of, unknown.value(value)))
-        x = start_state(self.layout, q, (s.first_pressure,), y0, v0, self._present)
+        x = start_state(self.layout, q, s.first_pressures, y0, v0, self._present)
         if memories:
             for of, away in memories:
                 x[of.row, of.column] += away
-            fill_chambers(self.layout, q, x, (s.first_pressure,))
+            fill_chambers(self.layout, q, x, s.first_pressures)
         return x
 
     def predict(self, u: Array, only: int | None = None) -> list[Array]:
@@ -191,12 +192,12 @@ class Problem:
     @cached_property
     def _present(self) -> tuple[Effect, ...]:
         """The effects that may be there, in the order of the library."""
-        free = {k.of.which.effect for k in self.unknowns if isinstance(k.of, OfEffect)}
-        index = self.layout.index
+        free = {effect_of(k.of.place) for k in self.unknowns if isinstance(k.of, OfEffect)}
+        index, muscles = self.layout.index, range(self.layout.muscles)
 
         def has_strength(effect: Effect) -> bool:
-            pairs = enumerate(effect.parameters)
-            return any(p.strength and self.row[index(effect, k)] != 0.0 for k, p in pairs)
+            strengths = [k for k, p in enumerate(effect.parameters) if p.strength]
+            return any(self.row[index(effect, k, i)] != 0.0 for k in strengths for i in muscles)
 
         return tuple(e for e in self.layout.library if e.name in free or has_strength(e))
 

@@ -6,16 +6,15 @@ Every unknown has a prior, a normal distribution of its coordinate u around 0. T
 and of starts say what is known; those of an effect's parameters are wide, see :func:`proper`.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import exp, log
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pam_ros.effects.base import Effect
-from pam_ros.effects.names import EffectName
 from pam_ros.identification.data.segment import FreeSegment, HeldSegment, Segment, start_of
+from pam_ros.identification.fit.places import Place, names_of_muscles
 from pam_ros.rig import layout as at
 from pam_ros.rig.joint import Joint
 from pam_ros.rig.layout import Layout
@@ -44,23 +43,29 @@ SAME = 1e-3  # share of the muscle's length by which recordings of one length ma
 
 @dataclass(frozen=True)
 class Constant:
-    """A constant of the muscle, a1 to a6 or zeta; *index* is its place among the parameters."""
+    """A constant of a muscle; *indices* are its places among the parameters.
+
+    *which* is that of the kernel's row: A1 to A6, or ZETA. *muscle* is the muscle's number.
+    """
 
     name: str
-    index: int
+    indices: tuple[int, ...]
+    which: int
+    muscle: int = 0
 
 
 @dataclass(frozen=True)
 class OfEffect:
-    """A parameter of an effect; *index* is its place among the parameters."""
+    """A parameter of an effect; *indices* are its places among the parameters.
 
-    which: EffectName
-    index: int
+    *place* is the name of the effect's place, *parameter* that of its parameter, and *name* that
+    which it has in a file of parameters.
+    """
 
-    @property
-    def name(self) -> str:
-        """Its flat name."""
-        return self.which.flat
+    place: str
+    parameter: str
+    name: str
+    indices: tuple[int, ...]
 
 
 @dataclass(frozen=True)
@@ -80,20 +85,21 @@ class RunStart:
 class MemoryStart:
     """A hidden state of an effect at the start of a run, as its distance from a long rest.
 
-    ``row`` and ``column`` are its place in the state x. Rigs that are already moving, or have
-    moved a minute ago, begin away from rest.
+    ``row`` and ``column`` are its place in the state x, and ``place`` is the name of the effect's
+    place. Rigs that are already moving, or have moved a minute ago, begin away from rest.
     """
 
     run: int
     row: int
     column: int
-    effect: str
+    place: str
     state: str
 
     @property
     def name(self) -> str:
         """Its name in tables."""
-        return f'{self.effect}: {self.state}[{self.run}]'
+        of = '' if self.row <= at.MUSCLE else f' {self.row - at.MUSCLE + 1}'
+        return f'{self.place}{of}: {self.state}[{self.run}]'
 
 
 @dataclass(frozen=True)
@@ -173,24 +179,37 @@ class Unknown:
         return self.coordinate(self.low), self.coordinate(self.high)
 
 
-def declared_unknowns(model: Joint) -> list[Unknown]:
+def declared_unknowns(model: Joint, muscles: Sequence[str] = ()) -> list[Unknown]:
     """Return the declared parameters that re-tuning may change: a1..a6 and zeta where not 0.
 
-    The mass, the length and the limits are measured with a scale and a rule: a residual that
-    they explain is an effect (payload, length offset).
+    Each muscle has its own, for they are specimens; *muscles* are the names of several. The mass,
+    the length and the limits are measured with a scale and a rule: a residual that they explain
+    is an effect (payload, length offset).
     """
-    q = model.parameters().ravel()
+    names = names_of_muscles(model, muscles)
+    several = len(names) > 1
+    return [
+        unknown
+        for i, name in enumerate(names)
+        for unknown in _constants(model, i, f'{name}.' if several else '')
+    ]
+
+
+def _constants(model: Joint, i: int, whose: str) -> list[Unknown]:
+    """Return the constants of muscle number i, whose names begin with *whose*."""
+    q, layout = model.parameters().ravel(), model.layout
     found = []
     for name, which in zip(CONSTANTS, range(at.A1, at.A6 + 1), strict=True):
-        index = model.layout.constant(which)
+        index = layout.constant(which, i)
         if q[index] != 0.0:
             scale = SPECIMEN * abs(q[index])
             if which == at.A1:
-                scale += A1_OF_A5 * abs(q[model.layout.constant(at.A5)])
-            found.append(Unknown(Constant(name, index), q[index], scale, prior=1.0))
-    index = model.layout.constant(at.ZETA)
+                scale += A1_OF_A5 * abs(q[layout.constant(at.A5, i)])
+            of = Constant(f'{whose}{name}', (index,), which, i)
+            found.append(Unknown(of, q[index], scale, prior=1.0))
+    index = layout.constant(at.ZETA, i)
     if q[index] != 0.0:
-        zeta = Constant('zeta', index)
+        zeta = Constant(f'{whose}zeta', (index,), at.ZETA, i)
         found.append(Unknown(zeta, q[index], DAMPING, 0.0, 5.0, 1.0, logarithmic=True))
     return found
 
@@ -237,13 +256,15 @@ def repeats(segments: Sequence[Segment], l0: float) -> list[list[int]]:
     return list(groups.values())
 
 
-def level_unknowns(segments: Sequence[Segment], l0: float) -> list[Unknown]:
+def level_unknowns(segments: Sequence[Segment], joint: Joint) -> list[Unknown]:
     """Return the levels of all runs at a prescribed length but the last at each.
 
-    Runs are in the order in which they were recorded; *l0* is the muscle's length in m. A run
-    whose length changes has none.
+    Runs are in the order in which they were recorded, of the one muscle of *joint*. A run whose
+    length changes has none.
     """
-    earlier = sorted(k for runs in repeats(segments, l0) for k in runs[:-1])
+    if segments[0].kind == 'free':
+        return []
+    earlier = sorted(k for runs in repeats(segments, joint.muscle.l0) for k in runs[:-1])
     if not earlier:
         return []
     force = np.concatenate([s.target[s.fit] for s in segments])
@@ -251,19 +272,20 @@ def level_unknowns(segments: Sequence[Segment], l0: float) -> list[Unknown]:
     return [Unknown(RunLevel(k), 0.0, scale, prior=1.0) for k in earlier]
 
 
-def effect_unknowns(model: Joint, effect: Effect, start: dict[str, float]) -> list[Unknown]:
-    """Return the parameters of *effect* that a fit from *start* changes.
+def effect_unknowns(model: Joint, place: Place, start: Mapping[str, float]) -> list[Unknown]:
+    """Return the parameters of the effect at *place* that a fit from *start* changes.
 
     Those named in *start*; a parameter that it leaves at its default stays there. Strengths
     move linearly, so that they can reach 0; the others by their logarithm where they must be
     positive.
     """
     found = []
-    for k, p in enumerate(effect.parameters):
+    for k, p in enumerate(place.effect.parameters):
         if p.name not in start:
             continue
         positive = p.low > 0.0 or (p.low == 0.0 and not p.strength and start[p.name] > 0.0)
-        of = OfEffect(EffectName(effect.name, p.name), model.layout.index(effect, k))
+        indices = tuple(place.indices(model.layout, k))
+        of = OfEffect(place.name, p.name, place.flat(p.name), indices)
         if positive and not p.strength:
             low = max(p.low, 1e-6 * start[p.name])
             unknown = Unknown(of, start[p.name], 1.0, low, p.high, logarithmic=True)
@@ -280,33 +302,30 @@ def proper(unknown: Unknown) -> Unknown:
     return replace(unknown, prior=FACTOR if unknown.logarithmic else STRENGTH)
 
 
-def memory_unknowns(layout: Layout, effect: Effect, runs: int) -> list[Unknown]:
-    """Return the hidden states of *effect* at the start of each of *runs* runs.
+def memory_unknowns(layout: Layout, place: Place, runs: int) -> list[Unknown]:
+    """Return the hidden states of the effect at *place* at the start of each of *runs* runs.
 
-    Those that may be away from rest there, with the spread that the effect declares; none where
-    a parameter of the effect, ``initial``, says already where its memory begins. Of several
-    muscles, those of the first.
+    Those that may be away from rest there, with the spread that the effect declares, in each
+    muscle its own; none where a parameter of the effect, ``initial``, says already where its
+    memory begins.
     """
+    effect = place.effect
     if any(p.name == 'initial' for p in effect.parameters):
         return []
-    row = at.JOINT if effect.acts_on_joint else at.MUSCLE
     return [
         Unknown(
-            MemoryStart(run, row, layout.state_at[effect.name] + i, effect.name, state.name),
+            MemoryStart(run, row, layout.state_at[effect.name] + i, place.name, state.name),
             0.0,
             state.spread,
             prior=1.0,
         )
         for run in range(runs)
+        for row in place.rows
         for i, state in enumerate(effect.states)
         if state.spread > 0.0
     ]
 
 
-def parameters_of(unknowns: Sequence[Unknown], effect: str) -> set[str]:
-    """Return the names of the parameters of an effect that are among *unknowns*."""
-    return {
-        k.of.which.parameter
-        for k in unknowns
-        if isinstance(k.of, OfEffect) and k.of.which.effect == effect
-    }
+def parameters_of(unknowns: Sequence[Unknown], place: str) -> set[str]:
+    """Return the names of those parameters of the effect at *place* that are among *unknowns*."""
+    return {k.of.parameter for k in unknowns if isinstance(k.of, OfEffect) and k.of.place == place}

@@ -77,7 +77,7 @@ def _begun(model: Model, whole: Problem, setting: Setting) -> tuple[Problem, Arr
     own = [k for k, unknown in enumerate(known.unknowns) if unknown.is_parameter]
     starts = [unknown for unknown in whole.unknowns if not unknown.is_parameter]
     for name in model.effects:
-        starts += memory_unknowns(known.layout, setting.effect(name), len(whole.segments))
+        starts += memory_unknowns(known.layout, setting.places[name], len(whole.segments))
     problem = replace(
         whole,
         row=known.row,

@@ -2,13 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """The moves of a search: an effect more or less, more or less of an effect."""
 
-from pam_ros.effects.base import Effect
 from pam_ros.identification.fit.extend import (
     finer_starts,
     plainer_sets,
     with_parameters,
     without_effect,
 )
+from pam_ros.identification.fit.places import Place
 from pam_ros.identification.fit.problem import Problem
 from pam_ros.identification.fit.solve import Solution, settled
 from pam_ros.identification.search.setting import Model, Setting
@@ -24,7 +24,7 @@ def with_each(parent: Model, names: list[str], setting: Setting) -> list[Model]:
     budget = setting.budget
 
     def look(name: str) -> list[Model]:
-        found = looks(parent, setting.effect(name), setting)[: budget.fits]
+        found = looks(parent, setting.places[name], setting)[: budget.fits]
         return [setting.model((*parent.effects, name), one, is_look=True) for one in found]
 
     def closer(model: Model) -> Model:
@@ -32,7 +32,7 @@ def with_each(parent: Model, names: list[str], setting: Setting) -> list[Model]:
 
     # An effect may have no start here: a frequency that nothing is read of.
     # Those with most starts begin first, so that no thread is left with a long one at the end.
-    longest = sorted(names, key=lambda name: -len(setting.effect(name).fit_starts))
+    longest = sorted(names, key=lambda name: -len(setting.places[name].effect.fit_starts))
     some = [found for found in setting.pool.map(look, longest) if found]
     if not some:
         return []
@@ -58,14 +58,13 @@ def freed(model: Model, setting: Setting) -> list[Model]:
     """
     known = model.solution
     row = known.problem.row_at(known.u)
-    effects = [setting.effect(name) for name in model.effects]
     options = [
-        (effect, option)
-        for effect in effects
-        for option in finer_starts(known.problem.unknowns, row, setting.joint, effect)
+        (place, option)
+        for place in (setting.places[name] for name in model.effects)
+        for option in finer_starts(known.problem.unknowns, row, setting.joint, place)
     ]
 
-    def fit(option: tuple[Effect, dict[str, float]]) -> Model:
+    def fit(option: tuple[Place, dict[str, float]]) -> Model:
         wider = extended(known, *option, setting)
         return setting.model(model.effects, settled(wider, setting.budget.iterations))
 
@@ -79,12 +78,12 @@ def fixed(model: Model, setting: Setting) -> list[Model]:
     """
     known = model.solution
     options = [
-        (effect, names)
-        for effect in (setting.effect(name) for name in model.effects)
-        for names in plainer_sets(known.problem.unknowns, effect)
+        (place, names)
+        for place in (setting.places[name] for name in model.effects)
+        for names in plainer_sets(known.problem.unknowns, place)
     ]
 
-    def fit(option: tuple[Effect, set[str]]) -> Model:
+    def fit(option: tuple[Place, set[str]]) -> Model:
         return _less(
             model.effects, known, *with_parameters(known.problem, setting.joint, *option), setting
         )
@@ -103,7 +102,7 @@ def dropped(model: Model, name: str, setting: Setting) -> Model:
 
 
 def _dropped(model: Model, name: str, setting: Setting) -> Model:
-    problem, keep = without_effect(model.solution.problem, setting.joint, setting.effect(name))
+    problem, keep = without_effect(model.solution.problem, setting.joint, setting.places[name])
     effects = tuple(e for e in model.effects if e != name)
     return _less(effects, model.solution, problem, keep, setting)
 

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from pam_ros.effects.base import Effect
 from pam_ros.identification.fit.extend import with_effect
+from pam_ros.identification.fit.places import Place
 from pam_ros.identification.search.setting import Model, Setting
 from pam_ros.identification.search.starts import guessed
 
@@ -20,39 +21,39 @@ def hidden(model: Model, names: Iterable[str], setting: Setting) -> dict[str, st
 
     Clearly present beside *model*, the best one, they would not lower the score by the margin.
     """
-    effects = [setting.effect(name) for name in names]
-    powers = setting.pool.map(lambda effect: power(model, effect, setting), effects)
+    places = [setting.places[name] for name in names]
+    powers = setting.pool.map(lambda place: power(model, place, setting), places)
     is_held = setting.parts[0].segment.kind == 'held'
     return {
-        effect.name: _reason(effect, size, is_held)
-        for effect, size in zip(effects, powers, strict=True)
+        place.name: _reason(place.effect, size, is_held)
+        for place, size in zip(places, powers, strict=True)
         if size < setting.criteria.margin
     }
 
 
-def power(model: Model, effect: Effect, setting: Setting) -> float:
-    """Return the most by which *effect*, clearly present, would lower the score of *model*.
+def power(model: Model, place: Place, setting: Setting) -> float:
+    """Return the most by which the effect at *place*, clearly present, would lower the score.
 
     That is the square of what it changes in the whitened run, over the variance of the noise: the
     noncentrality of the likelihood-ratio test (Wald 1943). What the unknowns of *model* can make
     up for is taken off. The effect is present as in its example, and as at each start of a fit.
     """
     known = model.solution
-    starts = (effect.example, *effect.fit_starts, *guessed(model, effect))
+    starts = (place.effect.example, *place.effect.fit_starts, *guessed(model, place))
     slopes = np.vstack(
         [
             known.problem.whitened(known.jacobian, known.whitenings) / known.noise,
             np.diag(1.0 / known.problem.prior),
         ]
     )
-    return max(_fall(model, effect, start, slopes, setting) for start in starts)
+    return max(_fall(model, place, start, slopes, setting) for start in starts)
 
 
 def _fall(
-    model: Model, effect: Effect, start: Mapping[str, float], slopes: Array, setting: Setting
+    model: Model, place: Place, start: Mapping[str, float], slopes: Array, setting: Setting
 ) -> float:
     known = model.solution
-    problem, added = with_effect(known.problem, setting.joint, effect, start)
+    problem, added = with_effect(known.problem, setting.joint, place, start)
     u = np.clip(np.concatenate([known.u, added]), *problem.bounds)
     change = known.problem.whitened(problem.residuals(u) - known.r, known.whitenings) / known.noise
     whole = np.concatenate([change, np.zeros(known.u.size)])

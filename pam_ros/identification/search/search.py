@@ -67,7 +67,8 @@ def exchanged(found: Search) -> Model | None:
     setting, best = found.setting, found.best
     tried: list[Model] = []
     for name in best.effects if len(best.effects) > 1 else ():
-        rivals = [e for e in setting.effect(name).rivals if e in absent(best, setting)]
+        named = setting.related(name, setting.places[name].effect.rivals)
+        rivals = [one for one in named if one in absent(best, setting)]
         if rivals:
             less, others = swapped(best, name, rivals, setting)
             found.looked_at += [less, *others]
@@ -92,14 +93,16 @@ def confirmed(found: Search) -> Model:
 
 
 def absent(model: Model, setting: Setting) -> list[str]:
-    """Return the effects that *model* lacks and its rig could have."""
-    joint = setting.joint
+    """Return the places of the effects that *model* lacks and its rig could have."""
+    joint, places = setting.joint, setting.places
+    there = [places[name] for name in model.effects]
+    declared = {effect.name for effect in joint.all_present}
     return [
-        e.name
-        for e in joint.library
-        if e.name not in model.effects
-        and e not in joint.all_present
-        and not (e.needs_muscle and joint.is_driven)
+        name
+        for name, place in places.items()
+        if place.effect.name not in declared
+        and not any(place.overlaps(other) for other in there)
+        and not (place.effect.needs_muscle and joint.is_driven)
     ]
 
 
@@ -125,7 +128,8 @@ def _plainer(now: Model, found: Search) -> Model:
     setting = found.setting
     room = 1.0 + setting.criteria.gain
     for name in now.effects:
-        contained = [e for e in setting.effect(name).contains if e in absent(now, setting)]
+        named = setting.related(name, setting.places[name].effect.contains)
+        contained = [one for one in named if one in absent(now, setting)]
         if not contained:
             continue
         less, others = swapped(now, name, contained, setting)

@@ -7,7 +7,7 @@ free run is nearest to the measurement, by least squares from there. Under a dis
 errors cost little, and the free run of a model that lacks something drifts.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -15,12 +15,12 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from pam_ros.effects.base import Effect
 from pam_ros.identification.data.noise import noise_of
 from pam_ros.identification.data.parts import Part
 from pam_ros.identification.data.segment import Segment, windows
 from pam_ros.identification.data.thinning import coarse_step, thinned
 from pam_ros.identification.fit.discrepancy import WHITE
+from pam_ros.identification.fit.places import Place, muscle_of, places_of
 from pam_ros.identification.fit.problem import Problem
 from pam_ros.identification.fit.solve import Solution, improved
 from pam_ros.identification.fit.unknowns import (
@@ -41,7 +41,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Errors:
-    """RMSE in m or N over the part that was fitted, and over the one that choices see.
+    """RMSE in m, rad or N over the part that was fitted, and over the one that choices see.
 
     ``carried`` is that of the free run over *choose*. The others are the same run's too, but for a
     load without a spring, for which they are those of short runs. At prescribed lengths the parts
@@ -62,7 +62,7 @@ class Model:
     ``without`` keeps what it becomes without one of its effects, which several moves ask for.
     """
 
-    effects: tuple[str, ...]
+    effects: tuple[str, ...]  # names of their places
     solution: Solution
     setting: 'Setting'
     is_look: bool
@@ -108,10 +108,11 @@ class Setting:
     criteria: Criteria
     budget: Budget
     pool: Executor
+    muscles: tuple[str, ...] = ()  # names of the muscles of a joint that has several
 
     @cached_property
     def noise(self) -> float:
-        """Standard deviation in m or N of the noise, found without any model."""
+        """Standard deviation in m, rad or N of the noise, found without any model."""
         known = [stretch for part in self.parts for stretch in part.known_stretches]
         return noise_of([(s.t, s.target) for s in known]).sigma
 
@@ -146,9 +147,9 @@ class Setting:
         if self.drifts:
             runs = [w for run in runs for w in windows(run, self.budget.window)]
         sigma = np.inf if self.drifts else self.noise
-        levels = level_unknowns(runs, self.joint.muscle.l0)
+        levels = level_unknowns(runs, self.joint)
         starts = [*time_unknowns(runs), *run_unknowns(runs, sigma)]
-        unknowns = [*declared_unknowns(self.joint), *starts, *levels]
+        unknowns = [*declared_unknowns(self.joint, self.muscles), *starts, *levels]
         return Problem(
             tuple(runs),
             self.joint.layout,
@@ -192,9 +193,20 @@ class Setting:
             _, choose = _rms_of(known, carried(solution, whole, without=(MemoryStart,)))
         return Errors(fit, choose, choose)
 
-    def effect(self, name: str) -> Effect:
-        """Return the effect of this name."""
-        return next(e for e in self.joint.library if e.name == name)
+    @cached_property
+    def places(self) -> dict[str, Place]:
+        """Every place at which an effect of the library can act, by its name."""
+        return places_of(self.joint, self.muscles)
+
+    def related(self, name: str, effects: Iterable[str]) -> list[str]:
+        """Return the places of *effects* that belong to the place called *name*.
+
+        They are in the same muscle, or in all muscles where that one is, or on the joint.
+        """
+        muscle = muscle_of(name)
+        alone = [f'{muscle}.{effect}' if muscle else effect for effect in effects]
+        both = zip(alone, effects, strict=True)
+        return [here if here in self.places else elsewhere for here, elsewhere in both]
 
     def above(self, error: float) -> float:
         """Return what is left of an error above the noise, in its unit."""

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The final fits as a report shows them: models, parameters with intervals, errors, free runs."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from pam_ros.identification.data.segment import Segment
 from pam_ros.identification.fit.discrepancy import Discrepancy
 from pam_ros.identification.fit.intervals import covariance
+from pam_ros.identification.fit.places import Place
 from pam_ros.identification.fit.solve import Solution
 from pam_ros.identification.fit.unknowns import OF_RUNS, Unknown
 from pam_ros.identification.result import Estimate, Stage
@@ -49,7 +50,8 @@ def stages(ends: Final, found: Search, test: Sequence[Segment]) -> tuple[Stage, 
             off = [run - s.target for run, s in zip(tested, test, strict=True)]
             held = rms(np.concatenate(off))
         row, segments = fit.problem.row_at(fit.u), fit.problem.segments
-        model = with_row(joint, row, segments, added)
+        places = [found.setting.places[effect] for effect in added]
+        model = with_row(joint, row, segments, places)
         return Stage(name, model, parameters, error, held, tuple(runs), tuple(tested))
 
     return (
@@ -57,6 +59,12 @@ def stages(ends: Final, found: Search, test: Sequence[Segment]) -> tuple[Stage, 
         stage('retuned', ends.retuned, retuned, ()),
         stage('augmented', ends.augmented, augmented, effects),
     )
+
+
+def at_place(estimates: Mapping[str, Estimate], place: Place) -> dict[str, Estimate]:
+    """Return those of named *estimates* that are parameters at *place*, by the parameter."""
+    names = [p.name for p in place.effect.parameters]
+    return {name: estimates[place.flat(name)] for name in names if place.flat(name) in estimates}
 
 
 def estimates(known: Solution, process: Discrepancy, joint: Joint) -> dict[str, Estimate]:

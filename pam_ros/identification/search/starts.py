@@ -7,9 +7,9 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from pam_ros.effects.base import Effect
 from pam_ros.identification.fit.discrepancy import WHITE, Discrepancy
 from pam_ros.identification.fit.extend import with_effect
+from pam_ros.identification.fit.places import Place
 from pam_ros.identification.fit.solve import Solution, improved
 from pam_ros.identification.fit.unknowns import Constant, MemoryStart
 from pam_ros.identification.search.setting import Model, Setting
@@ -21,17 +21,17 @@ Array = NDArray[np.float64]
 MOVES = 0.3
 
 
-def looks(parent: Model, effect: Effect, setting: Setting) -> list[Solution]:
-    """Return cheap fits of *effect* on top of *parent*, the best score first.
+def looks(parent: Model, place: Place, setting: Setting) -> list[Solution]:
+    """Return cheap fits of the effect at *place* on top of *parent*, the best score first.
 
     From all of its starts; from the parent's unknowns and from the declared constants, to which
     re-tuning has given values that make up for what is missing; with the parent's discrepancy and
     with none, because a slow discrepancy hides what is slow from a fit that begins without it.
     """
-    starts = (*effect.fit_starts, *guessed(parent, effect))
+    starts = (*place.effect.fit_starts, *guessed(parent, place))
     found = []
     for known, processes in _grounds(parent.solution):
-        begun = [extended(known, effect, start, setting) for start in starts]
+        begun = [extended(known, place, start, setting) for start in starts]
         for process in processes:
             some = [_look(replace(one, discrepancy=process), setting) for one in begun]
             some.sort(key=lambda one: one.cost)
@@ -64,11 +64,12 @@ def _with_own_discrepancy(known: Solution) -> Solution:
     return replace(known, discrepancy=known.most_likely())
 
 
-def extended(
-    known: Solution, effect: Effect, start: dict[str, float], setting: Setting
-) -> Solution:
-    """Return *known* with *effect* at *start*; its own columns are computed, the others kept."""
-    problem, added = with_effect(known.problem, setting.joint, effect, start)
+def extended(known: Solution, place: Place, start: dict[str, float], setting: Setting) -> Solution:
+    """Return *known* with the effect at *place*, begun at *start*.
+
+    Its own columns are computed, the others kept.
+    """
+    problem, added = with_effect(known.problem, setting.joint, place, start)
     u = np.clip(np.concatenate([known.u, added]), *problem.bounds)
     r = problem.residuals(u)
     own = problem.jacobian(u, r, only=range(known.u.size, u.size))
@@ -94,8 +95,9 @@ def without_idle(known: Solution, noise: float) -> Solution:
     )
 
 
-def guessed(parent: Model, effect: Effect) -> tuple[dict[str, float], ...]:
-    """Return the starts that *effect* reads from what *parent* leaves of the longest run."""
+def guessed(parent: Model, place: Place) -> tuple[dict[str, float], ...]:
+    """Return the starts that an effect reads from what *parent* leaves of the longest run."""
+    effect = place.effect
     if effect.guess is None:
         return ()
     problem = parent.solution.problem
@@ -107,5 +109,7 @@ def guessed(parent: Model, effect: Effect) -> tuple[dict[str, float], ...]:
     # What is not fitted is not seen: effects read there what lies between.
     residual = np.interp(s.t, s.t[s.fit], left[s.fit])
     position = s.target if is_free else out[:, at.RUN_S]
-    l0 = problem.row[problem.layout.constant(at.L0)]
-    return effect.guess(s.t, out[:, at.RUN_P], position / l0, residual)
+    # A contraction of one muscle in line with the load, else the angle itself.
+    length = problem.row[at.LENGTH]
+    pressure = out[:, at.RUN_P :: 2].mean(axis=1)
+    return effect.guess(s.t, pressure, position / length, residual)

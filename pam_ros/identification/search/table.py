@@ -8,12 +8,11 @@ from math import nan
 
 from scipy.stats import chi2
 
-from pam_ros.effects.names import by_effect
 from pam_ros.identification.result import Candidate
 from pam_ros.identification.search.power import hidden
 from pam_ros.identification.search.search import Search, alternatives, best_with, matters, no_worse
 from pam_ros.identification.search.setting import Model
-from pam_ros.identification.search.stages import estimates
+from pam_ros.identification.search.stages import at_place, estimates
 
 Set = frozenset[str]
 
@@ -63,8 +62,8 @@ def _candidate(model: Model, parent: Model, tried: list[Model], found: Search) -
     decision, reason = _decision(model, parent, tried, found)
     name = model.effects[-1]
     known = estimates(model.solution, model.solution.discrepancy, found.setting.joint)
-    own = by_effect(known).get(name, {})
-    strengths = [p.name for p in found.setting.effect(name).parameters if p.strength]
+    own = at_place(known, found.setting.places[name])
+    strengths = [p.name for p in found.setting.places[name].effect.parameters if p.strength]
     intervals = [own[strength] for strength in strengths if strength in own]
     return Candidate(
         name,

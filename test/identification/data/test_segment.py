@@ -49,14 +49,14 @@ def test_a_free_run_is_what_was_recorded():
     np.testing.assert_array_equal(segment.t, recording.t)
     np.testing.assert_array_equal(segment.target, recording.position)
     np.testing.assert_array_equal(segment.drive_t, recording.command_t)
-    np.testing.assert_array_equal(segment.drive, recording.command)
+    np.testing.assert_array_equal(segment.drive[:, 0], recording.command)
 
 
 def test_a_free_run_starts_where_and_as_fast_as_was_measured():
     (segment,) = segments_of([free()])
     assert segment.y0 == pytest.approx(0.01, abs=1e-12)
     assert segment.v0 == pytest.approx(0.02, abs=1e-10)
-    assert segment.first_pressure == 1e5
+    assert segment.first_pressures == [1e5]
 
 
 def test_a_gap_starts_a_new_run_under_the_command_that_holds_there():
@@ -70,7 +70,7 @@ def test_a_gap_starts_a_new_run_under_the_command_that_holds_there():
     assert second.y0 == pytest.approx(0.01 + 0.02 * gap[1] - 0.0003 * gap[1] ** 2, abs=1e-12)
     assert second.v0 == pytest.approx(0.02 - 0.0006 * gap[1], abs=1e-10)
     # 12.21 s lies behind the step at 12.003 s, the 24th.
-    assert second.first_pressure == 1e5 + 24e4
+    assert second.first_pressures == [1e5 + 24e4]
 
 
 def test_a_held_run_follows_the_length_and_its_velocity():
@@ -81,7 +81,7 @@ def test_a_held_run_follows_the_length_and_its_velocity():
     truth = 0.004 * 2 * np.pi * 0.2 * np.cos(2 * np.pi * 0.2 * segment.t)
     inside = slice(20, -20)
     np.testing.assert_allclose(segment.velocity[inside], truth[inside], atol=2e-5)
-    assert segment.first_pressure == pytest.approx(3e5, rel=1e-12)
+    assert segment.first_pressures[0] == pytest.approx(3e5, rel=1e-12)
 
 
 def test_the_noise_of_a_slow_pressure_is_taken_away():

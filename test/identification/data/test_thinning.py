@@ -66,7 +66,7 @@ def test_impulse_over_every_stride_is_kept(kind, seed):
     thin = thinned(recorded(t, stamps, command), STEP)
     spans = list(zip(thin.t[:-1], thin.t[1:], strict=True))
     full = np.array([impulse(stamps, command, *span) for span in spans])
-    kept = np.array([impulse(thin.drive_t, thin.drive, *span) for span in spans])
+    kept = np.array([impulse(thin.drive_t, thin.drive[:, 0], *span) for span in spans])
     arms = np.array([moment(stamps, command, *span) for span in spans])
     # What a held mean cannot have is lent to the strides beside it, and no more than that.
     lent = np.abs(np.concatenate([[0.0], arms])[:-1]) + np.abs(np.append(arms[1:], 0.0))
@@ -80,7 +80,7 @@ def test_a_free_mass_goes_where_the_full_command_would_have_sent_it():
     stamps = np.arange(20_000) * 1e-3
     command = np.sin(2.0 * np.pi * 2.0 * stamps)
     thin = thinned(recorded(stamps, stamps, command), 10e-3)
-    held = thin.drive[np.searchsorted(thin.drive_t, stamps + 1e-9) - 1]
+    held = thin.drive[:, 0][np.searchsorted(thin.drive_t, stamps + 1e-9) - 1]
     means = command.reshape(-1, 10).mean(axis=1).repeat(10)
 
     def away(u):
@@ -113,8 +113,8 @@ def test_a_jump_keeps_its_stamp():
     for jump in jumps:
         k = np.flatnonzero(thin.drive_t == jump)
         assert k.size == 1
-        assert thin.drive[k[0]] == command[stamps == jump][0]
-        assert thin.drive[k[0]] - thin.drive[k[0] - 1] == pytest.approx(1e5, rel=0.02)
+        assert thin.drive[k[0], 0] == command[stamps == jump][0]
+        assert thin.drive[k[0], 0] - thin.drive[k[0] - 1, 0] == pytest.approx(1e5, rel=0.02)
 
 
 def test_few_commands_are_left_as_they_are():
@@ -123,7 +123,7 @@ def test_few_commands_are_left_as_they_are():
     command = 1e5 + 1e5 * (np.arange(stamps.size) % 2)
     thin = thinned(recorded(t, stamps, command), STEP)
     np.testing.assert_array_equal(thin.drive_t, stamps)
-    np.testing.assert_array_equal(thin.drive, command)
+    np.testing.assert_array_equal(thin.drive[:, 0], command)
 
 
 def test_what_is_sampled_coarsely_is_not_thinned():
@@ -175,7 +175,7 @@ def test_a_thinned_run_moves_like_the_full_one():
     coarse = run(thin, coarse_step(model))
     # Below the quietest sensor's noise; every tenth command alone comes half a stride late.
     error = np.sqrt(np.mean((coarse - full) ** 2))
-    late = replace(thin, drive_t=t[::stride], drive=command[::stride])
+    late = replace(thin, drive_t=t[::stride], drive=command[::stride, None])
     plain = run(late, coarse_step(model))
     assert error < 5e-6
     assert error < 0.05 * np.sqrt(np.mean((plain - full) ** 2))

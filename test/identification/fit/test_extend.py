@@ -14,6 +14,7 @@ from pam_ros.identification.fit.extend import (
     with_parameters,
     without_effect,
 )
+from pam_ros.identification.fit.places import places_of
 from pam_ros.identification.fit.problem import Problem
 from pam_ros.identification.fit.unknowns import declared_unknowns, run_unknowns
 from support import bench_truth
@@ -21,6 +22,7 @@ from support import bench_truth
 MODEL = bench_truth.declared()
 SEGMENTS = tuple(segments_of([bench_truth.free(duration=2.5, programme='steps')]))
 EFFECT = {effect.name: effect for effect in EFFECTS}
+PLACES = places_of(MODEL)
 START = {'stiffness': 500.0, 'time': 3.0}
 
 
@@ -31,7 +33,7 @@ def problem():
 
 
 def test_an_effect_comes_with_its_parameters_and_where_its_memory_began(problem):
-    new, added = with_effect(problem, MODEL, EFFECT['creep'], START)
+    new, added = with_effect(problem, MODEL, PLACES['creep'], START)
     names = [one.name for one in new.unknowns[len(problem.unknowns) :]]
     assert names[:2] == ['effects.creep.stiffness', 'effects.creep.time']
     assert len(names) == len(added) == 2 + 6
@@ -45,7 +47,7 @@ def test_an_effect_comes_with_its_parameters_and_where_its_memory_began(problem)
 
 
 def test_a_strength_of_zero_changes_nothing(problem):
-    new, _ = with_effect(problem, MODEL, EFFECT['viscous_friction'], {'coefficient': 50.0})
+    new, _ = with_effect(problem, MODEL, PLACES['viscous_friction'], {'coefficient': 50.0})
     u = np.zeros(len(problem.unknowns))
     same = new.residuals(np.append(u, 0.0))
     np.testing.assert_allclose(same, problem.residuals(u), atol=1e-12)
@@ -53,9 +55,9 @@ def test_a_strength_of_zero_changes_nothing(problem):
 
 
 def test_more_of_an_effect_leaves_what_it_has(problem):
-    new, added = with_effect(problem, MODEL, EFFECT['creep'], START)
+    new, added = with_effect(problem, MODEL, PLACES['creep'], START)
     u = np.concatenate([np.zeros(len(problem.unknowns)), added])
-    wider, more = with_effect(new, MODEL, EFFECT['creep'], {'spread': 4.0})
+    wider, more = with_effect(new, MODEL, PLACES['creep'], {'spread': 4.0})
     assert [one.name for one in wider.unknowns[len(new.unknowns) :]] == ['effects.creep.spread']
     row, before = wider.row_at(np.append(u, more)), new.row_at(u)
     changed = np.flatnonzero(row != before)
@@ -65,13 +67,13 @@ def test_more_of_an_effect_leaves_what_it_has(problem):
 
 
 def test_an_effect_goes_with_all_that_is_its_own(problem):
-    new, _ = with_effect(problem, MODEL, EFFECT['pressure_lag'], {'fill': 0.1, 'vent': 0.1})
-    both, _ = with_effect(new, MODEL, EFFECT['creep'], START)
-    less, keep = without_effect(both, MODEL, EFFECT['creep'])
+    new, _ = with_effect(problem, MODEL, PLACES['pressure_lag'], {'fill': 0.1, 'vent': 0.1})
+    both, _ = with_effect(new, MODEL, PLACES['creep'], START)
+    less, keep = without_effect(both, MODEL, PLACES['creep'])
     assert less.unknowns == new.unknowns
     assert keep == list(range(len(new.unknowns)))
     np.testing.assert_array_equal(less.row, new.row)
-    none, keep = without_effect(less, MODEL, EFFECT['pressure_lag'])
+    none, keep = without_effect(less, MODEL, PLACES['pressure_lag'])
     assert none.unknowns == problem.unknowns
     assert not any(belongs(one, 'pressure_lag') for one in none.unknowns)
 
@@ -79,12 +81,12 @@ def test_an_effect_goes_with_all_that_is_its_own(problem):
 def test_parameters_of_an_effect_go_back_to_their_defaults(problem):
     friction = EFFECT['coulomb_friction']
     start = {'level': 10.0, 'breakaway': 13.0, 'stribeck_speed': 0.02, 'asymmetry': 0.1}
-    with_lag, _ = with_effect(problem, MODEL, EFFECT['pressure_lag'], {'fill': 0.1, 'vent': 0.1})
-    new, added = with_effect(with_lag, MODEL, friction, start)
-    sets = plainer_sets(new.unknowns, friction)
+    with_lag, _ = with_effect(problem, MODEL, PLACES['pressure_lag'], {'fill': 0.1, 'vent': 0.1})
+    new, added = with_effect(with_lag, MODEL, PLACES['coulomb_friction'], start)
+    sets = plainer_sets(new.unknowns, PLACES['coulomb_friction'])
     assert sets == [{'level'}, {'level', 'asymmetry'}, {'level', 'breakaway', 'stribeck_speed'}]
-    assert plainer_sets(new.unknowns, EFFECT['pressure_lag']) == []
-    less, keep = with_parameters(new, MODEL, friction, {'level', 'asymmetry'})
+    assert plainer_sets(new.unknowns, PLACES['pressure_lag']) == []
+    less, keep = with_parameters(new, MODEL, PLACES['coulomb_friction'], {'level', 'asymmetry'})
     gone = {one.name for one in new.unknowns} - {one.name for one in less.unknowns}
     assert gone == {
         'effects.coulomb_friction.breakaway',

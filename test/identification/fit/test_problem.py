@@ -12,6 +12,7 @@ from scipy.optimize import approx_fprime
 from pam_ros.effects import EFFECTS
 from pam_ros.identification.data.segment import segments_of
 from pam_ros.identification.fit.discrepancy import Discrepancy
+from pam_ros.identification.fit.places import places_of
 from pam_ros.identification.fit.problem import Problem
 from pam_ros.identification.fit.unknowns import (
     LEVEL,
@@ -43,12 +44,13 @@ RAIL = Mass(mass=MASS, mount='horizontal')
 SOURCE = single_muscle_joint(FORCE, RAIL)
 PRESSURE = 100.0  # Pa: 0.2 m/s^2
 LIBRARY = {effect.name: effect for effect in EFFECTS}
+PLACES = places_of(MUSCLE)
 
 
 def problem_of(model, segments, remembered=()):
     """Return the problem of a model's constants, of starts, and of memories of these effects."""
     memories = [k for name in remembered for k in memory_unknowns(
-        model.layout, LIBRARY[name], len(segments)
+        model.layout, places_of(model)[name], len(segments)
     )]  # fmt: skip
     unknowns = (*declared_unknowns(model), *run_unknowns(segments, np.inf), *memories)
     return Problem(
@@ -213,7 +215,7 @@ def test_commands_that_act_early_move_the_load_early(early):
 def test_a_level_lifts_the_force_of_its_run_alone():
     segments = [held(kappa, seed) for seed, kappa in enumerate((0.1, 0.1, 0.1))]
     segments = [replace(s, target=s.target + np.arange(s.t.size)) for s in segments]
-    levels = level_unknowns(segments, 0.4)
+    levels = level_unknowns(segments, MUSCLE)
     problem = problem_of(MUSCLE, segments)
     whole = replace(problem, unknowns=(*problem.unknowns, *levels))
     u = np.zeros(len(problem.unknowns))
@@ -234,14 +236,14 @@ def test_a_level_lifts_the_force_of_its_run_alone():
 
 
 def test_a_state_that_is_always_known_is_no_unknown():
-    found = memory_unknowns(MUSCLE.layout, LIBRARY['creep'], 2)
+    found = memory_unknowns(MUSCLE.layout, PLACES['creep'], 2)
     assert [k.of.state for k in found[:6]] == [
         f'{which} {of}'
         for of in ('force', 'contraction', 'pressure')
         for which in ('fast', 'slow')
     ]
     assert [k.of.run for k in found] == 6 * [0] + 6 * [1]
-    assert memory_unknowns(MUSCLE.layout, LIBRARY['dead_time'], 2) == []
+    assert memory_unknowns(MUSCLE.layout, PLACES['dead_time'], 2) == []
 
 
 @pytest.mark.needs_numba

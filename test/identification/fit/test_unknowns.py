@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from pam_ros.effects import EFFECTS
 from pam_ros.identification.data.segment import segments_of, start_of
+from pam_ros.identification.fit.places import places_of
 from pam_ros.identification.fit.unknowns import (
     LEVEL,
     SPECIMEN,
@@ -29,6 +30,7 @@ from pam_ros.rig.standard_joints import single_muscle_joint
 from support.equations import unknown
 
 RIG = single_muscle_joint(Muscle(), Mass(mass=20.0))
+PLACES = places_of(RIG)
 
 
 @given(st.floats(-5.0, 5.0), st.booleans())
@@ -59,11 +61,11 @@ def test_constants_and_damping_are_retuned_but_not_what_scale_and_rule_measure()
     assert list(found) == ['a1', 'a2', 'a3', 'a4', 'a5', 'a6', 'zeta']
     q = RIG.parameters().ravel()
     for one in found.values():
-        assert one.value(0.0) == q[one.of.index]
+        assert one.value(0.0) == q[one.of.indices[0]]
         assert one.prior == 1.0
         assert one.is_parameter
-    assert found['a2'].of.index == RIG.layout.constant(at.A2)
-    assert found['zeta'].of.index == RIG.layout.constant(at.ZETA)
+    assert found['a2'].of.indices == (RIG.layout.constant(at.A2),)
+    assert found['zeta'].of.indices == (RIG.layout.constant(at.ZETA),)
     assert found['zeta'].bounds[0] == -np.inf
     # A specimen differs by some per cent; a1, a small correction of a5, by more.
     for name in ('a2', 'a3', 'a4', 'a5', 'a6'):
@@ -130,7 +132,7 @@ def resting(*kappas, force=300.0, seconds=4.0):
 
 def test_each_run_at_a_length_has_a_level_against_the_last_one_there():
     runs = resting(0.1, 0.2, 0.1, 0.2, 0.1, 0.05)
-    found = level_unknowns(runs, 0.4)
+    found = level_unknowns(runs, RIG)
     assert [k.name for k in found] == ['level[0]', 'level[1]', 'level[2]']
     assert [k.value(1.0) for k in found] == pytest.approx(3 * [LEVEL * 300.0])
     assert {k.prior for k in found} == {1.0}
@@ -138,14 +140,14 @@ def test_each_run_at_a_length_has_a_level_against_the_last_one_there():
 
 
 def test_lengths_that_differ_or_change_and_loads_that_move_have_no_level():
-    assert level_unknowns(resting(0.1, 0.102), 0.4) == []
+    assert level_unknowns(resting(0.1, 0.102), RIG) == []
     first, second = resting(0.1, 0.1)
     moving = replace(first, position=first.position + np.linspace(0.0, 1e-3, first.t.size))
-    assert level_unknowns([moving, second], 0.4) == []
-    assert level_unknowns([second, moving], 0.4) == []
+    assert level_unknowns([moving, second], RIG) == []
+    assert level_unknowns([second, moving], RIG) == []
     t = np.arange(100) / 50.0
     free = Recording('f', t, t, np.full(100, 3e5), np.full(100, 0.05), None, None, None, 'free')
-    assert level_unknowns(segments_of([free, free]), 0.4) == []
+    assert level_unknowns(segments_of([free, free]), RIG) == []
 
 
 def test_a_start_stays_as_near_as_noise_and_curvature_allow():
@@ -166,12 +168,12 @@ def test_what_a_start_names_is_what_moves(effect):
     layout = RIG.layout
     names = [p.name for p in effect.parameters]
     for start in effect.fit_starts:
-        found = effect_unknowns(RIG, effect, start)
+        found = effect_unknowns(RIG, PLACES[effect.name], start)
         assert {u.name for u in found} == {f'effects.{effect.name}.{name}' for name in start}
         for one in found:
-            name = one.of.which.parameter
+            name = one.of.parameter
             p = effect.parameters[names.index(name)]
-            assert one.of.index == layout.index(effect, names.index(name))
+            assert one.of.indices == (layout.index(effect, names.index(name)),)
             assert one.prior == np.inf
             # The start lies within, and no value can leave what the simulator accepts.
             u = one.coordinate(start[name])

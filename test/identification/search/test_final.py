@@ -88,7 +88,7 @@ def test_at_a_prescribed_length_nothing_sees_what_judges(pool):
     assert [k.scale for k in there.setting.problem.unknowns] == [
         k.scale for k in gone.setting.problem.unknowns
     ]
-    periodic = there.setting.effect('periodic_disturbance')
+    periodic = there.setting.places['periodic_disturbance']
     starts = guessed(there.retuned, periodic)
     assert starts
     assert starts == guessed(gone.retuned, periodic)

@@ -47,9 +47,9 @@ def test_a_run_whose_length_changes_is_no_repeat():
     moving = bench_truth.held(duration=8.0)
     moving = replace(moving, position=moving.position + np.linspace(0.0, 5e-3, moving.t.size))
     segments = segments_of([moving, moving])
-    l0 = bench_truth.declared().muscle.l0
-    assert repeats(segments, l0) == []
-    assert level_unknowns(segments, l0) == []
+    declared = bench_truth.declared()
+    assert repeats(segments, declared.muscle.l0) == []
+    assert level_unknowns(segments, declared) == []
 
 
 def test_lengths_whose_recordings_lie_apart_are_listed_with_their_levels(known):

@@ -106,18 +106,19 @@ def effects_in(model):
 
 
 def test_looks_come_best_first_and_never_worse_than_their_start(retuned, setting):
-    effect = setting.effect('pressure_lag')
-    found = looks(retuned, effect, setting)
+    place = setting.places['pressure_lag']
+    found = looks(retuned, place, setting)
     assert [one.score for one in found] == sorted(one.score for one in found)
-    begun = [extended(retuned.solution, effect, start, setting) for start in effect.fit_starts]
+    starts = place.effect.fit_starts
+    begun = [extended(retuned.solution, place, start, setting) for start in starts]
     assert found[0].score < min(one.score for one in begun)
 
 
 def test_columns_of_what_was_there_are_kept_and_hidden_starts_that_move_nothing_left_out(
     retuned, setting
 ):
-    effect = setting.effect('creep')
-    known = extended(retuned.solution, effect, {'stiffness': 500.0, 'time': 3.0}, setting)
+    place = setting.places['creep']
+    known = extended(retuned.solution, place, {'stiffness': 500.0, 'time': 3.0}, setting)
     count = len(retuned.solution.u)
     np.testing.assert_array_equal(known.jacobian[:, :count], retuned.solution.jacobian)
     memories = [k.of.state for k in known.problem.unknowns if isinstance(k.of, MemoryStart)]
@@ -125,10 +126,10 @@ def test_columns_of_what_was_there_are_kept_and_hidden_starts_that_move_nothing_
 
 
 def test_a_frequency_is_read_from_what_is_left(retuned, setting):
-    starts = guessed(retuned, setting.effect('periodic_disturbance'))
+    starts = guessed(retuned, setting.places['periodic_disturbance'])
     assert starts
     assert all(start['frequency'] > 0.0 for start in starts)
-    assert guessed(retuned, setting.effect('dead_time')) == ()
+    assert guessed(retuned, setting.places['dead_time']) == ()
 
 
 def test_alternatives_are_within_the_margin(tried, retuned, setting):

@@ -38,14 +38,14 @@ def test_power_is_what_an_effect_changes_over_the_noise(retuned):
     (segment,) = retuned.solution.problem.segments
     _, v = moved_cylinders.to_and_fro(segment.t)
     expected = np.sum((30.0 * v[segment.fit]) ** 2) / moved_cylinders.NOISE**2
-    found = power(retuned, EFFECT['viscous_friction'], retuned.setting)
+    found = power(retuned, retuned.setting.places['viscous_friction'], retuned.setting)
     assert found == pytest.approx(expected, rel=0.1)
     assert found > 10.0 * CRITERIA.margin
 
 
 def test_what_retuning_makes_up_for_has_no_power(retuned):
     """At one pressure an offset of it is a change of the area, as far as that may change."""
-    found = power(retuned, EFFECT['pressure_offset'], retuned.setting)
+    found = power(retuned, retuned.setting.places['pressure_offset'], retuned.setting)
     # Most of its starts changes 300 kPa by 1 kPa and 3 %, and the prior of the area is 3 %.
     assert found == pytest.approx((10.0 / 9.0) ** 2, rel=1e-2)
     assert found < CRITERIA.margin

@@ -61,12 +61,11 @@ def test_errors_are_those_of_the_nearest_free_run_whatever_the_score_prefers(set
 def test_at_a_prescribed_length_what_chooses_begins_at_rest():
     """A fitted start of a memory is worth nothing in another recording."""
     joint = bench_truth.declared()
-    creep = next(e for e in joint.library if e.name == 'creep')
     parts = parts_of([bench_truth.held(rate=50.0)], CRITERIA.fit, CRITERIA.choose)
     with ThreadPoolExecutor() as pool:
         setting = Setting(joint, parts, CRITERIA, BUDGET, pool)
         start = {'pressure': 0.1, 'time': 20.0}
-        problem, added = with_effect(setting.problem, joint, creep, start)
+        problem, added = with_effect(setting.problem, joint, setting.places['creep'], start)
         u = np.concatenate([np.zeros(len(setting.problem.unknowns)), added])
         memories = [isinstance(one.of, MemoryStart) for one in problem.unknowns]
         assert any(memories)

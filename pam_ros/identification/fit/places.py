@@ -1,0 +1,145 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Where an effect can be added to a joint: in all muscles alike, in one of them, on the joint.
+
+The typical sizes of an effect, and the values from which a fit begins, are those of a load that
+slides. On a joint that turns they are scaled by the arm of its muscles, so that they do to the
+joint what they do to such a load.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pam_ros.effects.base import Effect, EffectParameter
+from pam_ros.effects.names import EffectName
+from pam_ros.effects.turned import turned
+from pam_ros.rig import layout as at
+from pam_ros.rig import statics
+from pam_ros.rig.joint import Joint
+from pam_ros.rig.layout import Layout
+from pam_ros.units import ARM_POWER
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Place:
+    """An effect at a place of a joint.
+
+    ``effect`` has the units, sizes and starting values that it has there. ``muscles`` are the
+    numbers of the muscles in which it acts, with the same parameters; none for an effect on the
+    joint. ``muscle`` is the name of the one muscle of several, empty in all other cases.
+    """
+
+    effect: Effect
+    muscles: tuple[int, ...]
+    muscle: str = ''
+
+    @property
+    def name(self) -> str:
+        """Its name: that of the effect, behind the name of a muscle where it is in one alone."""
+        return f'{self.muscle}.{self.effect.name}' if self.muscle else self.effect.name
+
+    @property
+    def rows(self) -> tuple[int, ...]:
+        """The rows of the kernel's matrices in which it acts."""
+        return tuple(at.MUSCLE + i for i in self.muscles) or (at.JOINT,)
+
+    def flat(self, parameter: str) -> str:
+        """Return the name that a parameter of it has in a file of parameters."""
+        flat = EffectName(self.effect.name, parameter).flat
+        return f'{self.muscle}.{flat}' if self.muscle else flat
+
+    def indices(self, layout: Layout, parameter: int) -> list[int]:
+        """Return where parameter number *parameter* stands in q, counted through all rows."""
+        return [layout.index(self.effect, parameter, i) for i in self.muscles or (0,)]
+
+    def overlaps(self, other: 'Place') -> bool:
+        """Say whether both are the same effect in the same row."""
+        is_same = self.effect.name == other.effect.name
+        return is_same and bool({*self.rows} & {*other.rows})
+
+
+def effect_of(name: str) -> str:
+    """Return the name of the effect of a place called *name*."""
+    return name.rpartition('.')[2]
+
+
+def muscle_of(name: str) -> str:
+    """Return the name of the one muscle of a place called *name*, empty where there is none."""
+    return name.rpartition('.')[0]
+
+
+def names_of_muscles(joint: Joint, given: Sequence[str] = ()) -> tuple[str, ...]:
+    """Return the names of the muscles of *joint*: those *given*, or made of their numbers."""
+    return tuple(given) or tuple(f'muscle_{i + 1}' for i in range(len(joint.muscles)))
+
+
+def places_of(joint: Joint, muscles: Sequence[str] = ()) -> dict[str, Place]:
+    """Return by name every place at which an effect of the joint's library can act.
+
+    *muscles* are the names of its muscles. What acts in muscles can be in all of several alike or
+    in each alone.
+    """
+    every = tuple(range(len(joint.muscles)))
+    found = []
+    for effect in joint.library:
+        if effect.acts_on_joint:
+            found.append(Place(sized(effect, joint), ()))
+            continue
+        found.append(Place(effect, every))
+        if len(every) > 1:
+            names = names_of_muscles(joint, muscles)
+            found += [Place(effect, (i,), name) for i, name in enumerate(names)]
+    return {place.name: place for place in found}
+
+
+def sized(effect: Effect, joint: Joint) -> Effect:
+    """Return an *effect* on the joint with the units and the sizes that it has on this one."""
+    if not joint.is_revolute:
+        return effect
+    arm, length = _arm(joint), float(np.mean([m.l0 for m in joint.muscles]))
+    factor = {p.name: _factor(p.unit, arm, length) for p in effect.parameters}
+
+    def scaled(values: dict[str, float]) -> dict[str, float]:
+        return {name: factor[name] * value for name, value in values.items()}
+
+    def guess(t: Array, p: Array, place: Array, residual: Array) -> tuple[dict[str, float], ...]:
+        # The angle as the contraction that it is of a muscle, of which the effect speaks.
+        assert effect.guess is not None
+        return tuple(map(scaled, effect.guess(t, p, place * arm / length, residual)))
+
+    changed = turned(effect)
+    parameters: list[EffectParameter] = [
+        replace(p, scale=factor[p.name] * p.scale) for p in changed.parameters
+    ]
+    return replace(
+        changed,
+        parameters=tuple(parameters),
+        fit_starts=tuple(map(scaled, effect.fit_starts)),
+        example=scaled(effect.example),
+        states=tuple(
+            replace(s, spread=_factor(s.unit, arm, length) * s.spread) for s in effect.states
+        ),
+        guess=guess if effect.guess is not None else None,
+    )
+
+
+def _arm(joint: Joint) -> float:
+    """Return the mean arm of the muscles in the middle of the travel, m/rad."""
+    middle = float(np.mean(statics.span(joint)))
+    return float(np.mean([abs(statics.arm(joint, i, middle)) for i in range(len(joint.muscles))]))
+
+
+def _factor(unit: str, arm: float, length: float) -> float:
+    """Return the size on a joint that turns of 1 *unit* on a load that slides.
+
+    A force at the *arm* is a torque, a length along the motion is an angle; a contraction is one
+    of a muscle of this *length* in m.
+    """
+    if unit == 'fraction':
+        return length / arm
+    return float(arm ** ARM_POWER.get(unit, 0))
