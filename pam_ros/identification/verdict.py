@@ -9,6 +9,7 @@ import numpy as np
 
 from pam_ros.effects.base import Effect
 from pam_ros.identification.data.segment import Segment
+from pam_ros.identification.fit.places import effect_of, spelled
 from pam_ros.identification.result import Identification
 from pam_ros.identification.search.criteria import Criteria
 from pam_ros.identification.search.search import Search
@@ -17,7 +18,7 @@ from pam_ros.identification.search.search import Search
 def too_little(segments: Sequence[Segment], noise: float, criteria: Criteria) -> str:
     """Return the sentence why the data cannot support a verdict, empty when they can.
 
-    *noise* is its standard deviation in m or N.
+    *noise* is its standard deviation in m, rad or N.
     """
     duration = sum(float(s.t[-1] - s.t[0]) for s in segments)
     if duration < criteria.duration:
@@ -25,10 +26,9 @@ def too_little(segments: Sequence[Segment], noise: float, criteria: Criteria) ->
     moved = max(float(np.ptp(s.target)) for s in segments)
     if moved < criteria.range * noise:
         s = segments[0]
-        unit = 'm' if s.kind == 'free' else 'N'
         return (
-            f'the {s.quantity} changes by {_size(moved, unit)}, less than {criteria.range:g} '
-            f'times its noise of {_size(noise, unit)}: excite the rig more'
+            f'the {s.quantity} changes by {_size(moved, s.unit)}, less than {criteria.range:g} '
+            f'times its noise of {_size(noise, s.unit)}: excite the rig more'
         )
     return ''
 
@@ -56,7 +56,7 @@ def explains(found: Search) -> bool:
 def verdict(found: Search, declared: float, retuned: float) -> str:
     """Return the verdict on data that support one.
 
-    *declared* and *retuned* are the errors of these models over what judges, in m or N.
+    *declared* and *retuned* are the errors of these models over what judges, in m, rad or N.
     """
     if found.best.effects:
         return 'effect_found' if explains(found) else 'unexplained_structure'
@@ -79,7 +79,8 @@ def sentence(answer: Identification, lacking: str) -> str:
     floor = f'The noise floor is {_size(answer.noise.sigma, answer.unit)}.'
     if answer.verdict == 'effect_found':
         names = ', '.join(
-            e.name + (f' (or {" or ".join(e.alternatives)})' if e.alternatives else '')
+            spelled(e.name)
+            + (f' (or {" or ".join(map(spelled, e.alternatives))})' if e.alternatives else '')
             for e in answer.effects
         )
         it = 'it' if len(answer.effects) == 1 else 'them'
@@ -109,15 +110,16 @@ def next_experiment(answer: Identification, library: tuple[Effect, ...]) -> str:
     if answer.verdict == 'effect_found':
         first = next((e for e in answer.effects if e.alternatives), answer.effects[0])
         if first.alternatives:
-            rivals = ', '.join((first.name, *first.alternatives))
-            return f'To tell {rivals} apart, record: {known[first.name]}.'
-        return f'To confirm {first.name}, record: {known[first.name]}.'
+            rivals = ', '.join(map(spelled, (first.name, *first.alternatives)))
+            return f'To tell {rivals} apart, record: {known[effect_of(first.name)]}.'
+        return f'To confirm {spelled(first.name)}, record: {known[effect_of(first.name)]}.'
     if answer.verdict == 'unexplained_structure':
         tried = [c for c in answer.candidates if c.gain > 0.0 and c.effect in answer.tested]
         if tried:
             best = max(tried, key=lambda c: c.gain).effect
             return (
-                f'{best} comes nearest; to see what is left with it, record: {known[best]}, '
+                f'{spelled(best)} comes nearest; to see what is left with it, record: '
+                f'{known[effect_of(best)]}, '
                 'with force and pressure measured.'
             )
         return 'Record force and pressure together with the position, slowly and fast.'
@@ -125,6 +127,6 @@ def next_experiment(answer: Identification, library: tuple[Effect, ...]) -> str:
 
 
 def _size(value: float, unit: str) -> str:
-    if unit == 'm' and value < 1.0:
-        return f'{1e3 * value:.3g} mm'
+    if unit in ('m', 'rad') and value < 1.0:
+        return f'{1e3 * value:.3g} m{unit}'
     return f'{value:.3g} {unit}'

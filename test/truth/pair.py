@@ -114,6 +114,8 @@ class TruthPair:
     contraction  of both muscles at angle 0
     payload      kg that nobody declares
     in_muscles   effects of both muscles; friction effects act at the pivot, in N m and rad/s
+    in_each      effects of the first muscle alone, and of the second alone
+    constants    a1..a6 in SI of each muscle, in the place of those published
     dt           largest substep, s
     """
 
@@ -131,6 +133,8 @@ class TruthPair:
         payload: float = 0.0,
         in_muscles: Sequence[Effect] = (),
         at_pivot: Sequence[Effect] = (),
+        in_each: tuple[Sequence[Effect], Sequence[Effect]] = ((), ()),
+        constants: tuple[tuple[float, ...], tuple[float, ...]] | None = None,
         dt: float = 5e-5,
         sensor: Sensor | None = None,
         seed: int = 0,
@@ -147,9 +151,10 @@ class TruthPair:
         G.x1, G.x2 = (k * length for k, length in zip(contraction, lengths, strict=True))
         for i, (name, length) in enumerate(zip(muscles, lengths, strict=True)):
             P = element(self._parameters[i])
-            P.a1, P.a2, P.a3, P.a4, P.a5, P.a6 = constants_si(name)
+            own = constants_si(name) if constants is None else constants[i]
+            P.a1, P.a2, P.a3, P.a4, P.a5, P.a6 = own
             P.zeta, P.l0_m = zeta, length
-            _give(P, in_muscles)
+            _give(P, (*in_muscles, *in_each[i]))
         pivot = element(self._parameters[2])
         _give(pivot, at_pivot)
         pivot.bristle_ns_m = 0.4 * math.sqrt(pivot.bristle_n_m * G.inertia)

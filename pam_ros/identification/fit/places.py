@@ -73,6 +73,12 @@ def muscle_of(name: str) -> str:
     return name.rpartition('.')[0]
 
 
+def spelled(name: str) -> str:
+    """Return a place's *name* as a sentence has it: ``pressure_lag of agonist``."""
+    muscle = muscle_of(name)
+    return f'{effect_of(name)} of {muscle}' if muscle else name
+
+
 def names_of_muscles(joint: Joint, given: Sequence[str] = ()) -> tuple[str, ...]:
     """Return the names of the muscles of *joint*: those *given*, or made of their numbers."""
     return tuple(given) or tuple(f'muscle_{i + 1}' for i in range(len(joint.muscles)))

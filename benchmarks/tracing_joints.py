@@ -1,0 +1,149 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Blind trials of joints: how often the finder names the effect, and the muscle that has it.
+
+Recordings come from the truth pair in ``test/truth``, which shares neither equations nor
+integrator with the package. Options: ``--seeds N`` (default 3) from ``--first N``, ``--kinds
+a@both,b@one,c@joint,noise_only``, ``--jobs N``, ``--log FILE`` (one JSON line a trial).
+"""
+
+import os
+
+# One thread for each of many small matrices: trials run side by side instead.
+os.environ.setdefault('OPENBLAS_NUM_THREADS', '1')
+
+import argparse
+import json
+import sys
+import time
+from concurrent.futures import ProcessPoolExecutor
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / 'test'))
+
+from pam_ros.identification.identify import identify
+from pam_ros.muscle.muscle import Muscle
+from pam_ros.recording.recording import Recording
+from pam_ros.rig.joint import Actuator, Joint
+from pam_ros.rig.loads import Arm
+from pam_ros.rig.transmissions import Pulley
+from truth.pair_trials import NAMES, PAIR_KINDS, PairTrial, pair_trial
+
+TARGETS = {
+    'the effect named first, or in a set of two': 0.90,
+    'and where it sits': 0.80,
+    'noise only: no effect claimed': 0.99,
+    'out of library: called unexplained_structure': 0.92,
+}
+
+
+def declared_model(trial: PairTrial) -> Joint:
+    """Return what the user of the trial believes."""
+    d = trial.declared
+    muscle = Muscle(
+        *d.constants_si, pressure_unit='Pa', contraction_unit='fraction', zeta=d.zeta, l0=d.l0
+    )
+    actuator = Actuator(muscle, contraction=d.contraction)
+    load = Arm(inertia=d.inertia, mass=d.mass, arm=d.arm)
+    return Joint((actuator, actuator), load, Pulley(radius=d.radius))
+
+
+def recording_of(trial: PairTrial) -> Recording:
+    """Return the recording of a trial as the finder gets it."""
+    return Recording(
+        f'{trial.kind} {trial.seed}', trial.t, trial.t, trial.commands, trial.angle,
+        None, None, None, 'free', muscles=NAMES, unit='rad',
+    )  # fmt: skip
+
+
+def run_trial(job: tuple[str, int]) -> dict[str, Any]:
+    """Run one trial and return a row of what was there and what was found."""
+    trial = pair_trial(*job)
+    began = time.perf_counter()
+    found = identify(declared_model(trial), [recording_of(trial)])
+    declared, retuned, augmented = (stage.held_error for stage in found.stages)
+    return {
+        'kind': trial.kind,
+        'seed': trial.seed,
+        'forms': [e.form for e in trial.effects],
+        'accepted': sorted(trial.accepted),
+        'where': trial.where,
+        'in_library': trial.in_library,
+        'verdict': found.verdict,
+        'found': [e.name for e in found.effects],
+        'alternatives': [list(e.alternatives) for e in found.effects],
+        'declared': declared,
+        'retuned': retuned,
+        'augmented': augmented,
+        'noise': trial.noise,
+        'seconds': time.perf_counter() - began,
+    }
+
+
+def place_of(name: str, on_joint: bool) -> tuple[str, str]:
+    """Return the effect of a place's name, and where that is: a muscle, 'both' or 'joint'."""
+    muscle, _, effect = name.rpartition('.')
+    return effect, muscle or ('joint' if on_joint else 'both')
+
+
+def hits(row: dict[str, Any]) -> tuple[bool, bool]:
+    """Say whether the one effect was named, first or in a set of two, and with its place."""
+    if not row['found']:
+        return False, False
+    stated = [row['found'][0], *row['alternatives'][0]]
+    places = [place_of(name, row['where'] == 'joint') for name in stated]
+    named = [(effect in row['accepted'], where == row['where']) for effect, where in places]
+    first = named[0]
+    if first[0]:
+        return True, first[1]
+    few = len({effect for effect, _ in places}) <= 2
+    return few and any(is_it for is_it, _ in named), few and any(all(both) for both in named)
+
+
+def scores(rows: list[dict[str, Any]]) -> dict[str, float]:
+    """Return the figures that the targets are about."""
+    single = [hits(r) for r in rows if r['accepted'] and r['in_library']]
+    noise = [not r['found'] for r in rows if not r['accepted']]
+    strange = [r['verdict'] == 'unexplained_structure' for r in rows if not r['in_library']]
+    groups = [[a for a, _ in single], [b for _, b in single], noise, strange]
+    return {
+        name: float(np.mean(group)) if group else float('nan')
+        for name, group in zip(TARGETS, groups, strict=True)
+    }
+
+
+def main() -> None:
+    """Run the trials that the command line asks for, and print the scores."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument('--seeds', type=int, default=3)
+    parser.add_argument('--first', type=int, default=0)
+    parser.add_argument('--kinds', default='')
+    parser.add_argument('--jobs', type=int, default=2)
+    parser.add_argument('--log', type=Path)
+    given = parser.parse_args()
+    kinds = given.kinds.split(',') if given.kinds else PAIR_KINDS
+    jobs = [(kind, given.first + k) for k in range(given.seeds) for kind in kinds]
+    rows = []
+    with ProcessPoolExecutor(given.jobs) as pool:
+        for row in pool.map(run_trial, jobs):
+            rows.append(row)
+            if given.log:
+                with given.log.open('a') as log:
+                    log.write(json.dumps(row) + '\n')
+            print(
+                f'{len(rows):4d}/{len(jobs)} {row["kind"]:32s} {row["where"]:11s} '
+                f'{row["seed"]:3d} {"+".join(row["found"]) or row["verdict"]:44s} '
+                f'{row["augmented"] / row["noise"]:6.2f} x noise  {row["seconds"]:5.1f} s',
+                flush=True,
+            )
+    print(f'\n{len(rows)} trials, median {np.median([r["seconds"] for r in rows]):.1f} s each')
+    for name, value in scores(rows).items():
+        word = '-' if np.isnan(value) else 'reached' if value >= TARGETS[name] else 'SHORT'
+        print(f'  {name:52s} {value:7.3f}   >= {TARGETS[name]:<5g} {word}')
+
+
+if __name__ == '__main__':
+    main()
