@@ -46,7 +46,7 @@ def parser() -> argparse.ArgumentParser:
         '--params',
         required=True,
         metavar='FILE',
-        help='the declared model: a parameter file of pam_sim, or a muscle of this package',
+        help='the nominal model: a parameter file of pam_sim, or a muscle of this package',
     )
     made.add_argument(
         '--set',
@@ -61,7 +61,7 @@ def parser() -> argparse.ArgumentParser:
         action='extend',
         default=[],
         metavar='RECORDING',
-        help='recordings to judge by, which no fit sees (default: a third of the others)',
+        help='recordings to judge by, which no fit sees (default: the last quarter of the others)',
     )
     made.add_argument(
         '--column',
@@ -119,25 +119,38 @@ def run(given: argparse.Namespace, command: str) -> str:
     """Identify what the command line names, write the report, return its last line."""
     from pam_ros.compiled import HAVE_NUMBA
     from pam_ros.identification.identify import identify
+    from pam_ros.recording.inputs import refuse_idle
     from pam_ros.recording.mapping import read_mapping
     from pam_ros.recording.read import read_recording
     from pam_ros.report.provenance import provenance
     from pam_ros.report.summary import last_line
     from pam_ros.report.write import check_folder, write_report
-    from pam_ros.settings.rig import joint_and_values
+    from pam_ros.settings.nominal import nominal_joint
 
     check_folder(given.out)
-    model, _ = joint_and_values(given.params, given.set)
+    nominal = nominal_joint(given.params, given.set)
+    model = nominal.joint
     mapping = read_mapping(given.column, given.mapping)
-    muscle = model.muscle
-    l0 = None if model.is_driven else muscle.l0  # a drive has no length to be within
+    # A length makes a position of a contraction; a known force that drives a load has none.
+    has_length = nominal.reach is None and not model.is_driven
     recordings, test = (
         [
-            read_recording(path, mapping, given.kind, l0, muscle.p_max, given.namespace)
+            read_recording(
+                path,
+                mapping,
+                given.kind,
+                model.muscle.l0 if has_length else None,
+                [muscle.p_max for muscle in model.muscles],
+                given.namespace,
+                nominal.names_of_several,
+                model.transmission.equations.unit,
+                nominal.reach,
+            )
             for path in paths
         ]
         for paths in (given.recordings, given.test)
     )
+    refuse_idle(recordings)
     for recording in test:
         if recording.digest in {other.digest for other in recordings}:
             raise PamError(
@@ -148,7 +161,7 @@ def run(given: argparse.Namespace, command: str) -> str:
             print(shown(f'{recording.name}: {warning}'), file=sys.stderr)
     if not HAVE_NUMBA:
         print('numba is not installed: this takes some hundred times as long', file=sys.stderr)
-    source = provenance(model, given.params, given.set, recordings, test, command)
+    source = provenance(nominal, given.params, given.set, recordings, test, command)
     progress = Progress()
     try:
         answer = identify(model, recordings, test, progress)

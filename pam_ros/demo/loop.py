@@ -59,6 +59,7 @@ class Replay:
             (self.declared, self.declared, self.identified),
             np.ones(self.t.size, dtype=bool),
             True,
+            nothing[:, None],
             nothing,
             nothing,
             nothing,

@@ -55,6 +55,21 @@ def driving(recording: Recording, p_max: float | Sequence[float] | None = None) 
     return [Input(*one) for one in zip(names, columns, highest, strict=True)]
 
 
+def refuse_idle(recordings: Sequence[Recording]) -> None:
+    """Raise RecordingError where a muscle has the same input in all *recordings*, all the time.
+
+    What such a muscle does cannot be told from what the others do.
+    """
+    for one in zip(*map(driving, recordings), strict=True):
+        values = np.concatenate([each.values for each in one])
+        if len(recordings[0].muscles) > 1 and is_constant(values):
+            where = recordings[0].name if len(recordings) == 1 else 'all recordings'
+            raise RecordingError(
+                f'{where}: {one[0].name} is constant at {float(np.mean(values)):.6g} Pa: record '
+                'changes of the pressures of all muscles'
+            )
+
+
 def quantity_of(recording: Recording, name: str) -> Quantity:
     """Return the quantity that the output *name* of *recording* is."""
     turned = {'position': 'angle', 'velocity': 'angular_velocity'}

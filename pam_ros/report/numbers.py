@@ -10,13 +10,14 @@ from typing import Any
 
 import numpy as np
 
+from pam_ros.identification.fit.places import effect_of, muscle_of
 from pam_ros.identification.result import Candidate, Estimate, Finding, Identification
 from pam_ros.recording.recording import OUTPUTS, Recording
 from pam_ros.report.provenance import Provenance
 from pam_ros.report.runs import STAGES, Run, sizes
 
 # The first number rises when a key changes its meaning or goes, the second when one comes.
-SCHEMA_VERSION = '2.1'
+SCHEMA_VERSION = '2.2'
 
 Table = dict[str, Any]
 
@@ -65,7 +66,8 @@ def _plain(value: Any) -> Any:
 
 def _effect(finding: Finding) -> Table:
     return {
-        'name': finding.name,
+        'name': effect_of(finding.name),
+        'muscle': muscle_of(finding.name) or None,
         'parameters': _estimates(finding.parameters),
         'alternatives': list(finding.alternatives),
         'reason': finding.reason,
@@ -96,7 +98,8 @@ def _error(result: Identification, runs: list[Run]) -> Table:
 
 def _candidate(candidate: Candidate) -> Table:
     return {
-        'name': candidate.effect,
+        'name': effect_of(candidate.effect),
+        'muscle': muscle_of(candidate.effect) or None,
         'on_top_of': list(candidate.parents),
         'fit_error': candidate.fit_error,
         'held_out_error': candidate.choose_error,
@@ -130,8 +133,14 @@ def _recording(recording: Recording, role: str) -> Table:
     period = float(np.median(steps))
     regular = steps[steps < 3.0 * period]
     command = recording.command
-    ranges = {name: _range(getattr(recording, name)) for name in OUTPUTS}
-    ranges['pressure_command'] = _range(command)
+    signals = [(name, getattr(recording, name)) for name in OUTPUTS]
+    ranges: Table = {}
+    for name, values in (*signals, ('pressure_command', command)):
+        if values is not None:
+            names = [f'{muscle}.{name}' for muscle in recording.muscles]
+            columns = values.reshape(len(values), -1).T
+            own = names if values.ndim > 1 else [name]
+            ranges |= {one: _range(column) for one, column in zip(own, columns, strict=True)}
     return {
         'name': recording.name,
         'role': role,
@@ -141,15 +150,16 @@ def _recording(recording: Recording, role: str) -> Table:
         'rate': 1.0 / period,
         'jitter': float(np.std(regular)),
         'gaps': [list(gap) for gap in recording.gaps],
-        'commands': None if command is None else command.size,
-        'ranges': {name: found for name, found in ranges.items() if found is not None},
+        'commands': None if command is None else len(command),
+        'unit': recording.unit,
+        'ranges': ranges,
         'warnings': list(recording.warnings),
         'sha256': recording.digest,
     }
 
 
-def _range(values: Any) -> list[float] | None:
-    return None if values is None else [float(np.min(values)), float(np.max(values))]
+def _range(values: Any) -> list[float]:
+    return [float(np.min(values)), float(np.max(values))]
 
 
 def _provenance(source: Provenance) -> Table:

@@ -25,6 +25,8 @@ from pam_ros.report.wording import (
     spoken,
 )
 
+LONGEST_LABEL = 30  # characters that the names of effects may have above a plot
+
 VERDICTS = {
     'effect_found': 'Effect found',
     'no_missing_effect': 'Nothing missing',
@@ -67,7 +69,7 @@ def page(result: Identification, runs: list[Run], source: Provenance, content: T
         errors=rows.errors(content, scale, {curve.stage: curve.label for curve in curves}),
         pictures=plots.pictures(result, runs, content, curves, scale),
         rounds=rows.rounds(result, scale),
-        parameters=rows.parameters(result),
+        parameters=rows.parameters(result, source.nominal),
         recordings=rows.recordings(content),
         configuration=rows.configuration(source),
         warnings=warnings_of(result, source),
@@ -80,7 +82,10 @@ def page(result: Identification, runs: list[Run], source: Provenance, content: T
 def curves_of(result: Identification, runs: list[Run]) -> list[Curve]:
     """Return the models that differ, the declared one first, each with the name it goes by."""
     names = [name_in_words(name) for name in added(result)]
-    labels = ('as declared', 're-tuned', 're-tuned + ' + (listed(names) or 'declared effects'))
+    effects = listed(names) or 'declared effects'
+    if len(effects) > LONGEST_LABEL:
+        effects = f'{len(names)} effects'
+    labels = ('as declared', 're-tuned', f're-tuned + {effects}')
     found = [Curve(0, labels[0])]
     for before, stage in pairwise(range(len(STAGES))):
         if not all(np.array_equal(r.simulated[before], r.simulated[stage]) for r in runs):

@@ -3,40 +3,45 @@
 """``identified.yaml``: the identified model as the parameter file of a simulator."""
 
 import textwrap
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from pam_ros.effects.names import parsed
+from pam_ros.effects.base import Effect
 from pam_ros.identification.result import Identification
 from pam_ros.plain_yaml import plain_text
 from pam_ros.report.provenance import Provenance
 from pam_ros.report.summary import last_line
 from pam_ros.report.wording import listed
-from pam_ros.rig.joint import Joint, changed
+from pam_ros.rig.joint import EffectValues, Joint
 from pam_ros.settings.files import write
-from pam_ros.settings.tables import Values, flat_rig
 
 
 def identified(result: Identification, source: Provenance) -> Joint:
     """Return the identified model: re-tuned, with the effects that were found.
 
-    Its constants are no longer those of the declared source, and say so.
+    Effects that are absent are left out. Its constants are no longer those of the declared source,
+    and say so.
     """
     model = result.stages[-1].model
     names = listed([recording.name for recording in source.recordings])
-    text = f'pam_identify, re-tuned on {names}; declared in {source.parameters}'
-    return changed(model, replace(model.muscle, source=plain_text(text)), model.all_effects)
+    text = plain_text(f'pam_identify, re-tuned on {names}; declared in {source.parameters}')
+    on_joint, *in_muscles = model.present
+    actuators = tuple(
+        replace(
+            actuator,
+            muscle=replace(actuator.muscle, source=text),
+            effects=_only(actuator.effects, present),
+        )
+        for actuator, present in zip(model.actuators, in_muscles, strict=True)
+    )
+    return replace(model, actuators=actuators, effects=_only(model.effects, on_joint))
 
 
-def values(model: Joint) -> Values:
-    """Return the flat parameters of a rig; effects that are absent are left out."""
-    present = {effect.name for effect in model.all_present}
-    found = {}
-    for flat, value in flat_rig(model).items():
-        name = parsed(flat)
-        if name is None or name.effect in present:
-            found[flat] = value
-    return found
+def _only(effects: EffectValues, present: Sequence[Effect]) -> EffectValues:
+    """Return those of *effects* that are *present*."""
+    names = {effect.name for effect in present}
+    return {name: values for name, values in effects.items() if name in names}
 
 
 def write_identified(path: Path, result: Identification, source: Provenance) -> None:
@@ -44,7 +49,7 @@ def write_identified(path: Path, result: Identification, source: Provenance) -> 
 
     Constants are in the units of the declared file. Read again, it makes the same rig to the bit.
     """
-    write(path, values(identified(result, source)), about(result, source))
+    write(path, source.nominal.flat(identified(result, source)), about(result, source))
 
 
 def about(result: Identification, source: Provenance) -> str:

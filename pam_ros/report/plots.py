@@ -13,9 +13,11 @@ from pam_ros.identification.result import Identification
 from pam_ros.report import residual_plots, style, time_plots
 from pam_ros.report.diagnostics import Size
 from pam_ros.report.numbers import Table
-from pam_ros.report.runs import STAGES, Run
+from pam_ros.report.runs import STAGES, Run, drive_of
 from pam_ros.report.time_plots import Curve
 from pam_ros.report.wording import Scale, scale_for
+from pam_ros.rig import statics
+from pam_ros.rig.joint import Joint
 
 Array = NDArray[np.float64]
 
@@ -141,28 +143,51 @@ def _correlation(
     ]
 
 
+def _input(joint: Joint) -> str:
+    """Return what the one signal that drives *joint* is called."""
+    if len(joint.muscles) == 1:
+        return 'pressure'
+    return 'pressure difference' if np.min(drive_of(joint)) < 0.0 else 'mean pressure'
+
+
 def _against(
     result: Identification, runs: list[Run], curves: list[Curve], scale: Scale
 ) -> list[Picture]:
-    muscle = result.stages[0].model.muscle
-    pressures = np.concatenate([run.pressure for run in runs])
+    joint = result.stages[0].model
+    pressures = np.concatenate([run.drive for run in runs])
     pressure = scale_for('Pa', float(np.max(np.abs(pressures))))
-    input_label = f'pressure, {pressure.unit}'
-    if muscle.is_load_only:
+    input_label = f'{_input(joint)}, {pressure.unit}'
+    if joint.is_driven:
         pressure, input_label = Scale(1.0, ''), 'input'
+    size, unit = (180.0 / np.pi, '°') if joint.is_revolute else (1e3, 'mm')
     wanted: list[tuple[str, str, str, residual_plots.Pick]] = [
-        ('velocity', 'Against velocity', 'velocity, mm/s', lambda run: 1e3 * run.velocity),
-        ('pressure', 'Against pressure', input_label, lambda run: pressure.factor * run.pressure),
-        ('contraction', 'Against contraction', 'contraction, %', lambda r: 100.0 * r.contraction),
+        ('velocity', 'Against velocity', f'velocity, {unit}/s', lambda run: size * run.velocity),
+        (
+            'pressure',
+            'Against the input' if joint.is_driven else f'Against {_input(joint)}',
+            input_label,
+            lambda run: pressure.factor * run.drive,
+        ),
+        ('position', 'Against position', f'position, {unit}', lambda run: size * run.position),
         ('time', 'Against time', 'time, s', lambda run: run.t),
     ]
-    if muscle.is_load_only:
-        wanted[1] = ('pressure', 'Against the input', *wanted[1][2:])
+    if statics.is_direct(joint) and not joint.is_driven:
+        l0 = joint.muscle.l0
         wanted[2] = (
             'contraction',
-            'Against position',
-            'position, mm',
-            lambda run: 1e3 * muscle.l0 * run.contraction,
+            'Against contraction',
+            'contraction, %',
+            lambda run: 100.0 * run.position / l0,
+        )
+    if len(joint.muscles) > 1:
+        wanted.insert(
+            2,
+            (
+                'level',
+                'Against mean pressure',
+                f'mean pressure, {pressure.unit}',
+                lambda run: pressure.factor * run.pressures.mean(axis=1),
+            ),
         )
     found = [
         _narrow(

@@ -13,9 +13,8 @@ from typing import Any
 
 from pam_ros.errors import printable
 from pam_ros.recording.recording import Recording
-from pam_ros.rig.joint import Joint
 from pam_ros.settings.files import find
-from pam_ros.settings.tables import flat_rig
+from pam_ros.settings.nominal import NominalJoint
 from pam_ros.version import __version__
 
 LIBRARIES = ('numpy', 'scipy', 'numba')
@@ -27,7 +26,8 @@ class Provenance:
 
     ``command`` is the command line; ``parameters`` the file or preset as it was named, with its
     SHA-256 ``digest`` and the ``overrides``; ``configuration`` the flat values that all this
-    declared; ``date`` in UTC, ISO 8601. ``recordings`` were fitted, ``test`` was not.
+    gives to the ``nominal`` joint; ``date`` in UTC, ISO 8601. ``recordings`` were fitted, ``test``
+    was not.
     """
 
     command: str
@@ -39,10 +39,11 @@ class Provenance:
     test: tuple[Recording, ...]
     date: str
     versions: Mapping[str, str]
+    nominal: NominalJoint
 
 
 def provenance(
-    model: Joint,
+    nominal: NominalJoint,
     parameters: str,
     overrides: Sequence[str],
     recordings: Sequence[Recording],
@@ -56,11 +57,12 @@ def provenance(
         printable(parameters),
         hashlib.sha256(path.read_bytes()).hexdigest(),
         tuple(map(printable, overrides)),
-        flat_rig(model),
+        nominal.flat(),
         tuple(recordings),
         tuple(test),
         datetime.now(timezone.utc).isoformat(timespec='seconds'),
         versions(),
+        nominal,
     )
 
 

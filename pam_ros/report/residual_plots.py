@@ -50,7 +50,7 @@ def cross_correlation(runs: list[Run], curves: list[Curve]) -> Figure:
     period = _period(runs, COARSE)
     after = round(LAGS / period)
     before = after // 2
-    inputs = [diagnostics.resampled(run.t, run.pressure, period) for run in runs]
+    inputs = [diagnostics.resampled(run.t, run.drive, period) for run in runs]
     band, top = 1.0, 0.0
     for curve in curves:
         found, band = diagnostics.cross_correlation(
@@ -92,7 +92,7 @@ def coherence(runs: list[Run], curves: list[Curve]) -> Figure:
     """Return the coherence of residual and input, with the level of unrelated signals."""
     figure, ax = style.panel()
     period = _period(runs, SLOW)
-    inputs = [diagnostics.resampled(run.t, run.pressure, period) for run in runs]
+    inputs = [diagnostics.resampled(run.t, run.drive, period) for run in runs]
     level = float('nan')
     for curve in curves:
         f, found, level = diagnostics.coherence(
@@ -131,7 +131,7 @@ def by_direction(
     """Return the residuals over the input where it rises and where it falls: loops open."""
     figure, ax = style.panel()
     period = _period(runs, COARSE)
-    p = [diagnostics.resampled(run.t, run.pressure, period) for run in runs]
+    p = [diagnostics.resampled(run.t, run.drive, period) for run in runs]
     slope = np.concatenate([np.gradient(part, period) for part in p])
     x = pressure.factor * np.concatenate(p)
     still = STILL * float(np.ptp(x)) / pressure.factor
@@ -157,7 +157,7 @@ def loop(
     run, part = stretch.run, slice(stretch.start, stretch.stop)
     t = run.t[part]
     period = float(t[-1] - t[0]) / 700.0
-    p = pressure.factor * diagnostics.resampled(t, run.pressure[part], period)
+    p = pressure.factor * diagnostics.resampled(t, run.drive[part], period)
     y = scale.factor * diagnostics.resampled(t, run.target[part], period)
     ax.plot(p, y, color=style.MEASURED, linewidth=3.0)
     for curve in curves:
@@ -172,14 +172,14 @@ def loop_stretch(runs: list[Run]) -> Stretch:
     """Return the stretch with the widest and calmest loop of the input: few turns, no jumps."""
     best, most = Stretch(runs[0], 0, runs[0].t.size), -np.inf
     for run in runs:
-        way = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(run.pressure)))])
+        way = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(run.drive)))])
         soon = np.searchsorted(run.t, run.t + LOOP_JUMP).clip(max=run.t.size - 1)
-        leap = np.abs(run.pressure[soon] - run.pressure)
+        leap = np.abs(run.drive[soon] - run.drive)
         total = float(run.t[-1] - run.t[0])
         for span in (min(seconds, total) for seconds in LOOP_SPANS):
             for start in np.arange(run.t[0], run.t[-1] - span + 1e-9, span / 6.0):
                 i, j = np.searchsorted(run.t, (start, start + span + 1e-9)).tolist()
-                reach = float(np.ptp(run.pressure[i:j])) if j - i > FEWEST else 0.0
+                reach = float(np.ptp(run.drive[i:j])) if j - i > FEWEST else 0.0
                 if reach <= 0.0:
                     continue
                 # There and back is twice the reach: more is turns within it, less is no loop.

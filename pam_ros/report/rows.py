@@ -21,7 +21,7 @@ from pam_ros.report.wording import (
     probability,
     scale_for,
 )
-from pam_ros.settings.tables import rig_table
+from pam_ros.settings.nominal import NominalJoint
 
 ORDER = {'chosen': 0, 'ambiguous': 1, 'rejected': 2, 'untestable': 3}
 
@@ -91,12 +91,11 @@ def _candidate(candidate: Candidate, scale: Scale) -> Row:
     return Row(cells, candidate.decision)
 
 
-def parameters(result: Identification) -> list[Row]:
+def parameters(result: Identification, nominal: NominalJoint) -> list[Row]:
     """Return a row for each parameter that a stage has fitted: value and interval in each."""
     names: dict[str, None] = {}
     for stage in result.stages:
         names.update(dict.fromkeys(stage.parameters))
-    table = rig_table()
     found = []
     for name in names:
         stages = [stage.parameters.get(name) for stage in result.stages]
@@ -105,7 +104,7 @@ def parameters(result: Identification) -> list[Row]:
         cells: dict[str, Any] = {
             'name': name,
             'unit': known.unit,
-            'text': table[name][2].text if name in table else '',
+            'text': nominal.text(name),
         }
         for key, estimate in zip(STAGES, stages, strict=True):
             cells[key] = _estimate(estimate)
@@ -139,7 +138,9 @@ def recordings(content: Table) -> list[Row]:
             'jitter': _jitter(one['jitter'] / period),
             'gaps': str(len(one['gaps'])),
             'commands': ABSENT if one['commands'] is None else str(one['commands']),
-            'ranges': [_range(name, *ends) for name, ends in one['ranges'].items()],
+            'ranges': [
+                _range(name, low, high, one['unit']) for name, (low, high) in one['ranges'].items()
+            ],
         }
         found.append(Row(cells, one['role']))
     return found
@@ -149,8 +150,11 @@ def _jitter(share: float) -> str:
     return 'below 0.1 %' if share < 1e-3 else f'{percent(share)} of a period'
 
 
-def _range(name: str, low: float, high: float) -> str:
-    scale = scale_for(QUANTITIES[name].si, max(abs(low), abs(high)))
+def _range(name: str, low: float, high: float, unit: str) -> str:
+    si = QUANTITIES[name.rpartition('.')[2]].si
+    if unit == 'rad' and name in ('position', 'velocity'):
+        si = {'position': 'rad', 'velocity': 'rad/s'}[name]
+    scale = scale_for(si, max(abs(low), abs(high)))
     if low == high:
         return f'{name_in_words(name)} {scale.text(low)} {scale.unit}'
     ends = interval(scale.factor * low, scale.factor * high)
@@ -159,11 +163,12 @@ def _range(name: str, low: float, high: float) -> str:
 
 def configuration(source: Provenance) -> list[tuple[str, str]]:
     """Return name and value, with its unit, of all that was declared."""
-    table = rig_table()
     found = []
     for name, value in source.configuration.items():
-        unit = table[name][2].unit if name in table else ''
+        unit = source.nominal.unit(name)
         text = f'{value:g}' if isinstance(value, float) else str(value)
+        if isinstance(value, tuple):
+            text = ', '.join(value)
         if text:
             found.append((name, f'{text} {unit}'.strip()))
     return found

@@ -10,11 +10,13 @@ from numpy.typing import NDArray
 from pam_ros.identification.data.segment import FreeSegment, HeldSegment, Segment
 from pam_ros.identification.result import Identification
 from pam_ros.report.diagnostics import Size, size_of
+from pam_ros.rig import statics
+from pam_ros.rig.joint import Joint
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 STAGES = ('declared', 'retuned', 'augmented')
-FAR = 1e6  # m or N: where a simulation that diverges is cut, so that it can be drawn
+FAR = 1e6  # m, rad or N: where a simulation that diverges is cut, so that it can be drawn
 
 
 @dataclass(frozen=True, eq=False)
@@ -22,9 +24,10 @@ class Run:
     """One gapless segment, every array (n,).
 
     t in s on its recording's clock; target measured, simulated by the three models in the order
-    of ``STAGES``, in SI; held marks what no fit has seen. pressure (Pa), contraction and velocity
-    (m/s) are those of a free load's last model, without the measurement's noise, and as measured
-    of a held one.
+    of ``STAGES``, in SI; held marks what no fit has seen. pressures (n, muscles) in Pa are the
+    commands, or as measured of a held muscle. position and velocity (m or rad, and per s) are
+    those of a free load's last model, without the measurement's noise, and as measured of a held
+    one. drive (n,) in Pa is the input as one signal, see :func:`drive_of`.
     """
 
     name: str
@@ -33,9 +36,10 @@ class Run:
     simulated: tuple[Array, Array, Array]
     held: Mask
     is_test: bool
-    pressure: Array
-    contraction: Array
+    pressures: Array
+    position: Array
     velocity: Array
+    drive: Array
 
     def residual(self, stage: int) -> Array:
         """Return measured - simulated (n,) of a stage."""
@@ -44,15 +48,15 @@ class Run:
 
 def runs_of(result: Identification) -> list[Run]:
     """Return the runs of an identification: its segments, then those of the test recordings."""
-    l0 = result.stages[0].model.muscle.l0
+    joint = result.stages[0].model
     found = []
     for k, segment in enumerate(result.segments):
         a, b, c = (_cut(stage.simulated[k]) for stage in result.stages)
         held = np.zeros_like(segment.fit) if result.test else ~segment.fit
-        found.append(_run(segment, (a, b, c), held, False, l0))
+        found.append(_run(segment, (a, b, c), held, False, joint))
     for k, segment in enumerate(result.test):
         a, b, c = (_cut(stage.tested[k]) for stage in result.stages)
-        found.append(_run(segment, (a, b, c), np.ones_like(segment.fit), True, l0))
+        found.append(_run(segment, (a, b, c), np.ones_like(segment.fit), True, joint))
     return found
 
 
@@ -61,16 +65,21 @@ def _cut(simulated: Array) -> Array:
 
 
 def _run(
-    segment: Segment, simulated: tuple[Array, Array, Array], held: Mask, is_test: bool, l0: float
+    segment: Segment,
+    simulated: tuple[Array, Array, Array],
+    held: Mask,
+    is_test: bool,
+    joint: Joint,
 ) -> Run:
     if isinstance(segment, FreeSegment):
         position = simulated[-1]
         velocity = np.asarray(np.gradient(position, segment.t), dtype=float)
         at = np.searchsorted(segment.drive_t, segment.t, side='right') - 1
-        pressure = segment.drive[np.maximum(at, 0)]
+        pressures = segment.drive[np.maximum(at, 0)]
     else:
         assert isinstance(segment, HeldSegment)
-        position, velocity, pressure = segment.position, segment.velocity, segment.pressure
+        position, velocity = segment.position, segment.velocity
+        pressures = segment.pressure[:, None]
     return Run(
         segment.name,
         segment.t,
@@ -78,10 +87,25 @@ def _run(
         simulated,
         held,
         is_test,
-        pressure,
-        position / l0,
+        pressures,
+        position,
         velocity,
+        pressures @ drive_of(joint),
     )
+
+
+def drive_of(joint: Joint) -> Array:
+    """Return the weights (muscles,) of the pressures in the one signal that drives *joint*.
+
+    Of muscles against each other it is the difference of the pressures, positive where they move
+    it to positive positions; of muscles that pull the same way their mean.
+    """
+    if joint.is_driven:
+        return np.ones(1)
+    middle = float(np.mean(statics.span(joint)))
+    signs = np.array([np.sign(statics.arm(joint, i, middle)) for i in range(len(joint.muscles))])
+    count = max(np.count_nonzero(signs > 0.0), np.count_nonzero(signs < 0.0))
+    return np.asarray(signs / count)
 
 
 def sizes(runs: list[Run], stage: int) -> tuple[Size, Size]:

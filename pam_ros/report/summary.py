@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The whole identification in one line."""
 
+from pam_ros.identification.fit.places import place_of, spelled
 from pam_ros.identification.result import Identification
 from pam_ros.report.wording import listed, number, scale_for
 
@@ -10,21 +11,20 @@ def last_line(result: Identification) -> str:
     """Return the verdict, and the error on held-out data before and after."""
     declared, retuned, augmented = (stage.held_error for stage in result.stages)
     scale = scale_for(result.unit, augmented)
-    names = [finding.name for finding in result.effects]
+    names = [spelled(finding.name) for finding in result.effects]
     found = f' ({listed(names)})' if names else ''
     errors = (
         f'{number(scale.factor * declared)} {scale.unit} as declared, '
         f'{number(scale.factor * retuned)} {scale.unit} re-tuned'
     )
     if added(result):
-        errors += f', {number(scale.factor * augmented)} {scale.unit} with {listed(added(result))}'
+        more = listed([spelled(name) for name in added(result)])
+        errors += f', {number(scale.factor * augmented)} {scale.unit} with {more}'
     floor = f'{number(scale.factor * result.noise.sigma)} {scale.unit}'
     return f'{result.verdict}{found}: held-out error {errors}; noise {floor}'
 
 
 def added(result: Identification) -> list[str]:
-    """Return the names of the effects that the last model has beside the declared ones."""
-    first, *_, last = (
-        [effect.name for effect in stage.model.all_present] for stage in result.stages
-    )
-    return [name for name in last if name not in first]
+    """Return the names of the places of the effects that were added to the last model."""
+    found = (place_of(name) for name in result.stages[-1].parameters)
+    return list(dict.fromkeys(name for name in found if name))

@@ -22,9 +22,11 @@ class Scale:
 
 
 def scale_for(unit: str, size: float) -> Scale:
-    """Return a handy unit for values in SI *unit* of about *size*: mm for m, kPa for Pa."""
+    """Return a handy unit for values in SI *unit* of about *size*: mm, mrad, kPa."""
     if unit == 'm':
         return Scale(1e6, 'µm') if 0.0 < size < 1e-5 else Scale(1e3, 'mm')
+    if unit == 'rad':
+        return Scale(1e3, 'mrad')
     if unit == 'Pa':
         return Scale(1e-3, 'kPa') if size >= 1e3 else Scale(1.0, 'Pa')
     return Scale(1.0, unit)
@@ -70,8 +72,13 @@ def percent(share: float, digits: int = 2) -> str:
 
 
 def name_in_words(name: str) -> str:
-    """Return a name of the library as a reader sees it: ``pressure_lag`` as "pressure lag"."""
-    return name.replace('_', ' ')
+    """Return a name as a reader sees it: ``pressure_lag`` as "pressure lag".
+
+    That of an effect in one of several muscles is "pressure lag of agonist".
+    """
+    muscle, _, rest = name.rpartition('.')
+    words = rest.replace('_', ' ')
+    return f'{words} of {muscle}' if muscle else words
 
 
 def spoken(text: str, names: list[str]) -> str:

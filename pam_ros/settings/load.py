@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The joint or the muscle that a parameter file of ``pam_sim`` describes, for programs."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -43,7 +43,7 @@ def load_joint(
     Raises ParameterError for a file that cannot be read, a name that is not a parameter, a value
     that is not allowed, and a file with more than one joint.
     """
-    scene, known = _read(name, {**_overrides(values), **parameters})
+    scene, known = read_scene(name, {**_overrides(values), **parameters})
     joints = scene.build_joints(known)
     if len(joints) > 1:
         raise ParameterError(
@@ -59,7 +59,7 @@ def load_muscle(name: str | Path, /) -> Muscle:
     *name* is that of the preset, or a path. Raises ParameterError for a file that cannot be read,
     a value that is not allowed, and a file with muscles that differ.
     """
-    scene, known = _read(name, {})
+    scene, known = read_scene(name, {})
     made = [build(Muscle, scene.of_muscle(known, i)) for i in range(len(scene.muscles))]
     if any(muscle != made[0] for muscle in made):
         raise ParameterError(
@@ -76,8 +76,13 @@ def _overrides(values: Mapping[str, Any] | None) -> dict[str, Any]:
     return dict(instance('values', values, Mapping, example))
 
 
-def _read(name: str | Path, overrides: Values) -> tuple[Scene, dict[str, Any]]:
-    """Return the scene of a file with *overrides*, and all of its flat values, checked."""
+def read_scene(
+    name: str | Path, overrides: Values, typed: Callable[[Table], Values] | None = None
+) -> tuple[Scene, dict[str, Any]]:
+    """Return the scene of a file with *overrides*, and all of its flat values, checked.
+
+    Where the overrides are texts, *typed* gives their values by the table of parameters.
+    """
     text = str(as_path('name', name, 'a path, or the name of a muscle or rig of this package'))
     path = find(text)
     from_file = read(path)
@@ -93,6 +98,8 @@ def _read(name: str | Path, overrides: Values) -> tuple[Scene, dict[str, Any]]:
     table = scene.table()
     _refuse_mistyped(path, from_file, scene, table)
     _refuse_others(overrides, scene, table)
+    if typed is not None:
+        given |= typed(table)
     return scene, _without_absent_effects(checked(table, given), scene)
 
 

@@ -13,10 +13,8 @@ import re
 from collections.abc import Iterable, Sequence
 from functools import cached_property
 from itertools import chain
-from pathlib import Path
 from typing import Any, ClassVar
 
-from pam_ros.arguments import as_path, sequence
 from pam_ros.errors import ParameterError
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig.arrangements import ARRANGEMENTS, LOAD
@@ -26,17 +24,14 @@ from pam_ros.settings.files import read_known
 from pam_ros.settings.sim import MUSCLE, SimSettings
 from pam_ros.settings.tables import (
     Table,
-    Value,
     Values,
     build,
     effects_of,
     joint_table,
     mountings,
     muscle_table,
-    override,
     refuse_mistyped,
     refuse_unknown_effects,
-    rig_table,
     with_defaults,
 )
 
@@ -241,23 +236,3 @@ def _found(values: Values, table: Table, names: Iterable[str]) -> dict[str, Any]
                 found[rest] = values[flat]
                 break
     return found
-
-
-def joint_and_values(
-    name: str | Path, overrides: Iterable[str] = (), table: Table | None = None
-) -> tuple[Joint, dict[str, Value]]:
-    """Return the nominal model of ``pam_identify``, one muscle on a mass, and its flat values.
-
-    *overrides* are ``name=value`` texts that come last. *table* are the names that the caller
-    knows (default: the rig's). Names that are not known here are passed over, for they may
-    be another program's; those that look mistyped are refused. Raises ParameterError.
-    """
-    known = rig_table()
-    table = known if table is None else table
-    name = str(as_path('name', name, 'a path, or the name of a muscle or rig of this package'))
-    texts = sequence('overrides', overrides, str, "a text such as 'mass=10'")
-    values = read_known(name, table)
-    values.update(override(text, table) for text in texts)
-    own = {flat: value for flat, value in values.items() if flat in known}
-    (joint,) = RigParameters({}).build_joints(own)
-    return joint, values

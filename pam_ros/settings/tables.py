@@ -14,13 +14,13 @@ from typing import Any, TypeVar
 
 from pam_ros.effects import EFFECTS
 from pam_ros.effects.base import Effect
-from pam_ros.effects.names import GROUP, EffectName, by_effect, flattened, parsed
+from pam_ros.effects.names import GROUP, EffectName, by_effect, parsed
 from pam_ros.effects.turned import turned
 from pam_ros.errors import ParameterError
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.parameters import Parameter, described
 from pam_ros.rig.arrangements import LOAD, Arrangement
-from pam_ros.rig.joint import Joint, split_effects
+from pam_ros.rig.joint import split_effects
 
 Value = bool | int | float | str | tuple[str, ...]
 Values = Mapping[str, Value]
@@ -112,11 +112,6 @@ def effects_of(values: Values) -> dict[str, dict[str, float]]:
 def flat(instance: Any, prefix: str = '') -> dict[str, Any]:
     """Return the described fields of a dataclass instance as flat values."""
     return {prefix + name: getattr(instance, name) for name in described(type(instance))}
-
-
-def flat_rig(joint: Joint) -> dict[str, Any]:
-    """Return the flat values of one muscle on a mass, with the effects that it was given."""
-    return {**flat(joint.muscle), **flat(joint.load), **flattened(joint.all_effects)}
 
 
 def with_defaults(table: Table, values: Values) -> Table:

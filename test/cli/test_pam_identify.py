@@ -19,7 +19,7 @@ from pam_ros.recording.csv_file import write_csv
 from pam_ros.recording.read import read_recording
 from pam_ros.report.write import FILES
 from pam_ros.rig.run import simulate
-from pam_ros.settings.rig import joint_and_values
+from pam_ros.settings.nominal import nominal_joint
 from support import results
 
 pytestmark = pytest.mark.needs_numba
@@ -118,8 +118,8 @@ def test_progress_is_told_in_plain_lines_where_there_is_no_terminal(found):
 
 
 def test_identified_file_starts_the_better_simulator(found, bench):
-    model, _ = joint_and_values(str(found[1] / 'identified.yaml'))
-    declared, _ = joint_and_values('dmsp_20_400n', ['mass=20'])
+    model = nominal_joint(found[1] / 'identified.yaml').joint
+    declared = nominal_joint('dmsp_20_400n', ['mass=20']).joint
     other = read_recording(bench / 'other.csv')
     rmse = {}
     for name, rig in (('declared', declared), ('identified', model)):
@@ -248,7 +248,7 @@ def test_report_is_written_for_any_name_in_locale_c_with_stdout_full(bench, tmp_
     assert 'größe' in report['provenance']['command']
     for file in ('report.html', 'identified.yaml', 'residual.csv'):
         assert r'm\udcfcller.csv' in (folder / file).read_text(encoding='utf-8')
-    joint_and_values(str(folder / 'identified.yaml'))
+    nominal_joint(folder / 'identified.yaml')
 
 
 @pytest.mark.slow

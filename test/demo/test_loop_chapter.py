@@ -7,7 +7,8 @@ import pytest
 
 from pam_ros.demo import loop
 from pam_ros.demo.loop import Replay, read_replay
-from pam_ros.settings.rig import RigParameters, joint_and_values
+from pam_ros.settings.nominal import nominal_joint
+from pam_ros.settings.rig import RigParameters
 from support.bags import FLOAT, JOINT, joint, ns, number, write_bag
 
 
@@ -66,8 +67,9 @@ def test_figure_shows_the_rig_and_both_models(replay):
 
 
 def test_what_is_hidden_makes_a_rig_that_is_not_the_declared_one():
-    declared, values = joint_and_values(loop.MUSCLE)
-    given = {k: v for k, v in {**values, **loop.HIDDEN}.items() if k != 'muscle'}
+    nominal = nominal_joint(loop.MUSCLE)
+    declared = nominal.joint
+    given = {k: v for k, v in {**nominal.flat(), **loop.HIDDEN}.items() if k != 'muscle'}
     (rig,) = RigParameters({}).build_joints(given)
     assert {effect.name for effect in rig.all_present} == {'coulomb_friction', 'pressure_lag'}
     assert not declared.all_present

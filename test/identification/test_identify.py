@@ -14,7 +14,7 @@ from pam_ros.identification.search.criteria import CRITERIA
 from pam_ros.recording.mapping import read_mapping
 from pam_ros.recording.read import read_recording
 from pam_ros.rig.run import simulate
-from pam_ros.settings.rig import joint_and_values
+from pam_ros.settings.nominal import nominal_joint
 from support import bench_truth, moved_cylinders
 from truth import effect
 
@@ -174,7 +174,7 @@ def test_recordings_of_two_kinds_are_refused():
 
 def test_the_measured_drive_has_two_frictions(shared_data):
     """A public benchmark, 25 s of closed loop: a mass moved by a motor of known force."""
-    model, _ = joint_and_values(str(ROOT / 'config' / 'rigs' / 'emps.yaml'))
+    model = nominal_joint(ROOT / 'config' / 'rigs' / 'emps.yaml').joint
     columns = read_mapping(['motor_voltage_V=pressure_command_Pa', 'reference_m=ignore'])
     file = shared_data / 'emps' / 'emps_estimation.csv'
     measured = read_recording(file, columns, None, model.muscle.l0, model.muscle.p_max)
@@ -198,7 +198,7 @@ def test_the_measured_drive_has_two_frictions(shared_data):
 
 def test_the_measured_muscle_goes_slack(shared_data):
     """A muscle held at four lengths: fitted on three repeats, tested on two others."""
-    model, _ = joint_and_values('dmsp_20_400n', ['mass=20'])
+    model = nominal_joint('dmsp_20_400n', ['mass=20']).joint
 
     def repeat(number):
         files = sorted((shared_data / 'psu_dmsp20_398mm').glob(f'*_test{number:02d}.csv'))
@@ -219,8 +219,7 @@ def test_the_measured_muscle_goes_slack(shared_data):
 
 
 def cylinder():
-    model, _ = joint_and_values(str(ROOT / 'config' / 'rigs' / 'cylinder_25mm.yaml'))
-    return model
+    return nominal_joint(ROOT / 'config' / 'rigs' / 'cylinder_25mm.yaml').joint
 
 
 def test_friction_of_a_cylinder_that_a_machine_moves():

@@ -18,7 +18,7 @@ from pam_ros.cli import pam_identify
 from pam_ros.errors import ParameterError
 from pam_ros.settings import excite
 from pam_ros.settings.control import settings_of
-from pam_ros.settings.rig import joint_and_values
+from pam_ros.settings.nominal import nominal_joint
 from pam_ros.settings.scene import Scene
 from pam_ros.settings.tables import checked, override
 from support.domain import claimed
@@ -140,7 +140,7 @@ def check_program(name, words):
         given = pam_identify.parser().parse_args(own)
         known = not given.params.startswith(('MUSCLE', 'FILE'))
         if known:
-            joint_and_values(
+            nominal_joint(
                 str(ROOT / given.params) if '/' in given.params else given.params, given.set
             )
         return

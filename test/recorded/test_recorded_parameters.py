@@ -15,7 +15,7 @@ import yaml
 from pam_ros.settings import excite
 from pam_ros.settings.control import settings_of
 from pam_ros.settings.files import read
-from pam_ros.settings.rig import joint_and_values
+from pam_ros.settings.nominal import nominal_joint
 from pam_ros.settings.scene import Scene
 from pam_ros.settings.tables import checked
 
@@ -128,6 +128,5 @@ def test_both_programs_make_the_same_joint_of_it():
     joints = [reader() for reader in READERS]
     assert all(joint == joints[0] for joint in joints)
     assert (
-        joint_and_values(str(IDENTIFIED))[0].parameters().tobytes()
-        == joints[0].parameters().tobytes()
+        nominal_joint(IDENTIFIED).joint.parameters().tobytes() == joints[0].parameters().tobytes()
     )

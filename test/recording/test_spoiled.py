@@ -17,7 +17,7 @@ from pam_ros.recording.bag_decode import RosbagsDecoder, Topic
 from pam_ros.recording.cdr import read_alike
 from pam_ros.recording.csv_file import read_csv
 from pam_ros.recording.mapping import ColumnMapping, read_mapping
-from pam_ros.settings.rig import joint_and_values
+from pam_ros.settings.nominal import nominal_joint
 from support import bags
 
 ROWS = [f'{k / 100},{100 + k % 7},{k / 8}' for k in range(12)]
@@ -113,7 +113,7 @@ def test_csv(file, changes, code):
 def test_yaml(file, changes):
     file.write_bytes(spoiled(YAML, changes))
     with contextlib.suppress(PamError):
-        joint_and_values(file)
+        nominal_joint(file)
     with contextlib.suppress(PamError):
         read_mapping(file=file)
 

@@ -45,7 +45,7 @@ def test_inputs_of_a_free_load(friction):
     result, _, (run,) = friction
     segment = result.segments[0]
     last = result.stages[2].simulated[0]
-    assert run.contraction * 0.4 == pytest.approx(last)
+    assert run.position == pytest.approx(last)
     # The integral of the velocity is the way.
     way = np.sum(0.5 * (run.velocity[1:] + run.velocity[:-1]) * np.diff(run.t))
     assert way == pytest.approx(last[-1] - last[0], abs=1e-4)
@@ -56,6 +56,9 @@ def test_inputs_of_a_free_load(friction):
 
 def test_inputs_of_a_held_length_are_measured(held):
     result, _, runs = held
-    assert [run.contraction[0] for run in runs] == pytest.approx([0.02, 0.1, 0.18])
-    assert all(run.pressure is s.pressure for run, s in zip(runs, result.segments, strict=True))
+    contractions = [run.position[0] / 0.4 for run in runs]
+    assert contractions == pytest.approx([0.02, 0.1, 0.18])
+    for run, s in zip(runs, result.segments, strict=True):
+        np.testing.assert_array_equal(run.pressures[:, 0], s.pressure)
+        np.testing.assert_array_equal(run.drive, s.pressure)
     assert runs_of(result)[0].velocity.max() == 0.0

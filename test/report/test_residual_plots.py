@@ -24,7 +24,7 @@ def run_with(residual, pressure, rate=100.0):
     y = 0.05 + 0.01 * np.sin(t)
     return Run(
         'run', t, y, (y, y - residual, y.copy()), t > 5.0, False,
-        pressure, y / 0.4, np.gradient(y, t),
+        pressure[:, None], y, np.gradient(y, t), pressure,
     )  # fmt: skip
 
 
@@ -72,18 +72,18 @@ def test_rising_and_falling_are_told_apart(loop_run):
 def test_loop_is_the_calm_one(loop_run):
     rng = np.random.default_rng(1)
     steps = np.repeat(rng.uniform(1e5, 6e5, 40), 100)
-    both = replace(loop_run, pressure=np.where(loop_run.t < 20.0, loop_run.pressure, steps))
+    both = replace(loop_run, drive=np.where(loop_run.t < 20.0, loop_run.drive, steps))
     stretch = residual_plots.loop_stretch([both])
     t = both.t[stretch.start : stretch.stop]
     assert t[-1] <= 20.0
-    assert np.ptp(both.pressure[stretch.start : stretch.stop]) == pytest.approx(2e5, rel=0.1)
+    assert np.ptp(both.drive[stretch.start : stretch.stop]) == pytest.approx(2e5, rel=0.1)
 
 
 def test_residual_over_velocity_shows_a_jump():
     t = np.arange(8000) / 200.0
     y = 0.05 + 0.02 * np.sin(t)
     v = np.gradient(y, t)
-    run = Run('run', t, y, (y, y - 2e-3 * np.sign(v), y), t < 0, False, y, y / 0.4, v)
+    run = Run('run', t, y, (y, y - 2e-3 * np.sign(v), y), t < 0, False, y[:, None], y, v, y)
     with style.styled():
         figure = residual_plots.against([run], BOTH, MM, lambda r: 1e3 * r.velocity, 'v')
     before, after = lines(figure)[:2]

@@ -17,9 +17,9 @@ from pam_ros.control.signals import Reference
 from pam_ros.errors import PamError
 from pam_ros.rig.arrangements import ARRANGEMENTS
 from pam_ros.settings.control import settings_of
-from pam_ros.settings.rig import joint_and_values
+from pam_ros.settings.nominal import nominal_joint
 from pam_ros.settings.scene import Scene
-from pam_ros.settings.tables import checked, override
+from pam_ros.settings.tables import checked, override, rig_table
 from support.bad_values import ANY, TEXTS, YAML_TRAPS, fits, values
 
 KINDS = [kind.name for kind in ARRANGEMENTS]
@@ -131,11 +131,11 @@ def file(tmp_path_factory):
 @given(st.sampled_from(sorted(TABLES[scene_of, 'load'])), st.sampled_from(YAML_TRAPS))
 def test_a_parameter_file(file, name, text):
     file.write_text(f'/**:\n  ros__parameters:\n    {name}: {text}\n')
-    table = TABLES[scene_of, 'load']
     try:
-        _, found = joint_and_values(file, table=table)
-        found = checked(table, found)
+        nominal = nominal_joint(file)
     except PamError as error:
         check_sentence(error)
     else:
-        check_range(table, found)
+        known = rig_table(nominal.kind)
+        for flat, value in nominal.flat().items():
+            assert fits(value, *picked(known, flat)), flat

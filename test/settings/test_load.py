@@ -15,7 +15,7 @@ from pam_ros.rig.loads import Arm, Mass
 from pam_ros.rig.standard_joints import antagonistic_joint, single_muscle_joint
 from pam_ros.rig.transmissions import Lever
 from pam_ros.settings.load import load_joint, load_muscle
-from pam_ros.settings.rig import joint_and_values
+from pam_ros.settings.nominal import nominal_joint
 from pam_ros.settings.scene import Scene
 from pam_ros.settings.tables import checked
 
@@ -85,7 +85,7 @@ def test_a_name_of_another_program_in_a_file_is_passed_over(file):
 
 def test_an_identified_file_makes_the_same_joint(file):
     path = file('mass: 7, effects.coulomb_friction.level: 12')
-    expected, _ = joint_and_values(path)
+    expected = nominal_joint(path).joint
     assert load_joint(path).parameters().tobytes() == expected.parameters().tobytes()
 
 

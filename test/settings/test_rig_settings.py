@@ -7,13 +7,14 @@ from pathlib import Path
 import pytest
 
 from pam_ros.effects import EFFECTS
-from pam_ros.effects.names import flattened
 from pam_ros.errors import ParameterError
+from pam_ros.rig.arrangements import LOAD
 from pam_ros.rig.loads import Mass
 from pam_ros.rig.standard_joints import single_muscle_joint
-from pam_ros.settings.rig import RigParameters, joint_and_values
+from pam_ros.settings.nominal import NominalJoint, nominal_joint
+from pam_ros.settings.rig import RigParameters
 from pam_ros.settings.scene import Scene
-from pam_ros.settings.tables import checked, flat_rig, rig_table
+from pam_ros.settings.tables import checked, rig_table
 
 ROOT = Path(__file__).parents[2]
 MUSCLES = sorted(path.stem for path in (ROOT / 'config' / 'muscles').glob('*.yaml'))
@@ -67,41 +68,24 @@ def test_common_values_make_a_joint_that_has_nobodys_own():
 @pytest.mark.parametrize('name', MUSCLES)
 def test_every_muscle_of_the_package_makes_a_rig(name):
     assert MUSCLES
-    model, values = joint_and_values(name, ['mass=5'])
-    assert model.load.mass == values['mass'] == 5.0
+    nominal = nominal_joint(name, ['mass=5'])
+    values = nominal.flat()
+    assert nominal.joint.load.mass == values['mass'] == 5.0
     assert values['source']
 
 
 def test_the_built_in_muscle_is_the_papers():
-    model, _ = joint_and_values('dmsp_20_400n')
+    model = nominal_joint('dmsp_20_400n').joint
     assert (model.parameters() == single_muscle_joint().parameters()).all()
 
 
 def test_a_mistyped_name_in_a_file_is_refused_and_a_strangers_is_not(file):
     path = file('mass: 7, robot_name: arm')
-    model, _ = joint_and_values(path)
+    model = nominal_joint(path).joint
     assert model.load.mass == 7.0
     path = file('mas: 7')
     with pytest.raises(ParameterError, match=r'given.yaml: mas .* was mass meant'):
-        joint_and_values(path)
-
-
-def test_a_file_makes_the_rig_that_it_gives_and_nothing_else(file):
-    """Names, kinds of joints and muscles' own values are those of programs that know them."""
-    path = file(f'mass: 7, {RUBS}: 12, joint: crank, muscles: [pam], pam.mass: 9')
-    model, values = joint_and_values(path, ['zeta=0.2'])
-    assert model == single_muscle_joint(model.muscle, Mass(7.0), RUB)
-    assert model.muscle.zeta == 0.2
-    assert values == {
-        'mass': 7,
-        RUBS: 12,
-        'zeta': 0.2,
-        'joint': 'crank',
-        'muscles': ('pam',),
-        'pam.mass': 9,
-    }
-    assert flattened(model.all_effects) == {RUBS: 12}
-    assert flat_rig(model)[RUBS] == 12
+        nominal_joint(path)
 
 
 @pytest.mark.parametrize(
@@ -118,7 +102,11 @@ def test_a_file_makes_the_rig_that_it_gives_and_nothing_else(file):
 )
 def test_a_file_that_makes_no_rig_is_refused(file, given, sentence):
     with pytest.raises(ParameterError, match=sentence):
-        joint_and_values(file(given))
+        nominal_joint(file(given))
+
+
+def flat_of(joint):
+    return NominalJoint(joint, LOAD, ('muscle',), 'muscle').flat()
 
 
 def test_the_rig_of_a_file_is_the_one_that_is_simulated(file):
@@ -126,9 +114,9 @@ def test_the_rig_of_a_file_is_the_one_that_is_simulated(file):
     path = file(f'mass: 7, {RUBS}: 12')
     scene = Scene({'muscle': path})
     (simulated,) = scene.build(checked(scene.table(), {})).joints
-    whole = ', '.join(f'{name}: {value!r}' for name, value in flat_rig(simulated).items())
+    whole = ', '.join(f'{name}: {value!r}' for name, value in flat_of(simulated).items())
     assert whole.count('effects.') == sum(len(effect.parameters) for effect in EFFECTS)
     for name in (path, file(whole)):
-        model, _ = joint_and_values(name)
+        model = nominal_joint(name).joint
         assert model.parameters().tobytes() == simulated.parameters().tobytes()
         assert [effect.name for effect in model.all_present] == ['coulomb_friction']

@@ -11,7 +11,7 @@ from pam_ros.rig.joint import Joint
 from pam_ros.rig.standard_joints import single_muscle_joint
 from pam_ros.rig.transmissions import Lever, Pulley
 from pam_ros.settings.files import write
-from pam_ros.settings.rig import joint_and_values
+from pam_ros.settings.nominal import nominal_joint
 from pam_ros.settings.scene import Scene
 from pam_ros.settings.tables import checked
 
@@ -76,7 +76,7 @@ def test_what_makes_no_rig_is_refused(tmp_path, given, words):
     with pytest.raises(ParameterError, match=words):
         of({'muscle': str(path)})
     with pytest.raises(ParameterError, match=words):
-        joint_and_values(path)
+        nominal_joint(path)
 
 
 def test_effects_have_no_start_of_their_own():

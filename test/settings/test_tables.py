@@ -11,15 +11,15 @@ from hypothesis import strategies as st
 from pam_ros.effects import EFFECTS
 from pam_ros.errors import ParameterError
 from pam_ros.muscle.muscle import Muscle
-from pam_ros.rig.arrangements import ARRANGEMENTS
+from pam_ros.rig.arrangements import ARRANGEMENTS, LOAD
 from pam_ros.rig.loads import Mass
 from pam_ros.rig.sensors import Sensors
+from pam_ros.settings.nominal import NominalJoint
 from pam_ros.settings.rig import RigParameters
 from pam_ros.settings.tables import (
     build,
     checked,
     effects_table,
-    flat_rig,
     override,
     refuse_mistyped,
     refuse_unknown_effects,
@@ -102,7 +102,8 @@ def test_what_is_not_allowed_is_refused_by_name_and_value(name, value):
 def test_a_rig_goes_flat_and_comes_back(mass, zeta, mount):
     values = {'mass': mass, 'zeta': zeta, 'mount': mount, 'effects.payload.mass': 0.5}
     (model,) = RigParameters({}).build_joints(checked(TABLE, values))
-    (again,) = RigParameters({}).build_joints(flat_rig(model))
+    flat = NominalJoint(model, LOAD, ('muscle',), 'muscle').flat()
+    (again,) = RigParameters({}).build_joints(flat)
     assert again.muscle == model.muscle
     assert again.load == model.load
     assert (again.parameters() == model.parameters()).all()

@@ -13,7 +13,9 @@ from pam_ros.identification.result import Candidate, Estimate, Finding, Identifi
 from pam_ros.identification.structure import Structure
 from pam_ros.recording.recording import Recording
 from pam_ros.report.provenance import provenance
+from pam_ros.rig.arrangements import LOAD
 from pam_ros.rig.run import simulate, simulate_held
+from pam_ros.settings.nominal import NominalJoint
 from pam_ros.settings.rig import RigParameters
 
 NOISE = 5e-5  # m
@@ -268,5 +270,10 @@ def crowded_result():
 def source_of(declared, recordings, test):
     """Return the provenance of a result that was made by hand."""
     return provenance(
-        declared, PRESET, ('mass=20',), recordings, test, 'pam_identify bench.csv --out report'
+        NominalJoint(declared, LOAD, ('muscle',), 'muscle'),
+        PRESET,
+        ('mass=20',),
+        recordings,
+        test,
+        'pam_identify bench.csv --out report',
     )

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pam_ros.effects.base import Effect, EffectParameter
-from pam_ros.effects.names import EffectName
+from pam_ros.effects.names import EffectName, parsed
 from pam_ros.effects.turned import turned
 from pam_ros.rig import layout as at
 from pam_ros.rig import statics
@@ -71,6 +71,16 @@ def effect_of(name: str) -> str:
 def muscle_of(name: str) -> str:
     """Return the name of the one muscle of a place called *name*, empty where there is none."""
     return name.rpartition('.')[0]
+
+
+def place_of(flat: str) -> str:
+    """Return the name of the place of a parameter by its *flat* name; empty for no effect's."""
+    name = parsed(flat)
+    if name is not None:
+        return name.effect
+    muscle, _, rest = flat.partition('.')
+    name = parsed(rest)
+    return '' if name is None else f'{muscle}.{name.effect}'
 
 
 def spelled(name: str) -> str:

@@ -14,7 +14,7 @@ from pam_ros.identification.fit.solve import solved
 from pam_ros.identification.search.criteria import BUDGET, CRITERIA
 from pam_ros.identification.search.power import hidden, power
 from pam_ros.identification.search.setting import Setting
-from pam_ros.settings.rig import joint_and_values
+from pam_ros.settings.nominal import nominal_joint
 from support import moved_cylinders
 
 pytestmark = [pytest.mark.slow, pytest.mark.needs_numba]
@@ -25,7 +25,7 @@ EFFECT = {effect.name: effect for effect in EFFECTS}
 @pytest.fixture(scope='module')
 def retuned():
     """Return the re-tuned model of a cylinder without friction at 3 bar."""
-    cylinder, _ = joint_and_values(str(ROOT / 'config' / 'rigs' / 'cylinder_25mm.yaml'))
+    cylinder = nominal_joint(ROOT / 'config' / 'rigs' / 'cylinder_25mm.yaml').joint
     parts = parts_of([moved_cylinders.recording(3.0)], CRITERIA.fit, CRITERIA.choose)
     with ThreadPoolExecutor(1) as pool:
         setting = Setting(cylinder, parts, CRITERIA, BUDGET, pool)

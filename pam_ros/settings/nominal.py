@@ -1,0 +1,122 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The joint that a parameter file describes, with the names of its muscles, and back to a file."""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+from pam_ros.arguments import sequence
+from pam_ros.effects.names import flattened
+from pam_ros.errors import ParameterError
+from pam_ros.parameters import Parameter
+from pam_ros.rig import statics
+from pam_ros.rig.arrangements import LOAD, Arrangement
+from pam_ros.rig.joint import Joint
+from pam_ros.settings.load import read_scene
+from pam_ros.settings.scene import START
+from pam_ros.settings.tables import Table, flat, mountings, override, rig_table
+
+
+@dataclass(frozen=True)
+class NominalJoint:
+    """A joint as a file describes it, which the search for missing effects begins with.
+
+    ``kind`` is the arrangement that the file names, ``muscles`` are the names of its muscles and
+    ``name`` is that of the joint.
+    """
+
+    joint: Joint
+    kind: Arrangement
+    muscles: tuple[str, ...]
+    name: str
+
+    @property
+    def names_of_several(self) -> tuple[str, ...]:
+        """The names of the muscles where there are several, else none."""
+        return self.muscles if len(self.muscles) > 1 else ()
+
+    @property
+    def reach(self) -> tuple[float, float] | None:
+        """The positions in m or rad at which all muscles have a length; None for one on a mass."""
+        if self.kind is LOAD:
+            return None
+        ends = [
+            sorted(statics.coordinate(self.joint, i, kappa) for kappa in START)
+            for i in range(len(self.muscles))
+        ]
+        return max(low for low, _ in ends), min(high for _, high in ends)
+
+    def text(self, name: str) -> str:
+        """Return what the parameter of a flat *name* is, empty where there is no such one."""
+        about = self._about(name)
+        return about.text if about else ''
+
+    def unit(self, name: str) -> str:
+        """Return the unit of the parameter of a flat *name*, empty where it has none."""
+        about = self._about(name)
+        return about.unit if about else ''
+
+    def _about(self, name: str) -> Parameter | None:
+        head, dot, rest = name.partition('.')
+        known = self._table.get(rest if dot and head in self.muscles else name)
+        return known[2] if known else None
+
+    @cached_property
+    def _table(self) -> Table:
+        return rig_table(self.kind)
+
+    def flat(self, joint: Joint | None = None) -> dict[str, Any]:
+        """Return the flat parameters of the nominal joint, or of another *joint* of its kind.
+
+        Values that all muscles share stand once; those in which they differ stand for each, behind
+        its name. Effects are those that the joint was given.
+        """
+        joint = self.joint if joint is None else joint
+        each = [
+            {**flat(actuator.muscle), **flattened(actuator.effects)}
+            for actuator in joint.actuators
+        ]
+        values: dict[str, Any] = {}
+        if self.kind is not LOAD:
+            values['joint'] = self.kind.name
+            values['muscles'] = self.muscles
+            values['joint_names'] = (self.name,)
+        shared = {
+            name: value
+            for name, value in each[0].items()
+            if all(name in own and own[name] == value for own in each)
+        }
+        values |= shared
+        for muscle, own in zip(self.muscles, each, strict=True):
+            values |= {f'{muscle}.{name}': own[name] for name in own if name not in shared}
+        if self.kind is not LOAD:
+            values |= flat(joint.transmission)
+            pairs = zip(mountings(self.kind), joint.actuators, strict=True)
+            values |= {name: actuator.contraction for name, actuator in pairs}
+        return {**values, **flat(joint.load), **flattened(joint.effects)}
+
+
+def nominal_joint(name: str | Path, overrides: Iterable[str] = ()) -> NominalJoint:
+    """Return the joint that a file or preset *name* describes.
+
+    *overrides* are ``name=value`` texts that come last. Names that are not known here are passed
+    over, for they may be another program's; those that look mistyped are refused. Raises
+    ParameterError, also for a file with several joints.
+    """
+    texts = sequence('overrides', overrides, str, "a text such as 'mass=10'")
+
+    def typed(table: Mapping[str, Any]) -> dict[str, Any]:
+        return dict(override(text, dict(table)) for text in texts)
+
+    raw = {text.partition('=')[0].strip(): text.partition('=')[2].strip() for text in texts}
+    scene, values = read_scene(name, raw, typed)
+    joints = scene.build_joints(values)
+    if len(joints) > 1:
+        raise ParameterError(
+            f'{name} describes {len(joints)} joints, {", ".join(scene.joints)}: give a file '
+            'with one joint'
+        )
+    return NominalJoint(joints[0], scene.kind, tuple(scene.muscles), scene.joints[0])
