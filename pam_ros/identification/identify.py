@@ -68,8 +68,7 @@ def identify(
         raise RecordingError('recordings is empty: give at least one Recording')
     tell: Progress = progress or (lambda share, text: None)
     require_one_kind([*recordings, *test])
-    for recording in (*recordings, *test):
-        require_joint(recording, model)
+    require_joint([*recordings, *test], model)
     tests = segments_of(test)
     # With test recordings none of the others has to judge.
     shares = (CRITERIA.fit / CRITERIA.choose, 1.0) if test else (CRITERIA.fit, CRITERIA.choose)

@@ -159,16 +159,17 @@ def _against(
     input_label = f'{_input(joint)}, {pressure.unit}'
     if joint.is_driven:
         pressure, input_label = Scale(1.0, ''), 'input'
-    size, unit = (180.0 / np.pi, '°') if joint.is_revolute else (1e3, 'mm')
+    unit, speed = ('mrad', 'rad') if joint.is_revolute else ('mm', 'mm')
+    fast = 1.0 if joint.is_revolute else 1e3
     wanted: list[tuple[str, str, str, residual_plots.Pick]] = [
-        ('velocity', 'Against velocity', f'velocity, {unit}/s', lambda run: size * run.velocity),
+        ('velocity', 'Against velocity', f'velocity, {speed}/s', lambda run: fast * run.velocity),
         (
             'pressure',
             'Against the input' if joint.is_driven else f'Against {_input(joint)}',
             input_label,
             lambda run: pressure.factor * run.drive,
         ),
-        ('position', 'Against position', f'position, {unit}', lambda run: size * run.position),
+        ('position', 'Against position', f'position, {unit}', lambda run: 1e3 * run.position),
         ('time', 'Against time', 'time, s', lambda run: run.t),
     ]
     if statics.is_direct(joint) and not joint.is_driven:

@@ -97,8 +97,19 @@ def require_one_kind(recordings: Sequence[Recording]) -> None:
         raise RecordingError(f'recordings of one kind are needed: {names}')
 
 
-def require_joint(recording: Recording, joint: Joint) -> None:
-    """Raise RecordingError where *recording* cannot be one of *joint*."""
+def require_joint(recordings: Sequence[Recording], joint: Joint) -> None:
+    """Raise RecordingError where one of *recordings* cannot be one of *joint*."""
+    first = recordings[0]
+    for recording in recordings:
+        _require_joint(recording, joint)
+        if recording.muscles != first.muscles:
+            raise RecordingError(
+                f'{recording.name} has the muscles {", ".join(recording.muscles)}, and '
+                f'{first.name} has {", ".join(first.muscles)}: give the muscles in one order'
+            )
+
+
+def _require_joint(recording: Recording, joint: Joint) -> None:
     count, named = len(joint.muscles), len(recording.muscles) or 1
     if named != count:
         raise RecordingError(

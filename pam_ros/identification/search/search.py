@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from pam_ros.identification.fit.places import effect_of, muscle_of
 from pam_ros.identification.fit.solve import settled, solved
 from pam_ros.identification.search.moves import dropped, fixed, freed, swapped, with_each
 from pam_ros.identification.search.setting import Model, Setting
@@ -120,13 +121,42 @@ def no_worse(now: Model, than: Model, setting: Setting) -> bool:
     return b.carried * b.fit <= setting.criteria.worse * a.carried * a.fit
 
 
+def _alike(now: Model, found: Search) -> Model:
+    """Return *now* with an effect alike in all muscles that have it each, if hardly more is left.
+
+    That has fewer parameters, and muscles of one type have the same effects.
+    """
+    setting = found.setting
+    for effect in dict.fromkeys(effect_of(name) for name in now.effects if muscle_of(name)):
+        each = [name for name in now.effects if muscle_of(name) and effect_of(name) == effect]
+        if len(each) < len(setting.joint.muscles):
+            continue
+        less = now
+        for name in each:
+            less = dropped(less, name, setting)
+            found.looked_at.append(less)
+        others = with_each(less, [effect], setting)
+        found.looked_at += others
+        for other in others:
+            is_good = other.score <= now.score + setting.criteria.margin
+            if _hardly_more(other, now, setting) or (is_good and no_worse(other, now, setting)):
+                now = other
+    return now
+
+
+def _hardly_more(now: Model, than: Model, setting: Setting) -> bool:
+    """Say whether what a simpler model leaves is hardly more, on *fit* and on *choose*."""
+    room, a, b = 1.0 + setting.criteria.gain, than.errors, now.errors
+    return b.fit <= room * a.fit and b.choose <= room * a.choose
+
+
 def _plainer(now: Model, found: Search) -> Model:
     """Return *now* with effects in the place of those that contain them, if hardly more is left.
 
     A leak of which the refill alone shows is a lag. What is broader can always be fitted as well.
     """
     setting = found.setting
-    room = 1.0 + setting.criteria.gain
+    now = _alike(now, found)
     for name in now.effects:
         named = setting.related(name, setting.places[name].effect.contains)
         contained = [one for one in named if one in absent(now, setting)]
@@ -135,8 +165,7 @@ def _plainer(now: Model, found: Search) -> Model:
         less, others = swapped(now, name, contained, setting)
         found.looked_at += [less, *others]
         for other in others:
-            a, b = now.errors, other.errors
-            if b.fit <= room * a.fit and b.choose <= room * a.choose:
+            if _hardly_more(other, now, setting):
                 now = other
                 break
     return now

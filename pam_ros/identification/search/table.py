@@ -8,6 +8,7 @@ from math import nan
 
 from scipy.stats import chi2
 
+from pam_ros.identification.fit.places import spelled
 from pam_ros.identification.result import Candidate
 from pam_ros.identification.search.power import hidden
 from pam_ros.identification.search.search import Search, alternatives, best_with, matters, no_worse
@@ -97,7 +98,7 @@ def _decision(model: Model, parent: Model, tried: list[Model], found: Search) ->
     for name in best.effects:
         rest = {*best.effects} - {name}
         if any({*model.effects} == rest | {other} for other in alternatives(found, name)):
-            return 'ambiguous', f'explains the data as well as {name}'
+            return 'ambiguous', f'explains the data as well as {spelled(name)}'
     return 'rejected', _why_not(model, parent, tried, found)
 
 
@@ -118,7 +119,7 @@ def _why_not(model: Model, parent: Model, tried: list[Model], found: Search) -> 
     winner = min(tried, key=lambda one: one.score)
     if winner is not model:
         more = model.score - winner.score
-        return f'{winner.effects[-1]} lowers the score by {more:.0f} more'
+        return f'{spelled(winner.effects[-1])} lowers the score by {more:.0f} more'
     return 'not needed beside what was found later'
 
 

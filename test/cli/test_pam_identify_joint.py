@@ -1,0 +1,142 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The command on recordings of a joint of two muscles: report, parameter file, bad input."""
+
+import json
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from pam_ros.recording.csv_file import write_csv
+from pam_ros.recording.recording import Recording
+from pam_ros.rig.run import simulate
+from pam_ros.settings.load import load_joint
+from pam_ros.settings.nominal import nominal_joint
+
+pytestmark = pytest.mark.needs_numba
+
+NAMES = ('flexor', 'extensor')
+LAG = {'flexor.effects.pressure_lag.fill': 0.06, 'flexor.effects.pressure_lag.vent': 0.09}
+JOINT = """
+/**:
+  ros__parameters:
+    joint: antagonistic
+    muscles: [flexor, extensor]
+    mass: 1.0
+    arm: 0.25
+"""
+
+
+def recording(joint, seed, duration):
+    rng = np.random.default_rng(seed)
+    t = np.arange(0.0, duration, 0.01)
+    levels = np.repeat(rng.uniform(-120e3, 120e3, round(duration / 1.5) + 1), 150)[: t.size]
+    more = levels + 50e3 * np.sin(2.5 * t)
+    common = 260e3 + 60e3 * np.sin(0.3 * t)
+    command = np.stack([common + more, common - more], axis=1)
+    angle = simulate(joint, t, t, command).position + rng.normal(0.0, 2e-4, t.size)
+    return Recording('elbow', t, t, command, angle, muscles=NAMES, unit='rad')
+
+
+@pytest.fixture(scope='module')
+def bench(tmp_path_factory):
+    folder = tmp_path_factory.mktemp('elbow')
+    (folder / 'elbow.yaml').write_text(JOINT, encoding='utf-8')
+    truth = load_joint(folder / 'elbow.yaml', LAG)
+    write_csv(recording(truth, 1, 24.0), folder / 'fit.csv')
+    write_csv(recording(truth, 2, 15.0), folder / 'test.csv')
+    lines = (folder / 'fit.csv').read_text(encoding='utf-8').splitlines()
+    lines[0] = lines[0].replace('extensor.pressure_command_Pa', 'valve')
+    (folder / 'missing.csv').write_text('\n'.join(lines) + '\n', encoding='utf-8')
+    idle = recording(truth, 3, 15.0)
+    idle.command[:, 1] = 2.5e5
+    write_csv(idle, folder / 'idle.csv')
+    return folder
+
+
+def run(folder, *arguments):
+    done = subprocess.run(
+        [sys.executable, '-m', 'pam_ros.cli.pam_identify', *map(str, arguments)],
+        cwd=folder,
+        capture_output=True,
+        text=True,
+        timeout=600,
+        check=False,
+    )
+    return done.returncode, done.stdout.strip(), done.stderr
+
+
+@pytest.fixture(scope='module')
+def found(bench):
+    arguments = ('fit.csv', '--params', 'elbow.yaml', '--test', 'test.csv', '--out', 'found')
+    return run(bench, *arguments), bench / 'found'
+
+
+def test_the_last_line_names_the_effect_and_its_muscle(found):
+    (code, line, errors), _ = found
+    assert code == 0, errors
+    assert line.startswith('effect_found (pressure_lag of flexor): held-out error ')
+    assert ' mrad with pressure_lag of flexor; noise 0.19' in line
+
+
+def test_the_report_says_where_the_effect_is(found):
+    _, folder = found
+    content = json.loads((folder / 'report.json').read_text(encoding='utf-8'))
+    (effect,) = content['effects']
+    assert (effect['name'], effect['muscle']) == ('pressure_lag', 'flexor')
+    assert effect['parameters']['fill']['value'] == pytest.approx(0.06, abs=1e-3)
+    assert content['error']['unit'] == 'rad'
+    assert content['error']['augmented']['held_out'] < 3e-4
+    names = {(c['name'], c['muscle']) for c in content['candidates']}
+    assert {('pressure_lag', None), ('pressure_lag', 'extensor'), ('payload', None)} < names
+    (fitted, _) = content['data']['recordings']
+    assert fitted['unit'] == 'rad'
+    assert {f'{name}.pressure_command' for name in NAMES} < set(fitted['ranges'])
+    text = (folder / 'report.html').read_text(encoding='utf-8')
+    assert 'pressure lag of flexor' in text
+    assert 'flexor.pressure_lag' not in text
+
+
+def test_the_parameter_file_is_the_joint_that_was_found(found):
+    _, folder = found
+    again = nominal_joint(folder / 'identified.yaml')
+    assert (again.muscles, again.kind.name) == (NAMES, 'antagonistic')
+    first, second = again.joint.actuators
+    assert first.effects['pressure_lag']['fill'] == pytest.approx(0.06, abs=1e-3)
+    assert not second.effects
+    assert first.muscle != second.muscle
+    assert again.joint.load.arm == 0.25
+    assert load_joint(folder / 'identified.yaml') == again.joint
+
+
+@pytest.mark.parametrize(
+    ('arguments', 'words'),
+    [
+        (
+            ('missing.csv', '--params', 'elbow.yaml'),
+            'missing.csv has flexor.pressure_command_Pa but no extensor.pressure_command: a '
+            'column is needed for each of flexor, extensor',
+        ),
+        (
+            ('fit.csv', '--params', 'dmsp_20_400n'),
+            'fit.csv: the position is in rad, and the model moves in m',
+        ),
+        (
+            ('fit.csv', '--params', 'elbow.yaml', '--set', 'muscles=one'),
+            'muscles = ',
+        ),
+        (
+            ('idle.csv', '--params', 'elbow.yaml'),
+            'idle.csv: extensor.pressure_command is constant at 250000 Pa: record changes of the '
+            'pressures of all muscles',
+        ),
+    ],
+)
+def test_bad_input_is_one_sentence(bench, arguments, words):
+    code, _, errors = run(bench, *arguments, '--out', 'none')
+    assert code == 2
+    assert errors.startswith(f'pam_identify: {words}')
+    assert errors.count('\n') == 1
+    assert not (bench / 'none').exists()

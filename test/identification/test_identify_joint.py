@@ -1,0 +1,114 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Joints of two muscles: what they lack and which muscle has it, on the independent pair."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from pam_ros.errors import RecordingError
+from pam_ros.identification.identify import identify
+from pam_ros.identification.search.criteria import CRITERIA
+from pam_ros.muscle.muscle import Muscle
+from pam_ros.recording.recording import Recording
+from pam_ros.rig.joint import Actuator, Joint
+from pam_ros.rig.loads import Arm
+from pam_ros.rig.standard_joints import antagonistic_joint, single_muscle_joint
+from pam_ros.rig.transmissions import Pulley
+from truth.pair_trials import NAMES, pair_trial
+
+SEED = 901
+
+
+def declared(trial):
+    d = trial.declared
+    muscle = Muscle(
+        *d.constants_si, pressure_unit='Pa', contraction_unit='fraction', zeta=d.zeta, l0=d.l0
+    )
+    actuator = Actuator(muscle, contraction=d.contraction)
+    load = Arm(inertia=d.inertia, mass=d.mass, arm=d.arm)
+    return Joint((actuator, actuator), load, Pulley(radius=d.radius))
+
+
+def recording(trial, **changes):
+    given = Recording(
+        trial.kind, trial.t, trial.t, trial.commands, trial.angle, muscles=NAMES, unit='rad'
+    )
+    return replace(given, **changes)
+
+
+@pytest.fixture(scope='module')
+def lag():
+    trial = pair_trial('pressure_lag@one', SEED)
+    return trial, identify(declared(trial), [recording(trial)])
+
+
+@pytest.mark.needs_numba
+def test_an_effect_of_one_muscle_is_named_with_the_muscle(lag):
+    trial, found = lag
+    assert found.verdict == 'effect_found'
+    assert [effect.name for effect in found.effects] == [f'{trial.where}.pressure_lag']
+    assert found.unit == 'rad'
+    error = found.stages[2].held_error
+    assert error < 3.0 * trial.noise
+    assert error < 0.2 * found.stages[1].held_error
+    assert f'lacks pressure_lag of {trial.where}' in found.sentence
+
+
+@pytest.mark.needs_numba
+def test_the_model_that_is_found_has_the_effect_in_that_muscle_alone(lag):
+    trial, found = lag
+    model = found.stages[2].model
+    has = [
+        bool(actuator.effects.get('pressure_lag', {}).get('fill')) for actuator in model.actuators
+    ]
+    assert has == [name == trial.where for name in NAMES]
+    # Each muscle is a specimen of its own.
+    a, b = (muscle.si for muscle in model.muscles)
+    assert a != b
+    names = set(found.stages[1].parameters)
+    assert {f'{name}.{constant}' for name in NAMES for constant in ('a1', 'a5', 'zeta')} < names
+
+
+@pytest.mark.needs_numba
+def test_friction_is_named_on_the_joint():
+    trial = pair_trial('viscous_friction@joint', SEED)
+    found = identify(declared(trial), [recording(trial)])
+    assert [effect.name for effect in found.effects] == ['viscous_friction']
+    drag = found.effects[0].parameters['coefficient']
+    assert drag.unit == 'N m s/rad'
+    assert drag.value == pytest.approx(trial.effects[0].values['viscous_ns_m'], rel=0.15)
+
+
+@pytest.mark.needs_numba
+def test_an_effect_of_both_muscles_alike_is_named_without_a_muscle():
+    trial = pair_trial('dead_time@both', SEED)
+    found = identify(declared(trial), [recording(trial)])
+    assert [effect.name for effect in found.effects] == ['dead_time']
+    (delay,) = (p.value for p in found.effects[0].parameters.values())
+    assert delay == pytest.approx(trial.effects[0].values['dead_time_s'], abs=1e-3)
+
+
+@pytest.mark.needs_numba
+def test_specimens_and_noise_alone_have_no_effect():
+    trial = pair_trial('noise_only', SEED)
+    found = identify(declared(trial), [recording(trial)])
+    assert not found.effects
+    assert found.verdict in ('parameters_wrong', 'no_missing_effect')
+    assert found.stages[1].held_error < CRITERIA.complete * trial.noise
+
+
+def test_recordings_of_another_joint_are_refused(lag):
+    trial, _ = lag
+    given = recording(trial)
+    with pytest.raises(RecordingError, match=r'a recording of 2 muscle\(s\), and the joint has 1'):
+        identify(single_muscle_joint(), [given])
+    with pytest.raises(RecordingError, match='the position is in m, and the joint moves in rad'):
+        identify(antagonistic_joint(), [replace(given, unit='m')])
+    single = Recording('one', trial.t, trial.t, trial.commands[:, 0], np.sin(trial.t))
+    with pytest.raises(RecordingError, match='one is a recording of 1 muscle'):
+        identify(antagonistic_joint(), [single])
+    swapped = replace(given, name='swapped', muscles=NAMES[::-1])
+    with pytest.raises(RecordingError, match='swapped has the muscles antagonist, agonist, and'):
+        identify(declared(trial), [given, swapped])
