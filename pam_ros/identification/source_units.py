@@ -80,12 +80,13 @@ def with_row(model: Joint, q: Array, segments: Sequence[Segment], added: Sequenc
     in_muscles = [dict(actuator.effects) for actuator in model.actuators]
     on_joint = dict(model.effects)
     for place in added:
-        values = {
-            p.name: float(q[place.indices(model.layout, k)[0]])
-            for k, p in enumerate(place.effect.parameters)
-        }
-        for target in [in_muscles[i] for i in place.muscles] or [on_joint]:
-            target[place.effect.name] = values
+        targets = [in_muscles[i] for i in place.muscles] or [on_joint]
+        rows = [place.indices(model.layout, k) for k in range(len(place.effect.parameters))]
+        for n, target in enumerate(targets):
+            target[place.effect.name] = {
+                p.name: float(q[row[n]])
+                for p, row in zip(place.effect.parameters, rows, strict=True)
+            }
     went = np.concatenate(
         [s.position if isinstance(s, HeldSegment) else s.target for s in segments]
     )

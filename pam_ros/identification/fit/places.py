@@ -23,6 +23,7 @@ from pam_ros.rig.layout import Layout
 from pam_ros.units import ARM_POWER
 
 Array = NDArray[np.float64]
+INITIAL = 'initial'  # the parameter that says where an effect's memory stands at the start
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,12 +32,17 @@ class Place:
 
     ``effect`` has the units, sizes and starting values that it has there. ``muscles`` are the
     numbers of the muscles in which it acts, with the same parameters; none for an effect on the
-    joint. ``muscle`` is the name of the one muscle of several, empty in all other cases.
+    joint. ``names`` are the names of these muscles where the joint has several.
     """
 
     effect: Effect
     muscles: tuple[int, ...]
-    muscle: str = ''
+    names: tuple[str, ...] = ()
+
+    @property
+    def muscle(self) -> str:
+        """The name of the one muscle of several in which it acts, empty in all other cases."""
+        return self.names[0] if len(self.names) == 1 else ''
 
     @property
     def name(self) -> str:
@@ -56,6 +62,20 @@ class Place:
     def indices(self, layout: Layout, parameter: int) -> list[int]:
         """Return where parameter number *parameter* stands in q, counted through all rows."""
         return [layout.index(self.effect, parameter, i) for i in self.muscles or (0,)]
+
+    def split(self, layout: Layout, parameter: int) -> list[tuple[str, tuple[int, ...]]]:
+        """Return the names and the places in q of what a fit may change of a parameter.
+
+        That is one number for all muscles alike, but where a memory stands at the start is each
+        muscle's own: of two against each other one was shortened while the other was lengthened.
+        """
+        name = self.effect.parameters[parameter].name
+        indices = self.indices(layout, parameter)
+        if name != INITIAL or len(indices) == 1:
+            return [(self.flat(name), tuple(indices))]
+        flat = EffectName(self.effect.name, name).flat
+        pairs = zip(self.names, indices, strict=True)
+        return [(f'{muscle}.{flat}', (index,)) for muscle, index in pairs]
 
     def overlaps(self, other: 'Place') -> bool:
         """Say whether both are the same effect in the same row."""
@@ -102,14 +122,13 @@ def places_of(joint: Joint, muscles: Sequence[str] = ()) -> dict[str, Place]:
     """
     every = tuple(range(len(joint.muscles)))
     found = []
+    names = names_of_muscles(joint, muscles) if len(every) > 1 else ()
     for effect in joint.library:
         if effect.acts_on_joint:
             found.append(Place(sized(effect, joint), ()))
             continue
-        found.append(Place(effect, every))
-        if len(every) > 1:
-            names = names_of_muscles(joint, muscles)
-            found += [Place(effect, (i,), name) for i, name in enumerate(names)]
+        found.append(Place(effect, every, names))
+        found += [Place(effect, (i,), (name,)) for i, name in enumerate(names)]
     return {place.name: place for place in found}
 
 

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pam_ros.identification.data.segment import FreeSegment, HeldSegment, Segment, start_of
-from pam_ros.identification.fit.places import Place, names_of_muscles
+from pam_ros.identification.fit.places import INITIAL, Place, names_of_muscles
 from pam_ros.rig import layout as at
 from pam_ros.rig.joint import Joint
 from pam_ros.rig.layout import Layout
@@ -284,14 +284,14 @@ def effect_unknowns(model: Joint, place: Place, start: Mapping[str, float]) -> l
         if p.name not in start:
             continue
         positive = p.low > 0.0 or (p.low == 0.0 and not p.strength and start[p.name] > 0.0)
-        indices = tuple(place.indices(model.layout, k))
-        of = OfEffect(place.name, p.name, place.flat(p.name), indices)
-        if positive and not p.strength:
-            low = max(p.low, 1e-6 * start[p.name])
-            unknown = Unknown(of, start[p.name], 1.0, low, p.high, logarithmic=True)
-        else:
-            unknown = Unknown(of, 0.0, p.scale, p.low, p.high)
-        found.append(unknown)
+        for name, indices in place.split(model.layout, k):
+            of = OfEffect(place.name, p.name, name, indices)
+            if positive and not p.strength:
+                low = max(p.low, 1e-6 * start[p.name])
+                unknown = Unknown(of, start[p.name], 1.0, low, p.high, logarithmic=True)
+            else:
+                unknown = Unknown(of, 0.0, p.scale, p.low, p.high)
+            found.append(unknown)
     return found
 
 
@@ -310,7 +310,7 @@ def memory_unknowns(layout: Layout, place: Place, runs: int) -> list[Unknown]:
     memory begins.
     """
     effect = place.effect
-    if any(p.name == 'initial' for p in effect.parameters):
+    if any(p.name == INITIAL for p in effect.parameters):
         return []
     return [
         Unknown(
