@@ -8,7 +8,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-from pam_ros.arguments import sequence
+from pam_ros.arguments import refuse, sequence
 from pam_ros.effects.names import flattened
 from pam_ros.errors import ParameterError
 from pam_ros.parameters import Parameter
@@ -16,8 +16,9 @@ from pam_ros.rig import statics
 from pam_ros.rig.arrangements import LOAD, Arrangement
 from pam_ros.rig.joint import Joint
 from pam_ros.settings.load import read_scene
+from pam_ros.settings.rig import KINDS
 from pam_ros.settings.scene import START
-from pam_ros.settings.tables import Table, flat, mountings, override, rig_table
+from pam_ros.settings.tables import Table, flat, listed, mountings, override, rig_table
 
 
 @dataclass(frozen=True)
@@ -111,7 +112,13 @@ def nominal_joint(name: str | Path, overrides: Iterable[str] = ()) -> NominalJoi
     def typed(table: Mapping[str, Any]) -> dict[str, Any]:
         return dict(override(text, dict(table)) for text in texts)
 
-    raw = {text.partition('=')[0].strip(): text.partition('=')[2].strip() for text in texts}
+    raw: dict[str, Any] = {}
+    for text in texts:
+        key, _, value = (part.strip() for part in text.partition('='))
+        # The names of muscles and joints say which parameters there are.
+        raw[key] = listed(value) if key in ('muscles', 'joint_names') else value
+    if raw.get('joint', LOAD.name) not in KINDS:
+        refuse('joint', raw['joint'], f'one of {", ".join(KINDS)}')
     scene, values = read_scene(name, raw, typed)
     joints = scene.build_joints(values)
     if len(joints) > 1:

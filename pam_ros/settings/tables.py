@@ -176,4 +176,11 @@ def override(text: str, table: Table) -> tuple[str, Any]:
             value = float(given)
         except ValueError:
             value = given
+    elif kind is tuple:
+        value = listed(given)
     return name, about.check(name, value, kind)
+
+
+def listed(text: str) -> tuple[str, ...]:
+    """Return the names of a list such as ``flexor,extensor`` or ``[flexor, extensor]``."""
+    return tuple(part.strip() for part in text.strip('[]').split(',') if part.strip())

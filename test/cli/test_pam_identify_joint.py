@@ -125,7 +125,7 @@ def test_the_parameter_file_is_the_joint_that_was_found(found):
         ),
         (
             ('fit.csv', '--params', 'elbow.yaml', '--set', 'muscles=one'),
-            'muscles = ',
+            'muscles: 1 names make no joint = antagonistic: give 2 for each joint',
         ),
         (
             ('idle.csv', '--params', 'elbow.yaml'),
