@@ -142,7 +142,7 @@ def run(given: argparse.Namespace, command: str) -> str:
                 model.muscle.l0 if has_length else None,
                 [muscle.p_max for muscle in model.muscles],
                 given.namespace,
-                nominal.names_of_several,
+                nominal.recorded_muscles,
                 model.transmission.equations.unit,
                 nominal.reach,
             )

@@ -3,7 +3,7 @@
 """A rig's topics in a rosbag2: which they are, what their fields mean, which clock counts."""
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from pam_ros.errors import RecordingError
 from pam_ros.recording.bag_decode import Topic
 from pam_ros.recording.bag_source import BagSource, Message, bag_files, open_bag
-from pam_ros.recording.cdr import FLOAT64, FLUID_PRESSURE, JOINT_STATE, read_alike
+from pam_ros.recording.cdr import FLOAT64, FLOAT64_ARRAY, FLUID_PRESSURE, JOINT_STATE, read_alike
 from pam_ros.recording.mapping import ColumnMapping, Meaning
 from pam_ros.recording.quantities import Target
 from pam_ros.recording.series import Series
@@ -27,9 +27,12 @@ _LATEST = 2**63 - 1  # ns: that ROS counts; an MCAP file can hold twice as many
 _TICK = 0.1  # s by which a simulated clock, published in ticks, may be behind a header
 
 _FLOAT = (FLOAT64, 'std_msgs/msg/Float32')
+_OUTPUTS = ('position', 'angle', 'contraction', 'force')
+_UNFILLED = ('velocity', 'angular_velocity', 'force')  # 0 where nobody fills them
 _PA, _M = Target('pressure_command', 'Pa'), Target('position', 'm')
 # topic -> type -> field -> meaning: the package's own topics.
-_OURS: dict[str, dict[str, dict[str, Meaning]]] = {
+Ours = dict[str, dict[str, dict[str, Meaning]]]
+_OURS: Ours = {
     'pressure_command': {kind: {'data': Meaning(_PA)} for kind in _FLOAT},
     'joint_states': {
         JOINT_STATE: {
@@ -43,6 +46,32 @@ _OURS: dict[str, dict[str, dict[str, Meaning]]] = {
         FLUID_PRESSURE: {'fluid_pressure': Meaning(Target('pressure', 'Pa'), 1.0, -ATMOSPHERE)}
     },
 }
+
+
+def _ours(muscles: Sequence[str], unit: str | None) -> Ours:
+    """Return our topics of one muscle on a mass, or of a joint of these *muscles* and this *unit*.
+
+    A joint has its pressures in arrays, with a number for each muscle.
+    """
+    if not muscles:
+        return _OURS
+    linear = {'position': Target('position', 'm'), 'velocity': Target('velocity', 'm_s')}
+    turned = {'position': Target('angle', 'rad'), 'velocity': Target('angular_velocity', 'rad_s')}
+    motion = turned if unit == 'rad' else linear
+    names = muscles if len(muscles) > 1 else ('',)
+    commands = {
+        f'data[{i}]': Meaning(Target('pressure_command', 'Pa', name))
+        for i, name in enumerate(names)
+    }
+    pressures = {
+        f'data[{i}]': Meaning(Target('pressure', 'Pa', name), 1.0, -ATMOSPHERE)
+        for i, name in enumerate(names)
+    }
+    return {
+        'pressure_commands': {FLOAT64_ARRAY: commands},
+        'joint_states': {JOINT_STATE: {field: Meaning(to) for field, to in motion.items()}},
+        'pressures': {FLOAT64_ARRAY: pressures},
+    }
 
 
 class _Field(NamedTuple):
@@ -63,12 +92,18 @@ class _Samples(NamedTuple):
 
 
 def read_bag(
-    path: Path, mapping: ColumnMapping, namespace: str | None = None
+    path: Path,
+    mapping: ColumnMapping,
+    namespace: str | None = None,
+    muscles: Sequence[str] = (),
+    unit: str | None = None,
 ) -> tuple[dict[str, Series], list[str]]:
-    """Return (quantity -> series in SI, warnings) of the rosbag2 at *path*.
+    """Return (signal -> series in SI, warnings) of the rosbag2 at *path*.
 
     Read are ``pressure_command``, ``joint_states``, ``force`` and ``pressure``, in any namespace
-    when there is one rig in the bag, else in *namespace*; and what *mapping* says, whose sources
+    when there is one rig in the bag, else in *namespace*. Of a joint they are
+    ``pressure_commands``, ``joint_states`` in *unit* (m or rad) and ``pressures``, the arrays with
+    a number for each of its *muscles*. Read is as well what *mapping* says, whose sources
     are topics with the field: ``/valve/state.pressure`` (``.data`` where none is given), with an
     index or a joint's name for arrays: ``/joint_states.position[elbow]``.
 
@@ -79,7 +114,8 @@ def read_bag(
     Raises RecordingError for topics that are missing, ambiguous, or of a type not known.
     """
     source = open_bag(path)
-    fields = _fields(path, source, mapping, namespace)
+    ours = _ours(muscles, unit)
+    fields = _fields(path, source, mapping, namespace, ours)
     samples = _read(path, source, fields)
     notes = list(source.notes)
     use_header = _headers_agree(samples, notes)
@@ -96,7 +132,11 @@ def read_bag(
 
 
 def _fields(
-    path: Path, source: BagSource, mapping: ColumnMapping, namespace: str | None
+    path: Path,
+    source: BagSource,
+    mapping: ColumnMapping,
+    namespace: str | None,
+    ours: Ours,
 ) -> list[_Field]:
     """Return the fields to read, those of the user first: they take the place of ours."""
     fields = []
@@ -112,31 +152,30 @@ def _fields(
             raise RecordingError(f'{name}: the time in a bag is that of its messages')
         if meaning is not None:
             fields.append(_Field(topic, field or 'data', meaning, asked=True))
-    given = {field.meaning.target.quantity for field in fields}
+    given = {field.meaning.target.key for field in fields}
     given |= {'position'} if 'contraction' in given else set()
     found = {
         name: topic
-        for name in _OURS
+        for name in ours
         for topic in (_find(path, source, name, mapping, namespace),)
         if topic is not None
     }
     for name, topic in found.items():
-        known = _OURS[name].get(source.topics[topic].type)
+        known = ours[name].get(source.topics[topic].type)
         if known is None:
-            if _quantities(name) <= given:
+            if {m.target.key for types in ours[name].values() for m in types.values()} <= given:
                 continue
             raise RecordingError(
                 f'{path.name}: {topic} is a {source.topics[topic].type}, not a '
-                f'{" or ".join(_OURS[name])}: say which field it is with --column '
-                f"'{topic}.FIELD={_example(name)}', or --column '{topic}=ignore'"
+                f'{" or ".join(ours[name])}: say which field it is with --column '
+                f"'{topic}.FIELD={_example(ours[name])}', or --column '{topic}=ignore'"
             )
         for field, meaning in known.items():
-            quantity = meaning.target.quantity
             if field == 'effort' and 'force' in found:
                 continue
-            if quantity not in given and f'{topic}.{field}' not in mapping:
+            if meaning.target.key not in given and f'{topic}.{field}' not in mapping:
                 fields.append(_Field(topic, field, meaning, asked=False))
-    if not any(f.meaning.target.quantity in ('position', 'contraction', 'force') for f in fields):
+    if not any(f.meaning.target.quantity in _OUTPUTS for f in fields):
         raise RecordingError(
             f'{path.name} has neither joint_states nor force: it has {_named(source)}'
         )
@@ -289,26 +328,22 @@ def _add(
 ) -> None:
     """Add one field's series, unless it was never filled."""
     source = field.topic if field.path == 'data' else f'{field.topic}.{field.path}'
-    quantity = field.meaning.target.quantity
+    key, quantity = field.meaning.target.key, field.meaning.target.quantity
     filled = value[~np.isnan(value)]
-    if filled.size == 0 or (quantity in ('velocity', 'force') and not filled.any()):
+    if filled.size == 0 or (quantity in _UNFILLED and not filled.any()):
         if field.asked:
             raise RecordingError(f'{path.name}: {source} has no values')
         return
-    if quantity in series:
-        notes.append(f'{source} is not used: {series[quantity].source} gives the {quantity}')
+    if key in series:
+        notes.append(f'{source} is not used: {series[key].source} gives the {key}')
         return
     factor, offset = field.meaning.to_si
     value = value * factor + offset
-    series[quantity] = Series.taken(path.name, source, t, value, is_received)
+    series[key] = Series.taken(path.name, source, t, value, is_received)
 
 
-def _quantities(name: str) -> set[str]:
-    return {m.target.quantity for known in _OURS[name].values() for m in known.values()}
-
-
-def _example(name: str) -> Target:
-    return next(iter(next(iter(_OURS[name].values())).values())).target
+def _example(topic: dict[str, dict[str, Meaning]]) -> Target:
+    return next(iter(next(iter(topic.values())).values())).target
 
 
 def _named(source: BagSource) -> str:

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 FLOAT64 = 'std_msgs/msg/Float64'
+FLOAT64_ARRAY = 'std_msgs/msg/Float64MultiArray'
 JOINT_STATE = 'sensor_msgs/msg/JointState'
 FLUID_PRESSURE = 'sensor_msgs/msg/FluidPressure'
 _LITTLE_ENDIAN = b'\0\1'
@@ -32,8 +33,9 @@ class Numbers(NamedTuple):
 def read_alike(kind: str, fields: Sequence[str], messages: Sequence[bytes]) -> Numbers | None:
     """Return the *fields* of *messages* of one type, or None where they must be decoded singly.
 
-    That is where the type is not one of ours, where a field holds several numbers, or where the
-    messages differ in more than their numbers. A field that is empty gives NaN.
+    That is where the type is not one of ours, where a field holds several numbers and none is
+    chosen, or where the messages differ in more than their numbers. A field that is empty gives
+    NaN.
     """
     if not messages or messages[0][:2] != _LITTLE_ENDIAN:
         return None
@@ -50,7 +52,7 @@ def read_alike(kind: str, fields: Sequence[str], messages: Sequence[bytes]) -> N
         return None
     block = np.frombuffer(b''.join(messages), np.uint8).reshape(len(messages), size)
     fixed = np.ones(size, dtype=bool)
-    has_header = kind != FLOAT64
+    has_header = kind not in (FLOAT64, FLOAT64_ARRAY)
     if has_header:
         fixed[_STAMP : _STAMP + 8] = False
     for place in places.values():
@@ -82,6 +84,8 @@ def _places(kind: str, data: bytes) -> dict[str, int | None] | None:
     """Return field -> where its one number stands, None where it is empty."""
     if kind == FLOAT64:
         return {'data': 4}
+    if kind == FLOAT64_ARRAY:
+        return _places_in_array(data)
     if kind not in (JOINT_STATE, FLUID_PRESSURE):
         return None
     at = _text_end(data, _STAMP + 8)  # behind frame_id
@@ -99,6 +103,16 @@ def _places(kind: str, data: bytes) -> dict[str, int | None] | None:
             places[field] = at if count else None
         at += 8 * count
     return places
+
+
+def _places_in_array(data: bytes) -> dict[str, int | None]:
+    """Return ``data[0]`` and so on -> where the numbers of an array stand."""
+    count, at = _count(data, 4)
+    for _ in range(count):  # label, size and stride of each dimension
+        at = _aligned(_text_end(data, at), 4) + 8
+    count, at = _count(data, _aligned(at, 4) + 4)  # behind the offset
+    at = _aligned(at, 8)
+    return {f'data[{i}]': at + 8 * i for i in range(count)}
 
 
 def _aligned(at: int, size: int) -> int:

@@ -40,9 +40,10 @@ def read_recording(
     muscle where there are several. ``namespace`` chooses a rig in a bag of several.
 
     Of a joint, ``muscles`` are the names of its muscles in order (without them, the order in which
-    they appear), ``unit`` is that of its position (``m``, or ``rad`` where it turns), and
-    ``reach`` the least and the greatest position that it can have. Columns that belong to a muscle
-    have its name before a dot: ``agonist.pressure_command_kPa``.
+    they appear in a CSV file), ``unit`` is that of its position (``m``, or ``rad`` where it turns),
+    and ``reach`` the least and the greatest position that it can have. Columns that belong to a
+    muscle have its name before a dot: ``agonist.pressure_command_kPa``; in a bag, arrays have a
+    number for each muscle.
 
     Raises RecordingError, with the sentence for the user, for what cannot be used, and
     ParameterError for arguments of another kind.
@@ -62,7 +63,7 @@ def read_recording(
         raise RecordingError(f'recording {path} is neither a file nor a folder')
     if path.is_dir() or path.suffix in BAG_SUFFIXES:
         files = bag_files(path)
-        series, notes = read_bag(path, mapping, namespace)
+        series, notes = read_bag(path, mapping, namespace, muscles, unit)
     else:
         files = [path]
         series, notes = read_csv(path, mapping)

@@ -35,9 +35,9 @@ class NominalJoint:
     name: str
 
     @property
-    def names_of_several(self) -> tuple[str, ...]:
-        """The names of the muscles where there are several, else none."""
-        return self.muscles if len(self.muscles) > 1 else ()
+    def recorded_muscles(self) -> tuple[str, ...]:
+        """The names of the muscles as recordings have them; none for one muscle on a mass."""
+        return () if self.kind is LOAD else self.muscles
 
     @property
     def reach(self) -> tuple[float, float] | None:

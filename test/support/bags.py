@@ -15,6 +15,7 @@ TYPES = STORE.types
 FLOAT = 'std_msgs/msg/Float64'
 JOINT = 'sensor_msgs/msg/JointState'
 FLUID = 'sensor_msgs/msg/FluidPressure'
+ARRAY = 'std_msgs/msg/Float64MultiArray'
 WRENCH = 'geometry_msgs/msg/WrenchStamped'
 
 
@@ -117,3 +118,10 @@ def contents(bag):
             message = reader.deserialize(data, connection.msgtype)
             found[connection.topic].append((stamp, message))
     return found
+
+
+def numbers(values, label='flexor,extensor'):
+    """Return an array of numbers, such as a pressure of each muscle, labelled as pam_sim does."""
+    dimension = TYPES['std_msgs/msg/MultiArrayDimension'](label, len(values), len(values))
+    layout = TYPES['std_msgs/msg/MultiArrayLayout']([dimension], 0)
+    return TYPES[ARRAY](layout, np.array(values, dtype=float))
