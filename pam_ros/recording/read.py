@@ -40,7 +40,7 @@ def read_recording(
     muscle where there are several. ``namespace`` chooses a rig in a bag of several.
 
     Of a joint, ``muscles`` are the names of its muscles in order (without them, the order in which
-    they appear in a CSV file), ``unit`` is that of its position (``m``, or ``rad`` where it turns),
+    they appear in a CSV file), ``unit`` is that of its position, ``m``, or ``rad`` where it turns,
     and ``reach`` the least and the greatest position that it can have. Columns that belong to a
     muscle have its name before a dot: ``agonist.pressure_command_kPa``; in a bag, arrays have a
     number for each muscle.
