@@ -321,7 +321,6 @@ NUMBERS = {
     'muscle.equilibrium load': lambda v: Muscle().equilibrium(3e5, v),
     'fit_static_map slack_at': lambda v: mapped(slack_at=v),
     'read_recording l0': lambda v: read_recording('a.csv', l0=v),
-    'read_recording p_max': lambda v: read_recording('a.csv', p_max=v),
 }
 NO_NUMBERS = {
     'NaN': np.nan,

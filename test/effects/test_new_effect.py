@@ -25,6 +25,7 @@ sys.modules['numba'] = None  # some steps as plain Python take less than to comp
 import numpy as np
 from pam_ros.control.compensation import left_to_feedback
 from pam_ros.effects import EFFECTS
+from pam_ros.identification.fit.places import places_of
 from pam_ros.identification.fit.unknowns import effect_unknowns
 from pam_ros.rig.arrangements import ARRANGEMENTS
 from pam_ros.rig.standard_joints import single_muscle_joint
@@ -52,7 +53,7 @@ print(json.dumps({
     'pressure': list(run.pressure),
     'hidden': beside.pressure[0],
     'candidates': [effect.name for effect in single_muscle_joint().library],
-    'unknown': [u.name for u in effect_unknowns(joint, new, new.example)],
+    'unknown': [u.name for u in effect_unknowns(joint, places_of(joint)[new.name], new.example)],
     'feedback': list(left_to_feedback(joint)),
     'rows': [line for line in text.splitlines() if line.startswith('| `choked_valve')],
     'parameters': [line for line in text.splitlines() if line.startswith(cell)],

@@ -8,10 +8,11 @@ import os
 import numpy as np
 import pytest
 
-from pam_ros.errors import RecordingError
+from pam_ros.errors import ParameterError, RecordingError
 from pam_ros.recording.csv_file import write_csv
 from pam_ros.recording.mapping import read_mapping
 from pam_ros.recording.read import read_recording
+from pam_ros.recording.recording import Recording
 from support import bags
 
 
@@ -149,3 +150,13 @@ def test_a_pipe_is_refused_instead_of_waited_for(tmp_path):
     os.mkfifo(tmp_path / 'pipe.csv')
     with pytest.raises(RecordingError, match=r'pipe\.csv is neither a file nor a folder'):
         read_recording(tmp_path / 'pipe.csv')
+
+
+@pytest.mark.parametrize('p_max', [np.nan, 'high', [6e5, np.inf], [6e5, 6e5]])
+def test_highest_pressures_are_numbers_one_for_each_muscle(tmp_path, p_max):
+    t = np.arange(200) * 0.01
+    one = Recording('one', t, t, 3e5 + 1e5 * np.sin(t), 0.01 * np.sin(t))
+    write_csv(one, tmp_path / 'one.csv')
+    with pytest.raises(ParameterError, match='p_max'):
+        read_recording(tmp_path / 'one.csv', p_max=p_max)
+    assert read_recording(tmp_path / 'one.csv', p_max=[6e5]).position is not None

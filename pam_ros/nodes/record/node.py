@@ -27,7 +27,16 @@ from pam_ros.recording.simulated_time import SimulatedTime
 from pam_ros.timing.pace import SECOND
 from pam_ros.timing.ticker import Ticker
 
-TOPICS = ('joint_states', 'pressure_command', 'force', 'stiffness', 'damping', 'pressure')
+# What a muscle with its own load publishes, and a rig of joints.
+OF_MUSCLE = ('joint_states', 'pressure_command', 'force', 'stiffness', 'damping', 'pressure')
+OF_JOINTS = (
+    'joint_states',
+    'pressure_commands',
+    'forces',
+    'stiffnesses',
+    'dampings',
+    'pressures',
+)
 LOOK = 5.0  # Hz, for new topics
 TAKE = 0.01  # s between two rounds of taking messages
 CLOCK_WAIT = SECOND // 2  # ns that a message waits for /clock to go on beyond it
@@ -42,7 +51,7 @@ class PamRecord(TickingNode):
         """Make the bag in *directory*; record our topics and *topics*."""
         super().__init__('pam_record')
         self._directory = directory
-        names = dict.fromkeys((*TOPICS, *topics))
+        names = dict.fromkeys((*OF_MUSCLE, *OF_JOINTS, *topics))
         self._wanted = {self._resolved(name): name in topics for name in names}
         self._writer = BagWriter(directory, os.environ.get('ROS_DISTRO', 'unknown'))
         self._recorded: dict[str, Recorded] = {}
@@ -211,7 +220,7 @@ class PamRecord(TickingNode):
     def _report(self) -> None:
         elapsed = (monotonic_ns() - self._begun) * 1e-9
         counts = self._writer.counts
-        missing = [topic for topic in self._wanted if topic not in counts]
+        missing = [topic for topic in self._expected() if topic not in counts]
         line = f'{elapsed:.0f} s, {sum(counts.values())} messages on {len(counts)} topics'
         if missing:
             line += ', without a publisher: ' + ', '.join(missing)
@@ -219,6 +228,13 @@ class PamRecord(TickingNode):
             print(f'\r\x1b[K{line}', end='', flush=True)
         else:
             print(line, flush=True)
+
+    def _expected(self) -> list[str]:
+        """Return the topics that the rig should have: those of a muscle, until joints are seen."""
+        joints = {self._resolved(name) for name in OF_JOINTS}
+        muscle = {self._resolved(name) for name in OF_MUSCLE}
+        others = muscle - joints if (joints - muscle) & {*self._writer.counts} else joints - muscle
+        return [name for name, asked in self._wanted.items() if asked or name not in others]
 
     def destroy_node(self) -> None:
         """Close the bag and say what is in it."""

@@ -1,0 +1,57 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""A simulated joint of two muscles, recorded over DDS and read as ``pam_identify`` reads it."""
+
+import numpy as np
+import pytest
+from sensor_msgs.msg import JointState
+from std_msgs.msg import Float64MultiArray
+
+from pam_ros.recording.read import read_recording
+from pam_ros.rig.equilibrium import equilibrium
+from pam_ros.settings.nominal import nominal_joint
+from support.harness import Program
+
+pytestmark = [pytest.mark.at_any_pace, pytest.mark.usefixtures('domain')]
+
+COMMANDS = [[3e5, 2e5], [2.2e5, 2.8e5], [3.4e5, 3.1e5]]
+
+
+def test_the_bag_of_a_joint_is_a_recording_of_it(peer, tmp_path):
+    nominal = nominal_joint('dmsp_20_400n', ['joint=antagonistic', 'muscles=flexor,extensor'])
+    bag = tmp_path / 'elbow'
+    given = {**nominal.flat(), 'command_timeout': 0.0, 'rate': 200.0}
+    states = peer.collect(JointState, 'joint_states')
+    with (
+        Program('pam_sim', parameters=given),
+        Program('pam_record', '--', '-o', str(bag)) as recorder,
+    ):
+        publisher = peer.node.create_publisher(Float64MultiArray, 'pressure_commands', 10)
+        peer.until(lambda: publisher.get_subscription_count() == 2, 'both programs')
+        ends = []
+        for command in COMMANDS:
+            angle = equilibrium(nominal.joint, command)
+            publisher.publish(Float64MultiArray(data=command))
+            peer.until(
+                lambda angle=angle: (
+                    states
+                    and abs(states[-1].position[0] - angle) < 1e-4
+                    and abs(states[-1].velocity[0]) < 1e-3
+                ),
+                f'rest at {angle}',
+            )
+            ends.append(angle)
+        recorder.interrupt()
+        assert recorder.wait() == 0
+        assert '/pressures ' in recorder.output
+        assert 'without a publisher' not in recorder.output.splitlines()[-1]
+    found = read_recording(
+        bag, muscles=nominal.recorded_muscles, unit='rad', p_max=6e5, reach=nominal.reach
+    )
+    assert (found.muscles, found.unit) == (('flexor', 'extensor'), 'rad')
+    np.testing.assert_array_equal(found.command, COMMANDS)
+    for k, (angle, command) in enumerate(zip(ends, COMMANDS, strict=True)):
+        until = found.command_t[k + 1] if k < 2 else np.inf
+        last = np.flatnonzero(found.t < until - 0.05)[-1]
+        assert found.position[last] == pytest.approx(angle, abs=2e-3)
+        np.testing.assert_allclose(found.pressure[last], command, rtol=1e-9)
