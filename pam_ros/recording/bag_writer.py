@@ -2,122 +2,64 @@
 # SPDX-License-Identifier: Apache-2.0
 """Write serialised messages to a rosbag2 directory (MCAP) that is whole at every moment.
 
-Each :meth:`BagWriter.seal` leaves a complete bag behind: chunks, summary, footer and
-``metadata.yaml``. What is written next takes the place of the summary and ends in a new one. A
-recorder that is killed therefore loses what came after the last seal, and nothing needs repair.
-Where a seal does not fit on the disk, the bag ends with the one before.
+Each :meth:`BagWriter.seal` leaves a complete bag behind: files with summaries and
+``metadata.yaml``. A recorder that is killed therefore loses what came after the last seal, and
+nothing needs repair. Where a seal does not fit on the disk, the bag ends with the one before.
+
+As rosbag2 itself does, the bag is split into files ``NAME_0.mcap``, ``NAME_1.mcap`` and so on: the
+memory of a file and the duration of a seal grow with the number of its chunks.
 """
 
-import io
-import os
 import shutil
-from collections.abc import Mapping
-from contextlib import suppress
-from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
-
-import yaml
 
 from pam_ros.errors import RecordingError
+from pam_ros.recording.bag_metadata import BagTopic, ListedFile, Span, metadata_text, whole
+from pam_ros.recording.mcap_file import McapFile
 
-METADATA_VERSION = 9  # rosbag2's, since Jazzy
-_NO_TIME = 2**63 - 1  # what rosbag2 writes as the start of a bag without messages
-
-
-@dataclass(frozen=True)
-class BagTopic:
-    """A topic as a bag describes it.
-
-    ``definition`` is the complete text of the message type, ``encoding`` its form
-    (``ros2msg``), ``type_hash`` the type's description hash, ``qos`` the profiles of the
-    publishers as rosbag2's metadata lists them.
-    """
-
-    name: str
-    type: str
-    definition: str
-    encoding: str = 'ros2msg'
-    type_hash: str = ''
-    qos: list[dict[str, Any]] = field(default_factory=list)
-
-
-class _Tail(io.BytesIO):
-    """The end of a file that is not written yet; positions are those in the file."""
-
-    def __init__(self, start: int) -> None:
-        super().__init__()
-        self.start = start
-
-    def tell(self) -> int:
-        """Return the position in the file."""
-        return self.start + super().tell()
-
-    def back_to(self, position: int) -> None:
-        """Forget everything; go on at *position* in the file."""
-        self.start = position
-        self.seek(0)
-        self.truncate()
+CHUNKS = 256  # of a file, after which a new one begins; each takes about 2.5 kB of memory
 
 
 class BagWriter:
     """A rosbag2 directory that is being written.
 
-    Raises RecordingError where the directory exists already or cannot be made.
+    ``counts`` are the messages of each topic by name. Raises RecordingError where the directory
+    exists already or cannot be made.
     """
 
     def __init__(self, directory: Path, ros_distro: str = '') -> None:
         """Make *directory* with an empty bag in it."""
-        try:
-            from mcap.writer import CompressionType, Writer
-        except ImportError:
-            raise RecordingError(
-                'writing bags needs the Python package mcap: install it with pip, or record with '
-                'ros2 bag record'
-            ) from None
         self._directory, self._distro = directory, ros_distro
-        self._name = f'{directory.name}_0.mcap'
+        self._topics: dict[int, BagTopic] = {}
+        self._finished: list[ListedFile] = []
+        self._file = self._next_file()
         try:
             directory.mkdir(parents=True)
-            self._file = os.open(
-                directory / self._name, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666
-            )
         except FileExistsError:
             raise RecordingError(f'{directory} exists already: give another name') from None
         except OSError as error:
             raise RecordingError(f'{directory} cannot be made: {error.strerror}') from error
-        self._topics: dict[int, BagTopic] = {}
-        self._schemas: dict[str, int] = {}
         self.counts: dict[str, int] = {}
-        self._spans: dict[str, tuple[int, int]] = {}  # first and last time of each topic
-        self._tail = _Tail(0)
-        self._writer: Any = Writer(
-            self._tail, compression=CompressionType.ZSTD, use_summary_offsets=False
-        )
-        self._writer.start(profile='ros2', library='pam_ros')
+        self._spans: dict[str, Span] = {}  # first and last time of each topic
         self._is_sealed = False
-        self._sealed: tuple[int, bytes] = (0, b'')  # position and bytes of the last summary
         self._sealed_counts: dict[str, int] = {}
-        self._sealed_spans: dict[str, tuple[int, int]] = {}
+        self._sealed_spans: dict[str, Span] = {}
         try:
             self.seal()
         except RecordingError:
-            os.close(self._file)
             shutil.rmtree(directory, ignore_errors=True)
             raise
 
+    def _next_file(self) -> McapFile:
+        """Return a new file with all topics, which have the same channels in all files."""
+        file = McapFile(self._directory / f'{self._directory.name}_{len(self._finished)}.mcap')
+        for topic in self._topics.values():
+            file.add_topic(topic)
+        return file
+
     def add_topic(self, topic: BagTopic) -> int:
         """Add *topic* and return its channel."""
-        if topic.type not in self._schemas:
-            self._schemas[topic.type] = self._writer.register_schema(
-                topic.type, topic.encoding, topic.definition.encode()
-            )
-        metadata = {
-            'offered_qos_profiles': _dump(topic.qos) if topic.qos else '',
-            'topic_type_hash': topic.type_hash,
-        }
-        schema = self._schemas[topic.type]
-        channel: int = self._writer.register_channel(topic.name, 'cdr', schema, metadata)
+        channel = self._file.add_topic(topic)
         self._topics[channel] = topic
         self.counts[topic.name] = 0
         self._is_sealed = False
@@ -125,7 +67,7 @@ class BagWriter:
 
     def write(self, channel: int, received: int, published: int, data: bytes) -> None:
         """Add a message of *channel* with its times in ns."""
-        self._writer.add_message(channel, received, data, published)
+        self._file.write(channel, received, published, data)
         name = self._topics[channel].name
         self.counts[name] += 1
         first, last = self._spans.get(name, (received, received))
@@ -140,31 +82,21 @@ class BagWriter:
         """
         if self._is_sealed:
             return
-        self._writer.flush()
-        start, end = self._tail.start, self._tail.tell()
-        self._writer.finish()
-        data = self._tail.getvalue()
+        listed = ListedFile.of(self._file.path.name, self._file.count, self._file.span)
         try:
-            self._put(data, start)
-            self._put_metadata()
+            self._file.put()
+            # The file first: metadata must never list a file that is not there.
+            self._put_metadata(listed)
         except OSError as error:
-            self._tail.seek(end - start)
-            self._tail.truncate()
-            self._back_to_last_seal()
-            raise RecordingError(
-                f'{self._directory / self._name} cannot be written: {error.strerror}; '
-                f'the bag ends after {_seconds(self._sealed_spans):.2f} s'
-            ) from error
-        self._tail.back_to(end)
-        self._sealed = end, data[end - start :]
+            self._file.undo()
+            raise RecordingError(self._reason(error)) from error
+        self._file.keep()
         self._sealed_counts, self._sealed_spans = dict(self.counts), dict(self._spans)
         self._is_sealed = True
-
-    def _back_to_last_seal(self) -> None:
-        position, summary = self._sealed
-        # It was there before, and cutting the file off makes room for it.
-        with suppress(OSError):
-            self._put(summary, position)
+        if self._file.most_chunks >= CHUNKS:
+            self._file.close()
+            self._finished.append(listed)
+            self._file = self._next_file()
 
     def close(self) -> None:
         """Seal the bag for good.
@@ -178,93 +110,45 @@ class BagWriter:
             self.counts, self._spans = self._sealed_counts, self._sealed_spans
             raise
         finally:
-            os.close(self._file)
+            self._file.close()
 
     @property
     def duration(self) -> float:
         """Return the time in s from the first message to the last."""
-        return _seconds(self._spans)
+        return _seconds(whole(self._spans.values()))
 
     def rate(self, topic: str) -> float:
         """Return the messages a second of *topic* between its first and its last."""
-        first, last = self._spans.get(topic, (0, 0))
-        return (self.counts[topic] - 1) / ((last - first) * 1e-9) if last > first else 0.0
+        seconds = _seconds(self._spans.get(topic))
+        return (self.counts[topic] - 1) / seconds if seconds else 0.0
 
-    def _put(self, data: bytes, position: int) -> None:
-        # The old summary goes first: a file that lacks its end is known to, one whose summary
-        # is half another's is not.
-        os.ftruncate(self._file, position)
-        rest = memoryview(data)
-        while rest:
-            written = os.pwrite(self._file, rest, position)
-            rest, position = rest[written:], position + written
-
-    def _put_metadata(self) -> None:
-        total = sum(self.counts.values())
-        first, last = _whole(self._spans)
-        duration = {'nanoseconds': last - first}
-        start = {'nanoseconds_since_epoch': first}
-        content = {
-            'version': METADATA_VERSION,
-            'storage_identifier': 'mcap',
-            'duration': duration,
-            'starting_time': start,
-            'message_count': total,
-            'topics_with_message_count': [
-                {
-                    'topic_metadata': {
-                        'name': topic.name,
-                        'type': topic.type,
-                        'serialization_format': 'cdr',
-                        'offered_qos_profiles': topic.qos,
-                        'type_description_hash': topic.type_hash,
-                    },
-                    'message_count': self.counts[topic.name],
-                }
-                for topic in self._topics.values()
-            ],
-            'compression_format': '',
-            'compression_mode': '',
-            'relative_file_paths': [self._name],
-            'files': [
-                {
-                    'path': self._name,
-                    'starting_time': start,
-                    'duration': duration,
-                    'message_count': total,
-                }
-            ],
-            'custom_data': None,
-            'ros_distro': self._distro,
-        }
+    def _put_metadata(self, listed: ListedFile) -> None:
+        text = metadata_text(
+            self._topics.values(),
+            self.counts,
+            whole(self._spans.values()),
+            [*self._finished, listed],
+            self._distro,
+        )
         partial = self._directory / '.metadata.yaml.part'
         try:
-            partial.write_text(_dump({'rosbag2_bagfile_information': content}), encoding='utf-8')
+            partial.write_text(text, encoding='utf-8')
             partial.replace(self._directory / 'metadata.yaml')
         except OSError:
             partial.unlink(missing_ok=True)
             raise
 
-
-def _whole(spans: Mapping[str, tuple[int, int]]) -> tuple[int, int]:
-    """Return the first and the last time in ns of all topics."""
-    if not spans:
-        return _NO_TIME, _NO_TIME
-    return min(first for first, _ in spans.values()), max(last for _, last in spans.values())
-
-
-def _seconds(spans: Mapping[str, tuple[int, int]]) -> float:
-    first, last = _whole(spans)
-    return (last - first) * 1e-9
-
-
-class _Plain(yaml.SafeDumper):
-    """YAML without anchors, in the order in which it was made: as rosbag2 writes it."""
-
-    def ignore_aliases(self, data: Any) -> bool:
-        """Write every value out."""
-        return True
+    def _reason(self, error: OSError) -> str:
+        """Return the sentence that says why a seal failed."""
+        if isinstance(error, FileNotFoundError):
+            gone = self._file.path if self._directory.is_dir() else self._directory
+            return f'{gone} was deleted or renamed while it was recorded: nothing more is recorded'
+        seconds = _seconds(whole(self._sealed_spans.values()))
+        return (
+            f'{self._file.path} cannot be written: {error.strerror}; '
+            f'the bag ends after {seconds:.2f} s'
+        )
 
 
-def _dump(content: Any) -> str:
-    return str(yaml.dump(content, Dumper=_Plain, sort_keys=False))
+def _seconds(span: Span | None) -> float:
+    return (span[1] - span[0]) * 1e-9 if span else 0.0

@@ -22,7 +22,8 @@ from pam_ros.nodes.common.spin import BAD_INPUT, TickingNode
 from pam_ros.nodes.record.message_text import message_text
 from pam_ros.nodes.record.qos import matching, metadata
 from pam_ros.nodes.record.taking import Recorded, Taken, all_of, never
-from pam_ros.recording.bag_writer import BagTopic, BagWriter
+from pam_ros.recording.bag_metadata import BagTopic
+from pam_ros.recording.bag_writer import BagWriter
 from pam_ros.recording.simulated_time import SimulatedTime
 from pam_ros.timing.pace import SECOND
 from pam_ros.timing.ticker import Ticker
