@@ -56,7 +56,7 @@ class ListedFile(NamedTuple):
     def of(cls, name: str, count: int, span: Span | None) -> 'ListedFile':
         """Return the text of the file *name* with *count* messages between the times *span*."""
         entry = {'path': name, **_times(span), 'message_count': count}
-        return cls(_dump([name]), _dump([entry]))
+        return cls(indent(_dump([name]), '  '), indent(_dump([entry]), '  '))
 
 
 def whole(spans: Iterable[Span]) -> Span | None:
@@ -96,12 +96,14 @@ def metadata_text(
         'custom_data': None,
         'ros_distro': ros_distro,
     }
-    return _dump({'rosbag2_bagfile_information': content}) + indent(
-        'relative_file_paths:\n'
-        + ''.join(file.path for file in files)
-        + 'files:\n'
-        + ''.join(file.entry for file in files),
-        '  ',
+    return ''.join(
+        (
+            _dump({'rosbag2_bagfile_information': content}),
+            '  relative_file_paths:\n',
+            *(file.path for file in files),
+            '  files:\n',
+            *(file.entry for file in files),
+        )
     )
 
 

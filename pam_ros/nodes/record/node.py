@@ -251,7 +251,8 @@ class PamRecord(TickingNode):
         except RecordingError as error:
             self._fail(error)
         try:
-            self._summarise()
+            if self._directory.is_dir():  # a bag that was deleted has no messages any more
+                self._summarise()
         finally:  # also where nobody reads any more what is printed
             super().destroy_node()
 

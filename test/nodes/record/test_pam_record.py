@@ -202,6 +202,22 @@ def test_a_recorder_that_is_killed_leaves_a_whole_bag(peer, tmp_path):
 
 
 @pytest.mark.at_any_pace
+def test_a_directory_that_is_renamed_ends_it_with_one_sentence(peer, tmp_path):
+    bag = tmp_path / 'rig'
+    with recorder(bag) as program:
+        force = heard(peer, Float64, 'force')
+        peer.until(lambda: [force.publish(Float64()), written(bag) > 0][1], 'a message on disk')
+        bag.rename(tmp_path / 'gone')
+        peer.until(lambda: [force.publish(Float64()), not program.is_running][1], 'its end')
+        assert program.wait() == 2
+        last = program.output.splitlines()[-1]
+    assert last == (
+        f'pam_record: {bag} was deleted or renamed while it was recorded: nothing more is recorded'
+    )
+    assert contents(tmp_path / 'gone')['/force']
+
+
+@pytest.mark.at_any_pace
 def test_where_time_is_simulated_it_is_what_is_recorded(peer, tmp_path):
     bag = tmp_path / 'rig'
     with Program('pam_record', '-p', 'use_sim_time:=true', '--', '-o', str(bag)):
