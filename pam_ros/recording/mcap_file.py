@@ -41,7 +41,8 @@ class _Tail(io.BytesIO):
 class McapFile:
     """A file that begins to exist with the first :meth:`put`.
 
-    ``count`` is the number of messages, ``span`` their first and last time in ns.
+    ``count`` is the number of messages, ``span`` their first and last time in ns. The file has at
+    most ``most_chunks`` chunks; the summary, which each put writes again, has an entry for each.
 
     Raises RecordingError if the Python package ``mcap`` is not installed.
     """
@@ -58,9 +59,10 @@ class McapFile:
         self.path = path
         self.count = 0
         self.span: Span | None = None
+        self.most_chunks = 0
         self._descriptor: int | None = None
         self._schemas: dict[str, int] = {}
-        self._puts = self._bytes = 0
+        self._bytes = 0  # of records since the last put
         self._tail = _Tail()
         self._end = 0  # of the data that the last put wrote: there begins its summary
         self._summary = b''
@@ -69,14 +71,6 @@ class McapFile:
             self._tail, _CHUNK, compression=CompressionType.ZSTD, use_summary_offsets=False
         )
         self._writer.start(profile='ros2', library='pam_ros')
-
-    @property
-    def most_chunks(self) -> int:
-        """Return how many chunks the file has at most.
-
-        Each of them has an entry in the summary, which each put writes again.
-        """
-        return self._puts + self._bytes // _CHUNK
 
     def add_topic(self, topic: BagTopic) -> int:
         """Add *topic* and return its channel: 1 for the first topic, 2 for the second..."""
@@ -104,6 +98,8 @@ class McapFile:
         FileNotFoundError if the file was deleted.
         """
         self._writer.flush()
+        self.most_chunks += 1 + self._bytes // _CHUNK
+        self._bytes = 0
         start, self._end = self._tail.start, self._tail.tell()
         self._writer.finish()
         data = self._tail.getvalue()
@@ -118,7 +114,6 @@ class McapFile:
         """Accept what the last put wrote: it is no longer needed in memory."""
         self._tail.back_to(self._end)
         self._kept = self._end, self._summary
-        self._puts += 1
 
     def undo(self) -> None:
         """Leave the file as it was before the last put, which the next one tries again."""
