@@ -17,7 +17,7 @@ from pam_ros.errors import RecordingError
 from pam_ros.recording.bag_metadata import BagTopic, ListedFile, Span, metadata_text, whole
 from pam_ros.recording.mcap_file import McapFile
 
-CHUNKS = 256  # of a file, after which a new one begins; each takes about 2.5 kB of memory
+CHUNKS = 256  # of a file, after which a new one begins; each takes about 3 kB of memory
 
 
 class BagWriter:
