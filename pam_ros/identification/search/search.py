@@ -121,7 +121,7 @@ def no_worse(now: Model, than: Model, setting: Setting) -> bool:
     return b.carried * b.fit <= setting.criteria.worse * a.carried * a.fit
 
 
-def _alike(now: Model, found: Search) -> Model:
+def joined(now: Model, found: Search) -> Model:
     """Return *now* with an effect alike in all muscles that have it each, if hardly more is left.
 
     That has fewer parameters, and muscles of one type have the same effects.
@@ -156,7 +156,7 @@ def _plainer(now: Model, found: Search) -> Model:
     A leak of which the refill alone shows is a lag. What is broader can always be fitted as well.
     """
     setting = found.setting
-    now = _alike(now, found)
+    now = joined(now, found)
     for name in now.effects:
         named = setting.related(name, setting.places[name].effect.contains)
         contained = [one for one in named if one in absent(now, setting)]

@@ -104,3 +104,19 @@ def test_a_stop_is_where_the_muscle_would_have_its_contraction():
     places = [start['upper'] for start in stop.guess(t, t, angle, t) if 'upper' in start]
     assert places
     assert all(0.3 < place < 0.6 for place in places)
+
+
+def test_where_a_memory_begins_is_each_muscles_own():
+    """All else of an effect in both is one number for both."""
+    both, layout = places_of(ELBOW, NAMES)['hysteresis'], ELBOW.layout
+    parameters = [p.name for p in EFFECT['hysteresis'].parameters]
+    initial, slip = parameters.index('initial'), parameters.index('slip')
+    places = [layout.index(EFFECT['hysteresis'], initial, i) for i in (0, 1)]
+    assert both.split(layout, initial) == [
+        ('flexor.effects.hysteresis.initial', (places[0],)),
+        ('extensor.effects.hysteresis.initial', (places[1],)),
+    ]
+    ((name, indices),) = both.split(layout, slip)
+    assert (name, len(indices)) == ('effects.hysteresis.slip', 2)
+    alone = places_of(ELBOW, NAMES)['extensor.hysteresis']
+    assert alone.split(layout, initial) == [('extensor.effects.hysteresis.initial', (places[1],))]

@@ -1,0 +1,71 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Moves of a search on a joint of two muscles."""
+
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+import pytest
+
+from pam_ros.identification.data.parts import parts_of
+from pam_ros.identification.fit.solve import solved
+from pam_ros.identification.search.criteria import BUDGET, CRITERIA
+from pam_ros.identification.search.moves import with_each
+from pam_ros.identification.search.search import Search, absent, joined
+from pam_ros.identification.search.setting import Setting
+from pam_ros.recording.recording import Recording
+from pam_ros.rig.joint import Actuator, Joint
+from pam_ros.rig.loads import Arm
+from pam_ros.rig.run import simulate
+from pam_ros.rig.transmissions import Pulley
+
+NAMES = ('flexor', 'extensor')
+T = np.arange(0.0, 16.0, 0.02)
+COMMAND = 1e3 * np.stack(
+    [
+        260.0 + 80.0 * np.sign(np.sin(1.3 * T)) + 40.0 * np.sin(3.0 * T),
+        250.0 - 60.0 * np.sign(np.sin(0.9 * T)) - 50.0 * np.cos(2.0 * T),
+    ],
+    axis=1,
+)
+LAG = {'pressure_lag': {'fill': 0.05, 'vent': 0.07}}
+
+
+def elbow(first, second):
+    muscles = tuple(Actuator(effects=effects, contraction=0.1) for effects in (first, second))
+    return Joint(muscles, Arm(mass=1.0, arm=0.25), Pulley(radius=0.04))
+
+
+@pytest.fixture(scope='module')
+def found():
+    noise = np.random.default_rng(5).normal(0.0, 2e-4, T.size)
+    angle = simulate(elbow(LAG, LAG), T, T, COMMAND).position + noise
+    recording = Recording('elbow', T, T, COMMAND, angle, muscles=NAMES, unit='rad')
+    parts = parts_of([recording], CRITERIA.fit, CRITERIA.choose)
+    with ThreadPoolExecutor(2) as pool:
+        setting = Setting(elbow({}, {}), parts, CRITERIA, BUDGET, pool, NAMES)
+        problem = setting.problem
+        retuned = setting.model((), solved(problem, np.zeros(len(problem.unknowns)), pool=pool))
+        yield Search(setting, retuned, retuned, [retuned])
+
+
+@pytest.mark.needs_numba
+def test_an_effect_that_each_muscle_has_alone_becomes_one_of_all(found):
+    setting, now = found.setting, found.retuned
+    for muscle in NAMES:
+        now = with_each(now, [f'{muscle}.pressure_lag'], setting)[0]
+    assert now.effects == ('flexor.pressure_lag', 'extensor.pressure_lag')
+    alike = joined(now, found)
+    assert alike.effects == ('pressure_lag',)
+    assert alike.errors.fit < 1.03 * now.errors.fit
+    assert alike.solution.value('effects.pressure_lag.fill') == pytest.approx(0.05, rel=0.05)
+
+
+@pytest.mark.needs_numba
+def test_an_effect_of_one_muscle_stays_there(found):
+    (now,) = with_each(found.retuned, ['flexor.dead_time'], found.setting)
+    assert joined(now, found) is now
+    names = absent(now, found.setting)
+    assert 'extensor.dead_time' in names
+    assert 'dead_time' not in names
+    assert 'flexor.dead_time' not in names
