@@ -19,6 +19,7 @@ import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.optimize import least_squares
 
+from benchmarks import tracing_joints
 from benchmarks.tracing import blind_trial, declared_model, recording_of
 from pam_ros.identification.data.parts import parts_of
 from pam_ros.identification.fit.extend import with_effect
@@ -26,6 +27,8 @@ from pam_ros.identification.fit.solve import solved
 from pam_ros.identification.identify import identify
 from pam_ros.identification.search.criteria import BUDGET, CRITERIA
 from pam_ros.identification.search.setting import Setting
+from pam_ros.recording.recording import Recording
+from pam_ros.rig.joint import Joint
 from pam_ros.rig.warm import warm
 
 START = {'fill': 0.02, 'vent': 0.02}
@@ -36,6 +39,11 @@ RUNS = (
     ('hysteresis+dead_time', 60.0, 1000.0, 12.0),
     ('hysteresis+pressure_lag', 60.0, 1000.0, 12.0),
 )
+# The same of joints of two muscles.
+OF_JOINTS = (
+    ('pressure_lag@one', 60.0, 1000.0, 8.0),
+    ('hysteresis@both', 60.0, 1000.0, 40.0),
+)
 SCIPY_SECONDS = 10.0  # of the recording for scipy's fit: its time grows in proportion
 
 
@@ -44,15 +52,25 @@ def main() -> None:
     warm()
     for kind, duration, rate, target in RUNS:
         trial = blind_trial(kind, 3, rate=rate, duration=duration)
-        model, recording = declared_model(trial), recording_of(trial)
-        began = time.perf_counter()
-        found = identify(model, [recording])
-        took = time.perf_counter() - began
-        print(
-            f'{kind}, {duration:g} s at {rate:g} Hz, all candidates: {took:5.1f} s (aim '
-            f'{target:g}), {found.verdict} {[e.name for e in found.effects]}'
-        )
+        took(kind, duration, rate, target, declared_model(trial), recording_of(trial))
+    for kind, duration, rate, target in OF_JOINTS:
+        pair = tracing_joints.pair_trial(kind, 3, rate=rate, duration=duration)
+        model, recording = tracing_joints.declared_model(pair), tracing_joints.recording_of(pair)
+        took(kind, duration, rate, target, model, recording)
     compare()
+
+
+def took(
+    kind: str, duration: float, rate: float, target: float, model: Joint, recording: Recording
+) -> None:
+    """Identify what *recording* shows beyond *model*, and print how long that took."""
+    began = time.perf_counter()
+    found = identify(model, [recording])
+    seconds = time.perf_counter() - began
+    print(
+        f'{kind}, {duration:g} s at {rate:g} Hz, all candidates: {seconds:5.1f} s (aim '
+        f'{target:g}), {found.verdict} {[e.name for e in found.effects]}'
+    )
 
 
 def compare() -> None:

@@ -63,7 +63,7 @@ def test_pure_rooms_pass_on_the_oldest_libraries(clean_environment):
     # Pure tests may share the machine, unlike those that keep a rate.
     pure = [f'--ignore=test/{room}' for room in NOT_PURE]
     tested = subprocess.run(
-        [oldest, '-m', 'pytest', '-n', 'auto', '-p', 'no:cacheprovider', *pure],
+        [oldest, '-m', 'pytest', 'test', '-n', 'auto', '-p', 'no:cacheprovider', *pure],
         cwd=ROOT,
         env=clean_environment,
         capture_output=True,

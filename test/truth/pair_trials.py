@@ -87,7 +87,9 @@ class PairTrial:
         return not any(e.kind in OUT_OF_LIBRARY for e in self.effects)
 
 
-def pair_trial(kind: str, seed: int) -> PairTrial:
+def pair_trial(
+    kind: str, seed: int, *, rate: float | None = None, duration: float | None = None
+) -> PairTrial:
     """Draw a trial of 'effect@place', or of 'noise_only'; places are both, one and joint.
 
     Drawn: magnitude and form (catalogue), each muscle's own specimen (each constant off by 2 %, at
@@ -113,7 +115,8 @@ def pair_trial(kind: str, seed: int) -> PairTrial:
         0.25,
         float(rng.uniform(0.08, 0.12)),
     )
-    duration, rate = float(rng.uniform(40.0, 80.0)), float(rng.choice((100.0, 200.0, 500.0)))
+    drawn = float(rng.uniform(40.0, 80.0)), float(rng.choice((100.0, 200.0, 500.0)))
+    duration, rate = duration or drawn[0], rate or drawn[1]
     t = stamps(rate, duration, 0.3 if rng.random() < 0.25 else 0.0, rng)
     commands = _commands(t, rate, duration, rng)
     effects, where = _drawn(name, place, radius, duration, commands, rng)

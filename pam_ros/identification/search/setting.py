@@ -204,9 +204,8 @@ class Setting:
         They are in the same muscle, or in all muscles where that one is, or on the joint.
         """
         muscle = muscle_of(name)
-        alone = [f'{muscle}.{effect}' if muscle else effect for effect in effects]
-        both = zip(alone, effects, strict=True)
-        return [here if here in self.places else elsewhere for here, elsewhere in both]
+        pairs = ((f'{muscle}.{effect}' if muscle else effect, effect) for effect in effects)
+        return [same if same in self.places else other for same, other in pairs]
 
     def above(self, error: float) -> float:
         """Return what is left of an error above the noise, in its unit."""
