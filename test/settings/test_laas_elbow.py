@@ -1,0 +1,43 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The elbow of two McKibben muscles: its constants are those of its geometry."""
+
+import numpy as np
+import pytest
+
+from pam_ros.settings.nominal import nominal_joint
+
+RADIUS, BRAID, END, LENGTH, WHEEL = 8.5e-3, np.radians(20.0), 1.25, 0.185, 0.015
+
+
+@pytest.fixture(scope='module')
+def elbow():
+    return nominal_joint('laas_elbow')
+
+
+def law(p, kappa):
+    """Return the force in N of Tondu and Lopez (2000) at p Pa."""
+    a, b = 3.0 / np.tan(BRAID) ** 2, 1.0 / np.sin(BRAID) ** 2
+    return np.pi * RADIUS**2 * p * (a * (1.0 - END * kappa) ** 2 - b)
+
+
+def test_forces_are_those_of_the_geometry(elbow):
+    p, kappa = np.meshgrid(np.linspace(0.0, 4e5, 9), np.linspace(0.0, 0.3, 31))
+    muscle = elbow.joint.muscles[0]
+    bladder = muscle.force(0.0, kappa)
+    assert np.max(np.abs(bladder)) < 10.0
+    difference = muscle.force(p, kappa) - bladder - law(p, kappa)
+    assert np.max(np.abs(difference)) < 0.004 * np.max(law(p, kappa))
+
+
+def test_both_muscles_have_the_initial_contraction_in_the_middle(elbow):
+    for muscle, actuator, side in zip(
+        elbow.joint.muscles, elbow.joint.actuators, (1.0, -1.0), strict=True
+    ):
+        assert muscle.l0 == LENGTH
+        moved = side * WHEEL * 0.845 / LENGTH
+        assert actuator.contraction + moved == pytest.approx(0.15, abs=1e-4)
+    assert elbow.muscles == ('agonist', 'antagonist')
+    low, high = elbow.reach
+    assert low < -0.5
+    assert high > 2.0
