@@ -174,9 +174,13 @@ class TruthPair:
             S.u = S.p = S.p_mem = p
             S.y = S.y_mem = (G.x1 + G.radius * angle, G.x2 - G.radius * angle, angle)[i]
             S.bristle = 0.0
+            S.plag_1 = S.plag_2 = p
+            S.strain_1 = S.strain_2 = S.y
             for k in range(ELEMENTS):
                 S.slip[k] = S.pslip[k] = 0.0
-                S.slip_reach[k] = P.hyst_reach_m * 20.0 ** (k / (ELEMENTS - 1) - 1.0)
+                share = 20.0 ** (k / (ELEMENTS - 1) - 1.0)
+                S.slip_reach[k] = P.hyst_reach_m * share
+                S.pslip_reach[k] = P.hyst_reach_pa * share
 
     def step(self, u: tuple[float, float], h: float, push: float = 0.0) -> float:
         """Hold both commands (Pa) for h seconds; return the angle measured at the end, rad.
