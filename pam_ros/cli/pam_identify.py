@@ -131,6 +131,7 @@ def run(given: argparse.Namespace, command: str) -> str:
     nominal = nominal_joint(given.params, given.set)
     model = nominal.joint
     mapping = read_mapping(given.column, given.mapping)
+    p_max = [muscle.p_max for muscle in model.muscles]
     # A length makes a position of a contraction; a known force that drives a load has none.
     has_length = nominal.reach is None and not model.is_driven
     recordings, test = (
@@ -140,7 +141,7 @@ def run(given: argparse.Namespace, command: str) -> str:
                 mapping,
                 given.kind,
                 model.muscle.l0 if has_length else None,
-                [muscle.p_max for muscle in model.muscles],
+                p_max[0] if len(p_max) == 1 else p_max,
                 given.namespace,
                 nominal.recorded_muscles,
                 model.transmission.equations.unit,

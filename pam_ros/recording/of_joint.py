@@ -49,6 +49,9 @@ def of_joint(
             )
         own = [series.get(f'{muscle}.{quantity}') for muscle in names]
         given = [one for one in own if one is not None]
+        if quantity == 'pressure' and len(given) < len(names) and 'pressure_command' in made:
+            notes += [f'{one.source} is not used: not all muscles have one' for one in given]
+            continue
         if given and len(given) < len(names):
             missing = names[own.index(None)]
             raise RecordingError(
@@ -57,8 +60,9 @@ def of_joint(
             )
         if given:
             made[quantity] = _together(name, given, is_held=quantity == 'pressure_command')
-    for key in [key for key in made if key == 'force']:
-        notes.append(f'{made.pop(key).source} is not used: which muscle it is of is not known')
+    if 'force' in made:
+        source = made.pop('force').source
+        notes.append(f'{source} is not used: which muscle it is of is not known')
     forces = [one.source for key, one in series.items() if key.endswith('.force')]
     if forces:
         notes.append(f'{", ".join(forces)}: forces of the muscles of a joint are not used')

@@ -50,6 +50,9 @@ def bench(tmp_path_factory):
     lines = (folder / 'fit.csv').read_text(encoding='utf-8').splitlines()
     lines[0] = lines[0].replace('extensor.pressure_command_Pa', 'valve')
     (folder / 'missing.csv').write_text('\n'.join(lines) + '\n', encoding='utf-8')
+    slides = [lines[0].replace('valve', 'extensor.pressure_command_Pa'), *lines[1:]]
+    slides[0] = slides[0].replace('position_rad', 'position_cm')
+    (folder / 'slides.csv').write_text('\n'.join(slides) + '\n', encoding='utf-8')
     idle = recording(truth, 3, 15.0)
     idle.command[:, 1] = 2.5e5
     write_csv(idle, folder / 'idle.csv')
@@ -122,6 +125,10 @@ def test_the_parameter_file_is_the_joint_that_was_found(found):
         (
             ('fit.csv', '--params', 'dmsp_20_400n'),
             'fit.csv: the position is in rad, and the model moves in m',
+        ),
+        (
+            ('slides.csv', '--params', 'dmsp_20_400n'),
+            'slides.csv is a recording of 2 muscle(s), and the joint has 1',
         ),
         (
             ('fit.csv', '--params', 'elbow.yaml', '--set', 'muscles=one'),

@@ -100,6 +100,12 @@ def test_part_of_a_recording_keeps_its_muscles(tmp_path):
     assert values.shape == (stamps.size, 2)
 
 
+def test_a_pressure_that_not_all_muscles_have_is_noted(tmp_path):
+    one = read_recording(elbow(tmp_path, **{'flexor.pressure_kPa': UP + 1.0}))
+    assert one.pressure is None
+    assert 'flexor.pressure_kPa is not used: not all muscles have one' in one.warnings
+
+
 def test_forces_of_single_muscles_are_noted(tmp_path):
     one = read_recording(elbow(tmp_path, **{'flexor.force_N': UP}))
     assert one.force is None
