@@ -139,6 +139,11 @@ def read_known(name: str, table: Table) -> dict[str, Value]:
         refuse_unknown_effects(values)
         refuse_mistyped(values, table)
     except ParameterError as error:
+        if 'joint' in values and values['joint'] != table.get('joint', (str, ''))[1]:
+            raise ParameterError(
+                f'{path} describes a joint ({values["joint"]}), not a muscle: give it as a '
+                'parameter file (--params-file)'
+            ) from error
         raise ParameterError(f'{path}: {error}') from error
     return values
 

@@ -16,7 +16,6 @@ from pam_ros.rig.step_limit import longest_step
 
 CONFIG = Path(__file__).parents[2] / 'config'
 MUSCLES = sorted((CONFIG / 'muscles').glob('*.yaml'))
-RIGS = sorted((CONFIG / 'rigs').glob('*.yaml'))
 OF_MUSCLE = {field.name for field in fields(Muscle)}
 OF_LOAD = {field.name for field in fields(Mass)}
 
@@ -32,6 +31,10 @@ def rig(path):
     values = load(path)
     muscle = Muscle(**{k: v for k, v in values.items() if k in OF_MUSCLE})
     return single_muscle_joint(muscle, Mass(**{k: v for k, v in values.items() if k in OF_LOAD}))
+
+
+# Those of one muscle; joints are tested where files become joints.
+RIGS = [p for p in sorted((CONFIG / 'rigs').glob('*.yaml')) if 'joint' not in load(p)]
 
 
 def preset(name):

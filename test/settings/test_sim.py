@@ -33,7 +33,11 @@ def test_sim_yaml_lists_all_that_is_not_the_rig_with_its_defaults():
     }
 
 
-@pytest.mark.parametrize('name', [*MUSCLES, *map(str, sorted((CONFIG / 'rigs').glob('*.yaml')))])
+RIGS = sorted((CONFIG / 'rigs').glob('*.yaml'))
+ONE_MUSCLE = [path for path in RIGS if 'joint' not in read(path)]
+
+
+@pytest.mark.parametrize('name', [*MUSCLES, *map(str, ONE_MUSCLE)])
 def test_every_muscle_and_rig_of_the_package_can_be_simulated(name):
     now = built({'muscle': name})
     ((pressure,), (position,), (velocity,)) = now.initial
@@ -43,6 +47,14 @@ def test_every_muscle_and_rig_of_the_package_can_be_simulated(name):
         kappa = position / joint.muscle.l0
         weight = float(statics.weight(joint, 0.0))
         assert joint.muscle.force(0.0, kappa) == pytest.approx(weight, rel=1e-9)
+
+
+@pytest.mark.parametrize('path', [path for path in RIGS if path not in ONE_MUSCLE])
+def test_every_joint_of_the_package_can_be_simulated_and_is_no_muscle(path):
+    now = built(read(path))
+    assert len(now.muscle_names) == len(now.joints[0].muscles) > 1
+    with pytest.raises(ParameterError, match=r'describes a joint .* not a muscle: '):
+        built({'muscle': str(path)})
 
 
 def test_values_of_a_muscle_are_defaults_only():
