@@ -13,12 +13,9 @@ import os
 # One thread for each of many small matrices: trials run side by side instead.
 os.environ.setdefault('OPENBLAS_NUM_THREADS', '1')
 
-import argparse
-import json
 import sys
 import time
 from collections import Counter, defaultdict
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -27,6 +24,7 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / 'test'))
 
+from benchmarks import _trials
 from pam_ros.identification.identify import identify
 from pam_ros.identification.result import Identification
 from pam_ros.muscle.muscle import Muscle
@@ -174,32 +172,11 @@ def report(rows: list[dict[str, Any]]) -> None:
 
 def main() -> None:
     """Run the trials that the command line asks for, and print the scores."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument('--seeds', type=int, default=12)
-    parser.add_argument('--first', type=int, default=0)
+    parser = _trials.options(__doc__, 12)
     parser.add_argument('--draws', choices=DRAWS, default='blind')
-    parser.add_argument('--kinds', default='')
-    parser.add_argument('--jobs', type=int, default=2)
-    parser.add_argument('--log', type=Path)
     given = parser.parse_args()
-    kinds = (
-        given.kinds.split(',') if given.kinds else [NOISE_ONLY, *KINDS, *PAIRS, *OUT_OF_LIBRARY]
-    )
-    seeds = range(given.first, given.first + given.seeds)
-    jobs = [Job(kind, seed, given.draws) for seed in seeds for kind in kinds]
-    rows = []
-    with ProcessPoolExecutor(given.jobs) as pool:
-        for row in pool.map(run_trial, jobs):
-            rows.append(row)
-            if given.log:
-                with given.log.open('a') as log:
-                    log.write(json.dumps(row) + '\n')
-            print(
-                f'{len(rows):4d}/{len(jobs)} {row["kind"]:36s} {row["seed"]:3d} '
-                f'{"+".join(row["found"]) or row["verdict"]:40s} '
-                f'{row["augmented"] / row["noise"]:6.2f} x noise  {row["seconds"]:5.1f} s',
-                flush=True,
-            )
+    chosen = _trials.chosen(given, [NOISE_ONLY, *KINDS, *PAIRS, *OUT_OF_LIBRARY])
+    rows = _trials.run_all(run_trial, [Job(*one, given.draws) for one in chosen], given)
     report(rows)
 
 

@@ -12,11 +12,8 @@ import os
 # One thread for each of many small matrices: trials run side by side instead.
 os.environ.setdefault('OPENBLAS_NUM_THREADS', '1')
 
-import argparse
-import json
 import sys
 import time
-from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 from typing import Any
 
@@ -24,6 +21,7 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / 'test'))
 
+from benchmarks import _trials
 from pam_ros.identification.identify import identify
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.recording.recording import Recording
@@ -117,28 +115,8 @@ def scores(rows: list[dict[str, Any]]) -> dict[str, float]:
 
 def main() -> None:
     """Run the trials that the command line asks for, and print the scores."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument('--seeds', type=int, default=3)
-    parser.add_argument('--first', type=int, default=0)
-    parser.add_argument('--kinds', default='')
-    parser.add_argument('--jobs', type=int, default=2)
-    parser.add_argument('--log', type=Path)
-    given = parser.parse_args()
-    kinds = given.kinds.split(',') if given.kinds else PAIR_KINDS
-    jobs = [(kind, given.first + k) for k in range(given.seeds) for kind in kinds]
-    rows = []
-    with ProcessPoolExecutor(given.jobs) as pool:
-        for row in pool.map(run_trial, jobs):
-            rows.append(row)
-            if given.log:
-                with given.log.open('a') as log:
-                    log.write(json.dumps(row) + '\n')
-            print(
-                f'{len(rows):4d}/{len(jobs)} {row["kind"]:32s} {row["where"]:11s} '
-                f'{row["seed"]:3d} {"+".join(row["found"]) or row["verdict"]:44s} '
-                f'{row["augmented"] / row["noise"]:6.2f} x noise  {row["seconds"]:5.1f} s',
-                flush=True,
-            )
+    given = _trials.options(__doc__, 3).parse_args()
+    rows = _trials.run_all(run_trial, _trials.chosen(given, PAIR_KINDS), given)
     print(f'\n{len(rows)} trials, median {np.median([r["seconds"] for r in rows]):.1f} s each')
     for name, value in scores(rows).items():
         word = '-' if np.isnan(value) else 'reached' if value >= TARGETS[name] else 'SHORT'

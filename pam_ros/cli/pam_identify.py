@@ -118,6 +118,7 @@ class Progress:
 def run(given: argparse.Namespace, command: str) -> str:
     """Identify what the command line names, write the report, return its last line."""
     from pam_ros.compiled import HAVE_NUMBA
+    from pam_ros.identification.data.segment import require_joint
     from pam_ros.identification.identify import identify
     from pam_ros.recording.inputs import refuse_idle
     from pam_ros.recording.mapping import read_mapping
@@ -151,7 +152,8 @@ def run(given: argparse.Namespace, command: str) -> str:
         ]
         for paths in (given.recordings, given.test)
     )
-    refuse_idle(recordings)
+    require_joint([*recordings, *test], model)
+    refuse_idle(recordings)  # here already, so that no warning stands before the reason
     for recording in test:
         if recording.digest in {other.digest for other in recordings}:
             raise PamError(

@@ -36,6 +36,7 @@ from pam_ros.identification.verdict import (
     too_little,
     verdict,
 )
+from pam_ros.recording.inputs import refuse_idle
 from pam_ros.recording.recording import Recording
 from pam_ros.rig import layout as at
 from pam_ros.rig.joint import Joint
@@ -69,6 +70,7 @@ def identify(
     tell: Progress = progress or (lambda share, text: None)
     require_one_kind([*recordings, *test])
     require_joint([*recordings, *test], model)
+    refuse_idle(recordings)
     tests = segments_of(test)
     # With test recordings none of the others has to judge.
     shares = (CRITERIA.fit / CRITERIA.choose, 1.0) if test else (CRITERIA.fit, CRITERIA.choose)

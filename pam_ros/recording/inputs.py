@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from pam_ros.arguments import one_each
 from pam_ros.errors import RecordingError
 from pam_ros.recording.assemble import AT_REST, spread
-from pam_ros.recording.quantities import QUANTITIES, Quantity
+from pam_ros.recording.quantities import Quantity, quantity_in
 from pam_ros.recording.recording import OUTPUTS, Recording
 
 Array = NDArray[np.float64]
@@ -58,11 +58,13 @@ def driving(recording: Recording, p_max: float | Sequence[float] | None = None) 
 def refuse_idle(recordings: Sequence[Recording]) -> None:
     """Raise RecordingError where a muscle has the same input in all *recordings*, all the time.
 
-    What such a muscle does cannot be told from what the others do.
+    All are of the same joint. What such a muscle does cannot be told from what the others do.
     """
+    if not recordings[0].muscles:
+        return
     for one in zip(*map(driving, recordings), strict=True):
         values = np.concatenate([each.values for each in one])
-        if len(recordings[0].muscles) > 1 and is_constant(values):
+        if is_constant(values):
             where = recordings[0].name if len(recordings) == 1 else 'all recordings'
             raise RecordingError(
                 f'{where}: {one[0].name} is constant at {float(np.mean(values)):.6g} Pa: record '
@@ -72,8 +74,7 @@ def refuse_idle(recordings: Sequence[Recording]) -> None:
 
 def quantity_of(recording: Recording, name: str) -> Quantity:
     """Return the quantity that the output *name* of *recording* is."""
-    turned = {'position': 'angle', 'velocity': 'angular_velocity'}
-    return QUANTITIES[turned.get(name, name) if recording.unit == 'rad' else name]
+    return quantity_in(recording.unit, name)
 
 
 def outputs(recording: Recording) -> list[tuple[str, Array, str]]:

@@ -54,12 +54,17 @@ QUANTITIES = {
     )
 }
 # What a position and a velocity of a joint that turns are, by the units that say so.
-_TURNED = {'position': 'angle', 'velocity': 'angular_velocity'}
+TURNED = {'position': 'angle', 'velocity': 'angular_velocity'}
 OF_MUSCLE = ('pressure_command', 'pressure', 'force')  # what each muscle of a joint has
 # Spellings of the time axis without a unit; ROS and most loggers mean seconds.
 _BARE_TIME = ('t', 'time')
 _OF_ONE = re.compile(r'(?P<muscle>[A-Za-z]\w*)\.(?P<rest>.+)')
 _TIME_NAMES = ('t', 'time', 'timestamp', 'stamp', 'elapsed', 'elapsed_time')
+
+
+def quantity_in(unit: str, name: str) -> Quantity:
+    """Return the quantity called *name* where positions are in *unit*, m or rad."""
+    return QUANTITIES[TURNED.get(name, name) if unit == 'rad' else name]
 
 
 @dataclass(frozen=True)
@@ -122,7 +127,7 @@ def _target(name: str, rest: str) -> Target | None:
             unit = _unit(word, _LENGTH)
             if quantity == 'contraction' and unit is not None:
                 return Target('position', unit)
-            turned = _TURNED.get(quantity)
+            turned = TURNED.get(quantity)
             unit = None if turned is None else _unit(word, QUANTITIES[turned].units)
             if turned is not None and unit is not None:
                 return Target(turned, unit)
@@ -143,7 +148,7 @@ def _unit(word: str, units: dict[str, float]) -> str | None:
 
 
 def _unit_sentence(name: str, quantity: str, what: str) -> str:
-    turned = QUANTITIES[_TURNED[quantity]].units if quantity in _TURNED else {}
+    turned = QUANTITIES[TURNED[quantity]].units if quantity in TURNED else {}
     units = ', '.join((*QUANTITIES[quantity].units, *turned))
     example = Target(quantity, next(iter(QUANTITIES[quantity].units)))
     return (

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from pam_ros.identification.result import Candidate, Estimate, Identification
-from pam_ros.recording.quantities import QUANTITIES
+from pam_ros.recording.quantities import quantity_in
 from pam_ros.report.numbers import Table
 from pam_ros.report.provenance import Provenance
 from pam_ros.report.runs import STAGES
@@ -151,9 +151,7 @@ def _jitter(share: float) -> str:
 
 
 def _range(name: str, low: float, high: float, unit: str) -> str:
-    si = QUANTITIES[name.rpartition('.')[2]].si
-    if unit == 'rad' and name in ('position', 'velocity'):
-        si = {'position': 'rad', 'velocity': 'rad/s'}[name]
+    si = quantity_in(unit, name.rpartition('.')[2]).si
     scale = scale_for(si, max(abs(low), abs(high)))
     if low == high:
         return f'{name_in_words(name)} {scale.text(low)} {scale.unit}'

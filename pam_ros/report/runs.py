@@ -102,8 +102,7 @@ def drive_of(joint: Joint) -> Array:
     """
     if joint.is_driven:
         return np.ones(1)
-    middle = float(np.mean(statics.span(joint)))
-    signs = np.array([np.sign(statics.arm(joint, i, middle)) for i in range(len(joint.muscles))])
+    signs = np.sign(statics.middle_arms(joint))
     count = max(np.count_nonzero(signs > 0.0), np.count_nonzero(signs < 0.0))
     return np.asarray(signs / count)
 

@@ -4,7 +4,7 @@
 
 import itertools
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -277,13 +277,6 @@ def _refuse_other_than_effects(effects: EffectValues) -> None:
     instance('effects', effects, Mapping, f'effects with their parameters, such as {example}')
     for name, given in effects.items():
         instance(f'effects.{name}', given, Mapping, f'its parameters by name, as in {example}')
-
-
-def changed(joint: Joint, muscle: Muscle, effects: EffectValues) -> Joint:
-    """Return a joint of one muscle with another *muscle* and other *effects*, in it and on it."""
-    in_muscle, on_joint = split_effects(effects, joint.library)
-    actuator = replace(joint.actuators[0], muscle=muscle, effects=in_muscle)
-    return replace(joint, actuators=(actuator,), effects=on_joint)
 
 
 def split_effects(

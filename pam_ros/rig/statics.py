@@ -127,6 +127,12 @@ def arm(joint: Mechanism, i: int, s: ArrayLike) -> Any:
     )
 
 
+def middle_arms(joint: Mechanism) -> Any:
+    """Return the arm of each muscle in the middle of the travel (muscles,)."""
+    middle = float(np.mean(span(joint)))
+    return np.array([float(arm(joint, i, middle)) for i in range(len(joint.muscles))])
+
+
 def arm_slope(joint: Mechanism, i: int, s: ArrayLike) -> Any:
     """Return the derivative of the arm over the coordinate; *s* may be an array."""
     return _on_arrays(joint.transmission.equations.arm_slope)(

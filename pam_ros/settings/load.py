@@ -44,13 +44,7 @@ def load_joint(
     that is not allowed, and a file with more than one joint.
     """
     scene, known = read_scene(name, {**_overrides(values), **parameters})
-    joints = scene.build_joints(known)
-    if len(joints) > 1:
-        raise ParameterError(
-            f'{name} describes {len(joints)} joints, {", ".join(scene.joints)}: give a file '
-            'with one joint'
-        )
-    return joints[0]
+    return only_joint(name, scene, known)
 
 
 def load_muscle(name: str | Path, /) -> Muscle:
@@ -67,6 +61,20 @@ def load_muscle(name: str | Path, /) -> Muscle:
             'and take one of its muscles'
         )
     return made[0]
+
+
+def only_joint(name: str | Path, scene: Scene, values: Values) -> Joint:
+    """Return the one joint of the file *name*, of which these are the scene and the values.
+
+    Raises ParameterError for a file with several.
+    """
+    joints = scene.build_joints(values)
+    if len(joints) > 1:
+        raise ParameterError(
+            f'{name} describes {len(joints)} joints, {", ".join(scene.joints)}: give a file '
+            'with one joint'
+        )
+    return joints[0]
 
 
 def _overrides(values: Mapping[str, Any] | None) -> dict[str, Any]:

@@ -10,14 +10,12 @@ from typing import Any
 
 from pam_ros.arguments import refuse, sequence
 from pam_ros.effects.names import flattened
-from pam_ros.errors import ParameterError
 from pam_ros.parameters import Parameter
-from pam_ros.rig import statics
 from pam_ros.rig.arrangements import LOAD, Arrangement
 from pam_ros.rig.joint import Joint
-from pam_ros.settings.load import read_scene
+from pam_ros.settings.load import only_joint, read_scene
 from pam_ros.settings.rig import KINDS
-from pam_ros.settings.scene import START
+from pam_ros.settings.scene import reach_of
 from pam_ros.settings.tables import Table, flat, listed, mountings, override, rig_table
 
 
@@ -42,13 +40,7 @@ class NominalJoint:
     @property
     def reach(self) -> tuple[float, float] | None:
         """The positions in m or rad at which all muscles have a length; None for one on a mass."""
-        if self.kind is LOAD:
-            return None
-        ends = [
-            sorted(statics.coordinate(self.joint, i, kappa) for kappa in START)
-            for i in range(len(self.muscles))
-        ]
-        return max(low for low, _ in ends), min(high for _, high in ends)
+        return None if self.kind is LOAD else reach_of(self.joint)
 
     def text(self, name: str) -> str:
         """Return what the parameter of a flat *name* is, empty where there is no such one."""
@@ -120,10 +112,5 @@ def nominal_joint(name: str | Path, overrides: Iterable[str] = ()) -> NominalJoi
     if raw.get('joint', LOAD.name) not in KINDS:
         refuse('joint', raw['joint'], f'one of {", ".join(KINDS)}')
     scene, values = read_scene(name, raw, typed)
-    joints = scene.build_joints(values)
-    if len(joints) > 1:
-        raise ParameterError(
-            f'{name} describes {len(joints)} joints, {", ".join(scene.joints)}: give a file '
-            'with one joint'
-        )
-    return NominalJoint(joints[0], scene.kind, tuple(scene.muscles), scene.joints[0])
+    joint = only_joint(name, scene, values)
+    return NominalJoint(joint, scene.kind, tuple(scene.muscles), scene.joints[0])

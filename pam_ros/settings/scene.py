@@ -26,6 +26,15 @@ Array = NDArray[np.float64]
 START = (-0.2, 0.95)  # contractions at which a simulation may start
 
 
+def reach_of(joint: Joint) -> tuple[float, float]:
+    """Return the least and the greatest position, m or rad, at which all muscles have a length."""
+    ends = [
+        sorted(statics.coordinate(joint, i, kappa) for kappa in START)
+        for i in range(len(joint.muscles))
+    ]
+    return max(low for low, _ in ends), min(high for _, high in ends)
+
+
 class Scene(RigParameters):
     """The muscles and joints that are simulated, and their parameters."""
 
@@ -101,11 +110,7 @@ class SimulationSetup:
         return f'{name}: ' if len(self.joints) > 1 else ''
 
     def _check_position(self, joint: Joint, position: float, whose: str) -> None:
-        ends = [
-            sorted(statics.coordinate(joint, i, kappa) for kappa in START)
-            for i in range(len(joint.muscles))
-        ]
-        low, high = max(end[0] for end in ends), min(end[1] for end in ends)
+        low, high = reach_of(joint)
         unit = joint.transmission.equations.unit
         if statics.is_direct(joint):
             what = f'length of a muscle of {joint.muscle.l0:g} m'

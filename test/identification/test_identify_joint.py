@@ -109,6 +109,13 @@ def test_recordings_of_another_joint_are_refused(lag):
     single = Recording('one', trial.t, trial.t, trial.commands[:, 0], np.sin(trial.t))
     with pytest.raises(RecordingError, match='one is a recording of 1 muscle'):
         identify(antagonistic_joint(), [single])
+    idle = replace(given, name='idle', command=0.0 * trial.commands + 2e5)
+    with pytest.raises(
+        RecordingError, match=r'idle: agonist.pressure_command is constant at 2000'
+    ):
+        identify(declared(trial), [idle])
+    with pytest.raises(RecordingError, match='one is a recording of 1 muscle'):
+        identify(declared(trial), [given, single])
     swapped = replace(given, name='swapped', muscles=NAMES[::-1])
     with pytest.raises(RecordingError, match='swapped has the muscles antagonist, agonist, and'):
         identify(declared(trial), [given, swapped])

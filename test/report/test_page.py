@@ -15,7 +15,7 @@ from pam_ros.report.numbers import numbers, to_json
 from pam_ros.report.page import VERDICTS, curves_of, not_excluded, page, warnings_of
 from pam_ros.report.runs import runs_of
 from pam_ros.report.wording import Scale
-from pam_ros.rig.joint import changed
+from pam_ros.rig.standard_joints import single_muscle_joint
 
 SECTIONS = ['error', 'simulated', 'residual', 'shape', 'candidates', 'parameters', 'data', 'next']
 SECTIONS.append('provenance')
@@ -174,7 +174,7 @@ def test_load_without_a_muscle_has_an_input_and_a_position(friction, friction_pa
         a1=0.0, a2=0.0, a3=0.0, a4=0.0, a6=0.0, a5=35.15, pressure_unit='Pa', zeta=0.0,
         p_min=-10.0, p_max=10.0, force_max=351.5,
     )  # fmt: skip
-    declared = replace(result.stages[0], model=changed(model, muscle, {}))
+    declared = replace(result.stages[0], model=single_muscle_joint(muscle, model.load))
     html = rendered((replace(result, stages=(declared, *result.stages[1:])), source, runs))
     assert 'Against the input' in html
     assert 'Against position' in html

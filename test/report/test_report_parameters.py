@@ -9,8 +9,8 @@ import pytest
 import yaml
 
 from pam_ros.report.parameters import identified, write_identified
-from pam_ros.rig.joint import changed
 from pam_ros.rig.run import simulate, simulate_held
+from pam_ros.rig.standard_joints import single_muscle_joint
 from pam_ros.settings.nominal import nominal_joint
 
 
@@ -44,9 +44,9 @@ def test_it_simulates_as_the_last_stage_did_to_the_bit(any_result, tmp_path):
 def test_awkward_numbers_survive(friction, tmp_path):
     result, source, _ = friction
     model = result.stages[-1].model
-    odd = changed(
-        model,
+    odd = single_muscle_joint(
         replace(model.muscle, a1=-4.1e-7, a5=302.00000000000006, a2=1e2 / 3.0),
+        model.load,
         {
             'coulomb_friction': {'level': np.float64(1.0) / 3.0, 'presliding': 1e-5},
             'creep': {},

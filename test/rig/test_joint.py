@@ -12,7 +12,7 @@ from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig import layout as at
 from pam_ros.rig import statics
 from pam_ros.rig.equilibrium import equilibrium
-from pam_ros.rig.joint import Actuator, Joint, changed, split_effects
+from pam_ros.rig.joint import Actuator, Joint, split_effects
 from pam_ros.rig.loads import GRAVITY, Arm, Mass
 from pam_ros.rig.standard_joints import single_muscle_joint
 from pam_ros.rig.transmissions import Lever, Pulley, Straight
@@ -185,12 +185,6 @@ def test_effects_of_one_muscle_are_split_by_where_they_act():
     assert split_effects(LAG | RUB) == (LAG, RUB)
     with pytest.raises(ParameterError, match=r'effects\.magic is not known: give one of dead_'):
         split_effects({'magic': {}})
-
-
-def test_a_joint_of_one_muscle_can_be_changed():
-    heavy = single_muscle_joint(load=Mass(mass=7.0), effects=LAG)
-    other = changed(heavy, Muscle(zeta=0.3), RUB)
-    assert other == single_muscle_joint(Muscle(zeta=0.3), Mass(mass=7.0), RUB)
 
 
 # The kernel's parameters ------------------------------------------------------------------------

@@ -136,7 +136,8 @@ def sized(effect: Effect, joint: Joint) -> Effect:
     """Return an *effect* on the joint with the units and the sizes that it has on this one."""
     if not joint.is_revolute:
         return effect
-    arm, length = _arm(joint), float(np.mean([m.l0 for m in joint.muscles]))
+    arm = float(np.mean(np.abs(statics.middle_arms(joint))))
+    length = float(np.mean([m.l0 for m in joint.muscles]))
     factor = {p.name: _factor(p.unit, arm, length) for p in effect.parameters}
 
     def scaled(values: dict[str, float]) -> dict[str, float]:
@@ -161,12 +162,6 @@ def sized(effect: Effect, joint: Joint) -> Effect:
         ),
         guess=guess if effect.guess is not None else None,
     )
-
-
-def _arm(joint: Joint) -> float:
-    """Return the mean arm of the muscles in the middle of the travel, m/rad."""
-    middle = float(np.mean(statics.span(joint)))
-    return float(np.mean([abs(statics.arm(joint, i, middle)) for i in range(len(joint.muscles))]))
 
 
 def _factor(unit: str, arm: float, length: float) -> float:

@@ -6,7 +6,7 @@ import argparse
 import os
 import sys
 import threading
-from collections.abc import Sequence
+from collections.abc import Container, Mapping, Sequence
 from datetime import datetime
 from importlib import import_module
 from pathlib import Path
@@ -45,6 +45,19 @@ SEAL = 0.5  # s between two seals: what a kill can lose
 REPORT, REPORT_LOGGED = 1.0, 10.0  # s between lines of progress, on a terminal and in a log
 
 
+def missing_topics(
+    wanted: Mapping[str, bool], found: Container[str], of_muscle: set[str], of_joints: set[str]
+) -> list[str]:
+    """Return those of the *wanted* topics that are not among those *found*.
+
+    *wanted* says of each whether the user asked for it. Others are missed only if they belong to
+    the rig: they are those of a muscle until one of joints alone is found.
+    """
+    has_joints = any(topic in found for topic in of_joints - of_muscle)
+    own = of_joints if has_joints else of_muscle
+    return [name for name, asked in wanted.items() if name not in found and (asked or name in own)]
+
+
 class PamRecord(TickingNode):
     """The recorder node."""
 
@@ -54,6 +67,7 @@ class PamRecord(TickingNode):
         self._directory = directory
         names = dict.fromkeys((*OF_MUSCLE, *OF_JOINTS, *topics))
         self._wanted = {self._resolved(name): name in topics for name in names}
+        self._of_rigs = [{*map(self._resolved, own)} for own in (OF_MUSCLE, OF_JOINTS)]
         self._writer = BagWriter(directory, os.environ.get('ROS_DISTRO', 'unknown'))
         self._recorded: dict[str, Recorded] = {}
         self._refused: set[str] = set()
@@ -221,7 +235,7 @@ class PamRecord(TickingNode):
     def _report(self) -> None:
         elapsed = (monotonic_ns() - self._begun) * 1e-9
         counts = self._writer.counts
-        missing = [topic for topic in self._expected() if topic not in counts]
+        missing = missing_topics(self._wanted, counts, *self._of_rigs)
         line = f'{elapsed:.0f} s, {sum(counts.values())} messages on {len(counts)} topics'
         if missing:
             line += ', without a publisher: ' + ', '.join(missing)
@@ -229,13 +243,6 @@ class PamRecord(TickingNode):
             print(f'\r\x1b[K{line}', end='', flush=True)
         else:
             print(line, flush=True)
-
-    def _expected(self) -> list[str]:
-        """Return the topics that the rig should have: those of a muscle, until joints are seen."""
-        joints = {self._resolved(name) for name in OF_JOINTS}
-        muscle = {self._resolved(name) for name in OF_MUSCLE}
-        others = muscle - joints if (joints - muscle) & {*self._writer.counts} else joints - muscle
-        return [name for name, asked in self._wanted.items() if asked or name not in others]
 
     def destroy_node(self) -> None:
         """Close the bag and say what is in it."""
