@@ -102,22 +102,27 @@ class Station:
 
     def is_recording(self):
         """Wait until the recorder has messages of all topics on the disk."""
-        file, found = self.bag / 'metadata.yaml', {}
 
         def has_all():
-            if not file.exists():
-                return False
-            about = yaml.safe_load(file.read_text())['rosbag2_bagfile_information']
-            for one in about['topics_with_message_count']:
-                found[one['topic_metadata']['name']] = one['message_count']
-            return len([count for count in found.values() if count]) == len(RECORDED)
+            return len([count for count in self.counts().values() if count]) == len(RECORDED)
 
         try:
             self.peer.until(has_all, 'a bag with all topics')
         except PamError as error:
             raise AssertionError(
-                f'{error}: {found}, {self.programs["pam_record"].output}'
+                f'{error}: {self.counts()}, {self.programs["pam_record"].output}'
             ) from error
+
+    def counts(self):
+        """Return how many messages of each topic the recorder has on the disk."""
+        file = self.bag / 'metadata.yaml'
+        if not file.exists():
+            return {}
+        about = yaml.safe_load(file.read_text())['rosbag2_bagfile_information']
+        return {
+            one['topic_metadata']['name']: one['message_count']
+            for one in about['topics_with_message_count']
+        }
 
     def mark(self):
         """Return which state and which terms come next."""

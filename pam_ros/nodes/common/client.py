@@ -16,11 +16,13 @@ from rclpy.duration import Duration
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.parameter import Parameter
 from rclpy.qos import QoSProfile
+from std_srvs.srv import Trigger
 
 from pam_ros.errors import PamError
 from pam_ros.processes.interrupts import held_back
 
 DEPTH = 20_000  # messages that may wait for their turn: none is dropped
+AGAIN = 10.0  # s without an answer after which a service is called again
 TURN = 0.05  # s in which a condition is looked at again when nothing comes in
 _numbers = itertools.count()
 T = TypeVar('T')
@@ -101,11 +103,24 @@ class Client:
             raise PamError(f'what was published on {topic} has not arrived')
 
     def call(self, kind: Any, service: str, **request: Any) -> Any:
-        """Call a service and return its response."""
+        """Call a service and return its response.
+
+        The middleware drops the answer of a server that has not yet discovered this client. The
+        service is then called again, unless it is a Trigger, which may act twice.
+        """
         client = self.node.create_client(kind, service)
         self.until(client.service_is_ready, f'the service {service}')
-        future = client.call_async(kind.Request(**request))
-        self.until(future.done, f'the answer of {service}')
+        futures: list[Any] = []
+        asked = 0.0
+
+        def answered() -> Any:
+            nonlocal asked
+            if not futures or (kind is not Trigger and monotonic() > asked + AGAIN):
+                asked = monotonic()
+                futures.append(client.call_async(kind.Request(**request)))
+            return next((future for future in futures if future.done()), None)
+
+        future = self.until(answered, f'the answer of {service}')
         self.node.destroy_client(client)
         return future.result()
 

@@ -13,7 +13,7 @@ import sys
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from time import monotonic_ns
+from time import monotonic_ns, sleep
 from typing import Any
 
 import rclpy
@@ -36,6 +36,7 @@ except ImportError:  # Jazzy before its patch release of 2025
     EventsExecutor = SingleThreadedExecutor
 
 BAD_INPUT = 2
+LAST_ANSWER = 0.5  # s in which the answer of a service that was told to stop is read
 LONGEST_WAIT = 0.1  # s in the executor, so that a stop is heeded whatever the rate
 
 # What rclpy raises for a command line that makes no node; RuntimeError is what rcl's own errors
@@ -47,12 +48,14 @@ class TickingNode(Node, ABC):
     """A node that does its work in :meth:`tick`, at the rate of its ``ticker``.
 
     A node whose work comes to an end sets ``exit_code``; the others run until they are stopped.
-    One that ``keeps_wall_time`` runs before other programs where the system permits it.
+    One that ``keeps_wall_time`` runs before other programs where the system permits it. One that
+    ``has_answered_at_end`` was told to stop while a service worked, whose client reads the answer.
     """
 
     ticker: Ticker
     exit_code: int | None = None
     keeps_wall_time = False
+    has_answered_at_end = False
     stop: StopRequest  # what takes long asks it meanwhile
     scheduling = NORMAL
 
@@ -138,6 +141,8 @@ def run(kind: type[TickingNode], stop: StopRequest, about: str) -> int:
             node.scheduling = prefer_real_time()
         node.start()
         spin(node, executor, stop)
+        if node.has_answered_at_end:
+            sleep(LAST_ANSWER)  # an answer is lost with the server that sent it
     finally:
         if node is not None:
             node.destroy_node()

@@ -332,6 +332,7 @@ class PamSim(TickingNode):
         self._sample_from_here()
         for done in range(periods):
             if self.stop.is_made:
+                self.has_answered_at_end = True
                 return False, f'asked to stop: simulated {done} of {periods} periods'
             if self._is_followed:
                 # Each is stamped with the time at which it is published.
