@@ -2,10 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """The way of the pressure from the command to the chamber, and its inverse.
 
-Dead time, offset, gain and lag are those of the declared effects whose compensation is ``PATH``.
+Dead time, offset, gain, dead band and lag are those of the declared effects whose compensation is
+``PATH``.
 """
 
 from collections import deque
+from collections.abc import Callable
+from functools import partial
 from math import exp
 
 from pam_ros.effects.base import Compensation
@@ -13,7 +16,8 @@ from pam_ros.rig import layout as at
 from pam_ros.rig.joint import Joint
 from pam_ros.rig.run import delays_of
 
-BAR = 1e5  # Pa
+# Pa, between which every path without a memory is an offset and a gain: beyond all dead bands.
+LOW, HIGH = 4e5, 5e5
 
 
 class Chamber:
@@ -44,8 +48,8 @@ class PressurePath:
         """Take the declared effects of one *muscle*."""
         q, layout = joint.parameters(), joint.layout
         row = q[at.MUSCLE + muscle].tolist()
-        fill = vent = self._offset = 0.0
-        self._gain = 1.0
+        fill = vent = 0.0
+        self._static: list[Callable[[float], float]] = []  # effects without a memory, in order
         for effect in joint.present[at.MUSCLE + muscle]:
             if effect.compensation is not Compensation.PATH:
                 continue
@@ -53,10 +57,13 @@ class PressurePath:
             if effect.lag is not None:
                 fill, vent = effect.lag(row, j)
             elif effect.pressure is not None:
-                # Without a memory it is an offset and a gain.
-                low, high = (effect.pressure(p, 0.0, 0.0, (), 0, (), row, j) for p in (0.0, BAR))
-                slope = (high - low) / BAR
-                self._offset, self._gain = slope * self._offset + low, slope * self._gain
+                act = effect.pressure
+                self._static.append(
+                    partial(lambda p, act, j: act(p, 0.0, 0.0, (), 0, (), row, j), act=act, j=j)
+                )
+        low, high = self.reached(LOW), self.reached(HIGH)
+        self._gain = (high - low) / (HIGH - LOW)
+        self._offset = low - self._gain * LOW
         self.is_lag_declared = fill > 0.0 or vent > 0.0
         self.chamber = Chamber(fill, vent)
         self.delay = delays_of(layout, q)[muscle]
@@ -71,10 +78,15 @@ class PressurePath:
 
     def reached(self, command: float) -> float:
         """Return the pressure in Pa at which the chamber rests under a *command*."""
-        return command * self._gain + self._offset
+        for act in self._static:
+            command = act(command)
+        return command
 
     def command_at_rest(self, pressure: float) -> float:
-        """Return the command in Pa under which the chamber rests at *pressure*."""
+        """Return the command in Pa under which the chamber rests at *pressure*.
+
+        For no pressure it is the edge of a dead band, so that the muscle can pull at once.
+        """
         return (pressure - self._offset) / self._gain
 
     def command_for(self, pressure: float, rate: float) -> float:

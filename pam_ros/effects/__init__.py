@@ -14,6 +14,7 @@ _ORDER = (
     # From the command to the chamber.
     'dead_time',
     'pressure_offset',
+    'dead_band',
     'pressure_lag',
     'leak',
     # The muscle.

@@ -41,6 +41,6 @@ EFFECT = Effect(
     fit_starts=({'offset': 5e3}, {'offset': -5e3}, {'offset': 1e3, 'gain': 0.03}),
     example={'offset': 6e3, 'gain': -0.03},
     compensation=Compensation.PATH,
-    rivals=('payload', 'length_offset', 'leak'),
+    rivals=('payload', 'length_offset', 'leak', 'dead_band'),
     pressure=pressure,
 )

@@ -57,6 +57,18 @@ def test_at_rest_the_chamber_has_the_wanted_pressure():
     assert path.chamber.pressure == pytest.approx(250e3, abs=1e-3)
 
 
+def test_a_dead_band_is_made_up_for():
+    band = {'dead_band': {'band': 4e4, 'width': 2e3}, 'pressure_offset': {'gain': 0.1}}
+    joint = single_muscle_joint(effects=band)
+    rig, path = Simulation([joint]), PressurePath(joint, 0, 0.02)
+    for pressure in (0.0, 1e3, 1e4, 2e5):
+        command = path.command_at_rest(pressure)
+        assert command >= 4e4 / 1.1  # at its edge, from where the muscle can pull at once
+        rig.reset([command], [0.06], [0.0])
+        assert rig.pressure[0] == pytest.approx(path.reached(command), abs=1e-9)
+        assert rig.pressure[0] == pytest.approx(pressure, abs=501.0)  # a quarter of the width
+
+
 def test_the_lag_of_what_is_not_foreseen_shrinks_to_the_quickest():
     path = PressurePath(
         single_muscle_joint(effects={'pressure_lag': {'fill': 0.06, 'vent': 0.06}}), 0, 0.02

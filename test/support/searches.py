@@ -25,6 +25,7 @@ def found_in(
     spoil=False,
     name='pressure_lag',
     model=None,
+    budget=BUDGET,
 ):
     """Return a search that has found the effect, and nothing beside it, by its first move.
 
@@ -37,7 +38,7 @@ def found_in(
             replace(part, segment=replace(part.segment, target=target))
             for part, target in zip(parts, targets, strict=True)
         ]
-    setting = Setting(model or bench_truth.declared(), parts, CRITERIA, BUDGET, pool)
+    setting = Setting(model or bench_truth.declared(), parts, CRITERIA, budget, pool)
     problem = setting.problem
     retuned = setting.model((), solved(problem, np.zeros(len(problem.unknowns))))
     (best,) = with_each(retuned, [name], setting)

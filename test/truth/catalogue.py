@@ -141,6 +141,20 @@ _FORMS = (
         {'regulator_pa': R(6e3, 2e3, 12e3, signed=True), 'regulator_gain': R(1.0, 0.97, 1.03)},
         held=True,
     ),
+    Form(  # a valve whose spool overlaps its ports; a constant load hardly shows it
+        'dead_band',
+        'overlap',
+        {'overlap_pa': R(100e3, 80e3, 150e3)},
+        held=True,
+        free=False,
+    ),
+    Form(  # a bladder that must stretch to meet the braid
+        'dead_band',
+        'bladder',
+        {'bladder_pa': R(100e3, 80e3, 150e3)},
+        held=True,
+        free=False,
+    ),
     Form('payload', 'mass', {'payload_kg': R(5.0, 1.5, 6.0)}),
     Form(
         'pressure_dependent_damping',
@@ -241,7 +255,10 @@ OUT_OF_LIBRARY = (
     'random_walk',
     'saturation',
 )
-KINDS = tuple(dict.fromkeys(f.kind for f in _FORMS if f.kind not in OUT_OF_LIBRARY))
+# Kinds of the library that a free load shows.
+KINDS = tuple(
+    dict.fromkeys(f.kind for f in _FORMS if f.free and f.kind not in OUT_OF_LIBRARY)
+)
 
 
 def forms_of(kind: str, *, held: bool = False) -> list[str]:

@@ -53,7 +53,8 @@ def draw_effect(
     stroke (m) and pressures (Pa) are the ranges that the record of a duration in s will run
     through: an end stop, a knee and a drift lie within them.
     """
-    forms = forms_of(kind, held=held)
+    # A joint of two muscles shows what a load on one muscle does not.
+    forms = forms_of(kind, held=held) or forms_of(kind, held=True)
     chosen = FORMS[(kind, forms[rng.integers(len(forms))])]
     values = {name: r.draw(rng) for name, r in chosen.ranges.items()}
     if kind == 'coulomb_friction':

@@ -22,6 +22,7 @@ NAMES = ('agonist', 'antagonist')
 IN_MUSCLES = (
     'pressure_lag',
     'dead_time',
+    'dead_band',
     'leak',
     'hysteresis',
     'creep',

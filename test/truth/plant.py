@@ -78,6 +78,8 @@ class TruthPlant:
         self.sensor.reset(seed)
         S.u = p0
         S.p = p0 * P.regulator_gain + P.regulator_pa
+        if P.overlap_pa > 0.0:
+            S.p = max(S.p - P.overlap_pa, 0.0)
         if P.fill_s > 0.0 and P.leak_per_s > 0.0:
             S.p /= 1.0 + P.leak_per_s * P.fill_s
         S.p_mem = S.plag_1 = S.plag_2 = S.p
@@ -97,6 +99,8 @@ class TruthPlant:
         if P.saturation != 0.0:
             over = p - P.knee_pa
             p -= P.saturation * 0.5 * (over + math.hypot(over, KNEE_WIDTH))
+        if P.bladder_pa > 0.0:
+            p = max(p - P.bladder_pa, 0.0)
         kappa = y / P.l0_m + P.kappa_offset
         return float(law(P, p, kappa)[0] + P.cross_n_pa * kappa * kappa * p)
 

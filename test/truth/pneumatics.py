@@ -68,7 +68,8 @@ def valve_rate(P, p, target):
 @jit
 def regulated(P, S, t):
     """Return the pressure that the regulator would give at time t."""
-    target = min(max(S.u * P.regulator_gain + P.regulator_pa, 0.0), 1.0e6)
+    target = S.u * P.regulator_gain + P.regulator_pa - P.overlap_pa
+    target = min(max(target, 0.0), 1.0e6)
     if P.ripple_pa != 0.0:
         target += P.ripple_pa * math.sin(2.0 * math.pi * P.ripple_hz * t + P.ripple_rad)
     return target
@@ -103,7 +104,8 @@ def chamber(P, S, t, d):
 def working_pressure(P, S, d):
     """Return the pressure that makes force, at the middle of a step of d seconds.
 
-    The chamber's, less what slips (hysteresis), what comes late (creep) and what saturates.
+    The chamber's, less what slips (hysteresis), what comes late (creep), what saturates and what
+    stretches the bladder until it meets the braid.
     """
     p = S.p
     if P.hyst_pa != 0.0:
@@ -128,4 +130,6 @@ def working_pressure(P, S, d):
     if P.saturation != 0.0:
         over = S.p - P.knee_pa
         p -= P.saturation * 0.5 * (over + math.sqrt(over * over + KNEE_WIDTH * KNEE_WIDTH))
+    if P.bladder_pa != 0.0:
+        p = max(p - P.bladder_pa, 0.0)
     return p

@@ -34,6 +34,23 @@ def test_regulator_is_affine():
     np.testing.assert_allclose(got.y, expected.y, atol=1e-12)
 
 
+def test_a_valve_with_overlap_gives_nothing_below_it():
+    u = 100e3 + 100e3 * np.sin(7.0 * T)
+    got = TruthPlant(p0=100e3, effects=[effect('dead_band', 'overlap', overlap_pa=6e4)]).run(T, u)
+    expected = TruthPlant(p0=4e4).run(T, np.maximum(u - 6e4, 0.0))
+    np.testing.assert_allclose(got.y, expected.y, atol=1e-12)
+    np.testing.assert_allclose(got.pressure, expected.pressure, atol=1e-9)
+
+
+def test_a_bladder_takes_its_pressure_from_the_chamber():
+    u = 100e3 + 100e3 * np.sin(7.0 * T)
+    band = effect('dead_band', 'bladder', bladder_pa=6e4)
+    got = held([band], T, u, p0=u[0])
+    np.testing.assert_allclose(got.pressure[1:], u[:-1])  # the sensor sees all of it
+    inside = np.maximum(u[:-1] - 6e4, 0.0)
+    np.testing.assert_allclose(got.force[1:], [static_force(A, p, 0.1) for p in inside])
+
+
 def iso_6358(p, target, c_fill, c_vent, volume, band):
     """dp/dt written anew: n C p1 psi(p2/p1) p_ref / V, absolute pressures, litres and bar."""
     opening = np.clip((target - p) / band, -1.0, 1.0)

@@ -60,9 +60,11 @@ class Budget:
     ``effects``: most effects of a model. ``rounds``: most steps from model to better model.
     ``looks``: iterations of a first fit from each start. ``fits``: starts of an effect from which
     a fit goes on. ``rivals``: candidates of a round that are fitted closer, by ``closer``
-    iterations. ``iterations``: those of a fit to its end. ``finer``: steps of the last fit for one
-    of the others. ``nearer``: iterations from the place of the best score towards the nearest free
-    run. ``window``: length in s of the runs of a load without a spring.
+    iterations, as the last fits are from where long steps have led. ``iterations``: those of a fit
+    to its end. ``finer``: steps of the last fit for one of the others. ``nearer``: iterations from
+    the place of the best score towards the nearest free run. ``window``: length in s of the runs
+    of a load without a spring. ``samples``: most thinned samples of several recordings that a
+    search looks at; a single recording it sees whole.
     """
 
     effects: int = 3
@@ -72,9 +74,10 @@ class Budget:
     rivals: int = 4
     closer: int = 15
     iterations: int = 60
-    nearer: int = 10
+    nearer: int = 25
     finer: int = 5
     window: float = 2.0
+    samples: int = 45_000
 
 
 CRITERIA, BUDGET = Criteria(), Budget()

@@ -238,8 +238,13 @@ def is_complete(model: Model, setting: Setting) -> bool:
 
 
 def matters(now: Model, before: Model, retuned: Model, setting: Setting) -> bool:
-    """Say whether a new effect explains more than the form of the others could miss."""
+    """Say whether a new effect explains more than the form of the others could miss.
+
+    None does with which the free run carries on worse than without any.
+    """
     criteria = setting.criteria
+    if now.errors.carried > criteria.worse * retuned.errors.carried:
+        return False
     if before.strain - now.strain >= criteria.strain >= now.strain:
         return True
     pairs = [

@@ -123,14 +123,32 @@ class Setting:
 
     @cached_property
     def thin(self) -> list[Part]:
-        """The parts, thinned."""
-        return [replace(part, segment=thinned(part.segment, self.step)) for part in self.parts]
+        """The parts that are searched, thinned."""
+        return [replace(p, segment=thinned(p.segment, self.step)) for p in self.searched]
+
+    @cached_property
+    def searched(self) -> Sequence[Part]:
+        """The parts that a search looks at: all, or evenly as many as the budget has room for.
+
+        Hours of a rig say little more of which effects it has than many minutes, and take as many
+        times as long. The last fits are to all of them.
+        """
+        sizes = {id(part): thinned(part.segment, self.step).t.size for part in self.parts}
+        chosen = self.parts
+        fitted = [part for part in self.parts if part.is_fitted]
+        count = len(fitted)
+        while sum(sizes[id(part)] for part in chosen) > self.budget.samples and count > 0:
+            chosen = [fitted[int((k + 0.5) * len(fitted) / count)] for k in range(count)]
+            count -= 1
+        return chosen
 
     @cached_property
     def problem(self) -> Problem:
         """The problem of re-tuning the declared model to what may be fitted."""
         runs: list[Segment] = [
-            thin.to_fit for part, thin in zip(self.parts, self.thin, strict=True) if part.is_fitted
+            thin.to_fit
+            for part, thin in zip(self.searched, self.thin, strict=True)
+            if part.is_fitted
         ]
         return self.problem_of(runs, self.step)
 

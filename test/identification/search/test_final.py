@@ -10,7 +10,7 @@ import pytest
 from pam_ros.identification.data.segment import segments_of
 from pam_ros.identification.fit.intervals import covariance
 from pam_ros.identification.fit.unknowns import OF_RUNS
-from pam_ros.identification.search.criteria import CRITERIA
+from pam_ros.identification.search.criteria import BUDGET, CRITERIA
 from pam_ros.identification.search.final import STEP, errors_of, final, simulated
 from pam_ros.identification.search.setting import carried
 from pam_ros.identification.search.starts import guessed
@@ -132,6 +132,24 @@ def test_at_a_prescribed_length_blocks_are_fitted_and_the_blocks_between_them_ju
         assert min(errors(getattr(ends, name), ends, found)) > 3.0 * found.setting.noise
     after = errors(ends.augmented, ends, found)
     assert after == pytest.approx((found.setting.noise,) * 2, rel=0.2)
+
+
+def test_of_many_recordings_some_are_searched_and_all_are_fitted(pool):
+    lag = effect('pressure_lag', fill_s=FILL, vent_s=FILL)
+    runs = [bench_truth.free(lag, seed=k, duration=10.0, name=f'{k}.csv') for k in range(5)]
+    whole = found_in(runs, pool)
+    size = whole.setting.thin[0].segment.t.size
+    assert len(whole.setting.searched) == 5
+    for room, chosen in ((5.1, (0, 1, 2, 3, 4)), (3.9, (0, 2, 4)), (2.5, (1, 3)), (0.5, (2,))):
+        setting = replace(whole.setting, budget=replace(BUDGET, samples=int(room * size)))
+        names = [part.segment.name for part in setting.searched]
+        assert names == [f'{k}.csv' for k in chosen], room
+    found = found_in(runs, pool, budget=replace(BUDGET, samples=int(2.5 * size)))
+    assert len(found.setting.problem.segments) == 2
+    known = final(found).augmented
+    assert len(known.problem.segments) == 5
+    assert known.value('effects.pressure_lag.fill') == pytest.approx(FILL, rel=0.02)
+    assert known.noise == pytest.approx(NOISE, rel=0.1)
 
 
 def test_without_an_effect_the_last_model_is_the_retuned_one(found):

@@ -158,6 +158,8 @@ def test_a_further_effect_counts_by_what_it_lowers_of_the_score_or_of_the_error(
         (-4100.0, 2.5, 2.5, False),
         (-4100.0, 2.3, 2.5, False),
         (-4100.0, 2.3, 2.3, True),  # 60 % of what was left
+        (-4700.0, 0.5, 104.0, True),
+        (-4700.0, 0.5, 106.0, False),  # than re-tuning alone carries on
     ):
         now = judged(('creep', 'slack'), score, fit * unit, choose * unit)
         assert matters(now, before, retuned, setting) == does, (score, fit, choose)
