@@ -12,7 +12,7 @@ from pam_ros.effects.base import Compensation, Effect, EffectParameter, Row
 
 @scalar
 def beyond(p: float, band: float, width: float) -> float:
-    """Return max(p - band, 0), the corner rounded off by a parabola over *width* to either side."""
+    """Return max(p - band, 0), the corner rounded by a parabola over *width* to either side."""
     above = p - band
     if above >= width:
         return above

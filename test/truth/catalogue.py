@@ -256,9 +256,7 @@ OUT_OF_LIBRARY = (
     'saturation',
 )
 # Kinds of the library that a free load shows.
-KINDS = tuple(
-    dict.fromkeys(f.kind for f in _FORMS if f.free and f.kind not in OUT_OF_LIBRARY)
-)
+KINDS = tuple(dict.fromkeys(f.kind for f in _FORMS if f.free and f.kind not in OUT_OF_LIBRARY))
 
 
 def forms_of(kind: str, *, held: bool = False) -> list[str]:

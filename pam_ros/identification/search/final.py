@@ -70,13 +70,14 @@ def _nearest(problem: Problem, u: Array, setting: Setting) -> Solution:
     """Return the least squares of a problem, from u on.
 
     A fit to thinned samples by the longest steps that resolve the rig comes first: it costs a
-    tenth, and leads nearly there.
+    tenth, and leads nearly there, but for a load that hits something.
     """
     budget, pool = setting.budget, setting.pool
     segments = tuple(thinned(s, setting.step) for s in problem.segments)
     coarse = replace(problem, segments=segments, step=setting.step)
-    u = least_squares(begun(coarse, u, pool=pool), budget.iterations, pool).u
-    at = without_idle(begun(problem, u, pool=pool), setting.noise)
+    there = least_squares(begun(coarse, u, pool=pool), budget.iterations, pool).u
+    nearer = min((u, there), key=lambda one: float(np.linalg.norm(problem.residuals(one))))
+    at = without_idle(begun(problem, nearer, pool=pool), setting.noise)
     return least_squares(at, budget.closer, pool)
 
 
