@@ -22,10 +22,13 @@ def beyond(p: float, band: float, width: float) -> float:
 
 
 def pressure(p: float, t: float, h: float, x: Row, i: int, xn: Row, q: Row, j: int) -> float:
-    """Return what of the pressure p in Pa is beyond the band q[j]; the corner is q[j + 1] wide."""
+    """Return what of the pressure p in Pa is beyond the band q[j].
+
+    The corner is q[j + 1] wide, but no wider than the band: no pressure stays none.
+    """
     if q[j] == 0.0:
         return p
-    return beyond(p, q[j], q[j + 1])
+    return beyond(p, q[j], min(q[j + 1], q[j]))
 
 
 EFFECT = Effect(

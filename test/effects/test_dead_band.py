@@ -29,6 +29,12 @@ def test_held_force_below_the_band_is_that_of_no_pressure():
     np.testing.assert_allclose(run.force, [bench.pull(a, 0.03) for a in acting])
 
 
+def test_a_band_narrower_than_its_corner_leaves_no_pressure_as_it_is():
+    rig = bench.hanging(dead_band={'band': 1e3, 'width': 5e3})
+    run = simulate_held(rig, np.arange(3.0), [0.0, 1e3, 2e3], np.full(3, 0.03))
+    np.testing.assert_allclose(run.force, [bench.pull(a, 0.03) for a in (0.0, 250.0, 1e3)])
+
+
 @pytest.mark.parametrize('band', [0.5e4, 6e4])
 def test_the_corner_is_a_parabola_that_meets_both_sides(band):
     """As the Bernstein polynomial of degree 2 over the three points of the corner."""
