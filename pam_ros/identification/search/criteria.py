@@ -77,7 +77,7 @@ class Budget:
     nearer: int = 25
     finer: int = 5
     window: float = 2.0
-    samples: int = 45_000
+    samples: int = 30_000
 
 
 CRITERIA, BUDGET = Criteria(), Budget()
