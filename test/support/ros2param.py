@@ -13,16 +13,11 @@ def _client(peer, node):
     return client
 
 
-def _answer(peer, future):
-    peer.until(future.done, 'the answer of a parameter service')
-    return future.result()
-
-
 def values_of(peer, node):
     """Return all parameters of a node in the order of their names."""
     client = _client(peer, node)
-    names = sorted(_answer(peer, client.list_parameters()).result.names)
-    values = _answer(peer, client.get_parameters(names)).values
+    names = sorted(peer.answer(client.list_parameters, f'{node}/list_parameters').result.names)
+    values = peer.answer(lambda: client.get_parameters(names), f'{node}/get_parameters').values
     return dict(zip(names, map(parameter_value_to_python, values), strict=True))
 
 
@@ -44,8 +39,10 @@ def load(peer, node, path):
     All that are sent are answered: else the command ends in a traceback.
     """
     sent = parameter_dict_from_yaml_file(str(path), use_wildcard=True)
-    future = _client(peer, node).load_parameter_file(str(path), use_wildcard=True)
-    results = _answer(peer, future).results
+    client = _client(peer, node)
+    results = peer.answer(
+        lambda: client.load_parameter_file(str(path), use_wildcard=True), f'{node}/set_parameters'
+    ).results
     refused = {}
     for name, result in zip(sent, results, strict=True):
         if not result.successful:

@@ -103,26 +103,31 @@ class Client:
             raise PamError(f'what was published on {topic} has not arrived')
 
     def call(self, kind: Any, service: str, **request: Any) -> Any:
-        """Call a service and return its response.
-
-        The middleware drops the answer of a server that has not yet discovered this client. The
-        service is then called again, unless it is a Trigger, which may act twice.
-        """
+        """Call a service and return its response; a Trigger, which may act twice, once only."""
         client = self.node.create_client(kind, service)
         self.until(client.service_is_ready, f'the service {service}')
+        asked = kind.Request(**request)
+        response = self.answer(lambda: client.call_async(asked), service, kind is not Trigger)
+        self.node.destroy_client(client)
+        return response
+
+    def answer(self, ask: Callable[[], Any], service: str, may_repeat: bool = True) -> Any:
+        """Return the result of the first future of *ask* that is done.
+
+        The middleware drops the answer of a server that has not yet discovered this client: where
+        it *may_repeat*, *ask* is called again when no answer comes.
+        """
         futures: list[Any] = []
         asked = 0.0
 
         def answered() -> Any:
             nonlocal asked
-            if not futures or (kind is not Trigger and monotonic() > asked + AGAIN):
+            if not futures or (may_repeat and monotonic() > asked + AGAIN):
                 asked = monotonic()
-                futures.append(client.call_async(kind.Request(**request)))
+                futures.append(ask())
             return next((future for future in futures if future.done()), None)
 
-        future = self.until(answered, f'the answer of {service}')
-        self.node.destroy_client(client)
-        return future.result()
+        return self.until(answered, f'the answer of {service}').result()
 
     def set_together(self, node: str, **values: Any) -> Any:
         """Set parameters atomically; ``__`` in a name stands for a dot. Return the result."""
