@@ -164,7 +164,7 @@ class PamSim(TickingNode):
         that their noise does not depend on how long that takes.
         """
         if self._is_followed:
-            self._publish(self._time.now())
+            self._publish_here(self._time.now())
         elif self._said:
             self._output.publish_clock(self._time.now())
             self._say(*self._said)
@@ -213,6 +213,13 @@ class PamSim(TickingNode):
         self._said = stamp, self._plant.read_one() if self._one else self._plant.read()
         self._say(*self._said)
 
+    def _publish_here(self, stamp: int) -> None:
+        """Publish where time stands still; a change of parameters can have lost the load there."""
+        try:
+            self._publish(stamp)
+        except ArithmeticError as error:
+            self._stop_at_fault(error)
+
     def _say(self, stamp: int, reading: Reading | OneReading) -> None:
         self._output.publish(stamp, reading)
         self._published += 1
@@ -222,8 +229,10 @@ class PamSim(TickingNode):
         time = self._plant.time
         self._begin_again()
         self._set_paused(True)
-        self._fault = f'the load is lost {time:.3f} s after the start, {error}: reset and paused'
-        self.get_logger().error(self._fault)
+        fault = f'the load is lost {time:.3f} s after the start, {error}: reset and paused'
+        if fault != self._fault:  # one of the initial state stays until a parameter changes
+            self.get_logger().error(fault)
+        self._fault = fault
 
     # In ------------------------------------------------------------------------------------
 
@@ -307,7 +316,7 @@ class PamSim(TickingNode):
             self._turns.settle()
             self._fault = ''
         if request.data and not (self._is_paused or self._is_followed or self._is_lockstep):
-            self._publish(self._time.stamp(self._plant.step))  # where it stands, to be repeated
+            self._publish_here(self._time.stamp(self._plant.step))  # it stands, to be repeated
         self._set_paused(request.data)
         response.success, response.message = True, 'paused' if request.data else 'running'
         return response

@@ -102,3 +102,18 @@ def test_a_command_right_after_a_long_step_acts(peer):
         assert peer.call(SetBool, 'pam_sim/pause', data=False).success
         peer.publish(Float64(data=2e5), 'pressure_command')
         peer.until(lambda: pressures[-1].fluid_pressure > 3e5, 'the commanded pressure')
+
+
+def test_a_change_that_loses_the_load_where_time_stands_still_is_a_fault(peer):
+    """A muscle that becomes shorter than the position of its load; it ended the program."""
+    states = peer.collect(JointState, 'joint_states')
+    with Program('pam_sim', parameters={'initial.pressure': 400e3}) as sim:
+        peer.more(states)
+        assert peer.call(SetBool, 'pam_sim/pause', data=True).success
+        assert states[-1].position[0] > 0.05
+        assert peer.set_one('pam_sim', l0=0.05).successful
+        peer.until(lambda: 'the load is lost' in sim.output, 'the fault')
+        peer.until(lambda: states[-1].position[0] < 0.05, 'the initial state')
+        assert sim.is_running
+        assert sim.output.count('the load is lost') == 1
+        assert sim.stop() == 0
