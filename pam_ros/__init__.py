@@ -17,6 +17,8 @@ if TYPE_CHECKING:
     from pam_ros.control.gains import Gains
     from pam_ros.control.limits import Limits
     from pam_ros.control.pid import Pid, PidGains
+    from pam_ros.control.reference.generator import ReferenceGenerator
+    from pam_ros.control.reference.shaping import Shape
     from pam_ros.control.signals import Reference
     from pam_ros.control.sliding_mode import SlidingMode
     from pam_ros.effects import EFFECTS
@@ -31,6 +33,7 @@ if TYPE_CHECKING:
     from pam_ros.recording.mapping import read_mapping
     from pam_ros.recording.read import read_recording
     from pam_ros.recording.recording import Recording
+    from pam_ros.report.save import save_parameters, save_report
     from pam_ros.rig.co_contraction import (
         co_contraction_pressures,
         joint_stiffness,
@@ -40,6 +43,8 @@ if TYPE_CHECKING:
     from pam_ros.rig.joint import Actuator, Joint
     from pam_ros.rig.loads import Arm, Load, LoadEquations, Mass
     from pam_ros.rig.run import Trajectory, simulate, simulate_held
+    from pam_ros.rig.sensors import Sensors
+    from pam_ros.rig.simulated_sensors import SensorReadings, SimulatedSensors
     from pam_ros.rig.simulation import JointOutputs, MuscleOutputs, Simulation
     from pam_ros.rig.standard_joints import antagonistic_joint, single_muscle_joint
     from pam_ros.rig.transmissions import (
@@ -74,6 +79,11 @@ __all__ = [
     'Pulley',
     'Recording',
     'Reference',
+    'ReferenceGenerator',
+    'SensorReadings',
+    'Sensors',
+    'Shape',
+    'SimulatedSensors',
     'Simulation',
     'SlidingMode',
     'Straight',
@@ -93,6 +103,8 @@ __all__ = [
     'parameter_field',
     'read_mapping',
     'read_recording',
+    'save_parameters',
+    'save_report',
     'simulate',
     'simulate_held',
     'single_muscle_joint',
@@ -104,6 +116,8 @@ _PLACES = {
     'control.gains': ('Gains',),
     'control.limits': ('Limits',),
     'control.pid': ('Pid', 'PidGains'),
+    'control.reference.generator': ('ReferenceGenerator',),
+    'control.reference.shaping': ('Shape',),
     'control.signals': ('Reference',),
     'control.sliding_mode': ('SlidingMode',),
     'effects': ('EFFECTS',),
@@ -118,10 +132,13 @@ _PLACES = {
     'recording.mapping': ('read_mapping',),
     'recording.read': ('read_recording',),
     'recording.recording': ('Recording',),
+    'report.save': ('save_parameters', 'save_report'),
     'rig.co_contraction': ('co_contraction_pressures', 'joint_stiffness', 'joint_stiffness_range'),
     'rig.joint': ('Actuator', 'Joint'),
     'rig.loads': ('Arm', 'Load', 'LoadEquations', 'Mass'),
     'rig.equilibrium': ('equilibrium',),
+    'rig.sensors': ('Sensors',),
+    'rig.simulated_sensors': ('SensorReadings', 'SimulatedSensors'),
     'rig.simulation': ('JointOutputs', 'MuscleOutputs', 'Simulation'),
     'rig.run': ('Trajectory', 'simulate', 'simulate_held'),
     'rig.standard_joints': ('antagonistic_joint', 'single_muscle_joint'),

@@ -3,3 +3,5 @@
 """The version of this package, as setup.py and package.xml have it."""
 
 __version__ = '0.1.0'
+VERSION_LINE = f'pam_ros {__version__}'  # what each program prints for --version
+VERSION_HELP = 'print the version of this package and end'

@@ -8,20 +8,22 @@ import sys
 from importlib import import_module
 from pathlib import Path
 
+from pam_ros.cli.help_text import help_text
+from pam_ros.demo.outline import CHAPTERS, next_steps, plan
 from pam_ros.errors import PamError
 from pam_ros.processes.ends import ignore_ends
 from pam_ros.processes.interrupts import heed
 from pam_ros.processes.outputs import guard_outputs
+from pam_ros.version import VERSION_HELP, VERSION_LINE
 
 BAD_INPUT, INTERRUPTED = 2, 130
-# Each is a module of pam_ros.nodes.demo with a function play(stage).
-CHAPTERS = ('paper', 'position', 'joint', 'loop')
 
 
 def main() -> None:
     """Play the chapters that the command line names, all of them by default."""
     guard_outputs()
-    parser = argparse.ArgumentParser(prog='pam_demo', description=__doc__)
+    parser = argparse.ArgumentParser(prog='pam_demo', description=help_text(__doc__))
+    parser.add_argument('--version', action='version', version=VERSION_LINE, help=VERSION_HELP)
     parser.add_argument(
         'chapters', nargs='*', metavar='CHAPTER', help='one of ' + ', '.join(CHAPTERS)
     )
@@ -30,14 +32,17 @@ def main() -> None:
     for name in given.chapters:
         if name not in CHAPTERS:
             parser.error(f'there is no chapter {name}: give one of ' + ', '.join(CHAPTERS))
+    names = given.chapters or [*CHAPTERS]
+    print(plan(names, given.out), flush=True)
     # Each signal that asks for the end stops the programs that a chapter has started.
     heed()
     # The demonstration needs no other machine, and no other should receive its messages.
     os.environ.setdefault('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
     try:
         stage = import_module('pam_ros.nodes.demo.stage').Stage(given.out)
-        for name in given.chapters or CHAPTERS:
+        for name in names:
             import_module(f'pam_ros.nodes.demo.{name}').play(stage)
+        print(next_steps(given.out))
     except (PamError, OSError) as error:
         print(f'pam_demo: {error}', file=sys.stderr)
         sys.exit(BAD_INPUT)

@@ -16,7 +16,7 @@ Stops and vents when the joint leaves contraction_min..contraction_max or is sil
 ``silence`` seconds, and on Ctrl-C, SIGTERM, SIGHUP (the terminal is closed) and SIGQUIT. Limits,
 length and seed are parameters; those of the muscle (``-p muscle:=dmsp_20_400n``, or a parameter
 file) apply as well. Exit code 0 at the end or after such a signal, 1 where it stopped or could not
-start, 2 for parameters that make no programme.
+start, 2 for invalid parameters.
 """
 
 from pam_ros.cli.start import start_node

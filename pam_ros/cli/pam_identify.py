@@ -6,7 +6,7 @@ How wrong is the model as declared, how wrong with its parameters re-tuned, whic
 is missing, how wrong is it with that added. Recordings are rosbag2 folders or CSV files whose
 column names carry the unit (t_s, pressure_command_kPa, position_mm, force_N, ...). The folder
 --out gets report.html to read, report.json, identified.yaml (a parameter file for pam_sim and
-pam_control) and residual.csv. Exit code 0 for any verdict, 2 for what cannot be used. Runs
+pam_control) and residual.csv. Exit code 0 for any verdict, 2 for invalid input. Runs
 without ROS.
 """
 
@@ -18,8 +18,10 @@ from pathlib import Path
 from types import FrameType
 from typing import NoReturn
 
+from pam_ros.cli.help_text import help_text
 from pam_ros.errors import PamError, printable, shown
 from pam_ros.processes.outputs import guard_outputs
+from pam_ros.version import VERSION_HELP, VERSION_LINE
 
 BAD_INPUT, INTERRUPTED, TERMINATED = 2, 130, 143
 
@@ -36,9 +38,10 @@ def parser() -> argparse.ArgumentParser:
     """Return the parser of the command line."""
     made = _Parser(
         prog='pam_identify',
-        description=__doc__,
+        description=help_text(__doc__),
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
+    made.add_argument('--version', action='version', version=VERSION_LINE, help=VERSION_HELP)
     made.add_argument(
         'recordings', nargs='+', metavar='RECORDING', help='rosbag2 folder or CSV file to fit'
     )

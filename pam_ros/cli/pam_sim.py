@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""``pam_sim``: pneumatic artificial muscles with their loads, simulated in the time you want.
+"""``pam_sim``: simulate pneumatic artificial muscles with their loads.
 
 One muscle subscribes
     ``pressure_command`` (std_msgs/Float64): Pa gauge
@@ -15,6 +15,8 @@ and publish
     ``forces``, ``stiffnesses``, ``dampings``, ``pressures`` (std_msgs/Float64MultiArray)
     and, with muscle_topics, the topics of one muscle below the name of each
 All publish
+    ``muscle_states`` (sensor_msgs/JointState): force, stiffness, damping and absolute pressure of
+    all muscles with a stamp, named <muscle>/force and so on, the values as positions
     ``/diagnostics`` (diagnostic_msgs/DiagnosticArray), once a second
     ``/clock`` (rosgraph_msgs/Clock), in time_mode scaled and lockstep
 Services
@@ -23,9 +25,10 @@ Services
     ``~/step`` (std_srvs/Trigger): while paused, simulate step_periods periods
 
 Contraction is positive: the load moves up. Parameters say what they are:
-``ros2 param describe /pam_sim <name>``. A pressure command outside p_min..p_max is clamped, one
-that is no number is refused and the last good one holds; when none comes for command_timeout
-seconds the muscle vents (on_timeout).
+``ros2 param describe /pam_sim <name>``. Time is real, scaled or in lockstep (time_mode). A
+pressure command outside p_min..p_max is clamped. One that is not a number is rejected, and the
+last valid one stays in force. If no command arrives for command_timeout seconds, the muscle
+vents (on_timeout).
 """
 
 from pam_ros.cli.start import start_node

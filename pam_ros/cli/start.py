@@ -8,26 +8,37 @@ So that Ctrl-C and the other signals end a program cleanly from its first tenth 
 import gc
 import sys
 from importlib import import_module
+from itertools import takewhile
 from typing import NoReturn
 
+from pam_ros.cli.help_text import help_text
 from pam_ros.processes.ends import ignore_ends
 from pam_ros.processes.outputs import guard_outputs
 from pam_ros.processes.stop import StopRequest
+from pam_ros.version import VERSION_LINE
 
 
-def start_node(module: str, name: str, about: str) -> NoReturn:
+def start_node(module: str, name: str, about: str | None) -> NoReturn:
     """Run the node class *name* of *module* until it is asked to stop; exit with its code.
 
-    *about* is what ``--help`` shows.
+    *about* is the docstring that ``--help`` shows. ``--version`` starts nothing of ROS.
     """
     stop = StopRequest()
     guard_outputs()
+    if '--version' in _before_ros(sys.argv[1:]):
+        print(VERSION_LINE)
+        sys.exit(0)
     # What is imported stays: looking for garbage in it would take a fifth of the start.
     gc.disable()
     spin = import_module('pam_ros.nodes.common.spin')
     node = getattr(import_module(module), name)
     try:
-        code = spin.run(node, stop, about)
+        code = spin.run(node, stop, help_text(about))
     finally:
         ignore_ends()
     sys.exit(code)
+
+
+def _before_ros(arguments: list[str]) -> list[str]:
+    """Return the arguments of a program that stand before those for ROS."""
+    return list(takewhile(lambda word: word != '--ros-args', arguments))

@@ -8,7 +8,6 @@ Dead time, offset, gain, dead band and lag are those of the declared effects who
 
 from collections import deque
 from collections.abc import Callable
-from functools import partial
 from math import exp
 
 from pam_ros.effects.base import Compensation
@@ -49,7 +48,8 @@ class PressurePath:
         q, layout = joint.parameters(), joint.layout
         row = q[at.MUSCLE + muscle].tolist()
         fill = vent = 0.0
-        self._static: list[Callable[[float], float]] = []  # effects without a memory, in order
+        self._row = row
+        self._static: list[tuple[Callable[..., float], int]] = []  # those without a memory
         for effect in joint.present[at.MUSCLE + muscle]:
             if effect.compensation is not Compensation.PATH:
                 continue
@@ -57,10 +57,7 @@ class PressurePath:
             if effect.lag is not None:
                 fill, vent = effect.lag(row, j)
             elif effect.pressure is not None:
-                act = effect.pressure
-                self._static.append(
-                    partial(lambda p, act, j: act(p, 0.0, 0.0, (), 0, (), row, j), act=act, j=j)
-                )
+                self._static.append((effect.pressure, j))
         low, high = self.reached(LOW), self.reached(HIGH)
         self._gain = (high - low) / (HIGH - LOW)
         self._offset = low - self._gain * LOW
@@ -78,8 +75,8 @@ class PressurePath:
 
     def reached(self, command: float) -> float:
         """Return the pressure in Pa at which the chamber rests under a *command*."""
-        for act in self._static:
-            command = act(command)
+        for act, j in self._static:
+            command = act(command, 0.0, 0.0, (), 0, (), self._row, j)
         return command
 
     def command_at_rest(self, pressure: float) -> float:

@@ -4,7 +4,9 @@
 
 from typing import Any
 
+from pam_ros.health.absence import Absence
 from pam_ros.health.controller import Received
+from pam_ros.health.health import Level
 from pam_ros.timing.pace import SECOND
 
 
@@ -18,6 +20,10 @@ class Reports:
         self._implausibility, self._is_implausibility_new = '', False
         self._silence, self._silences, self._is_silence_new = '', 0, False
         self._tracking = ''
+        self._start = Absence(logger, 'control begins')
+        self._states = Absence(
+            logger, 'joint_states are received again: control goes on', 0.0, Level.ERROR
+        )
 
     def refuse(self, reason: str) -> None:
         """Say why a reference or a trajectory is not taken."""
@@ -45,6 +51,18 @@ class Reports:
         if tracking and not self._tracking:
             self._logger.warning(tracking)
         self._tracking = tracking
+
+    def wait(self, why: str, now: float) -> None:
+        """Say once why control does not begin yet, '' where it has begun; *now* in s."""
+        self._start.look(why, now)
+
+    def miss(self, why: str, now: float, timeout: float, starts: int) -> None:
+        """Say once why control has stopped, '' where it goes on.
+
+        It goes on when it has done so for longer than *timeout* s, in which *starts*, the count
+        of its starts, does not change.
+        """
+        self._states.look(why, now, timeout, starts)
 
     def received(self, age: float | None, blindness: str) -> Received:
         """Return what is to be reported now; the next time it is not new any more."""

@@ -14,6 +14,8 @@ from pam_ros.simulator.contractions import Excess
 from pam_ros.simulator.plant import Plant
 from pam_ros.timing.ticker import Punctuality
 
+NO_CLOCK = 'waits for /clock (use_sim_time is set)'
+
 
 def commands(plant: Plant, last: int) -> Health:
     """Return the health of the commands, *last* being the muscle that had a bad one last."""
@@ -105,7 +107,7 @@ def timing(settings: SimSettings, kept: Punctuality, done: Progress, scheduling:
     if done.fault:
         return Health(Level.ERROR, done.fault, values)
     if not done.has_clock:
-        return Health(Level.WARN, 'waits for /clock (use_sim_time is set)', values)
+        return Health(Level.WARN, NO_CLOCK, values)
     if done.is_paused:
         return Health(Level.OK, 'paused', values)
     if settings.time_mode == 'lockstep':

@@ -86,7 +86,7 @@ def identify(
         found = search(setting, tell)
         tell(0.9, 'fitting the chosen models in full')
         ends = final(found)
-        answer = _answer(found, ends, tests)
+        answer = _answer(found, ends, tests, recordings, test)
     name = verdict(found, *(stage.held_error for stage in answer.stages[:2]))
     name = 'insufficient_data' if lacking else name
     answer = replace(
@@ -106,7 +106,13 @@ def identify(
     )
 
 
-def _answer(found: Search, ends: Final, tests: Sequence[Segment]) -> Identification:
+def _answer(
+    found: Search,
+    ends: Final,
+    tests: Sequence[Segment],
+    recordings: Sequence[Recording],
+    test: Sequence[Recording],
+) -> Identification:
     """Return the numbers of an identification, with nothing said about them yet."""
     three = stages(ends, found, tests)
     noise = _least(three, ends.parts)
@@ -125,6 +131,8 @@ def _answer(found: Search, ends: Final, tests: Sequence[Segment]) -> Identificat
         test=tuple(tests),
         warnings=(),
         next_experiment='',
+        recordings=tuple(recordings),
+        test_recordings=tuple(test),
     )
 
 

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from pam_ros.identification.data.noise import Noise
 from pam_ros.identification.data.segment import Segment
 from pam_ros.identification.structure import Structure
+from pam_ros.recording.recording import Recording
 from pam_ros.rig.joint import Joint
 
 Array = NDArray[np.float64]
@@ -93,8 +94,9 @@ class Finding:
 class Identification:
     """The whole answer; ``stages`` are declared, re-tuned and augmented, in this order.
 
-    ``test`` are the segments of the test recordings, empty when a part of each recording was held
-    out instead.
+    ``recordings`` were fitted, ``test_recordings`` were not; ``segments`` and ``test`` are their
+    gapless stretches. Without test recordings a part of each recording was held out instead.
+    :func:`pam_ros.save_report` and :func:`pam_ros.save_parameters` write it to files.
     """
 
     verdict: str
@@ -110,6 +112,8 @@ class Identification:
     test: tuple[Segment, ...]
     warnings: tuple[str, ...]
     next_experiment: str
+    recordings: tuple[Recording, ...]
+    test_recordings: tuple[Recording, ...]
 
     @property
     def untestable(self) -> tuple[str, ...]:

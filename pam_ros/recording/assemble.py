@@ -24,6 +24,10 @@ RECEIPT = 1e-3
 STREAM = 0.1  # s: commands that come more often are a stream, whose end or pause says something
 
 
+class MissingSignalError(RecordingError):
+    """A recording lacks a signal that its kind needs, under the names that are known."""
+
+
 def assemble(
     name: str,
     series: dict[str, Series],
@@ -50,7 +54,9 @@ def assemble(
     unit = 'rad' if 'angle' in series else 'm'
     _make_position(name, series, l0, notes)
     if 'pressure_command' not in series and 'pressure' not in series:
-        raise RecordingError(f'{name} has no pressure_command and no pressure: nothing drives it')
+        raise MissingSignalError(
+            f'{name} has no pressure_command and no pressure: nothing drives it'
+        )
     kind = _find_kind(name, series, kind)
     judged = 'position' if kind == 'free' else 'force'
     needed = {judged, 'position'}
@@ -156,9 +162,9 @@ def _find_kind(name: str, series: dict[str, Series], kind: str | None) -> str:
         what = 'position or contraction, which a free load is judged by'
         if kind == 'held' or 'force' in series:
             what = 'position or contraction, at which the force was measured'
-        raise RecordingError(f'{name} has no {what}')
+        raise MissingSignalError(f'{name} has no {what}')
     if kind == 'held' and 'force' not in series:
-        raise RecordingError(f'{name} has no force, which a held length is judged by')
+        raise MissingSignalError(f'{name} has no force, which a held length is judged by')
     return kind
 
 

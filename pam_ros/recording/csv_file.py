@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from pam_ros.arguments import as_path, instance
 from pam_ros.errors import RecordingError
+from pam_ros.recording.likely import found_columns
 from pam_ros.recording.mapping import ColumnMapping, Meaning
 from pam_ros.recording.recording import OUTPUTS, Recording
 from pam_ros.recording.series import Series, refuse_backwards
@@ -38,8 +39,8 @@ class _Table:
     notes: list[str]
 
 
-def read_csv(path: Path, mapping: ColumnMapping) -> tuple[dict[str, Series], list[str]]:
-    """Return (signal -> series in SI, warnings) of a CSV file.
+def read_csv(path: Path, mapping: ColumnMapping) -> tuple[dict[str, Series], list[str], list[str]]:
+    """Return (signal -> series in SI, warnings, names of the columns) of a CSV file.
 
     A signal is a quantity, such as ``pressure``, or that of one muscle: ``agonist.pressure``.
 
@@ -57,7 +58,7 @@ def read_csv(path: Path, mapping: ColumnMapping) -> tuple[dict[str, Series], lis
     if 'time' not in columns:
         raise RecordingError(
             f"{path.name} has no time axis: name a column 't_s' (or t_ms, time_s, timestamp_ns), "
-            f"or map one with --column 'NAME=t_s'; it has {_named(table.header)}"
+            f"or map one with --column 'NAME=t_s'; {found_columns(table.header, mapping, columns)}"
         )
     values = {
         quantity: _numbers(path, table, index, meaning)
@@ -81,7 +82,7 @@ def read_csv(path: Path, mapping: ColumnMapping) -> tuple[dict[str, Series], lis
             series[quantity] = Series(source, t[present], value[present])
         else:
             series[quantity] = Series.taken(path.name, source, t, value)
-    return series, table.notes + notes
+    return series, table.notes + notes, table.header
 
 
 def write_csv(recording: Recording, path: str | Path) -> None:

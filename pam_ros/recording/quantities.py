@@ -58,7 +58,7 @@ TURNED = {'position': 'angle', 'velocity': 'angular_velocity'}
 OF_MUSCLE = ('pressure_command', 'pressure', 'force')  # what each muscle of a joint has
 # Spellings of the time axis without a unit; ROS and most loggers mean seconds.
 _BARE_TIME = ('t', 'time')
-_OF_ONE = re.compile(r'(?P<muscle>[A-Za-z]\w*)\.(?P<rest>.+)')
+OF_ONE = re.compile(r'(?P<muscle>[A-Za-z]\w*)\.(?P<rest>.+)')
 _TIME_NAMES = ('t', 'time', 'timestamp', 'stamp', 'elapsed', 'elapsed_time')
 
 
@@ -100,7 +100,7 @@ def target_of(name: str) -> Target | None:
     stand before what each muscle has: ``agonist.pressure_kPa``. Raises RecordingError for a
     quantity of ours without a unit or with one that is not known.
     """
-    match = _OF_ONE.fullmatch(name.strip())
+    match = OF_ONE.fullmatch(name.strip())
     if match:
         target = _target(name, match['rest'])
         is_own = target is not None and target.quantity in OF_MUSCLE
@@ -137,6 +137,11 @@ def _target(name: str, rest: str) -> Target | None:
                     _unit_sentence(name, quantity, f'has the unit {word!r}, which is not known')
                 )
     return None
+
+
+def unit_in(word: str, quantity: str) -> str | None:
+    """Return the unit of *quantity* that *word* spells, None where it spells none."""
+    return _unit(word, QUANTITIES[quantity].units)
 
 
 def _unit(word: str, units: dict[str, float]) -> str | None:

@@ -9,10 +9,11 @@ from pathlib import Path
 
 from pam_ros.arguments import array, as_path, instance, number, sequence
 from pam_ros.errors import RecordingError, printable, shown
-from pam_ros.recording.assemble import assemble
+from pam_ros.recording.assemble import MissingSignalError, assemble
 from pam_ros.recording.bag import bag_files, read_bag
 from pam_ros.recording.csv_file import read_csv
 from pam_ros.recording.direction import with_contraction_positive
+from pam_ros.recording.likely import found_columns
 from pam_ros.recording.mapping import ColumnMapping
 from pam_ros.recording.quality import check
 from pam_ros.recording.recording import Recording
@@ -61,13 +62,21 @@ def read_recording(
     if not (path.is_dir() or path.is_file()):
         # A device or a pipe may have no end, and is read twice: for its data and for its digest.
         raise RecordingError(f'recording {path} is neither a file nor a folder')
+    header: list[str] = []
     if path.is_dir() or path.suffix in BAG_SUFFIXES:
         files = bag_files(path)
         series, notes = read_bag(path, mapping, namespace, muscles, unit)
     else:
         files = [path]
-        series, notes = read_csv(path, mapping)
-    recording = assemble(printable(path.name or str(path)), series, notes, kind, l0, muscles)
+        series, notes, header = read_csv(path, mapping)
+    name = printable(path.name or str(path))
+    try:
+        recording = assemble(name, series, notes, kind, l0, muscles)
+    except MissingSignalError as error:
+        if not header:
+            raise
+        found = found_columns(header, mapping, series)
+        raise RecordingError(f'{error}; {found}') from error
     if unit is not None and recording.unit != unit:
         raise RecordingError(
             f'{recording.name}: the position is in {recording.unit}, and the model moves in '

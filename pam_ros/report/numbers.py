@@ -17,7 +17,7 @@ from pam_ros.report.provenance import Provenance
 from pam_ros.report.runs import STAGES, Run, sizes
 
 # The first number rises when a key changes its meaning or goes, the second when one comes.
-SCHEMA_VERSION = '2.2'
+SCHEMA_VERSION = '2.3'
 
 Table = dict[str, Any]
 
@@ -154,7 +154,7 @@ def _recording(recording: Recording, role: str) -> Table:
         'unit': recording.unit,
         'ranges': ranges,
         'warnings': list(recording.warnings),
-        'sha256': recording.digest,
+        'sha256': recording.digest or None,
     }
 
 
@@ -168,12 +168,12 @@ def _provenance(source: Provenance) -> Table:
         'command': source.command,
         'parameters': {
             'file': source.parameters,
-            'sha256': source.digest,
+            'sha256': source.digest or None,
             'overrides': list(source.overrides),
         },
         'configuration': dict(source.configuration),
         'recordings': [
-            {'name': recording.name, 'sha256': recording.digest}
+            {'name': recording.name, 'sha256': recording.digest or None}
             for recording in (*source.recordings, *source.test)
         ],
         'versions': dict(source.versions),

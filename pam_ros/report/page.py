@@ -36,10 +36,17 @@ VERDICTS = {
 }
 
 
-def page(result: Identification, runs: list[Run], source: Provenance, content: Table) -> str:
+def page(
+    result: Identification,
+    runs: list[Run],
+    source: Provenance,
+    content: Table,
+    no_file: str = '',
+) -> str:
     """Return the page as HTML: styles and plots inside, no script, nothing fetched.
 
-    *runs* and *content* are those of the result, see ``runs.py`` and ``numbers.py``.
+    *runs* and *content* are those of the result, see ``runs.py`` and ``numbers.py``. *no_file*
+    says why there is no ``identified.yaml``, where there is none.
     """
     curves = curves_of(result, runs)
     scale = scale_for(result.unit, result.stages[-1].fit_error)
@@ -76,6 +83,7 @@ def page(result: Identification, runs: list[Run], source: Provenance, content: T
         inputs='pressure and length' if result.quantity == 'force' else 'command',
         content=content,
         source=source,
+        no_file=no_file,
     )
 
 

@@ -2,19 +2,24 @@
 # SPDX-License-Identifier: Apache-2.0
 """``identified.yaml``: the identified model as the parameter file of a simulator."""
 
+import itertools
 import textwrap
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
+from pam_ros.effects import EFFECTS
 from pam_ros.effects.base import Effect
+from pam_ros.errors import ParameterError
 from pam_ros.identification.result import Identification
 from pam_ros.plain_yaml import plain_text
 from pam_ros.report.provenance import Provenance
 from pam_ros.report.summary import last_line
 from pam_ros.report.wording import listed
+from pam_ros.rig.arrangements import ARRANGEMENTS, LOAD
 from pam_ros.rig.joint import EffectValues, Joint
 from pam_ros.settings.files import write
+from pam_ros.settings.rig import RigParameters
 
 
 def identified(result: Identification, source: Provenance) -> Joint:
@@ -25,7 +30,7 @@ def identified(result: Identification, source: Provenance) -> Joint:
     """
     model = result.stages[-1].model
     names = listed([recording.name for recording in source.recordings])
-    text = plain_text(f'pam_identify, re-tuned on {names}; declared in {source.parameters}')
+    text = plain_text(f'pam_ros, re-tuned on {names}; declared in {source.parameters}')
     on_joint, *in_muscles = model.present
     actuators = tuple(
         replace(
@@ -47,9 +52,33 @@ def _only(effects: EffectValues, present: Sequence[Effect]) -> EffectValues:
 def write_identified(path: Path, result: Identification, source: Provenance) -> None:
     """Write the identified model as a ROS parameter file for every node that takes a rig.
 
-    Constants are in the units of the declared file. Read again, it makes the same rig to the bit.
+    Constants are in the units of the nominal model. Read again, it makes the same rig to the bit.
+    Raises ParameterError where no parameter file can describe the joint.
     """
+    refuse_custom(result, source)
     write(path, source.nominal.flat(identified(result, source)), about(result, source))
+
+
+def refuse_custom(result: Identification, source: Provenance) -> None:
+    """Raise ParameterError where no parameter file can describe the identified joint."""
+    nominal = source.nominal
+    joint = nominal.joint
+    if nominal.kind not in ARRANGEMENTS:
+        parts = f'{type(joint.transmission).__name__} and {type(joint.load).__name__}'
+        names = ', '.join(kind.name for kind in ARRANGEMENTS)
+        raise ParameterError(
+            f'a parameter file cannot describe this joint of {len(joint.actuators)} muscle(s), '
+            f'{parts}: it can be one of {names}'
+        )
+    if nominal.kind is not LOAD:  # the names become those of parameters
+        RigParameters({'joint': nominal.kind.name, 'muscles': nominal.muscles})
+    known = {effect.name for effect in EFFECTS}
+    for effect in itertools.chain(*result.stages[-1].model.present):
+        if effect.name not in known:
+            raise ParameterError(
+                f'a parameter file cannot describe the custom effect {effect.name}: it can be '
+                f'one of {", ".join(sorted(known))}'
+            )
 
 
 def about(result: Identification, source: Provenance) -> str:
@@ -60,11 +89,14 @@ def about(result: Identification, source: Provenance) -> str:
         *(('Test recording', one.name, one.digest) for one in source.test),
     ]
     lines = [
-        'Identified by pam_identify:',
+        'Identified by pam_ros:',
         *textwrap.wrap(last_line(result), 95),
         'To simulate it: pam_sim --ros-args --params-file <this file>',
         '',
-        *(f'{what} {name}\n  SHA-256 {digest}' for what, name, digest in files),
+        *(
+            f'{what} {name}\n  SHA-256 {digest}' if digest else f'{what} {name}'
+            for what, name, digest in files
+        ),
         *(f'  with {override}' for override in source.overrides),
         f'Written {source.date} by pam_ros {source.versions["pam_ros"]}.',
     ]

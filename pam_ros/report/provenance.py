@@ -4,6 +4,8 @@
 
 import hashlib
 import platform
+import shlex
+import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from datetime import datetime, timezone
@@ -12,9 +14,10 @@ from pathlib import Path
 from typing import Any
 
 from pam_ros.errors import printable
+from pam_ros.identification.result import Identification
 from pam_ros.recording.recording import Recording
 from pam_ros.settings.files import find
-from pam_ros.settings.nominal import NominalJoint
+from pam_ros.settings.nominal import NominalJoint, nominal_of
 from pam_ros.version import __version__
 
 LIBRARIES = ('numpy', 'scipy', 'numba')
@@ -25,9 +28,9 @@ class Provenance:
     """What an identification was made of.
 
     ``command`` is the command line; ``parameters`` the file or preset as it was named, with its
-    SHA-256 ``digest`` and the ``overrides``; ``configuration`` the flat values that all this
-    gives to the ``nominal`` joint; ``date`` in UTC, ISO 8601. ``recordings`` were fitted, ``test``
-    was not.
+    SHA-256 ``digest``, empty where there is no file, and the ``overrides``; ``configuration`` the
+    flat values that all this gives to the ``nominal`` joint; ``date`` in UTC, ISO 8601.
+    ``recordings`` were fitted, ``test`` was not.
     """
 
     command: str
@@ -60,6 +63,23 @@ def provenance(
         nominal.flat(),
         tuple(recordings),
         tuple(test),
+        datetime.now(timezone.utc).isoformat(timespec='seconds'),
+        versions(),
+        nominal,
+    )
+
+
+def provenance_of_program(result: Identification) -> Provenance:
+    """Return the provenance of an identification whose nominal joint a program made."""
+    nominal = nominal_of(result.stages[0].model, result.recordings[0].muscles)
+    return Provenance(
+        printable(shlex.join(sys.orig_argv)),
+        'a Python program',
+        '',
+        (),
+        nominal.flat(),
+        result.recordings,
+        result.test_recordings,
         datetime.now(timezone.utc).isoformat(timespec='seconds'),
         versions(),
         nominal,

@@ -13,10 +13,10 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from pam_ros.errors import PamError
+from pam_ros.errors import PamError, ParameterError
 from pam_ros.identification.result import Identification
 from pam_ros.report.numbers import numbers, to_json
-from pam_ros.report.parameters import write_identified
+from pam_ros.report.parameters import refuse_custom, write_identified
 from pam_ros.report.provenance import Provenance
 from pam_ros.report.runs import runs_of
 from pam_ros.report.tables import residual_csv
@@ -31,7 +31,7 @@ def check_folder(folder: Path) -> None:
     try:
         found = sorted(path.name for path in folder.iterdir())
     except FileNotFoundError:
-        _check_parent(folder)
+        check_parent(folder)
         return
     except NotADirectoryError:
         raise PamError(f'{folder} is no folder: give one for the report') from None
@@ -46,15 +46,16 @@ def check_folder(folder: Path) -> None:
             f'{folder} holds {strange[0]}{others}, which is no report of pam_identify: '
             'give a new folder'
         )
-    _check_parent(folder)
+    check_parent(folder)
 
 
-def _check_parent(folder: Path) -> None:
-    parent = folder.resolve().parent
+def check_parent(path: Path) -> None:
+    """Raise PamError where *path*, of a folder or a file, is not below a folder to write in."""
+    parent = path.resolve().parent
     while not parent.exists():
         parent = parent.parent
     if not parent.is_dir() or not os.access(parent, os.W_OK | os.X_OK):
-        raise PamError(f'{folder} cannot be made: {parent} is no folder to write in')
+        raise PamError(f'{path} cannot be made: {parent} is no folder to write in')
 
 
 def _is_report(folder: Path) -> bool:
@@ -68,23 +69,30 @@ def _is_report(folder: Path) -> bool:
 def write_report(folder: Path, result: Identification, source: Provenance) -> None:
     """Write all files of the report into *folder*, in place of a former report.
 
+    A joint that no parameter file can describe has no ``identified.yaml``; the page says why.
     Until the last moment nothing is to be seen but a hidden sibling, which goes when anything
     fails. Raises PamError where *folder* holds something else or cannot be written.
     """
     from pam_ros.report.page import page  # brings matplotlib, which nothing else needs
 
     check_folder(folder)
+    no_file = ''
+    try:
+        refuse_custom(result, source)
+    except ParameterError as error:
+        no_file = str(error)
     runs = runs_of(result)
     content = numbers(result, runs, source)
     parts: dict[str, Callable[[], str]] = {
         'report.json': lambda: to_json(content),
-        'report.html': lambda: page(result, runs, source, content),
+        'report.html': lambda: page(result, runs, source, content, no_file),
         'residual.csv': lambda: residual_csv(runs, result.quantity, result.unit),
     }
     with replaced(folder) as new:
         for name, text in parts.items():
             (new / name).write_text(text(), encoding='utf-8')
-        write_identified(new / 'identified.yaml', result, source)
+        if not no_file:
+            write_identified(new / 'identified.yaml', result, source)
 
 
 @contextmanager

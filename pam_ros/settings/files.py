@@ -167,7 +167,12 @@ def write(path: Path, values: Mapping[str, Value], about: str = '', node: str = 
     with tempfile.NamedTemporaryFile(
         'w', dir=path.parent, prefix=f'.{path.name}', delete=False, encoding='utf-8'
     ) as file:
-        file.write(text)
-    part = Path(file.name)
-    part.chmod(0o644)
-    part.replace(path)
+        part = Path(file.name)
+        try:
+            file.write(text)
+            file.close()
+            part.chmod(0o644)
+            part.replace(path)
+        except BaseException:
+            part.unlink(missing_ok=True)
+            raise

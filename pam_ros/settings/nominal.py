@@ -11,10 +11,10 @@ from typing import Any
 from pam_ros.arguments import refuse, sequence
 from pam_ros.effects.names import flattened
 from pam_ros.parameters import Parameter
-from pam_ros.rig.arrangements import LOAD, Arrangement
+from pam_ros.rig.arrangements import ARRANGEMENTS, LOAD, Arrangement
 from pam_ros.rig.joint import Joint
 from pam_ros.settings.load import only_joint, read_scene
-from pam_ros.settings.rig import KINDS
+from pam_ros.settings.rig import KINDS, RigParameters
 from pam_ros.settings.scene import reach_of
 from pam_ros.settings.tables import Table, flat, listed, mountings, override, rig_table
 
@@ -90,6 +90,29 @@ class NominalJoint:
             pairs = zip(mountings(self.kind), joint.actuators, strict=True)
             values |= {name: actuator.contraction for name, actuator in pairs}
         return {**values, **flat(joint.load), **flattened(joint.effects)}
+
+
+def nominal_of(joint: Joint, muscles: tuple[str, ...] = ()) -> NominalJoint:
+    """Return a *joint* that a program made as the one that a parameter file would describe.
+
+    *muscles* are the names that recordings give to several muscles. All other names are the
+    defaults of a file. A joint that no file can describe has an arrangement of its own.
+    """
+    kind = next((kind for kind in ARRANGEMENTS if _is_of(joint, kind)), None)
+    names = RigParameters({'joint': LOAD.name if kind is None else kind.name})
+    if kind is None:
+        parts = type(joint.transmission), type(joint.load)
+        kind = Arrangement('custom', 'made by a program', len(joint.actuators), *parts)
+    return NominalJoint(joint, kind, muscles or names.muscles, names.joints[0])
+
+
+def _is_of(joint: Joint, kind: Arrangement) -> bool:
+    return (
+        type(joint.transmission) is kind.transmission
+        and type(joint.load) is kind.load
+        and len(joint.actuators) == kind.muscles
+        and (kind.has_mounting or joint.actuators[0].contraction == 0.0)
+    )
 
 
 def nominal_joint(name: str | Path, overrides: Iterable[str] = ()) -> NominalJoint:

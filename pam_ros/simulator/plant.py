@@ -3,13 +3,13 @@
 """The simulated rig with its valves and sensors, step by step: all of ``pam_sim`` but ROS."""
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pam_ros.rig.sensors import Feedback, Sensors
+from pam_ros.rig.simulated_sensors import SimulatedSensors
 from pam_ros.rig.simulation import Simulation
 from pam_ros.settings.scene import SimulationSetup
 from pam_ros.simulator.contractions import Contractions
@@ -46,6 +46,7 @@ class Plant:
     def __init__(self, setup: SimulationSetup) -> None:
         """Make them at their initial state."""
         self.setup = setup
+        self.silences = 0  # how often commands of a muscle stopped for longer than the time-out
         self.inputs = [PressureInput(muscle) for muscle in setup.muscles]
         self._simulation = Simulation(setup.joints, 1.0 / setup.settings.physics_rate)
         self._all = range(len(self.inputs))
@@ -59,9 +60,7 @@ class Plant:
         setup = self.setup
         pressures, positions, velocities = setup.initial
         self._simulation.reset(pressures, positions, velocities)
-        self._feedback = Feedback(setup.sensors, len(positions))
-        # Where they are not as many as joints, muscles have sensors, and noise, of their own.
-        self._gauges = Feedback(self._gauge_sensors(setup), len(pressures))
+        self._sensors = SimulatedSensors(self._simulation, setup.sensors)
         self.contractions.forget()
         self.step = 0
         self._ordered = pressures.copy()  # Pa, the last commands of the valves
@@ -69,10 +68,6 @@ class Plant:
         self.commanded_at = np.full(len(pressures), np.nan)
         self.is_silent = np.zeros(len(pressures), dtype=bool)
         self._deadline = math.inf  # simulated time of the first silence to come
-
-    @staticmethod
-    def _gauge_sensors(setup: SimulationSetup) -> Sensors:
-        return replace(setup.sensors, seed=setup.sensors.seed ^ 0x5EED)
 
     @property
     def time(self) -> float:
@@ -83,8 +78,7 @@ class Plant:
         """Go on with other parameters."""
         self._simulation.change(setup.joints)
         self.setup = setup
-        self._feedback.change(setup.sensors)
-        self._gauges.change(self._gauge_sensors(setup))
+        self._sensors.change(setup.sensors)
         for given, muscle in zip(self.inputs, setup.muscles, strict=True):
             given.muscle = muscle
         self._order_all(self._ordered)  # the limits may have changed
@@ -155,6 +149,7 @@ class Plant:
             age = self._simulation.time - self.commanded_at[i]
             if age > settings.command_timeout and not self.is_silent[i]:
                 self.is_silent[i] = True
+                self.silences += 1
                 if settings.on_timeout == 'vent':
                     self._order(i, self.inputs[i].within_limits(0.0))
         self._set_deadline()
@@ -177,9 +172,10 @@ class Plant:
         if not (abs(position) < reach and math.isfinite(force + velocity)):
             raise ArithmeticError(f"at {position:g} m it is out of the muscle's reach")
         self.contractions.see_one(simulation.time, position / l0, self.setup.rated.item())
-        if not self._feedback.is_ideal:
+        sensors = self._sensors.of_joints
+        if not sensors.is_ideal:
             sample = np.array([[position], [velocity], [pressure], [force], [acceleration]])
-            reading = self._feedback.read(simulation.time, sample)
+            reading = sensors.read(simulation.time, sample)
             position, velocity, pressure, force = reading[:, 0].tolist()
         return position, velocity, pressure, force, stiffness, damping
 
@@ -187,30 +183,10 @@ class Plant:
         """Return what the sensors say of all; raises ArithmeticError where one cannot be."""
         simulation = self._simulation
         force, stiffness, damping, _ = simulation.muscle_outputs()
-        position, velocity, pressure = (
-            simulation.position,
-            simulation.velocity,
-            simulation.pressure,
-        )
-        effort, _, acceleration = simulation.joint_outputs()
         contraction = simulation.contraction
         is_there = np.abs(contraction) < self.setup.reach
-        if not (np.all(is_there) and np.isfinite(np.sum(force) + np.sum(velocity))):
+        if not (np.all(is_there) and np.isfinite(np.sum(force) + np.sum(simulation.velocity))):
             lost = self.setup.muscle_names[int(np.argmin(is_there))]
             raise ArithmeticError(f'{lost} is out of its reach')
         self.contractions.see(simulation.time, contraction, self.setup.rated)
-        if not self._feedback.is_ideal:
-            if not self.setup.are_direct:
-                end = np.zeros_like(force)
-                muscles = np.array([end, end, pressure, force, end])
-                pressure, force = self._gauges.read(simulation.time, muscles)[2:]
-                sample = [position, velocity, np.zeros_like(effort), effort, acceleration]
-                position, velocity, _, effort = self._feedback.read(
-                    simulation.time, np.array(sample)
-                )
-            else:
-                sample = [position, velocity, pressure, force, acceleration]
-                reading = self._feedback.read(simulation.time, np.array(sample))
-                position, velocity, pressure, force = reading
-                effort = force
-        return Reading(position, velocity, effort, pressure, force, stiffness, damping)
+        return Reading(*self._sensors.read(), stiffness, damping)

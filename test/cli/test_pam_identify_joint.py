@@ -14,6 +14,7 @@ from pam_ros.recording.recording import Recording
 from pam_ros.rig.run import simulate
 from pam_ros.settings.load import load_joint
 from pam_ros.settings.nominal import nominal_joint
+from support.pages import ROOT
 
 pytestmark = pytest.mark.needs_numba
 
@@ -100,6 +101,15 @@ def test_the_report_says_where_the_effect_is(found):
     text = (folder / 'report.html').read_text(encoding='utf-8')
     assert 'pressure lag of flexor' in text
     assert 'flexor.pressure_lag' not in text
+
+
+def test_report_of_an_angle_is_valid(found):
+    jsonschema = pytest.importorskip('jsonschema')
+    _, folder = found
+    schema = json.loads((ROOT / 'docs' / 'report.schema.json').read_text(encoding='utf-8'))
+    content = json.loads((folder / 'report.json').read_text(encoding='utf-8'))
+    problems = jsonschema.Draft202012Validator(schema).iter_errors(content)
+    assert [f'{problem.json_path}: {problem.message}' for problem in problems] == []
 
 
 def test_the_parameter_file_is_the_joint_that_was_found(found):

@@ -3,7 +3,6 @@
 """Pages against running programs: topics, services, parameters, defaults, commands, figures."""
 
 import re
-import signal
 import subprocess
 import sys
 
@@ -14,7 +13,7 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64
 
 from support.ends import ends
-from support.harness import DEADLINE, Program, lose_nothing
+from support.harness import DEADLINE, Program
 from support.pages import (
     CONTROLLER,
     DOCS,
@@ -33,8 +32,6 @@ pytestmark = pytest.mark.at_any_pace
 
 # What every node has: parameters, logging, its description.
 OF_EVERY_NODE = ('rcl_interfaces/', 'type_description_interfaces/')
-LENGTH = 2700  # states of 2 ms, so that the error decays to micrometres
-AGAIN = 500  # of a second run
 TEN_MINUTES = DOCS / 'tutorials' / 'muscle_in_ten_minutes.md'
 OWN_MUSCLE = DOCS / 'tutorials' / 'your_own_muscle_and_joint.md'
 SETTLED = 8.0  # s after which the load rests
@@ -46,11 +43,6 @@ DRY_RUNS = [
     for words in commands(page)
     if {'--dry-run', '--ros-args'} <= set(words)
 ]
-(EXAMPLE,) = (
-    one
-    for one in blocks(DOCS / 'tutorials' / 'your_own_controller.md', 'python')
-    if 'rclpy' in one
-)
 
 
 def told(page, name):
@@ -148,52 +140,6 @@ def test_the_excitation_plans_as_shown():
     for end in ends('pam_excite', [[*arguments, '--', '--dry-run'] for arguments in DRY_RUNS]):
         assert end.code == 0, end.output
         assert 'total' in end.output
-
-
-def positions_under(peer, example, length):
-    """Return the first positions of a simulator in lockstep with a controller."""
-    states = peer.collect(JointState, 'joint_states')
-    parameters = {'muscle': 'dmsp_20_400n', 'time_mode': 'lockstep', **lose_nothing()}
-    with Program('pam_sim', parameters=parameters):
-        peer.more(
-            states
-        )  # told again and again to a controller to come: all that follow are heard
-        controller = subprocess.Popen([sys.executable, '-c', example])
-        try:
-            peer.until(lambda: len(states) > length + 50 or controller.poll(), 'the states')
-        finally:
-            controller.kill()
-            controller.wait()
-    told = {stamp(message): message.position[0] for message in states}  # one may be told twice
-    return [told[time] for time in sorted(told)][:length]
-
-
-def test_the_controller_reaches_its_goal_the_same_way_each_time(peer):
-    first = positions_under(peer, EXAMPLE, LENGTH)
-    assert len(first) == LENGTH
-    np.testing.assert_allclose(first[-100:], 0.06, atol=5e-6)
-    assert positions_under(peer, EXAMPLE, AGAIN) == first[:AGAIN]
-
-
-@pytest.mark.parametrize('kind', [signal.SIGINT, signal.SIGTERM])
-def test_the_controller_ends_without_a_traceback(peer, kind):
-    commands = peer.collect(Float64, 'pressure_command')
-    with Program('pam_sim', parameters={'time_mode': 'lockstep'}):
-        controller = subprocess.Popen(
-            [sys.executable, '-c', EXAMPLE],
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            text=True,
-        )
-        try:
-            peer.more(commands)
-            controller.send_signal(kind)
-            output, _ = controller.communicate(timeout=DEADLINE)
-        finally:
-            controller.kill()
-            controller.wait()
-    assert output == ''
-    assert controller.returncode == 0
 
 
 def seconds(state):

@@ -17,6 +17,8 @@ PLAN = {'duration': 30.0, 'pressure_min': 150e3, 'pressure_max': 400e3}
 DURATION = PLAN['duration']  # s
 # A busy machine may keep the rig quiet for a while, and time goes faster than on the wall.
 EXCITATION = {**PLAN, 'use_sim_time': True, 'countdown': 0.5, 'silence': 10.0}
+# After such a pause two steps of the pressure can become one, with a larger overshoot.
+EXCITATION |= {'kappa_max': 0.3, 'contraction_max': 0.3}
 FASTER = {
     'scaled': {'time_mode': 'scaled', 'speed_factor': 3.0},
     'lockstep': {'time_mode': 'lockstep'},

@@ -4,11 +4,14 @@
 
 import os
 import shutil
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
 
 ROOT = Path(__file__).parents[2]
+DEADLINE = 300.0  # s, only bounds how long something broken may hang
 # What the commands of the Makefile, and the tools behind them, leave in a checkout: in its top
 # folder, and in any.
 ON_TOP = {'.git', '.hypothesis', '.venv', 'build', 'demo', 'install', 'log'}
@@ -35,6 +38,24 @@ def sources(tmp_path_factory):
     folder = tmp_path_factory.mktemp('sources') / 'pam_ros'
     shutil.copytree(ROOT, folder, ignore=left_behind)
     return folder
+
+
+@pytest.fixture(scope='session')
+def build(sources):
+    """Return a function that runs Python with some arguments in the sources; it must succeed."""
+
+    def run(*arguments):
+        done = subprocess.run(
+            [sys.executable, *arguments],
+            cwd=sources,
+            capture_output=True,
+            text=True,
+            timeout=DEADLINE,
+            check=False,
+        )
+        assert done.returncode == 0, done.stdout + done.stderr
+
+    return run
 
 
 def left_behind(folder, names):

@@ -41,7 +41,7 @@ from support.pages import (
 # How commands of other programs begin: whether they are right is for their manuals.
 OF_OTHERS = (
     'colcon build',
-    'python3 my_controller.py',
+    'python3 examples/own_controller.py',
     'ros2 bag',
     'ros2 run plotjuggler plotjuggler',
     'ros2 run topic_tools transform',
@@ -53,7 +53,6 @@ PROGRAMS = sorted(path.stem for path in (ROOT / 'pam_ros' / 'cli').glob('pam_*.p
 FILE = re.compile(r'[\w./*<>-]+\.(css|csv|html|json|md|png|py|rst|toml|txt|xml|yaml)')
 # What the tutorials have their readers write.
 OF_AN_EXAMPLE = {
-    'my_controller.py',
     'my_crank.yaml',
     'my_elbow.yaml',
     'my_lever.yaml',

@@ -7,7 +7,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
 HEADER = ['# Copyright 2026 The pam_ros authors', '# SPDX-License-Identifier: Apache-2.0']
-FOLDERS = ('pam_ros', 'test', 'launch', 'benchmarks', 'tools')
+FOLDERS = ('pam_ros', 'test', 'launch', 'benchmarks', 'examples', 'tools')
 FILES = sorted(
     path.relative_to(ROOT)
     for path in [ROOT / 'setup.py', *(p for f in FOLDERS for p in (ROOT / f).rglob('*.py'))]

@@ -118,6 +118,7 @@ def test_silence_vents_or_holds_its_muscle_alone_and_a_new_command_is_obeyed(on_
     rig.take(0, 200e3)
     rig.advance(1000)
     assert rig.is_silent.tolist() == [False, False]
+    assert rig.silences == 1
     assert pressures(rig) == [200e3, 300e3]
 
 

@@ -185,6 +185,8 @@ def result_of(recordings, test, declared, retuned, augmented, verdict, findings=
         tuple(test_segments),
         ('the position covers 11 % of the stroke',),
         'slow triangles and micro-reversals: the force turns over within micrometres',
+        tuple(recordings),
+        tuple(test),
     )
 
 

@@ -11,7 +11,7 @@ import gc
 import re
 import sys
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from pathlib import Path
 from time import monotonic_ns, sleep
 from typing import Any
@@ -29,6 +29,7 @@ from pam_ros.errors import PamError, shown
 from pam_ros.processes.priority import NORMAL, prefer_real_time
 from pam_ros.processes.stop import StopRequest
 from pam_ros.timing.ticker import Ticker
+from pam_ros.version import VERSION_HELP, VERSION_LINE
 
 try:
     from rclpy.experimental import EventsExecutor
@@ -60,9 +61,12 @@ class TickingNode(Node, ABC):
     scheduling = NORMAL
 
     @classmethod
-    def of_arguments(cls, parser: argparse.ArgumentParser, given: Sequence[str]) -> 'TickingNode':
-        """Make the node of the command line's arguments, those for ROS left out: none."""
-        parser.parse_args(given)
+    def add_arguments(cls, parser: argparse.ArgumentParser) -> None:
+        """Add the arguments of the command line beside those for ROS to *parser*: none."""
+
+    @classmethod
+    def of_arguments(cls, arguments: argparse.Namespace) -> 'TickingNode':
+        """Make the node of the parsed *arguments*."""
         return cls()
 
     def create_subscription(
@@ -126,8 +130,13 @@ def run(kind: type[TickingNode], stop: StopRequest, about: str) -> int:
                 formatter_class=argparse.RawDescriptionHelpFormatter,
                 epilog='All else is given with --ros-args: see the manual of ROS 2.',
             )
+            parser.add_argument(
+                '--version', action='version', version=VERSION_LINE, help=VERSION_HELP
+            )
+            kind.add_arguments(parser)
+            arguments = parser.parse_args(remove_ros_args(sys.argv)[1:])
             rclpy.init(args=sys.argv, signal_handler_options=SignalHandlerOptions.NO)
-            node = kind.of_arguments(parser, remove_ros_args(sys.argv)[1:])
+            node = kind.of_arguments(arguments)
             node.stop = stop
         except REFUSALS as error:
             print(f'{parser.prog}: {sentence(error)}', file=sys.stderr)

@@ -16,6 +16,7 @@ from pam_ros.control.reference.serialised import read_trajectory
 from pam_ros.control.signals import Pressures, term_names
 from pam_ros.errors import RangeError
 from pam_ros.health import controller as control_health
+from pam_ros.health import start_line
 from pam_ros.health.health import Health
 from pam_ros.health.reports import Reports
 from pam_ros.health.tracking import Tracking
@@ -112,6 +113,13 @@ class PamControl(TickingNode):
 
     def start(self) -> None:
         """Begin to count time: making the node was no silence."""
+        line = start_line.of_controller(
+            self._setup,
+            self._given.values,
+            self.resolve_topic_name,
+            has_sim_time=self._is_followed,
+        )
+        self.get_logger().info(line)
         super().start()
         self._intake.mark(steady_ns())
 
@@ -185,7 +193,7 @@ class PamControl(TickingNode):
             self._fault = 'the law gave no number: vented and disabled'
             self.get_logger().error(self._fault)
         elif loop.state == BLIND != before:
-            self.get_logger().error(self._trouble())
+            self._look_for_states()
         self._publish(pressures)
         if self._intake.look():
             # Stopped while it published: the rig may have received the old command just now.
@@ -323,7 +331,16 @@ class PamControl(TickingNode):
         did = self._setup.settings.on_timeout
         return control_health.trouble(self._loop, did, self._blindness, self._fault)
 
+    def _look_for_states(self) -> None:
+        """Write to the log what control waits for, and when it goes on: each once."""
+        loop, now, why = self._loop, steady_ns() / SECOND, self._trouble()
+        if loop.state in (WAITING, RUNNING):
+            self._reports.wait(why, now)
+        if loop.state in (BLIND, RUNNING):
+            self._reports.miss(why, now, loop.timeout, loop.starts)
+
     def _control(self) -> Health:
+        self._look_for_states()
         age = None if self._stamp is None else (steady_ns() - self._seen) / SECOND
         self._reports.follow(self._tracking.warning)
         received = self._reports.received(age, self._blindness)

@@ -32,14 +32,14 @@ from pam_ros.processes.children import Program
 
 EXCITATION: Mapping[str, Any] = {
     'muscle': loop.MUSCLE,
-    'duration': 45.0,  # s
+    'duration': 30.0,  # s, the shortest programme
     'pressure_min': 150e3,
     'pressure_max': 400e3,
-    'countdown': 2.0,
+    'countdown': 2.0,  # s
     'rate': 100.0,
     'silence': 3.0,  # s; long, since a simulated rig endangers no person
 }
-UNSEEN = {**EXCITATION, 'duration': 30.0, 'seed': 1}
+UNSEEN = {**EXCITATION, 'seed': 1}
 RATE = 200.0  # states per second
 LATE = 0.1  # s by which a simulator may be late
 TOO_BUSY = 'this machine is too busy for real time'

@@ -5,7 +5,6 @@
 import argparse
 import sys
 import time
-from collections.abc import Sequence
 from pathlib import Path
 
 from rclpy.duration import Duration
@@ -16,6 +15,7 @@ from tqdm import tqdm
 
 from pam_ros.excitation.guard import Guard
 from pam_ros.excitation.programme import write_csv
+from pam_ros.health.absence import Absence
 from pam_ros.nodes.common.node_parameters import NodeParameters, given
 from pam_ros.nodes.common.qos import DEPTH, open_qos
 from pam_ros.nodes.common.spin import TickingNode
@@ -56,13 +56,14 @@ class PamExcite(TickingNode):
         self._stamp = 0.0  # ROS time of the newest joint state, s
         self._answered = 0.0  # steady time of the last command, s
         self._segment = ''
+        self._absence = Absence(self.get_logger(), 'the rig is found')
         self._bar = tqdm(disable=True)
         self._do = self._wait
         self.ticker = Ticker(self._now.settings.rate)
 
     @classmethod
-    def of_arguments(cls, parser: argparse.ArgumentParser, given: Sequence[str]) -> 'PamExcite':
-        """Make the node that the command line asks for."""
+    def add_arguments(cls, parser: argparse.ArgumentParser) -> None:
+        """Add the choices of a plan without a rig, and of a file."""
         parser.add_argument(
             '--dry-run', action='store_true', help='print the plan and play nothing'
         )
@@ -72,7 +73,10 @@ class PamExcite(TickingNode):
             metavar='FILE',
             help='write the commands as well: t_s,pressure_command_Pa',
         )
-        arguments = parser.parse_args(given)
+
+    @classmethod
+    def of_arguments(cls, arguments: argparse.Namespace) -> 'PamExcite':
+        """Make the node that the command line asks for."""
         return cls(arguments.csv, arguments.dry_run)
 
     def start(self) -> None:
@@ -82,6 +86,7 @@ class PamExcite(TickingNode):
         if self._is_dry:
             self.exit_code = 0
             return
+        self._tell_plan()
         self._begun = time.monotonic()
         self._received = self._begun  # steady time of the newest joint state, s
         self._seen = self._ros_time()  # and its time by the clock of the programme, s
@@ -101,6 +106,16 @@ class PamExcite(TickingNode):
             self._see,
             QoSProfile(depth=DEPTH, reliability=followed if self._is_followed else free),
             qos_overriding_options=open_qos(),
+        )
+
+    def _tell_plan(self) -> None:
+        command, states = map(self.resolve_topic_name, ('pressure_command', 'joint_states'))
+        settings, pace = self._now.settings, 'one for each joint state (use_sim_time is set)'
+        if not self._is_followed:
+            pace = f'at {settings.rate:g} Hz'
+        self.get_logger().info(
+            f'plays pressures of {self._now.programme.duration:.1f} s; commands: {command}, '
+            f'{pace}; states: {states}; begins {settings.countdown:g} s after the rig is found'
         )
 
     def tick(self) -> None:
@@ -150,11 +165,12 @@ class PamExcite(TickingNode):
             'use_sim_time is set and /clock is silent': self._ros_time() == 0.0,
             'another node commands pressures': bool(rivals),
         }
-        if not any(missing.values()):
+        problems = ', '.join(text for text, is_so in missing.items() if is_so)
+        self._absence.look(f'waits for the rig: {problems}' if problems else '', time.monotonic())
+        if not problems:
             self._play_from = time.monotonic() + self._now.settings.countdown
             self._do = self._count_down
         elif time.monotonic() - self._begun > self._now.settings.patience:
-            problems = ', '.join(text for text, is_so in missing.items() if is_so)
             self._refuse(f'{problems}: is the rig running?')
 
     def _rivals(self) -> list[str]:

@@ -17,7 +17,8 @@ from rclpy.executors import Executor, SingleThreadedExecutor
 from rclpy.subscription import Subscription
 from rosgraph_msgs.msg import Clock
 
-from pam_ros.errors import RecordingError
+from pam_ros.errors import RecordingError, shown
+from pam_ros.health.absence import Absence
 from pam_ros.nodes.common.spin import BAD_INPUT, TickingNode
 from pam_ros.nodes.record.message_text import message_text
 from pam_ros.nodes.record.qos import matching, metadata
@@ -79,14 +80,15 @@ class PamRecord(TickingNode):
         self._lock = threading.Lock()  # of the writer and of what is recorded
         self._is_closing = threading.Event()
         self._problem: Exception | None = None
+        self._absence = Absence(self.get_logger(), 'the first topic is found')
         self._begun = monotonic_ns()
         self._reported = self._begun
         self._thread = threading.Thread(target=self._work, name='recorder')
         self.ticker = Ticker(LOOK)
 
     @classmethod
-    def of_arguments(cls, parser: argparse.ArgumentParser, given: Sequence[str]) -> 'PamRecord':
-        """Make the recorder that the command line asks for."""
+    def add_arguments(cls, parser: argparse.ArgumentParser) -> None:
+        """Add the topics and the directory."""
         parser.add_argument('topics', nargs='*', metavar='TOPIC', help='record this topic as well')
         parser.add_argument(
             '-o',
@@ -96,7 +98,10 @@ class PamRecord(TickingNode):
             default=Path(datetime.now().strftime('recording_%Y_%m_%d-%H_%M_%S')),
             help='directory of the bag, to be made (default: recording_DATE-TIME)',
         )
-        arguments = parser.parse_args(given)
+
+    @classmethod
+    def of_arguments(cls, arguments: argparse.Namespace) -> 'PamRecord':
+        """Make the recorder that the command line asks for."""
         return cls(arguments.output, arguments.topics)
 
     def make_executor(self) -> Executor:
@@ -107,7 +112,9 @@ class PamRecord(TickingNode):
         """Begin to record."""
         super().start()
         self._thread.start()
-        print(f'recording to {self._directory}: Ctrl-C ends it', flush=True)
+        self.get_logger().info(
+            shown(f'records to {self._directory}, until Ctrl-C: {", ".join(self._wanted)}')
+        )
 
     def _resolved(self, name: str) -> str:
         try:
@@ -136,6 +143,9 @@ class PamRecord(TickingNode):
                 self._sole.add(topic)
             elif publishers:
                 self._sole.discard(topic)
+        is_alone = not (self._recorded or self._refused)
+        missing = 'waits for a publisher of one of these topics' if is_alone else ''
+        self._absence.look(missing, monotonic_ns() / SECOND)
         pause = REPORT if sys.stdout.isatty() else REPORT_LOGGED
         if monotonic_ns() - self._reported > pause * 1e9:
             self._reported = monotonic_ns()

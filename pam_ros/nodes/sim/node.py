@@ -10,8 +10,10 @@ from std_msgs.msg import Float64, Float64MultiArray
 from std_srvs.srv import SetBool, Trigger
 
 from pam_ros.health import simulator as sim_health
-from pam_ros.health.health import Health
+from pam_ros.health import start_line
+from pam_ros.health.health import Health, Level
 from pam_ros.health.simulator import Progress
+from pam_ros.health.waits import Waits
 from pam_ros.nodes.common.diagnostics import Diagnostics
 from pam_ros.nodes.common.node_parameters import NodeParameters, given
 from pam_ros.nodes.common.spin import TickingNode
@@ -68,6 +70,8 @@ class PamSim(TickingNode):
         self._turns = Turns(self, len(self._simulation.muscles))
         subscribe_commands(self, self._simulation, self._turns, self._command, self._command_all)
         self._begin()
+        topic = self.resolve_topic_name('pressure_command' if self._one else 'pressure_commands')
+        self._waits = Waits(self.get_logger(), self._plant, topic)
         self.create_service(Trigger, '~/reset', self._reset)
         self.create_service(SetBool, '~/pause', self._pause)
         self.create_service(Trigger, '~/step', self._step)
@@ -92,6 +96,13 @@ class PamSim(TickingNode):
 
     def start(self) -> None:
         """Let simulated time begin now."""
+        line = start_line.of_simulator(
+            self._simulation,
+            self._given.values,
+            self.resolve_topic_name,
+            has_sim_time=self._time.follows_clock,
+        )
+        self.get_logger().info(line)
         super().start()
         self._silence.mark(steady_ns())
         self._time.align(0)
@@ -229,10 +240,8 @@ class PamSim(TickingNode):
         time = self._plant.time
         self._begin_again()
         self._set_paused(True)
-        fault = f'the load is lost {time:.3f} s after the start, {error}: reset and paused'
-        if fault != self._fault:  # one of the initial state stays until a parameter changes
-            self.get_logger().error(fault)
-        self._fault = fault
+        self._fault = f'the load is lost {time:.3f} s after the start, {error}: reset and paused'
+        self.get_logger().error(self._fault)
 
     # In ------------------------------------------------------------------------------------
 
@@ -368,7 +377,11 @@ class PamSim(TickingNode):
             waits=self._turns.complaint if self._is_lockstep else '',
             fault=self._fault,
         )
+        if not self._is_paused:
+            self._waits.look('' if done.has_clock else sim_health.NO_CLOCK, done.waits)
         return sim_health.timing(self._simulation.settings, kept, done, self.scheduling)
 
     def _commands(self) -> Health:
-        return sim_health.commands(self._plant, self._bad)
+        health = sim_health.commands(self._plant, self._bad)
+        self._waits.look_for_commands(health.message if health.level is Level.WARN else '')
+        return health

@@ -8,6 +8,7 @@ from rclpy.node import Node
 from rosgraph_msgs.msg import Clock
 
 from pam_ros.nodes.common.qos import DEPTH
+from pam_ros.nodes.sim.muscle_states import MuscleStates
 from pam_ros.nodes.sim.telemetry import Telemetry
 from pam_ros.nodes.sim.telemetry_arrays import ArrayTelemetry, MuscleTelemetry
 from pam_ros.settings.scene import SimulationSetup
@@ -33,6 +34,7 @@ class Output:
             if settings.muscle_topics:
                 have_loads = settings.joint == 'load'
                 self._telemetry.append(MuscleTelemetry(node, setup.muscle_names, have_loads))
+        self._telemetry.append(MuscleStates(node, setup.muscle_names))
         self.describe(setup)
 
     def describe(self, setup: SimulationSetup) -> None:

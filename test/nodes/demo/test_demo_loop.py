@@ -9,7 +9,7 @@ import sys
 import pytest
 
 from pam_ros.demo.loop import HIDDEN, NOISE
-from pam_ros.nodes.demo.loop import TOO_BUSY
+from pam_ros.nodes.demo.loop import EXCITATION, TOO_BUSY
 from pam_ros.recording.read import read_recording
 from pam_ros.report.write import FILES
 
@@ -39,7 +39,7 @@ def test_the_loop_closes_over_topics(tmp_path):
     recording = read_recording(folder / 'recording')
     assert recording.kind == 'free'
     assert recording.period == pytest.approx(1 / 200.0, rel=0.02)
-    assert recording.command.size > 0.9 * 45 * 100
+    assert recording.command.size > 0.9 * EXCITATION['duration'] * EXCITATION['rate']
 
     report = json.loads((folder / 'report' / 'report.json').read_text(encoding='utf-8'))
     table = (folder / 'before_and_after.txt').read_text(encoding='utf-8')

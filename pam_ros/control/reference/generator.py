@@ -1,0 +1,95 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The reference of a joint for programs that step a control law themselves."""
+
+from math import isfinite
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from pam_ros.arguments import along, instance, number, refuse, stamps
+from pam_ros.control.limits import Limits
+from pam_ros.control.model import ControlModel
+from pam_ros.control.reference.course import Course
+from pam_ros.control.reference.points import Points
+from pam_ros.control.reference.shaping import Shape
+from pam_ros.control.sharing import sharing_of
+from pam_ros.control.signals import Reference
+from pam_ros.rig.joint import Joint
+
+INSTANT = 1e-6  # s
+
+
+class ReferenceGenerator:
+    """Makes a smooth reference of target positions and trajectories, as ``pam_control`` does.
+
+    A target that jumps is approached within the bounds of *shape*; a target that moves smoothly
+    from call to call is followed without lag. ``reach`` has the lowest and the highest position
+    at which the muscles can hold the load within *limits*. Positions are in m, contraction
+    positive, in rad for a revolute joint. All methods raise ParameterError for numbers that are
+    not finite.
+    """
+
+    def __init__(
+        self, joint: Joint, shape: Shape | None = None, limits: Limits | None = None
+    ) -> None:
+        """Make it for *joint*, at rest in the middle of its reach; see :meth:`start`.
+
+        Raises ParameterError for a shape of the other kind of joint (``Shape.for_joint``).
+        """
+        instance('joint', joint, Joint, 'a Joint')
+        shape = Shape.for_joint(joint) if shape is None else shape
+        limits = Limits() if limits is None else limits
+        instance('shape', shape, Shape, 'a Shape')
+        instance('limits', limits, Limits, 'Limits')
+        self.reach = sharing_of(ControlModel(joint), limits).reach
+        self._course = Course(shape, self.reach, joint.transmission.equations.unit)
+        low, high = self.reach
+        self.start(0.5 * (low + high) if isfinite(low) and isfinite(high) else 0.0)
+
+    def start(self, position: float) -> None:
+        """Begin at rest at *position*, without a target."""
+        self._course.start(number('position', position))
+        # As in pam_control, time passes between a start and a target: without it, the target would
+        # count as a sample of a motion, with a velocity.
+        self._course.follow(INSTANT)
+
+    def set_target(self, position: float) -> None:
+        """Approach *position*; a trajectory ends here. Raises RangeError out of reach."""
+        self._course.set_target(number('position', position))
+
+    def set_trajectory(
+        self,
+        t: ArrayLike,
+        position: ArrayLike,
+        velocity: ArrayLike | None = None,
+        acceleration: ArrayLike | None = None,
+    ) -> None:
+        """Follow a trajectory through points, from the present reference on.
+
+        *t* (n,) in s from now on, ascending; *position*, *velocity* and *acceleration* (n,) at
+        these times. With velocities and accelerations the motion between two points is a
+        polynomial of fifth order, with velocities alone of third order, and with positions alone
+        a cubic spline that is at rest at both ends. The last position is held. Raises RangeError
+        for a motion out of reach, and ParameterError for arrays that do not fit together; then the
+        former target remains.
+        """
+        times = stamps('t', t, strict=True)
+        if acceleration is not None and velocity is None:
+            refuse('velocity', velocity, 'one for each stamp of t, as there are accelerations')
+        n = times.size
+        points = Points(
+            times,
+            along('position', position, 't', n),
+            np.zeros(n) if velocity is None else along('velocity', velocity, 't', n),
+            np.zeros(n) if acceleration is None else along('acceleration', acceleration, 't', n),
+            has_velocity=np.full(n, velocity is not None),
+            has_acceleration=np.full(n, acceleration is not None),
+        )
+        self._course.play(points)
+
+    def update(self, dt: float) -> Reference:
+        """Return the reference *dt* s after the last call."""
+        if number('dt', dt) <= 0.0:
+            refuse('dt', dt, 'a finite time above 0 s')
+        return self._course.follow(dt)

@@ -1,0 +1,112 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The line that a node writes to its log at the start: what it works with, and on which topics."""
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import Any
+
+from pam_ros.errors import shown
+from pam_ros.muscle.muscle import Muscle
+from pam_ros.rig.arrangements import LOAD
+from pam_ros.rig.joint import Joint
+from pam_ros.rig.loads import Arm, Mass
+from pam_ros.settings.control import ControlSetup
+from pam_ros.settings.scene import SimulationSetup
+
+SHOWN = 5  # names that are listed before "and others"
+Resolve = Callable[[str], str]  # the full name of a topic, after remapping
+
+
+def of_simulator(
+    setup: SimulationSetup, values: Mapping[str, Any], resolve: Resolve, *, has_sim_time: bool
+) -> str:
+    """Return the line of ``pam_sim``; *values* are its parameters.
+
+    *has_sim_time* says whether it follows ``/clock``.
+    """
+    settings, joints = setup.settings, setup.joints
+    has_own = len(setup.joint_names) == len(setup.muscle_names)
+    others = setup.joint_names if has_own else setup.muscle_names
+    muscles = _muscles(values, setup.muscles, setup.muscle_names, others)
+    loads = listed(_load(joint) for joint in joints)
+    names = listed(setup.muscle_names)
+    if setup.is_one:
+        rig = f'the muscle {muscles} with a load of {loads}'
+    elif settings.joint == LOAD.name:
+        count = len(setup.muscle_names)
+        rig = f'{count} muscles {names} ({muscles}), each with its own load of {loads}'
+    else:
+        whose = 'the joint' if len(joints) == 1 else f'{len(joints)} joints'
+        rig = f'{whose} {listed(setup.joint_names)} ({settings.joint}) with the muscles {names} '
+        rig += f'({muscles}) and a load of {loads}'
+    commands = [resolve('pressure_command' if setup.is_one else 'pressure_commands')]
+    if settings.muscle_topics and not setup.is_one:
+        commands += [resolve(f'{name}/pressure_command') for name in setup.muscle_names]
+    time = settings.time_mode
+    if time == 'scaled':
+        time += f' with speed_factor {settings.speed_factor:g}'
+    elif has_sim_time:
+        time += ' following /clock'
+    return shown(
+        f'simulates {rig}; commands: {listed(commands)}; states: {resolve("joint_states")} at '
+        f'{settings.publish_rate:g} Hz; time_mode: {time}'
+    )
+
+
+def of_controller(
+    setup: ControlSetup, values: Mapping[str, Any], resolve: Resolve, *, has_sim_time: bool
+) -> str:
+    """Return the line of ``pam_control``; *values* are its parameters.
+
+    *has_sim_time* says whether it answers joint states.
+    """
+    settings, joint = setup.settings, setup.joint
+    others = (settings.joint_name,) if len(setup.muscles) == 1 else setup.muscles
+    muscles = _muscles(values, joint.muscles, setup.muscles, others)
+    pace = f'at {settings.rate:g} Hz'
+    if has_sim_time:
+        pace = 'one for each joint state (use_sim_time is set)'
+    references = [resolve('position_reference'), resolve('joint_trajectory')]
+    if setup.can_stiffen:
+        references.append(resolve('co_contraction_reference'))
+    line = (
+        f'controls the joint {settings.joint_name} ({settings.joint}; muscle {muscles}; load of '
+        f'{_load(joint)}) with the law {settings.controller}; states: {resolve("joint_states")}; '
+        f'commands: {listed(map(resolve, setup.command_topics))}, {pace}; references: '
+        f'{listed(references)}'
+    )
+    if not settings.start_enabled:
+        line += '; disabled until the service ~/enable is called'
+    return shown(line)
+
+
+def listed(names: Iterable[str]) -> str:
+    """Return names in one text, each once, and of many the first ones."""
+    each = list(dict.fromkeys(names))
+    return ', '.join(each[:SHOWN]) + (' and others' if len(each) > SHOWN else '')
+
+
+def _muscles(
+    values: Mapping[str, Any],
+    muscles: Sequence[Muscle],
+    names: Sequence[str],
+    others: Sequence[str],
+) -> str:
+    """Return which muscles these are: the names of their files, if any, and their lengths.
+
+    Their parameters begin with one of *names*, or with one of *others*.
+    """
+    texts = []
+    for muscle, name, other in zip(muscles, names, others, strict=True):
+        common = values.get(f'{other}.muscle', values['muscle'])
+        source = values.get(f'{name}.muscle', common)
+        texts.append(f'{source} of {muscle.l0:g} m' if source else f'of {muscle.l0:g} m')
+    return listed(texts)
+
+
+def _load(joint: Joint) -> str:
+    load = joint.load
+    if isinstance(load, Mass):
+        return f'{load.mass:g} kg {load.mount}'
+    assert isinstance(load, Arm)
+    return f'{load.mass:g} kg on a {load.plane} arm of {load.arm:g} m'

@@ -1,0 +1,46 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The lines in the log of ``pam_sim`` about a clock and about commands that are missing."""
+
+from typing import Any
+
+import numpy as np
+
+from pam_ros.health.absence import Absence
+from pam_ros.health.health import Level
+from pam_ros.simulator.plant import Plant
+from pam_ros.timing.pace import SECOND
+from pam_ros.timing.silence import steady_ns
+
+
+class Waits:
+    """One line when each is missing, and one when it is there: looked at once a second."""
+
+    def __init__(self, logger: Any, plant: Plant, topic: str) -> None:
+        """Write to *logger*, of rclpy; *topic* is the full name of that of the commands."""
+        self._plant, self._topic = plant, topic
+        self._clock = Absence(logger, '/clock is received: simulated time passes')
+        self._turn = Absence(logger, 'commands are received: simulated time passes', 0.0)
+        self._first = Absence(logger, f'commands are received on {topic}')
+        self._next = Absence(logger, 'commands are received again', 0.0, Level.WARN)
+
+    def look(self, no_clock: str, no_turn: str) -> None:
+        """Look for the clock, and in lockstep for the answer: what is missing, '' for nothing."""
+        now = steady_ns() / SECOND
+        self._clock.look(no_clock, now)
+        # A controller that is slow now and then is not back until the next look finds it, too.
+        self._turn.look(no_turn, now, 0.5)
+
+    def look_for_commands(self, silence: str) -> None:
+        """Look for the first command and, where commands have stopped, for the next one.
+
+        *silence* says what the muscles do since then, '' where they are commanded. Both are timed
+        by simulated time, as the time-out is.
+        """
+        plant = self._plant
+        is_commanded = not np.all(np.isnan(plant.commanded_at))
+        first = '' if is_commanded else f'waits for commands on {self._topic}: the pressure stays'
+        self._first.look(first, plant.time)
+        if is_commanded:
+            timeout = plant.setup.settings.command_timeout
+            self._next.look(silence, plant.time, timeout, plant.silences)

@@ -1,0 +1,57 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""One message with a stamp for what the muscles do: force, stiffness, damping and pressure."""
+
+from array import array
+from collections.abc import Sequence
+
+import numpy as np
+from rclpy.node import Node
+from rclpy.qos import QoSProfile
+from sensor_msgs.msg import JointState
+
+from pam_ros.nodes.common.qos import DEPTH, open_qos
+from pam_ros.simulator.plant import OneReading, Reading
+from pam_ros.timing.pace import SECOND
+
+QUANTITIES = ('force', 'stiffness', 'damping', 'pressure')
+
+
+class MuscleStates:
+    """Publishes ``muscle_states``: numbers named ``<muscle>/<quantity>``, as positions.
+
+    N, N/m, N s/m and absolute Pa, of all muscles in order. The values are those of the topics
+    without a stamp, and the stamp is that of ``joint_states``.
+    """
+
+    def __init__(self, node: Node, muscles: Sequence[str]) -> None:
+        """Create the publisher on *node*."""
+        names = [f'{muscle}/{quantity}' for muscle in muscles for quantity in QUANTITIES]
+        self._message = JointState(name=names, position=array('d', bytes(8 * len(names))))
+        self._values = self._message.position
+        # The message's own memory, one row for each muscle.
+        self._rows = np.frombuffer(self._values).reshape(len(muscles), len(QUANTITIES))
+        self._publisher = node.create_publisher(
+            JointState,
+            'muscle_states',
+            QoSProfile(depth=DEPTH),
+            qos_overriding_options=open_qos(),
+        )
+
+    def describe(self, frame: str, variance: float) -> None:
+        """Set the frame in the header; the message has no variance."""
+        self._message.header.frame_id = frame
+
+    def publish(self, stamp: int, reading: Reading | OneReading, ambient: float) -> None:
+        """Publish one state of the given ROS time in ns; pressures with *ambient* Pa added."""
+        header = self._message.header.stamp
+        header.sec, header.nanosec = divmod(stamp, SECOND)
+        if isinstance(reading, Reading):
+            rows = self._rows
+            rows[:, 0], rows[:, 1] = reading.force, reading.stiffness
+            rows[:, 2], rows[:, 3] = reading.damping, reading.pressure + ambient
+        else:
+            values = self._values
+            _, _, pressure, values[0], values[1], values[2] = reading
+            values[3] = pressure + ambient
+        self._publisher.publish(self._message)

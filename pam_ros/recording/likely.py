@@ -1,0 +1,94 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""What columns with other names probably mean, for the sentence that says what is missing.
+
+Nothing is read by these guesses: the user decides, with ``--column``.
+"""
+
+import re
+import shlex
+from collections.abc import Collection, Sequence
+
+from pam_ros.recording.mapping import ColumnMapping
+from pam_ros.recording.quantities import OF_MUSCLE, OF_ONE, QUANTITIES, Target, unit_in
+
+# Words by which programs call our quantities, beside a unit of that quantity.
+_WORDS = {
+    'pressure': ('p', 'u', 'pres', 'press', 'pressure'),
+    'position': (
+        *('x', 'y', 'z', 's', 'l', 'pos', 'position', 'disp', 'displacement', 'stroke', 'travel'),
+        *('length', 'contraction'),
+    ),
+    'contraction': ('contraction', 'kappa', 'strain'),
+    'angle': ('q', 'pos', 'position', 'angle', 'theta', 'phi', 'joint'),
+    'force': ('f', 'force', 'load', 'loadcell', 'pull', 'tension'),
+    'time': ('t', 'time', 'timestamp', 'stamp', 'elapsed', 'clock'),
+}
+_COMMAND = {
+    *('u', 'cmd', 'command', 'commanded', 'set', 'setpoint', 'sp', 'target'),
+    *('ref', 'reference', 'des', 'desired', 'demand', 'input'),
+}
+_ABSOLUTE = {'abs', 'absolute'}
+_AMBIENT = 101325.0  # Pa
+_WITH_UNIT = re.compile(
+    r'(?P<stem>.+?)(?:\s*[\[(]\s*(?P<unit>[^\])]+?)\s*[\])]|_(?P<word>[^_\[\]()]+))'
+)
+LONGEST = 12  # columns that a sentence names
+
+
+def found_columns(header: Sequence[str], mapping: ColumnMapping, known: Collection[str]) -> str:
+    """Return which columns a file has, and the options that say what unknown ones may mean.
+
+    *known* are the signals that were read; for these nothing is proposed. Columns that may mean
+    the same are alternatives.
+    """
+    shown = ', '.join(repr(name) for name in header[:LONGEST])
+    more = f' and {len(header) - LONGEST} more' if len(header) > LONGEST else ''
+    read = {*known, *map(_linear, known)}
+    options: dict[str, list[str]] = {}
+    for name in header:
+        if name in mapping or mapping.meaning(name) is not None:
+            continue
+        target = likely_target(name)
+        if target is not None and _linear(target.key) not in read:
+            option = shlex.quote(f'{name}={_rule(name, target)}')
+            options.setdefault(_linear(target.key), []).append(f'--column {option}')
+    said = ' '.join(' or '.join(alike) for alike in options.values())
+    return f'its columns are {shown}{more}' + (f': say what they are with {said}' if said else '')
+
+
+def likely_target(name: str) -> Target | None:
+    """Return what a column called *name* probably means, by a word and a unit; None if nothing."""
+    of_muscle = OF_ONE.fullmatch(name)
+    muscle, rest = (of_muscle['muscle'], of_muscle['rest']) if of_muscle else ('', name)
+    match = _WITH_UNIT.fullmatch(rest.strip())
+    if match is None:
+        return None
+    words = _words(match['stem'])
+    for quantity, spellings in _WORDS.items():
+        unit = unit_in((match['unit'] or match['word']).replace('%', 'percent'), quantity)
+        if unit is None or words.isdisjoint(spellings):
+            continue
+        if muscle and quantity not in OF_MUSCLE:
+            return None
+        is_command = quantity == 'pressure' and not words.isdisjoint(_COMMAND)
+        return Target('pressure_command' if is_command else quantity, unit, muscle)
+    return None
+
+
+def _words(stem: str) -> set[str]:
+    """Return the words of a name without their numbers: p1, pCmd and p_cmd have a p."""
+    parts = re.split(r'[^A-Za-z]+', re.sub(r'([a-z])([A-Z])', r'\1_\2', stem))
+    return {part.lower() for part in parts if part}
+
+
+def _linear(key: str) -> str:
+    """Return the signal that an angle or a contraction becomes."""
+    return 'position' if key in ('angle', 'contraction') else key
+
+
+def _rule(name: str, target: Target) -> str:
+    """Return the right side of the option; an absolute pressure becomes one above ambient."""
+    if target.quantity in ('pressure', 'pressure_command') and _words(name) & _ABSOLUTE:
+        return f'{target}-{_AMBIENT / QUANTITIES[target.quantity].units[target.unit]:g}'
+    return str(target)
