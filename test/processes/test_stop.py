@@ -52,6 +52,16 @@ except KeyboardInterrupt:
 os.kill(os.getpid(), signal.{kind})
 print('once')
 """
+LIMITED = """
+import time
+from pam_ros.processes.ends import end_within
+
+def wait_for_the_middleware():
+    time.sleep({duration})
+
+end_within({limit})
+wait_for_the_middleware()
+"""
 
 
 @pytest.mark.parametrize('kind', ['SIGINT', 'SIGTERM', 'SIGHUP', 'SIGQUIT'])
@@ -83,3 +93,15 @@ def check(code, printed, kind):
     )
     assert done.returncode == 0, done.stderr
     assert done.stdout.split() == printed
+
+
+@pytest.mark.parametrize(('limit', 'code'), [(0.2, 1), (600.0, 0)])
+def test_the_end_of_a_program_has_a_limit(limit, code):
+    done = subprocess.run(
+        [sys.executable, '-c', LIMITED.format(limit=limit, duration=0.0 if code == 0 else 600.0)],
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == code
+    assert ('in wait_for_the_middleware' in done.stderr) == (code == 1)

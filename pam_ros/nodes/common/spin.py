@@ -26,6 +26,7 @@ from rclpy.utilities import remove_ros_args
 from rosgraph_msgs.msg import Clock
 
 from pam_ros.errors import PamError, shown
+from pam_ros.processes.ends import end_within
 from pam_ros.processes.priority import NORMAL, prefer_real_time
 from pam_ros.processes.stop import StopRequest
 from pam_ros.timing.ticker import Ticker
@@ -38,6 +39,8 @@ except ImportError:  # Jazzy before its patch release of 2025
 
 BAD_INPUT = 2
 LAST_ANSWER = 0.5  # s in which the answer of a service that was told to stop is read
+# s in which the middleware must be left, which takes some 0.1 s: it may hang, at any end.
+LEAVING = 20.0
 LONGEST_WAIT = 0.1  # s in the executor, so that a stop is heeded whatever the rate
 
 # What rclpy raises for a command line that makes no node; RuntimeError is what rcl's own errors
@@ -110,6 +113,9 @@ class TickingNode(Node, ABC):
         """Begin to count time: all is there and the loop starts."""
         self.ticker.start(self.ticker.rate, monotonic_ns())
 
+    def finish(self) -> None:
+        """Do what is left to do before the node is destroyed: nothing."""
+
     @abstractmethod
     def tick(self) -> None:
         """Do the work of one period."""
@@ -153,9 +159,14 @@ def run(kind: type[TickingNode], stop: StopRequest, about: str) -> int:
         if node.has_answered_at_end:
             sleep(LAST_ANSWER)  # an answer is lost with the server that sent it
     finally:
-        if node is not None:
-            node.destroy_node()
-        rclpy.try_shutdown()
+        try:
+            if node is not None:
+                node.finish()
+        finally:
+            end_within(LEAVING)
+            if node is not None:
+                node.destroy_node()
+            rclpy.try_shutdown()
     return node.exit_code or 0
 
 

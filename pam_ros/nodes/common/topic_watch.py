@@ -59,6 +59,11 @@ class TopicWatch:
             [topic.health for topic in self._each], [topic.publishers for topic in self._each]
         )
 
+    def close(self) -> None:
+        """Release what samples the topics: to be called before the node is destroyed."""
+        for topic in self._each:
+            topic.stop_sampling()
+
 
 class _Topic:
     def __init__(self, node: Node, watched: Watched) -> None:
@@ -79,6 +84,12 @@ class _Topic:
         is_unheard = self._watched.is_command and is_commanding and not self._has_subscriber()
         return self.health.look(nodes, is_unheard, has_several)
 
+    def stop_sampling(self) -> None:
+        """Release the subscription that takes samples, where there is one."""
+        if self._sampler:
+            self._sampler.close()
+            self._sampler = None
+
     def _publishing_nodes(self) -> list[str]:
         infos = self._node.get_publishers_info_by_topic(self.health.topic)
         return [_name_of(info) for info in infos]
@@ -94,9 +105,7 @@ class _Topic:
     def _has_several_senders(self, *, is_sampled: bool) -> bool:
         """Say whether more than one publisher sends, from a sample of the newest messages."""
         if not is_sampled:
-            if self._sampler:
-                self._sampler.close()
-                self._sampler = None
+            self.stop_sampling()
             return False
         if self._sampler is None:
             self._senders = Senders()

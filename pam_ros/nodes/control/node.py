@@ -76,8 +76,8 @@ class PamControl(TickingNode):
         self._commanded = 0
         self._open_topics()
         self.create_service(SetBool, '~/enable', self._enable)
-        topics = watch_topics(self, self._setup, self._loop)
-        parts = {'timing': self._timing, 'control': self._control, 'topics': topics.health}
+        self._topics = watch_topics(self, self._setup, self._loop)
+        parts = {'timing': self._timing, 'control': self._control, 'topics': self._topics.health}
         self._diagnostics = Diagnostics(self, parts)
         self._given.refuse_mistyped()
         self.ticker = Ticker(self._tick_rate)
@@ -323,6 +323,10 @@ class PamControl(TickingNode):
             loop.course.set_shape(now.shape)
         if before.settings.rate != settings.rate:
             self.ticker.start(self._tick_rate, monotonic_ns())
+
+    def finish(self) -> None:
+        """Release what looks at the topics."""
+        self._topics.close()
 
     # Health --------------------------------------------------------------------------------
 

@@ -280,7 +280,7 @@ class PamExcite(TickingNode):
         settings = self._now.settings
         return max(self._pressure - settings.pressure_rate / settings.rate, 0.0)
 
-    def destroy_node(self) -> None:
+    def finish(self) -> None:
         """Vent where something is left to vent: the node was asked to stop."""
         if self._pressure > 0.0:
             try:
@@ -288,7 +288,6 @@ class PamExcite(TickingNode):
                 print('pam_excite: asked to stop, venting', file=sys.stderr, flush=True)
             finally:  # also where nobody reads any more what is printed
                 self._let_all_out()
-        super().destroy_node()
 
     def _let_all_out(self) -> None:
         while self._pressure > 0.0:

@@ -254,7 +254,7 @@ class PamRecord(TickingNode):
         else:
             print(line, flush=True)
 
-    def destroy_node(self) -> None:
+    def finish(self) -> None:
         """Close the bag and say what is in it."""
         if self._thread.is_alive():
             self._is_closing.set()
@@ -267,11 +267,8 @@ class PamRecord(TickingNode):
             self._writer.close()
         except RecordingError as error:
             self._fail(error)
-        try:
-            if self._directory.is_dir():  # a bag that was deleted has no messages any more
-                self._summarise()
-        finally:  # also where nobody reads any more what is printed
-            super().destroy_node()
+        if self._directory.is_dir():  # a bag that was deleted has no messages any more
+            self._summarise()
 
     def _fail(self, error: Exception) -> None:
         """Print once why nothing more is recorded, and end with the exit code of the reason."""

@@ -75,13 +75,14 @@ class PamSim(TickingNode):
         self.create_service(Trigger, '~/reset', self._reset)
         self.create_service(SetBool, '~/pause', self._pause)
         self.create_service(Trigger, '~/step', self._step)
+        self._topics = TopicWatch(self, watched_topics(self._simulation))
         self._diagnostics = Diagnostics(
             self,
             {
                 'timing': self._timing,
                 'commands': self._commands,
                 'contraction': ContractionReport(self, self._plant).health,
-                'topics': TopicWatch(self, watched_topics(self._simulation)).health,
+                'topics': self._topics.health,
             },
             None if self._is_followed else lambda: Time(nanoseconds=self._time.now()),
         )
@@ -359,6 +360,10 @@ class PamSim(TickingNode):
             if self._fault:
                 return False, self._fault
         return True, f'simulated {periods} periods, until {self._plant.time:.9g} s'
+
+    def finish(self) -> None:
+        """Release what looks at the topics."""
+        self._topics.close()
 
     # Health --------------------------------------------------------------------------------
 
