@@ -50,8 +50,10 @@ from pam_ros.nodes.sim.node import PamSim
 
 spin.LEAVING = 0.5
 if {is_hanging}:
-    # A library in C that waits for a lock does not let Python heed anything.
-    Node.destroy_node = lambda node: time.sleep(600.0)
+    def destroy_node(node):
+        time.sleep(600.0)
+
+    Node.destroy_node = destroy_node
 
 class Stop:
     is_made = True
