@@ -19,8 +19,8 @@ from std_msgs.msg import Float64
 from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
 from pam_ros.control.signals import TERMS
-from pam_ros.nodes.common.client import Client
-from pam_ros.nodes.common.stamps import seconds
+from pam_ros.nodes.demo.client import Client
+from pam_ros.nodes.demo.rig_log import seconds
 from pam_ros.processes.children import Program
 
 MASS, PRESSURE = 20.0, 300e3  # declared kg, Pa at the start

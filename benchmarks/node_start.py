@@ -11,7 +11,7 @@ from time import monotonic
 
 from sensor_msgs.msg import JointState
 
-from pam_ros.nodes.common.client import Client
+from pam_ros.nodes.demo.client import Client
 from pam_ros.processes.children import Program
 from pam_ros.rig.warm import warm
 

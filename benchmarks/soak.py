@@ -19,7 +19,7 @@ from time import monotonic
 import numpy as np
 from diagnostic_msgs.msg import DiagnosticArray
 
-from pam_ros.nodes.common.client import Client
+from pam_ros.nodes.demo.client import Client
 from pam_ros.processes.children import Program
 from pam_ros.recording.bag_source import open_bag
 

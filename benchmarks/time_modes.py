@@ -27,7 +27,7 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64MultiArray
 
 from benchmarks.node_rate import cpu_seconds
-from pam_ros.nodes.common.client import Client
+from pam_ros.nodes.demo.client import Client
 
 HERE = Path(__file__).parent
 CONTROLLER = HERE.parent / 'test' / 'support' / 'example_controller.py'

@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 from pam_ros.errors import RecordingError
 from pam_ros.recording.bag_decode import Topic
 from pam_ros.recording.bag_source import BagSource, Message, bag_files, open_bag
-from pam_ros.recording.cdr import FLOAT64, FLOAT64_ARRAY, FLUID_PRESSURE, JOINT_STATE, read_alike
 from pam_ros.recording.mapping import ColumnMapping, Meaning
 from pam_ros.recording.quantities import Target
 from pam_ros.recording.series import Series
@@ -26,7 +25,10 @@ _SIMULATED = 10**18  # ns: no real clock is before 2001
 _LATEST = 2**63 - 1  # ns: that ROS counts; an MCAP file can hold twice as many
 _TICK = 0.1  # s by which a simulated clock, published in ticks, may be behind a header
 
-_FLOAT = (FLOAT64, 'std_msgs/msg/Float32')
+JOINT_STATE = 'sensor_msgs/msg/JointState'
+FLUID_PRESSURE = 'sensor_msgs/msg/FluidPressure'
+FLOAT64_ARRAY = 'std_msgs/msg/Float64MultiArray'
+_FLOAT = ('std_msgs/msg/Float64', 'std_msgs/msg/Float32')
 _OUTPUTS = ('position', 'angle', 'contraction', 'force')
 _UNFILLED = ('velocity', 'angular_velocity', 'force')  # 0 where nobody fills them
 _PA, _M = Target('pressure_command', 'Pa'), Target('position', 'm')
@@ -227,24 +229,21 @@ def _samples(
         )
     received = np.array([message.stamp for message in messages], dtype=np.int64)
     topic: Topic = source.topics[fields[0].topic]
-    paths = [field.path for field in fields]
-    alike = read_alike(topic.type, paths, [message.data for message in messages])
-    if alike is not None:
-        stamped = np.zeros_like(received) if alike.stamps is None else alike.stamps
-        return _Samples(received, stamped, [alike.columns[path] for path in paths])
     getters = [_getter(path, field) for field in fields]
-    stamps, rows = [], []
-    for number, message in enumerate(messages, 1):
+    stamped = np.zeros_like(received)
+    columns = [np.empty(received.size) for _ in fields]
+    for k, message in enumerate(messages):
         try:
             content = source.decode(topic, message.data)
         except RecordingError as error:
-            where = f'{path.name}: {fields[0].topic}, message {number} of {len(messages)}'
+            where = f'{path.name}: {fields[0].topic}, message {k + 1} of {len(messages)}'
             raise RecordingError(f'{where}: {error}') from error
         stamp = getattr(getattr(content, 'header', None), 'stamp', None)
-        stamps.append(0 if stamp is None else stamp.sec * 10**9 + stamp.nanosec)
-        rows.append([get(content) for get in getters])
-    columns = np.array(rows, dtype=float).T
-    return _Samples(received, np.array(stamps, dtype=np.int64), list(columns))
+        if stamp is not None:
+            stamped[k] = stamp.sec * 10**9 + stamp.nanosec
+        for column, get in zip(columns, getters, strict=True):
+            column[k] = get(content)
+    return _Samples(received, stamped, columns)
 
 
 def _getter(path: Path, field: _Field) -> Callable[[Any], float]:
@@ -265,7 +264,7 @@ def _getter(path: Path, field: _Field) -> Callable[[Any], float]:
                 value = _element(where, message, value, index)
         if isinstance(value, (int, float)):
             return float(value)
-        return _only(where, message, value, field.asked)
+        return _only(where, message, value)
 
     return get
 
@@ -285,14 +284,15 @@ def _element(where: str, message: Any, value: Any, index: str) -> Any:
     return value[at]
 
 
-def _only(where: str, message: Any, value: Any, asked: bool) -> float:
+def _only(where: str, message: Any, value: Any) -> float:
+    """Return the one number of an array, NaN where it is empty."""
     try:
         count = len(value)
         if count == 1:
             return float(value[0])
     except (TypeError, ValueError) as error:
         raise RecordingError(f'{where} is not a number') from error
-    if count == 0 and not asked:
+    if count == 0:
         return float('nan')
     names = ', '.join(getattr(message, 'name', ())) or f'0 to {count - 1}'
     raise RecordingError(

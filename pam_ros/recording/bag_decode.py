@@ -1,8 +1,7 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Decode the messages of a rosbag2, with ROS or with the ``rosbags`` library."""
+"""Decode the messages of a rosbag2 with the ``rosbags`` library."""
 
-import importlib
 from typing import Any, NamedTuple
 
 from pam_ros.errors import RecordingError
@@ -46,7 +45,8 @@ class RosbagsDecoder:
         if not topic.definition:
             if topic.type not in self._known.fielddefs:
                 raise RecordingError(
-                    f'the bag does not define {topic.type}, and it is none of the standard types'
+                    f'the bag does not define {topic.type}, and it is none of the standard types: '
+                    'convert it to MCAP with ros2 bag convert where this type is installed'
                 )
             return self._known
         store = get_typestore(Stores.EMPTY)
@@ -57,19 +57,3 @@ class RosbagsDecoder:
         else:
             store.register(get_types_from_msg(topic.definition, topic.type))
         return store
-
-
-def decode_with_ros(topic: Topic, data: bytes) -> Any:
-    """Return the message of *topic* that *data* holds, decoded by ROS."""
-    package, *_, name = topic.type.split('/')
-    try:
-        message_type = getattr(importlib.import_module(f'{package}.msg'), name)
-    except (ImportError, AttributeError) as error:
-        raise RecordingError(
-            f'message type {topic.type} is not installed here: source the workspace that has it'
-        ) from error
-    serialization = importlib.import_module('rclpy.serialization')
-    try:
-        return serialization.deserialize_message(data, message_type)
-    except RuntimeError as error:
-        raise RecordingError(f'not a {topic.type}: {error}') from error

@@ -1,14 +1,11 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The messages of a rosbag2, whichever library is there to read them.
+"""The messages of a rosbag2, read with the ``rosbags`` library.
 
-``rosbag2_py`` comes with a ROS installation, the ``rosbags`` library from PyPI. An MCAP file
-that its recorder did not close (killed, out of power) is read up to where it ends with ``mcap``.
-With ``bag_decode`` this is the one place outside ``pam_ros.nodes`` that may import ROS, where ROS
-is there.
+An MCAP file that its recorder did not close (killed, out of power) is read up to where it ends
+with ``mcap``.
 """
 
-import importlib
 import importlib.util
 import io
 import struct
@@ -18,7 +15,7 @@ from typing import Any, NamedTuple
 
 from pam_ros.errors import ParameterError, RecordingError
 from pam_ros.plain_yaml import read_yaml
-from pam_ros.recording.bag_decode import RosbagsDecoder, Topic, decode_with_ros
+from pam_ros.recording.bag_decode import RosbagsDecoder, Topic
 
 METADATA = 'metadata.yaml'
 _MAGIC = b'\x89MCAP0\r\n'
@@ -69,24 +66,21 @@ def bag_files(path: Path) -> list[Path]:
 def open_bag(path: Path) -> BagSource:
     """Return the bag at *path* (a rosbag2 directory, or one .mcap or .db3 file of one).
 
-    Raises RecordingError where it cannot be read, or no library is there to do it.
+    Raises RecordingError where it cannot be read, or the library that reads it is missing.
     """
-    has_ros = importlib.util.find_spec('rosbag2_py') is not None
-    has_rosbags = importlib.util.find_spec('rosbags') is not None
-    if not has_ros and not has_rosbags:
+    if importlib.util.find_spec('rosbags') is None:
         raise RecordingError(
-            f'{path} is a rosbag2, and nothing here reads it: install ROS with rosbag2_py, or the '
-            'Python package rosbags'
+            f'{path} is a rosbag2: to read it, install the Python package rosbags with pip'
         )
     files = bag_files(path)
-    decode = decode_with_ros if has_ros else RosbagsDecoder()
+    decode = RosbagsDecoder()
     if any(_is_unfinished(file) for file in files):
         notes = ['the bag was not closed by its recorder: read up to where it ends']
         topics, messages = _read_unfinished(files)
         return BagSource(topics, messages, decode, notes)
     # A directory without metadata (a recorder that was killed) is read file by file.
     parts = [path] if path.is_file() or (path / METADATA).exists() else files
-    topics, messages = (_read_with_ros if has_ros else _read_with_rosbags)(path, parts)
+    topics, messages = _read_with_rosbags(path, parts)
     return BagSource(topics, messages, decode, [])
 
 
@@ -158,47 +152,6 @@ def _read_with_rosbags(path: Path, parts: list[Path]) -> Read:
         except Exception as error:
             raise _unreadable(path, error) from error
 
-    return topics, messages
-
-
-def _read_with_ros(path: Path, parts: list[Path]) -> Read:
-    rosbag2_py = importlib.import_module('rosbag2_py')
-    storages = {'.mcap': 'mcap', '.db3': 'sqlite3'}
-
-    def opened(part: Path) -> Any:
-        is_compressed = part.is_dir() and bool(_metadata(part).get('compression_mode'))
-        kind = 'SequentialCompressionReader' if is_compressed else 'SequentialReader'
-        reader = getattr(rosbag2_py, kind)()
-        try:
-            reader.open(
-                rosbag2_py.StorageOptions(
-                    uri=str(part),
-                    storage_id=storages.get(part.suffix, '') if part.is_file() else '',
-                ),
-                rosbag2_py.ConverterOptions('', ''),
-            )
-        except RuntimeError as error:
-            raise _unreadable(path, error) from error
-        return reader
-
-    def messages(wanted: Collection[str]) -> Iterator[Message]:
-        for part in parts if wanted else []:
-            reader = opened(part)
-            reader.set_filter(rosbag2_py.StorageFilter(topics=list(wanted)))
-            while True:
-                try:
-                    if not reader.has_next():
-                        break
-                    topic, data, stamp = reader.read_next()
-                except RuntimeError as error:
-                    raise _unreadable(path, error) from error
-                yield Message(topic, stamp, data)
-
-    topics = {
-        topic.name: Topic(topic.type)
-        for part in parts
-        for topic in opened(part).get_all_topics_and_types()
-    }
     return topics, messages
 
 

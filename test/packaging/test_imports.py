@@ -54,12 +54,6 @@ ALLOWED = {
     *('simple_pid', 'tqdm', 'yaml'),
     'pam_ros',
 }
-# Reads bags with ROS' own library where that is installed.
-MAY_SEE_ROS = {
-    Path('pam_ros/recording/bag_source.py'): {'rosbag2_py'},
-    Path('pam_ros/recording/bag_decode.py'): {'rclpy'},
-}
-
 
 ROOMS = [room for floor in FLOORS for room in floor]
 
@@ -133,8 +127,7 @@ def test_rooms_import_from_lower_floors():
 def test_rooms_beside_the_nodes_see_no_ros():
     for path in FILES:
         if not is_node(path):
-            allowed = ALLOWED | MAY_SEE_ROS.get(path, set())
-            assert imported(ROOT / path) - sys.stdlib_module_names <= allowed, path
+            assert imported(ROOT / path) - sys.stdlib_module_names <= ALLOWED, path
 
 
 def test_modules_of_the_nodes_import_ros_themselves():

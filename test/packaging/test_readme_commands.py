@@ -41,6 +41,7 @@ from support.pages import (
 # How commands of other programs begin: whether they are right is for their manuals.
 OF_OTHERS = (
     'colcon build',
+    'pip install --user --break-system-packages mcap rosbags',
     'python3 examples/own_controller.py',
     'ros2 bag',
     'ros2 run plotjuggler plotjuggler',

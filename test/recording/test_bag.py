@@ -208,6 +208,11 @@ def forces_as_wrenches():
             ['/chatter', 'neither'],
         ),
         ({}, [], ['neither joint_states nor force']),
+        (
+            bags.rig_topics()[0],
+            ['/joint_states.effort=force_N', '/force=ignore'],
+            ['/joint_states.effort has no values'],
+        ),
     ],
 )
 def test_what_is_refused(tmp_path, topics, rules, words):

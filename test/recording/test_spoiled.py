@@ -14,7 +14,6 @@ from hypothesis import strategies as st
 from pam_ros.errors import PamError
 from pam_ros.recording.bag import read_bag
 from pam_ros.recording.bag_decode import RosbagsDecoder, Topic
-from pam_ros.recording.cdr import read_alike
 from pam_ros.recording.csv_file import read_csv
 from pam_ros.recording.mapping import ColumnMapping, read_mapping
 from pam_ros.settings.nominal import nominal_joint
@@ -130,10 +129,5 @@ def test_bag(file, changes):
 @QUICK
 @given(changes=edits(BAG_PARTS))
 def test_messages(changes):
-    data = spoiled(JOINT, changes)
-    topic = Topic(bags.JOINT)
-    found = read_alike(topic.type, ['position'], [data, data])
     with contextlib.suppress(PamError):
-        position = DECODE(topic, data).position.tolist() or [np.nan]
-        if found is not None:
-            np.testing.assert_array_equal(found.columns['position'], [*position, *position])
+        assert DECODE(Topic(bags.JOINT), spoiled(JOINT, changes)).position.dtype == np.float64

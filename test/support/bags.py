@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 from rosbags.highlevel import AnyReader
-from rosbags.rosbag2 import StoragePlugin, Writer
+from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer
 from rosbags.typesys import Stores, get_typestore
 
 EPOCH = 1_750_000_000_000_000_000  # ns: the clock of the bags' recorder
@@ -49,9 +49,13 @@ def wrench(stamp: int, z: float):
     return TYPES[WRENCH](header(stamp), inner)
 
 
-def write_bag(path: Path, topics, plugin=StoragePlugin.MCAP) -> Path:
+def write_bag(
+    path: Path, topics, plugin=StoragePlugin.MCAP, compression=CompressionMode.NONE
+) -> Path:
     """Write ``topic -> (type, [(receive time in ns, message), ...])``; return *path*."""
-    with Writer(path, version=9, storage_plugin=plugin) as writer:
+    writer = Writer(path, version=9, storage_plugin=plugin)
+    writer.set_compression(compression, CompressionFormat.ZSTD)
+    with writer:
         for topic, (kind, messages) in topics.items():
             connection = writer.add_connection(topic, kind, typestore=STORE)
             for stamp, message in messages:

@@ -12,8 +12,8 @@ from typing import Any
 from rcl_interfaces.srv import DescribeParameters, GetParameters, SetParameters
 from rclpy.parameter import parameter_value_to_python
 
-from pam_ros.nodes.common.client import Client, parameter_messages
-from pam_ros.nodes.common.rig_log import lose_nothing
+from pam_ros.nodes.demo.client import Client, parameter_messages
+from pam_ros.nodes.demo.rig_log import lose_nothing
 from pam_ros.processes.children import PATIENCE as DEADLINE
 from pam_ros.processes.children import Program
 

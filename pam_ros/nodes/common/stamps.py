@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The stamps of messages, in ns and in s."""
+"""The stamps of messages."""
 
 from sensor_msgs.msg import FluidPressure, JointState
 
@@ -10,8 +10,3 @@ from pam_ros.timing.pace import SECOND
 def stamp_of(message: FluidPressure | JointState) -> int:
     """Return the stamp in ns."""
     return message.header.stamp.sec * SECOND + message.header.stamp.nanosec
-
-
-def seconds(message: JointState) -> float:
-    """Return the stamp of a message in s."""
-    return message.header.stamp.sec + 1e-9 * message.header.stamp.nanosec

@@ -16,8 +16,8 @@ from rclpy.duration import Duration
 from sensor_msgs.msg import JointState
 
 from pam_ros.errors import PamError
-from pam_ros.nodes.common.client import Client
-from pam_ros.nodes.common.stamps import seconds
+from pam_ros.nodes.demo.client import Client
+from pam_ros.nodes.demo.rig_log import seconds
 from pam_ros.nodes.demo.stage import Stage
 from pam_ros.processes.children import Program
 

@@ -26,7 +26,7 @@ from tqdm import tqdm
 
 from pam_ros.demo import loop
 from pam_ros.errors import PamError
-from pam_ros.nodes.common.client import Client
+from pam_ros.nodes.demo.client import Client
 from pam_ros.nodes.demo.stage import Stage
 from pam_ros.processes.children import Program
 

@@ -8,9 +8,8 @@ from std_srvs.srv import Trigger
 
 from pam_ros.demo import paper
 from pam_ros.demo.run import PublishedRun
-from pam_ros.nodes.common.client import Client
-from pam_ros.nodes.common.rig_log import RigLog, lose_nothing
-from pam_ros.nodes.common.stamps import seconds
+from pam_ros.nodes.demo.client import Client
+from pam_ros.nodes.demo.rig_log import RigLog, lose_nothing, seconds
 from pam_ros.nodes.demo.stage import Stage, hold_pressure
 from pam_ros.processes.children import Program
 from pam_ros.settings.load import load_joint

@@ -10,7 +10,7 @@ from pathlib import Path
 from std_msgs.msg import Float64
 from tqdm import tqdm
 
-from pam_ros.nodes.common.client import Client
+from pam_ros.nodes.demo.client import Client
 
 COMMAND_PERIOD = 0.02  # s
 

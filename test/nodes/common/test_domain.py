@@ -65,7 +65,7 @@ while True:
 LISTEN = """
 import sys
 from sensor_msgs.msg import JointState
-from pam_ros.nodes.common.client import Client
+from pam_ros.nodes.demo.client import Client
 
 with Client() as client:
     states = client.collect(JointState, 'joint_states')

@@ -12,7 +12,7 @@ pytestmark = [pytest.mark.at_any_pace, pytest.mark.usefixtures('domain')]
 CLIENT = """
 import os, signal, sys
 from std_msgs.msg import Float64
-from pam_ros.nodes.common.client import Client
+from pam_ros.nodes.demo.client import Client
 from pam_ros.processes.interrupts import heed
 
 class Lost:

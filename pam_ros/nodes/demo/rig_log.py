@@ -8,12 +8,16 @@ from std_msgs.msg import Float64
 
 from pam_ros.demo.run import PublishedRun
 from pam_ros.errors import PamError
-from pam_ros.nodes.common.client import Client
-from pam_ros.nodes.common.stamps import seconds
+from pam_ros.nodes.demo.client import Client
 
 TOPICS = ('joint_states', 'pressure', 'force', 'stiffness', 'damping')
 HISTORY = 5000  # messages that the simulator keeps for a late subscriber: 10 s at 500 Hz
 QUIET = 0.3  # s without a message after which none is under way any more
+
+
+def seconds(message: JointState) -> float:
+    """Return the stamp of a message in s."""
+    return float(message.header.stamp.sec + 1e-9 * message.header.stamp.nanosec)
 
 
 def lose_nothing(namespace: str = '') -> dict[str, int]:

@@ -11,8 +11,8 @@ from rclpy.task import Future
 from std_srvs.srv import SetBool, Trigger
 
 from pam_ros.errors import PamError
-from pam_ros.nodes.common import client as client_module
-from pam_ros.nodes.common.client import Client
+from pam_ros.nodes.demo import client as client_module
+from pam_ros.nodes.demo.client import Client
 
 pytestmark = [pytest.mark.at_any_pace, pytest.mark.usefixtures('domain')]
 
