@@ -77,7 +77,7 @@ def panels(curves: Curves, unit: str, end: float, columns: int | None = None) ->
         if not own or (panel == 'effort' and has_force):
             continue
         measured = [key.column for key in own if not TOPICS[key.topic].is_set_point]
-        own.sort(key=lambda key: (not TOPICS[key.topic].is_set_point, _number(key, [])))
+        own.sort(key=_order)
         lines = [_line(key, curves, measured, end, columns) for key in own]
         made.append(Panel(title, lines))
     return made
@@ -94,6 +94,12 @@ def _line(key: Key, curves: Curves, measured: list[str], end: float, columns: in
     is_held = use.is_set_point and key.topic != 'pam_control/state'
     name = name_of(key, curves.muscles)
     return Line(name, _number(key, measured), use.is_set_point, is_held, t, value)
+
+
+def _order(key: Key) -> tuple[bool, int, int]:
+    """Return by what lines are sorted: set-points first, then topics, then muscles."""
+    topics = list(TOPICS)
+    return not TOPICS[key.topic].is_set_point, topics.index(key.topic), _number(key, [])
 
 
 def _number(key: Key, measured: list[str]) -> int:
