@@ -98,7 +98,7 @@ def _run(options: Options) -> None:
         return
     from pam_ros.plot.server import PageServer, content
 
-    made = content(drawn, found.start, found.end, is_live=False)
+    made = content(drawn, found.start, found.end, found.end, is_live=False)
     server = PageServer(lambda: made, options.port)
     try:
         server.start()

@@ -8,6 +8,7 @@ COLOURS = (
     *('#0b62a8', '#c8500a', '#007a5a', '#9c4f83'),
     *('#8a6d00', '#3a8fc4', '#59636e', '#000000'),
 )
+GREY = 6  # for what is of no joint and no muscle
 
 
 def colour(number: int) -> str:

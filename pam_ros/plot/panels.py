@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from pam_ros.plot.colours import GREY
 from pam_ros.plot.topics import TOPICS, Key
 
 Array = NDArray[np.float64]
@@ -104,6 +105,8 @@ def _order(key: Key) -> tuple[bool, int, int]:
 
 def _number(key: Key, measured: list[str]) -> int:
     """Return the place of a muscle, or of a joint among those *measured*."""
+    if key.topic == 'position_reference':
+        return GREY
     if key.column.isdecimal():
         return int(key.column)
     return measured.index(key.column) if key.column in measured else 0

@@ -171,8 +171,7 @@ def _read_csv(path: Path, mapping: ColumnMapping) -> Recorded:
     if not drawn:
         raise RecordingError(
             f'{path.name} has no column that is drawn, such as position_mm or pressure_kPa: it '
-            'has '
-            + ', '.join(header)
+            'has ' + ', '.join(header)
         )
     origin = min(float(one.t[0]) for one in drawn.values())
     samples = {key: _finite(one.t - origin, one.value) for key, one in drawn.items()}

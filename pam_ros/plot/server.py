@@ -32,15 +32,22 @@ _HEADERS = {
 
 
 def content(
-    panels: Sequence[Panel], start: float, end: float, *, note: str = '', is_live: bool = True
+    panels: Sequence[Panel],
+    start: float,
+    end: float,
+    now: float,
+    *,
+    note: str = '',
+    is_live: bool = True,
 ) -> dict[str, Any]:
-    """Return what the page draws, for JSON: the axis of time in s, a note, and the *panels*.
+    """Return what the page draws, for JSON: the axis of time, the present time, a note, *panels*.
 
-    A gap in a line is None.
+    Times are in s. A gap in a line is None.
     """
     return {
         'start': start,
         'end': end,
+        'now': now,
         'note': note,
         'live': is_live,
         'panels': [

@@ -22,7 +22,7 @@ def server():
     value = np.array([1.0, 2.0, 3.0, 1.0 / 3.0, 5.0])
     samples = {Key('force', 'force'): (np.concatenate([t, [30.0]]), np.append(value, 6.0))}
     made = panels(Curves(samples), 'm', 30.0)
-    server = PageServer(lambda: content(made, 10.0, 30.0, note='a note'))
+    server = PageServer(lambda: content(made, 10.0, 30.0, 29.0, note='a note'))
     server.start()
     yield server
     server.close()
@@ -56,7 +56,12 @@ def test_the_numbers(server):
     assert headers['Content-Type'] == 'application/json'
     assert 'Access-Control-Allow-Origin' not in headers
     found = json.loads(body)
-    assert (found['start'], found['end'], found['note']) == (10.0, 30.0, 'a note')
+    assert [found[name] for name in ('start', 'end', 'now', 'note')] == [
+        10.0,
+        30.0,
+        29.0,
+        'a note',
+    ]
     assert found['live'] is True
     (panel,) = found['panels']
     assert panel['title'] == 'force, N'

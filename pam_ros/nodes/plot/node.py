@@ -149,11 +149,12 @@ class PamPlot(TickingNode):
 
     def _look(self) -> dict[str, Any]:
         """Return what the page draws now."""
-        end = self._end()
-        drawn = panels(self._history.curves(end), self._options.unit, end)
+        now, span = self._end(), self._options.seconds
+        drawn = panels(self._history.curves(now), self._options.unit, now)
         with self._lock:
             note = self._note
-        return content(drawn, end - self._options.seconds, end, note=note)
+        start = max(now - span, 0.0)
+        return content(drawn, start, start + span, now, note=note)
 
     def _draw(self, start: float, end: float) -> None:
         """Write the PNG file, and end."""

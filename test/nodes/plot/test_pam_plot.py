@@ -104,7 +104,9 @@ def test_ctrl_c_draws_what_was_received(peer, tmp_path):
 
 def test_nothing_published_is_one_sentence(tmp_path):
     png = tmp_path / 'rig.png'
-    with Program('pam_plot', '-r', '__ns:=/arm', '--', '--png', str(png), '--wait', '1') as program:
+    with Program(
+        'pam_plot', '-r', '__ns:=/arm', '--', '--png', str(png), '--wait', '1'
+    ) as program:
         assert program.wait() == 2
         last = program.output.splitlines()[-1]
     assert last.startswith('pam_plot: nothing was received for 1 s: no node publishes ')
@@ -145,7 +147,7 @@ def test_time_is_that_of_clock_where_it_is_simulated(peer):
             clock.publish(now)
             states.publish(JointState(name=['knee'], position=[0.5]))
             found = data_of(address)
-            return found if found['panels'] and found['end'] == seconds - since else None
+            return found if found['panels'] and found['now'] == seconds - since else None
 
         peer.until(lambda: shows(100, 100), 'the first state')
         peer.until(lambda: shows(107, 100), 'a later one')
