@@ -126,7 +126,7 @@ def test_a_file_is_written_completely_or_not_at_all(tmp_path):
     assert pixels[..., :3].min() < 0.5  # lines on white
     assert list(tmp_path.iterdir()) == [tmp_path / 'rig.png']
     (tmp_path / 'taken.png').mkdir()
-    with pytest.raises(PamError, match='taken.png cannot be written'):
+    with pytest.raises(PamError, match=r'taken\.png cannot be written'):
         save(drawn, tmp_path / 'taken.png')
     with pytest.raises(PamError, match='cannot be written'):
         save(drawn, tmp_path / 'nowhere' / 'rig.png')
