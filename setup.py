@@ -9,7 +9,15 @@ from setuptools import find_packages, setup
 PACKAGE = 'pam_ros'
 
 # Each program is the module of its name in pam_ros/cli/, with a function main().
-PROGRAMS = ['pam_control', 'pam_demo', 'pam_excite', 'pam_identify', 'pam_record', 'pam_sim']
+PROGRAMS = [
+    'pam_control',
+    'pam_demo',
+    'pam_excite',
+    'pam_identify',
+    'pam_plot',
+    'pam_record',
+    'pam_sim',
+]
 
 
 def shared(folder: str, pattern: str = '**/*') -> list[tuple[str, list[str]]]:
@@ -31,7 +39,7 @@ setup(
     maintainer_email='pam_ros@example.org',
     license='Apache-2.0',
     packages=find_packages(include=[PACKAGE, f'{PACKAGE}.*']),
-    package_data={PACKAGE: ['py.typed', '**/*.j2']},
+    package_data={PACKAGE: ['py.typed', '**/*.html', '**/*.j2']},
     data_files=[
         ('share/ament_index/resource_index/packages', [f'resource/{PACKAGE}']),
         (f'share/{PACKAGE}', ['package.xml']),

@@ -32,6 +32,7 @@ NAVIGATION = {
     'Programs': (
         'docs/simulator',
         'docs/controller',
+        'docs/plot',
         'docs/recordings',
         'docs/identification',
         'docs/report',

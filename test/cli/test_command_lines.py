@@ -21,6 +21,7 @@ GOOD = 0.6  # share of the parameters that have their default
 NODES = {
     'pam_sim': {name: entry[1] for name, entry in Scene({}).table().items()},
     'pam_control': {name: entry[1] for name, entry in settings_of({})[0].items()},
+    'pam_plot': {'use_sim_time': False},
     'pam_record': {'use_sim_time': False},
     'pam_excite': {'rate': 100.0, 'silence': 0.5, 'muscle': ''},
 }

@@ -14,9 +14,9 @@ import pam_ros
 
 SETUP = Path(__file__).parents[2] / 'setup.py'
 PROGRAMS = next(
-    ast.literal_eval(line.partition('=')[2].strip())
-    for line in SETUP.read_text().splitlines()
-    if line.startswith('PROGRAMS =')
+    ast.literal_eval(statement.value)
+    for statement in ast.parse(SETUP.read_text()).body
+    if isinstance(statement, ast.Assign) and ast.unparse(statement.targets[0]) == 'PROGRAMS'
 )
 # Whatever imports ROS or starts it would fail where there is none.
 WITHOUT_ROS = """

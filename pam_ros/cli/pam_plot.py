@@ -1,0 +1,114 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""``pam_plot``: draw what a rig does, as a page for a browser or as a PNG file.
+
+Position and reference, commanded and measured pressure, force, stiffness and damping, one below
+the other on a common time axis. In SI units, with the names of the joints and muscles; pressures
+are gauge pressures.
+
+Subscribes, best effort
+    ``joint_states``, ``pressure_command``, ``pressure``, ``force``, ``stiffness``, ``damping``,
+    of joints ``pressure_commands``, ``pressures``, ``forces``, ``stiffnesses``, ``dampings``,
+    and ``position_reference`` and ``pam_control/state``
+
+Without an option it prints the address of a page on this machine (127.0.0.1) that shows the last
+20 s, until Ctrl-C. With ``--png FILE`` it draws ``--seconds`` from the first message on and ends.
+``--bag PATH`` draws a recording, without ROS. Exit code 0 at the end and after Ctrl-C, 2 for
+invalid input, and where ``--png`` received nothing.
+"""
+
+import argparse
+import sys
+from threading import Event
+
+from pam_ros.cli.help_text import help_text
+from pam_ros.cli.start import start_node
+from pam_ros.errors import PamError, shown
+from pam_ros.plot.options import Options, add_arguments, checked
+from pam_ros.processes.ends import ignore_ends
+from pam_ros.processes.interrupts import heed
+from pam_ros.processes.outputs import guard_outputs
+from pam_ros.version import VERSION_HELP, VERSION_LINE
+
+BAD_INPUT, INTERRUPTED = 2, 130
+COLUMNS = 1000  # of time that a recording is thinned to: as many as a plot has pixels
+
+
+def main() -> None:
+    """Draw a rig until a signal asks for the end, or a recording."""
+    own = _own(sys.argv[1:])
+    if any(word in ('-h', '--help', '--bag') or word.startswith('--bag=') for word in own):
+        _draw_recording(own)
+    else:
+        start_node('pam_ros.nodes.plot.node', 'PamPlot', __doc__)
+
+
+def _own(arguments: list[str]) -> list[str]:
+    """Return the arguments that are not for ROS, which are between --ros-args and --."""
+    own, is_ros = [], False
+    for word in arguments:
+        if word == '--ros-args':
+            is_ros = True
+        elif is_ros:
+            is_ros = word != '--'
+        else:
+            own.append(word)
+    return own
+
+
+def _draw_recording(arguments: list[str]) -> None:
+    """Draw what --bag names, without ROS; exit with the program's code."""
+    heed()
+    guard_outputs()
+    parser = argparse.ArgumentParser(
+        prog='pam_plot',
+        description=help_text(__doc__),
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        epilog='All else is given with --ros-args: see the manual of ROS 2.',
+    )
+    parser.add_argument('--version', action='version', version=VERSION_LINE, help=VERSION_HELP)
+    add_arguments(parser)
+    try:
+        _run(checked(parser.parse_args(arguments)))
+    except PamError as error:
+        print(f'pam_plot: {error}', file=sys.stderr)
+        sys.exit(BAD_INPUT)
+    except KeyboardInterrupt:
+        print('pam_plot: interrupted, nothing was drawn', file=sys.stderr)
+        sys.exit(INTERRUPTED)
+    finally:
+        ignore_ends()
+
+
+def _run(options: Options) -> None:
+    from pam_ros.plot.panels import panels
+    from pam_ros.plot.recorded import read
+    from pam_ros.recording.mapping import read_mapping
+
+    assert options.bag is not None
+    found = read(options.bag, options.namespace, read_mapping(options.columns))
+    for note in found.notes:
+        print(shown(f'{options.bag.name}: {note}'), file=sys.stderr)
+    drawn = panels(found.curves, options.unit or found.unit, found.end, COLUMNS)
+    if options.png is not None:
+        from pam_ros.plot.figure import figure, save
+
+        save(figure(drawn, found.start, found.end), options.png)
+        print(shown(f'wrote {options.png}'))
+        return
+    from pam_ros.plot.server import PageServer, content
+
+    made = content(drawn, found.start, found.end, found.end, is_live=False)
+    server = PageServer(lambda: made, options.port)
+    try:
+        server.start()
+        print(f'open {server.address} in a browser; Ctrl-C ends it', flush=True)
+        Event().wait()
+    except KeyboardInterrupt:
+        pass
+    finally:
+        server.close()
+
+
+if __name__ == '__main__':
+    main()

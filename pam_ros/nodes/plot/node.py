@@ -1,0 +1,192 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The node of ``pam_plot``: receives the topics of a rig, and draws them."""
+
+import argparse
+import sys
+from functools import partial
+from threading import Lock
+from time import monotonic_ns
+from typing import Any
+
+from rclpy.qos import QoSProfile, ReliabilityPolicy
+from sensor_msgs.msg import FluidPressure, JointState
+from std_msgs.msg import Float64, Float64MultiArray
+
+from pam_ros.errors import PamError, shown
+from pam_ros.health.absence import Absence
+from pam_ros.nodes.common.spin import BAD_INPUT, TickingNode
+from pam_ros.plot.history import History
+from pam_ros.plot.options import Options, add_arguments, checked
+from pam_ros.plot.panels import panels
+from pam_ros.plot.server import PageServer, content
+from pam_ros.plot.topics import TOPICS, muscles_of, numbers
+from pam_ros.recording.cdr import FLOAT64, FLOAT64_ARRAY, FLUID_PRESSURE, JOINT_STATE
+from pam_ros.timing.pace import SECOND
+from pam_ros.timing.ticker import Ticker
+
+KINDS = {
+    FLOAT64: Float64,
+    FLOAT64_ARRAY: Float64MultiArray,
+    FLUID_PRESSURE: FluidPressure,
+    JOINT_STATE: JointState,
+}
+LOOK = 5.0  # Hz, for what is missing
+SILENCE = 3.0  # s without a message that the user is told of
+KEPT = 100  # messages of a topic while this program is busy: what is lost is not drawn
+BACK = 1.0  # s that time goes back by where it begins again; less is messages out of order
+
+
+class PamPlot(TickingNode):
+    """The node; its name is hidden, so that no program takes it for a part of the rig."""
+
+    def __init__(self, options: Options) -> None:
+        """Subscribe, and listen on the page's port if there is to be one."""
+        super().__init__('_pam_plot')
+        self._options = options
+        self._history = History(options.seconds)
+        self._is_simulated = bool(self.get_parameter('use_sim_time').value)
+        self._lock = Lock()  # of the following, which the page asks for from other threads
+        self._origin: int | None = None  # ns, of the first message
+        self._latest = 0  # ns
+        self._note = ''
+        self._begun = self._heard = monotonic_ns()
+        self._has_drawn = False
+        self._absence = Absence(self.get_logger(), 'receives messages', patience=SILENCE)
+        self._server = PageServer(self._look, options.port) if options.png is None else None
+        # Best effort is compatible with every publisher, and none has to wait for this program.
+        quality = QoSProfile(depth=KEPT, reliability=ReliabilityPolicy.BEST_EFFORT)
+        for topic, use in TOPICS.items():
+            self.create_subscription(KINDS[use.kind], topic, partial(self._take, topic), quality)
+        self.ticker = Ticker(LOOK)
+
+    @classmethod
+    def add_arguments(cls, parser: argparse.ArgumentParser) -> None:
+        """Add the options of the command line."""
+        add_arguments(parser)
+
+    @classmethod
+    def of_arguments(cls, arguments: argparse.Namespace) -> 'PamPlot':
+        """Make the node that the command line asks for."""
+        return cls(checked(arguments))
+
+    def start(self) -> None:
+        """Serve the page, and say where it is."""
+        super().start()
+        self._begun = self._heard = monotonic_ns()
+        if self._server:
+            self._server.start()
+            print(f'open {self._server.address} in a browser; Ctrl-C ends it', flush=True)
+
+    # What is received ----------------------------------------------------------------------
+
+    def _take(self, topic: str, message: Any) -> None:
+        """Keep the numbers of a message, at the time of its receipt."""
+        self._heard = monotonic_ns()
+        now = self.get_clock().now().nanoseconds
+        if now == 0:
+            return  # simulated time, of which nothing is known yet
+        with self._lock:
+            if self._origin is None or now < self._latest - BACK * SECOND:
+                self._history.clear()
+                self._origin = self._latest = now
+            self._latest = max(self._latest, now)
+            t = (now - self._origin) / SECOND
+        self._history.name_muscles(muscles_of(topic, message))
+        for key, value in numbers(topic, message):
+            self._history.add(key, t, value)
+
+    def tick(self) -> None:
+        """Look for what is missing; end where a PNG is complete, or nothing was received."""
+        now = monotonic_ns()
+        has_time = not self._is_simulated or self.get_clock().now().nanoseconds > 0
+        is_silent = self._heard == self._begun or now - self._heard > SILENCE * SECOND
+        missing = self._missing() if is_silent or not has_time else ''
+        self._absence.look(missing, now / SECOND)
+        with self._lock:
+            self._note = missing if now - self._heard > SILENCE * SECOND or not has_time else ''
+            origin = self._origin
+        options = self._options
+        if options.png is None:
+            return
+        if origin is None:
+            if now - self._begun > options.wait * SECOND:
+                self._fail(f'nothing was received for {options.wait:g} s: {self._missing()}')
+        elif self._end() >= options.seconds:
+            self._draw(0.0, options.seconds)
+
+    def _missing(self) -> str:
+        """Return the sentence on what keeps this program from drawing."""
+        if self._is_simulated and self.get_clock().now().nanoseconds == 0:
+            return 'use_sim_time is set, and nothing is published on /clock'
+        other = []
+        has_publisher = False
+        for topic, use in TOPICS.items():
+            for info in self.get_publishers_info_by_topic(self.resolve_topic_name(topic)):
+                has_publisher = has_publisher or info.topic_type == use.kind
+                if info.topic_type != use.kind:
+                    name = self.resolve_topic_name(topic)
+                    other.append(f'{name} is {info.topic_type}, not {use.kind}')
+        if has_publisher:
+            return 'no message is received, although topics of the rig have publishers'
+        if other:
+            return f'no topic of the rig has the type that is drawn: {", ".join(other)}'
+        states = self.resolve_topic_name('joint_states')
+        return (
+            f'no node publishes {states} or another topic of a rig: start pam_sim or the rig, or '
+            'give its namespace with --ros-args -r __ns:=/NAMESPACE'
+        )
+
+    # What is drawn -------------------------------------------------------------------------
+
+    def _end(self) -> float:
+        """Return the present time in s since the first message."""
+        with self._lock:
+            if self._origin is None:
+                return 0.0
+            now = max(self.get_clock().now().nanoseconds, self._latest)
+            return (now - self._origin) / SECOND
+
+    def _look(self) -> dict[str, Any]:
+        """Return what the page draws now."""
+        now, span = self._end(), self._options.seconds
+        drawn = panels(self._history.curves(now), self._options.unit, now)
+        with self._lock:
+            note = self._note
+        start = max(now - span, 0.0)
+        return content(drawn, start, start + span, now, note=note)
+
+    def _draw(self, start: float, end: float) -> None:
+        """Write the PNG file, and end."""
+        # Later than the node's start: it takes half a second.
+        from pam_ros.plot.figure import figure, save
+
+        png = self._options.png
+        assert png is not None
+        self._has_drawn = True
+        self.exit_code = 0
+        drawn = panels(self._history.curves(end), self._options.unit, end)
+        if not drawn:
+            self._fail(f'{png} is not written: no finite number was received')
+            return
+        try:
+            save(figure(drawn, start, end), png)
+        except PamError as error:
+            self._fail(str(error))
+            return
+        print(shown(f'wrote {png}'), flush=True)
+
+    def _fail(self, sentence: str) -> None:
+        self.exit_code = BAD_INPUT
+        print(f'pam_plot: {shown(sentence)}', file=sys.stderr)
+
+    def destroy_node(self) -> None:
+        """Close the page, or draw what was received until a signal asked for the end."""
+        if self._server:
+            self._server.close()
+        elif self.exit_code is None:
+            if self._origin is None:
+                self._fail(f'{self._options.png} is not written: nothing was received yet')
+            else:
+                self._draw(0.0, max(self._end(), 1e-3))
+        super().destroy_node()

@@ -1,0 +1,130 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""What the command line of ``pam_plot`` asks for."""
+
+import argparse
+from dataclasses import dataclass
+from math import isfinite
+from pathlib import Path
+
+from pam_ros.errors import PamError
+from pam_ros.plot.panels import UNITS
+
+PAGE_SECONDS, PNG_SECONDS, WAIT = 20.0, 10.0, 10.0
+SHORTEST, LONGEST = 0.5, 3600.0  # s
+PORTS = 65535
+
+
+@dataclass(frozen=True)
+class Options:
+    """The options, checked; ``png`` is None for a page, ``bag`` for a rig that is running.
+
+    ``seconds`` is the length of the axis of time, ``wait`` how long a PNG waits for the first
+    message, both in s. ``unit`` is m, rad or unknown ''.
+    """
+
+    png: Path | None
+    seconds: float
+    wait: float
+    port: int
+    unit: str
+    bag: Path | None
+    namespace: str | None
+    columns: tuple[str, ...]
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the options to *parser*."""
+    # Whether --bag is given is looked up before a parser is made.
+    parser.allow_abbrev = False
+    parser.add_argument(
+        '--png', type=Path, metavar='FILE', help='write a PNG file instead of serving a page'
+    )
+    parser.add_argument(
+        '--seconds',
+        type=float,
+        metavar='S',
+        help=f'length of the time axis, {SHORTEST:g} to {LONGEST:g} s (default: '
+        f'{PAGE_SECONDS:g} of a page, {PNG_SECONDS:g} of a PNG file)',
+    )
+    parser.add_argument(
+        '--wait',
+        type=float,
+        metavar='S',
+        help=f'how long --png waits for the first message (default: {WAIT:g} s)',
+    )
+    parser.add_argument(
+        '--port', type=int, metavar='N', help='port of the page (default: any that is free)'
+    )
+    parser.add_argument(
+        '--unit', choices=UNITS, help='unit of positions, for the titles: messages do not say it'
+    )
+    parser.add_argument(
+        '--bag',
+        type=Path,
+        metavar='PATH',
+        help='draw a recording, a rosbag2 or a CSV file, instead of a rig that is running',
+    )
+    parser.add_argument('--namespace', help='the rig to take from a bag that holds several')
+    parser.add_argument(
+        '--column',
+        action='append',
+        default=[],
+        metavar='SOURCE=TARGET',
+        help='what a column of a CSV file means, as for pam_identify',
+    )
+
+
+def checked(given: argparse.Namespace) -> Options:
+    """Return the options of a command line.
+
+    Raises PamError, with the sentence for the user, for options that cannot be used or that do not
+    fit together.
+    """
+    _refuse_together(given)
+    seconds = PAGE_SECONDS if given.png is None else PNG_SECONDS
+    options = Options(
+        given.png,
+        seconds if given.seconds is None else given.seconds,
+        WAIT if given.wait is None else given.wait,
+        given.port or 0,
+        given.unit or '',
+        given.bag,
+        given.namespace,
+        tuple(given.column),
+    )
+    for name, value in (('--seconds', options.seconds), ('--wait', options.wait)):
+        if not (isfinite(value) and SHORTEST <= value <= LONGEST):
+            raise PamError(f'{name} {value:g} is not allowed: give {SHORTEST:g} to {LONGEST:g} s')
+    if not 0 <= options.port <= PORTS:
+        raise PamError(f'--port {options.port} is not allowed: give 1 to {PORTS}')
+    if options.png is not None:
+        _check_file(options.png)
+    return options
+
+
+def _refuse_together(given: argparse.Namespace) -> None:
+    for option, value, other, is_other, reason in (
+        ('--port', given.port, '--png', given.png, 'a PNG file has no page'),
+        ('--seconds', given.seconds, '--bag', given.bag, 'a recording is drawn from end to end'),
+        ('--wait', given.wait, '--bag', given.bag, 'a recording is there at once'),
+    ):
+        if value is not None and is_other is not None:
+            raise PamError(f'{option} is not allowed with {other}: {reason}')
+    if given.wait is not None and given.png is None:
+        raise PamError('--wait is for --png: a page waits until it is ended')
+    for option, value in (('--namespace', given.namespace), ('--column', given.column)):
+        if value and given.bag is None:
+            raise PamError(
+                f'{option} is for --bag; a rig that is running is chosen with '
+                '--ros-args -r __ns:=/NAMESPACE'
+            )
+
+
+def _check_file(path: Path) -> None:
+    if path.suffix.lower() != '.png':
+        raise PamError(f'--png {path} is not allowed: give a name that ends in .png')
+    if path.is_dir():
+        raise PamError(f'--png {path} is a folder: give the path of a file')
+    if not path.parent.is_dir():
+        raise PamError(f'--png {path} cannot be written: there is no folder {path.parent}')
