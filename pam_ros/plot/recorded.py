@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The curves of a bag or of a CSV file."""
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -14,13 +13,11 @@ from pam_ros.plot.panels import Curves
 from pam_ros.plot.topics import TOPICS, Key, muscles_of, numbers
 from pam_ros.recording.bag_decode import Topic
 from pam_ros.recording.bag_source import BagSource, Message, open_bag
-from pam_ros.recording.cdr import FLOAT64, FLOAT64_ARRAY, FLUID_PRESSURE, read_alike
 from pam_ros.recording.csv_file import read_csv
 from pam_ros.recording.mapping import ColumnMapping
 from pam_ros.recording.read import BAG_SUFFIXES
 
 Array = NDArray[np.float64]
-_SINGLE = {FLOAT64: 'data', FLUID_PRESSURE: 'fluid_pressure'}
 # Columns of a CSV file by the topic that has the same quantity.
 _COLUMNS = {
     'position': ('position', 'joint_states'),
@@ -128,32 +125,11 @@ def _of_topic(
 ) -> dict[Key, tuple[Array, Array]]:
     """Return the curves of one topic."""
     stamps = np.array([message.stamp - origin for message in messages], dtype=float) * 1e-9
-    alike = _of_alike(path, source, name, messages)
-    if alike is not None:
-        return {key: _finite(stamps, value) for key, value in alike.items()}
     rows: dict[Key, list[tuple[float, float]]] = {}
     for i, t in enumerate(stamps):
         for key, value in numbers(name, _decoded(path, source, messages, i)):
             rows.setdefault(key, []).append((t, value))
     return {key: _finite(*np.array(own).T) for key, own in rows.items()}
-
-
-def _of_alike(
-    path: Path, source: BagSource, name: str, messages: list[Message]
-) -> Mapping[Key, Array] | None:
-    """Return the values of messages that differ in their numbers alone, much faster."""
-    use = TOPICS[name]
-    if use.kind in _SINGLE:
-        keys = {_SINGLE[use.kind]: Key(use.panel, name)}
-    elif use.kind == FLOAT64_ARRAY:
-        first = numbers(name, _decoded(path, source, messages, 0))
-        keys = {f'data[{key.column}]': key for key, _ in first}
-    else:
-        return None
-    found = read_alike(use.kind, list(keys), [message.data for message in messages])
-    if found is None:
-        return None
-    return {key: found.columns[field] + use.offset for field, key in keys.items()}
 
 
 def _finite(t: Array, value: Array) -> tuple[Array, Array]:

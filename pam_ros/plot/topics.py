@@ -8,8 +8,13 @@ Messages may come from ROS or from a library that reads bags: their fields have 
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
-from pam_ros.recording.bag import ATMOSPHERE
-from pam_ros.recording.cdr import FLOAT64, FLOAT64_ARRAY, FLUID_PRESSURE, JOINT_STATE
+from pam_ros.recording.bag import (
+    ATMOSPHERE,
+    FLOAT64,
+    FLOAT64_ARRAY,
+    FLUID_PRESSURE,
+    JOINT_STATE,
+)
 
 MOST_COLUMNS = 32  # of one message that are drawn: more cannot be told apart
 REFERENCE = 'reference'  # the term of the controller's state that is drawn

@@ -21,7 +21,7 @@ from pam_ros.plot.options import Options, add_arguments, checked
 from pam_ros.plot.panels import panels
 from pam_ros.plot.server import PageServer, content
 from pam_ros.plot.topics import TOPICS, muscles_of, numbers
-from pam_ros.recording.cdr import FLOAT64, FLOAT64_ARRAY, FLUID_PRESSURE, JOINT_STATE
+from pam_ros.recording.bag import FLOAT64, FLOAT64_ARRAY, FLUID_PRESSURE, JOINT_STATE
 from pam_ros.timing.pace import SECOND
 from pam_ros.timing.ticker import Ticker
 
@@ -180,7 +180,7 @@ class PamPlot(TickingNode):
         self.exit_code = BAD_INPUT
         print(f'pam_plot: {shown(sentence)}', file=sys.stderr)
 
-    def destroy_node(self) -> None:
+    def finish(self) -> None:
         """Close the page, or draw what was received until a signal asked for the end."""
         if self._server:
             self._server.close()
@@ -189,4 +189,3 @@ class PamPlot(TickingNode):
                 self._fail(f'{self._options.png} is not written: nothing was received yet')
             else:
                 self._draw(0.0, max(self._end(), 1e-3))
-        super().destroy_node()
