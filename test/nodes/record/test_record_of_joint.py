@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64MultiArray
+from std_srvs.srv import SetBool
 
 from pam_ros.nodes.record.node import OF_JOINTS, OF_MUSCLE, missing_topics
 from pam_ros.recording.read import read_recording
@@ -29,6 +30,16 @@ def test_the_bag_of_a_joint_is_a_recording_of_it(peer, tmp_path):
     ):
         publisher = peer.node.create_publisher(Float64MultiArray, 'pressure_commands', 10)
         peer.until(lambda: publisher.get_subscription_count() == 2, 'both programs')
+        # A topic that the recorder finds late misses the beginning, and is no signal then.
+        peer.call(SetBool, 'pam_sim/pause', data=True)
+        for topic, subscribers in (('joint_states', 2), ('pressures', 1)):
+            peer.until(
+                lambda topic=topic, subscribers=subscribers: (
+                    peer.node.count_subscribers(topic) == subscribers
+                ),
+                f'the recorder of {topic}',
+            )
+        peer.call(SetBool, 'pam_sim/pause', data=False)
         ends = []
         for command in COMMANDS:
             angle = equilibrium(nominal.joint, command)
