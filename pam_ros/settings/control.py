@@ -36,6 +36,7 @@ from pam_ros.settings.tables import Table, Values, build, table_of
 MEASURED = 'use_measured_velocity'  # a gain that velocity_source stands for
 TRIALS = 3  # commands of a law that must be finite
 LEAST_PERIODS = 3  # of rate that the rig must go on with the last command
+LONGEST_SILENCE = 1.0  # s after which a controller starts again if its rig holds the last command
 NAMES = ('muscles', 'joint_names', 'muscle_topics')  # which pam_sim has, too
 
 
@@ -79,10 +80,11 @@ class ControlSettings:
     )
     command_timeout: float = parameter_field(
         1.0,
-        'how long the rig goes on with the last command: after a longer silence of its own the '
-        'controller starts again from the present state',
+        'how long the rig goes on with the last command before it vents; 0: for ever. After a '
+        'longer silence of its own (with 0: than 1 s) the controller starts again from the '
+        'present state',
         's',
-        low=0.01,
+        low=0.0,
         high=3600.0,
     )
     pressure_wait: float = parameter_field(
@@ -115,11 +117,16 @@ class ControlSettings:
     def __post_init__(self) -> None:
         """Check every field."""
         check_all(self)
-        if self.command_timeout * self.rate < LEAST_PERIODS:
+        if 0.0 < self.command_timeout * self.rate < LEAST_PERIODS:
             raise ParameterError(
                 f'command_timeout {self.command_timeout:g} s is less than {LEAST_PERIODS} periods '
                 f'of rate {self.rate:g} Hz: the rig would not wait for the next command'
             )
+
+    @property
+    def longest_silence(self) -> float:
+        """Silence of its own in s after which the controller starts again."""
+        return self.command_timeout or LONGEST_SILENCE
 
 
 class ControlParameters(RigParameters):

@@ -10,7 +10,7 @@ from std_msgs.msg import Float64
 from std_srvs.srv import SetBool
 from trajectory_msgs.msg import JointTrajectory
 
-from pam_ros.control.loop import BLIND, RUNNING, VENT, WAITING, Loop, Reading, warm_up
+from pam_ros.control.loop import BLIND, RUNNING, WAITING, Loop, Reading, warm_up
 from pam_ros.control.plausibility import Plausibility, bounds_of
 from pam_ros.control.reference.serialised import read_trajectory
 from pam_ros.control.signals import Pressures, term_names
@@ -68,7 +68,7 @@ class PamControl(TickingNode):
         self._intake = Intake(
             self,
             self._is_followed,
-            lambda: self._setup.settings.command_timeout,
+            lambda: self._setup.settings.longest_silence,
             self._begin_anew,
         )
         self._shown = 0  # ROS time of the last message on ~/state, ns
@@ -147,7 +147,7 @@ class PamControl(TickingNode):
         self._chambers.forget()
         self._stamp = None
         if self._loop.is_enabled:
-            self._reports.begin_anew(silent, self._setup.settings.command_timeout)
+            self._reports.begin_anew(silent, self._setup.settings.longest_silence)
 
     def _watch(self) -> None:
         if self._stamp is None:
@@ -196,8 +196,9 @@ class PamControl(TickingNode):
             self._look_for_states()
         self._publish(pressures)
         if self._intake.look():
-            # Stopped while it published: the rig may have received the old command just now.
-            if loop.safe == VENT:
+            # Stopped while it published: the rig may have received the old command just now. One
+            # that had vented meanwhile must not obey it; one that holds for ever still had it.
+            if self._setup.settings.command_timeout:
                 self._publish((0.0,) * len(pressures))
             return
         rate = self._setup.settings.state_rate
@@ -234,7 +235,7 @@ class PamControl(TickingNode):
         if passed < 0:
             self._loop.forget()  # simulated time begins anew, and so does what happens in it
             self._chambers.forget()
-        elif self._loop.state == RUNNING and passed > settings.command_timeout * SECOND:
+        elif self._loop.state == RUNNING and passed > settings.longest_silence * SECOND:
             self._begin_anew(passed)
         self._stamp = sight.stamp
         self._take_in(sight, sight.stamp)

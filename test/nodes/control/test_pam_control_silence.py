@@ -4,7 +4,10 @@
 
 import os
 import signal
+import subprocess
+import sys
 from contextlib import contextmanager
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -77,6 +80,68 @@ def test_a_rig_that_has_vented_does_not_jump(watch, seconds, on_timeout):
         )
         speeds = [one.velocity[0] for one in states if stamp(one) > last]
         assert np.max(np.abs(speeds)) < 0.15  # m/s; max_velocity is 0.1
+
+
+# A process that is stopped in the middle of a command: it is sent when the process wakes.
+STOPS_ITSELF = """
+import os, signal
+from pam_ros.nodes.control.node import PamControl
+from pam_ros.cli.pam_control import main
+
+publish, commands = PamControl._publish, []
+
+def stopped_within(self, pressures):
+    commands.append(pressures)
+    if len(commands) == 1000:
+        os.kill(os.getpid(), signal.SIGSTOP)
+    publish(self, pressures)
+
+PamControl._publish = stopped_within
+main()
+"""
+
+
+@contextmanager
+def that_stops_itself(parameters):
+    arguments = [f'{name}:={value}' for name, value in parameters.items()]
+    given = [word for one in arguments for word in ('-p', one)]
+    process = subprocess.Popen([sys.executable, '-c', STOPS_ITSELF, '--ros-args', *given])
+    try:
+        yield process
+    finally:
+        process.send_signal(signal.SIGCONT)
+        process.send_signal(signal.SIGINT)
+        assert process.wait(60.0) == 0
+
+
+def is_stopped(process):
+    return Path(f'/proc/{process.pid}/stat').read_text().rpartition(')')[2].split()[0] == 'T'
+
+
+@pytest.mark.parametrize('on_timeout', ['vent', 'hold'])
+@pytest.mark.parametrize('command_timeout', [1.0, 0.0])
+def test_the_command_that_a_stop_held_up_throws_nothing(watch, on_timeout, command_timeout):
+    peer = watch.peer
+    states = peer.collect(JointState, 'joint_states')
+    given = {'on_timeout': on_timeout, 'command_timeout': command_timeout}
+    with (
+        Program('pam_sim', parameters={**RIG, 'command_timeout': command_timeout}),
+        that_stops_itself(given) as process,
+    ):
+        peer.until(lambda: is_stopped(process), 'the stop')
+        before = states[-1].position[0]
+        peer.work(2.0)
+        woke = stamp(states[-1])
+        process.send_signal(signal.SIGCONT)
+        peer.until(
+            lambda: len([term for term in watch.terms if stamp(term) > woke]) > 100,
+            'control again',
+        )
+        after = np.array([one.position[0] for one in states if stamp(one) > woke])
+        if command_timeout:  # it has vented, and stays there
+            assert after.max() < VENTED
+        else:  # it still holds
+            assert np.max(np.abs(after - before)) < BUMP
 
 
 @pytest.mark.at_any_pace
