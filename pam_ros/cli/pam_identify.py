@@ -59,6 +59,14 @@ def parser() -> argparse.ArgumentParser:
         help='override a parameter of it, such as mass=20; may be repeated',
     )
     made.add_argument(
+        '--uncertain',
+        action='append',
+        default=[],
+        metavar='NAME=DEVIATION',
+        help='how exactly a nominal value is known, its standard deviation: inertia=50%%, or in '
+        'its unit, mass=0.2; it is then fitted as well; may be repeated',
+    )
+    made.add_argument(
         '--test',
         nargs='+',
         action='extend',
@@ -129,11 +137,12 @@ def run(given: argparse.Namespace, command: str) -> str:
     from pam_ros.report.provenance import provenance
     from pam_ros.report.summary import last_line
     from pam_ros.report.write import check_folder, write_report
-    from pam_ros.settings.nominal import nominal_joint
+    from pam_ros.settings.nominal import nominal_joint, uncertain_values
 
     check_folder(given.out)
     nominal = nominal_joint(given.params, given.set)
     model = nominal.joint
+    uncertain = {**uncertain_values(given.params), **dict(map(_deviation, given.uncertain))}
     mapping = read_mapping(given.column, given.mapping)
     p_max = [muscle.p_max for muscle in model.muscles]
     # A length makes a position of a contraction; a known force that drives a load has none.
@@ -170,12 +179,22 @@ def run(given: argparse.Namespace, command: str) -> str:
     source = provenance(nominal, given.params, given.set, recordings, test, command)
     progress = Progress()
     try:
-        answer = identify(model, recordings, test, progress)
+        answer = identify(model, recordings, test, progress, uncertain=uncertain)
         progress(1.0, 'writing the report')
         write_report(given.out, answer, source)
     finally:
         progress.close()
     return printable(f'{last_line(answer)}; see {given.out / "report.html"}')
+
+
+def _deviation(text: str) -> tuple[str, str]:
+    """Return the name and the standard deviation of a text ``name=deviation``."""
+    name, equals, given = (part.strip() for part in text.partition('='))
+    if not (name and equals and given):
+        raise PamError(
+            f'--uncertain {shown(text)} is not allowed: give NAME=DEVIATION, such as inertia=50%'
+        )
+    return name, given
 
 
 def main() -> None:

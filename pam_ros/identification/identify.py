@@ -3,7 +3,7 @@
 """How wrong is the nominal model, which effects does it lack, how wrong is it with them."""
 
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 
@@ -21,6 +21,7 @@ from pam_ros.identification.data.segment import (
     segments_of,
 )
 from pam_ros.identification.fit.solve import Solution
+from pam_ros.identification.fit.uncertain import spread_unknowns, untold
 from pam_ros.identification.result import Finding, Identification, Stage
 from pam_ros.identification.search.criteria import BUDGET, CRITERIA
 from pam_ros.identification.search.final import Final, final
@@ -52,6 +53,8 @@ def identify(
     recordings: Sequence[Recording],
     test: Sequence[Recording] = (),
     progress: Progress | None = None,
+    *,
+    uncertain: Mapping[str, float | str] | None = None,
 ) -> Identification:
     """Identify the effects of the model's library that *recordings* show beyond *model*.
 
@@ -59,8 +62,13 @@ def identify(
     before, see :mod:`pam_ros.identification.data.parts`. progress(share, text) is called with the
     share of the work that is done and what is done next.
 
+    *uncertain* are standard deviations of nominal values by the names of parameters, such as
+    ``{'inertia': '50%', 'mass': 0.2}``, see :mod:`pam_ros.identification.fit.uncertain`. Without
+    one the numbers of load, transmission and mounting are taken as they are.
+
     Raises RecordingError when there are no recordings, when they do not fit together, carry no
-    output or are too short for any fit, and ParameterError for objects of another type.
+    output or are too short for any fit, and ParameterError for objects of another type and for an
+    uncertain parameter that the model does not have.
     """
     instance('model', model, Joint, 'a Joint')
     recordings = sequence('recordings', recordings, Recording, 'a Recording')
@@ -70,6 +78,8 @@ def identify(
     tell: Progress = progress or (lambda share, text: None)
     require_one_kind([*recordings, *test])
     require_joint([*recordings, *test], model)
+    uncertain = {} if uncertain is None else uncertain
+    spread_unknowns(model, recordings[0].muscles, uncertain)  # refused before a fit takes its time
     refuse_idle(recordings)
     tests = segments_of(test)
     # With test recordings none of the others has to judge.
@@ -81,7 +91,8 @@ def identify(
             f'{recordings[0].duration:.3g} s; at least {CRITERIA.duration:g} s are needed'
         )
     with ThreadPoolExecutor(min(os.cpu_count() or 1, THREADS)) as pool:
-        setting = Setting(model, parts, CRITERIA, BUDGET, pool, recordings[0].muscles)
+        muscles = recordings[0].muscles
+        setting = Setting(model, parts, CRITERIA, BUDGET, pool, muscles, uncertain)
         lacking = too_little([part.segment for part in parts], setting.noise, CRITERIA)
         found = search(setting, tell)
         tell(0.9, 'fitting the chosen models in full')
@@ -96,6 +107,7 @@ def identify(
         warnings=(
             *(text for recording in (*recordings, *test) for text in recording.warnings),
             *apart(ends.augmented, answer.noise.sigma),
+            *untold(ends.augmented),
         ),
     )
     tell(1.0, 'done')
@@ -133,6 +145,7 @@ def _answer(
         next_experiment='',
         recordings=tuple(recordings),
         test_recordings=tuple(test),
+        uncertain={name: str(given) for name, given in found.setting.uncertain.items()},
     )
 
 

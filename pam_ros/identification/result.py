@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What an identification finds: the numbers behind the report."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -96,6 +97,7 @@ class Identification:
 
     ``recordings`` were fitted, ``test_recordings`` were not; ``segments`` and ``test`` are their
     gapless stretches. Without test recordings a part of each recording was held out instead.
+    ``uncertain`` are the standard deviations of nominal values that were given, by parameter.
     :func:`pam_ros.save_report` and :func:`pam_ros.save_parameters` write it to files.
     """
 
@@ -114,6 +116,7 @@ class Identification:
     next_experiment: str
     recordings: tuple[Recording, ...]
     test_recordings: tuple[Recording, ...]
+    uncertain: Mapping[str, str]
 
     @property
     def untestable(self) -> tuple[str, ...]:

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """From a fit's numbers back to a declared model: constants in their source's units, effects."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from pam_ros.effects.turned import turned
 from pam_ros.errors import ParameterError
 from pam_ros.identification.data.segment import HeldSegment, Segment
+from pam_ros.identification.fit.of_rig import OfRig, changed, numbers_of
 from pam_ros.identification.fit.places import Place, effect_of
 from pam_ros.identification.fit.unknowns import CONSTANTS, Constant, OfEffect, Unknown
 from pam_ros.identification.result import Estimate
@@ -40,6 +41,8 @@ def in_source_units(
             from_si(_only(k, x), muscle.pressure_unit, muscle.contraction_unit)[k] for x in sides
         ]
         unit = _constant_unit(muscle, CONSTANTS[k])
+    elif isinstance(of, OfRig):
+        unit = numbers_of(model)[of][1].unit
     return Estimate(sides[1], min(sides), max(sides), unit, at_bound)
 
 
@@ -69,10 +72,17 @@ def _effect_unit(model: Joint, effect: str, parameter: str) -> str:
     return next(p.unit for p in found.parameters if p.name == parameter)
 
 
-def with_row(model: Joint, q: Array, segments: Sequence[Segment], added: Sequence[Place]) -> Joint:
+def with_row(
+    model: Joint,
+    q: Array,
+    segments: Sequence[Segment],
+    added: Sequence[Place],
+    numbers: Mapping[OfRig, float],
+) -> Joint:
     """Return *model* with the parameter row q: constants in the units in which it gives them.
 
-    *added* are the places of the effects that a fit to *segments* added to the declared ones.
+    *added* are the places of the effects that a fit to *segments* added to the declared ones, and
+    *numbers* what it found of load, transmission and mounting.
     Constants that were fitted where the rig went may make no muscle beyond: then the contractions
     of the model are limited to where it went, and in the last resort its constants are taken back
     towards those declared until they make muscles.
@@ -90,7 +100,7 @@ def with_row(model: Joint, q: Array, segments: Sequence[Segment], added: Sequenc
     went = np.concatenate(
         [s.position if isinstance(s, HeldSegment) else s.target for s in segments]
     )
-    declared = model.parameters().ravel()
+    declared, nominal = model.parameters().ravel(), numbers_of(model)
     for back, is_limited in ((0.0, False), *((a, True) for a in np.linspace(0.0, 1.0, 11))):
         row = q + back * (declared - q)
         try:
@@ -102,7 +112,8 @@ def with_row(model: Joint, q: Array, segments: Sequence[Segment], added: Sequenc
                 )
                 for i, actuator in enumerate(model.actuators)
             )
-            return replace(model, actuators=actuators, effects=on_joint)
+            there = {of: x + back * (nominal[of][0] - x) for of, x in numbers.items()}
+            return changed(replace(model, actuators=actuators, effects=on_joint), there)
         except ParameterError:
             continue
     plain = zip(model.actuators, in_muscles, strict=True)

@@ -17,7 +17,7 @@ from pam_ros.report.provenance import Provenance
 from pam_ros.report.runs import STAGES, Run, sizes
 
 # The first number rises when a key changes its meaning or goes, the second when one comes.
-SCHEMA_VERSION = '2.3'
+SCHEMA_VERSION = '2.4'
 
 Table = dict[str, Any]
 
@@ -43,7 +43,7 @@ def numbers(result: Identification, runs: list[Run], source: Provenance) -> Tabl
         'data': _data(runs, source),
         'warnings': list(result.warnings),
         'next_experiment': result.next_experiment,
-        'provenance': _provenance(source),
+        'provenance': _provenance(result, source),
     }
 
 
@@ -162,7 +162,7 @@ def _range(values: Any) -> list[float]:
     return [float(np.min(values)), float(np.max(values))]
 
 
-def _provenance(source: Provenance) -> Table:
+def _provenance(result: Identification, source: Provenance) -> Table:
     return {
         'date': source.date,
         'command': source.command,
@@ -172,6 +172,7 @@ def _provenance(source: Provenance) -> Table:
             'overrides': list(source.overrides),
         },
         'configuration': dict(source.configuration),
+        'uncertain': dict(result.uncertain),
         'recordings': [
             {'name': recording.name, 'sha256': recording.digest or None}
             for recording in (*source.recordings, *source.test)

@@ -98,6 +98,7 @@ def about(result: Identification, source: Provenance) -> str:
             for what, name, digest in files
         ),
         *(f'  with {override}' for override in source.overrides),
+        *(f'  uncertain: {name}={given}' for name, given in result.uncertain.items()),
         f'Written {source.date} by pam_ros {source.versions["pam_ros"]}.',
     ]
     return '\n'.join(lines)

@@ -245,14 +245,9 @@ class Joint:
 
     def _joint_row(self) -> Array:
         """Return the joint's own row."""
-        layout, load = self.layout, self.load
-        row = np.zeros(layout.parameters)
-        row[at.INERTIA] = load.equations.inertia(load.mass, load.numbers, 0)
+        row = np.zeros(self.layout.parameters)
         row[at.LENGTH] = 1.0 if self.is_revolute else self.actuators[0].muscle.l0
-        row[at.MASS] = load.mass
-        row[layout.load_at : layout.load_at + len(load.numbers)] = load.numbers
-        numbers = self.transmission.numbers
-        row[layout.transmission_at : layout.transmission_at + len(numbers)] = numbers
+        fill_load(row, self.layout, self.load, self.transmission)
         self._fill(row, self.effects, on_joint=True)
         return row
 
@@ -264,6 +259,15 @@ class Joint:
                 row[j : j + len(effect.parameters)] = [
                     given.get(p.name, p.default) for p in effect.parameters
                 ]
+
+
+def fill_load(row: Array, layout: Layout, load: Load, transmission: Transmission) -> None:
+    """Write the numbers of *load* and *transmission* into the joint's own row of q."""
+    row[at.INERTIA] = load.equations.inertia(load.mass, load.numbers, 0)
+    row[at.MASS] = load.mass
+    row[layout.load_at : layout.load_at + len(load.numbers)] = load.numbers
+    numbers = transmission.numbers
+    row[layout.transmission_at : layout.transmission_at + len(numbers)] = numbers
 
 
 def library_of(library: Sequence[Effect]) -> tuple[Effect, ...]:

@@ -87,12 +87,20 @@ def read(path: Path, node: str = 'pam_sim') -> dict[str, Value]:
     Tables of other nodes are passed over. Raises ParameterError where the file cannot be read or
     has nothing for this node.
     """
-    tables = [table for name, table in _tables(read_yaml(path)) if _is_for(name, node)]
-    if not tables:
+    if not any(_is_for(name, node) for name, _ in _tables(read_yaml(path))):
         raise ParameterError(
             f'{path} has no parameters for {node}: a parameter file has a table {TABLE} below '
             f'/** or {node}'
         )
+    return read_any(path, node)
+
+
+def read_any(path: Path, node: str) -> dict[str, Value]:
+    """Return the parameters that *path* has for a node of this name, none where it has no table.
+
+    Raises ParameterError where the file cannot be read.
+    """
+    tables = [table for name, table in _tables(read_yaml(path)) if _is_for(name, node)]
     values: dict[str, Value] = {}
     for table in tables:
         for name, read in _flat(table):

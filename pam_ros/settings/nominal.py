@@ -13,6 +13,7 @@ from pam_ros.effects.names import flattened
 from pam_ros.parameters import Parameter
 from pam_ros.rig.arrangements import ARRANGEMENTS, LOAD, Arrangement
 from pam_ros.rig.joint import Joint
+from pam_ros.settings.files import find, read_any
 from pam_ros.settings.load import only_joint, read_scene
 from pam_ros.settings.rig import KINDS, RigParameters
 from pam_ros.settings.scene import reach_of
@@ -137,3 +138,14 @@ def nominal_joint(name: str | Path, overrides: Iterable[str] = ()) -> NominalJoi
     scene, values = read_scene(name, raw, typed)
     joint = only_joint(name, scene, values)
     return NominalJoint(joint, scene.kind, tuple(scene.muscles), scene.joints[0])
+
+
+def uncertain_values(name: str | Path) -> dict[str, Any]:
+    """Return the standard deviations of nominal values that a file states, by parameter.
+
+    They are the parameters ``uncertain.<parameter>`` of the node ``pam_identify``, so that no
+    other program sees them.
+    """
+    head = 'uncertain.'
+    found = read_any(find(str(name)), 'pam_identify')
+    return {flat.removeprefix(head): found[flat] for flat in found if flat.startswith(head)}

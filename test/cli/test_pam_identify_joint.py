@@ -149,6 +149,20 @@ def test_the_parameter_file_is_the_joint_that_was_found(found):
             'idle.csv: extensor.pressure_command is constant at 250000 Pa: record changes of the '
             'pressures of all muscles',
         ),
+        (
+            ('fit.csv', '--params', 'elbow.yaml', '--uncertain', 'nosuch=5%'),
+            'the uncertain parameter nosuch is none of this joint that a recording can tell: give '
+            'one of flexor.a1, a1, ',
+        ),
+        (
+            ('fit.csv', '--params', 'elbow.yaml', '--uncertain', 'inertia'),
+            '--uncertain inertia is not allowed: give NAME=DEVIATION, such as inertia=50%',
+        ),
+        (
+            ('fit.csv', '--params', 'elbow.yaml', '--uncertain', 'inertia=-5%'),
+            "uncertain inertia = '-5%' is not allowed: give a standard deviation above 0: in the "
+            "parameter's unit, or as a share such as 50%",
+        ),
     ],
 )
 def test_bad_input_is_one_sentence(bench, arguments, words):

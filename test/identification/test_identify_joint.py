@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pam_ros.errors import RecordingError
+from pam_ros.errors import ParameterError, RecordingError
 from pam_ros.identification.identify import identify
 from pam_ros.identification.search.criteria import CRITERIA
 from pam_ros.muscle.muscle import Muscle
@@ -119,3 +119,33 @@ def test_recordings_of_another_joint_are_refused(lag):
     swapped = replace(given, name='swapped', muscles=NAMES[::-1])
     with pytest.raises(RecordingError, match='swapped has the muscles antagonist, agonist, and'):
         identify(declared(trial), [given, swapped])
+
+
+# Uncertain nominal values ------------------------------------------------------------------------
+
+
+@pytest.mark.needs_numba
+def test_a_wrong_inertia_that_is_declared_as_uncertain_is_found():
+    """Taken as exact it looks like a missing effect, softening in these trials."""
+    trial = pair_trial('noise_only', SEED)
+    joint = declared(trial)
+    joint = replace(joint, load=replace(joint.load, inertia=0.6 * trial.declared.inertia))
+    found = identify(joint, [recording(trial)], uncertain={'inertia': '60%', 'arm': '5%'})
+    assert found.verdict == 'parameters_wrong'
+    declared_, retuned, _ = found.stages
+    estimate = retuned.parameters['inertia']
+    assert estimate.unit == 'kg m^2'
+    assert estimate.value == pytest.approx(trial.declared.inertia, rel=0.1)
+    assert declared_.parameters['inertia'].value == joint.load.inertia
+    assert retuned.model.load.inertia == estimate.value
+    assert retuned.held_error < 1.2 * trial.noise < declared_.held_error
+    assert found.uncertain == {'inertia': '60%', 'arm': '5%'}
+    # Without a load on the arm nothing says how long it is.
+    told = [text for text in found.warnings if 'hardly determine' in text]
+    assert [text.split()[4] for text in told] == ['arm:']
+
+
+def test_an_uncertain_parameter_that_the_joint_lacks_is_refused_before_the_fit():
+    trial = pair_trial('noise_only', SEED)
+    with pytest.raises(ParameterError, match='the uncertain parameter crank is none'):
+        identify(declared(trial), [recording(trial)], uncertain={'crank': '5%'})

@@ -51,7 +51,7 @@ def problem_of(model):
 
 def model_at(model, problem, u, effects=()):
     places = [places_of(model)[name] for name in effects]
-    return with_row(model, problem.row_at(u), problem.segments, places)
+    return with_row(model, problem.row_at(u), problem.segments, places, {})
 
 
 def test_the_declared_model_comes_back():

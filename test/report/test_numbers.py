@@ -113,6 +113,7 @@ def test_provenance_names_files_and_versions(tested):
     source = report_of(tested)['provenance']
     assert source['parameters']['file'] == 'dmsp_20_400n'
     assert source['parameters']['overrides'] == ['mass=20']
+    assert source['uncertain'] == {'mass': '2%'}
     assert source['configuration']['mass'] == 20.0
     assert [r['name'] for r in source['recordings']] == ['bench.csv', 'other.csv']
     assert source['versions']['numpy'] == np.__version__

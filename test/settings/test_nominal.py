@@ -11,8 +11,8 @@ import pytest
 from pam_ros.errors import ParameterError
 from pam_ros.rig.arrangements import ARRANGEMENTS
 from pam_ros.rig.joint import Actuator
-from pam_ros.settings.files import write
-from pam_ros.settings.nominal import nominal_joint
+from pam_ros.settings.files import read, write
+from pam_ros.settings.nominal import nominal_joint, uncertain_values
 
 ANTAGONISTIC = Path(__file__).parents[2] / 'config' / 'antagonistic.yaml'
 NAMED = ['muscles=flexor,extensor']
@@ -85,3 +85,31 @@ def test_reach_is_where_the_muscles_have_a_length():
 def test_what_is_refused(overrides, sentence):
     with pytest.raises(ParameterError, match=sentence):
         nominal_joint(ANTAGONISTIC, overrides)
+
+
+# Standard deviations ----------------------------------------------------------------------------
+
+UNCERTAIN = """
+/**:
+  ros__parameters:
+    mass: 18.0
+pam_identify:
+  ros__parameters:
+    uncertain: {mass: 5%, a2: '10%'}
+    uncertain.l0: 0.001
+"""
+
+
+def test_standard_deviations_of_a_file_are_for_pam_identify_alone(tmp_path):
+    path = tmp_path / 'rig.yaml'
+    path.write_text(UNCERTAIN)
+    assert uncertain_values(path) == {'mass': '5%', 'a2': '10%', 'l0': 0.001}
+    plain = tmp_path / 'plain.yaml'
+    plain.write_text('pam_sim:\n  ros__parameters:\n    mass: 18.0\n')
+    assert uncertain_values(plain) == {}
+    assert nominal_joint(path).joint == nominal_joint(plain).joint
+    assert 'uncertain.mass' not in read(path)
+
+
+def test_a_preset_states_none():
+    assert uncertain_values('dmsp_20_400n') == {}

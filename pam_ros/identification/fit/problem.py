@@ -19,6 +19,7 @@ from pam_ros.effects.base import Effect
 from pam_ros.identification.data.segment import FreeSegment, HeldSegment, Segment
 from pam_ros.identification.data.thinning import HELD_STEP
 from pam_ros.identification.fit.discrepancy import Discrepancy, Whitening
+from pam_ros.identification.fit.of_rig import OfRig, fill
 from pam_ros.identification.fit.places import effect_of
 from pam_ros.identification.fit.unknowns import (
     CommandTime,
@@ -31,6 +32,7 @@ from pam_ros.identification.fit.unknowns import (
 )
 from pam_ros.rig import layout as at
 from pam_ros.rig.bind import bind
+from pam_ros.rig.joint import Joint
 from pam_ros.rig.layout import Layout
 from pam_ros.rig.run import acting_commands, delays_of
 from pam_ros.rig.start import fill_chambers, start_state
@@ -46,8 +48,9 @@ class Problem:
 
     ``row`` holds the values of what is not unknown, all rows of the kernel's q one after the
     other; ``active`` are the effects that the kernel steps, and ``step`` is the longest step in s.
-    Unknowns need finite priors. Residuals are those of the samples that the segments mark as to be
-    fitted, n in all, of the runs one after the other.
+    Numbers of a load can only be unknown where ``joint`` says which load it is. Unknowns need
+    finite priors. Residuals are those of the samples that the segments mark as to be fitted, n in
+    all, of the runs one after the other.
     """
 
     segments: tuple[Segment, ...]
@@ -56,6 +59,7 @@ class Problem:
     row: Array
     unknowns: tuple[Unknown, ...]
     step: float = 1e-3
+    joint: Joint | None = None
 
     @property
     def prior(self) -> Array:
@@ -74,7 +78,16 @@ class Problem:
         for unknown, value in zip(self.unknowns, u, strict=True):
             if isinstance(unknown.of, Constant | OfEffect):
                 q[list(unknown.of.indices)] = unknown.value(value)
+        numbers = self.numbers_at(u)
+        if numbers:
+            assert self.joint is not None
+            fill(q.reshape(self.layout.rows, self.layout.parameters), self.joint, numbers)
         return q
+
+    def numbers_at(self, u: Array) -> dict[OfRig, float]:
+        """Return the unknown numbers of load, transmission and mounting at the unknowns u."""
+        pairs = zip(self.unknowns, u, strict=True)
+        return {one.of: one.value(value) for one, value in pairs if isinstance(one.of, OfRig)}
 
     def runs(self, u: Array, only: int | None = None) -> list[Array]:
         """Return the free run of every segment, or of segment *only*, at u.
@@ -177,7 +190,7 @@ class Problem:
             h = DIFFERENCE if u[k] + DIFFERENCE <= unknown.bounds[1] else -DIFFERENCE
             moved = u.copy()
             moved[k] += h
-            if isinstance(unknown.of, Constant | OfEffect | CommandTime):
+            if isinstance(unknown.of, Constant | OfRig | OfEffect | CommandTime):
                 return (self.residuals(moved) - r) / h
             run = unknown.of.run
             own = slice(starts[run], starts[run + 1])

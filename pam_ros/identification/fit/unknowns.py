@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pam_ros.identification.data.segment import FreeSegment, HeldSegment, Segment, start_of
+from pam_ros.identification.fit.of_rig import OfRig
 from pam_ros.identification.fit.places import INITIAL, Place, names_of_muscles
 from pam_ros.rig import layout as at
 from pam_ros.rig.joint import Joint
@@ -131,6 +132,7 @@ class CommandTime:
 
 
 OF_RUNS = (RunStart, MemoryStart, RunLevel)
+DECLARED = (Constant, OfRig)  # what re-tuning may change
 
 
 @dataclass(frozen=True)
@@ -141,7 +143,7 @@ class Unknown:
     beforehand, infinite where nothing is known. ``low``, ``high`` bound the value.
     """
 
-    of: Constant | OfEffect | CommandTime | RunStart | MemoryStart | RunLevel
+    of: Constant | OfRig | OfEffect | CommandTime | RunStart | MemoryStart | RunLevel
     base: float
     scale: float
     low: float = -np.inf
@@ -157,7 +159,7 @@ class Unknown:
     @property
     def is_parameter(self) -> bool:
         """Whether it is a parameter of the model, which all runs share."""
-        return isinstance(self.of, Constant | OfEffect)
+        return isinstance(self.of, Constant | OfRig | OfEffect)
 
     def value(self, u: float) -> float:
         """Return the physical value at u, which rounding does not carry past its bounds."""

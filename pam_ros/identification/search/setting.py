@@ -23,11 +23,11 @@ from pam_ros.identification.fit.discrepancy import WHITE
 from pam_ros.identification.fit.places import Place, muscle_of, places_of
 from pam_ros.identification.fit.problem import Problem
 from pam_ros.identification.fit.solve import Solution, improved
+from pam_ros.identification.fit.uncertain import Spreads, spread_unknowns
 from pam_ros.identification.fit.unknowns import (
+    DECLARED,
     OF_RUNS,
-    Constant,
     MemoryStart,
-    declared_unknowns,
     level_unknowns,
     proper,
     run_unknowns,
@@ -96,7 +96,7 @@ class Model:
         """Prior chi-square of the declared constants: how far re-tuning has moved them."""
         solution = self.solution
         pairs = zip(solution.problem.unknowns, solution.z, strict=True)
-        return float(sum(z * z for unknown, z in pairs if isinstance(unknown.of, Constant)))
+        return float(sum(z * z for unknown, z in pairs if isinstance(unknown.of, DECLARED)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,6 +109,7 @@ class Setting:
     budget: Budget
     pool: Executor
     muscles: tuple[str, ...] = ()  # names of the muscles of a joint that has several
+    uncertain: Spreads = field(default_factory=dict)  # standard deviations of nominal values
 
     @cached_property
     def noise(self) -> float:
@@ -167,7 +168,7 @@ class Setting:
         sigma = np.inf if self.drifts else self.noise
         levels = level_unknowns(runs, self.joint)
         starts = [*time_unknowns(runs), *run_unknowns(runs, sigma)]
-        unknowns = [*declared_unknowns(self.joint, self.muscles), *starts, *levels]
+        unknowns = [*spread_unknowns(self.joint, self.muscles, self.uncertain), *starts, *levels]
         return Problem(
             tuple(runs),
             self.joint.layout,
@@ -175,6 +176,7 @@ class Setting:
             self.joint.parameters().ravel(),
             tuple(map(proper, unknowns)),
             step,
+            self.joint,
         )
 
     @property

@@ -51,7 +51,8 @@ def stages(ends: Final, found: Search, test: Sequence[Segment]) -> tuple[Stage, 
             held = rms(np.concatenate(off))
         row, segments = fit.problem.row_at(fit.u), fit.problem.segments
         places = [found.setting.places[effect] for effect in added]
-        model = with_row(joint, row, segments, places)
+        numbers = fit.problem.numbers_at(fit.u)
+        model = with_row(joint, row, segments, places, numbers)
         return Stage(name, model, parameters, error, held, tuple(runs), tuple(tested))
 
     return (

@@ -11,7 +11,7 @@ from pam_ros.identification.fit.discrepancy import WHITE, Discrepancy
 from pam_ros.identification.fit.extend import with_effect
 from pam_ros.identification.fit.places import Place
 from pam_ros.identification.fit.solve import Solution, improved
-from pam_ros.identification.fit.unknowns import Constant, MemoryStart
+from pam_ros.identification.fit.unknowns import DECLARED, MemoryStart
 from pam_ros.identification.search.setting import Model, Setting
 from pam_ros.rig import layout as at
 
@@ -51,7 +51,7 @@ def _grounds(known: Solution) -> list[tuple[Solution, list[Discrepancy]]]:
     """
     own = [known.discrepancy] if known.discrepancy != WHITE else []
     found = [(known, [*own, WHITE])]
-    constants = [isinstance(unknown.of, Constant) for unknown in known.problem.unknowns]
+    constants = [isinstance(unknown.of, DECLARED) for unknown in known.problem.unknowns]
     if np.max(np.abs(known.z[constants]), initial=0.0) > 1.0:
         u = np.where(constants, 0.0, known.u)
         r = known.problem.residuals(u)

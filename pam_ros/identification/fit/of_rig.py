@@ -1,0 +1,80 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Numbers of a load, of a transmission and of the muscles' mounting, with other values."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, is_dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pam_ros.parameters import Parameter, described
+from pam_ros.rig import layout as at
+from pam_ros.rig import statics
+from pam_ros.rig.joint import Joint, fill_load
+
+Array = NDArray[np.float64]
+LOAD, TRANSMISSION, MOUNTING = 'load', 'transmission', 'mounting'
+CONTRACTION = Parameter('contraction at coordinate 0', 'fraction', -0.5, 0.9)
+
+
+@dataclass(frozen=True)
+class OfRig:
+    """A number of the load or of the transmission, or how a muscle is mounted.
+
+    *part* is LOAD, TRANSMISSION or MOUNTING, and *name* that of the parameter in a file: the field
+    of the load or of the transmission, or ``contraction_1`` of the muscle with the number 0.
+    """
+
+    name: str
+    part: str
+    muscle: int = 0
+
+
+def numbers_of(joint: Joint) -> dict[OfRig, tuple[float, Parameter]]:
+    """Return all such numbers of *joint* with their values and what is allowed of them."""
+    found: dict[OfRig, tuple[float, Parameter]] = {}
+    for name, part in ((LOAD, joint.load), (TRANSMISSION, joint.transmission)):
+        fields = described(type(part)) if is_dataclass(part) else {}
+        for field, (kind, _, about) in fields.items():
+            if kind is float:
+                found[OfRig(field, name)] = getattr(part, field), about
+    if not statics.is_direct(joint):
+        for i, actuator in enumerate(joint.actuators):
+            one = OfRig(f'contraction_{i + 1}', MOUNTING, i)
+            found[one] = actuator.contraction, CONTRACTION
+    return found
+
+
+def fill(q: Array, joint: Joint, values: Mapping[OfRig, float]) -> None:
+    """Write *joint* with other *values* into the matrix q of its parameters, effects as there."""
+    fill_load(
+        q[at.JOINT],
+        joint.layout,
+        _part(joint.load, LOAD, values),
+        _part(joint.transmission, TRANSMISSION, values),
+    )
+    for of, value in values.items():
+        if of.part == MOUNTING:
+            q[at.MUSCLE + of.muscle, at.AT_ZERO] = value * joint.muscles[of.muscle].l0
+
+
+def changed(joint: Joint, values: Mapping[OfRig, float]) -> Joint:
+    """Return *joint* with other *values*; raises ParameterError where they make no joint."""
+    actuators = list(joint.actuators)
+    for of, value in values.items():
+        if of.part == MOUNTING:
+            actuators[of.muscle] = replace(actuators[of.muscle], contraction=value)
+    return replace(
+        joint,
+        actuators=tuple(actuators),
+        load=_part(joint.load, LOAD, values),
+        transmission=_part(joint.transmission, TRANSMISSION, values),
+    )
+
+
+def _part(part: Any, name: str, values: Mapping[OfRig, float]) -> Any:
+    """Return a load or a transmission, the *part* so called, with its own of the *values*."""
+    own = {of.name: value for of, value in values.items() if of.part == name}
+    return replace(part, **own) if own else part
