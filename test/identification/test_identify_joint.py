@@ -130,7 +130,7 @@ def test_a_wrong_inertia_that_is_declared_as_uncertain_is_found():
     trial = pair_trial('noise_only', SEED)
     joint = declared(trial)
     joint = replace(joint, load=replace(joint.load, inertia=0.6 * trial.declared.inertia))
-    found = identify(joint, [recording(trial)], uncertain={'inertia': '60%', 'arm': '5%'})
+    found = identify(joint, [recording(trial)], uncertain={'inertia': '60%', 'radius': 1e-9})
     assert found.verdict == 'parameters_wrong'
     declared_, retuned, _ = found.stages
     estimate = retuned.parameters['inertia']
@@ -139,10 +139,10 @@ def test_a_wrong_inertia_that_is_declared_as_uncertain_is_found():
     assert declared_.parameters['inertia'].value == joint.load.inertia
     assert retuned.model.load.inertia == estimate.value
     assert retuned.held_error < 1.2 * trial.noise < declared_.held_error
-    assert found.uncertain == {'inertia': '60%', 'arm': '5%'}
-    # Without a load on the arm nothing says how long it is.
+    assert found.uncertain == {'inertia': '60%', 'radius': '1e-09'}
+    # Of a radius that is known to a nanometre a recording says nothing more.
     told = [text for text in found.warnings if 'hardly determine' in text]
-    assert [text.split()[4] for text in told] == ['arm:']
+    assert [text.split()[4] for text in told] == ['radius:']
 
 
 def test_an_uncertain_parameter_that_the_joint_lacks_is_refused_before_the_fit():
