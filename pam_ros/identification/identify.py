@@ -22,13 +22,14 @@ from pam_ros.identification.data.segment import (
 )
 from pam_ros.identification.fit.solve import Solution
 from pam_ros.identification.fit.uncertain import spread_unknowns, untold
-from pam_ros.identification.result import Finding, Identification, Stage
+from pam_ros.identification.result import Estimate, Finding, Identification, Stage
 from pam_ros.identification.search.criteria import BUDGET, CRITERIA
 from pam_ros.identification.search.final import Final, final
 from pam_ros.identification.search.levels import apart
+from pam_ros.identification.search.onset import Moment, moment, search_since, shares_after
 from pam_ros.identification.search.search import Progress, Search, alternatives, search
 from pam_ros.identification.search.setting import Setting, elsewhere
-from pam_ros.identification.search.stages import at_place, stages
+from pam_ros.identification.search.stages import at_place, onset_of, stages
 from pam_ros.identification.search.table import candidates, reason_for
 from pam_ros.identification.structure import Structure, structure_of
 from pam_ros.identification.verdict import (
@@ -94,7 +95,13 @@ def identify(
         muscles = recordings[0].muscles
         setting = Setting(model, parts, CRITERIA, BUDGET, pool, muscles, uncertain)
         lacking = too_little([part.segment for part in parts], setting.noise, CRITERIA)
-        found = search(setting, tell)
+        since = None if lacking else moment(setting)
+        later = since and shares_after(since, parts, shares, CRITERIA.duration)
+        if since and later:
+            setting = replace(setting, parts=parts_of(recordings, *later))
+            found = search_since(setting, since, tell)
+        else:
+            found = search(setting, tell)
         tell(0.9, 'fitting the chosen models in full')
         ends = final(found)
         answer = _answer(found, ends, tests, recordings, test)
@@ -104,6 +111,7 @@ def identify(
         answer,
         verdict=name,
         effects=answer.effects if name == 'effect_found' else (),
+        since=_since(name, found, ends, since),
         warnings=(
             *(text for recording in (*recordings, *test) for text in recording.warnings),
             *apart(ends.augmented, answer.noise.sigma),
@@ -145,8 +153,18 @@ def _answer(
         next_experiment='',
         recordings=tuple(recordings),
         test_recordings=tuple(test),
+        since=None,
         uncertain={name: str(given) for name, given in found.setting.uncertain.items()},
     )
+
+
+def _since(verdict: str, found: Search, ends: Final, since: Moment | None) -> Estimate | None:
+    """Return the moment in s from which on the effects act, or the re-tuned model fails."""
+    if verdict == 'effect_found':
+        return onset_of(ends.augmented) if found.setting.onset is not None else None
+    if verdict != 'unexplained_structure' or since is None:
+        return None
+    return Estimate(since.time, since.low, since.high, 's')
 
 
 def _least(three: Sequence[Stage], parts: Sequence[Part]) -> Noise:

@@ -97,6 +97,8 @@ class Identification:
 
     ``recordings`` were fitted, ``test_recordings`` were not; ``segments`` and ``test`` are their
     gapless stretches. Without test recordings a part of each recording was held out instead.
+    ``since`` is the moment in s, on the clock of the recording, at which the effects begin to act,
+    or from which on the re-tuned model fails; None where that is the case from the start.
     ``uncertain`` are the standard deviations of nominal values that were given, by parameter.
     :func:`pam_ros.save_report` and :func:`pam_ros.save_parameters` write it to files.
     """
@@ -116,6 +118,7 @@ class Identification:
     next_experiment: str
     recordings: tuple[Recording, ...]
     test_recordings: tuple[Recording, ...]
+    since: Estimate | None
     uncertain: Mapping[str, str]
 
     @property

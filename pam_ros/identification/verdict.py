@@ -10,7 +10,7 @@ import numpy as np
 from pam_ros.effects.base import Effect
 from pam_ros.identification.data.segment import Segment
 from pam_ros.identification.fit.places import effect_of, spelled
-from pam_ros.identification.result import Identification
+from pam_ros.identification.result import Estimate, Identification
 from pam_ros.identification.search.criteria import Criteria
 from pam_ros.identification.search.search import Search
 
@@ -84,9 +84,10 @@ def sentence(answer: Identification, lacking: str) -> str:
             for e in answer.effects
         )
         it = 'it' if len(answer.effects) == 1 else 'them'
+        since = '' if answer.since is None else f' from {time_of(answer.since)} on'
         return (
-            f'The model lacks {names}: with {it} the error on held-out data falls from {retuned} '
-            f're-tuned ({declared} as declared) to {augmented}. {floor}'
+            f'The model lacks {names}{since}: with {it} the error on held-out data falls from '
+            f'{retuned} re-tuned ({declared} as declared) to {augmented}. {floor}'
         )
     if answer.verdict == 'no_missing_effect':
         return f'Nothing is missing: {declared} are left on held-out data. {floor}'
@@ -95,10 +96,16 @@ def sentence(answer: Identification, lacking: str) -> str:
             'No effect is missing, but parameters are wrong: re-tuning lowers the error on '
             f'held-out data from {declared} to {retuned}. {floor}'
         )
+    since = ''
+    if answer.since is not None:
+        since = (
+            f' It begins in the middle: the re-tuned model explains the recording up to '
+            f'{time_of(answer.since)}, and not from there on.'
+        )
     return (
         f'Something is missing that no effect of the library explains: {augmented} are left on '
         f'held-out data, and {100 * answer.structure.ceiling:.0f} % of the residual can be '
-        f'predicted from the input. {floor}'
+        f'predicted from the input.{since} {floor}'
     )
 
 
@@ -124,6 +131,14 @@ def next_experiment(answer: Identification, library: tuple[Effect, ...]) -> str:
             )
         return 'Record force and pressure together with the position, slowly and fast.'
     return 'Repeat the recording on another day, or with another load, to see whether it holds.'
+
+
+def time_of(since: Estimate) -> str:
+    """Return a moment with its 95 % interval, as exact as that is."""
+    width = since.high - since.low
+    places = int(np.clip(np.ceil(1.0 - np.log10(max(width, 1e-9))), 0, 3))
+    value, low, high = (f'{x:.{places}f}' for x in (since.value, since.low, since.high))
+    return f'{value} s ({low} to {high} s)'
 
 
 def _size(value: float, unit: str) -> str:

@@ -17,7 +17,7 @@ from pam_ros.report.provenance import Provenance
 from pam_ros.report.runs import STAGES, Run, sizes
 
 # The first number rises when a key changes its meaning or goes, the second when one comes.
-SCHEMA_VERSION = '2.4'
+SCHEMA_VERSION = '2.5'
 
 Table = dict[str, Any]
 
@@ -29,6 +29,7 @@ def numbers(result: Identification, runs: list[Run], source: Provenance) -> Tabl
         'verdict': result.verdict,
         'sentence': result.sentence,
         'effects': [_effect(finding) for finding in result.effects],
+        'since': None if result.since is None else asdict(result.since),
         'error': _error(result, runs),
         'structure': {
             'ceiling': result.structure.ceiling,

@@ -91,6 +91,8 @@ def _over_time(
     several = f'{len(runs)} runs side by side. ' if len(runs) > 1 else ''
     tint = '' if result.test else 'Tinted ground: held out. '
     band = 'Band: two standard deviations of the noise.'
+    if result.since is not None:
+        band += ' Red line: what is missing acts from there on.'
     return [
         _wide(
             'overview',

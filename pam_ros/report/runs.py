@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The segments of a result for the report: measured, three times simulated, inputs."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,7 +27,8 @@ class Run:
     of ``STAGES``, in SI; held marks what no fit has seen. pressures (n, muscles) in Pa are the
     commands, or as measured of a held muscle. position and velocity (m or rad, and per s) are
     those of a free load's last model, without the measurement's noise, and as measured of a held
-    one. drive (n,) in Pa is the input as one signal, see :func:`drive_of`.
+    one. drive (n,) in Pa is the input as one signal, see :func:`drive_of`. since is the moment in
+    s from which on effects act, None where they do from the start.
     """
 
     name: str
@@ -40,6 +41,7 @@ class Run:
     position: Array
     velocity: Array
     drive: Array
+    since: float | None = None
 
     def residual(self, stage: int) -> Array:
         """Return measured - simulated (n,) of a stage."""
@@ -53,7 +55,8 @@ def runs_of(result: Identification) -> list[Run]:
     for k, segment in enumerate(result.segments):
         a, b, c = (_cut(stage.simulated[k]) for stage in result.stages)
         held = np.zeros_like(segment.fit) if result.test else ~segment.fit
-        found.append(_run(segment, (a, b, c), held, False, joint))
+        run = _run(segment, (a, b, c), held, False, joint)
+        found.append(run if result.since is None else replace(run, since=result.since.value))
     for k, segment in enumerate(result.test):
         a, b, c = (_cut(stage.tested[k]) for stage in result.stages)
         found.append(_run(segment, (a, b, c), np.ones_like(segment.fit), True, joint))

@@ -30,6 +30,7 @@ COLOURS = ('#c8500a', '#b8860b', '#0b62a8')
 DASHES: tuple[Any, ...] = ((0, (4, 1.5)), (0, (1.5, 1)), 'solid')
 NOISE = '#7a4fa3'
 KEPT_BACK = '#eef3f8'
+SINCE = '#b3124a'
 
 WIDE, NARROW = 1080, 356
 _PIXEL = 1.0 / 72.0  # inches: an SVG of matplotlib has 72 units an inch

@@ -4,6 +4,7 @@
 
 from pam_ros.identification.fit.places import place_of, spelled
 from pam_ros.identification.result import Identification
+from pam_ros.identification.verdict import time_of
 from pam_ros.report.wording import listed, number, scale_for
 
 
@@ -12,7 +13,9 @@ def last_line(result: Identification) -> str:
     declared, retuned, augmented = (stage.held_error for stage in result.stages)
     scale = scale_for(result.unit, augmented)
     names = [spelled(finding.name) for finding in result.effects]
-    found = f' ({listed(names)})' if names else ''
+    since = '' if result.since is None else f'from {time_of(result.since)} on'
+    words = ' '.join(word for word in (listed(names) if names else '', since) if word)
+    found = f' ({words})' if words else ''
     errors = (
         f'{number(scale.factor * declared)} {scale.unit} as declared, '
         f'{number(scale.factor * retuned)} {scale.unit} re-tuned'

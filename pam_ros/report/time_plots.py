@@ -44,6 +44,12 @@ class Stretch:
     stop: int
     shift: float = 0.0
 
+    @property
+    def begins_at(self) -> float | None:
+        """Where in the drawing effects begin to act, None where that is not in this part."""
+        t, since = self.run.t[self.start : self.stop], self.run.since
+        return since + self.shift if since is not None and t[0] <= since <= t[-1] else None
+
 
 def whole(runs: list[Run]) -> list[Stretch]:
     """Return all runs side by side, each after the one before."""
@@ -81,7 +87,7 @@ def measured_and_simulated(
 
     The last model's stands once more by itself, since those before it may be far larger. What no
     fit has seen stands on a tinted ground; the band is two standard deviations of the *noise* to
-    each side.
+    each side. A line is drawn at the moment from which on effects act, where there is one.
     """
     heights = (220, 100, 90) if width > 600 else (180, 100, 90)
     figure, (above, below, alone) = style.stacked(width, heights)
@@ -93,6 +99,8 @@ def measured_and_simulated(
         t = stretch.run.t[part] + stretch.shift
         for ax in figure.axes:
             _tint(ax, t, stretch.run.held[part])
+            if stretch.begins_at is not None:
+                ax.axvline(stretch.begins_at, color=style.SINCE, linewidth=1.2)
         y = scale.factor * stretch.run.target[part]
         above.plot(*style.envelope(t, y, n), color=style.MEASURED, linewidth=3.0)
         for curve in curves:

@@ -50,10 +50,7 @@ def start_muscle(
     """
     row, own = at.MUSCLE + i, q[at.MUSCLE + i]
     y = position(layout, q, x, i)
-    kappa = y / own[at.L0]
-    for effect in layout.library:
-        if effect.contraction is not None:
-            kappa = effect.contraction(kappa, own, layout.parameter_at[effect.name])
+    kappa = felt_contraction(layout, q, i, y)
     for effect in effects:
         if effect.acts_on_joint:
             continue
@@ -73,6 +70,34 @@ def start_joint(layout: Layout, q: Array, x: Array, effects: Sequence[Effect]) -
             k, j = layout.state_at[effect.name], layout.parameter_at[effect.name]
             started = effect.start(own, j, mean, s / own[at.LENGTH], s)
             x[at.JOINT, k : k + len(effect.states)] = started
+
+
+def begin_effects(layout: Layout, q: Array, x: Array, effects: Sequence[Effect]) -> None:
+    """Set the hidden states of *effects* as they are when these begin to act on a moving joint.
+
+    With the parameters q (rows, parameters), in which they are still absent: their memories are
+    at rest where the joint is, and the chambers keep their pressures.
+    """
+    for i in range(layout.muscles):
+        row, own = at.MUSCLE + i, q[at.MUSCLE + i]
+        y = position(layout, q, x, i)
+        kappa = felt_contraction(layout, q, i, y)
+        for effect in effects:
+            if effect.start is not None and not effect.acts_on_joint:
+                k, j = layout.state_at[effect.name], layout.parameter_at[effect.name]
+                started = effect.start(own, j, float(x[row, at.P]), kappa, y)
+                x[row, k : k + len(effect.states)] = started
+    start_joint(layout, q, x, effects)
+
+
+def felt_contraction(layout: Layout, q: Array, i: int, y: float) -> float:
+    """Return the contraction that muscle i feels where its end is at y m."""
+    own = q[at.MUSCLE + i]
+    kappa = y / float(own[at.L0])
+    for effect in layout.library:
+        if effect.contraction is not None:
+            kappa = effect.contraction(kappa, own, layout.parameter_at[effect.name])
+    return kappa
 
 
 def position(layout: Layout, q: Array, x: Array, i: int) -> float:

@@ -93,6 +93,50 @@ def test_a_recording_without_enough_samples_for_a_fit_is_refused():
         identify(bench_truth.declared(), [short])
 
 
+def test_what_begins_in_the_middle_is_named_with_its_moment():
+    """From then on, up to the end of the recording: there the rig is as it is now."""
+    recording = bench_truth.late(effect('payload', payload_kg=-4.0), 15.0, duration=36.0)
+    found = identify(bench_truth.declared(off=OFF), [recording])
+    assert (found.verdict, names(found)) == ('effect_found', ['payload'])
+    assert found.effects[0].parameters['mass'].value == pytest.approx(-4.0, rel=0.02)
+    assert found.since.low <= 15.0 <= found.since.high
+    assert found.since.high - found.since.low < 0.05
+    assert f'payload from {found.since.value:.3f} s' in found.sentence
+    assert found.stages[2].held_error < 1.1 * NOISE
+    # The model that is written has it from the start.
+    assert found.stages[2].model.all_effects['payload']['mass'] == pytest.approx(-4.0, rel=0.02)
+    # Three quarters of what comes after are fitted or decide.
+    (segment,) = found.segments
+    assert segment.t[segment.fit][-1] == pytest.approx(15.0 + 0.75 * 21.0, abs=0.3)
+
+
+def test_in_another_recording_it_is_there_from_the_start():
+    late = bench_truth.late(effect('viscous_friction'), 12.0, duration=30.0)
+    other = bench_truth.free(effect('viscous_friction'), seed=9, duration=15.0, name='other.csv')
+    found = identify(bench_truth.declared(off=OFF), [late], [other])
+    assert names(found) == ['viscous_friction']
+    assert found.since.value == pytest.approx(12.0, abs=0.1)
+    assert found.stages[2].held_error < 1.2 * NOISE
+
+
+@pytest.mark.release
+def test_what_no_effect_explains_has_its_moment_too():
+    recording = bench_truth.late(effect('cogging'), 15.0)
+    found = identify(bench_truth.declared(off=OFF), [recording])
+    assert (found.verdict, found.effects) == ('unexplained_structure', ())
+    assert found.since.value == pytest.approx(15.0, abs=0.5)
+    assert found.since.low - 0.1 <= 15.0 <= found.since.high
+    assert 'begins in the middle' in found.sentence
+
+
+def test_what_begins_at_the_end_has_a_moment_and_no_name():
+    """Too little of the recording comes after it to name anything."""
+    recording = bench_truth.late(effect('payload', payload_kg=-4.0), 26.0, duration=30.0)
+    found = identify(bench_truth.declared(off=OFF), [recording])
+    assert (found.verdict, found.effects) == ('unexplained_structure', ())
+    assert found.since.value == pytest.approx(26.0, abs=0.2)
+
+
 def test_without_test_recordings_the_last_quarter_judges():
     lag = effect('pressure_lag')
     found = identify(bench_truth.declared(), [bench_truth.free(lag, seed=5, duration=20.0)])

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from pam_ros.identification.data.segment import segments_of
-from pam_ros.identification.result import VERDICTS
+from pam_ros.identification.result import VERDICTS, Estimate
 from pam_ros.identification.search.criteria import CRITERIA
 from pam_ros.identification.search.search import Search
 from pam_ros.identification.search.setting import Errors
@@ -16,6 +16,7 @@ from pam_ros.identification.verdict import (
     explains,
     next_experiment,
     sentence,
+    time_of,
     too_little,
     verdict,
 )
@@ -127,6 +128,29 @@ def test_each_verdict_has_its_sentence_and_its_next_experiment(name):
     if name == 'effect_found':
         by_name = {e.name: e.experiment for e in library}
         assert any(by_name[effect.name] in experiment for effect in answer.effects)
+
+
+@pytest.mark.parametrize(
+    ('since', 'text'),
+    [
+        (Estimate(17.0412, 17.0391, 17.0433, 's'), '17.041 s (17.039 to 17.043 s)'),
+        (Estimate(17.0412, 16.9, 17.1, 's'), '17.04 s (16.90 to 17.10 s)'),
+        (Estimate(17.0412, 15.0, 19.0, 's'), '17.0 s (15.0 to 19.0 s)'),
+        (Estimate(17.0412, 2.0, 60.0, 's'), '17 s (2 to 60 s)'),
+        (Estimate(17.0412, 17.0412, 17.0412, 's'), '17.041 s (17.041 to 17.041 s)'),
+    ],
+)
+def test_a_moment_is_told_as_exactly_as_it_is_known(since, text):
+    assert time_of(since) == text
+
+
+def test_what_begins_in_the_middle_says_when():
+    since = Estimate(12.5, 12.4, 12.6, 's')
+    answer = replace(results.friction_result()[0], since=since)
+    found = sentence(replace(answer, verdict='effect_found'), '')
+    assert 'lacks coulomb_friction (or hysteresis) from 12.50 s (12.40 to 12.60 s) on: ' in found
+    unknown = sentence(replace(answer, verdict='unexplained_structure'), '')
+    assert 'up to 12.50 s (12.40 to 12.60 s), and not from there on.' in unknown
 
 
 def test_rivals_are_told_apart_by_the_experiment_of_the_effect():

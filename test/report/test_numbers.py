@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pam_ros.identification.result import VERDICTS
+from pam_ros.identification.result import VERDICTS, Estimate
 from pam_ros.report.numbers import SCHEMA_VERSION, numbers, to_json
 from support.pages import ROOT
 
@@ -90,6 +90,21 @@ def test_numbers_are_those_of_the_result(friction):
     assert len(report['candidates']) == len(result.candidates)
     assert report['parameters']['retuned']['zeta']['at_bound'] is True
     assert 'effects.coulomb_friction.level' in report['parameters']['augmented']
+
+
+def test_the_moment_is_there_where_something_begins(friction, validate):
+    result, source, runs = friction
+    assert report_of(friction)['since'] is None
+    late = replace(result, since=Estimate(12.5, 12.4, 12.6, 's'))
+    report = json.loads(to_json(numbers(late, runs, source)))
+    assert report['since'] == {
+        'value': 12.5,
+        'low': 12.4,
+        'high': 12.6,
+        'unit': 's',
+        'at_bound': False,
+    }
+    assert validate(report) == []
 
 
 def test_data_are_described(tested):

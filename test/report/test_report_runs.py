@@ -2,9 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """The segments of an identification as the report sees them."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
+from pam_ros.identification.result import Estimate
 from pam_ros.report.runs import runs_of, sizes
 
 
@@ -22,6 +25,13 @@ def test_held_out_is_the_test_recording_where_there_is_one(tested):
     assert not runs[0].held.any()
     assert runs[2].name == 'other.csv'
     assert runs[2].target is result.test[0].target
+
+
+def test_effects_begin_in_what_was_fitted_and_not_in_tests(tested):
+    result, _, runs = tested
+    assert [run.since for run in runs] == [None, None, None]
+    late = runs_of(replace(result, since=Estimate(5.0, 4.9, 5.1, 's')))
+    assert [run.since for run in late] == [5.0, 5.0, None]
 
 
 def test_residual_is_measured_less_simulated(friction):

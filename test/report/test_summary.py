@@ -4,6 +4,7 @@
 
 from dataclasses import replace
 
+from pam_ros.identification.result import Estimate
 from pam_ros.report.summary import added, last_line
 
 
@@ -15,6 +16,14 @@ def test_line_says_verdict_and_errors(friction):
     assert f'{1e3 * result.stages[2].held_error:.3g}' in line
     assert line.endswith('noise 0.0500 mm')
     assert '\n' not in line
+
+
+def test_line_says_since_when(friction):
+    since = Estimate(12.5, 12.4, 12.6, 's')
+    line = last_line(replace(friction[0], since=since))
+    assert line.startswith('effect_found (coulomb_friction from 12.50 s (12.40 to 12.60 s) on): ')
+    unknown = replace(friction[0], since=since, effects=(), verdict='unexplained_structure')
+    assert last_line(unknown).startswith('unexplained_structure (from 12.50 s (12.40 to ')
 
 
 def test_without_an_effect_two_errors(clean):

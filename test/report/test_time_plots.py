@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Plots over time: which stretch, which ground, which numbers."""
 
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -53,6 +54,24 @@ def test_curves_and_residuals_are_drawn_in_the_display_unit(friction):
     (last,) = (line for line in alone.lines if len(line.get_xdata()) > 2)
     assert last.get_ydata().max() == pytest.approx(1e3 * runs[0].residual(2).max())
     assert declared.get_xdata()[-1] <= runs[0].t[-1]
+
+
+def test_a_line_stands_where_effects_begin(tested):
+    """In the overview in the run in which that is, and in the close-up if it is there."""
+    _, _, runs = tested
+    late = [replace(run, since=9.0) for run in runs[:2]] + [runs[2]]
+    second = time_plots.whole(late)[1]
+    assert [s.begins_at is None for s in time_plots.whole(late)] == [True, False, True]
+    assert [s.begins_at for s in time_plots.whole(runs)] == [None, None, None]
+    with style.styled():
+        figure = time_plots.measured_and_simulated(
+            time_plots.whole(late), CURVES, MM, 'position', 5e-5, style.WIDE
+        )
+    for ax in figure.axes:
+        (line,) = (one for one in ax.lines if one.get_color() == style.SINCE)
+        assert set(line.get_xdata()) == {9.0 + second.shift}
+    part = time_plots.Stretch(late[1], 0, 50)
+    assert part.begins_at is None
 
 
 def test_errors_stand_at_their_rmse_with_their_interval():

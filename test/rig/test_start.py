@@ -11,7 +11,7 @@ from pam_ros.rig import layout as at
 from pam_ros.rig.equilibrium import equilibrium
 from pam_ros.rig.run import simulate
 from pam_ros.rig.standard_joints import single_muscle_joint
-from pam_ros.rig.start import start_joint, start_muscle, start_state
+from pam_ros.rig.start import begin_effects, start_joint, start_muscle, start_state
 from support import bench, joints
 from support.joint_models import UNEQUAL, lever, pair
 
@@ -192,3 +192,25 @@ def test_spreads_are_there_where_a_state_is_not_known_beforehand():
         names = [state.name for state in effect.states]
         assert len(set(names)) == len(names)
         assert all(state.spread >= 0.0 for state in effect.states)
+
+
+def test_effects_that_begin_leave_the_joint_where_it_is():
+    """Memories are those of a rest at the pressures that the chambers have, in each muscle."""
+    each = LAG | {'creep': {'force': 0.03}}
+    joint = pair(effects=(each, each), load={'coulomb_friction': {'level': 1.0}})
+    layout = joint.layout
+    without = pair().parameters()
+    x = start_state(layout, without, [2e5, 3e5], 0.2, 0.5)
+    before = x.copy()
+    x[:, at.JOINT_HIDDEN :] = -7.0  # what nothing has read until now
+    begun = [e for e in joint.library if e.name in ('pressure_lag', 'coulomb_friction')]
+    begin_effects(layout, without, x, begun)
+    assert np.array_equal(x[at.JOINT, :2], before[at.JOINT, :2])
+    assert list(x[at.MUSCLE :, at.P]) == [2e5, 3e5]
+    assert list(x[at.MUSCLE :, layout.state_at['pressure_lag']]) == [2e5, 3e5]
+    friction = layout.state_at['coulomb_friction']
+    assert list(x[at.JOINT, friction : friction + 2]) == [0.0, 0.2]
+    # An effect that does not begin keeps its states.
+    creep = next(e for e in joint.library if e.name == 'creep')
+    k = layout.state_at['creep']
+    assert set(x[at.MUSCLE :, k : k + len(creep.states)].ravel()) == {-7.0}

@@ -2,11 +2,22 @@
 # SPDX-License-Identifier: Apache-2.0
 """Recordings of the truth plant as the package reads them, and what their user believes."""
 
+import numpy as np
+
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.recording.recording import Recording
 from pam_ros.rig.loads import GRAVITY, Mass
 from pam_ros.rig.standard_joints import single_muscle_joint
-from truth import held_record, record
+from truth import (
+    PROGRAMMES,
+    Sensor,
+    TruthPlant,
+    held_record,
+    play_late,
+    record,
+    stamps,
+    working_range,
+)
 from truth.muscles import GRAVITY as TRUE_GRAVITY
 from truth.muscles import constants_si
 
@@ -25,6 +36,18 @@ def recording_of(true, name='truth.csv'):
 def free(*effects, name='truth.csv', **settings):
     """Return the recording of a free load of 20 kg; see ``truth.record``."""
     return recording_of(record(effects, **{'rate': 100.0, 'duration': 30.0, **settings}), name)
+
+
+def late(one, onset, seed=0, duration=40.0, rate=100.0, noise=20e-6):
+    """Return the recording of a free load of 20 kg on which an effect begins at *onset* s."""
+    plant = TruthPlant(mass=MASS, sensor=Sensor(noise=noise), seed=seed)
+    low, high = working_range(plant.constants, MASS)
+    rng = np.random.default_rng([seed, 4])
+    u = PROGRAMMES['mixture'](rate, duration, low, high, rng)
+    plant.reset(u[0], seed)
+    t = stamps(rate, duration)
+    first = int(np.searchsorted(t, onset))
+    return recording_of(play_late(plant, [one], t, u, first, seed), 'late.csv')
 
 
 def held(*effects, name='truth.csv', **settings):

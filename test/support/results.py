@@ -187,6 +187,7 @@ def result_of(recordings, test, declared, retuned, augmented, verdict, findings=
         'slow triangles and micro-reversals: the force turns over within micrometres',
         tuple(recordings),
         tuple(test),
+        None,
         {'mass': '2%'},
     )
 

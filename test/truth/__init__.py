@@ -25,6 +25,7 @@ Blind trials of a kind, a pair or nothing at all::
     trial = blind_trial('hysteresis+pressure_lag', seed=3)
     trial.recording, trial.declared  # what the finder gets
     trial.kinds, trial.effects, trial.accepted  # the answer
+    late_trial('leak', seed=3).onset  # the same, with an effect that begins in the middle
     visibility(trial)  # how much re-tuning alone would leave
 """
 
@@ -32,6 +33,7 @@ from .catalogue import FORMS, KINDS, OUT_OF_LIBRARY
 from .control_plants import CONTROL_PLANTS, control_plant
 from .effects import Effect, effect
 from .excitation import PROGRAMMES, stamps, working_range
+from .late import LATE, LateTrial, late_trial, play_late
 from .plant import TruthPlant
 from .records import Recording, held_record, play, record
 from .sensor import Sensor
@@ -52,12 +54,14 @@ __all__ = [
     'CONTROL_PLANTS',
     'FORMS',
     'KINDS',
+    'LATE',
     'NOISE_ONLY',
     'OUT_OF_LIBRARY',
     'PAIRS',
     'PROGRAMMES',
     'Declared',
     'Effect',
+    'LateTrial',
     'Recording',
     'Sensor',
     'Trial',
@@ -68,7 +72,9 @@ __all__ = [
     'effect',
     'held_record',
     'held_trial',
+    'late_trial',
     'play',
+    'play_late',
     'record',
     'stamps',
     'visibility',

@@ -60,9 +60,7 @@ class TruthPlant:
         P.a1, P.a2, P.a3, P.a4, P.a5, P.a6 = self.constants
         P.mass_kg, P.zeta, P.l0_m, P.dt = mass, zeta, l0, dt
         P.gravity = {'vertical': GRAVITY, 'horizontal': 0.0}[mount]
-        for one in self.effects:
-            for name, value in one.values.items():
-                setattr(P, name, value)
+        self._set(self.effects)
         # A damping ratio of 0.2 for the bristle alone: sticks without ringing.
         P.bristle_ns_m = 0.4 * math.sqrt(P.bristle_n_m * mass)
         self.reset(p0, seed)
@@ -92,6 +90,19 @@ class TruthPlant:
         S.lag_1 = S.lag_2 = self._static(S.p, S.y)
         S.pull = tendon(P, S.lag_1)
         return float(S.y)
+
+    def _set(self, effects: Sequence[Effect]) -> None:
+        for one in effects:
+            for name, value in one.values.items():
+                setattr(self.parameters, name, value)
+
+    def begin(self, effects: Sequence[Effect]) -> None:
+        """Let more effects act from now on; the rig goes on from where it is.
+
+        For effects whose memory is a state that the rig has without them, too.
+        """
+        self.effects = (*self.effects, *effects)
+        self._set(effects)
 
     def _static(self, p: float, y: float) -> float:
         """Pull in N of the muscle at rest, creep run out, memory virgin, no slack."""

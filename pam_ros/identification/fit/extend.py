@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from pam_ros.identification.fit.onset import OnsetTime
 from pam_ros.identification.fit.places import Place
 from pam_ros.identification.fit.problem import Problem
 from pam_ros.identification.fit.unknowns import (
@@ -39,7 +40,7 @@ def with_effect(
     for k, p in enumerate(place.effect.parameters):
         indices = place.indices(joint.layout, k)
         row[indices] = start.get(p.name, p.default if is_new else row[indices[0]])
-    memory = memory_unknowns(joint.layout, place, len(problem.segments)) if is_new else []
+    memory = memories(problem, place) if is_new else []
     u = [k.coordinate(start[k.of.parameter]) for k in added if isinstance(k.of, OfEffect)]
     new = replace(
         problem,
@@ -48,6 +49,16 @@ def with_effect(
         unknowns=(*problem.unknowns, *added, *memory),
     )
     return new, np.array([*u, *(0.0 for _ in memory)])
+
+
+def memories(problem: Problem, place: Place) -> list[Unknown]:
+    """Return where the memory of the effect at *place* may stand at the start of each run.
+
+    What begins later has none there.
+    """
+    if any(isinstance(k.of, OnsetTime) for k in problem.unknowns):
+        return []
+    return memory_unknowns(problem.layout, place, len(problem.segments))
 
 
 def finer_starts(

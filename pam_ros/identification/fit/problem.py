@@ -20,6 +20,7 @@ from pam_ros.identification.data.segment import FreeSegment, HeldSegment, Segmen
 from pam_ros.identification.data.thinning import HELD_STEP
 from pam_ros.identification.fit.discrepancy import Discrepancy, Whitening
 from pam_ros.identification.fit.of_rig import OfRig, fill
+from pam_ros.identification.fit.onset import Change, OnsetTime, run_over
 from pam_ros.identification.fit.places import effect_of
 from pam_ros.identification.fit.unknowns import (
     CommandTime,
@@ -98,9 +99,14 @@ class Problem:
         q = self.row_at(u).reshape(self.layout.rows, self.layout.parameters)
         kernel, scratch = bind(self.layout, self.active), self.layout.scratch()
         delays = delays_of(self.layout, q)
+        change = self._change(q, u)
         found = []
         for k in range(len(self.segments)) if only is None else (only,):
             s = self.segments[k]
+            if change is not None and isinstance(s, FreeSegment) and s.t[0] < change.time:
+                x = self._start(k, change.before, u)
+                found.append(run_over(kernel, self.layout, x, s, self.step, change))
+                continue
             x = self._start(k, q, u)
             out = np.empty((s.t.size, self.layout.run_columns))
             if isinstance(s, FreeSegment):
@@ -113,6 +119,23 @@ class Problem:
                 )
             found.append(out)
         return found
+
+    def _change(self, q: Array, u: Array) -> Change | None:
+        """Return what changes when unknown effects begin, None where they act from the start.
+
+        *q* are the parameters (rows, parameters) with them.
+        """
+        pairs = zip(self.unknowns, u, strict=True)
+        time = next((k.value(value) for k, value in pairs if isinstance(k.of, OnsetTime)), None)
+        if time is None:
+            return None
+        before = q.copy().ravel()
+        for unknown in self.unknowns:
+            of = unknown.of
+            if isinstance(of, OfEffect) and of.parameter in self._strengths[effect_of(of.place)]:
+                before[list(of.indices)] = 0.0
+        begun = [effect for effect in self.layout.library if effect.name in self._free]
+        return Change(time, before.reshape(q.shape), q, begun)
 
     def _start(self, run: int, q: Array, u: Array) -> Array:
         """Return the state in which a run begins."""
@@ -190,7 +213,7 @@ class Problem:
             h = DIFFERENCE if u[k] + DIFFERENCE <= unknown.bounds[1] else -DIFFERENCE
             moved = u.copy()
             moved[k] += h
-            if isinstance(unknown.of, Constant | OfRig | OfEffect | CommandTime):
+            if isinstance(unknown.of, Constant | OfRig | OfEffect | OnsetTime | CommandTime):
                 return (self.residuals(moved) - r) / h
             run = unknown.of.run
             own = slice(starts[run], starts[run + 1])
@@ -205,14 +228,24 @@ class Problem:
     @cached_property
     def _present(self) -> tuple[Effect, ...]:
         """The effects that may be there, in the order of the library."""
-        free = {effect_of(k.of.place) for k in self.unknowns if isinstance(k.of, OfEffect)}
         index, muscles = self.layout.index, range(self.layout.muscles)
 
         def has_strength(effect: Effect) -> bool:
             strengths = [k for k, p in enumerate(effect.parameters) if p.strength]
             return any(self.row[index(effect, k, i)] != 0.0 for k in strengths for i in muscles)
 
-        return tuple(e for e in self.layout.library if e.name in free or has_strength(e))
+        return tuple(e for e in self.layout.library if e.name in self._free or has_strength(e))
+
+    @cached_property
+    def _free(self) -> set[str]:
+        """The names of the effects of which parameters are unknown."""
+        return {effect_of(k.of.place) for k in self.unknowns if isinstance(k.of, OfEffect)}
+
+    @cached_property
+    def _strengths(self) -> dict[str, set[str]]:
+        """The names of the strengths of each of the effects."""
+        library = self.layout.library
+        return {e.name: {p.name for p in e.parameters if p.strength} for e in library}
 
     # What residuals are worth ------------------------------------------------------------------
 

@@ -8,13 +8,14 @@ and of starts say what is known; those of an effect's parameters are wide, see :
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from math import exp, log
+from math import exp, log, sqrt
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pam_ros.identification.data.segment import FreeSegment, HeldSegment, Segment, start_of
+from pam_ros.identification.data.segment import FreeSegment, Segment, start_of
 from pam_ros.identification.fit.of_rig import OfRig
+from pam_ros.identification.fit.onset import OnsetTime
 from pam_ros.identification.fit.places import INITIAL, Place, names_of_muscles
 from pam_ros.rig import layout as at
 from pam_ros.rig.joint import Joint
@@ -36,10 +37,6 @@ START_Y_SPREAD, START_V_SPREAD = 2.0, 200.0
 # size, which is meant as an order of magnitude: three of them. What is positive is expected
 # within a factor e^1.5 = 4.5 of where a fit begins, and starts are a factor of 5 to 10 apart.
 STRENGTH, FACTOR = 3.0, 1.5
-# Standard deviation of the level between recordings of a muscle at one length, as a share of the
-# range of the force: repeats of the measured muscle are 0.2 to 2 % of it apart.
-LEVEL = 0.01
-SAME = 1e-3  # share of the muscle's length by which recordings of one length may differ
 
 
 @dataclass(frozen=True)
@@ -143,7 +140,7 @@ class Unknown:
     beforehand, infinite where nothing is known. ``low``, ``high`` bound the value.
     """
 
-    of: Constant | OfRig | OfEffect | CommandTime | RunStart | MemoryStart | RunLevel
+    of: Constant | OfRig | OfEffect | OnsetTime | CommandTime | RunStart | MemoryStart | RunLevel
     base: float
     scale: float
     low: float = -np.inf
@@ -244,34 +241,14 @@ def time_unknowns(segments: Sequence[Segment]) -> list[Unknown]:
     return [Unknown(CommandTime(), 0.0, spread, prior=1.0)] if spread else []
 
 
-def repeats(segments: Sequence[Segment], l0: float) -> list[list[int]]:
-    """Return the numbers of the runs at each prescribed length, which does not change in a run.
+def onset_unknown(segments: Sequence[Segment], near: float) -> Unknown:
+    """Return the moment in s at which effects begin, *near* which it is looked for.
 
-    *l0* is the muscle's length in m.
+    Nothing else is known of it beforehand than that it lies within the recording.
     """
-    groups: dict[float, list[int]] = {}
-    for k, s in enumerate(segments):
-        if isinstance(s, HeldSegment) and np.ptp(s.position) < SAME * l0:
-            length = float(s.position.mean())
-            known = next((one for one in groups if abs(one - length) < SAME * l0), length)
-            groups.setdefault(known, []).append(k)
-    return list(groups.values())
-
-
-def level_unknowns(segments: Sequence[Segment], joint: Joint) -> list[Unknown]:
-    """Return the levels of all runs at a prescribed length but the last at each.
-
-    Runs are in the order in which they were recorded, of the one muscle of *joint*. A run whose
-    length changes has none.
-    """
-    if segments[0].kind == 'free':
-        return []
-    earlier = sorted(k for runs in repeats(segments, joint.muscle.l0) for k in runs[:-1])
-    if not earlier:
-        return []
-    force = np.concatenate([s.target[s.fit] for s in segments])
-    scale = LEVEL * float(np.ptp(force)) + 1e-9
-    return [Unknown(RunLevel(k), 0.0, scale, prior=1.0) for k in earlier]
+    first, last = segments[0].t[0], max(s.t[-1] for s in segments)
+    spread = (last - first) / sqrt(12.0)  # of a uniform distribution
+    return Unknown(OnsetTime(), near, 1.0, first, last, spread)
 
 
 def effect_unknowns(model: Joint, place: Place, start: Mapping[str, float]) -> list[Unknown]:

@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 
 from pam_ros.identification.data.parts import FEWEST, Part, run_of
 from pam_ros.identification.data.thinning import thinned
+from pam_ros.identification.fit.extend import memories
 from pam_ros.identification.fit.problem import Problem
 from pam_ros.identification.fit.solve import Solution, begun, least_squares
-from pam_ros.identification.fit.unknowns import memory_unknowns
 from pam_ros.identification.search.search import Search
 from pam_ros.identification.search.setting import Model, Setting, carried, rms
 from pam_ros.identification.search.starts import without_idle
@@ -87,7 +87,7 @@ def _begun(model: Model, whole: Problem, setting: Setting) -> tuple[Problem, Arr
     own = [k for k, unknown in enumerate(known.unknowns) if unknown.is_parameter]
     starts = [unknown for unknown in whole.unknowns if not unknown.is_parameter]
     for name in model.effects:
-        starts += memory_unknowns(known.layout, setting.places[name], len(whole.segments))
+        starts += memories(whole, setting.places[name])
     problem = replace(
         whole,
         row=known.row,

@@ -5,8 +5,9 @@
 import numpy as np
 
 from pam_ros.identification.data.segment import HeldSegment
+from pam_ros.identification.fit.run_levels import repeats
 from pam_ros.identification.fit.solve import Solution
-from pam_ros.identification.fit.unknowns import RunLevel, repeats
+from pam_ros.identification.fit.unknowns import RunLevel
 from pam_ros.rig import layout as at
 
 

@@ -8,6 +8,7 @@ from pam_ros.identification.fit.extend import (
     with_parameters,
     without_effect,
 )
+from pam_ros.identification.fit.moment import moved
 from pam_ros.identification.fit.places import Place
 from pam_ros.identification.fit.problem import Problem
 from pam_ros.identification.fit.solve import Solution, settled
@@ -28,7 +29,7 @@ def with_each(parent: Model, names: list[str], setting: Setting) -> list[Model]:
         return [setting.model((*parent.effects, name), one, is_look=True) for one in found]
 
     def closer(model: Model) -> Model:
-        return setting.model(model.effects, settled(model.solution, budget.closer))
+        return setting.model(model.effects, settled(moved(model.solution), budget.closer))
 
     # An effect may have no start here: a frequency that nothing is read of.
     # Those with most starts begin first, so that no thread is left with a long one at the end.
@@ -42,7 +43,8 @@ def with_each(parent: Model, names: list[str], setting: Setting) -> list[Model]:
     best = fits[0].effects
     again = [m for found in rivals for m in found[1:] if m.effects == best]
     nearest = min([fits[0], *setting.pool.map(closer, again)], key=_score)
-    fits[0] = setting.model(best, settled(nearest.solution, budget.iterations, setting.pool))
+    end = settled(moved(nearest.solution), budget.iterations, setting.pool)
+    fits[0] = setting.model(best, end)
     return sorted([*fits, *others], key=_score)
 
 

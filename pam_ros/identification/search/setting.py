@@ -22,13 +22,14 @@ from pam_ros.identification.data.thinning import coarse_step, thinned
 from pam_ros.identification.fit.discrepancy import WHITE
 from pam_ros.identification.fit.places import Place, muscle_of, places_of
 from pam_ros.identification.fit.problem import Problem
+from pam_ros.identification.fit.run_levels import level_unknowns
 from pam_ros.identification.fit.solve import Solution, improved
 from pam_ros.identification.fit.uncertain import Spreads, spread_unknowns
 from pam_ros.identification.fit.unknowns import (
     DECLARED,
     OF_RUNS,
     MemoryStart,
-    level_unknowns,
+    onset_unknown,
     proper,
     run_unknowns,
     time_unknowns,
@@ -110,6 +111,7 @@ class Setting:
     pool: Executor
     muscles: tuple[str, ...] = ()  # names of the muscles of a joint that has several
     uncertain: Spreads = field(default_factory=dict)  # standard deviations of nominal values
+    onset: float | None = None  # s, near which the effects begin; None: with the recording
 
     @cached_property
     def noise(self) -> float:
@@ -168,6 +170,8 @@ class Setting:
         sigma = np.inf if self.drifts else self.noise
         levels = level_unknowns(runs, self.joint)
         starts = [*time_unknowns(runs), *run_unknowns(runs, sigma)]
+        if self.onset is not None:
+            starts.append(onset_unknown(runs, self.onset))
         unknowns = [*spread_unknowns(self.joint, self.muscles, self.uncertain), *starts, *levels]
         return Problem(
             tuple(runs),

@@ -10,6 +10,8 @@ from numpy.typing import NDArray
 from pam_ros.identification.data.segment import Segment
 from pam_ros.identification.fit.discrepancy import Discrepancy
 from pam_ros.identification.fit.intervals import covariance
+from pam_ros.identification.fit.moment import interval
+from pam_ros.identification.fit.onset import OnsetTime
 from pam_ros.identification.fit.places import Place
 from pam_ros.identification.fit.solve import Solution
 from pam_ros.identification.fit.unknowns import OF_RUNS, Unknown
@@ -45,7 +47,8 @@ def stages(ends: Final, found: Search, test: Sequence[Segment]) -> tuple[Stage, 
     ) -> Stage:
         runs = simulated(fit, ends.parts, found.setting)
         error, held = errors_of(runs, ends.parts)
-        tested = carried(fit, test, without=OF_RUNS) if test else []
+        # What began in one recording is there in others from their start.
+        tested = carried(fit, test, without=(*OF_RUNS, OnsetTime)) if test else []
         if tested:
             off = [run - s.target for run, s in zip(tested, test, strict=True)]
             held = rms(np.concatenate(off))
@@ -81,6 +84,11 @@ def estimates(known: Solution, process: Discrepancy, joint: Joint) -> dict[str, 
         )
         if unknown.is_parameter
     }
+
+
+def onset_of(known: Solution) -> Estimate:
+    """Return the moment in s at which the effects of a fit begin, with its 95 % interval."""
+    return Estimate(*interval(known), 's')
 
 
 def _estimate(unknown: Unknown, u: float, width: float, joint: Joint) -> Estimate:

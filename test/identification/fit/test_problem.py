@@ -14,11 +14,10 @@ from pam_ros.identification.data.segment import segments_of
 from pam_ros.identification.fit.discrepancy import Discrepancy
 from pam_ros.identification.fit.places import places_of
 from pam_ros.identification.fit.problem import Problem
+from pam_ros.identification.fit.run_levels import LEVEL, level_unknowns
 from pam_ros.identification.fit.unknowns import (
-    LEVEL,
     SPECIMEN,
     declared_unknowns,
-    level_unknowns,
     memory_unknowns,
     proper,
     run_unknowns,

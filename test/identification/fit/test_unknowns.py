@@ -13,12 +13,11 @@ from pam_ros.effects import EFFECTS
 from pam_ros.identification.data.segment import segments_of, start_of
 from pam_ros.identification.fit.places import places_of
 from pam_ros.identification.fit.unknowns import (
-    LEVEL,
     SPECIMEN,
     RunStart,
     declared_unknowns,
     effect_unknowns,
-    level_unknowns,
+    onset_unknown,
     run_unknowns,
     time_unknowns,
 )
@@ -116,38 +115,15 @@ def test_a_held_run_has_no_start_of_its_own():
     assert run_unknowns([run('held')], 1e-5) == []
 
 
-def resting(*kappas, force=300.0, seconds=4.0):
-    """Return held runs of a muscle of 0.4 m at these contractions, under a rising force."""
-    t = np.arange(round(50 * seconds)) / 50.0
-    return segments_of(
-        [
-            Recording(
-                'h', t, None, None, np.full(t.size, kappa * 0.4), None,
-                np.linspace(0.0, force, t.size), np.full(t.size, 3e5), 'held',
-            )
-            for kappa in kappas
-        ],
-    )  # fmt: skip
-
-
-def test_each_run_at_a_length_has_a_level_against_the_last_one_there():
-    runs = resting(0.1, 0.2, 0.1, 0.2, 0.1, 0.05)
-    found = level_unknowns(runs, RIG)
-    assert [k.name for k in found] == ['level[0]', 'level[1]', 'level[2]']
-    assert [k.value(1.0) for k in found] == pytest.approx(3 * [LEVEL * 300.0])
-    assert {k.prior for k in found} == {1.0}
-    assert not any(k.is_parameter for k in found)
-
-
-def test_lengths_that_differ_or_change_and_loads_that_move_have_no_level():
-    assert level_unknowns(resting(0.1, 0.102), RIG) == []
-    first, second = resting(0.1, 0.1)
-    moving = replace(first, position=first.position + np.linspace(0.0, 1e-3, first.t.size))
-    assert level_unknowns([moving, second], RIG) == []
-    assert level_unknowns([second, moving], RIG) == []
-    t = np.arange(100) / 50.0
-    free = Recording('f', t, t, np.full(100, 3e5), np.full(100, 0.05), None, None, None, 'free')
-    assert level_unknowns(segments_of([free, free]), RIG) == []
+def test_a_moment_may_be_anywhere_in_the_recording():
+    """Its prior is as wide as that of any time within it, wherever it is looked for."""
+    one = onset_unknown([run('free')], 0.4)
+    t = run('free').t
+    assert one.value(0.0) == 0.4
+    assert (one.value(1e9), one.value(-1e9)) == (t[-1], t[0])
+    times = np.random.default_rng(0).uniform(t[0], t[-1], 100_000)
+    assert one.prior * one.scale == pytest.approx(float(np.std(times)), rel=0.01)
+    assert not one.is_parameter
 
 
 def test_a_start_stays_as_near_as_noise_and_curvature_allow():

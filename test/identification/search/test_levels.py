@@ -9,8 +9,9 @@ import pytest
 
 from pam_ros.identification.data.parts import parts_of
 from pam_ros.identification.data.segment import segments_of
+from pam_ros.identification.fit.run_levels import level_unknowns, repeats
 from pam_ros.identification.fit.solve import begun
-from pam_ros.identification.fit.unknowns import RunLevel, level_unknowns, repeats
+from pam_ros.identification.fit.unknowns import RunLevel
 from pam_ros.identification.search.criteria import BUDGET, CRITERIA
 from pam_ros.identification.search.levels import apart
 from pam_ros.identification.search.setting import Setting

@@ -1,0 +1,90 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The moment at which effects begin, as an unknown whose slope can be 0.
+
+A lag that begins while the command is held shows from the next command on: all moments of the
+hold are equally good, and the next hold is worse by a step. So the moment is found, and its
+interval is told, from the cost itself with the other unknowns where they are.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pam_ros.identification.fit.intervals import covariance
+from pam_ros.identification.fit.onset import OnsetTime
+from pam_ros.identification.fit.solve import Solution
+
+Array = NDArray[np.float64]
+# What is looked at about a moment, in s: what has begun shows up to 1 s later.
+EARLIER, LATER, APART = 1.0, 0.5, 0.02
+# Fall of the likelihood, -2 ln, at the ends of a 95 % interval of one number (Wilks 1938).
+WILKS = 3.84
+FINEST, HALVINGS = 1e-4, 8  # s, first step to the side, and of the search for an end
+
+
+def index_of_onset(known: Solution) -> int | None:
+    """Return which unknown of a fit is the moment at which effects begin, None where none is."""
+    unknowns = known.problem.unknowns
+    return next((k for k, one in enumerate(unknowns) if isinstance(one.of, OnsetTime)), None)
+
+
+def moved(known: Solution) -> Solution:
+    """Return *known* at the best moment near its own, with the other unknowns where they are."""
+    k = index_of_onset(known)
+    if k is None:
+        return known
+    low, high = (float(side[k]) for side in known.problem.bounds)
+    # Its unknown is in s.
+    count = round((EARLIER + LATER) / APART) + 1
+    times = known.u[k] + np.linspace(-EARLIER, LATER, count)
+    tried = [at_moment(known, k, u) for u in times[(times > low) & (times < high)]]
+    return min([known, *tried], key=lambda one: one.cost)
+
+
+def at_moment(known: Solution, k: int, u: float) -> Solution:
+    """Return *known* with unknown number *k* at u and the Jacobian as it was."""
+    there = known.u.copy()
+    there[k] = u
+    return replace(known, u=there, r=known.problem.residuals(there), is_fresh=False)
+
+
+def interval(known: Solution) -> tuple[float, float, float]:
+    """Return the moment in s of a fit with the ends of its 95 % interval.
+
+    To each side as far as the cost allows with the other unknowns where they are, times how much
+    more the moment may move when they move with it.
+    """
+    k = index_of_onset(known)
+    assert k is not None
+    process = replace(known, discrepancy=known.most_likely())
+    slope = process.problem.whitened(known.jacobian[:, k : k + 1], process.whitenings)
+    known_by = float(np.sum(slope**2)) / process.noise**2 + known.problem.prior[k] ** -2.0
+    alone = known_by**-0.5
+    together = np.sqrt(covariance(known, process.discrepancy)[k, k])
+    unknown, u = known.problem.unknowns[k], float(known.u[k])
+    low, high = (
+        unknown.value(u + (_end(process, k, side) - u) * together / alone) for side in (-1.0, 1.0)
+    )
+    return unknown.value(u), low, high
+
+
+def _end(known: Solution, k: int, side: float) -> float:
+    """Return the u at which the cost has risen by WILKS to one *side*, or its bound there."""
+    u, bound = float(known.u[k]), float(known.problem.bounds[side > 0.0][k])
+    most = known.cost + WILKS
+
+    def is_over(away: float) -> bool:
+        return at_moment(known, k, u + side * away).cost > most
+
+    limit = abs(bound - u)
+    inside, outside = 0.0, FINEST
+    while outside < limit and not is_over(outside):
+        inside, outside = outside, 2.0 * outside
+    if outside >= limit:
+        return bound
+    for _ in range(HALVINGS):
+        middle = 0.5 * (inside + outside)
+        inside, outside = (inside, middle) if is_over(middle) else (middle, outside)
+    return u + side * 0.5 * (inside + outside)

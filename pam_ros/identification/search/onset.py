@@ -1,0 +1,189 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Since when does a model fail: the moment up to which it explains a recording.
+
+The constants of the nominal model are fitted to the beginning of a recording, and the model is run
+on. As long as it carries on as well as it was fitted, more of the recording is taken in. Where the
+next block of it is off by far more, and stays so although it is fitted, too, something has begun.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pam_ros.identification.data.parts import FEWEST, Part, run_of
+from pam_ros.identification.data.segment import Segment
+from pam_ros.identification.data.thinning import thinned
+from pam_ros.identification.fit.extend import memories
+from pam_ros.identification.fit.moment import index_of_onset
+from pam_ros.identification.fit.problem import Problem
+from pam_ros.identification.fit.solve import begun, least_squares, settled
+from pam_ros.identification.fit.unknowns import OF_RUNS
+from pam_ros.identification.search.search import Progress, Search, search
+from pam_ros.identification.search.setting import Model, Setting, rms
+from pam_ros.identification.search.starts import without_idle
+
+Array = NDArray[np.float64]
+BLOCKS, WITHIN = 20, 10  # of a recording, 3 s of a minute, and of a block
+FIRST = 3  # of them that are fitted first: an eighth of the data fixes seven constants roughly
+ITERATIONS = 8  # of these fits, each of which begins where the one before has ended
+# Fall of the likelihood, -2 ln, at the ends of a 95 % interval of one number (Wilks 1938).
+WILKS = 3.84
+
+
+@dataclass(frozen=True)
+class Moment:
+    """The time in s, with a 95 % interval, up to which the re-tuned model explains a recording."""
+
+    time: float
+    low: float
+    high: float
+
+
+def moment(setting: Setting) -> Moment | None:
+    """Return the moment from which on the re-tuned model fails, None where there is none.
+
+    That is asked of one recording of a load that moves and has a spring: only there is what comes
+    next a question that a model has to answer.
+    """
+    runs = _runs(setting)
+    if not runs or setting.drifts or runs[0].kind != 'free':
+        return None
+    whole = setting.problem_of(runs, setting.step)
+    t = np.concatenate([s.t for s in runs])
+    edges = t[0] + (t[-1] - t[0]) * np.arange(FIRST, BLOCKS + 1) / BLOCKS
+    if _count(runs[0], edges[0]) < FEWEST:
+        return None
+    known = _fitted(whole, edges[0], np.zeros(len(whole.unknowns)), setting)
+    found = _failing(whole, t, edges, known, setting)
+    if found is None:
+        return None
+    first, known = found
+    within = np.linspace(edges[first], edges[first + 1], WITHIN + 1)
+    finer = _failing(whole, t, within, known, setting)
+    if finer is not None:
+        edges, (first, known) = within, finer
+    near, left = t <= edges[first + 1], whole.residuals(known)
+    located = _located(t[near], left[near])
+    if rms(left[t < located.time]) > setting.noise / setting.criteria.left:
+        return None
+    # What begins takes a while to show.
+    return replace(located, low=min(located.low, float(edges[first])))
+
+
+def _runs(setting: Setting) -> list[Segment]:
+    """Return the stretches of the one recording in their order, thinned; none of several."""
+    segments = sorted((part.segment for part in setting.parts), key=lambda s: float(s.t[0]))
+    names = {s.name for s in segments}
+    if len(names) > 1 or any(a.t[-1] >= b.t[0] for a, b in pairwise(segments)):
+        return []
+    runs = [thinned(s, setting.step) for s in segments]
+    return [s for s in runs if s.t.size >= FEWEST]
+
+
+def shares_after(
+    since: Moment, parts: Sequence[Part], shares: tuple[float, float], least: float
+) -> tuple[float, float] | None:
+    """Return the shares of a recording that are fitted, and that are fitted or decide.
+
+    Those are the *shares* of what comes after the moment *since*, for only that shows what has
+    begun. None where less than *least* s of it would be fitted.
+    """
+    t = [t for part in parts for t in (part.segment.t[0], part.segment.t[-1])]
+    first, last = min(t), max(t)
+    gone = (since.time - first) / (last - first)
+    fit, choose = (gone + share * (1.0 - gone) for share in shares)
+    return (fit, choose) if (fit - gone) * (last - first) >= least else None
+
+
+def search_since(setting: Setting, since: Moment, tell: Progress) -> Search:
+    """Find the effects that begin at about the moment *since*, or others that act from the start.
+
+    An effect from the start can explain a model that fails in the middle, too: a load that meets
+    an end stop there for the first time. Where the effects explain as much from the start, nothing
+    has begun.
+    """
+    late = search(replace(setting, onset=since.time), tell)
+    best = late.best
+    if best.effects and _from_start(best, setting).score > best.score + setting.criteria.margin:
+        return late
+    return search(setting, tell)
+
+
+def _from_start(late: Model, setting: Setting) -> Model:
+    """Return the model with the same effects, from the start of the recording on."""
+    known = late.solution
+    k = index_of_onset(known)
+    assert k is not None
+    unknowns = known.problem.unknowns
+    problem = replace(known.problem, unknowns=(*unknowns[:k], *unknowns[k + 1 :]))
+    memory = [one for name in late.effects for one in memories(problem, setting.places[name])]
+    whole = replace(problem, unknowns=(*problem.unknowns, *memory))
+    u = np.concatenate([np.delete(known.u, k), np.zeros(len(memory))])
+    plain = without_idle(begun(whole, u, known.discrepancy, setting.pool), setting.noise)
+    return setting.model(late.effects, settled(plain, setting.budget.iterations, setting.pool))
+
+
+def _failing(
+    whole: Problem, t: Array, edges: Array, known: Array, setting: Setting
+) -> tuple[int, Array] | None:
+    """Return the first block between *edges* in s that the model does not explain, with a fit.
+
+    The fit is to what lies before it; *known* is that to what lies before the first edge.
+    """
+    for k, (end, next_end) in enumerate(pairwise(edges)):
+        before, block = t <= end, (t > end) & (t <= next_end)
+        if not block.any():
+            continue
+        left = whole.residuals(known)
+        most = rms(left[before]) / setting.criteria.left
+        if rms(left[block]) <= most:
+            continue
+        further = _fitted(whole, next_end, known, setting)
+        if rms(whole.residuals(further)[block]) > most:
+            return k, known
+        known = further
+    return None
+
+
+def _fitted(whole: Problem, end: float, u: Array, setting: Setting) -> Array:
+    """Return the unknowns of *whole*, fitted to what lies before *end* s, from u on."""
+    # Stretches are in their order, so that those left out are the last ones.
+    runs = [s for s in whole.segments if _count(s, end) >= FEWEST]
+    keep = [
+        n
+        for n, unknown in enumerate(whole.unknowns)
+        if not isinstance(unknown.of, OF_RUNS) or unknown.of.run < len(runs)
+    ]
+    problem = replace(
+        whole,
+        segments=tuple(run_of(s, s.t <= end) for s in runs),
+        unknowns=tuple(whole.unknowns[n] for n in keep),
+    )
+    found = least_squares(begun(problem, u[keep], pool=setting.pool), ITERATIONS, setting.pool)
+    moved: Array = u.copy()
+    moved[keep] = found.u
+    return moved
+
+
+def _count(segment: Segment, end: float) -> int:
+    return int(np.count_nonzero(segment.t <= end))
+
+
+def _located(t: Array, left: Array) -> Moment:
+    """Return the most likely moment at which the variance of *left* (n,) grows, at stamps t.
+
+    Both variances are those of the most likely moment.
+    """
+    power = left**2
+    n = np.arange(1, t.size)
+    sums = np.cumsum(power)
+    first = sums[:-1] / n
+    last = (sums[-1] - sums[:-1]) / (t.size - n)
+    deviance = n * np.log(first + 1e-300) + (t.size - n) * np.log(last + 1e-300)
+    best = int(np.argmin(deviance))
+    near = np.flatnonzero(deviance <= deviance[best] + WILKS)
+    return Moment(float(t[best + 1]), float(t[near[0]]), float(t[near[-1] + 1]))

@@ -1,0 +1,145 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Since when a model fails, on recordings of the truth plant."""
+
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from pam_ros.identification.data.parts import parts_of
+from pam_ros.identification.fit.moment import index_of_onset
+from pam_ros.identification.search.criteria import BUDGET, CRITERIA
+from pam_ros.identification.search.onset import Moment, moment, search_since, shares_after
+from pam_ros.identification.search.setting import Setting
+from support import bench_truth
+from truth import effect
+
+ONSET = 17.0
+SHARES = CRITERIA.fit, CRITERIA.choose
+
+
+@pytest.fixture(scope='module')
+def setting_of():
+    """Return a function that makes the setting of a search of recordings."""
+    with ThreadPoolExecutor() as pool:
+
+        def made(*recordings, shares=SHARES, model=None):
+            parts = parts_of(recordings, *shares)
+            model = model or bench_truth.declared(off=0.02 * np.array([1, -1, 1, 1, -1, 1]))
+            return Setting(model, parts, CRITERIA, BUDGET, pool)
+
+        yield made
+
+
+@pytest.mark.needs_numba
+@pytest.mark.parametrize(
+    'one',
+    [
+        effect('coulomb_friction'),
+        effect('viscous_friction'),
+        effect('payload', payload_kg=-5.0),
+        effect('pressure_offset', regulator_pa=0.0, regulator_gain=0.93),
+        effect('backlash'),
+        effect('saturation'),
+    ],
+    ids=lambda one: one.kind,
+)
+def test_a_model_fails_from_the_moment_on(setting_of, one):
+    """Whether or not the library has the effect."""
+    found = moment(setting_of(bench_truth.late(one, ONSET)))
+    assert found.time == pytest.approx(ONSET, abs=0.5)
+    assert found.low <= found.time <= found.high
+    assert found.low - 0.2 <= ONSET <= found.high
+
+
+@pytest.mark.needs_numba
+@pytest.mark.parametrize(
+    'effects',
+    [
+        (),
+        (effect('pressure_lag'),),
+        (effect('hysteresis', 'slip'),),
+        (effect('coulomb_friction'), effect('creep', 'pressure')),
+    ],
+    ids=lambda effects: '+'.join(one.kind for one in effects) or 'noise',
+)
+def test_what_is_there_from_the_start_has_no_moment(setting_of, effects):
+    assert moment(setting_of(bench_truth.free(*effects, seed=5, duration=40.0))) is None
+
+
+@pytest.mark.needs_numba
+def test_a_gap_does_not_hide_a_moment(setting_of):
+    whole = bench_truth.late(effect('coulomb_friction'), ONSET)
+    for gap in (10.0, 25.0):
+        keep = (whole.t < gap) | (whole.t > gap + 0.5)
+        ends = float(whole.t[whole.t < gap][-1]), float(whole.t[whole.t > gap + 0.5][0])
+        cut = replace(whole, t=whole.t[keep], position=whole.position[keep], gaps=(ends,))
+        assert len(setting_of(cut).parts) == 2
+        assert moment(setting_of(cut)).time == pytest.approx(ONSET, abs=0.5)
+
+
+@pytest.mark.needs_numba
+def test_only_one_recording_of_a_free_load_has_a_moment(setting_of):
+    """Of two it is not known which came first, and held ones are not run on."""
+    one = bench_truth.late(effect('coulomb_friction'), ONSET)
+    assert moment(setting_of(one, replace(one, name='again.csv'))) is None
+    held = bench_truth.held()
+    assert moment(setting_of(held)) is None
+
+
+def test_the_shares_are_of_what_comes_after(setting_of):
+    setting = setting_of(bench_truth.free(duration=40.0))
+    length = setting.parts[0].segment.t[-1]
+    fit, choose = shares_after(Moment(20.0, 19.9, 20.1), setting.parts, (0.5, 0.75), 5.0)
+    assert fit * length == pytest.approx(20.0 + 0.5 * (length - 20.0))
+    assert choose * length == pytest.approx(20.0 + 0.75 * (length - 20.0))
+    # Less than 5 s of it would be fitted.
+    assert shares_after(Moment(31.0, 30.9, 31.1), setting.parts, (0.5, 0.75), 5.0) is None
+
+
+@pytest.mark.slow
+@pytest.mark.needs_numba
+@pytest.mark.parametrize(
+    'one',
+    [
+        effect('viscous_friction'),
+        *(
+            pytest.param(one, marks=pytest.mark.release)
+            for one in (effect('payload', payload_kg=-4.0), effect('leak', 'refill'))
+        ),
+    ],
+    ids=lambda one: one.kind,
+)
+def test_what_begins_is_named_with_its_moment(setting_of, one):
+    recording = bench_truth.late(one, ONSET)
+    since = moment(setting_of(recording))
+    setting = setting_of(recording)
+    setting = setting_of(
+        recording, shares=shares_after(since, setting.parts, SHARES, CRITERIA.duration)
+    )
+    found = search_since(setting, since, lambda share, text: None)
+    assert found.best.effects == (one.kind,)
+    k = index_of_onset(found.best.solution)
+    unknown = found.best.solution.problem.unknowns[k]
+    assert unknown.value(found.best.solution.u[k]) == pytest.approx(ONSET, abs=0.05)
+
+
+@pytest.mark.slow
+@pytest.mark.needs_numba
+def test_an_end_stop_that_is_met_late_was_there_from_the_start(setting_of):
+    """The load meets it for the first time in the middle, which looks like something that begins.
+
+    Both models explain it; that which needs no moment is the plainer one.
+    """
+    whole = bench_truth.free(seed=0, duration=40.0)
+    highest = np.maximum.accumulate(whole.position)
+    stop = 0.5 * (highest[int(0.3 * whole.t.size)] + highest[-1])
+    assert whole.t[np.argmax(highest > stop)] > 8.0
+    recording = bench_truth.free(effect('end_stop', stop_m=float(stop)), duration=40.0)
+    setting = setting_of(recording)
+    since = moment(setting)
+    found = search_since(setting, since, lambda share, text: None)
+    assert found.best.effects == ('end_stop',)
+    assert found.setting.onset is None
