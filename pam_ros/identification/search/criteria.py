@@ -33,10 +33,10 @@ class Criteria:
     recordings the right effects left at most 0.30, most of them below 0.1. Of what the library
     does not have, wrong effects left 0.62 to 0.96 of a backlash and a second mode, 0.30 to 0.97 of
     a coupling, a saturation and a random walk, and 0.22 to 0.59 of a drift with the temperature,
-    whose form is much like that of softening. The same share says since when a
-    re-tuned model fails: before the moment it leaves no more than that of what it leaves after, and
-    at most the noise over that share. Of 36 recordings in which something began it left 0.4 to 2.1
-    noise floors before and 2.5 to 1500 after; where it had lacked an effect all along, 6 and more
+    whose form is much like that of softening. The same share says since when a re-tuned model
+    fails: before the moment it leaves no more than that of what it leaves after, and at most the
+    noise over that share. Of 36 recordings in which something began it left 0.4 to 2.1 noise
+    floors before and 2.5 to 1500 after; where it had lacked an effect all along, 6 and more
     before.
     ``duration``: s of recording at least, and ``range``: in noise floors, what the target must
     change by at least, for a verdict. They are what excites a rig's slowest mode (some 0.5 Hz) a
