@@ -51,23 +51,19 @@ def run_over(
     step: float,
     change: Change,
 ) -> Array:
-    """Return the run over the stamps of *segment* with a *change*, from the state x on.
+    """Return the run over the stamps of *segment* with a *change* after its first, from x on.
 
-    x becomes that at the end. The columns are those of
+    The state x becomes that at the end. The columns are those of
     :func:`pam_ros.rig.run_kernel.simulate`, without forces.
     """
     t, time = segment.t, change.time
-    first = int(np.searchsorted(t, time, side='right'))
-    out = np.empty((t.size, layout.run_columns))
-    if first > 0:
-        stamps = np.append(t[:first], time) if first < t.size else t
-        out[:first] = _run(kernel, layout, x, segment, stamps, change.before, step)[:first]
-    if first < t.size:
-        begin_effects(layout, change.before, x, change.effects)
-        stamps = np.insert(t[first:], 0, time) if first > 0 else t
-        rest = _run(kernel, layout, x, segment, stamps, change.after, step)
-        out[first:] = rest[stamps.size - (t.size - first) :]
-    return out
+    n = int(np.searchsorted(t, time, side='right'))
+    if n == t.size:
+        return _run(kernel, layout, x, segment, t, change.before, step)
+    early = _run(kernel, layout, x, segment, np.append(t[:n], time), change.before, step)
+    begin_effects(layout, change.before, x, change.effects)
+    late = _run(kernel, layout, x, segment, np.insert(t[n:], 0, time), change.after, step)
+    return np.concatenate([early[:n], late[1:]])
 
 
 def _run(

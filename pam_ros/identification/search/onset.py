@@ -18,7 +18,7 @@ from pam_ros.identification.data.parts import FEWEST, Part, run_of
 from pam_ros.identification.data.segment import Segment
 from pam_ros.identification.data.thinning import thinned
 from pam_ros.identification.fit.extend import memories
-from pam_ros.identification.fit.moment import index_of_onset
+from pam_ros.identification.fit.moment import WILKS, index_of_onset
 from pam_ros.identification.fit.problem import Problem
 from pam_ros.identification.fit.solve import begun, least_squares, settled
 from pam_ros.identification.fit.unknowns import OF_RUNS
@@ -28,10 +28,8 @@ from pam_ros.identification.search.starts import without_idle
 
 Array = NDArray[np.float64]
 BLOCKS, WITHIN = 20, 10  # of a recording, 3 s of a minute, and of a block
-FIRST = 3  # of them that are fitted first: an eighth of the data fixes seven constants roughly
+FIRST = 3  # of them that are fitted first: a seventh of the data fixes seven constants roughly
 ITERATIONS = 8  # of these fits, each of which begins where the one before has ended
-# Fall of the likelihood, -2 ln, at the ends of a 95 % interval of one number (Wilks 1938).
-WILKS = 3.84
 
 
 @dataclass(frozen=True)
@@ -95,7 +93,8 @@ def shares_after(
     t = [t for part in parts for t in (part.segment.t[0], part.segment.t[-1])]
     first, last = min(t), max(t)
     gone = (since.time - first) / (last - first)
-    fit, choose = (gone + share * (1.0 - gone) for share in shares)
+    # All of it is exactly all of the recording.
+    fit, choose = (1.0 - (1.0 - share) * (1.0 - gone) for share in shares)
     return (fit, choose) if (fit - gone) * (last - first) >= least else None
 
 

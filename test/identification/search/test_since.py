@@ -95,6 +95,8 @@ def test_the_shares_are_of_what_comes_after(setting_of):
     fit, choose = shares_after(Moment(20.0, 19.9, 20.1), setting.parts, (0.5, 0.75), 5.0)
     assert fit * length == pytest.approx(20.0 + 0.5 * (length - 20.0))
     assert choose * length == pytest.approx(20.0 + 0.75 * (length - 20.0))
+    # With test recordings all of it is fitted or decides, to the last sample.
+    assert shares_after(Moment(17.3, 17.2, 17.4), setting.parts, (0.73, 1.0), 5.0)[1] == 1.0
     # Less than 5 s of it would be fitted.
     assert shares_after(Moment(31.0, 30.9, 31.1), setting.parts, (0.5, 0.75), 5.0) is None
 
