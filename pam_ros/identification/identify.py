@@ -98,8 +98,8 @@ def identify(
         since = None if lacking else moment(setting)
         later = since and shares_after(since, parts, shares, CRITERIA.duration)
         if since and later:
-            setting = replace(setting, parts=parts_of(recordings, *later))
-            found = search_since(setting, since, tell)
+            late = replace(setting, parts=parts_of(recordings, *later), onset=since.time)
+            found = search_since(setting, late, tell)
         else:
             found = search(setting, tell)
         tell(0.9, 'fitting the chosen models in full')

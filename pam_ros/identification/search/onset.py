@@ -98,17 +98,18 @@ def shares_after(
     return (fit, choose) if (fit - gone) * (last - first) >= least else None
 
 
-def search_since(setting: Setting, since: Moment, tell: Progress) -> Search:
-    """Find the effects that begin at about the moment *since*, or others that act from the start.
+def search_since(setting: Setting, late: Setting, tell: Progress) -> Search:
+    """Find the effects that begin late, or else those that act from the start.
 
-    An effect from the start can explain a model that fails in the middle, too: a load that meets
-    an end stop there for the first time. Where the effects explain as much from the start, nothing
-    has begun.
+    *late* is the setting in which all effects begin at one moment, and *setting* that in which
+    they are there from the start. An effect from the start can explain a model that fails in the
+    middle, too: a load that meets an end stop there for the first time. Where the effects explain
+    as much from the start, nothing has begun.
     """
-    late = search(replace(setting, onset=since.time), tell)
-    best = late.best
-    if best.effects and _from_start(best, setting).score > best.score + setting.criteria.margin:
-        return late
+    found = search(late, tell)
+    best = found.best
+    if best.effects and _from_start(best, late).score > best.score + late.criteria.margin:
+        return found
     return search(setting, tell)
 
 

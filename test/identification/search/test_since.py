@@ -118,10 +118,10 @@ def test_what_begins_is_named_with_its_moment(setting_of, one):
     recording = bench_truth.late(one, ONSET)
     since = moment(setting_of(recording))
     setting = setting_of(recording)
-    setting = setting_of(
-        recording, shares=shares_after(since, setting.parts, SHARES, CRITERIA.duration)
-    )
-    found = search_since(setting, since, lambda share, text: None)
+    shares = shares_after(since, setting.parts, SHARES, CRITERIA.duration)
+    late = replace(setting_of(recording, shares=shares), onset=since.time)
+    found = search_since(setting, late, lambda share, text: None)
+    assert found.setting is late
     assert found.best.effects == (one.kind,)
     k = index_of_onset(found.best.solution)
     unknown = found.best.solution.problem.unknowns[k]
@@ -141,7 +141,7 @@ def test_an_end_stop_that_is_met_late_was_there_from_the_start(setting_of):
     assert whole.t[np.argmax(highest > stop)] > 8.0
     recording = bench_truth.free(effect('end_stop', stop_m=float(stop)), duration=40.0)
     setting = setting_of(recording)
-    since = moment(setting)
-    found = search_since(setting, since, lambda share, text: None)
+    late = replace(setting, onset=moment(setting).time)
+    found = search_since(setting, late, lambda share, text: None)
     assert found.best.effects == ('end_stop',)
-    assert found.setting.onset is None
+    assert found.setting is setting
