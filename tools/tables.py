@@ -5,7 +5,7 @@
 from pathlib import Path
 
 from pam_ros.effects import EFFECTS
-from pam_ros.effects.base import PLACES, Effect
+from pam_ros.effects.base import ONSET, PLACES, Effect, EffectParameter
 
 GUIDE = Path(__file__).parents[1] / 'docs' / 'effects.md'
 
@@ -39,14 +39,16 @@ def effects_table(library: tuple[Effect, ...] = EFFECTS) -> str:
 def parameters_table(library: tuple[Effect, ...] = EFFECTS) -> str:
     """Return the table of parameters in Markdown, strengths in bold."""
     rows = ['| parameter | unit | range | default | meaning |', '|---|---|---|---|---|']
-    for e in library:
-        for p in e.parameters:
-            name = f'`effects.{e.name}.{p.name}`'
-            if p.strength:
-                name = f'**{name}**'
-            span = f'{p.low:g} to {p.high:g}'
-            rows.append(f'| {name} | {p.unit or "-"} | {span} | {p.default:g} | {p.text} |')
-    return '\n'.join(rows)
+    rows += [_row(e.name, p) for e in library for p in e.parameters]
+    return '\n'.join([*rows, _row('<name>', ONSET)])
+
+
+def _row(effect: str, p: EffectParameter) -> str:
+    """Return the row of a parameter of an effect."""
+    name = f'`effects.{effect}.{p.name}`'
+    if p.strength:
+        name = f'**{name}**'
+    return f'| {name} | {p.unit or "-"} | {p.low:g} to {p.high:g} | {p.default:g} | {p.text} |'
 
 
 def with_tables(text: str, library: tuple[Effect, ...] = EFFECTS) -> str:

@@ -107,7 +107,7 @@ class Pid:
         limits: Limits | None = None,
         co_contraction: CoContraction | None = None,
     ) -> None:
-        """Make it for a declared joint.
+        """Make it for a declared joint, of whose effects it knows those without an onset.
 
         Raises ParameterError where simple-pid is missing, or the gains are for the other kind of
         joint, or no share of them is stable in all of the reach.
@@ -119,7 +119,7 @@ class Pid:
         gains = PidGains.for_joint(joint) if gains is None else gains
         limits = Limits() if limits is None else limits
         wanted = CoContraction() if co_contraction is None else co_contraction
-        instance('joint', joint, Joint, 'a Joint')
+        joint = instance('joint', joint, Joint, 'a Joint').at_start
         self.gains = instance('gains', gains, PidGains, 'PidGains')
         instance('limits', limits, Limits, 'Limits')
         instance('co_contraction', wanted, CoContraction, 'a CoContraction')

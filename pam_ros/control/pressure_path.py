@@ -12,8 +12,8 @@ from math import exp
 
 from pam_ros.effects.base import Compensation
 from pam_ros.rig import layout as at
+from pam_ros.rig.acting import delays_of
 from pam_ros.rig.joint import Joint
-from pam_ros.rig.run import delays_of
 
 # Pa, between which every path without a memory is an offset and a gain: beyond all dead bands.
 LOW, HIGH = 4e5, 5e5

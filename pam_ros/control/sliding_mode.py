@@ -93,12 +93,13 @@ class SlidingMode:
     ) -> None:
         """Make it for a declared joint, at rest in the middle of its reach; see :meth:`start`.
 
-        Raises ParameterError for gains of the other kind of joint (``Gains.for_joint``).
+        Of the joint's effects it knows those without an onset. Raises ParameterError for
+        gains of the other kind of joint (``Gains.for_joint``).
         """
         gains = Gains.for_joint(joint) if gains is None else gains
         limits = Limits() if limits is None else limits
         wanted = CoContraction() if co_contraction is None else co_contraction
-        self.joint = instance('joint', joint, Joint, 'a Joint')
+        self.joint = joint = instance('joint', joint, Joint, 'a Joint').at_start
         self.gains = instance('gains', gains, Gains, 'Gains')
         instance('limits', limits, Limits, 'Limits')
         instance('co_contraction', wanted, CoContraction, 'a CoContraction')

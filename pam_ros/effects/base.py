@@ -100,6 +100,18 @@ class EffectParameter:
         return Parameter(self.text, self.unit, self.low, self.high)
 
 
+# What every effect has beside its own parameters. No law reads it: simulations do.
+ONSET = EffectParameter(
+    'onset',
+    0.0,
+    'simulated time at which the effect begins to act; until then it is absent',
+    's',
+    0.0,
+    1e9,
+    scale=1.0,
+)
+
+
 @dataclass(frozen=True)
 class HiddenState:
     """One hidden state of an effect, in SI.
@@ -174,6 +186,10 @@ class Effect:
             raise ParameterError(
                 f'effect {self.name} has drag without outside: friction brakes a free load as well'
             )
+        if any(p.name == ONSET.name for p in self.parameters):
+            raise ParameterError(
+                f'effect {self.name} has a parameter onset: every effect has one beside its own'
+            )
         if not any(p.strength for p in self.parameters):
             raise ParameterError(f'effect {self.name} has no strength parameter to be absent by')
         if self.states and self.lag is None and self.compensation in WITHOUT_MEMORY:
@@ -190,20 +206,22 @@ class Effect:
     def values(self, given: Mapping[str, float]) -> list[float]:
         """Return the parameters in order, *given* over the defaults, checked.
 
-        Raises ParameterError for an unknown name or a value out of range.
+        The onset, which *given* may have, too, is checked and is none of them. Raises
+        ParameterError for an unknown name or a value out of range.
         """
-        names = [p.name for p in self.parameters]
+        names = [p.name for p in (*self.parameters, ONSET)]
         for name in given:
             if name not in names:
                 raise ParameterError(
                     f'effects.{self.name}.{name} is not known: give one of ' + ', '.join(names)
                 )
-        return [
+        checked: list[float] = [
             p.described().check(
                 f'effects.{self.name}.{p.name}', given.get(p.name, p.default), float
             )
-            for p in self.parameters
+            for p in (*self.parameters, ONSET)
         ]
+        return checked[:-1]
 
     def is_present(self, given: Mapping[str, float]) -> bool:
         """Say whether any strength in *given* differs from zero."""

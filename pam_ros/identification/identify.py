@@ -41,6 +41,7 @@ from pam_ros.identification.verdict import (
 from pam_ros.recording.inputs import refuse_idle
 from pam_ros.recording.recording import Recording
 from pam_ros.rig import layout as at
+from pam_ros.rig.changes import refuse_onsets
 from pam_ros.rig.joint import Joint
 
 Array = NDArray[np.float64]
@@ -68,10 +69,10 @@ def identify(
     one the numbers of load, transmission and mounting are taken as they are.
 
     Raises RecordingError when there are no recordings, when they do not fit together, carry no
-    output or are too short for any fit, and ParameterError for objects of another type and for an
-    uncertain parameter that the model does not have.
+    output or are too short for any fit, and ParameterError for objects of another type, for a
+    model with an onset and for an uncertain parameter that the model does not have.
     """
-    instance('model', model, Joint, 'a Joint')
+    refuse_onsets(instance('model', model, Joint, 'a Joint'), 'a nominal joint')
     recordings = sequence('recordings', recordings, Recording, 'a Recording')
     test = sequence('test', test, Recording, 'a Recording')
     if not recordings:

@@ -17,7 +17,8 @@ from pam_ros.report.provenance import Provenance
 from pam_ros.report.summary import last_line
 from pam_ros.report.wording import listed
 from pam_ros.rig.arrangements import ARRANGEMENTS, LOAD
-from pam_ros.rig.joint import EffectValues, Joint
+from pam_ros.rig.effect_values import EffectValues
+from pam_ros.rig.joint import Joint
 from pam_ros.settings.files import write
 from pam_ros.settings.rig import RigParameters
 

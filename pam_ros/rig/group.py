@@ -3,28 +3,35 @@
 """Joints of one kind that are stepped together: their matrices, their commands, their kernel."""
 
 from collections.abc import Sequence
+from math import ceil
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pam_ros.rig import layout as at
 from pam_ros.rig.bind import bind
+from pam_ros.rig.changes import appeared
 from pam_ros.rig.joint import Joint
-from pam_ros.rig.start import start_joint, start_muscle, start_state
+from pam_ros.rig.start import begin_effects, start_state
 
 Array = NDArray[np.float64]
 QUEUE_LENGTH = 16  # commands of a muscle that may be under way before the queues grow
 
 
 class Group:
-    """Joints with the same layout. x, q: a matrix a joint; all is (joints, muscles) otherwise."""
+    """Joints with the same layout. x, q: a matrix a joint; all is (joints, muscles) otherwise.
 
-    def __init__(self, joints: Sequence[Joint]) -> None:
-        """Make their matrices; :meth:`reset` sets the state."""
+    ``joints`` are they as declared; the parameters q are those of the effects that act by now.
+    """
+
+    def __init__(self, joints: Sequence[Joint], step: float) -> None:
+        """Make their matrices for steps of *step* s; :meth:`reset` sets the state."""
         self.layout = layout = joints[0].layout
         n, self.muscles = len(joints), layout.muscles
-        self.joints: tuple[Joint, ...] = tuple(joints)
-        self.q = np.array([joint.parameters() for joint in joints])
+        self.step = step
+        self._declare(joints)
+        self._present = [joint.at_start for joint in joints]
+        self.q = np.array([joint.parameters() for joint in self._present])
         self.x = np.array([layout.state() for _ in joints])
         # Parts of the state: joints' coordinates and velocities, muscles' pressures.
         self.s, self.v = self.x[:, at.JOINT, at.S], self.x[:, at.JOINT, at.V]
@@ -48,29 +55,42 @@ class Group:
         self._at_zero = self.q[:, at.MUSCLE :, at.AT_ZERO].tolist()
         self._l0 = self.q[:, at.MUSCLE :, at.L0].tolist()
 
-    def change(self, joints: Sequence[Joint]) -> None:
-        """Go on from the present state as *joints*, which have the same layout.
+    def _declare(self, joints: Sequence[Joint]) -> None:
+        self.joints: tuple[Joint, ...] = tuple(joints)
+        self._stages = [
+            [(self._first_step(time), stage) for time, stage in joint.stages] for joint in joints
+        ]
+        # The steps before which effects begin to act.
+        self._changes = sorted({k for stages in self._stages for k, _ in stages[1:]})
 
-        An effect that was absent starts as after a long rest here.
+    def _first_step(self, time: float) -> int:
+        """Return the number of the first step that does not begin before *time* s."""
+        return ceil(time / self.step - 1e-9)
+
+    def change(self, joints: Sequence[Joint], k: int) -> None:
+        """Go on from the present state, at step number k, as *joints* with the same layout.
+
+        Effects that were absent and act by then begin to act.
         """
-        before, self.joints = self.joints, tuple(joints)
-        self.q = np.array([joint.parameters() for joint in joints])
-        for x, q, old, new in zip(self.x, self.q, before, joints, strict=True):
-            on_joint, *in_muscles = (
-                tuple(effect for effect in now if effect not in then)
-                for then, now in zip(old.present, new.present, strict=True)
-            )
-            for i, appeared in enumerate(in_muscles):
-                start_muscle(self.layout, q, x, i, x[at.MUSCLE + i, at.P], appeared)
-            start_joint(self.layout, q, x, on_joint)
+        self._declare(joints)
+        self._take_effect(k)
         self._bind()
+
+    def _take_effect(self, k: int) -> None:
+        """Give all joints the effects that act from step number k on."""
+        for a, stages in enumerate(self._stages):
+            before = self._present[a]
+            after = self._present[a] = [stage for first, stage in stages if first <= k][-1]
+            if after is not before:
+                begin_effects(self.layout, self.q[a], self.x[a], appeared(before, after))
+                self.q[a] = after.parameters()
 
     def prepare(self) -> None:
         """Call the kernels of these joints, without effects and with all, for no step."""
         present = self._kernel
         for active in ((), self.layout.library):
             self._kernel = bind(self.layout, active)
-            self.advance(0, 0, 1e-3)
+            self._step(0, 0)
             self.look(0.0)
         self._kernel = present
 
@@ -78,6 +98,8 @@ class Group:
         """Set the state as after a long rest; *pressures* (joints, muscles) are commands, too."""
         self.u[:] = pressures
         self._count[:] = 0
+        self._declare(self.joints)
+        self._take_effect(0)
         for a, q in enumerate(self.q):
             self.x[a] = start_state(self.layout, q, self.u[a], float(s[a]), float(v[a]))
 
@@ -92,8 +114,17 @@ class Group:
         self._at[joint, muscle, i], self._queue[joint, muscle, i] = time, pressure
         self._count[joint, muscle] = i + 1
 
-    def advance(self, k: int, steps: int, step: float) -> None:
-        """Step all joints *steps* times from step number k on."""
+    def advance(self, k: int, steps: int) -> None:
+        """Step all joints *steps* times from step number k on; effects begin at their steps."""
+        end = k + steps
+        while self._changes and self._changes[0] < end:
+            begins = max(self._changes.pop(0), k)
+            self._step(k, begins - k)
+            self._take_effect(begins)
+            k = begins
+        self._step(k, end - k)
+
+    def _step(self, k: int, steps: int) -> None:
         self._kernel.advance(
             self.x,
             self._scratch,
@@ -105,7 +136,7 @@ class Group:
             self._done,
             k,
             steps,
-            step,
+            self.step,
         )
 
     def look(self, time: float) -> None:

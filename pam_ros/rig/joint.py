@@ -4,7 +4,7 @@
 
 import itertools
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -18,12 +18,12 @@ from pam_ros.errors import ParameterError, RangeError
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig import layout as at
 from pam_ros.rig import statics
+from pam_ros.rig.effect_values import EffectValues, begun, onsets, refuse_other_than_effects
 from pam_ros.rig.layout import Layout, layout_of
 from pam_ros.rig.loads import Load, LoadEquations, Mass
 from pam_ros.rig.transmissions import Straight, Transmission, TransmissionEquations
 
 Array = NDArray[np.float64]
-EffectValues = Mapping[str, Mapping[str, float]]
 
 
 @dataclass(frozen=True)
@@ -41,7 +41,7 @@ class Actuator:
     def __post_init__(self) -> None:
         """Check what was given; the joint checks which effects there are."""
         instance('muscle', self.muscle, Muscle, 'a Muscle')
-        _refuse_other_than_effects(self.effects)
+        refuse_other_than_effects(self.effects)
         number('contraction', self.contraction)
 
 
@@ -56,6 +56,10 @@ class Joint:
     and what is not given has its default, absent. ``library`` are the effects that the kernel
     knows. The paper's rig, one muscle on a mass, is what
     :func:`pam_ros.single_muscle_joint` makes.
+
+    An effect with an ``onset`` in s, ``{'leak': {'rate': 0.1, 'onset': 20.0}}``, begins to act
+    then: in simulations, whose time it is. Until then it is absent, and at the moment no pressure
+    and no position jumps. All else here describes the joint on which all effects act.
 
     Raises ParameterError for effects that are unknown, out of range or at the wrong place, and
     for a joint that has no equilibrium over the range of pressures.
@@ -83,9 +87,9 @@ class Joint:
         for actuator in self.actuators:
             for name, given in actuator.effects.items():
                 self._known(name, on_joint=False).values(given)
-        if self.is_driven:
-            return
-        self._check_equilibria()
+        if not self.is_driven:
+            self._check_equilibria()
+        _ = self.stages  # each of them must be a joint, too
 
     def _check_kinds(self) -> None:
         actuators = sequence(
@@ -106,7 +110,7 @@ class Joint:
         ):
             given = getattr(part, 'equations', None)
             instance(f'{name}.equations', given, kind, f'{kind.__name__}, as a field of its class')
-        _refuse_other_than_effects(self.effects)
+        refuse_other_than_effects(self.effects)
         object.__setattr__(self, 'library', library_of(self.library))
 
     def _known(self, name: str, *, on_joint: bool) -> Effect:
@@ -181,6 +185,29 @@ class Joint:
     def inertia(self) -> float:
         """What resists acceleration in kg or kg m^2, with the moved mass."""
         return self.load.equations.inertia(self.moved_mass, self.load.numbers, 0)
+
+    # When effects begin ------------------------------------------------------------------------
+
+    @cached_property
+    def stages(self) -> tuple[tuple[float, 'Joint'], ...]:
+        """The joint as it is from each time in s on, at first from 0: without later effects."""
+        each = [self.effects, *(actuator.effects for actuator in self.actuators)]
+        times = set().union(*map(onsets, each, self.present))
+        if not times:
+            return ((0.0, self),)
+        return tuple((time, self._at(time)) for time in sorted({0.0, *times}))
+
+    def _at(self, time: float) -> 'Joint':
+        """Return the joint of the effects that act at *time* s, which have no onset there."""
+        actuators = tuple(
+            replace(actuator, effects=begun(actuator.effects, time)) for actuator in self.actuators
+        )
+        return replace(self, actuators=actuators, effects=begun(self.effects, time))
+
+    @property
+    def at_start(self) -> 'Joint':
+        """The joint as it is before any effect with an onset begins to act."""
+        return self.stages[0][1]
 
     # One muscle on a mass ----------------------------------------------------------------------
 
@@ -273,31 +300,3 @@ def fill_load(row: Array, layout: Layout, load: Load, transmission: Transmission
 def library_of(library: Sequence[Effect]) -> tuple[Effect, ...]:
     """Return *library* as a tuple; raises ParameterError where something in it is no Effect."""
     return sequence('library', library, Effect, 'an Effect, such as those of EFFECTS')
-
-
-def _refuse_other_than_effects(effects: EffectValues) -> None:
-    """Raise ParameterError where *effects* are not tables of parameters by name."""
-    example = "{'pressure_lag': {'fill': 0.1, 'vent': 0.2}}"
-    instance('effects', effects, Mapping, f'effects with their parameters, such as {example}')
-    for name, given in effects.items():
-        instance(f'effects.{name}', given, Mapping, f'its parameters by name, as in {example}')
-
-
-def split_effects(
-    effects: EffectValues, library: Sequence[Effect] = EFFECTS
-) -> tuple[EffectValues, EffectValues]:
-    """Return those of *effects* that act in a muscle, and those that act on the joint.
-
-    Raises ParameterError for an effect that *library* does not have.
-    """
-    _refuse_other_than_effects(effects)
-    on_joint = {effect.name: effect.acts_on_joint for effect in library}
-    for name in effects:
-        if name not in on_joint:
-            raise ParameterError(
-                f'effects.{name} is not known: give one of ' + ', '.join(on_joint)
-            )
-    return (
-        {name: given for name, given in effects.items() if not on_joint[name]},
-        {name: given for name, given in effects.items() if on_joint[name]},
-    )

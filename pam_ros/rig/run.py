@@ -10,10 +10,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from pam_ros.arguments import along, array, instance, number, refuse, refuse_shape, stamps
 from pam_ros.rig import layout as at
+from pam_ros.rig.acting import delays_of
 from pam_ros.rig.bind import bind
+from pam_ros.rig.changes import changes_of, refuse_onsets, run_over
 from pam_ros.rig.equilibrium import equilibrium
 from pam_ros.rig.joint import Joint
-from pam_ros.rig.layout import Layout
 from pam_ros.rig.start import disturb, start_state
 from pam_ros.rig.step_limit import check_step
 
@@ -53,15 +54,18 @@ def simulate(
     (muscles,). A command holds from its stamp to the next, the first also before. The
     joint starts at t[0] after a long rest under the commands that were in force there, at
     *position* (default: where it rests) with *velocity*, and with its *hidden* states so far from
-    rest (effect, then state, then the change; in all muscles alike). Samples are the state before
-    a command of the same stamp has acted. Steps are at most *step* s and never reach across a
-    command. Raises ParameterError when *step* is too long for the joint, when shapes do not fit,
-    stamps go back, or a number is not finite.
+    rest (effect, then state, then the change; in all muscles alike). Effects with an onset begin
+    to act at that time of the stamps t. Samples are the state before a command or an onset of the
+    same stamp has acted. Steps are at most *step* s and never reach across either. Raises
+    ParameterError when *step* is too long for the joint, when shapes do not fit, stamps go back,
+    or a number is not finite.
     """
     step = number('step', step)
     check_step(instance('joint', joint, Joint, 'a Joint'), step)
     t, command_t = stamps('t', t), stamps('command_t', command_t)
-    q, layout = joint.parameters(), joint.layout
+    begun = [stage for time, stage in joint.stages if time <= t[0]]
+    start = begun[-1] if begun else joint.at_start
+    q, layout = start.parameters(), joint.layout
     command = by_muscle('command', command, 'command_t', command_t.size, layout.muscles)
     velocity = number('velocity', velocity)
     delays = delays_of(layout, q)
@@ -69,13 +73,12 @@ def simulate(
         command[max(np.searchsorted(command_t + delay, t[0]) - 1, 0), i]
         for i, delay in enumerate(delays)
     ]
-    s = equilibrium(joint, first) if position is None else number('position', position)
+    s = equilibrium(start, first) if position is None else number('position', position)
     x = start_state(layout, q, first, s, velocity)
     if hidden:
         disturb(layout, q, x, first, hidden)
-    out = np.empty((len(t), layout.run_columns))
-    act_t, acting = acting_commands(command_t, command, delays)
-    bind(layout, joint.active).simulate(x, layout.scratch(), q, t, act_t, acting, step, out, True)
+    kernel, changes = bind(layout, joint.active), changes_of(joint, float(t[0]))
+    out = run_over(kernel, layout, x, t, q, changes, command_t, command, step, forces=True)
     return trajectory(t, out)
 
 
@@ -95,9 +98,11 @@ def simulate_held(
     one muscle in line with its coordinate is the friction on the joint, against the motion: what a
     machine measures that moves the actuator, pull - damping - friction where it shortens and
     pull + damping + friction where it lengthens; a payload and end stops are not. Raises
-    ParameterError when shapes do not fit, stamps do not ascend, or a number is not finite.
+    ParameterError when an effect has an onset, when shapes do not fit, stamps do not ascend, or a
+    number is not finite.
     """
     instance('joint', joint, Joint, 'a Joint')
+    refuse_onsets(joint, 'simulate_held')
     if number('step', step) <= 0.0:
         refuse('step', step, 'more than 0 s')
     t = stamps('t', t, strict=True)
@@ -144,32 +149,3 @@ def _rate(t: Array, position: Array) -> Array:
         refuse_shape('t', t, 'at least two stamps, or the velocity at the one')
     rate: Array = np.gradient(position, t)
     return rate
-
-
-def delays_of(layout: Layout, q: Array) -> tuple[float, ...]:
-    """Return the time in s by which commands act late in each muscle of the parameters q."""
-    delays = [
-        (effect.delay, layout.parameter_at[effect.name])
-        for effect in layout.library
-        if effect.delay is not None
-    ]
-    return tuple(float(sum(delay(row, j) for delay, j in delays)) for row in q[at.MUSCLE :])
-
-
-def acting_commands(
-    command_t: Array, command: Array, delays: tuple[float, ...]
-) -> tuple[Array, Array]:
-    """Return the stamps at which commands act, and the commands (m, muscles) from each on.
-
-    A command acts its muscle's delay after its stamp; where the muscles' delays differ, all stamps
-    at which one of them changes are stamps of all.
-    """
-    acts = [command_t + delay for delay in delays]
-    if all(delay == delays[0] for delay in delays):
-        return acts[0], command
-    stamps = np.unique(np.concatenate(acts))
-    columns = [
-        command[np.maximum(np.searchsorted(own, stamps, side='right') - 1, 0), i]
-        for i, own in enumerate(acts)
-    ]
-    return stamps, np.ascontiguousarray(np.stack(columns, axis=1))

@@ -67,7 +67,7 @@ class Simulation:
         for joint in joints:
             check_step(joint, step)
         # Neighbours of one kind are stepped in one call.
-        self._groups = [Group(tuple(alike)) for _, alike in groupby(joints, _kind)]
+        self._groups = [Group(tuple(alike), step) for _, alike in groupby(joints, _kind)]
         self._k = 0
         self._has_looked = False  # at the outputs of the present state
         # Of each muscle: its group, its joint in that, and its number in the joint.
@@ -78,7 +78,9 @@ class Simulation:
             for i in range(group.muscles)
         ]
         self.reset(
-            np.zeros(len(self._muscles)), [equilibrium(joint, 0.0) for joint in joints], 0.0
+            np.zeros(len(self._muscles)),
+            [equilibrium(joint.at_start, 0.0) for joint in joints],
+            0.0,
         )
 
     def prepare(self) -> None:
@@ -94,8 +96,9 @@ class Simulation:
     def change(self, joints: Sequence[Joint]) -> None:
         """Go on from the present state with other parameters; with these errors, with the old.
 
-        Hidden states are kept; an effect that was absent starts as after a long rest here.
-        Raises ParameterError for joints of other kinds: make a new Simulation for those.
+        Hidden states are kept; an effect that was absent begins to act, with its memory at rest
+        where the joint is, and without a jump of pressure or position. Raises ParameterError for
+        joints of other kinds: make a new Simulation for those.
         """
         joints = _joints(joints)
         for joint in joints:
@@ -107,7 +110,7 @@ class Simulation:
         self.joints = joints
         left = iter(joints)
         for group in self._groups:
-            group.change([next(left) for _ in group.joints])
+            group.change([next(left) for _ in group.joints], self._k)
         self._has_looked = False
 
     def reset(self, pressure: ArrayLike, position: ArrayLike, velocity: ArrayLike) -> None:
@@ -149,7 +152,7 @@ class Simulation:
         if steps < 0:
             refuse('steps', steps, 'a whole number, at least 0')
         for group in self._groups:
-            group.advance(self._k, steps, self.step)
+            group.advance(self._k, steps)
         self._k += steps
         self._has_looked = False
 

@@ -72,22 +72,24 @@ def start_joint(layout: Layout, q: Array, x: Array, effects: Sequence[Effect]) -
             x[at.JOINT, k : k + len(effect.states)] = started
 
 
-def begin_effects(layout: Layout, q: Array, x: Array, effects: Sequence[Effect]) -> None:
-    """Set the hidden states of *effects* as they are when these begin to act on a moving joint.
+def begin_effects(layout: Layout, q: Array, x: Array, begun: Sequence[Sequence[Effect]]) -> None:
+    """Set the hidden states of effects as they are when these begin to act on a moving joint.
 
-    With the parameters q (rows, parameters), in which they are still absent: their memories are
-    at rest where the joint is, and the chambers keep their pressures.
+    *begun* are those on the joint, then those in each muscle; in the parameters q (rows,
+    parameters) they are still absent. Their memories are at rest where the joint is, and the
+    chambers keep their pressures.
     """
-    for i in range(layout.muscles):
+    on_joint, *in_muscles = begun
+    for i, effects in enumerate(in_muscles):
         row, own = at.MUSCLE + i, q[at.MUSCLE + i]
         y = position(layout, q, x, i)
         kappa = felt_contraction(layout, q, i, y)
         for effect in effects:
-            if effect.start is not None and not effect.acts_on_joint:
+            if effect.start is not None:
                 k, j = layout.state_at[effect.name], layout.parameter_at[effect.name]
                 started = effect.start(own, j, float(x[row, at.P]), kappa, y)
                 x[row, k : k + len(effect.states)] = started
-    start_joint(layout, q, x, effects)
+    start_joint(layout, q, x, on_joint)
 
 
 def felt_contraction(layout: Layout, q: Array, i: int, y: float) -> float:

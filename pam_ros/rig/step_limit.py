@@ -4,6 +4,7 @@
 
 import itertools
 import math
+from typing import NoReturn
 
 import numpy as np
 from numpy.typing import NDArray
@@ -47,9 +48,13 @@ def check_step(joint: Joint, step: float) -> None:
     """Raise ParameterError when *step* in s is none, or too long for the fastest motion."""
     if not step > 0.0:
         raise ParameterError(f'a physics step of {step:g} s is not allowed: give more than 0')
-    longest = longest_step(joint)
-    if step <= longest:
-        return
+    for _, stage in joint.stages:
+        longest = longest_step(stage)
+        if step > longest:
+            _refuse(stage, step, longest)
+
+
+def _refuse(joint: Joint, step: float, longest: float) -> NoReturn:
     braking = drag(joint)
     if joint.is_revolute:
         moved, more = f'an inertia of {joint.inertia:g} kg m^2', 'inertia'

@@ -172,6 +172,7 @@ class ControlParameters(RigParameters):
         else:
             joint = self.build_joints(values)[k]
             settings = replace(settings, joint_name=self.joints[k])
+        joint = joint.at_start
         is_turning = joint.is_revolute
         gains = replace(
             build(Gains, values, 'gains.', is_turning=is_turning),

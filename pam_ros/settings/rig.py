@@ -18,7 +18,8 @@ from typing import Any, ClassVar
 from pam_ros.errors import ParameterError
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig.arrangements import ARRANGEMENTS, LOAD
-from pam_ros.rig.joint import Actuator, Joint, split_effects
+from pam_ros.rig.effect_values import split_effects
+from pam_ros.rig.joint import Actuator, Joint
 from pam_ros.settings.contradictions import refuse_contradictions
 from pam_ros.settings.files import read_known
 from pam_ros.settings.sim import MUSCLE, SimSettings

@@ -163,7 +163,7 @@ class SimulationSetup:
             if start.at_rest:
                 key = id(joint), p
                 if key not in rests:
-                    rests[key] = equilibrium(joint, p)
+                    rests[key] = equilibrium(joint.at_start, p)
                 positions.append(rests[key])
                 velocities.append(0.0)
             else:

@@ -13,14 +13,14 @@ from difflib import get_close_matches
 from typing import Any, TypeVar
 
 from pam_ros.effects import EFFECTS
-from pam_ros.effects.base import Effect
+from pam_ros.effects.base import ONSET, Effect
 from pam_ros.effects.names import GROUP, EffectName, by_effect, parsed
 from pam_ros.effects.turned import turned
 from pam_ros.errors import ParameterError
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.parameters import Parameter, described
 from pam_ros.rig.arrangements import LOAD, Arrangement
-from pam_ros.rig.joint import split_effects
+from pam_ros.rig.effect_values import split_effects
 
 Value = bool | int | float | str | tuple[str, ...]
 Values = Mapping[str, Value]
@@ -44,7 +44,7 @@ def effects_table(library: tuple[Effect, ...] = EFFECTS) -> Table:
     return {
         EffectName(effect.name, p.name).flat: (float, p.default, p.described())
         for effect in library
-        for p in effect.parameters
+        for p in (*effect.parameters, ONSET)
     }
 
 

@@ -10,6 +10,7 @@ import pytest
 
 from pam_ros.control.gains import SUPER_TWISTING, Gains
 from pam_ros.control.limits import Limits
+from pam_ros.control.pid import Pid
 from pam_ros.control.signals import Reference
 from pam_ros.control.sliding_mode import SlidingMode
 from pam_ros.errors import RangeError
@@ -267,3 +268,18 @@ def test_a_stiffness_that_the_angle_does_not_leave_gives_way_and_comes_back():
     assert min(found[1200:]) < 0.95 * most
     assert found[-1] == pytest.approx(most, rel=0.01)
     assert np.max(np.abs(errors)) < 0.2 * DEGREE
+
+
+@pytest.mark.parametrize('law', [SlidingMode, Pid])
+def test_an_effect_that_begins_later_is_not_known_to_the_law(law):
+    """It holds the load that is there at the start; without the onset it would hold another."""
+    weights = {'payload': {'mass': 5.0}}
+    late = {'payload': {'mass': 5.0, 'onset': 20.0}}
+    laws = [law(single_muscle_joint(effects=effects)) for effects in ({}, late, weights)]
+    for each in laws:
+        each.start(0.05, (3e5,))
+    plain, later, loaded = (
+        [each.update(DT, Reference(0.051), 0.05) for _ in range(50)] for each in laws
+    )
+    assert plain == later
+    assert plain != loaded

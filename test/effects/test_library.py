@@ -14,9 +14,10 @@ from pam_ros import effects as effects_room
 from pam_ros.compiled import HAVE_NUMBA
 from pam_ros.effects import EFFECTS
 from pam_ros.effects.base import PLACES, Compensation
+from pam_ros.rig.acting import acting_commands, delays_of
 from pam_ros.rig.bind import bind
 from pam_ros.rig.equilibrium import equilibrium
-from pam_ros.rig.run import acting_commands, delays_of, simulate, simulate_held
+from pam_ros.rig.run import simulate, simulate_held
 from pam_ros.rig.standard_joints import single_muscle_joint
 from pam_ros.rig.start import start_state
 from pam_ros.rig.step_limit import longest_step
@@ -53,7 +54,8 @@ def run_bound(active, effects, step=1e-3, mass=bench.MASS):
     layout, q = joint.layout, joint.parameters()
     x = start_state(layout, q, U[:1], equilibrium(joint, U[0]), 0.0)
     out = np.empty((T.size, layout.run_columns))
-    at, u = acting_commands(AT, U[:, None], delays_of(layout, q))
+    acts = [AT + delay for delay in delays_of(layout, q)]
+    at, u = acting_commands(acts, U[:, None])
     bind(layout, active).simulate(x, layout.scratch(), q, T, at, u, step, out, True)
     return out
 

@@ -121,6 +121,17 @@ def test_recordings_of_another_joint_are_refused(lag):
         identify(declared(trial), [given, swapped])
 
 
+def test_a_nominal_joint_with_an_onset_is_refused(lag):
+    trial, _ = lag
+    late = replace(declared(trial), effects={'viscous_friction': {'coefficient': 1, 'onset': 9}})
+    with pytest.raises(ParameterError) as error:
+        identify(late, [recording(trial)])
+    assert str(error.value) == (
+        'effects.viscous_friction.onset = 9 s is not allowed: a nominal joint takes effects that '
+        'act from the start, give 0 or leave the effect out'
+    )
+
+
 # Uncertain nominal values ------------------------------------------------------------------------
 
 

@@ -13,11 +13,12 @@ import pytest
 
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig import statics
+from pam_ros.rig.acting import acting_commands, delays_of
 from pam_ros.rig.bind import bind
 from pam_ros.rig.equilibrium import equilibrium
 from pam_ros.rig.joint import Actuator, Joint
 from pam_ros.rig.loads import Arm, Mass
-from pam_ros.rig.run import acting_commands, delays_of, simulate, simulate_held
+from pam_ros.rig.run import simulate, simulate_held
 from pam_ros.rig.simulation import Simulation
 from pam_ros.rig.standard_joints import single_muscle_joint
 from pam_ros.rig.start import start_state
@@ -114,7 +115,8 @@ def test_accelerations_along_a_motion_are_as_ever(name):
     q = joint.parameters()
     x = start_state(joint.layout, q, u[:1], y[0], v[0])
     out = np.empty((t.size - 1, 2))
-    at, u = acting_commands(at, u[:, None], delays_of(joint.layout, q))
+    acts = [at + delay for delay in delays_of(joint.layout, q)]
+    at, u = acting_commands(acts, u[:, None])
     kernel = bind(joint.layout, joint.active)
     kernel.simulate_along(x, joint.layout.scratch(), q, t, y, v, at, u, out)
     compare(f'along/{name}', out)

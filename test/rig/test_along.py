@@ -7,9 +7,10 @@ import pytest
 
 from pam_ros.effects import EFFECTS
 from pam_ros.muscle.muscle import Muscle
+from pam_ros.rig.acting import acting_commands, delays_of
 from pam_ros.rig.bind import bind
 from pam_ros.rig.loads import Mass
-from pam_ros.rig.run import acting_commands, by_muscle, delays_of, simulate
+from pam_ros.rig.run import by_muscle, simulate
 from pam_ros.rig.standard_joints import single_muscle_joint
 from pam_ros.rig.start import start_state
 from support import bench
@@ -24,7 +25,8 @@ def along(joint, t, y, v, command_t, command):
     command = by_muscle('command', command, 'command_t', len(command_t), layout.muscles)
     x = start_state(layout, q, command[0], y[0], v[0])
     out = np.empty((t.size - 1, 2))
-    at, acting = acting_commands(np.asarray(command_t, float), command, delays_of(layout, q))
+    acts = [np.asarray(command_t, float) + delay for delay in delays_of(layout, q)]
+    at, acting = acting_commands(acts, command)
     kernel = bind(layout, joint.active)
     kernel.simulate_along(x, layout.scratch(), q, t, y, v, at, acting, out)
     return out

@@ -27,6 +27,7 @@ MIXED = (
     lever(UNEQUAL[:1], effects=(IN_MUSCLE,)),
     pair(BOTH_LONG, load=ON_LOAD, plane='horizontal'),
     single_muscle_joint(),
+    single_muscle_joint(effects={'payload': {'mass': 3.0, 'onset': 0.1}}),
 )
 
 

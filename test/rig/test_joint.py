@@ -11,8 +11,9 @@ from pam_ros.errors import ParameterError
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig import layout as at
 from pam_ros.rig import statics
+from pam_ros.rig.effect_values import split_effects
 from pam_ros.rig.equilibrium import equilibrium
-from pam_ros.rig.joint import Actuator, Joint, split_effects
+from pam_ros.rig.joint import Actuator, Joint
 from pam_ros.rig.loads import GRAVITY, Arm, Mass
 from pam_ros.rig.standard_joints import single_muscle_joint
 from pam_ros.rig.transmissions import Lever, Pulley, Straight

@@ -13,9 +13,10 @@ from scipy.integrate import solve_ivp
 
 from pam_ros.errors import ParameterError
 from pam_ros.muscle.muscle import Muscle
+from pam_ros.rig.acting import acting_commands
 from pam_ros.rig.equilibrium import equilibrium
 from pam_ros.rig.loads import Mass
-from pam_ros.rig.run import acting_commands, simulate, simulate_held
+from pam_ros.rig.run import simulate, simulate_held
 from pam_ros.rig.simulation import Simulation
 from pam_ros.rig.standard_joints import single_muscle_joint
 from support import joints, paper
@@ -219,10 +220,10 @@ def test_commands_of_other_muscles_are_refused_with_a_sentence():
 
 def test_commands_with_different_dead_times_act_at_all_their_stamps():
     at, u = np.array([0.0, 1.0]), np.array([[1.0, 2.0], [3.0, 4.0]])
-    stamps, acting = acting_commands(at, u, (0.5, 0.2))
+    stamps, acting = acting_commands([at + 0.5, at + 0.2], u)
     np.testing.assert_array_equal(stamps, [0.2, 0.5, 1.2, 1.5])
     np.testing.assert_array_equal(acting, [[1.0, 2.0], [1.0, 2.0], [1.0, 4.0], [3.0, 4.0]])
-    same, unchanged = acting_commands(at, u, (0.5, 0.5))
+    same, unchanged = acting_commands([at + 0.5, at + 0.5], u)
     np.testing.assert_array_equal(same, at + 0.5)
     assert unchanged is u
 

@@ -28,6 +28,7 @@ MODELS = (
     parallel(50.0, effects=(CREEP, {})),
     single_muscle_joint(load=Mass(mass=8.0), effects=DELAY | CREEP),
     lever(effects=(DELAY, LAG)),
+    pair(effects=(CREEP, {'pressure_lag': {**LAG['pressure_lag'], 'onset': 0.1505}})),
 )
 MUSCLES = sum(len(model.muscles) for model in MODELS)
 
@@ -250,6 +251,57 @@ def test_an_effect_that_appears_starts_from_the_present_state(first, then, later
     rig.change([later])
     rig.advance()
     assert rig.pressure[0] == pytest.approx(2e5 + (lagging - 2e5) * np.exp(-1e-3 / 0.1))
+
+
+LATE = {'leak': {'rate': 0.5, 'refill': 0.1, 'onset': 0.2}}
+
+
+def test_an_onset_is_a_change_at_its_step():
+    """To the bit, and again after a reset; without a jump of the pressure, which then sinks."""
+    late, by_hand = Simulation([single_muscle_joint(effects=LATE)]), Simulation(
+        [single_muscle_joint()]
+    )  # fmt: skip
+    for _ in range(2):
+        late.reset(4e5, 0.03, 0.0)
+        by_hand.reset(4e5, 0.03, 0.0)
+        late.advance(200)
+        by_hand.advance(200)
+        np.testing.assert_array_equal(state(late), state(by_hand))
+        by_hand.change([late.joints[0].stages[-1][1]])
+        late.advance()
+        by_hand.advance()
+        assert 3.99e5 < late.pressure[0] < 4e5
+        late.advance(99)
+        by_hand.advance(99)
+        np.testing.assert_array_equal(state(late), state(by_hand))
+        by_hand.change([single_muscle_joint()])
+
+
+@pytest.mark.parametrize(('at', 'begins'), [(100, 200), (200, 200), (300, 300)])
+def test_an_onset_that_is_set_while_it_runs(at, begins):
+    """One to come is waited for, one in the past begins at once."""
+    rig, other = Simulation([single_muscle_joint()]), Simulation([single_muscle_joint()])
+    for each in (rig, other):
+        each.reset(4e5, 0.03, 0.0)
+    rig.advance(at)
+    rig.change([single_muscle_joint(effects=LATE)])
+    rig.advance(500 - at)
+    other.advance(begins)
+    other.change([single_muscle_joint(effects={'leak': {'rate': 0.5, 'refill': 0.1}})])
+    other.advance(500 - begins)
+    np.testing.assert_array_equal(state(rig), state(other))
+
+
+def test_an_onset_that_is_moved_ahead_ends_the_effect_until_then():
+    rig = Simulation([single_muscle_joint(effects=LATE)])
+    rig.reset(4e5, 0.03, 0.0)
+    rig.advance(300)
+    leaking = rig.pressure[0]
+    rig.change([single_muscle_joint(effects={'leak': LATE['leak'] | {'onset': 0.4}})])
+    rig.advance(50)
+    assert leaking < rig.pressure[0] == 4e5
+    rig.advance(100)
+    assert rig.pressure[0] < 4e5
 
 
 def test_a_change_that_is_refused_leaves_the_rig_as_it_was():

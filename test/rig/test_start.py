@@ -204,12 +204,17 @@ def test_effects_that_begin_leave_the_joint_where_it_is():
     before = x.copy()
     x[:, at.JOINT_HIDDEN :] = -7.0  # what nothing has read until now
     begun = [e for e in joint.library if e.name in ('pressure_lag', 'coulomb_friction')]
-    begin_effects(layout, without, x, begun)
+    lag, friction_effect = begun
+    begin_effects(layout, without, x, [[friction_effect], [lag], [lag]])
     assert np.array_equal(x[at.JOINT, :2], before[at.JOINT, :2])
     assert list(x[at.MUSCLE :, at.P]) == [2e5, 3e5]
     assert list(x[at.MUSCLE :, layout.state_at['pressure_lag']]) == [2e5, 3e5]
     friction = layout.state_at['coulomb_friction']
     assert list(x[at.JOINT, friction : friction + 2]) == [0.0, 0.2]
+    # One muscle alone.
+    x[at.MUSCLE :, at.HIDDEN :] = -7.0
+    begin_effects(layout, without, x, [[], [], [lag]])
+    assert list(x[at.MUSCLE :, layout.state_at['pressure_lag']]) == [-7.0, 3e5]
     # An effect that does not begin keeps its states.
     creep = next(e for e in joint.library if e.name == 'creep')
     k = layout.state_at['creep']

@@ -20,7 +20,7 @@ from pam_ros.identification.data.segment import FreeSegment, HeldSegment, Segmen
 from pam_ros.identification.data.thinning import HELD_STEP
 from pam_ros.identification.fit.discrepancy import Discrepancy, Whitening
 from pam_ros.identification.fit.of_rig import OfRig, fill
-from pam_ros.identification.fit.onset import Change, OnsetTime, run_over
+from pam_ros.identification.fit.onset import OnsetTime
 from pam_ros.identification.fit.places import effect_of
 from pam_ros.identification.fit.unknowns import (
     CommandTime,
@@ -33,9 +33,9 @@ from pam_ros.identification.fit.unknowns import (
 )
 from pam_ros.rig import layout as at
 from pam_ros.rig.bind import bind
+from pam_ros.rig.changes import Change, run_over
 from pam_ros.rig.joint import Joint
 from pam_ros.rig.layout import Layout
-from pam_ros.rig.run import acting_commands, delays_of
 from pam_ros.rig.start import fill_chambers, start_state
 
 Array = NDArray[np.float64]
@@ -97,45 +97,48 @@ class Problem:
         chamber pressure Pa, and for held segments the force N.
         """
         q = self.row_at(u).reshape(self.layout.rows, self.layout.parameters)
-        kernel, scratch = bind(self.layout, self.active), self.layout.scratch()
-        delays = delays_of(self.layout, q)
+        kernel, layout = bind(self.layout, self.active), self.layout
         change = self._change(q, u)
         found = []
         for k in range(len(self.segments)) if only is None else (only,):
             s = self.segments[k]
-            if change is not None and isinstance(s, FreeSegment) and s.t[0] < change.time:
-                x = self._start(k, change.before, u)
-                found.append(run_over(kernel, self.layout, x, s, self.step, change))
-                continue
-            x = self._start(k, q, u)
-            out = np.empty((s.t.size, self.layout.run_columns))
             if isinstance(s, FreeSegment):
-                act_t, acting = acting_commands(s.drive_t, s.drive, delays)
-                kernel.simulate(x, scratch, q, s.t, act_t, acting, self.step, out, False)
+                changes = [] if change is None or change.time <= s.t[0] else [change]
+                first = self._before(q) if changes else q
+                x = self._start(k, first, u)
+                given = s.drive_t, s.drive, self.step
+                out = run_over(kernel, layout, x, s.t, first, changes, *given, forces=False)
             elif isinstance(s, HeldSegment):
+                x, xn = self._start(k, q, u), layout.scratch()
+                out = np.empty((s.t.size, layout.run_columns))
                 pressure = s.pressure[:, None]
                 kernel.simulate_held(
-                    x, scratch, q, s.t, pressure, s.position, s.velocity, HELD_STEP, out
+                    x, xn, q, s.t, pressure, s.position, s.velocity, HELD_STEP, out
                 )
             found.append(out)
         return found
 
     def _change(self, q: Array, u: Array) -> Change | None:
-        """Return what changes when unknown effects begin, None where they act from the start.
+        """Return the change to the parameters q (rows, parameters) when unknown effects begin.
 
-        *q* are the parameters (rows, parameters) with them.
+        None where they act from the start.
         """
         pairs = zip(self.unknowns, u, strict=True)
         time = next((k.value(value) for k, value in pairs if isinstance(k.of, OnsetTime)), None)
         if time is None:
             return None
-        before = q.copy().ravel()
-        for unknown in self.unknowns:
-            of = unknown.of
-            if isinstance(of, OfEffect) and of.parameter in self._strengths[effect_of(of.place)]:
-                before[list(of.indices)] = 0.0
-        begun = [effect for effect in self.layout.library if effect.name in self._free]
-        return Change(time, before.reshape(q.shape), q, begun)
+        rows = {(k // self.layout.parameters, e.name) for e, k in self._strengths}
+        begun = [
+            [effect for effect in self.layout.library if (row, effect.name) in rows]
+            for row in range(self.layout.rows)
+        ]
+        return Change(time, q, begun)
+
+    def _before(self, q: Array) -> Array:
+        """Return the parameters q (rows, parameters) as they are before unknown effects begin."""
+        before: Array = q.copy()
+        before.flat[[k for _, k in self._strengths]] = 0.0
+        return before
 
     def _start(self, run: int, q: Array, u: Array) -> Array:
         """Return the state in which a run begins."""
@@ -242,10 +245,17 @@ class Problem:
         return {effect_of(k.of.place) for k in self.unknowns if isinstance(k.of, OfEffect)}
 
     @cached_property
-    def _strengths(self) -> dict[str, set[str]]:
-        """The names of the strengths of each of the effects."""
-        library = self.layout.library
-        return {e.name: {p.name for p in e.parameters if p.strength} for e in library}
+    def _strengths(self) -> list[tuple[Effect, int]]:
+        """The effects of unknown strength, and where the strengths stand in the parameter row."""
+        library = {effect.name: effect for effect in self.layout.library}
+        unknown = [k.of for k in self.unknowns if isinstance(k.of, OfEffect)]
+        found = [(library[effect_of(of.place)], of) for of in unknown]
+        return [
+            (effect, index)
+            for effect, of in found
+            if any(p.strength and p.name == of.parameter for p in effect.parameters)
+            for index in of.indices
+        ]
 
     # What residuals are worth ------------------------------------------------------------------
 

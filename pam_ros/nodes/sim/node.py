@@ -12,6 +12,7 @@ from std_srvs.srv import SetBool, Trigger
 from pam_ros.health import simulator as sim_health
 from pam_ros.health import start_line
 from pam_ros.health.health import Health, Level
+from pam_ros.health.onsets import Onsets
 from pam_ros.health.simulator import Progress
 from pam_ros.health.waits import Waits
 from pam_ros.nodes.common.diagnostics import Diagnostics
@@ -72,6 +73,7 @@ class PamSim(TickingNode):
         self._begin()
         topic = self.resolve_topic_name('pressure_command' if self._one else 'pressure_commands')
         self._waits = Waits(self.get_logger(), self._plant, topic)
+        self._onsets = Onsets(self.get_logger(), self._plant)
         self.create_service(Trigger, '~/reset', self._reset)
         self.create_service(SetBool, '~/pause', self._pause)
         self.create_service(Trigger, '~/step', self._step)
@@ -382,6 +384,7 @@ class PamSim(TickingNode):
             waits=self._turns.complaint if self._is_lockstep else '',
             fault=self._fault,
         )
+        self._onsets.look()
         if not self._is_paused:
             self._waits.look('' if done.has_clock else sim_health.NO_CLOCK, done.waits)
         return sim_health.timing(self._simulation.settings, kept, done, self.scheduling)

@@ -59,9 +59,9 @@ class Controller:
         return state
 
 
-def expected(periods):
+def expected(periods, joint=None):
     """Return positions and velocities of the released rig, period by period."""
-    rig = Simulation([single_muscle_joint()], 1e-3)
+    rig = Simulation([joint or single_muscle_joint()], 1e-3)
     rig.reset([0.0], [0.0], [0.0])
     found = []
     for k in range(periods):
@@ -87,6 +87,27 @@ def test_a_command_is_a_period_to_the_bit_and_nothing_else_is(peer):
     assert set(np.diff(ticks)) == {10_000_000}
     assert ticks[-1] <= stamp(controller.states[-1])
     assert ticks[0] == stamp(got[0])
+
+
+def test_effects_begin_at_their_onsets_also_those_set_while_it_runs(peer):
+    """A load is taken off after 0.1 s, and a leak that is declared at 0.12 s begins at 0.2 s."""
+    dropped = {'payload': {'mass': -5.0, 'onset': 0.1}}
+    leaking = {'leak': {'rate': 2.0, 'refill': 0.1, 'onset': 0.2}}
+    late = {'effects.payload.mass': -5.0, 'effects.payload.onset': 0.1}
+    with Program('pam_sim', parameters={**LOCKSTEP, **RELEASED, **late}) as sim:
+        controller = Controller(peer)
+        got = [controller.answer(pressure_at(k)) for k in range(60)]
+        peer.until(lambda: last(controller.states, controller.time), 'the next state')
+        declared = {'rate': 2.0, 'refill': 0.1, 'onset': 0.2}
+        given = {f'effects__leak__{name}': value for name, value in declared.items()}
+        assert peer.set_together('pam_sim', **given).successful
+        got += [controller.answer(pressure_at(k)) for k in range(60, 150)]
+        begun = 'effects.leak acts from 0.2 s of simulated time on'
+        peer.until(lambda: begun in sim.output, 'the line of the leak')
+    expected_ones = expected(150, single_muscle_joint(effects=dropped | leaking))
+    assert [(m.position[0], m.velocity[0]) for m in got] == expected_ones
+    assert expected_ones != expected(150, single_muscle_joint(effects=dropped))
+    assert expected_ones[:51] == expected(51)
 
 
 def test_a_refused_command_is_a_period_with_the_last_good_one(peer):

@@ -1,0 +1,39 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""When commands act on the muscles of a joint: their stamps, and the delays of the effects."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pam_ros.rig import layout as at
+from pam_ros.rig.layout import Layout
+
+Array = NDArray[np.float64]
+
+
+def delays_of(layout: Layout, q: Array) -> tuple[float, ...]:
+    """Return the time in s by which commands act late in each muscle of the parameters q."""
+    delays = [
+        (effect.delay, layout.parameter_at[effect.name])
+        for effect in layout.library
+        if effect.delay is not None
+    ]
+    return tuple(float(sum(delay(row, j) for delay, j in delays)) for row in q[at.MUSCLE :])
+
+
+def acting_commands(acts: Sequence[Array], command: Array) -> tuple[Array, Array]:
+    """Return the stamps at which something changes, and the commands (m, muscles) from each on.
+
+    *acts* are the times (m,) at which the rows of *command* (m, muscles) act in each muscle.
+    Where these differ, all stamps at which one muscle's command changes are stamps of all.
+    """
+    if all(np.array_equal(own, acts[0]) for own in acts[1:]):
+        return acts[0], command
+    stamps = np.unique(np.concatenate(acts))
+    columns = [
+        command[np.maximum(np.searchsorted(own, stamps, side='right') - 1, 0), i]
+        for i, own in enumerate(acts)
+    ]
+    return stamps, np.ascontiguousarray(np.stack(columns, axis=1))

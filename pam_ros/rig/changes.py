@@ -1,0 +1,122 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Runs in which effects begin to act in the middle.
+
+Until then they are absent. At the moment their memories begin as they do in a rig that has none
+of them yet, and the rig goes on from where it is: no pressure and no position jumps. The run is
+cut exactly there, wherever the samples are, so that it is smooth in the moment.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from pam_ros.effects.base import ONSET, Effect
+from pam_ros.errors import ParameterError
+from pam_ros.rig.acting import acting_commands, delays_of
+from pam_ros.rig.bind import Kernel
+from pam_ros.rig.joint import Joint
+from pam_ros.rig.layout import Layout
+from pam_ros.rig.start import begin_effects
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Change:
+    """What changes at ``time`` s: the parameters become ``q`` (rows, parameters).
+
+    ``begun`` are the effects that begin to act, those on the joint, then those in each muscle.
+    """
+
+    time: float
+    q: Array
+    begun: Sequence[Sequence[Effect]]
+
+
+def changes_of(joint: Joint, start: float) -> list[Change]:
+    """Return what changes in a run of *joint* that begins at *start* s, in the order of time."""
+    return [
+        Change(time, after.parameters(), appeared(before, after))
+        for (_, before), (time, after) in pairwise(joint.stages)
+        if time > start
+    ]
+
+
+def refuse_onsets(joint: Joint, who: str) -> None:
+    """Raise ParameterError where an effect of *joint* begins after the start: *who* needs all."""
+    for given in (joint.effects, *(actuator.effects for actuator in joint.actuators)):
+        for name, values in given.items():
+            if values.get(ONSET.name, 0.0) > 0.0:
+                raise ParameterError(
+                    f'effects.{name}.onset = {values[ONSET.name]:g} s is not allowed: {who} takes '
+                    'effects that act from the start, give 0 or leave the effect out'
+                )
+
+
+def appeared(before: Joint, after: Joint) -> tuple[tuple[Effect, ...], ...]:
+    """Return the effects that *after* has and *before* has not, by row as ``present`` is."""
+    return tuple(
+        tuple(effect for effect in now if effect not in then)
+        for then, now in zip(before.present, after.present, strict=True)
+    )
+
+
+def run_over(
+    kernel: Kernel,
+    layout: Layout,
+    x: Array,
+    t: Array,
+    q: Array,
+    changes: Sequence[Change],
+    command_t: Array,
+    command: Array,
+    step: float,
+    *,
+    forces: bool,
+) -> Array:
+    """Return the run over the stamps t with *changes* after its first, from the state x on.
+
+    x becomes the state at the end, *q* are the parameters (rows, parameters) at the beginning.
+    The other arguments and the columns are those of :func:`pam_ros.rig.run_kernel.simulate`, with
+    the commands as they are stamped: one that has acted before a change has acted, whatever delay
+    begins there.
+    """
+    out = np.empty((t.size, layout.run_columns))
+    acts = [command_t + delay for delay in delays_of(layout, q)]
+    first, lead = 0, t[:0]
+    for change in changes:
+        if change.time >= t[-1]:
+            break
+        n = int(np.searchsorted(t, change.time, side='right'))
+        until = np.concatenate([lead, t[first:n], [change.time]])
+        run = _part(kernel, layout, x, q, until, acts, command, step, forces)
+        out[first:n] = run[lead.size : -1]
+        begin_effects(layout, q, x, change.begun)
+        q, first, lead = change.q, n, until[-1:]
+        acts = [
+            np.where(then <= change.time, then, np.maximum(command_t + delay, change.time))
+            for then, delay in zip(acts, delays_of(layout, q), strict=True)
+        ]
+    rest = np.concatenate([lead, t[first:]])
+    out[first:] = _part(kernel, layout, x, q, rest, acts, command, step, forces)[lead.size :]
+    return out
+
+
+def _part(
+    kernel: Kernel,
+    layout: Layout,
+    x: Array,
+    q: Array,
+    t: Array,
+    acts: list[Array],
+    command: Array,
+    step: float,
+    forces: bool,
+) -> Array:
+    out = np.empty((t.size, layout.run_columns))
+    kernel.simulate(x, layout.scratch(), q, t, *acting_commands(acts, command), step, out, forces)
+    return out
