@@ -4,10 +4,12 @@
 
 import argparse
 import json
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 from typing import Any, TypeVar
+
+import numpy as np
 
 Job = TypeVar('Job')
 
@@ -48,3 +50,27 @@ def run_all(
                 flush=True,
             )
     return rows
+
+
+def shares(names: Iterable[str], groups: Sequence[Sequence[bool]]) -> dict[str, float]:
+    """Return the share of what is true in each group, by the groups' names; NaN of no trial."""
+    return {
+        name: float(np.mean(group)) if group else float('nan')
+        for name, group in zip(names, groups, strict=True)
+    }
+
+
+def print_scores(
+    rows: list[dict[str, Any]],
+    scores: Mapping[str, float],
+    targets: Mapping[str, tuple[float, str]],
+) -> None:
+    """Print how many trials there were, and each score with its target, a min or a max."""
+    print(f'\n{len(rows)} trials, median {np.median([r["seconds"] for r in rows]):.1f} s each')
+    width = max(map(len, scores))
+    for name, value in scores.items():
+        target, side = targets[name]
+        good = value >= target if side == 'min' else value <= target
+        sign = '>=' if side == 'min' else '<='
+        word = '-' if np.isnan(value) else 'reached' if good else 'SHORT'
+        print(f'  {name:{width}s} {value:7.3f}   {sign} {target:<5g} {word}')

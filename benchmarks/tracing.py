@@ -152,13 +152,7 @@ def scores(rows: list[dict[str, Any]]) -> dict[str, float]:
 
 def report(rows: list[dict[str, Any]]) -> None:
     """Print the table of scores, the confusions, and the rows that are wrong."""
-    print(f'\n{len(rows)} trials, median {np.median([r["seconds"] for r in rows]):.1f} s each')
-    for name, value in scores(rows).items():
-        target, side = TARGETS[name]
-        good = value >= target if side == 'min' else value <= target
-        sign = '>=' if side == 'min' else '<='
-        word = '-' if np.isnan(value) else 'reached' if good else 'SHORT'
-        print(f'  {name:52s} {value:7.3f}   {sign} {target:<5g} {word}')
+    _trials.print_scores(rows, scores(rows), TARGETS)
     confusion: dict[str, Counter[str]] = defaultdict(Counter)
     ratio: dict[str, list[float]] = defaultdict(list)
     for r in rows:

@@ -100,7 +100,7 @@ class EffectParameter:
         return Parameter(self.text, self.unit, self.low, self.high)
 
 
-# What every effect has beside its own parameters. No law reads it: simulations do.
+# What every effect has in addition to its own parameters. No law reads it: simulations do.
 ONSET = EffectParameter(
     'onset',
     0.0,
@@ -188,7 +188,7 @@ class Effect:
             )
         if any(p.name == ONSET.name for p in self.parameters):
             raise ParameterError(
-                f'effect {self.name} has a parameter onset: every effect has one beside its own'
+                f'effect {self.name} has a parameter onset: every effect has this one anyway'
             )
         if not any(p.strength for p in self.parameters):
             raise ParameterError(f'effect {self.name} has no strength parameter to be absent by')

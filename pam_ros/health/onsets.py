@@ -17,13 +17,16 @@ class Onsets:
         """Write to *logger*, of rclpy."""
         self._logger, self._plant = logger, plant
         self._last = 0.0  # simulated s of the last look
+        self._setup, self._begins = plant.setup, begins(plant.setup)
 
     def look(self) -> None:
         """Write a line for each effect that has begun to act since the last look."""
-        now = self._plant.time
+        now, setup = self._plant.time, self._plant.setup
+        if setup is not self._setup:
+            self._setup, self._begins = setup, begins(setup)
         last = self._last if self._last <= now else 0.0  # simulated time began again
         self._last = now
-        for time, name in begins(self._plant.setup):
+        for time, name in self._begins:
             if last < time <= now:
                 self._logger.info(f'{name} acts from {time:g} s of simulated time on')
 

@@ -30,6 +30,7 @@ class Group:
         n, self.muscles = len(joints), layout.muscles
         self.step = step
         self._declare(joints)
+        self._changes: list[int] = []  # the steps to come before which effects begin to act
         self._present = [joint.at_start for joint in joints]
         self.q = np.array([joint.parameters() for joint in self._present])
         self.x = np.array([layout.state() for _ in joints])
@@ -60,8 +61,6 @@ class Group:
         self._stages = [
             [(self._first_step(time), stage) for time, stage in joint.stages] for joint in joints
         ]
-        # The steps before which effects begin to act.
-        self._changes = sorted({k for stages in self._stages for k, _ in stages[1:]})
 
     def _first_step(self, time: float) -> int:
         """Return the number of the first step that does not begin before *time* s."""
@@ -78,6 +77,8 @@ class Group:
 
     def _take_effect(self, k: int) -> None:
         """Give all joints the effects that act from step number k on."""
+        firsts = {first for stages in self._stages for first, _ in stages}
+        self._changes = sorted(first for first in firsts if first > k)
         for a, stages in enumerate(self._stages):
             before = self._present[a]
             after = self._present[a] = [stage for first, stage in stages if first <= k][-1]
@@ -98,7 +99,6 @@ class Group:
         """Set the state as after a long rest; *pressures* (joints, muscles) are commands, too."""
         self.u[:] = pressures
         self._count[:] = 0
-        self._declare(self.joints)
         self._take_effect(0)
         for a, q in enumerate(self.q):
             self.x[a] = start_state(self.layout, q, self.u[a], float(s[a]), float(v[a]))
@@ -118,7 +118,7 @@ class Group:
         """Step all joints *steps* times from step number k on; effects begin at their steps."""
         end = k + steps
         while self._changes and self._changes[0] < end:
-            begins = max(self._changes.pop(0), k)
+            begins = self._changes[0]
             self._step(k, begins - k)
             self._take_effect(begins)
             k = begins

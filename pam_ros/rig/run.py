@@ -63,8 +63,7 @@ def simulate(
     step = number('step', step)
     check_step(instance('joint', joint, Joint, 'a Joint'), step)
     t, command_t = stamps('t', t), stamps('command_t', command_t)
-    begun = [stage for time, stage in joint.stages if time <= t[0]]
-    start = begun[-1] if begun else joint.at_start
+    start = [stage for time, stage in joint.stages if time <= max(t[0], 0.0)][-1]
     q, layout = start.parameters(), joint.layout
     command = by_muscle('command', command, 'command_t', command_t.size, layout.muscles)
     velocity = number('velocity', velocity)

@@ -55,8 +55,7 @@ def start_muscle(
         if effect.acts_on_joint:
             continue
         k, j = layout.state_at[effect.name], layout.parameter_at[effect.name]
-        if effect.start is not None:
-            x[row, k : k + len(effect.states)] = effect.start(own, j, pressure, kappa, y)
+        _rest(layout, effect, x[row], own, pressure, kappa, y)
         pressure = _behind(effect, pressure, x[row], k, own, j)
     x[row, at.P] = pressure
 
@@ -66,10 +65,17 @@ def start_joint(layout: Layout, q: Array, x: Array, effects: Sequence[Effect]) -
     own, s = q[at.JOINT], float(x[at.JOINT, at.S])
     mean = float(np.mean(x[at.MUSCLE :, at.P]))
     for effect in effects:
-        if effect.acts_on_joint and effect.start is not None:
-            k, j = layout.state_at[effect.name], layout.parameter_at[effect.name]
-            started = effect.start(own, j, mean, s / own[at.LENGTH], s)
-            x[at.JOINT, k : k + len(effect.states)] = started
+        if effect.acts_on_joint:
+            _rest(layout, effect, x[at.JOINT], own, mean, s / float(own[at.LENGTH]), s)
+
+
+def _rest(
+    layout: Layout, effect: Effect, x: Array, q: Array, pressure: float, kappa: float, y: float
+) -> None:
+    """Set the hidden states of *effect* in its row x to those of a long rest there."""
+    if effect.start is not None:
+        k, j = layout.state_at[effect.name], layout.parameter_at[effect.name]
+        x[k : k + len(effect.states)] = effect.start(q, j, pressure, kappa, y)
 
 
 def begin_effects(layout: Layout, q: Array, x: Array, begun: Sequence[Sequence[Effect]]) -> None:
@@ -85,10 +91,7 @@ def begin_effects(layout: Layout, q: Array, x: Array, begun: Sequence[Sequence[E
         y = position(layout, q, x, i)
         kappa = felt_contraction(layout, q, i, y)
         for effect in effects:
-            if effect.start is not None:
-                k, j = layout.state_at[effect.name], layout.parameter_at[effect.name]
-                started = effect.start(own, j, float(x[row, at.P]), kappa, y)
-                x[row, k : k + len(effect.states)] = started
+            _rest(layout, effect, x[row], own, float(x[row, at.P]), kappa, y)
     start_joint(layout, q, x, on_joint)
 
 

@@ -8,12 +8,12 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from pam_ros.identification.fit.onset import OnsetTime
 from pam_ros.identification.fit.places import Place
 from pam_ros.identification.fit.problem import Problem
 from pam_ros.identification.fit.unknowns import (
     MemoryStart,
     OfEffect,
+    OnsetTime,
     Unknown,
     effect_unknowns,
     memory_unknowns,

@@ -4,7 +4,7 @@
 
 A lag that begins while the command is held shows from the next command on: all moments of the
 hold are equally good, and the next hold is worse by a step. So the moment is found, and its
-interval is told, from the cost itself with the other unknowns where they are.
+interval is computed, from the cost itself with the other unknowns where they are.
 """
 
 from dataclasses import replace
@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pam_ros.identification.fit.intervals import covariance
-from pam_ros.identification.fit.onset import OnsetTime
 from pam_ros.identification.fit.solve import Solution
+from pam_ros.identification.fit.unknowns import OnsetTime
 
 Array = NDArray[np.float64]
 # What is looked at about a moment, in s: what has begun shows up to 1 s later.

@@ -20,13 +20,13 @@ from pam_ros.identification.data.segment import FreeSegment, HeldSegment, Segmen
 from pam_ros.identification.data.thinning import HELD_STEP
 from pam_ros.identification.fit.discrepancy import Discrepancy, Whitening
 from pam_ros.identification.fit.of_rig import OfRig, fill
-from pam_ros.identification.fit.onset import OnsetTime
 from pam_ros.identification.fit.places import effect_of
 from pam_ros.identification.fit.unknowns import (
     CommandTime,
     Constant,
     MemoryStart,
     OfEffect,
+    OnsetTime,
     RunLevel,
     RunStart,
     Unknown,
@@ -231,18 +231,14 @@ class Problem:
     @cached_property
     def _present(self) -> tuple[Effect, ...]:
         """The effects that may be there, in the order of the library."""
+        free = {effect_of(k.of.place) for k in self.unknowns if isinstance(k.of, OfEffect)}
         index, muscles = self.layout.index, range(self.layout.muscles)
 
         def has_strength(effect: Effect) -> bool:
             strengths = [k for k, p in enumerate(effect.parameters) if p.strength]
             return any(self.row[index(effect, k, i)] != 0.0 for k in strengths for i in muscles)
 
-        return tuple(e for e in self.layout.library if e.name in self._free or has_strength(e))
-
-    @cached_property
-    def _free(self) -> set[str]:
-        """The names of the effects of which parameters are unknown."""
-        return {effect_of(k.of.place) for k in self.unknowns if isinstance(k.of, OfEffect)}
+        return tuple(e for e in self.layout.library if e.name in free or has_strength(e))
 
     @cached_property
     def _strengths(self) -> list[tuple[Effect, int]]:

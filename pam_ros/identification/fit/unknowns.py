@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 
 from pam_ros.identification.data.segment import FreeSegment, Segment, start_of
 from pam_ros.identification.fit.of_rig import OfRig
-from pam_ros.identification.fit.onset import OnsetTime
 from pam_ros.identification.fit.places import INITIAL, Place, names_of_muscles
 from pam_ros.rig import layout as at
 from pam_ros.rig.joint import Joint
@@ -64,6 +63,13 @@ class OfEffect:
     parameter: str
     name: str
     indices: tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class OnsetTime:
+    """The moment in s, on the clock of the recording, at which all unknown effects begin."""
+
+    name: str = 'onset'
 
 
 @dataclass(frozen=True)

@@ -11,10 +11,9 @@ from pam_ros.identification.data.segment import Segment
 from pam_ros.identification.fit.discrepancy import Discrepancy
 from pam_ros.identification.fit.intervals import covariance
 from pam_ros.identification.fit.moment import interval
-from pam_ros.identification.fit.onset import OnsetTime
 from pam_ros.identification.fit.places import Place
 from pam_ros.identification.fit.solve import Solution
-from pam_ros.identification.fit.unknowns import OF_RUNS, Unknown
+from pam_ros.identification.fit.unknowns import OF_RUNS, OnsetTime, Unknown
 from pam_ros.identification.result import Estimate, Stage
 from pam_ros.identification.search.final import Final, errors_of, simulated
 from pam_ros.identification.search.search import Search
