@@ -10,7 +10,7 @@ from rclpy.node import Node
 from rclpy.qos import QoSProfile
 from sensor_msgs.msg import JointState
 
-from pam_ros.nodes.common.qos import DEPTH, open_qos
+from pam_ros.nodes.common.qos import open_qos
 from pam_ros.simulator.plant import OneReading, Reading
 from pam_ros.timing.pace import SECOND
 
@@ -24,7 +24,7 @@ class MuscleStates:
     without a stamp, and the stamp is that of ``joint_states``.
     """
 
-    def __init__(self, node: Node, muscles: Sequence[str]) -> None:
+    def __init__(self, node: Node, depth: int, muscles: Sequence[str]) -> None:
         """Create the publisher on *node*."""
         names = [f'{muscle}/{quantity}' for muscle in muscles for quantity in QUANTITIES]
         self._message = JointState(name=names, position=array('d', bytes(8 * len(names))))
@@ -32,10 +32,7 @@ class MuscleStates:
         # The message's own memory, one row for each muscle.
         self._rows = np.frombuffer(self._values).reshape(len(muscles), len(QUANTITIES))
         self._publisher = node.create_publisher(
-            JointState,
-            'muscle_states',
-            QoSProfile(depth=DEPTH),
-            qos_overriding_options=open_qos(),
+            JointState, 'muscle_states', QoSProfile(depth=depth), qos_overriding_options=open_qos()
         )
 
     def describe(self, frame: str, variance: float) -> None:

@@ -7,7 +7,7 @@ from typing import Any
 from rclpy.node import Node
 from rosgraph_msgs.msg import Clock
 
-from pam_ros.nodes.common.qos import DEPTH
+from pam_ros.nodes.common.qos import DEPTH, states_depth
 from pam_ros.nodes.sim.muscle_states import MuscleStates
 from pam_ros.nodes.sim.telemetry import Telemetry
 from pam_ros.nodes.sim.telemetry_arrays import ArrayTelemetry, MuscleTelemetry
@@ -25,16 +25,19 @@ class Output:
         if settings.has_own_time:
             self._clock = Clock()
             self._clock_publisher = node.create_publisher(Clock, '/clock', DEPTH)
+        depth = states_depth(settings.publish_rate)
         # Each takes what the plant reads: of one muscle alone, or of several.
         self._telemetry: list[Any]
         if setup.is_one:
-            self._telemetry = [Telemetry(node, setup.joint_names[0])]
+            self._telemetry = [Telemetry(node, depth, setup.joint_names[0])]
         else:
-            self._telemetry = [ArrayTelemetry(node, setup.joint_names, setup.muscle_names)]
+            self._telemetry = [ArrayTelemetry(node, depth, setup.joint_names, setup.muscle_names)]
             if settings.muscle_topics:
                 have_loads = settings.joint == 'load'
-                self._telemetry.append(MuscleTelemetry(node, setup.muscle_names, have_loads))
-        self._telemetry.append(MuscleStates(node, setup.muscle_names))
+                self._telemetry.append(
+                    MuscleTelemetry(node, depth, setup.muscle_names, have_loads=have_loads)
+                )
+        self._telemetry.append(MuscleStates(node, depth, setup.muscle_names))
         self.describe(setup)
 
     def describe(self, setup: SimulationSetup) -> None:

@@ -7,7 +7,7 @@ from rclpy.qos import QoSProfile
 from sensor_msgs.msg import FluidPressure, JointState
 from std_msgs.msg import Float64
 
-from pam_ros.nodes.common.qos import DEPTH, open_qos
+from pam_ros.nodes.common.qos import open_qos
 from pam_ros.simulator.plant import OneReading
 from pam_ros.timing.pace import SECOND
 
@@ -15,10 +15,18 @@ from pam_ros.timing.pace import SECOND
 class Telemetry:
     """Publishes the state of one muscle; each message is made once and filled anew."""
 
-    def __init__(self, node: Node, joint: str, below: str = '', *, has_joint: bool = True) -> None:
+    def __init__(
+        self,
+        node: Node,
+        depth: int,
+        joint: str,
+        below: str = '',
+        *,
+        has_joint: bool = True,
+    ) -> None:
         """Create the publishers on *node*; *joint* names the joint, where there is one.
 
-        *below* is the prefix of the names of the topics.
+        *below* is the prefix of the names of the topics, each keeps *depth* messages.
         """
         self._joint = JointState(name=[joint], position=[0.0], velocity=[0.0], effort=[0.0])
         self._fluid = FluidPressure(header=self._joint.header)
@@ -27,7 +35,7 @@ class Telemetry:
 
         def publisher(kind: type, name: str):
             return node.create_publisher(
-                kind, below + name, QoSProfile(depth=DEPTH), qos_overriding_options=open_qos()
+                kind, below + name, QoSProfile(depth=depth), qos_overriding_options=open_qos()
             )
 
         self._joint_states = publisher(JointState, 'joint_states') if has_joint else None

@@ -11,7 +11,7 @@ from rclpy.qos import QoSProfile
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64MultiArray, MultiArrayDimension
 
-from pam_ros.nodes.common.qos import DEPTH, open_qos
+from pam_ros.nodes.common.qos import open_qos
 from pam_ros.nodes.sim.telemetry import Telemetry
 from pam_ros.simulator.plant import Reading
 from pam_ros.timing.pace import SECOND
@@ -20,7 +20,9 @@ from pam_ros.timing.pace import SECOND
 class ArrayTelemetry:
     """Publishes all joints in one JointState, and one array a quantity, muscles in order."""
 
-    def __init__(self, node: Node, joints: Sequence[str], muscles: Sequence[str]) -> None:
+    def __init__(
+        self, node: Node, depth: int, joints: Sequence[str], muscles: Sequence[str]
+    ) -> None:
         """Create the publishers on *node*; the labels of the arrays name the *muscles*."""
         self._joint = JointState(name=list(joints))
         for name in ('position', 'velocity', 'effort'):
@@ -31,7 +33,7 @@ class ArrayTelemetry:
 
         def publisher(kind: type, name: str):
             return node.create_publisher(
-                kind, name, QoSProfile(depth=DEPTH), qos_overriding_options=open_qos()
+                kind, name, QoSProfile(depth=depth), qos_overriding_options=open_qos()
             )
 
         self._publish_states = publisher(JointState, 'joint_states').publish
@@ -69,9 +71,13 @@ class MuscleTelemetry:
     A muscle with a load of its own has ``joint_states`` there, too.
     """
 
-    def __init__(self, node: Node, muscles: Sequence[str], have_loads: bool) -> None:
+    def __init__(
+        self, node: Node, depth: int, muscles: Sequence[str], *, have_loads: bool
+    ) -> None:
         """Create the publishers on *node*; a load has its muscle's name."""
-        self._each = [Telemetry(node, name, f'{name}/', has_joint=have_loads) for name in muscles]
+        self._each = [
+            Telemetry(node, depth, name, f'{name}/', has_joint=have_loads) for name in muscles
+        ]
         self._have_loads = have_loads
 
     def describe(self, frame: str, variance: float) -> None:

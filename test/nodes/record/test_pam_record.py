@@ -201,6 +201,26 @@ def test_a_recorder_that_is_killed_leaves_a_whole_bag(peer, tmp_path):
         assert len(numbers) >= on_disk
 
 
+def test_a_recorder_that_is_held_up_has_what_the_simulator_published_meanwhile(peer, tmp_path):
+    """It stands still for 0.6 s, which is more than the middleware's memory holds, three times."""
+    bag = tmp_path / 'rig'
+    with recorder(bag) as program, Program('pam_sim', parameters={'command_timeout': 0.0}):
+        peer.until(lambda: written(bag) >= 2000, 'some messages')
+        for _ in range(3):
+            program.interrupt(signal.SIGSTOP)
+            peer.work(0.6)
+            program.interrupt(signal.SIGCONT)
+            before = written(bag)
+            peer.until(lambda n=before: written(bag) >= n + 5000, 'two seconds of messages more')
+        program.interrupt()
+        assert program.wait() == 0
+        assert 'lost' not in program.output
+    found = contents(bag)
+    counts = [len(found[f'/{topic}']) for topic in ('joint_states', 'force', 'pressure')]
+    assert min(counts) > 3500
+    assert np.ptp(counts) < 100  # all began at about the same time
+
+
 @pytest.mark.at_any_pace
 def test_a_directory_that_is_renamed_ends_it_with_one_sentence(peer, tmp_path):
     bag = tmp_path / 'rig'
