@@ -45,6 +45,8 @@ def positions(peer, length):
         controller = subprocess.Popen([sys.executable, FILE], stdout=subprocess.DEVNULL)
         try:
             peer.until(lambda: len(states) > length + 50 or controller.poll(), 'the states')
+            controller.send_signal(signal.SIGINT)
+            controller.wait(DEADLINE)
         finally:
             controller.kill()
             controller.wait()

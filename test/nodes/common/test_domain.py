@@ -243,3 +243,25 @@ def test_strangers_in_the_same_domain_are_not_heard(domain, peer, monkeypatch):
         neighbour.communicate()
     # Nor do they hear the test, though they hear each other.
     assert heard.split() == ['stranger', 'pam_sim_stranger']
+
+
+def uses_shared_memory(pid):
+    """Say whether a process holds a file of Fast DDS's shared memory open."""
+    files = Path(f'/proc/{pid}/fd').iterdir()
+    return any(os.path.realpath(file).startswith('/dev/shm/fastrtps') for file in files)
+
+
+@pytest.mark.at_any_pace
+def test_no_program_uses_shared_memory(domain, peer, monkeypatch):
+    """Connections in it are lost for ever where tests kill programs; others do use it."""
+    assert not uses_shared_memory(os.getpid())
+    with Program('pam_sim', parameters={'joint_name': 'ours'}) as program:
+        peer.more(peer.collect(JointState, 'joint_states'))
+        assert not uses_shared_memory(program.process.pid)
+    monkeypatch.delenv(PROFILE)
+    other = start(LISTEN)
+    try:
+        peer.until(lambda: uses_shared_memory(other.pid), 'the shared memory of another program')
+    finally:
+        other.kill()
+        other.communicate()
