@@ -99,7 +99,12 @@ class Parameter:
 
 def parameter_field(default: Any, text: str, unit: str = '', **kwargs: Any) -> Any:
     """Return a dataclass field with *default* that carries a :class:`Parameter`."""
-    return field(default=default, metadata={_KEY: Parameter(text, unit, **kwargs)})
+    return field_about(default, Parameter(text, unit, **kwargs))
+
+
+def field_about(default: Any, about: Parameter, *, kw_only: bool = False) -> Any:
+    """Return a dataclass field with *default* that carries what is known *about* it."""
+    return field(default=default, metadata={_KEY: about}, kw_only=kw_only)
 
 
 def described(cls: type, *, turning: bool = False) -> dict[str, tuple[type, Any, Parameter]]:

@@ -411,7 +411,7 @@ OBJECTS = {
     'joint with an effect as library': (
         lambda: Joint(library=EFFECTS[0]),
         (),
-        "library = Effect(name='dead_time'",
+        "library = <class 'pam_ros.effects.dead_time.DeadTime'>",
     ),
     'actuator of a number': (Actuator, (0.4,), 'muscle = 0.4'),
     'actuator of effects': (Actuator, (LAG,), "muscle = {'pressure_lag':"),

@@ -5,7 +5,8 @@
 from pathlib import Path
 
 from pam_ros.effects import EFFECTS
-from pam_ros.effects.base import ONSET, PLACES, Effect, EffectParameter
+from pam_ros.effects.base import ONSET, Effect
+from pam_ros.effects.parameter import EffectParameter
 
 GUIDE = Path(__file__).parents[1] / 'docs' / 'effects.md'
 
@@ -15,13 +16,13 @@ def names(effects: tuple[str, ...]) -> str:
     return ', '.join(f'`{name}`' for name in effects) or '-'
 
 
-def acts_on(effect: Effect) -> str:
+def acts_on(effect: type[Effect]) -> str:
     """Return in what it acts, and at which places of the kernel."""
-    places = ', '.join(place for place in PLACES if getattr(effect, place))
-    return f'{"joint" if effect.acts_on_joint else "muscle"}: {places}'
+    places = ', '.join(effect.equations.places)
+    return f'{"joint" if effect.acts_on_joint() else "muscle"}: {places}'
 
 
-def effects_table(library: tuple[Effect, ...] = EFFECTS) -> str:
+def effects_table(library: tuple[type[Effect], ...] = EFFECTS) -> str:
     """Return the table of effects in Markdown."""
     rows = [
         '| effect | what it is | acts on | source | trace in the residual | mistaken for | '
@@ -36,10 +37,10 @@ def effects_table(library: tuple[Effect, ...] = EFFECTS) -> str:
     return '\n'.join(rows)
 
 
-def parameters_table(library: tuple[Effect, ...] = EFFECTS) -> str:
+def parameters_table(library: tuple[type[Effect], ...] = EFFECTS) -> str:
     """Return the table of parameters in Markdown, strengths in bold."""
     rows = ['| parameter | unit | range | default | meaning |', '|---|---|---|---|---|']
-    rows += [_row(e.name, p) for e in library for p in e.parameters]
+    rows += [_row(e.name, p) for e in library for p in e.parameters()]
     return '\n'.join([*rows, _row('<name>', ONSET)])
 
 
@@ -51,7 +52,7 @@ def _row(effect: str, p: EffectParameter) -> str:
     return f'| {name} | {p.unit or "-"} | {p.low:g} to {p.high:g} | {p.default:g} | {p.text} |'
 
 
-def with_tables(text: str, library: tuple[Effect, ...] = EFFECTS) -> str:
+def with_tables(text: str, library: tuple[type[Effect], ...] = EFFECTS) -> str:
     """Return the guide *text* with both tables as they must be."""
     tables = {'effects': effects_table(library), 'parameters': parameters_table(library)}
     for name, table in tables.items():

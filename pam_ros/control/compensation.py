@@ -16,7 +16,7 @@ from pam_ros.rig.joint import Joint
 from pam_ros.rig.start import start_state
 
 # An effect, and where its states and its parameters begin in its row.
-_Placed = tuple[Effect, int, int]
+_Placed = tuple[type[Effect], int, int]
 
 
 def left_to_feedback(joint: Joint) -> tuple[str, ...]:
@@ -75,9 +75,9 @@ class Losses:
                 pull = muscle.force(pressures[i], y)
                 f = pull
                 for effect, k, j in effects:
-                    if effect.force is not None:
+                    if effect.equations.force is not None:
                         row = at.MUSCLE + i
-                        f = effect.force(
+                        f = effect.equations.force(
                             f, pressures[i], y / muscle.l0, arm * v, 0.0, dt,
                             self._x[row], k, self._xn[row], self._q[row], j,
                         )  # fmt: skip
@@ -85,8 +85,8 @@ class Losses:
         outside = 0.0
         mean = sum(pressures) / len(pressures)
         for effect, k, j in on_joint:
-            if effect.outside is not None:
-                outside = effect.outside(
+            if effect.equations.outside is not None:
+                outside = effect.equations.outside(
                     outside, mean, s, v, 0.0, dt,
                     self._x[at.JOINT], k, self._xn[at.JOINT], self._q[at.JOINT], j,
                 )  # fmt: skip

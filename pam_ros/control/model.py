@@ -91,10 +91,11 @@ def _drag(joint: Joint) -> float:
     """
     drag, row = 0.0, joint.parameters()[at.JOINT].tolist()
     for effect in joint.present[at.JOINT]:
-        if effect.outside is not None and effect.compensation is Compensation.MODEL:
+        if effect.equations.outside is not None and effect.compensation is Compensation.MODEL:
             j = joint.layout.parameter_at[effect.name]
+            outside = effect.equations.outside
             up, down = (
-                effect.outside(0.0, 0.0, 0.0, v, 0.0, 0.0, (), 0, (), row, j) for v in (1.0, -1.0)
+                outside(0.0, 0.0, 0.0, v, 0.0, 0.0, (), 0, (), row, j) for v in (1.0, -1.0)
             )
             drag += 0.5 * (down - up)
     return drag

@@ -41,12 +41,12 @@ class MuscleModel:
         self._forces: list[tuple[Callable[..., float], int]] = []
         for effect in present:
             j = offsets[effect.name]
-            if effect.contraction is not None:
-                self._contraction.append((effect.contraction, j))
-            if effect.damping is not None:
-                self._dampings.append((effect.damping, j))
-            if effect.force is not None and effect.compensation is Compensation.MODEL:
-                self._forces.append((effect.force, j))
+            if effect.equations.contraction is not None:
+                self._contraction.append((effect.equations.contraction, j))
+            if effect.equations.damping is not None:
+                self._dampings.append((effect.equations.damping, j))
+            if effect.equations.force is not None and effect.compensation is Compensation.MODEL:
+                self._forces.append((effect.equations.force, j))
 
     @property
     def may_be_slack(self) -> bool:

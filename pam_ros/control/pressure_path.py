@@ -54,10 +54,10 @@ class PressurePath:
             if effect.compensation is not Compensation.PATH:
                 continue
             j = layout.parameter_at[effect.name]
-            if effect.lag is not None:
-                fill, vent = effect.lag(row, j)
-            elif effect.pressure is not None:
-                self._static.append((effect.pressure, j))
+            if effect.equations.lag is not None:
+                fill, vent = effect.equations.lag(row, j)
+            elif effect.equations.pressure is not None:
+                self._static.append((effect.equations.pressure, j))
         low, high = self.reached(LOW), self.reached(HIGH)
         self._gain = (high - low) / (HIGH - LOW)
         self._offset = low - self._gain * LOW

@@ -5,31 +5,37 @@
 To add one, write its file and add its line here; ``docs/tutorials/add_an_effect.md`` shows how.
 """
 
-from importlib import import_module
+from pam_ros.effects.base import Effect as Effect
 
-from pam_ros.effects.base import Effect
+# isort: off
+# From the command to the chamber.
+from pam_ros.effects.dead_time import DeadTime as DeadTime
+from pam_ros.effects.pressure_offset import PressureOffset as PressureOffset
+from pam_ros.effects.dead_band import DeadBand as DeadBand
+from pam_ros.effects.pressure_lag import PressureLag as PressureLag
+from pam_ros.effects.leak import Leak as Leak
 
-# Each is the file of that name in this folder.
-_ORDER = (
-    # From the command to the chamber.
-    'dead_time',
-    'pressure_offset',
-    'dead_band',
-    'pressure_lag',
-    'leak',
-    # The muscle.
-    'length_offset',
-    'softening',
-    'creep',
-    'hysteresis',
-    'slack',
-    'pressure_dependent_damping',
-    # The load and what it meets.
-    'periodic_disturbance',
-    'payload',
-    'viscous_friction',
-    'coulomb_friction',
-    'end_stop',
+# The muscle.
+from pam_ros.effects.length_offset import LengthOffset as LengthOffset
+from pam_ros.effects.softening import Softening as Softening
+from pam_ros.effects.creep import Creep as Creep
+from pam_ros.effects.hysteresis import Hysteresis as Hysteresis
+from pam_ros.effects.slack import Slack as Slack
+from pam_ros.effects.pressure_dependent_damping import (
+    PressureDependentDamping as PressureDependentDamping,
 )
 
-EFFECTS: tuple[Effect, ...] = tuple(import_module(f'{__name__}.{name}').EFFECT for name in _ORDER)
+# The load and what it meets.
+from pam_ros.effects.periodic_disturbance import PeriodicDisturbance as PeriodicDisturbance
+from pam_ros.effects.payload import Payload as Payload
+from pam_ros.effects.viscous_friction import ViscousFriction as ViscousFriction
+from pam_ros.effects.coulomb_friction import CoulombFriction as CoulombFriction
+from pam_ros.effects.end_stop import EndStop as EndStop
+# isort: on
+
+# Those imported above, in their order.
+EFFECTS: tuple[type[Effect], ...] = tuple(
+    found
+    for found in list(vars().values())
+    if isinstance(found, type) and issubclass(found, Effect) and found is not Effect
+)

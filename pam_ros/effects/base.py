@@ -2,10 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """What an effect is: parameters, hidden states, and equations at the places where it acts.
 
-An effect is one file that ends in one :class:`Effect`; ``effects/__init__.py`` lists it. The
-equations are plain scalar functions, compiled into the stepping kernel when numba is there. An
-effect acts either in a muscle (and its pressure path) or on the joint that the muscles move; in
-which units a joint that turns has it, says :mod:`pam_ros.effects.turned`.
+An effect is one file with one dataclass, an :class:`Effect`; ``effects/__init__.py`` lists it. Its
+fields are its parameters. Its equations are plain scalar functions, compiled into the stepping
+kernel when numba is there. An effect acts either in a muscle (and its pressure path) or on the
+joint that the muscles move; in which units a joint that turns has it, says
+:mod:`pam_ros.effects.parameter`.
 
 Places, in the order in which the kernel visits them, with the function each expects:
 
@@ -35,23 +36,27 @@ x[i], x[i + 1], ... as they were at the start of the step, and the function writ
 xn[i + 1], ... what they have become after h seconds with the present arguments. The kernel calls
 it at every stage of the step (with h from 0 to the step) and keeps xn of the last call. Written
 so, an update can be exact or implicit, and a stiff law stays stable. Parameters are q[j],
-q[j + 1], ... in SI; the muscle's or joint's own are at the indices of
-:mod:`pam_ros.effects.rows`.
+q[j + 1], ... in SI, in the order of the fields, for which each file has names; the muscle's or
+joint's own are at the indices of :mod:`pam_ros.effects.rows`.
 """
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping, MutableSequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, fields, replace
 from enum import Enum
-from functools import cached_property
-from typing import Any
+from functools import cache
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from pam_ros.effects.names import EffectName
+from pam_ros.effects.parameter import EffectParameter
 from pam_ros.errors import ParameterError
-from pam_ros.parameters import Parameter
+from pam_ros.parameters import described, field_about
 
 Array = NDArray[np.float64]
+Starts = tuple[dict[str, float], ...]
 # A row of float64: numpy's array, or numba's; both are indexed like this.
 Row = MutableSequence[float]
 ON_JOINT = ('mass', 'outside', 'drag')
@@ -76,38 +81,12 @@ class Compensation(Enum):
 WITHOUT_MEMORY = (Compensation.PATH, Compensation.MODEL)  # what is inverted, but for a lag
 
 
-@dataclass(frozen=True)
-class EffectParameter:
-    """One parameter of an effect, in SI.
-
-    ``default`` is the value that it has when none is given; ``strength`` marks a parameter whose
-    0 means that the effect is absent. ``scale`` is a typical size (fits are scaled by it), and
-    ``sign`` the physical sign that a fitted strength must have (0: either).
-    """
-
-    name: str
-    default: float
-    text: str
-    unit: str
-    low: float
-    high: float
-    scale: float
-    strength: bool = False
-    sign: int = 0
-
-    def described(self) -> Parameter:
-        """Return the description that :mod:`pam_ros.parameters` checks values against."""
-        return Parameter(self.text, self.unit, self.low, self.high)
-
-
-# What every effect has in addition to its own parameters. No law reads it: simulations do.
 ONSET = EffectParameter(
-    'onset',
-    0.0,
-    'simulated time at which the effect begins to act; until then it is absent',
-    's',
-    0.0,
-    1e9,
+    text='simulated time at which the effect begins to act; until then it is absent',
+    unit='s',
+    name='onset',
+    low=0.0,
+    high=1e9,
     scale=1.0,
 )
 
@@ -126,38 +105,19 @@ class HiddenState:
 
 
 @dataclass(frozen=True, eq=False)
-class Effect:
-    """A physical effect that the paper's model lacks.
+class EffectEquations:
+    """The functions of an effect, one for each place where it acts; None where it does not.
 
-    ``states`` are its hidden states, and ``start(q, j, p, kappa, y)`` gives them for a rig that
-    has long been at rest there. ``compensation`` says what a controller does about it; where it
-    inverts a lag of the pressure, ``lag(q, j)`` gives the time constants of filling and venting
-    in s. ``example`` are values with which it is clearly present on a muscle of 20 mm and 400 mm
-    with a load of some 10 kg, and lets that load come to rest; with ``moves_by_itself`` it never
-    rests. ``fit_starts`` are sets of parameter values from which a fit begins; each
-    makes the effect clearly present and names what a fit from there may change. What constants
-    cannot foresee, a frequency or the place of a stop, comes from ``guess(t, p, kappa,
-    residual)``: further starts from a recording, arrays (n,) in SI, the residual being measured
-    less simulated position or force, kappa as measured and NaN where it is not known.
-    ``signature`` says in words what the residual looks like, ``experiment`` what to record to
-    distinguish it from its nearest ``rivals``. ``contains`` names those that it becomes as one of
-    its parameters vanishes, with the parameters of theirs that others of its own then are.
-    ``needs_muscle`` says that a load moved by some other force cannot have
-    it: it has no braid, no bladder, no chamber.
+    ``start(q, j, p, kappa, y)`` gives its hidden states for a rig that has long been at rest
+    there. Where a controller inverts a lag of the pressure, ``lag(q, j)`` gives the time constants
+    of filling and venting in s.
+
+    What constants cannot foresee, a frequency or the place of a stop, comes from ``guess(t, p,
+    kappa, residual)``: sets of values, from a recording, from which a fit begins as well. Its
+    arguments are arrays (n,) in SI, the contraction kappa as measured and NaN where it is not
+    known, the residual being measured less simulated position or force.
     """
 
-    name: str
-    text: str
-    source: str
-    parameters: tuple[EffectParameter, ...]
-    signature: str
-    experiment: str
-    fit_starts: tuple[dict[str, float], ...]
-    example: dict[str, float]
-    compensation: Compensation
-    states: tuple[HiddenState, ...] = ()
-    start: Callable[[Any, int, float, float, float], tuple[float, ...]] | None = None
-    guess: Callable[[Array, Array, Array, Array], tuple[dict[str, float], ...]] | None = None
     delay: Callable[..., float] | None = None
     pressure: Callable[..., float] | None = None
     contraction: Callable[..., float] | None = None
@@ -166,63 +126,154 @@ class Effect:
     damping: Callable[..., float] | None = None
     outside: Callable[..., float] | None = None
     drag: Callable[..., float] | None = None
+    start: Callable[[Any, int, float, float, float], tuple[float, ...]] | None = None
     lag: Callable[[Any, int], tuple[float, float]] | None = None
-    rivals: tuple[str, ...] = field(default=())
-    contains: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
-    needs_muscle: bool = False
-    moves_by_itself: bool = False
+    guess: Callable[[Array, Array, Array, Array], Starts] | None = None
 
     def __post_init__(self) -> None:
-        """Refuse what could never act or be absent, acts in two rows, or cannot be inverted."""
-        acts = [place for place in PLACES if getattr(self, place)]
+        """Refuse what is no function, such as a parameter of the same name."""
+        for item in fields(self):
+            given = getattr(self, item.name)
+            if given is not None and not callable(given):
+                raise ParameterError(
+                    f'{item.name} = {given!r} is not a function: where a parameter of the effect '
+                    'has its name, give the function another one'
+                )
+
+    @property
+    def places(self) -> tuple[str, ...]:
+        """The places at which it acts."""
+        return tuple(place for place in PLACES if getattr(self, place))
+
+
+@dataclass(frozen=True)
+class Effect(ABC):
+    """A physical effect that the paper's model lacks, with the values of its parameters.
+
+    As with loads, an effect is a dataclass of its parameters and equations that are compiled into
+    the stepping kernel. ``q[j]``, ``q[j + 1]``, ... are its own parameters in the order of its
+    fields. ``states`` are its hidden states. ``compensation`` says what a controller does about
+    it. With ``moves_by_itself`` its example never lets a load rest. ``signature`` says in words
+    what the residual looks like, ``experiment`` what to record to distinguish it from its nearest
+    ``rivals``. ``contains`` names those that it becomes as one of its parameters vanishes, with
+    the parameters of theirs that others of its own then are. ``needs_muscle`` says that a load
+    moved by some other force cannot have it: it has no braid, no bladder, no chamber.
+
+    Raises ParameterError for a value out of range.
+    """
+
+    name: ClassVar[str]
+    text: ClassVar[str]
+    source: ClassVar[str]
+    signature: ClassVar[str]
+    experiment: ClassVar[str]
+    compensation: ClassVar[Compensation]
+    equations: ClassVar[EffectEquations]
+    states: ClassVar[tuple[HiddenState, ...]] = ()
+    rivals: ClassVar[tuple[str, ...]] = ()
+    contains: ClassVar[Mapping[str, Mapping[str, str]]] = {}
+    needs_muscle: ClassVar[bool] = False
+    moves_by_itself: ClassVar[bool] = False
+
+    # No law reads it: simulations do.
+    onset: float = field_about(0.0, ONSET, kw_only=True)
+
+    @classmethod
+    @abstractmethod
+    def fit_starts(cls) -> Starts:
+        """Return sets of parameter values from which a fit begins.
+
+        Each makes the effect clearly present and names what a fit from there may change.
+        """
+
+    @classmethod
+    @abstractmethod
+    def example(cls) -> 'Effect':
+        """Return it clearly present, on a muscle of 20 mm and 400 mm with a load of some 10 kg.
+
+        That load comes to rest.
+        """
+
+    def __init_subclass__(cls) -> None:
+        """Refuse equations that act nowhere or in two rows, or that cannot be inverted."""
+        acts = cls.equations.places
         if not acts:
-            raise ParameterError(f'effect {self.name} acts nowhere: give it a function')
+            raise ParameterError(f'effect {cls.name} acts nowhere: give it a function')
         if 0 < sum(place in ON_JOINT for place in acts) < len(acts):
             raise ParameterError(
-                f'effect {self.name} acts in a muscle and on the joint ({", ".join(acts)}): '
+                f'effect {cls.name} acts in a muscle and on the joint ({", ".join(acts)}): '
                 'make two effects of it'
             )
-        if self.drag and not self.outside:
+        if cls.equations.drag and not cls.equations.outside:
             raise ParameterError(
-                f'effect {self.name} has drag without outside: friction brakes a free load as well'
+                f'effect {cls.name} has drag without outside: friction brakes a free load as well'
             )
-        if any(p.name == ONSET.name for p in self.parameters):
+        if cls.states and cls.equations.lag is None and cls.compensation in WITHOUT_MEMORY:
             raise ParameterError(
-                f'effect {self.name} has a parameter onset: every effect has this one anyway'
-            )
-        if not any(p.strength for p in self.parameters):
-            raise ParameterError(f'effect {self.name} has no strength parameter to be absent by')
-        if self.states and self.lag is None and self.compensation in WITHOUT_MEMORY:
-            raise ParameterError(
-                f'effect {self.name} has hidden states, which {self.compensation} does not '
+                f'effect {cls.name} has hidden states, which {cls.compensation} does not '
                 'follow: give lag, or Compensation.FEED_FORWARD or FEEDBACK'
             )
 
-    @cached_property
-    def acts_on_joint(self) -> bool:
-        """Whether it acts on the joint, and not in a muscle or its pressure path."""
-        return any(getattr(self, place) for place in ON_JOINT)
+    def __post_init__(self) -> None:
+        """Check every value; the joint checks those that it gives other ranges."""
+        for p in (*self.parameters(), ONSET):
+            about = p.on_any_joint() if self.acts_on_joint() else p
+            flat = EffectName(self.name, p.name).flat
+            object.__setattr__(self, p.name, about.check(flat, getattr(self, p.name), float))
 
-    def values(self, given: Mapping[str, float]) -> list[float]:
+    @classmethod
+    @cache
+    def parameters(cls, *, turning: bool = False) -> tuple[EffectParameter, ...]:
+        """Return its own parameters in order, without the onset that every effect has.
+
+        With *turning* they have the units and ranges of a joint that turns; raises ParameterError
+        for a unit of which is not known what it is there.
+        """
+        found = tuple(
+            replace(about, name=name, default=default)
+            for name, (_, default, about) in described(cls).items()
+            if isinstance(about, EffectParameter) and about is not ONSET
+        )
+        if not any(p.strength for p in found):
+            raise ParameterError(f'effect {cls.name} has no strength parameter to be absent by')
+        if not turning:
+            return found
+        return tuple(p.turned(EffectName(cls.name, p.name).flat) for p in found)
+
+    @classmethod
+    def acts_on_joint(cls) -> bool:
+        """Say whether it acts on the joint, and not in a muscle or its pressure path."""
+        return any(place in ON_JOINT for place in cls.equations.places)
+
+    @classmethod
+    def values(cls, given: Mapping[str, float], *, turning: bool = False) -> list[float]:
         """Return the parameters in order, *given* over the defaults, checked.
 
-        The onset, which *given* may have, too, is checked and is none of them. Raises
-        ParameterError for an unknown name or a value out of range.
+        The onset, which *given* may have, too, is checked and is none of them. With *turning* the
+        ranges are those of a joint that turns. Raises ParameterError for an unknown name or a
+        value out of range.
         """
-        names = [p.name for p in (*self.parameters, ONSET)]
+        each = (*cls.parameters(turning=turning), ONSET)
+        names = [p.name for p in each]
         for name in given:
             if name not in names:
                 raise ParameterError(
-                    f'effects.{self.name}.{name} is not known: give one of ' + ', '.join(names)
+                    f'{EffectName(cls.name, name).flat} is not known: give one of '
+                    + ', '.join(names)
                 )
         checked: list[float] = [
-            p.described().check(
-                f'effects.{self.name}.{p.name}', given.get(p.name, p.default), float
-            )
-            for p in (*self.parameters, ONSET)
+            p.check(EffectName(cls.name, p.name).flat, given.get(p.name, p.default), float)
+            for p in each
         ]
         return checked[:-1]
 
-    def is_present(self, given: Mapping[str, float]) -> bool:
+    @classmethod
+    def is_present(cls, given: Mapping[str, float]) -> bool:
         """Say whether any strength in *given* differs from zero."""
-        return any(given.get(p.name, p.default) != 0.0 for p in self.parameters if p.strength)
+        return any(given.get(p.name, p.default) != 0.0 for p in cls.parameters() if p.strength)
+
+    @property
+    def given(self) -> dict[str, float]:
+        """Those of its values that differ from their defaults, by name."""
+        each = ((p, getattr(self, p.name)) for p in (*self.parameters(), ONSET))
+        return {p.name: value for p, value in each if value != p.default}

@@ -2,13 +2,19 @@
 # SPDX-License-Identifier: Apache-2.0
 """Creep and stress relaxation: parts of the muscle's elasticity follow slowly."""
 
+from dataclasses import dataclass
 from math import expm1
+from typing import ClassVar
 
 from pam_ros.compiled import scalar
-from pam_ros.effects.base import Compensation, Effect, EffectParameter, HiddenState, Row
+from pam_ros.effects.base import Compensation, Effect, EffectEquations, HiddenState, Row, Starts
+from pam_ros.effects.parameter import effect_parameter, start_from, strength
 from pam_ros.effects.rows import A1, A2, A3, A4, A5, A6
 from pam_ros.muscle import law
 from pam_ros.muscle.law import gain
+
+FORCE, STIFFNESS, PRESSURE, TIME, SPREAD, BALANCE = range(6)
+FAST, SLOW, LAST = range(3)  # hidden states of each of the three followers
 
 
 @scalar
@@ -16,21 +22,21 @@ def late(now: float, h: float, x: Row, i: int, xn: Row, q: Row, j: int) -> float
     """Return what *now* has over its slow follower, exact for a way linear over h.
 
     The follower is the mean, with weights 1 - b and b, of two first-order lags of times T/r and
-    T r: T = q[j], r = q[j + 1], b = q[j + 2]. x[i], x[i + 1] are the lags, x[i + 2] what
-    they follow.
+    T r: T is the time, r the spread, b the balance. x[i + FAST] and x[i + SLOW] are the lags,
+    x[i + LAST] what they follow.
     """
-    way = now - x[i + 2]
-    xn[i + 2] = now
+    way = now - x[i + LAST]
+    xn[i + LAST] = now
     for n in range(2):
-        r = q[j + 1] if n == 0 else 1.0 / q[j + 1]
-        a = h * r / q[j]
+        r = q[j + SPREAD] if n == FAST else 1.0 / q[j + SPREAD]
+        a = h * r / q[j + TIME]
         gone = -expm1(-a)
         share = gone / a if a > 0.0 else 1.0
-        xn[i + n] = x[i + n] + (x[i + 2] - x[i + n]) * gone + way * (1.0 - share)
-    return now - (1.0 - q[j + 2]) * xn[i] - q[j + 2] * xn[i + 1]
+        xn[i + n] = x[i + n] + (x[i + LAST] - x[i + n]) * gone + way * (1.0 - share)
+    return now - (1.0 - q[j + BALANCE]) * xn[i + FAST] - q[j + BALANCE] * xn[i + SLOW]
 
 
-def force(
+def relaxing(
     f: float,
     p: float,
     kappa: float,
@@ -45,19 +51,20 @@ def force(
 ) -> float:
     """Return f less what comes late: s (f - f'), K (kappa - kappa') and u (dF/dp) (p - p').
 
-    A prime marks the slow follower of each, see :func:`late`; s = q[j], K = q[j + 1] and
-    u = q[j + 2]. The muscle under load creeps by K and u, at its held length by s and u.
+    A prime marks the slow follower of each, see :func:`late`; s is the share force, K the
+    stiffness and u the share pressure. The muscle under load creeps by K and u, at its held
+    length by s and u.
     """
-    if q[j] == 0.0 and q[j + 1] == 0.0 and q[j + 2] == 0.0:
+    if q[j + FORCE] == 0.0 and q[j + STIFFNESS] == 0.0 and q[j + PRESSURE] == 0.0:
         return f
     out = f
-    if q[j] != 0.0:
-        out -= q[j] * late(f, h, x, i, xn, q, j + 3)
-    if q[j + 1] != 0.0:
-        out -= q[j + 1] * late(kappa, h, x, i + 3, xn, q, j + 3)
-    if q[j + 2] != 0.0:
-        behind = late(p, h, x, i + 6, xn, q, j + 3)
-        out -= q[j + 2] * behind * gain(kappa, q[A1], q[A3], q[A4], q[A5])
+    if q[j + FORCE] != 0.0:
+        out -= q[j + FORCE] * late(f, h, x, i, xn, q, j)
+    if q[j + STIFFNESS] != 0.0:
+        out -= q[j + STIFFNESS] * late(kappa, h, x, i + 3, xn, q, j)
+    if q[j + PRESSURE] != 0.0:
+        behind = late(p, h, x, i + 6, xn, q, j)
+        out -= q[j + PRESSURE] * behind * gain(kappa, q[A1], q[A3], q[A4], q[A5])
     return out
 
 
@@ -67,68 +74,39 @@ def start(q: Row, j: int, p: float, kappa: float, y: float) -> tuple[float, ...]
     return (f, f, f, kappa, kappa, kappa, p, p, p)
 
 
-EFFECT = Effect(
-    name='creep',
-    text='force, stiffness and pressure of which a part acts late',
-    source='Standard linear solid; Minh et al. 2012 for a fluidic muscle',
-    parameters=(
-        EffectParameter(
-            'force',
-            0.0,
-            'share of a change of force that comes late; negative: surplus that relaxes',
-            '',
-            -0.9,
-            0.9,
-            scale=0.05,
-            strength=True,
-        ),
-        EffectParameter(
-            'stiffness',
-            0.0,
-            'force per contraction that resists a quick move and relaxes',
-            'N',
-            0.0,
-            1e5,
-            scale=500.0,
-            strength=True,
-            sign=1,
-        ),
-        EffectParameter(
-            'pressure',
-            0.0,
-            'share of a change of pressure whose pull comes late',
-            '',
-            -0.9,
-            0.9,
-            scale=0.02,
-            strength=True,
-        ),
-        EffectParameter('time', 5.0, 'mean time constant', 's', 0.1, 1e4, scale=5.0),
-        EffectParameter(
-            'spread',
-            1.0,
-            'ratio of the slow and fast time to their mean',
-            '',
-            1.0,
-            100.0,
-            scale=2.0,
-        ),
-        EffectParameter('balance', 0.5, 'part that the slow time has', '', 0.0, 1.0, scale=0.3),
-    ),
-    signature='drift after steps that slows down: of length under load, of force at held length',
-    experiment='holds of several minutes after steps, up and down',
-    fit_starts=(
-        {'stiffness': 300.0, 'time': 0.5},
-        {'stiffness': 300.0, 'time': 5.0},
-        {'stiffness': 500.0, 'time': 5.0, 'spread': 3.0},
-        {'pressure': 0.02, 'time': 1.0},
-        {'pressure': 0.02, 'time': 5.0, 'spread': 3.0},
-        {'force': 0.03, 'time': 1.0},
-        {'force': -0.03, 'time': 10.0},
-    ),
-    example={'force': -0.03, 'stiffness': 600.0, 'time': 0.8, 'spread': 2.0},
-    compensation=Compensation.FEED_FORWARD,
-    states=tuple(
+@dataclass(frozen=True)
+class Creep(Effect):
+    """Force, stiffness and pressure of which a part acts late."""
+
+    force: float = strength(
+        'share of a change of force that comes late; negative: surplus that relaxes',
+        low=-0.9,
+        high=0.9,
+        scale=0.05,
+    )
+    stiffness: float = strength(
+        'force per contraction that resists a quick move and relaxes', 'N', high=1e5, scale=500.0
+    )
+    pressure: float = strength(
+        'share of a change of pressure whose pull comes late', low=-0.9, high=0.9, scale=0.02
+    )
+    time: float = effect_parameter(5.0, 'mean time constant', 's', low=0.1, high=1e4, scale=5.0)
+    spread: float = effect_parameter(
+        1.0, 'ratio of the slow and fast time to their mean', low=1.0, high=100.0, scale=2.0
+    )
+    balance: float = effect_parameter(
+        0.5, 'part that the slow time has', low=0.0, high=1.0, scale=0.3
+    )
+
+    name: ClassVar = 'creep'
+    text: ClassVar = 'force, stiffness and pressure of which a part acts late'
+    source: ClassVar = 'Standard linear solid; Minh et al. 2012 for a fluidic muscle'
+    signature: ClassVar = (
+        'drift after steps that slows down: of length under load, of force at held length'
+    )
+    experiment: ClassVar = 'holds of several minutes after steps, up and down'
+    compensation: ClassVar = Compensation.FEED_FORWARD
+    states: ClassVar = tuple(
         HiddenState(f'{which} {of}', unit, 0.0 if which == 'last' else spread)
         for of, unit, spread in (
             ('force', 'N', 50.0),
@@ -136,9 +114,25 @@ EFFECT = Effect(
             ('pressure', 'Pa', 5e4),
         )
         for which in ('fast', 'slow', 'last')
-    ),
-    start=start,
-    rivals=('hysteresis', 'softening', 'pressure_dependent_damping', 'leak'),
-    force=force,
-    needs_muscle=True,
-)
+    )
+    rivals: ClassVar = ('hysteresis', 'softening', 'pressure_dependent_damping', 'leak')
+    needs_muscle: ClassVar = True
+    equations: ClassVar = EffectEquations(force=relaxing, start=start)
+
+    @classmethod
+    def fit_starts(cls) -> Starts:
+        """Return the values from which a fit begins."""
+        return (
+            start_from(cls, stiffness=300.0, time=0.5),
+            start_from(cls, stiffness=300.0, time=5.0),
+            start_from(cls, stiffness=500.0, time=5.0, spread=3.0),
+            start_from(cls, pressure=0.02, time=1.0),
+            start_from(cls, pressure=0.02, time=5.0, spread=3.0),
+            start_from(cls, force=0.03, time=1.0),
+            start_from(cls, force=-0.03, time=10.0),
+        )
+
+    @classmethod
+    def example(cls) -> Effect:
+        """Return it clearly present."""
+        return cls(force=-0.03, stiffness=600.0, time=0.8, spread=2.0)

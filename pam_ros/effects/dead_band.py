@@ -6,8 +6,14 @@ What a muscle with this effect has as its pressure is what acts on its braid, wh
 chamber does not see where the bladder has the threshold.
 """
 
+from dataclasses import dataclass
+from typing import ClassVar
+
 from pam_ros.compiled import scalar
-from pam_ros.effects.base import Compensation, Effect, EffectParameter, Row
+from pam_ros.effects.base import Compensation, Effect, EffectEquations, Row, Starts
+from pam_ros.effects.parameter import effect_parameter, start_from, strength
+
+BAND, WIDTH = range(2)
 
 
 @scalar
@@ -22,48 +28,49 @@ def beyond(p: float, band: float, width: float) -> float:
 
 
 def pressure(p: float, t: float, h: float, x: Row, i: int, xn: Row, q: Row, j: int) -> float:
-    """Return what of the pressure p in Pa is beyond the band q[j].
+    """Return what of the pressure p in Pa is beyond the band.
 
-    The corner is q[j + 1] wide, but no wider than the band: no pressure stays none.
+    The corner has its width, but no wider than the band: no pressure stays none.
     """
-    if q[j] == 0.0:
+    if q[j + BAND] == 0.0:
         return p
-    return beyond(p, q[j], min(q[j + 1], q[j]))
+    return beyond(p, q[j + BAND], min(q[j + WIDTH], q[j + BAND]))
 
 
-EFFECT = Effect(
-    name='dead_band',
-    text='threshold of the pressure, below which the bladder or the valve does nothing',
-    source='Klute and Hannaford 2000 (bladder inside the braid); valves with overlap',
-    parameters=(
-        EffectParameter(
-            'band',
-            0.0,
-            'pressure up to which nothing happens',
-            'Pa',
-            0.0,
-            2e5,
-            scale=2e4,
-            strength=True,
-            sign=1,
-        ),
-        EffectParameter(
-            'width',
-            2e3,
-            'pressure on either side of the corner over which the effect sets in',
-            'Pa',
-            1.0,
-            1e5,
-            scale=5e3,
-        ),
-    ),
-    signature='residual that grows up to the threshold, and is then constant',
-    experiment='slow ramps from no pressure up, at two loads',
-    fit_starts=({'band': 1e4}, {'band': 5e4}, {'band': 3e4, 'width': 1e4}),
-    example={'band': 2e4, 'width': 4e3},
-    compensation=Compensation.PATH,
-    rivals=('pressure_offset', 'slack'),
-    # Where the pressure always stays beyond the band.
-    contains={'pressure_offset': {'offset': 'band'}},
-    pressure=pressure,
-)
+@dataclass(frozen=True)
+class DeadBand(Effect):
+    """Threshold of the pressure, below which the bladder or the valve does nothing."""
+
+    band: float = strength('pressure up to which nothing happens', 'Pa', high=2e5, scale=2e4)
+    width: float = effect_parameter(
+        2e3,
+        'pressure on either side of the corner over which the effect sets in',
+        'Pa',
+        low=1.0,
+        high=1e5,
+        scale=5e3,
+    )
+
+    name: ClassVar = 'dead_band'
+    text: ClassVar = 'threshold of the pressure, below which the bladder or the valve does nothing'
+    source: ClassVar = 'Klute and Hannaford 2000 (bladder inside the braid); valves with overlap'
+    signature: ClassVar = 'residual that grows up to the threshold, and is then constant'
+    experiment: ClassVar = 'slow ramps from no pressure up, at two loads'
+    compensation: ClassVar = Compensation.PATH
+    rivals: ClassVar = ('pressure_offset', 'slack')
+    contains: ClassVar = {'pressure_offset': {'offset': 'band'}}
+    equations: ClassVar = EffectEquations(pressure=pressure)
+
+    @classmethod
+    def fit_starts(cls) -> Starts:
+        """Return the values from which a fit begins."""
+        return (
+            start_from(cls, band=1e4),
+            start_from(cls, band=5e4),
+            start_from(cls, band=3e4, width=1e4),
+        )
+
+    @classmethod
+    def example(cls) -> Effect:
+        """Return it clearly present."""
+        return cls(band=2e4, width=4e3)

@@ -2,36 +2,49 @@
 # SPDX-License-Identifier: Apache-2.0
 """Dead time: the pressure answers a command only after a while."""
 
-from pam_ros.effects.base import Compensation, Effect, EffectParameter, Row
+from dataclasses import dataclass
+from typing import ClassVar
+
+from pam_ros.effects.base import Compensation, Effect, EffectEquations, Row, Starts
+from pam_ros.effects.parameter import start_from, strength
+
+DELAY = 0
 
 
-def delay(q: Row, j: int) -> float:
-    """Return the delay q[j] in s."""
-    return q[j]
+def late(q: Row, j: int) -> float:
+    """Return the delay in s."""
+    return q[j + DELAY]
 
 
-EFFECT = Effect(
-    name='dead_time',
-    text='transport delay between command and pressure',
-    source='Wave travel in the tube, switching time of the valve, computing time',
-    parameters=(
-        EffectParameter(
-            'delay',
-            0.0,
-            'time by which commands act late',
-            's',
-            0.0,
-            1.0,
-            scale=0.01,
-            strength=True,
-            sign=1,
-        ),
-    ),
-    signature='phase that falls in proportion to frequency; nothing moves after a step for a time',
-    experiment='steps recorded at 500 Hz or more, or a chirp up to the corner of the lag',
-    fit_starts=({'delay': 0.005}, {'delay': 0.02}, {'delay': 0.05}),
-    example={'delay': 0.0153},
-    compensation=Compensation.PATH,
-    rivals=('pressure_lag',),
-    delay=delay,
-)
+@dataclass(frozen=True)
+class DeadTime(Effect):
+    """Transport delay between command and pressure."""
+
+    delay: float = strength('time by which commands act late', 's', high=1.0, scale=0.01)
+
+    name: ClassVar = 'dead_time'
+    text: ClassVar = 'transport delay between command and pressure'
+    source: ClassVar = 'Wave travel in the tube, switching time of the valve, computing time'
+    signature: ClassVar = (
+        'phase that falls in proportion to frequency; nothing moves after a step for a time'
+    )
+    experiment: ClassVar = (
+        'steps recorded at 500 Hz or more, or a chirp up to the corner of the lag'
+    )
+    compensation: ClassVar = Compensation.PATH
+    rivals: ClassVar = ('pressure_lag',)
+    equations: ClassVar = EffectEquations(delay=late)
+
+    @classmethod
+    def fit_starts(cls) -> Starts:
+        """Return the values from which a fit begins."""
+        return (
+            start_from(cls, delay=0.005),
+            start_from(cls, delay=0.02),
+            start_from(cls, delay=0.05),
+        )
+
+    @classmethod
+    def example(cls) -> Effect:
+        """Return it clearly present."""
+        return cls(delay=0.0153)

@@ -2,12 +2,25 @@
 # SPDX-License-Identifier: Apache-2.0
 """End stops: the load meets a stiff pad at the top, and another at the bottom."""
 
+from dataclasses import dataclass
 from math import hypot
+from typing import ClassVar
 
 import numpy as np
 
-from pam_ros.effects.base import Array, Compensation, Effect, EffectParameter, HiddenState, Row
+from pam_ros.effects.base import (
+    Array,
+    Compensation,
+    Effect,
+    EffectEquations,
+    HiddenState,
+    Row,
+    Starts,
+)
+from pam_ros.effects.parameter import effect_parameter, start_from, strength
 from pam_ros.effects.rows import INERTIA, LENGTH
+
+UPPER, STIFFNESS, LOWER, LOWER_STIFFNESS, DAMPING = range(5)
 
 
 def outside(
@@ -25,26 +38,26 @@ def outside(
 ) -> float:
     """Return f with the push of the pads: k d (1 + b d') for d > 0 deep in one, never a pull.
 
-    The upper pad begins at the contraction q[j] and has k = q[j + 1], the lower at q[j + 2]
-    and has q[j + 3]; b = q[j + 4]. Hunt and Crossley's law: no jump at contact. What a step of
-    length h = x[i] cannot resolve, stiffness near m/h^2 and damping beyond m/4h, is softened:
+    The upper pad begins at the contraction upper and has k = stiffness, the lower one at lower
+    and has lower_stiffness; b is the damping. Hunt and Crossley's law: no jump at contact. What a
+    step of length h cannot resolve, stiffness near m/h^2 and damping beyond m/4h, is softened:
     between two pads even a moved mass of a fifth of the declared m stays stable.
     """
-    if q[j + 1] == 0.0 and q[j + 3] == 0.0:
+    if q[j + STIFFNESS] == 0.0 and q[j + LOWER_STIFFNESS] == 0.0:
         return f
     xn[i] = h
     most_k = q[INERTIA] / (x[i] * x[i])
     most_c = 0.25 * q[INERTIA] / x[i]
-    d = y - q[j] * q[LENGTH]
-    if d > 0.0 and q[j + 1] > 0.0:
-        spring = d * q[j + 1] / hypot(1.0, q[j + 1] / most_k)
-        c = q[j + 4] * spring
+    d = y - q[j + UPPER] * q[LENGTH]
+    if d > 0.0 and q[j + STIFFNESS] > 0.0:
+        spring = d * q[j + STIFFNESS] / hypot(1.0, q[j + STIFFNESS] / most_k)
+        c = q[j + DAMPING] * spring
         push = spring + min(c, most_c) * v
         f -= max(push, 0.0)
-    d = q[j + 2] * q[LENGTH] - y
-    if d > 0.0 and q[j + 3] > 0.0:
-        spring = d * q[j + 3] / hypot(1.0, q[j + 3] / most_k)
-        c = q[j + 4] * spring
+    d = q[j + LOWER] * q[LENGTH] - y
+    if d > 0.0 and q[j + LOWER_STIFFNESS] > 0.0:
+        spring = d * q[j + LOWER_STIFFNESS] / hypot(1.0, q[j + LOWER_STIFFNESS] / most_k)
+        c = q[j + DAMPING] * spring
         push = spring - min(c, most_c) * v
         f += max(push, 0.0)
     return f
@@ -55,78 +68,62 @@ def start(q: Row, j: int, p: float, kappa: float, y: float) -> tuple[float, ...]
     return (1e-3,)
 
 
-def guess(t: Array, p: Array, kappa: Array, residual: Array) -> tuple[dict[str, float], ...]:
+def guess(t: Array, p: Array, kappa: Array, residual: Array) -> Starts:
     """Return starts with a pad just within the travel that was recorded, at either end."""
-    low, high = np.nanquantile(kappa, [0.02, 0.98])
+    low, high = (float(end) for end in np.nanquantile(kappa, [0.02, 0.98]))
     inside = 0.02 * (high - low)
     return (
-        {'upper': float(high - inside), 'stiffness': 3e4},
-        {'upper': float(high - 10.0 * inside), 'stiffness': 1e4},
-        {'lower': float(low + inside), 'lower_stiffness': 3e4},
+        start_from(EndStop, upper=high - inside, stiffness=3e4),
+        start_from(EndStop, upper=high - 10.0 * inside, stiffness=1e4),
+        start_from(EndStop, lower=low + inside, lower_stiffness=3e4),
     )
 
 
-EFFECT = Effect(
-    name='end_stop',
-    text='stiff one-sided pads at the ends of the travel',
-    source='Hunt & Crossley 1975; maker: at most 25 % contraction',
-    parameters=(
-        EffectParameter(
-            'upper',
-            0.25,
-            'contraction at which the upper pad begins',
-            'fraction',
-            -0.5,
-            1.0,
-            scale=0.1,
-        ),
-        EffectParameter(
-            'stiffness',
-            0.0,
-            'stiffness of the upper pad; 0: there is none',
-            'N/m',
-            0.0,
-            1e8,
-            scale=1e5,
-            strength=True,
-            sign=1,
-        ),
-        EffectParameter(
-            'lower',
-            0.0,
-            'contraction at which the lower pad begins',
-            'fraction',
-            -0.5,
-            1.0,
-            scale=0.1,
-        ),
-        EffectParameter(
-            'lower_stiffness',
-            0.0,
-            'stiffness of the lower pad; 0: there is none',
-            'N/m',
-            0.0,
-            1e8,
-            scale=1e5,
-            strength=True,
-            sign=1,
-        ),
-        EffectParameter(
-            'damping', 2.0, 'relative growth of the push with speed', 's/m', 0.0, 1e3, scale=2.0
-        ),
-    ),
-    signature='residual only beyond a position, pushing back',
-    experiment='touch it slowly, and touch it with another load',
-    fit_starts=(
-        {'upper': 0.2, 'stiffness': 3e4},
-        {'upper': 0.12, 'stiffness': 3e4},
-        {'lower': 0.02, 'lower_stiffness': 3e4},
-    ),
-    example={'upper': 0.2, 'stiffness': 3e4},
-    compensation=Compensation.FEEDBACK,
-    states=(HiddenState('step', 's'),),
-    start=start,
-    rivals=('slack', 'length_offset'),
-    outside=outside,
-    guess=guess,
-)
+@dataclass(frozen=True)
+class EndStop(Effect):
+    """Stiff one-sided pads at the ends of the travel."""
+
+    upper: float = effect_parameter(
+        0.25,
+        'contraction at which the upper pad begins',
+        'fraction',
+        low=-0.5,
+        high=1.0,
+        scale=0.1,
+    )
+    stiffness: float = strength(
+        'stiffness of the upper pad; 0: there is none', 'N/m', high=1e8, scale=1e5
+    )
+    lower: float = effect_parameter(
+        0.0, 'contraction at which the lower pad begins', 'fraction', low=-0.5, high=1.0, scale=0.1
+    )
+    lower_stiffness: float = strength(
+        'stiffness of the lower pad; 0: there is none', 'N/m', high=1e8, scale=1e5
+    )
+    damping: float = effect_parameter(
+        2.0, 'relative growth of the push with speed', 's/m', low=0.0, high=1e3, scale=2.0
+    )
+
+    name: ClassVar = 'end_stop'
+    text: ClassVar = 'stiff one-sided pads at the ends of the travel'
+    source: ClassVar = 'Hunt & Crossley 1975; maker: at most 25 % contraction'
+    signature: ClassVar = 'residual only beyond a position, pushing back'
+    experiment: ClassVar = 'touch it slowly, and touch it with another load'
+    compensation: ClassVar = Compensation.FEEDBACK
+    states: ClassVar = (HiddenState('step', 's'),)
+    rivals: ClassVar = ('slack', 'length_offset')
+    equations: ClassVar = EffectEquations(outside=outside, start=start, guess=guess)
+
+    @classmethod
+    def fit_starts(cls) -> Starts:
+        """Return the values from which a fit begins."""
+        return (
+            start_from(cls, upper=0.2, stiffness=3e4),
+            start_from(cls, upper=0.12, stiffness=3e4),
+            start_from(cls, lower=0.02, lower_stiffness=3e4),
+        )
+
+    @classmethod
+    def example(cls) -> Effect:
+        """Return it clearly present."""
+        return cls(upper=0.2, stiffness=3e4)

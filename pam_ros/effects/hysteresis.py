@@ -9,14 +9,35 @@ Over pressure, Maxwell's slip once more: braid and bladder rub when the muscle i
 vented, whether its ends move or not, and the loop is so many Pa wide (Hunt et al. 2017).
 """
 
+from dataclasses import dataclass
 from math import exp, expm1, log1p
+from typing import ClassVar
 
 from pam_ros.compiled import plain, scalar
-from pam_ros.effects.base import Compensation, Effect, EffectParameter, HiddenState, Row
+from pam_ros.effects.base import Compensation, Effect, EffectEquations, HiddenState, Row, Starts
+from pam_ros.effects.parameter import effect_parameter, start_from, strength
 from pam_ros.effects.rows import A1, A3, A4, A5
 from pam_ros.muscle.law import gain
 
+(
+    AMPLITUDE,
+    WIDTH,
+    UNLOADING,
+    SLIP,
+    SLIP_WIDTH,
+    SLIP_ONSET,
+    PRESSURE_GROWTH,
+    PRESSURE,
+    PRESSURE_WIDTH,
+    PRESSURE_ONSET,
+    INITIAL,
+    SLIP_CROWDING,
+    PRESSURE_CROWDING,
+) = range(13)
+
 ELEMENTS = 10
+# Hidden states; the strains of the elements follow, over contraction and over pressure.
+LOOP, LAST_KAPPA, LAST_P, STRAINS = range(4)
 P_REFERENCE = 3e5  # Pa, where the amplitude is as given, whatever its growth
 
 
@@ -63,216 +84,191 @@ def force(
     """Return f - g(p) (A z + B m) - P (dF/dp) n, with z, m, n in -1..1 and exact.
 
     Bouc-Wen (n = 1) over l = |kappa|/W, u = z sign(dkappa): du/dl = 1 - u on loading, u > 0,
-    and 1 - a u on unloading, u < 0. A = q[j], W = q[j + 1], a = q[j + 2]: 1 is Dahl's law, 0
-    has elastic unloading. x[i] is z, x[i + 1] kappa, x[i + 2] the pressure before.
-
-    Maxwell slip m over contraction: B = q[j + 3], width q[j + 4], onset q[j + 5], crowding
-    q[j + 11]; n over pressure: P = q[j + 7], width q[j + 8], onset q[j + 9], crowding q[j + 12].
-
-    g = 1 + G (p / 300 kPa - 1), G = q[j + 6], not negative.
+    and 1 - a u on unloading, u < 0. A is the amplitude, W the width, a unloading: 1 is Dahl's
+    law, 0 has elastic unloading. m is Maxwell slip over contraction, of height B = slip, n over
+    pressure, of height P = pressure. g = 1 + G (p / 300 kPa - 1), G = pressure_growth, not
+    negative.
     """
-    if q[j] == 0.0 and q[j + 3] == 0.0 and q[j + 7] == 0.0:
+    if q[j + AMPLITUDE] == 0.0 and q[j + SLIP] == 0.0 and q[j + PRESSURE] == 0.0:
         return f
-    ds = kappa - x[i + 1]
-    dp = p - x[i + 2]
-    xn[i + 1] = kappa
-    xn[i + 2] = p
+    ds = kappa - x[i + LAST_KAPPA]
+    dp = p - x[i + LAST_P]
+    xn[i + LAST_KAPPA] = kappa
+    xn[i + LAST_P] = p
     rub = 0.0
-    if q[j] != 0.0:
+    if q[j + AMPLITUDE] != 0.0:
         side = 1.0 if ds > 0.0 else -1.0
-        left = abs(ds) / q[j + 1]
-        u = x[i] * side
+        left = abs(ds) / q[j + WIDTH]
+        u = x[i + LOOP] * side
         if u < 0.0:
-            a = max(q[j + 2], 1e-9)
+            a = max(q[j + UNLOADING], 1e-9)
             down = min(left, log1p(-a * u) / a)
             u = u * exp(-a * down) - expm1(-a * down) / a
             left -= down
         if left > 0.0:
             u = 1.0 + (u - 1.0) * exp(-left)
-        xn[i] = u * side
-        rub = q[j] * xn[i]
-    if q[j + 3] != 0.0:
-        rub += q[j + 3] * slipped(ds, q[j + 4], q[j + 5], q[j + 11], x, i + 3, xn)
-    f -= max(1.0 + q[j + 6] * (p / P_REFERENCE - 1.0), 0.0) * rub
-    if q[j + 7] != 0.0:
-        late = q[j + 7] * slipped(dp, q[j + 8], q[j + 9], q[j + 12], x, i + 3 + ELEMENTS, xn)
+        xn[i + LOOP] = u * side
+        rub = q[j + AMPLITUDE] * xn[i + LOOP]
+    if q[j + SLIP] != 0.0:
+        rub += q[j + SLIP] * slipped(
+            ds, q[j + SLIP_WIDTH], q[j + SLIP_ONSET], q[j + SLIP_CROWDING], x, i + STRAINS, xn
+        )
+    f -= max(1.0 + q[j + PRESSURE_GROWTH] * (p / P_REFERENCE - 1.0), 0.0) * rub
+    if q[j + PRESSURE] != 0.0:
+        late = q[j + PRESSURE] * slipped(
+            dp,
+            q[j + PRESSURE_WIDTH],
+            q[j + PRESSURE_ONSET],
+            q[j + PRESSURE_CROWDING],
+            x,
+            i + STRAINS + ELEMENTS,
+            xn,
+        )
         f -= late * gain(kappa, q[A1], q[A3], q[A4], q[A5])
     return f
 
 
 def start(q: Row, j: int, p: float, kappa: float, y: float) -> tuple[float, ...]:
-    """Return all loops at the share q[j + 10] of their height: from -1 to 1, 0 in the middle."""
+    """Return all loops at the share initial of their height: from -1 to 1, 0 in the middle."""
     every, share_of = range(ELEMENTS), plain(threshold)
-    slip = [q[j + 10] * q[j + 4] * share_of(n, q[j + 5], q[j + 11]) for n in every]
-    over_p = [q[j + 10] * q[j + 8] * share_of(n, q[j + 9], q[j + 12]) for n in every]
-    return (q[j + 10], kappa, p, *slip, *over_p)
+    initial, width, over = q[j + INITIAL], q[j + SLIP_WIDTH], q[j + PRESSURE_WIDTH]
+    slip = [initial * width * share_of(n, q[j + SLIP_ONSET], q[j + SLIP_CROWDING]) for n in every]
+    over_p = [
+        initial * over * share_of(n, q[j + PRESSURE_ONSET], q[j + PRESSURE_CROWDING])
+        for n in every
+    ]
+    return (initial, kappa, p, *slip, *over_p)
 
 
-EFFECT = Effect(
-    name='hysteresis',
-    text='rate-independent hysteresis of braid and bladder',
-    source='Dahl 1968; Wen 1976; Minh et al. 2011 (Maxwell slip); Hunt et al. 2017 (by pressure)',
-    parameters=(
-        EffectParameter(
-            'amplitude',
-            0.0,
-            'half height of the loop, Bouc-Wen',
-            'N',
-            0.0,
-            1e3,
-            scale=10.0,
-            strength=True,
-            sign=1,
-        ),
-        EffectParameter(
-            'width',
-            0.01,
-            'contraction over which the Bouc-Wen loop approaches its height',
-            'fraction',
-            5e-4,
-            10.0,
-            scale=0.01,
-        ),
-        EffectParameter(
-            'unloading',
-            1.0,
-            'shape of Bouc-Wen unloading: 1 as loading (Dahl), 0 elastic',
-            '',
-            0.0,
-            1.0,
-            scale=0.5,
-        ),
-        EffectParameter(
-            'slip',
-            0.0,
-            'half height of the loop, Maxwell slip',
-            'N',
-            0.0,
-            1e3,
-            scale=10.0,
-            strength=True,
-            sign=1,
-        ),
-        EffectParameter(
-            'slip_width',
-            0.02,
-            'contraction over which the last Maxwell element slips',
-            'fraction',
-            1.5e-3,
-            10.0,
-            scale=0.02,
-        ),
-        EffectParameter(
-            'slip_onset',
-            0.0,
-            'share of it at which the first one slips; 1: all at once',
-            '',
-            0.0,
-            1.0,
-            scale=0.3,
-        ),
-        EffectParameter(
-            'pressure_growth',
-            0.0,
-            'growth of the loop with pressure around 300 kPa; 1: in proportion',
-            '',
-            -1.0,
-            1.0,
-            scale=0.5,
-        ),
-        EffectParameter(
-            'pressure',
-            0.0,
-            'half width of the loop over pressure, Maxwell slip',
-            'Pa',
-            0.0,
-            1e5,
-            scale=5e3,
-            strength=True,
-            sign=1,
-        ),
-        EffectParameter(
-            'pressure_width',
-            3e4,
-            'pressure over which the last of its elements slips',
-            'Pa',
-            10.0,
-            1e6,
-            scale=3e4,
-        ),
-        EffectParameter(
-            'pressure_onset',
-            0.0,
-            'share of it at which the first one slips; 1: all at once',
-            '',
-            0.0,
-            1.0,
-            scale=0.3,
-        ),
-        EffectParameter(
-            'initial',
-            0.0,
-            'where the loops stand at the start; 1: as after a long way up, -1: down',
-            '',
-            -1.0,
-            1.0,
-            scale=0.5,
-        ),
-        EffectParameter(
-            'slip_crowding',
-            0.0,
-            'how far the thresholds crowd at small ways; 0: evenly spread',
-            '',
-            0.0,
-            0.98,
-            scale=0.3,
-        ),
-        EffectParameter(
-            'pressure_crowding',
-            0.0,
-            'how far the thresholds crowd at small ways; 0: evenly spread',
-            '',
-            0.0,
-            0.98,
-            scale=0.3,
-        ),
-    ),
-    signature='loops over contraction or pressure whose area does not depend on the speed',
-    experiment='slow triangles at two rates with minor loops',
-    fit_starts=(
-        {'amplitude': 5.0, 'width': 0.003, 'initial': 0.0},
-        {'amplitude': 10.0, 'width': 0.03, 'unloading': 0.5, 'initial': 0.0},
-        {'slip': 5.0, 'slip_width': 0.01, 'initial': 0.0},
-        {'slip': 10.0, 'slip_width': 0.05, 'initial': 0.0},
-        {
-            'slip': 8.0,
-            'slip_width': 0.03,
-            'slip_onset': 0.05,
-            'slip_crowding': 0.5,
-            'initial': 0.0,
-        },
-        {'pressure': 3e3, 'pressure_width': 1e4, 'initial': 0.0},
-        {'pressure': 1e4, 'pressure_width': 5e4, 'initial': 0.0},
-        {
-            'pressure': 6e3,
-            'pressure_width': 5e4,
-            'pressure_onset': 0.05,
-            'pressure_crowding': 0.5,
-            'initial': 0.0,
-        },
-    ),
-    example={'amplitude': 9.0, 'slip': 5.0, 'pressure': 4e3},
-    compensation=Compensation.FEED_FORWARD,
-    states=(
+@dataclass(frozen=True)
+class Hysteresis(Effect):
+    """Rate-independent hysteresis of braid and bladder."""
+
+    amplitude: float = strength('half height of the loop, Bouc-Wen', 'N', high=1e3, scale=10.0)
+    width: float = effect_parameter(
+        0.01,
+        'contraction over which the Bouc-Wen loop approaches its height',
+        'fraction',
+        low=5e-4,
+        high=10.0,
+        scale=0.01,
+    )
+    unloading: float = effect_parameter(
+        1.0,
+        'shape of Bouc-Wen unloading: 1 as loading (Dahl), 0 elastic',
+        low=0.0,
+        high=1.0,
+        scale=0.5,
+    )
+    slip: float = strength('half height of the loop, Maxwell slip', 'N', high=1e3, scale=10.0)
+    slip_width: float = effect_parameter(
+        0.02,
+        'contraction over which the last Maxwell element slips',
+        'fraction',
+        low=1.5e-3,
+        high=10.0,
+        scale=0.02,
+    )
+    slip_onset: float = effect_parameter(
+        0.0,
+        'share of it at which the first one slips; 1: all at once',
+        low=0.0,
+        high=1.0,
+        scale=0.3,
+    )
+    pressure_growth: float = effect_parameter(
+        0.0,
+        'growth of the loop with pressure around 300 kPa; 1: in proportion',
+        low=-1.0,
+        high=1.0,
+        scale=0.5,
+    )
+    pressure: float = strength(
+        'half width of the loop over pressure, Maxwell slip', 'Pa', high=1e5, scale=5e3
+    )
+    pressure_width: float = effect_parameter(
+        3e4,
+        'pressure over which the last of its elements slips',
+        'Pa',
+        low=10.0,
+        high=1e6,
+        scale=3e4,
+    )
+    pressure_onset: float = effect_parameter(
+        0.0,
+        'share of it at which the first one slips; 1: all at once',
+        low=0.0,
+        high=1.0,
+        scale=0.3,
+    )
+    initial: float = effect_parameter(
+        0.0,
+        'where the loops stand at the start; 1: as after a long way up, -1: down',
+        low=-1.0,
+        high=1.0,
+        scale=0.5,
+    )
+    slip_crowding: float = effect_parameter(
+        0.0,
+        'how far the thresholds crowd at small ways; 0: evenly spread',
+        low=0.0,
+        high=0.98,
+        scale=0.3,
+    )
+    pressure_crowding: float = effect_parameter(
+        0.0,
+        'how far the thresholds crowd at small ways; 0: evenly spread',
+        low=0.0,
+        high=0.98,
+        scale=0.3,
+    )
+
+    name: ClassVar = 'hysteresis'
+    text: ClassVar = 'rate-independent hysteresis of braid and bladder'
+    source: ClassVar = (
+        'Dahl 1968; Wen 1976; Minh et al. 2011 (Maxwell slip); Hunt et al. 2017 (by pressure)'
+    )
+    signature: ClassVar = (
+        'loops over contraction or pressure whose area does not depend on the speed'
+    )
+    experiment: ClassVar = 'slow triangles at two rates with minor loops'
+    compensation: ClassVar = Compensation.FEED_FORWARD
+    states: ClassVar = (
         HiddenState('loop', '', 0.5),
         HiddenState('contraction', 'fraction'),
         HiddenState('pressure', 'Pa'),
         *(HiddenState(f'strain {n + 1}', 'fraction', 5e-3) for n in range(ELEMENTS)),
         *(HiddenState(f'strain over pressure {n + 1}', 'Pa', 1e4) for n in range(ELEMENTS)),
-    ),
-    start=start,
-    rivals=('coulomb_friction', 'creep'),
-    contains={'coulomb_friction': {'level': 'amplitude'}},
-    force=force,
-    needs_muscle=True,
-)
+    )
+    rivals: ClassVar = ('coulomb_friction', 'creep')
+    contains: ClassVar = {'coulomb_friction': {'level': 'amplitude'}}
+    needs_muscle: ClassVar = True
+    equations: ClassVar = EffectEquations(force=force, start=start)
+
+    @classmethod
+    def fit_starts(cls) -> Starts:
+        """Return the values from which a fit begins."""
+        return (
+            start_from(cls, amplitude=5.0, width=0.003, initial=0.0),
+            start_from(cls, amplitude=10.0, width=0.03, unloading=0.5, initial=0.0),
+            start_from(cls, slip=5.0, slip_width=0.01, initial=0.0),
+            start_from(cls, slip=10.0, slip_width=0.05, initial=0.0),
+            start_from(
+                cls, slip=8.0, slip_width=0.03, slip_onset=0.05, slip_crowding=0.5, initial=0.0
+            ),
+            start_from(cls, pressure=3e3, pressure_width=1e4, initial=0.0),
+            start_from(cls, pressure=1e4, pressure_width=5e4, initial=0.0),
+            start_from(
+                cls,
+                pressure=6e3,
+                pressure_width=5e4,
+                pressure_onset=0.05,
+                pressure_crowding=0.5,
+                initial=0.0,
+            ),
+        )
+
+    @classmethod
+    def example(cls) -> Effect:
+        """Return it clearly present."""
+        return cls(amplitude=9.0, slip=5.0, pressure=4e3)

@@ -2,36 +2,55 @@
 # SPDX-License-Identifier: Apache-2.0
 """Length offset: the muscle's rest length is not the declared one."""
 
-from pam_ros.effects.base import Compensation, Effect, EffectParameter, Row
+from dataclasses import dataclass
+from typing import ClassVar
+
+from pam_ros.effects.base import Compensation, Effect, EffectEquations, Row, Starts
+from pam_ros.effects.parameter import start_from, strength
+
+OFFSET = 0
 
 
 def contraction(kappa: float, q: Row, j: int) -> float:
-    """Return kappa + offset, with the offset q[j] as a fraction of l0."""
-    return kappa + q[j]
+    """Return kappa + offset."""
+    return kappa + q[j + OFFSET]
 
 
-EFFECT = Effect(
-    name='length_offset',
-    text='contraction that the muscle feels beside the one that is measured',
-    source='Rest length and clamping differ between specimens; affine sensor model',
-    parameters=(
-        EffectParameter(
-            'offset',
-            0.0,
-            'contraction at which the declared rest length really is',
-            'fraction',
-            -0.3,
-            0.3,
-            scale=0.02,
-            strength=True,
-        ),
-    ),
-    signature='residual proportional to the stiffness: the whole curve moved along contraction',
-    experiment='static points over the whole range at two pressures, or the rest length measured',
-    fit_starts=({'offset': 0.02}, {'offset': -0.02}),
-    example={'offset': 0.015},
-    compensation=Compensation.MODEL,
-    rivals=('pressure_offset', 'payload'),
-    contraction=contraction,
-    needs_muscle=True,
-)
+@dataclass(frozen=True)
+class LengthOffset(Effect):
+    """Contraction that the muscle feels beside the one that is measured."""
+
+    offset: float = strength(
+        'contraction at which the declared rest length really is',
+        'fraction',
+        low=-0.3,
+        high=0.3,
+        scale=0.02,
+    )
+
+    name: ClassVar = 'length_offset'
+    text: ClassVar = 'contraction that the muscle feels beside the one that is measured'
+    source: ClassVar = 'Rest length and clamping differ between specimens; affine sensor model'
+    signature: ClassVar = (
+        'residual proportional to the stiffness: the whole curve moved along contraction'
+    )
+    experiment: ClassVar = (
+        'static points over the whole range at two pressures, or the rest length measured'
+    )
+    compensation: ClassVar = Compensation.MODEL
+    rivals: ClassVar = ('pressure_offset', 'payload')
+    needs_muscle: ClassVar = True
+    equations: ClassVar = EffectEquations(contraction=contraction)
+
+    @classmethod
+    def fit_starts(cls) -> Starts:
+        """Return the values from which a fit begins."""
+        return (
+            start_from(cls, offset=0.02),
+            start_from(cls, offset=-0.02),
+        )
+
+    @classmethod
+    def example(cls) -> Effect:
+        """Return it clearly present."""
+        return cls(offset=0.015)

@@ -2,38 +2,55 @@
 # SPDX-License-Identifier: Apache-2.0
 """Payload: the moved mass is not the declared one."""
 
-from pam_ros.effects.base import Compensation, Effect, EffectParameter, Row
+from dataclasses import dataclass
+from typing import ClassVar
+
+from pam_ros.effects.base import Compensation, Effect, EffectEquations, Row, Starts
+from pam_ros.effects.parameter import start_from, strength
+
+MASS = 0
 
 # A load can be overestimated, but never be nothing: other effects rely on the declared mass.
 LEAST_SHARE = 0.2
 
 
-def mass(m: float, q: Row, j: int) -> float:
-    """Return m + q[j], both in kg, at least a fifth of m."""
-    return max(m + q[j], LEAST_SHARE * m)
+def moved(m: float, q: Row, j: int) -> float:
+    """Return the mass m and what comes on top, at least a fifth of m."""
+    return max(m + q[j + MASS], LEAST_SHARE * m)
 
 
-EFFECT = Effect(
-    name='payload',
-    text='mass of the load beside the declared one',
-    source='Newton: weight and inertia alike',
-    parameters=(
-        EffectParameter(
-            'mass',
-            0.0,
-            'mass that comes on top, negative when the load is lighter',
-            'kg',
-            -1e3,
-            1e3,
-            scale=2.0,
-            strength=True,
-        ),
-    ),
-    signature='constant residual force, and inertia: a slower oscillation',
-    experiment='steps that make the load swing, or a force cell, or the load on a balance',
-    fit_starts=({'mass': 1.0}, {'mass': -1.0}),
-    example={'mass': 1.5},
-    compensation=Compensation.MODEL,
-    rivals=('pressure_offset', 'length_offset'),
-    mass=mass,
-)
+@dataclass(frozen=True)
+class Payload(Effect):
+    """Mass of the load beside the declared one."""
+
+    mass: float = strength(
+        'mass that comes on top, negative when the load is lighter',
+        'kg',
+        low=-1e3,
+        high=1e3,
+        scale=2.0,
+    )
+
+    name: ClassVar = 'payload'
+    text: ClassVar = 'mass of the load beside the declared one'
+    source: ClassVar = 'Newton: weight and inertia alike'
+    signature: ClassVar = 'constant residual force, and inertia: a slower oscillation'
+    experiment: ClassVar = (
+        'steps that make the load swing, or a force cell, or the load on a balance'
+    )
+    compensation: ClassVar = Compensation.MODEL
+    rivals: ClassVar = ('pressure_offset', 'length_offset')
+    equations: ClassVar = EffectEquations(mass=moved)
+
+    @classmethod
+    def fit_starts(cls) -> Starts:
+        """Return the values from which a fit begins."""
+        return (
+            start_from(cls, mass=1.0),
+            start_from(cls, mass=-1.0),
+        )
+
+    @classmethod
+    def example(cls) -> Effect:
+        """Return it clearly present."""
+        return cls(mass=1.5)

@@ -2,11 +2,16 @@
 # SPDX-License-Identifier: Apache-2.0
 """Periodic disturbance: a sinusoid in the force on the load, or in the supply pressure."""
 
+from dataclasses import dataclass
 from math import cos, pi, sin
+from typing import ClassVar
 
 import numpy as np
 
-from pam_ros.effects.base import Array, Compensation, Effect, EffectParameter, Row
+from pam_ros.effects.base import Array, Compensation, Effect, EffectEquations, Row, Starts
+from pam_ros.effects.parameter import effect_parameter, start_from, strength
+
+FORCE_SIN, FORCE_COS, PRESSURE_SIN, PRESSURE_COS, FREQUENCY = range(5)
 
 
 def force(
@@ -22,23 +27,23 @@ def force(
     q: Row,
     j: int,
 ) -> float:
-    """Return f + a sin(w t) + b cos(w t), a, b = q[j], q[j + 1], w = 2 pi q[j + 4]."""
-    if q[j] == 0.0 and q[j + 1] == 0.0:
+    """Return f + a sin(w t) + b cos(w t), a force_sin, b force_cos, w = 2 pi frequency."""
+    if q[j + FORCE_SIN] == 0.0 and q[j + FORCE_COS] == 0.0:
         return f
-    angle = 2.0 * pi * q[j + 4] * t
-    return f + (q[j] * sin(angle) + q[j + 1] * cos(angle))
+    angle = 2.0 * pi * q[j + FREQUENCY] * t
+    return f + (q[j + FORCE_SIN] * sin(angle) + q[j + FORCE_COS] * cos(angle))
 
 
 def pressure(p: float, t: float, h: float, x: Row, i: int, xn: Row, q: Row, j: int) -> float:
-    """Return p + a sin(w t) + b cos(w t), with a, b = q[j + 2], q[j + 3] in Pa."""
-    if q[j + 2] == 0.0 and q[j + 3] == 0.0:
+    """Return p + a sin(w t) + b cos(w t), with a pressure_sin and b pressure_cos."""
+    if q[j + PRESSURE_SIN] == 0.0 and q[j + PRESSURE_COS] == 0.0:
         return p
-    angle = 2.0 * pi * q[j + 4] * t
-    return p + (q[j + 2] * sin(angle) + q[j + 3] * cos(angle))
+    angle = 2.0 * pi * q[j + FREQUENCY] * t
+    return p + (q[j + PRESSURE_SIN] * sin(angle) + q[j + PRESSURE_COS] * cos(angle))
 
 
-def guess(t: Array, p: Array, kappa: Array, residual: Array) -> tuple[dict[str, float], ...]:
-    """Return a start for each of the two tallest lines in the residual's spectrum.
+def tallest_lines(t: Array, residual: Array) -> list[float]:
+    """Return the frequencies in Hz of the two tallest lines in the residual's spectrum.
 
     Each is the best of a zero-padded Hann periodogram, refined by the parabola through its
     logarithm, so that a fit begins well within 1/duration of it.
@@ -62,69 +67,59 @@ def guess(t: Array, p: Array, kappa: Array, residual: Array) -> tuple[dict[str, 
         shift = 0.5 * (left - right) / bend if bend < 0.0 else 0.0
         found.append((k + float(np.clip(shift, -0.5, 0.5))) * step)
         power[max(k - 32, 0) : k + 33] = 0.0
-    force = tuple({'force_sin': 1.0, 'force_cos': 1.0, 'frequency': f} for f in found)
-    return force + tuple(
-        {'pressure_sin': 500.0, 'pressure_cos': 500.0, 'frequency': f} for f in found
+    return found
+
+
+def guess(t: Array, p: Array, kappa: Array, residual: Array) -> Starts:
+    """Return a start in the force, and one in the pressure, for each of the tallest lines."""
+    lines = tallest_lines(t, residual)
+    in_force = (
+        start_from(PeriodicDisturbance, force_sin=1.0, force_cos=1.0, frequency=line)
+        for line in lines
     )
+    in_pressure = (
+        start_from(PeriodicDisturbance, pressure_sin=500.0, pressure_cos=500.0, frequency=line)
+        for line in lines
+    )
+    return (*in_force, *in_pressure)
 
 
-EFFECT = Effect(
-    name='periodic_disturbance',
-    text='sinusoid in the force between muscle and load, or ripple of the supply pressure',
-    source='Harmonic disturbance; linear in its sine and cosine amplitudes',
-    parameters=(
-        EffectParameter(
-            'force_sin',
-            0.0,
-            'sine part of the force',
-            'N',
-            -1e4,
-            1e4,
-            scale=5.0,
-            strength=True,
-        ),
-        EffectParameter(
-            'force_cos',
-            0.0,
-            'cosine part of the force',
-            'N',
-            -1e4,
-            1e4,
-            scale=5.0,
-            strength=True,
-        ),
-        EffectParameter(
-            'pressure_sin',
-            0.0,
-            'sine part of the supply pressure',
-            'Pa',
-            -2e5,
-            2e5,
-            scale=2e3,
-            strength=True,
-        ),
-        EffectParameter(
-            'pressure_cos',
-            0.0,
-            'cosine part of the supply pressure',
-            'Pa',
-            -2e5,
-            2e5,
-            scale=2e3,
-            strength=True,
-        ),
-        EffectParameter('frequency', 1.0, 'frequency', 'Hz', 0.0, 500.0, scale=1.0),
-    ),
-    signature='a narrow line in the spectrum of the residual',
-    experiment='a rest at constant pressure: what is left moves by itself; log the supply',
-    fit_starts=(
-        {'force_sin': 2.0, 'force_cos': 2.0, 'frequency': 1.0},
-        {'pressure_sin': 1e3, 'pressure_cos': 1e3, 'frequency': 1.0},
-    ),
-    example={'force_sin': 3.0, 'pressure_cos': 2e3, 'frequency': 2.3},
-    compensation=Compensation.FEEDBACK,
-    force=force,
-    pressure=pressure,
-    guess=guess,
-    moves_by_itself=True,
-)
+@dataclass(frozen=True)
+class PeriodicDisturbance(Effect):
+    """Sinusoid in the force between muscle and load, or ripple of the supply pressure."""
+
+    force_sin: float = strength('sine part of the force', 'N', low=-1e4, high=1e4, scale=5.0)
+    force_cos: float = strength('cosine part of the force', 'N', low=-1e4, high=1e4, scale=5.0)
+    pressure_sin: float = strength(
+        'sine part of the supply pressure', 'Pa', low=-2e5, high=2e5, scale=2e3
+    )
+    pressure_cos: float = strength(
+        'cosine part of the supply pressure', 'Pa', low=-2e5, high=2e5, scale=2e3
+    )
+    frequency: float = effect_parameter(1.0, 'frequency', 'Hz', low=0.0, high=500.0, scale=1.0)
+
+    name: ClassVar = 'periodic_disturbance'
+    text: ClassVar = (
+        'sinusoid in the force between muscle and load, or ripple of the supply pressure'
+    )
+    source: ClassVar = 'Harmonic disturbance; linear in its sine and cosine amplitudes'
+    signature: ClassVar = 'a narrow line in the spectrum of the residual'
+    experiment: ClassVar = (
+        'a rest at constant pressure: what is left moves by itself; log the supply'
+    )
+    compensation: ClassVar = Compensation.FEEDBACK
+    moves_by_itself: ClassVar = True
+    equations: ClassVar = EffectEquations(pressure=pressure, force=force, guess=guess)
+
+    @classmethod
+    def fit_starts(cls) -> Starts:
+        """Return the values from which a fit begins."""
+        return (
+            start_from(cls, force_sin=2.0, force_cos=2.0, frequency=1.0),
+            start_from(cls, pressure_sin=1e3, pressure_cos=1e3, frequency=1.0),
+        )
+
+    @classmethod
+    def example(cls) -> Effect:
+        """Return it clearly present."""
+        return cls(force_sin=3.0, pressure_cos=2e3, frequency=2.3)

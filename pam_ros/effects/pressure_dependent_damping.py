@@ -2,56 +2,55 @@
 # SPDX-License-Identifier: Apache-2.0
 """Damping that grows with pressure, inflating and deflating apart."""
 
-from pam_ros.effects.base import Compensation, Effect, EffectParameter, Row
+from dataclasses import dataclass
+from typing import ClassVar
+
+from pam_ros.effects.base import Compensation, Effect, EffectEquations, Row, Starts
+from pam_ros.effects.parameter import start_from, strength
+
+INFLATING, DEFLATING = range(2)
 
 
 def damping(c: float, p: float, kappa: float, v: float, q: Row, j: int) -> float:
-    """Return c + b p, with b = q[j] while the muscle shortens and q[j + 1] while it lengthens.
+    """Return c + b p, b being inflating while the muscle shortens, deflating while it lengthens.
 
     c jumps at v = 0, where the force c v is 0 and stays continuous.
     """
-    if q[j] == 0.0 and q[j + 1] == 0.0:
+    if q[j + INFLATING] == 0.0 and q[j + DEFLATING] == 0.0:
         return c
-    return c + (q[j] if v > 0.0 else q[j + 1]) * max(p, 0.0)
+    return c + (q[j + INFLATING] if v > 0.0 else q[j + DEFLATING]) * max(p, 0.0)
 
 
-EFFECT = Effect(
-    name='pressure_dependent_damping',
-    text='damping proportional to pressure, inflating and deflating apart',
-    source='Reynolds et al. 2003; Serres et al. 2009',
-    parameters=(
-        EffectParameter(
-            'inflating',
-            0.0,
-            'damping per pressure while the muscle shortens',
-            'N s/(m Pa)',
-            0.0,
-            0.1,
-            scale=3e-4,
-            strength=True,
-            sign=1,
-        ),
-        EffectParameter(
-            'deflating',
-            0.0,
-            'damping per pressure while the muscle lengthens',
-            'N s/(m Pa)',
-            0.0,
-            0.1,
-            scale=3e-4,
-            strength=True,
-            sign=1,
-        ),
-    ),
-    signature='residual over velocity whose slope grows with pressure',
-    experiment='a chirp at several pressures: the decay is faster at the higher one',
-    fit_starts=(
-        {'inflating': 1e-4, 'deflating': 1e-4},
-        {'inflating': 6e-4, 'deflating': 6e-4},
-    ),
-    example={'inflating': 3e-4, 'deflating': 1e-4},
-    compensation=Compensation.MODEL,
-    rivals=('viscous_friction', 'creep'),
-    damping=damping,
-    needs_muscle=True,
-)
+@dataclass(frozen=True)
+class PressureDependentDamping(Effect):
+    """Damping proportional to pressure, inflating and deflating apart."""
+
+    inflating: float = strength(
+        'damping per pressure while the muscle shortens', 'N s/(m Pa)', high=0.1, scale=3e-4
+    )
+    deflating: float = strength(
+        'damping per pressure while the muscle lengthens', 'N s/(m Pa)', high=0.1, scale=3e-4
+    )
+
+    name: ClassVar = 'pressure_dependent_damping'
+    text: ClassVar = 'damping proportional to pressure, inflating and deflating apart'
+    source: ClassVar = 'Reynolds et al. 2003; Serres et al. 2009'
+    signature: ClassVar = 'residual over velocity whose slope grows with pressure'
+    experiment: ClassVar = 'a chirp at several pressures: the decay is faster at the higher one'
+    compensation: ClassVar = Compensation.MODEL
+    rivals: ClassVar = ('viscous_friction', 'creep')
+    needs_muscle: ClassVar = True
+    equations: ClassVar = EffectEquations(damping=damping)
+
+    @classmethod
+    def fit_starts(cls) -> Starts:
+        """Return the values from which a fit begins."""
+        return (
+            start_from(cls, inflating=1e-4, deflating=1e-4),
+            start_from(cls, inflating=6e-4, deflating=6e-4),
+        )
+
+    @classmethod
+    def example(cls) -> Effect:
+        """Return it clearly present."""
+        return cls(inflating=3e-4, deflating=1e-4)

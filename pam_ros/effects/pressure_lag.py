@@ -2,10 +2,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """Pressure lag: valve, tube and chamber fill and vent with time constants of their own."""
 
+from dataclasses import dataclass
 from math import exp, sqrt
+from typing import ClassVar
 
 from pam_ros.compiled import scalar
-from pam_ros.effects.base import Compensation, Effect, EffectParameter, HiddenState, Row
+from pam_ros.effects.base import Compensation, Effect, EffectEquations, HiddenState, Row, Starts
+from pam_ros.effects.parameter import effect_parameter, start_from, strength
+
+FILL, VENT, FASTEST, FASTEST_VENT, CHOKING, SUPPLY = range(6)
 
 SHORTEST = 1e-6  # s; a faster chamber than any rig's is immediate
 ATMOSPHERE = 1.013e5  # Pa
@@ -55,20 +60,19 @@ def approached(p_in: float, x: float, h: float, tau: float, fastest: float) -> f
 def pressure(p: float, t: float, h: float, x: Row, i: int, xn: Row, q: Row, j: int) -> float:
     """Return the chamber pressure of dp/dt = g (p_in - p)/tau, for p_in constant over h.
 
-    tau is q[j] while the chamber fills and q[j + 1] while it vents; x[i] is its pressure. It
-    never crosses p_in, so that tau is one or the other for all of h. Neither is faster than
-    q[j + 2] and q[j + 3] in Pa/s times g: a valve that is fully open lets no more through.
-    g is 1 with q[j + 4] = 0, and the result exact; with 1 the flow is that of ISO 6358 from a
-    supply of q[j + 5] Pa and into the atmosphere, relative to that at 300 kPa, g being taken at
-    mid way.
+    tau is fill while the chamber fills and vent while it vents; x[i] is its pressure. It never
+    crosses p_in, so that tau is one or the other for all of h. Neither is faster than fastest and
+    fastest_vent times g: a valve that is fully open lets no more through. g is 1 with no choking,
+    and the result exact; with 1 the flow is that of ISO 6358 from the supply and into the
+    atmosphere, relative to that at 300 kPa, g being taken at mid way.
     """
-    if q[j] == 0.0 and q[j + 1] == 0.0:
+    if q[j + FILL] == 0.0 and q[j + VENT] == 0.0:
         return p
     way = 0 if p > x[i] else 1
-    tau, fastest = q[j + way], q[j + 2 + way]
-    if q[j + 4] > 0.0:
-        g = pace(p, x[i], q[j + 5], q[j + 4])
-        g = pace(p, approached(p, x[i], 0.5 * h * g, tau, fastest), q[j + 5], q[j + 4])
+    tau, fastest = q[j + FILL + way], q[j + FASTEST + way]
+    if q[j + CHOKING] > 0.0:
+        g = pace(p, x[i], q[j + SUPPLY], q[j + CHOKING])
+        g = pace(p, approached(p, x[i], 0.5 * h * g, tau, fastest), q[j + SUPPLY], q[j + CHOKING])
         h = h * g
     xn[i] = approached(p, x[i], h, tau, fastest)
     return xn[i]
@@ -81,87 +85,64 @@ def start(q: Row, j: int, p: float, kappa: float, y: float) -> tuple[float, ...]
 
 def lag(q: Row, j: int) -> tuple[float, float]:
     """Return the time constants of filling and venting in s, which a controller inverts."""
-    return q[j], q[j + 1]
+    return q[j + FILL], q[j + VENT]
 
 
-EFFECT = Effect(
-    name='pressure_lag',
-    text='first-order lag of the chamber behind the command, filling and venting apart',
-    source='ISO 6358 orifice, linear below choking; 20 to 130 ms with servo valves',
-    parameters=(
-        EffectParameter(
-            'fill',
-            0.0,
-            'time constant of filling',
-            's',
-            0.0,
-            10.0,
-            scale=0.05,
-            strength=True,
-            sign=1,
-        ),
-        EffectParameter(
-            'vent',
-            0.0,
-            'time constant of venting',
-            's',
-            0.0,
-            10.0,
-            scale=0.05,
-            strength=True,
-            sign=1,
-        ),
-        EffectParameter(
-            'fastest',
-            1e9,
-            'fastest rise of pressure, where the valve is fully open or choked',
-            'Pa/s',
-            1e3,
-            1e9,
-            scale=1e6,
-        ),
-        EffectParameter(
-            'fastest_vent',
-            1e9,
-            'fastest fall of pressure, likewise',
-            'Pa/s',
-            1e3,
-            1e9,
-            scale=1e6,
-        ),
-        EffectParameter(
-            'choking',
-            0.0,
-            'how far flows depend on the pressures beside the valve; 1: as an orifice, ISO 6358',
-            '',
-            0.0,
-            1.0,
-            scale=0.3,
-        ),
-        EffectParameter(
-            'supply',
-            8e5,
-            'gauge pressure in front of the valve, which counts with choking',
-            'Pa',
-            1e5,
-            3e6,
-            scale=1e5,
-        ),
-    ),
-    signature='phase that rolls off with frequency; rounded answers to steps',
-    experiment='steps up and down with the pressure measured, or a chirp',
-    fit_starts=(
-        {'fill': 0.02, 'vent': 0.02},
-        {'fill': 0.1, 'vent': 0.1},
-        {'fill': 0.5, 'vent': 0.5},
-        {'fill': 0.05, 'vent': 0.05, 'fastest': 5e5},
-        {'fill': 0.05, 'vent': 0.05, 'fastest': 5e5, 'fastest_vent': 5e5, 'choking': 0.5},
-    ),
-    example={'fill': 0.05, 'vent': 0.09},
-    compensation=Compensation.PATH,
-    states=(HiddenState('pressure', 'Pa', 2e4),),
-    start=start,
-    rivals=('dead_time', 'leak'),
-    pressure=pressure,
-    lag=lag,
-)
+@dataclass(frozen=True)
+class PressureLag(Effect):
+    """First-order lag of the chamber behind the command, filling and venting apart."""
+
+    fill: float = strength('time constant of filling', 's', high=10.0, scale=0.05)
+    vent: float = strength('time constant of venting', 's', high=10.0, scale=0.05)
+    fastest: float = effect_parameter(
+        1e9,
+        'fastest rise of pressure, where the valve is fully open or choked',
+        'Pa/s',
+        low=1e3,
+        high=1e9,
+        scale=1e6,
+    )
+    fastest_vent: float = effect_parameter(
+        1e9, 'fastest fall of pressure, likewise', 'Pa/s', low=1e3, high=1e9, scale=1e6
+    )
+    choking: float = effect_parameter(
+        0.0,
+        'how far flows depend on the pressures beside the valve; 1: as an orifice, ISO 6358',
+        low=0.0,
+        high=1.0,
+        scale=0.3,
+    )
+    supply: float = effect_parameter(
+        8e5,
+        'gauge pressure in front of the valve, which counts with choking',
+        'Pa',
+        low=1e5,
+        high=3e6,
+        scale=1e5,
+    )
+
+    name: ClassVar = 'pressure_lag'
+    text: ClassVar = 'first-order lag of the chamber behind the command, filling and venting apart'
+    source: ClassVar = 'ISO 6358 orifice, linear below choking; 20 to 130 ms with servo valves'
+    signature: ClassVar = 'phase that rolls off with frequency; rounded answers to steps'
+    experiment: ClassVar = 'steps up and down with the pressure measured, or a chirp'
+    compensation: ClassVar = Compensation.PATH
+    states: ClassVar = (HiddenState('pressure', 'Pa', 2e4),)
+    rivals: ClassVar = ('dead_time', 'leak')
+    equations: ClassVar = EffectEquations(pressure=pressure, start=start, lag=lag)
+
+    @classmethod
+    def fit_starts(cls) -> Starts:
+        """Return the values from which a fit begins."""
+        return (
+            start_from(cls, fill=0.02, vent=0.02),
+            start_from(cls, fill=0.1, vent=0.1),
+            start_from(cls, fill=0.5, vent=0.5),
+            start_from(cls, fill=0.05, vent=0.05, fastest=5e5),
+            start_from(cls, fill=0.05, vent=0.05, fastest=5e5, fastest_vent=5e5, choking=0.5),
+        )
+
+    @classmethod
+    def example(cls) -> Effect:
+        """Return it clearly present."""
+        return cls(fill=0.05, vent=0.09)

@@ -2,45 +2,50 @@
 # SPDX-License-Identifier: Apache-2.0
 """Pressure offset: regulator or sensor reads wrong by an offset and a gain."""
 
-from pam_ros.effects.base import Compensation, Effect, EffectParameter, Row
+from dataclasses import dataclass
+from typing import ClassVar
+
+from pam_ros.effects.base import Compensation, Effect, EffectEquations, Row, Starts
+from pam_ros.effects.parameter import start_from, strength
+
+OFFSET, GAIN = range(2)
 
 
 def pressure(p: float, t: float, h: float, x: Row, i: int, xn: Row, q: Row, j: int) -> float:
-    """Return (1 + q[j + 1]) p + q[j], with the offset q[j] in Pa."""
-    return p + (q[j] + q[j + 1] * p)
+    """Return p with the gain error and the offset."""
+    return p + (q[j + OFFSET] + q[j + GAIN] * p)
 
 
-EFFECT = Effect(
-    name='pressure_offset',
-    text='offset and gain error of the pressure regulator or sensor',
-    source='Affine sensor model',
-    parameters=(
-        EffectParameter(
-            'offset',
-            0.0,
-            'pressure in the chamber at a command of 0',
-            'Pa',
-            -2e5,
-            2e5,
-            scale=1e4,
-            strength=True,
-        ),
-        EffectParameter(
-            'gain',
-            0.0,
-            'relative error of the pressure',
-            '',
-            -0.5,
-            0.5,
-            scale=0.05,
-            strength=True,
-        ),
-    ),
-    signature='residual proportional to dF/dp, to p dF/dp for the gain',
-    experiment='a second pressure sensor at the muscle, or its force over pressure at two lengths',
-    fit_starts=({'offset': 5e3}, {'offset': -5e3}, {'offset': 1e3, 'gain': 0.03}),
-    example={'offset': 6e3, 'gain': -0.03},
-    compensation=Compensation.PATH,
-    rivals=('payload', 'length_offset', 'leak', 'dead_band'),
-    pressure=pressure,
-)
+@dataclass(frozen=True)
+class PressureOffset(Effect):
+    """Offset and gain error of the pressure regulator or sensor."""
+
+    offset: float = strength(
+        'pressure in the chamber at a command of 0', 'Pa', low=-2e5, high=2e5, scale=1e4
+    )
+    gain: float = strength('relative error of the pressure', low=-0.5, high=0.5, scale=0.05)
+
+    name: ClassVar = 'pressure_offset'
+    text: ClassVar = 'offset and gain error of the pressure regulator or sensor'
+    source: ClassVar = 'Affine sensor model'
+    signature: ClassVar = 'residual proportional to dF/dp, to p dF/dp for the gain'
+    experiment: ClassVar = (
+        'a second pressure sensor at the muscle, or its force over pressure at two lengths'
+    )
+    compensation: ClassVar = Compensation.PATH
+    rivals: ClassVar = ('payload', 'length_offset', 'leak', 'dead_band')
+    equations: ClassVar = EffectEquations(pressure=pressure)
+
+    @classmethod
+    def fit_starts(cls) -> Starts:
+        """Return the values from which a fit begins."""
+        return (
+            start_from(cls, offset=5e3),
+            start_from(cls, offset=-5e3),
+            start_from(cls, offset=1e3, gain=0.03),
+        )
+
+    @classmethod
+    def example(cls) -> Effect:
+        """Return it clearly present."""
+        return cls(offset=6e3, gain=-0.03)

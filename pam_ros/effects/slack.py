@@ -2,10 +2,16 @@
 # SPDX-License-Identifier: Apache-2.0
 """Slack: a muscle pulls, but cannot push, or only until it buckles."""
 
+from dataclasses import dataclass
+from typing import ClassVar
+
 from pam_ros.compiled import scalar
-from pam_ros.effects.base import Compensation, Effect, EffectParameter, Row
+from pam_ros.effects.base import Compensation, Effect, EffectEquations, Row, Starts
+from pam_ros.effects.parameter import effect_parameter, start_from, strength
 from pam_ros.effects.rows import A1, A2, A3, A4, A5, A6
 from pam_ros.muscle.law import force as law_force
+
+SHARE, TOE, PUSH = range(3)
 
 
 @scalar
@@ -43,63 +49,68 @@ def force(
     q: Row,
     j: int,
 ) -> float:
-    """Return f + s (tendon(f) - f): of what pushes, the share s = q[j] is missing.
+    """Return f + s (tendon(f) - f): of what pushes, the share s is missing.
 
-    The toe is q[j + 1], the push at which the muscle buckles q[j + 2], both in N.
+    The toe rounds the corner; at the push the muscle buckles.
     """
-    if q[j] == 0.0:
+    if q[j + SHARE] == 0.0:
         return f
-    return f + q[j] * (tendon(f, q[j + 1], q[j + 2]) - f)
+    return f + q[j + SHARE] * (tendon(f, q[j + TOE], q[j + PUSH]) - f)
 
 
 def damping(c: float, p: float, kappa: float, v: float, q: Row, j: int) -> float:
     """Return c where the muscle pulls; what is slack damps no more than it pulls."""
-    if q[j] == 0.0:
+    if q[j + SHARE] == 0.0:
         return c
     f = law_force(p, kappa, q[A1], q[A2], q[A3], q[A4], q[A5], q[A6])
-    return c * (1.0 - q[j] * (1.0 - engagement(f, q[j + 1], q[j + 2])))
+    return c * (1.0 - q[j + SHARE] * (1.0 - engagement(f, q[j + TOE], q[j + PUSH])))
 
 
-EFFECT = Effect(
-    name='slack',
-    text='no push: below its threshold pressure a shortened muscle goes slack',
-    source='Tension-only tendon with a toe; threshold pressure: Martens & Boblan 2017',
-    parameters=(
-        EffectParameter(
-            'share',
-            0.0,
-            'share of the push of the force law that is missing; 1: the muscle cannot push',
-            '',
-            0.0,
-            1.0,
-            scale=0.3,
-            strength=True,
-            sign=1,
-        ),
-        EffectParameter(
-            'toe',
-            2.0,
-            'force on either side of the corner over which the pull sets in',
-            'N',
-            1e-3,
-            500.0,
-            scale=10.0,
-        ),
-        EffectParameter(
-            'push', 0.0, 'push at which the slack muscle buckles', 'N', 0.0, 500.0, scale=5.0
-        ),
-    ),
-    signature='residual only where the model would push: high contraction, low pressure',
-    experiment='vent the muscle at held lengths beyond 10 % contraction with a force cell',
-    fit_starts=(
-        {'share': 1.0},
-        {'share': 1.0, 'toe': 30.0},
-        {'share': 1.0, 'toe': 30.0, 'push': 10.0},
-    ),
-    example={'share': 1.0, 'toe': 20.0},
-    compensation=Compensation.MODEL,
-    rivals=('end_stop',),
-    force=force,
-    damping=damping,
-    needs_muscle=True,
-)
+@dataclass(frozen=True)
+class Slack(Effect):
+    """No push: below its threshold pressure a shortened muscle goes slack."""
+
+    share: float = strength(
+        'share of the push of the force law that is missing; 1: the muscle cannot push',
+        high=1.0,
+        scale=0.3,
+    )
+    toe: float = effect_parameter(
+        2.0,
+        'force on either side of the corner over which the pull sets in',
+        'N',
+        low=1e-3,
+        high=500.0,
+        scale=10.0,
+    )
+    push: float = effect_parameter(
+        0.0, 'push at which the slack muscle buckles', 'N', low=0.0, high=500.0, scale=5.0
+    )
+
+    name: ClassVar = 'slack'
+    text: ClassVar = 'no push: below its threshold pressure a shortened muscle goes slack'
+    source: ClassVar = 'Tension-only tendon with a toe; threshold pressure: Martens & Boblan 2017'
+    signature: ClassVar = (
+        'residual only where the model would push: high contraction, low pressure'
+    )
+    experiment: ClassVar = (
+        'vent the muscle at held lengths beyond 10 % contraction with a force cell'
+    )
+    compensation: ClassVar = Compensation.MODEL
+    rivals: ClassVar = ('end_stop',)
+    needs_muscle: ClassVar = True
+    equations: ClassVar = EffectEquations(force=force, damping=damping)
+
+    @classmethod
+    def fit_starts(cls) -> Starts:
+        """Return the values from which a fit begins."""
+        return (
+            start_from(cls, share=1.0),
+            start_from(cls, share=1.0, toe=30.0),
+            start_from(cls, share=1.0, toe=30.0, push=10.0),
+        )
+
+    @classmethod
+    def example(cls) -> Effect:
+        """Return it clearly present."""
+        return cls(share=1.0, toe=20.0)

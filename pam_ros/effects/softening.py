@@ -2,9 +2,16 @@
 # SPDX-License-Identifier: Apache-2.0
 """Softening: the muscle pulls less and less as it is cycled or warms up."""
 
+from dataclasses import dataclass
 from math import exp
+from typing import ClassVar
 
-from pam_ros.effects.base import Compensation, Effect, EffectParameter, HiddenState, Row
+from pam_ros.effects.base import Compensation, Effect, EffectEquations, HiddenState, Row, Starts
+from pam_ros.effects.parameter import effect_parameter, start_from, strength
+
+LIMIT, PER_PRESSURE, PER_CONTRACTION, PER_SECOND = range(4)
+# Hidden states; pressure and contraction with a play that swallows noise.
+DAMAGE, PRESSURE, CONTRACTION = range(3)
 
 # Moves within these bands, either way, are noise of a sensor and no part of a cycle.
 BAND = 5e3  # Pa
@@ -24,19 +31,20 @@ def force(
     q: Row,
     j: int,
 ) -> float:
-    """Return f (1 - L (1 - exp(-d))): L = q[j] is lost when the damage d has grown large.
+    """Return f (1 - L (1 - exp(-d))): the limit L is lost when the damage d has grown large.
 
-    d grows with the way that pressure and contraction go, up or down, by q[j + 1] per Pa and
-    q[j + 2] per unit of contraction, and by q[j + 3] each second. x[i] is d; x[i + 1] and
-    x[i + 2] are pressure and contraction with a play of ±BAND, which swallows noise.
+    d grows with the way that pressure and contraction go, up or down, by per_pressure and
+    per_contraction, and by per_second with time. What both go within ±BAND is noise.
     """
-    if q[j] == 0.0:
+    if q[j + LIMIT] == 0.0:
         return f
-    xn[i + 1] = min(max(x[i + 1], p - BAND), p + BAND)
-    xn[i + 2] = min(max(x[i + 2], kappa - BAND_KAPPA), kappa + BAND_KAPPA)
-    way = q[j + 1] * abs(xn[i + 1] - x[i + 1]) + q[j + 2] * abs(xn[i + 2] - x[i + 2])
-    xn[i] = x[i] + way + q[j + 3] * h
-    return f * (1.0 - q[j] * (1.0 - exp(-xn[i])))
+    xn[i + PRESSURE] = min(max(x[i + PRESSURE], p - BAND), p + BAND)
+    xn[i + CONTRACTION] = min(max(x[i + CONTRACTION], kappa - BAND_KAPPA), kappa + BAND_KAPPA)
+    over_p = abs(xn[i + PRESSURE] - x[i + PRESSURE])
+    over_kappa = abs(xn[i + CONTRACTION] - x[i + CONTRACTION])
+    way = q[j + PER_PRESSURE] * over_p + q[j + PER_CONTRACTION] * over_kappa
+    xn[i + DAMAGE] = x[i + DAMAGE] + way + q[j + PER_SECOND] * h
+    return f * (1.0 - q[j + LIMIT] * (1.0 - exp(-xn[i + DAMAGE])))
 
 
 def start(q: Row, j: int, p: float, kappa: float, y: float) -> tuple[float, ...]:
@@ -44,62 +52,60 @@ def start(q: Row, j: int, p: float, kappa: float, y: float) -> tuple[float, ...]
     return (0.0, p, kappa)
 
 
-EFFECT = Effect(
-    name='softening',
-    text='pull that falls with cycles or with time and saturates',
-    source='Mullins effect of the bladder; measured -2.9 % in ten cycles; warming',
-    parameters=(
-        EffectParameter(
-            'limit',
-            0.0,
-            'share of the pull that is lost in the end',
-            '',
-            -0.5,
-            0.9,
-            scale=0.05,
-            strength=True,
-            sign=1,
-        ),
-        EffectParameter(
-            'per_pressure',
-            0.0,
-            'approach to the limit for each Pa that the pressure moves, up or down',
-            '1/Pa',
-            0.0,
-            1e-3,
-            scale=2e-7,
-        ),
-        EffectParameter(
-            'per_contraction',
-            0.0,
-            'approach to the limit for each unit of contraction that the muscle goes, up or down',
-            '1/fraction',
-            0.0,
-            1e3,
-            scale=0.3,
-        ),
-        EffectParameter(
-            'per_second', 0.0, 'approach to the limit each second', '1/s', 0.0, 10.0, scale=0.02
-        ),
-    ),
-    signature='gain that drifts over the record, most in its first cycles',
-    experiment='the first segment repeated at the end, and again after a rest',
-    fit_starts=(
-        {'limit': 0.03, 'per_pressure': 1e-6},
-        {'limit': 0.03, 'per_pressure': 1e-7},
-        {'limit': 0.03, 'per_contraction': 0.3},
-        {'limit': 0.03, 'per_second': 0.1},
-        {'limit': 0.03, 'per_second': 0.01},
-    ),
-    example={'limit': 0.06, 'per_pressure': 5e-7},
-    compensation=Compensation.FEEDBACK,
-    states=(
+@dataclass(frozen=True)
+class Softening(Effect):
+    """Pull that falls with cycles or with time and saturates."""
+
+    limit: float = strength(
+        'share of the pull that is lost in the end', low=-0.5, high=0.9, scale=0.05, sign=1
+    )
+    per_pressure: float = effect_parameter(
+        0.0,
+        'approach to the limit for each Pa that the pressure moves, up or down',
+        '1/Pa',
+        low=0.0,
+        high=1e-3,
+        scale=2e-7,
+    )
+    per_contraction: float = effect_parameter(
+        0.0,
+        'approach to the limit for each unit of contraction that the muscle goes, up or down',
+        '1/fraction',
+        low=0.0,
+        high=1e3,
+        scale=0.3,
+    )
+    per_second: float = effect_parameter(
+        0.0, 'approach to the limit each second', '1/s', low=0.0, high=10.0, scale=0.02
+    )
+
+    name: ClassVar = 'softening'
+    text: ClassVar = 'pull that falls with cycles or with time and saturates'
+    source: ClassVar = 'Mullins effect of the bladder; measured -2.9 % in ten cycles; warming'
+    signature: ClassVar = 'gain that drifts over the record, most in its first cycles'
+    experiment: ClassVar = 'the first segment repeated at the end, and again after a rest'
+    compensation: ClassVar = Compensation.FEEDBACK
+    states: ClassVar = (
         HiddenState('damage', '', 0.5),
         HiddenState('pressure with play', 'Pa'),
         HiddenState('contraction with play', 'fraction'),
-    ),
-    start=start,
-    rivals=('creep', 'leak'),
-    force=force,
-    needs_muscle=True,
-)
+    )
+    rivals: ClassVar = ('creep', 'leak')
+    needs_muscle: ClassVar = True
+    equations: ClassVar = EffectEquations(force=force, start=start)
+
+    @classmethod
+    def fit_starts(cls) -> Starts:
+        """Return the values from which a fit begins."""
+        return (
+            start_from(cls, limit=0.03, per_pressure=1e-6),
+            start_from(cls, limit=0.03, per_pressure=1e-7),
+            start_from(cls, limit=0.03, per_contraction=0.3),
+            start_from(cls, limit=0.03, per_second=0.1),
+            start_from(cls, limit=0.03, per_second=0.01),
+        )
+
+    @classmethod
+    def example(cls) -> Effect:
+        """Return it clearly present."""
+        return cls(limit=0.06, per_pressure=5e-7)

@@ -2,7 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Viscous friction of the guide: a force against the velocity of the load."""
 
-from pam_ros.effects.base import Compensation, Effect, EffectParameter, Row
+from dataclasses import dataclass
+from typing import ClassVar
+
+from pam_ros.effects.base import Compensation, Effect, EffectEquations, Row, Starts
+from pam_ros.effects.parameter import start_from, strength
+
+COEFFICIENT = 0
 
 
 def outside(
@@ -18,33 +24,33 @@ def outside(
     q: Row,
     j: int,
 ) -> float:
-    """Return f - c v, with c = q[j] in N s/m."""
-    return f - q[j] * v
+    """Return f - c v, with the coefficient c."""
+    return f - q[j + COEFFICIENT] * v
 
 
-EFFECT = Effect(
-    name='viscous_friction',
-    text='viscous friction of the guide',
-    source='Newtonian friction; the coefficient depends on the rig',
-    parameters=(
-        EffectParameter(
-            'coefficient',
-            0.0,
-            'force per velocity',
-            'N s/m',
-            0.0,
-            1e4,
-            scale=50.0,
-            strength=True,
-            sign=1,
-        ),
-    ),
-    signature='residual force proportional to velocity at every pressure and contraction',
-    experiment='a chirp at two pressures: the decay is the same at both',
-    fit_starts=({'coefficient': 30.0},),
-    example={'coefficient': 30.0},
-    compensation=Compensation.MODEL,
-    rivals=('pressure_dependent_damping',),
-    outside=outside,
-    drag=outside,
-)
+@dataclass(frozen=True)
+class ViscousFriction(Effect):
+    """Viscous friction of the guide."""
+
+    coefficient: float = strength('force per velocity', 'N s/m', high=1e4, scale=50.0)
+
+    name: ClassVar = 'viscous_friction'
+    text: ClassVar = 'viscous friction of the guide'
+    source: ClassVar = 'Newtonian friction; the coefficient depends on the rig'
+    signature: ClassVar = (
+        'residual force proportional to velocity at every pressure and contraction'
+    )
+    experiment: ClassVar = 'a chirp at two pressures: the decay is the same at both'
+    compensation: ClassVar = Compensation.MODEL
+    rivals: ClassVar = ('pressure_dependent_damping',)
+    equations: ClassVar = EffectEquations(outside=outside, drag=outside)
+
+    @classmethod
+    def fit_starts(cls) -> Starts:
+        """Return the values from which a fit begins."""
+        return (start_from(cls, coefficient=30.0),)
+
+    @classmethod
+    def example(cls) -> Effect:
+        """Return it clearly present."""
+        return cls(coefficient=30.0)

@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from pam_ros.effects.turned import turned
 from pam_ros.errors import ParameterError
 from pam_ros.identification.data.segment import HeldSegment, Segment
 from pam_ros.identification.fit.of_rig import OfRig, changed, numbers_of
@@ -67,9 +66,9 @@ def _constant_unit(muscle: Muscle, name: str) -> str:
 
 def _effect_unit(model: Joint, effect: str, parameter: str) -> str:
     found = next(e for e in model.library if e.name == effect)
-    if found.acts_on_joint and model.is_revolute:
-        found = turned(found)
-    return next(p.unit for p in found.parameters if p.name == parameter)
+    is_turning = found.acts_on_joint() and model.is_revolute
+    each = found.parameters(turning=is_turning)
+    return next(p.unit for p in each if p.name == parameter)
 
 
 def with_row(
@@ -91,11 +90,10 @@ def with_row(
     on_joint = dict(model.effects)
     for place in added:
         targets = [in_muscles[i] for i in place.muscles] or [on_joint]
-        rows = [place.indices(model.layout, k) for k in range(len(place.effect.parameters))]
+        rows = [place.indices(model.layout, k) for k in range(len(place.parameters))]
         for n, target in enumerate(targets):
             target[place.effect.name] = {
-                p.name: float(q[row[n]])
-                for p, row in zip(place.effect.parameters, rows, strict=True)
+                p.name: float(q[row[n]]) for p, row in zip(place.parameters, rows, strict=True)
             }
     went = np.concatenate(
         [s.position if isinstance(s, HeldSegment) else s.target for s in segments]

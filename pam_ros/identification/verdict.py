@@ -109,7 +109,7 @@ def sentence(answer: Identification, lacking: str) -> str:
     )
 
 
-def next_experiment(answer: Identification, library: tuple[Effect, ...]) -> str:
+def next_experiment(answer: Identification, library: tuple[type[Effect], ...]) -> str:
     """Return which recording would settle what *answer* leaves open."""
     known = {e.name: e.experiment for e in library}
     if answer.verdict == 'insufficient_data':

@@ -44,7 +44,7 @@ def identified(result: Identification, source: Provenance) -> Joint:
     return replace(model, actuators=actuators, effects=_only(model.effects, on_joint))
 
 
-def _only(effects: EffectValues, present: Sequence[Effect]) -> EffectValues:
+def _only(effects: EffectValues, present: Sequence[type[Effect]]) -> EffectValues:
     """Return those of *effects* that are *present*."""
     names = {effect.name for effect in present}
     return {name: values for name, values in effects.items() if name in names}

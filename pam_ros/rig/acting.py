@@ -16,9 +16,9 @@ Array = NDArray[np.float64]
 def delays_of(layout: Layout, q: Array) -> tuple[float, ...]:
     """Return the time in s by which commands act late in each muscle of the parameters q."""
     delays = [
-        (effect.delay, layout.parameter_at[effect.name])
+        (effect.equations.delay, layout.parameter_at[effect.name])
         for effect in layout.library
-        if effect.delay is not None
+        if effect.equations.delay is not None
     ]
     return tuple(float(sum(delay(row, j) for delay, j in delays)) for row in q[at.MUSCLE :])
 

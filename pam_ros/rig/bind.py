@@ -24,7 +24,7 @@ from pam_ros.rig.layout import Layout
 
 Function = Callable[..., Any]
 # Effects, each with the offsets of its states and its parameters.
-Offsets = tuple[tuple[Effect, int, int], ...]
+Offsets = tuple[tuple[type[Effect], int, int], ...]
 # Inner templates in the order in which they call each other, then the loops, which are cached.
 _INNER = (
     'felt',
@@ -141,7 +141,7 @@ def _chains(offsets: Offsets) -> dict[str, Function]:
     }
     for effect, i, j in offsets:
         for place, make in _CHAINED.items():
-            f = getattr(effect, place)
+            f = getattr(effect.equations, place)
             if f is not None:
                 inner, own = chains[f'{place}_chain'], compiled.inner(f)
                 at = (j,) if place in _STATELESS else (i, j)
@@ -157,8 +157,10 @@ def _memories(offsets: Offsets) -> dict[str, Function]:
         strengths = tuple(
             j + k
             for effect, _, j in offsets
-            if effect.states and effect.pressure is None and effect.acts_on_joint is on_joint
-            for k, p in enumerate(effect.parameters)
+            if effect.states
+            and effect.equations.pressure is None
+            and effect.acts_on_joint() is on_joint
+            for k, p in enumerate(effect.parameters())
             if p.strength
         )
         found[name] = _or_present(compiled.inner(getattr(templates, name)), strengths)
@@ -166,7 +168,7 @@ def _memories(offsets: Offsets) -> dict[str, Function]:
 
 
 @lru_cache(maxsize=32)
-def bind(layout: Layout, active: tuple[Effect, ...]) -> Kernel:
+def bind(layout: Layout, active: tuple[type[Effect], ...]) -> Kernel:
     """Return the kernel in which the effects *active*, a subset of the layout's, can act.
 
     Rows keep the layout's width whatever is active. Compilation happens at the first call of
@@ -179,8 +181,9 @@ def bind(layout: Layout, active: tuple[Effect, ...]) -> Kernel:
         **_chains(offsets),
         **_memories(offsets),
         'MUSCLES': layout.muscles,
-        'HAS_OUTSIDE': any(effect.outside is not None for effect in active),
-        'IS_DRAGGED': is_dragged(layout) and any(effect.drag is not None for effect in active),
+        'HAS_OUTSIDE': any(effect.equations.outside is not None for effect in active),
+        'IS_DRAGGED': is_dragged(layout)
+        and any(effect.equations.drag is not None for effect in active),
         'MEMORY_FROM': layout.memory_from,
         'WIDTH': layout.width,
         'LOAD': layout.load_at,

@@ -34,7 +34,7 @@ class Change:
 
     time: float
     q: Array
-    begun: Sequence[Sequence[Effect]]
+    begun: Sequence[Sequence[type[Effect]]]
 
 
 def changes_of(joint: Joint, start: float) -> list[Change]:
@@ -57,7 +57,7 @@ def refuse_onsets(joint: Joint, who: str) -> None:
                 )
 
 
-def appeared(before: Joint, after: Joint) -> tuple[tuple[Effect, ...], ...]:
+def appeared(before: Joint, after: Joint) -> tuple[tuple[type[Effect], ...], ...]:
     """Return the effects that *after* has and *before* has not, by row as ``present`` is."""
     return tuple(
         tuple(effect for effect in now if effect not in then)

@@ -21,14 +21,14 @@ def refuse_other_than_effects(effects: EffectValues) -> None:
 
 
 def split_effects(
-    effects: EffectValues, library: Sequence[Effect] = EFFECTS
+    effects: EffectValues, library: Sequence[type[Effect]] = EFFECTS
 ) -> tuple[EffectValues, EffectValues]:
     """Return those of *effects* that act in a muscle, and those that act on the joint.
 
     Raises ParameterError for an effect that *library* does not have.
     """
     refuse_other_than_effects(effects)
-    on_joint = {effect.name: effect.acts_on_joint for effect in library}
+    on_joint = {effect.name: effect.acts_on_joint() for effect in library}
     for name in effects:
         if name not in on_joint:
             raise ParameterError(
@@ -40,7 +40,7 @@ def split_effects(
     )
 
 
-def onsets(effects: EffectValues, present: Sequence[Effect]) -> set[float]:
+def onsets(effects: EffectValues, present: Sequence[type[Effect]]) -> set[float]:
     """Return the times in s after 0 at which those of *effects* begin to act that are *present*.
 
     *present* are the effects that act when all have begun.

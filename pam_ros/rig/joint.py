@@ -10,10 +10,9 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from pam_ros.arguments import instance, number, sequence
+from pam_ros.arguments import instance, number, refuse, sequence
 from pam_ros.effects import EFFECTS
 from pam_ros.effects.base import Effect
-from pam_ros.effects.turned import turned
 from pam_ros.errors import ParameterError, RangeError
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig import layout as at
@@ -70,7 +69,7 @@ class Joint:
     load: Load = field(default_factory=Mass)
     transmission: Transmission = field(default_factory=Straight)
     effects: EffectValues = field(default_factory=dict)
-    library: tuple[Effect, ...] = field(default_factory=lambda: EFFECTS, repr=False)
+    library: tuple[type[Effect], ...] = field(default_factory=lambda: EFFECTS, repr=False)
 
     def __post_init__(self) -> None:
         """Check that the parts fit, then the effects, and that there are equilibria."""
@@ -83,7 +82,7 @@ class Joint:
                 'that slides needs a transmission in m, one that turns one in rad'
             )
         for name, given in self.effects.items():
-            self._known(name, on_joint=True).values(given)
+            self._known(name, on_joint=True).values(given, turning=self.is_revolute)
         for actuator in self.actuators:
             for name, given in actuator.effects.items():
                 self._known(name, on_joint=False).values(given)
@@ -113,18 +112,18 @@ class Joint:
         refuse_other_than_effects(self.effects)
         object.__setattr__(self, 'library', library_of(self.library))
 
-    def _known(self, name: str, *, on_joint: bool) -> Effect:
-        """Return the effect with the units that it has here, or say why it is none."""
+    def _known(self, name: str, *, on_joint: bool) -> type[Effect]:
+        """Return the effect of that *name*, or say why there is none."""
         found = [effect for effect in self.library if effect.name == name]
         if not found:
             raise ParameterError(
                 f'effects.{name} is not known: give one of '
-                + ', '.join(e.name for e in self.library if e.acts_on_joint is on_joint)
+                + ', '.join(e.name for e in self.library if e.acts_on_joint() is on_joint)
             )
-        if found[0].acts_on_joint is not on_joint:
-            where = 'on the load' if found[0].acts_on_joint else 'in a muscle'
+        if found[0].acts_on_joint() is not on_joint:
+            where = 'on the load' if found[0].acts_on_joint() else 'in a muscle'
             raise ParameterError(f'effects.{name} acts {where}: give it there')
-        return turned(found[0]) if on_joint and self.is_revolute else found[0]
+        return found[0]
 
     def _check_equilibria(self) -> None:
         for i, muscle in enumerate(self.muscles):
@@ -177,8 +176,8 @@ class Joint:
         """Mass in kg after the effects that change it."""
         m, q = self.load.mass, self._joint_row()
         for effect in self.library:
-            if effect.mass is not None:
-                m = float(effect.mass(m, q, self.layout.parameter_at[effect.name]))
+            if effect.equations.mass is not None:
+                m = float(effect.equations.mass(m, q, self.layout.parameter_at[effect.name]))
         return float(m)
 
     @cached_property
@@ -236,7 +235,7 @@ class Joint:
         )
 
     @cached_property
-    def present(self) -> tuple[tuple[Effect, ...], ...]:
+    def present(self) -> tuple[tuple[type[Effect], ...], ...]:
         """The effects that are present on the joint, then those in each muscle, by row."""
         each = [self.effects, *(actuator.effects for actuator in self.actuators)]
         return tuple(
@@ -244,12 +243,12 @@ class Joint:
         )
 
     @property
-    def all_present(self) -> tuple[Effect, ...]:
+    def all_present(self) -> tuple[type[Effect], ...]:
         """The effects that are present anywhere, in the order of the library."""
         return tuple(e for e in self.library if any(e in row for row in self.present))
 
     @property
-    def active(self) -> tuple[Effect, ...]:
+    def active(self) -> tuple[type[Effect], ...]:
         """The effects that the kernel must step: all of the library as soon as one is present.
 
         Two machine codes for a kind of joint, without effects and with all, instead of one for
@@ -280,11 +279,11 @@ class Joint:
 
     def _fill(self, row: Array, effects: EffectValues, *, on_joint: bool) -> None:
         for effect in self.library:
-            if effect.acts_on_joint is on_joint:
+            if effect.acts_on_joint() is on_joint:
                 j = self.layout.parameter_at[effect.name]
                 given = effects.get(effect.name, {})
-                row[j : j + len(effect.parameters)] = [
-                    given.get(p.name, p.default) for p in effect.parameters
+                row[j : j + len(effect.parameters())] = [
+                    given.get(p.name, p.default) for p in effect.parameters()
                 ]
 
 
@@ -297,6 +296,11 @@ def fill_load(row: Array, layout: Layout, load: Load, transmission: Transmission
     row[layout.transmission_at : layout.transmission_at + len(numbers)] = numbers
 
 
-def library_of(library: Sequence[Effect]) -> tuple[Effect, ...]:
+def library_of(library: Sequence[type[Effect]]) -> tuple[type[Effect], ...]:
     """Return *library* as a tuple; raises ParameterError where something in it is no Effect."""
-    return sequence('library', library, Effect, 'an Effect, such as those of EFFECTS')
+    found = sequence('library', library, type, 'an Effect, such as those of EFFECTS')
+    for i, effect in enumerate(found):
+        if not issubclass(effect, Effect):
+            refuse(f'library[{i}]', effect, 'an Effect, such as those of EFFECTS')
+        effect.parameters()  # refuses one that is not complete
+    return found

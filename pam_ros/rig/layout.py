@@ -14,6 +14,7 @@ The scratch matrix xn that goes with x has WORK columns more, in which a step ke
 share.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -28,6 +29,7 @@ from pam_ros.rig.transmissions import TransmissionEquations
 __all__ = ['A1', 'A2', 'A3', 'A4', 'A5', 'A6', 'INERTIA', 'L0', 'LENGTH', 'ZETA', 'Layout']
 
 Array = NDArray[np.float64]
+Size = Callable[[type[Effect]], int]
 
 JOINT, MUSCLE = 0, 1  # rows: the joint's, and that of its first muscle
 # State of the joint, and of a muscle.
@@ -55,7 +57,7 @@ class Layout:
     ``parameters`` are the widths of x and q.
     """
 
-    library: tuple[Effect, ...]
+    library: tuple[type[Effect], ...]
     transmission: TransmissionEquations
     load: LoadEquations
     muscles: int
@@ -85,12 +87,12 @@ class Layout:
         """Return an empty scratch matrix xn."""
         return np.zeros((self.rows, self.width + WORK))
 
-    def index(self, effect: Effect, parameter: int = 0, muscle: int = 0) -> int:
+    def index(self, effect: type[Effect], parameter: int = 0, muscle: int = 0) -> int:
         """Return where a parameter of *effect* stands in q, counted through all rows.
 
         *muscle* says in which muscle, for an effect that acts in one.
         """
-        row = JOINT if effect.acts_on_joint else MUSCLE + muscle
+        row = JOINT if effect.acts_on_joint() else MUSCLE + muscle
         return row * self.parameters + self.parameter_at[effect.name] + parameter
 
     def constant(self, which: int, muscle: int = 0) -> int:
@@ -100,7 +102,7 @@ class Layout:
 
 @lru_cache(maxsize=32)
 def layout_of(
-    library: tuple[Effect, ...],
+    library: tuple[type[Effect], ...],
     transmission: TransmissionEquations,
     load: LoadEquations,
     muscles: int,
@@ -111,18 +113,18 @@ def layout_of(
     forces; otherwise states and parameters are in the order of the library. In a joint the effects
     come before its load and transmission, so that their places are those of every kind of joint.
     """
-    on_joint = [effect for effect in library if effect.acts_on_joint]
-    in_muscle = [effect for effect in library if not effect.acts_on_joint]
-    path = [effect for effect in in_muscle if effect.pressure is not None]
-    forces = [effect for effect in in_muscle if effect.pressure is None]
+    on_joint = [effect for effect in library if effect.acts_on_joint()]
+    in_muscle = [effect for effect in library if not effect.acts_on_joint()]
+    path = [effect for effect in in_muscle if effect.equations.pressure is not None]
+    forces = [effect for effect in in_muscle if effect.equations.pressure is None]
     state_at: dict[str, int] = {}
     parameter_at: dict[str, int] = {}
-    joint_width = _place(state_at, on_joint, JOINT_HIDDEN, 'states')
-    memory_from = _place(state_at, path, HIDDEN, 'states')
-    muscle_width = _place(state_at, forces, memory_from, 'states')
-    load_at = _place(parameter_at, on_joint, JOINT_EFFECTS, 'parameters')
+    joint_width = _place(state_at, on_joint, JOINT_HIDDEN, _states)
+    memory_from = _place(state_at, path, HIDDEN, _states)
+    muscle_width = _place(state_at, forces, memory_from, _states)
+    load_at = _place(parameter_at, on_joint, JOINT_EFFECTS, _parameters)
     transmission_at = load_at + load.numbers
-    muscle_row = _place(parameter_at, in_muscle, MUSCLE_EFFECTS, 'parameters')
+    muscle_row = _place(parameter_at, in_muscle, MUSCLE_EFFECTS, _parameters)
     return Layout(
         library,
         transmission,
@@ -138,9 +140,17 @@ def layout_of(
     )
 
 
-def _place(places: dict[str, int], effects: list[Effect], at: int, what: str) -> int:
+def _states(effect: type[Effect]) -> int:
+    return len(effect.states)
+
+
+def _parameters(effect: type[Effect]) -> int:
+    return len(effect.parameters())
+
+
+def _place(places: dict[str, int], effects: list[type[Effect]], at: int, size: Size) -> int:
     """Give each effect its place from *at* on; return where the next one would begin."""
     for effect in effects:
         places[effect.name] = at
-        at += len(getattr(effect, what))
+        at += size(effect)
     return at

@@ -20,7 +20,7 @@ def single_muscle_joint(
     muscle: Muscle | None = None,
     load: Mass | None = None,
     effects: EffectValues | None = None,
-    library: Sequence[Effect] | None = None,
+    library: Sequence[type[Effect]] | None = None,
 ) -> Joint:
     """Return one muscle on a mass, the paper's rig, with *effects* in the one and on the other.
 
@@ -46,7 +46,7 @@ def antagonistic_joint(
     load: Arm | None = None,
     contraction: ArrayLike = 0.1,
     effects: EffectValues | None = None,
-    library: Sequence[Effect] | None = None,
+    library: Sequence[type[Effect]] | None = None,
 ) -> Joint:
     """Return two muscles that turn a pulley of *radius* m against each other.
 

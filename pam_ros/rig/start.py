@@ -24,7 +24,7 @@ def start_state(
     pressures: Sequence[float] | Array,
     s: float,
     v: float,
-    present: Sequence[Effect] | None = None,
+    present: Sequence[type[Effect]] | None = None,
 ) -> Array:
     """Return the state x at the coordinate s and velocity v after a long rest there.
 
@@ -42,7 +42,7 @@ def start_state(
 
 
 def start_muscle(
-    layout: Layout, q: Array, x: Array, i: int, pressure: float, effects: Sequence[Effect]
+    layout: Layout, q: Array, x: Array, i: int, pressure: float, effects: Sequence[type[Effect]]
 ) -> None:
     """Set the hidden states of those of *effects* that act in muscle i, and its pressure.
 
@@ -52,7 +52,7 @@ def start_muscle(
     y = position(layout, q, x, i)
     kappa = felt_contraction(layout, q, i, y)
     for effect in effects:
-        if effect.acts_on_joint:
+        if effect.acts_on_joint():
             continue
         k, j = layout.state_at[effect.name], layout.parameter_at[effect.name]
         _rest(layout, effect, x[row], own, pressure, kappa, y)
@@ -60,25 +60,33 @@ def start_muscle(
     x[row, at.P] = pressure
 
 
-def start_joint(layout: Layout, q: Array, x: Array, effects: Sequence[Effect]) -> None:
+def start_joint(layout: Layout, q: Array, x: Array, effects: Sequence[type[Effect]]) -> None:
     """Set the hidden states of those of *effects* that act on the joint."""
     own, s = q[at.JOINT], float(x[at.JOINT, at.S])
     mean = float(np.mean(x[at.MUSCLE :, at.P]))
     for effect in effects:
-        if effect.acts_on_joint:
+        if effect.acts_on_joint():
             _rest(layout, effect, x[at.JOINT], own, mean, s / float(own[at.LENGTH]), s)
 
 
 def _rest(
-    layout: Layout, effect: Effect, x: Array, q: Array, pressure: float, kappa: float, y: float
+    layout: Layout,
+    effect: type[Effect],
+    x: Array,
+    q: Array,
+    pressure: float,
+    kappa: float,
+    y: float,
 ) -> None:
     """Set the hidden states of *effect* in its row x to those of a long rest there."""
-    if effect.start is not None:
+    if effect.equations.start is not None:
         k, j = layout.state_at[effect.name], layout.parameter_at[effect.name]
-        x[k : k + len(effect.states)] = effect.start(q, j, pressure, kappa, y)
+        x[k : k + len(effect.states)] = effect.equations.start(q, j, pressure, kappa, y)
 
 
-def begin_effects(layout: Layout, q: Array, x: Array, begun: Sequence[Sequence[Effect]]) -> None:
+def begin_effects(
+    layout: Layout, q: Array, x: Array, begun: Sequence[Sequence[type[Effect]]]
+) -> None:
     """Set the hidden states of effects as they are when these begin to act on a moving joint.
 
     *begun* are those on the joint, then those in each muscle; in the parameters q (rows,
@@ -100,8 +108,8 @@ def felt_contraction(layout: Layout, q: Array, i: int, y: float) -> float:
     own = q[at.MUSCLE + i]
     kappa = y / float(own[at.L0])
     for effect in layout.library:
-        if effect.contraction is not None:
-            kappa = effect.contraction(kappa, own, layout.parameter_at[effect.name])
+        if effect.equations.contraction is not None:
+            kappa = effect.equations.contraction(kappa, own, layout.parameter_at[effect.name])
     return kappa
 
 
@@ -135,7 +143,7 @@ def disturb(
             )
         effect = known[name]
         names = [state.name for state in effect.states]
-        rows = [at.JOINT] if effect.acts_on_joint else range(at.MUSCLE, layout.rows)
+        rows = [at.JOINT] if effect.acts_on_joint() else range(at.MUSCLE, layout.rows)
         instance(f'hidden.{name}', changes, Mapping, 'its hidden states with the change of each')
         for which, change in changes.items():
             if which not in names:
@@ -163,11 +171,11 @@ def _in_chamber(layout: Layout, q: Array, x: Array, i: int, pressure: float) -> 
     return pressure
 
 
-def _behind(effect: Effect, pressure: float, x: Array, k: int, q: Array, j: int) -> float:
+def _behind(effect: type[Effect], pressure: float, x: Array, k: int, q: Array, j: int) -> float:
     """Return the pressure behind an effect of the path with *pressure* Pa before it, now."""
-    if effect.pressure is None:
+    if effect.equations.pressure is None:
         return pressure
-    return float(_in_python(effect.pressure)(pressure, 0.0, 0.0, x, k, x.copy(), q, j))
+    return float(_in_python(effect.equations.pressure)(pressure, 0.0, 0.0, x, k, x.copy(), q, j))
 
 
 @lru_cache

@@ -80,19 +80,21 @@ def drag(joint: Joint) -> float:
         for p, v in itertools.product((muscle.p_min, muscle.p_max), (-FAST, FAST)):
             c = 0.0
             for effect in effects:
-                if effect.damping is not None:
+                if effect.equations.damping is not None:
                     j = layout.parameter_at[effect.name]
-                    c = float(effect.damping(c, p, 0.0, v, q[at.MUSCLE + i], j))
+                    c = float(effect.equations.damping(c, p, 0.0, v, q[at.MUSCLE + i], j))
             most = max(most, c)
         total += most * _longest_arm(joint, i) ** 2
     most = 0.0
     for v in (-FAST, FAST):
         f = 0.0
         for effect in on_joint:
-            if effect.outside is not None:
+            if effect.equations.outside is not None:
                 i, j = layout.state_at[effect.name], layout.parameter_at[effect.name]
                 row = x[at.JOINT]
-                f = effect.outside(f, 0.0, 0.0, v, 0.0, 0.0, row, i, row.copy(), q[at.JOINT], j)
+                f = effect.equations.outside(
+                    f, 0.0, 0.0, v, 0.0, 0.0, row, i, row.copy(), q[at.JOINT], j
+                )
         most = max(most, -float(f) / v)
     return total + most
 

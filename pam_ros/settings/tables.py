@@ -15,7 +15,6 @@ from typing import Any, TypeVar
 from pam_ros.effects import EFFECTS
 from pam_ros.effects.base import ONSET, Effect
 from pam_ros.effects.names import GROUP, EffectName, by_effect, parsed
-from pam_ros.effects.turned import turned
 from pam_ros.errors import ParameterError
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.parameters import Parameter, described
@@ -39,12 +38,15 @@ def table_of(cls: type, prefix: str = '', *, turning: bool = False) -> Table:
     return {prefix + name: entry for name, entry in described(cls, turning=turning).items()}
 
 
-def effects_table(library: tuple[Effect, ...] = EFFECTS) -> Table:
-    """Return the table of all effects: ``effects.<name>.<parameter>``."""
+def effects_table(library: tuple[type[Effect], ...] = EFFECTS, *, turning: bool = False) -> Table:
+    """Return the table of all effects: ``effects.<name>.<parameter>``.
+
+    With *turning* it is that of effects on a joint that turns.
+    """
     return {
-        EffectName(effect.name, p.name).flat: (float, p.default, p.described())
+        EffectName(effect.name, p.name).flat: (float, p.default, p)
         for effect in library
-        for p in (*effect.parameters, ONSET)
+        for p in (*effect.parameters(turning=turning), ONSET)
     }
 
 
@@ -52,19 +54,19 @@ def muscle_table() -> Table:
     """Return the table of a muscle with the effects in it."""
     return {
         **table_of(Muscle),
-        **effects_table(tuple(effect for effect in EFFECTS if not effect.acts_on_joint)),
+        **effects_table(tuple(effect for effect in EFFECTS if not effect.acts_on_joint())),
     }
 
 
 def joint_table(kind: Arrangement) -> Table:
     """Return the table of a joint beside its muscles, with the effects on it."""
-    library = tuple(effect for effect in EFFECTS if effect.acts_on_joint)
+    library = tuple(effect for effect in EFFECTS if effect.acts_on_joint())
     is_revolute = kind.transmission.equations.revolute
     return {
         **table_of(kind.transmission),
         **table_of(kind.load),
         **{name: _contraction(kind, i) for i, name in enumerate(mountings(kind))},
-        **effects_table(tuple(map(turned, library)) if is_revolute else library),
+        **effects_table(library, turning=is_revolute),
     }
 
 

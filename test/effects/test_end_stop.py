@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pam_ros.effects.end_stop import EFFECT
+from pam_ros.effects.end_stop import EndStop
 from pam_ros.effects.rows import INERTIA, LENGTH
 from pam_ros.rig.run import simulate
 from support import bench
@@ -52,7 +52,7 @@ def test_pads_push_apart_and_never_pull(y, v, stiffness, damping, step):
     q = np.ones(7)
     q[INERTIA], q[LENGTH] = 2.0, 1.0
     q[2:] = 0.1, stiffness, -0.1, stiffness, damping
-    f = EFFECT.outside(0.0, 0.0, y, v, 0.0, 0.0, [step], 0, [0.0], q, 2)
+    f = EndStop.equations.outside(0.0, 0.0, y, v, 0.0, 0.0, [step], 0, [0.0], q, 2)
     if y > 0.1:
         assert f <= 0.0
     elif y < -0.1:
@@ -82,7 +82,7 @@ def test_hardest_pad_neither_explodes_nor_adds_energy(mass, step):
 def test_guess_lies_within_the_travel():
     kappa = np.sin(np.linspace(0.0, 20.0, 500)) * 0.1 + 0.1
     kappa[100:200] = np.nan
-    for start in EFFECT.guess(kappa, kappa, kappa, kappa):
-        EFFECT.values(start)
+    for start in EndStop.equations.guess(kappa, kappa, kappa, kappa):
+        EndStop.values(start)
         where = start.get('upper', start.get('lower'))
         assert 0.0 < where < 0.2

@@ -28,7 +28,7 @@ def test_the_table_says_of_each_effect_all_that_it_says_itself():
     for effect, row in zip(EFFECTS, rows, strict=True):
         for text in (effect.name, effect.signature, effect.experiment, effect.compensation.value):
             assert text in row
-        assert f'| {"joint" if effect.acts_on_joint else "muscle"}: ' in row
+        assert f'| {"joint" if effect.acts_on_joint() else "muscle"}: ' in row
         assert row.count('|') == 9
 
 
@@ -52,7 +52,7 @@ def test_example_works_and_passes_its_test(tmp_path, monkeypatch):
     (tmp_path / 'choked_valve.py').write_text(example)
     (tmp_path / 'test_choked_valve.py').write_text(its_test)
     monkeypatch.syspath_prepend(tmp_path)
-    new = importlib.import_module('choked_valve').EFFECT
+    new = importlib.import_module('choked_valve').ChokedValve
     # The one line.
     library = (*EFFECTS[:2], new, *EFFECTS[2:])
     monkeypatch.setattr(pam_ros, 'EFFECTS', library, raising=False)

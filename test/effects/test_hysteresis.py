@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp, trapezoid
 
-from pam_ros.effects.hysteresis import EFFECT, ELEMENTS
+from pam_ros.effects.hysteresis import ELEMENTS, Hysteresis
 from pam_ros.rig.run import simulate, simulate_held
 from support import bench
 
@@ -169,6 +169,6 @@ def test_loops_can_start_where_a_long_way_has_left_them(effect, side):
 
 
 def test_every_start_is_allowed():
-    for start in EFFECT.fit_starts:
-        assert EFFECT.is_present(start)
-        EFFECT.values(start)
+    for start in Hysteresis.fit_starts():
+        assert Hysteresis.is_present(start)
+        Hysteresis.values(start)

@@ -3,6 +3,7 @@
 """What all effects share: absent they change nothing, and any of them work together."""
 
 import re
+from importlib import import_module
 from pathlib import Path
 
 import numpy as np
@@ -27,7 +28,7 @@ NAMES = [effect.name for effect in EFFECTS]
 T = np.linspace(0.0, 2.0, 201)
 AT = np.array([0.0, 0.1, 0.6, 1.1003, 1.5])
 U = np.array([2e5, 3.3e5, 1.6e5, 2.6e5, 2.0e5])
-STARTS = [(e, start) for e in EFFECTS for start in e.fit_starts]
+STARTS = [(e, start) for e in EFFECTS for start in e.fit_starts()]
 # Every other effect: kernels in which no effect stands beside the neighbours that it has in all.
 HALVES = (EFFECTS[::2], EFFECTS[1::2])
 BY_EFFECT = pytest.mark.parametrize('effect', EFFECTS, ids=lambda e: e.name)
@@ -45,7 +46,7 @@ def held(effects, step=1e-3):
 
 def clear(effect):
     """Return the values with which the effect is clearly there on the rig of ``hanging``."""
-    return {effect.name: effect.example}
+    return {effect.name: effect.example().given}
 
 
 def run_bound(active, effects, step=1e-3, mass=bench.MASS):
@@ -61,14 +62,27 @@ def run_bound(active, effects, step=1e-3, mass=bench.MASS):
 
 
 def test_every_file_of_an_effect_is_in_the_library_once():
-    """A file of its own ends in an EFFECT; it is named as the effect is."""
+    """A file of its own has one dataclass; both are named as the effect is."""
     files = {
         path.stem
         for path in Path(effects_room.__file__).parent.glob('*.py')
-        if re.search('^EFFECT = ', path.read_text(encoding='utf-8'), re.MULTILINE)
+        if re.search(r'^class \w+\(Effect\):', path.read_text(encoding='utf-8'), re.MULTILINE)
     }
     assert files == set(NAMES)
     assert len(EFFECTS) == len(files)
+    for effect in EFFECTS:
+        assert effect.__module__ == f'{effects_room.__name__}.{effect.name}'
+        assert effect.__name__ == effect.name.title().replace('_', '')
+        assert getattr(effects_room, effect.__name__) is effect
+
+
+@BY_EFFECT
+def test_rows_are_named_by_the_fields(effect):
+    """The equations read q[j + LEVEL], where level is the field."""
+    names = vars(import_module(effect.__module__))
+    assert [names[p.name.upper()] for p in effect.parameters()] == [
+        *range(len(effect.parameters()))
+    ]
 
 
 @BY_EFFECT
@@ -77,42 +91,42 @@ def test_effect_says_all_that_is_asked_of_it(effect):
         assert len(text) > 10
     assert set(effect.rivals) <= set(NAMES) - {effect.name}
     assert set(effect.contains) <= set(NAMES) - {effect.name}
-    assert effect.fit_starts
-    for start in effect.fit_starts:
+    assert effect.fit_starts()
+    for start in effect.fit_starts():
         effect.values(start)
         assert effect.is_present(start)
-    effect.values(effect.example)
-    assert effect.is_present(effect.example)
+    effect.values(effect.example().given)
+    assert effect.is_present(effect.example().given)
     assert not effect.is_present({})
-    for p in effect.parameters:
+    for p in effect.parameters():
         assert p.text
         assert p.low <= p.default <= p.high
         assert 0.0 < p.scale < p.high
         assert p.sign in (-1, 0, 1)
         if p.strength:
             assert p.default == 0.0
-    assert (effect.start is not None) == bool(effect.states)
-    if effect.start is not None:
-        assert len(effect.start(np.ones(50), 8, 2e5, 0.1, 0.04)) == len(effect.states)
+    assert (effect.equations.start is not None) == bool(effect.states)
+    if effect.equations.start is not None:
+        assert len(effect.equations.start(np.ones(50), 8, 2e5, 0.1, 0.04)) == len(effect.states)
     assert len({state.name for state in effect.states}) == len(effect.states)
 
 
 @BY_EFFECT
 def test_what_a_controller_does_about_it_is_what_it_can_do(effect):
     """It inverts what has no memory, or a lag; it feeds forward what acts on forces."""
-    by_pressure = effect.delay is not None or effect.pressure is not None
+    by_pressure = effect.equations.delay is not None or effect.equations.pressure is not None
     if effect.compensation is Compensation.PATH:
         assert by_pressure
-        assert effect.lag is not None or not effect.states
+        assert effect.equations.lag is not None or not effect.states
     elif effect.compensation is Compensation.MODEL:
         assert not effect.states
-        assert effect.pressure is None
+        assert effect.equations.pressure is None
     elif effect.compensation is Compensation.FEED_FORWARD:
-        assert effect.force is not None or effect.outside is not None
-    if effect.lag is not None:
+        assert effect.equations.force is not None or effect.equations.outside is not None
+    if effect.equations.lag is not None:
         layout = single_muscle_joint().layout
         q = single_muscle_joint(effects=clear(effect)).parameters()[1]
-        assert min(effect.lag(q, layout.parameter_at[effect.name])) > 0.0
+        assert min(effect.equations.lag(q, layout.parameter_at[effect.name])) > 0.0
 
 
 @pytest.mark.slow
@@ -192,10 +206,10 @@ def subsets(draw):
     effects = {}
     for effect in chosen:
         if draw(st.booleans()):
-            effects[effect.name] = draw(st.sampled_from(effect.fit_starts))
+            effects[effect.name] = draw(st.sampled_from(effect.fit_starts()))
             continue
         values = {}
-        for p in effect.parameters:
+        for p in effect.parameters():
             low, high = (
                 max(p.low, p.default - 20.0 * p.scale),
                 min(p.high, p.default + 20.0 * p.scale),
@@ -237,7 +251,7 @@ def test_any_subset_works_together(effects):
 def test_those_left_out_change_nothing(effects):
     active = tuple(e for e in EFFECTS if e.is_present(effects.get(e.name, {})))
     spelled = {
-        e.name: effects.get(e.name, {p.name: 0.0 for p in e.parameters if p.strength})
+        e.name: effects.get(e.name, {p.name: 0.0 for p in e.parameters() if p.strength})
         for e in EFFECTS
     }
     model, bare = bench.hanging(**spelled), bench.hanging(**effects)
@@ -268,4 +282,4 @@ def test_dissipation_never_adds_to_the_energy(name):
 
 
 def test_every_place_of_the_kernel_is_taken():
-    assert {place for e in EFFECTS for place in PLACES if getattr(e, place)} == set(PLACES)
+    assert {place for effect in EFFECTS for place in effect.equations.places} == set(PLACES)

@@ -42,6 +42,7 @@ beside = simulate(
     joint, t, [0.0, 0.1], [2e5, 3e5], hidden={'choked_valve': {'pressure': -1e4}}
 )
 (new,) = (effect for effect in EFFECTS if effect.name == 'choked_valve')
+place = places_of(joint)[new.name]
 tables = runpy.run_path('tools/tables.py')
 text = tables['with_tables'](tables['GUIDE'].read_text())
 cell = '| **`effects.choked_valve.'
@@ -53,7 +54,7 @@ print(json.dumps({
     'pressure': list(run.pressure),
     'hidden': beside.pressure[0],
     'candidates': [effect.name for effect in single_muscle_joint().library],
-    'unknown': [u.name for u in effect_unknowns(joint, places_of(joint)[new.name], new.example)],
+    'unknown': [u.name for u in effect_unknowns(joint, place, place.example)],
     'feedback': list(left_to_feedback(joint)),
     'rows': [line for line in text.splitlines() if line.startswith('| `choked_valve')],
     'parameters': [line for line in text.splitlines() if line.startswith(cell)],
@@ -81,9 +82,9 @@ def found(tmp_path_factory):
     guide = (ROOT / 'docs' / 'tutorials' / 'add_an_effect.md').read_text(encoding='utf-8')
     example, _ = re.findall(r'^```python\n(.*?)^```', guide, re.MULTILINE | re.DOTALL)
     (folder / NEW).write_text(example, encoding='utf-8')
-    (line,) = re.findall(r"^```text\n(    '\w+',\n)```", guide, re.MULTILINE)
+    (line,) = re.findall(r'^```text\n(from .*\n)```', guide, re.MULTILINE)
     library = (folder / LINE).read_text(encoding='utf-8')
-    before_it = "    'pressure_lag',\n"
+    before_it = 'from pam_ros.effects.pressure_lag import PressureLag as PressureLag\n'
     assert before_it in library
     (folder / LINE).write_text(library.replace(before_it, before_it + line), encoding='utf-8')
     after = contents(folder)
@@ -111,7 +112,7 @@ def test_one_file_is_new_and_one_has_one_more_line(found):
     assert touched[NEW][0] == []
     was, now = touched[LINE]
     new = [line for line in now if line not in was]
-    assert new == ["    'choked_valve',"]
+    assert new == ['from pam_ros.effects.choked_valve import ChokedValve as ChokedValve']
     assert [line for line in now if line not in new] == was
 
 

@@ -5,7 +5,7 @@
 import numpy as np
 import pytest
 
-from pam_ros.effects.periodic_disturbance import EFFECT
+from pam_ros.effects.periodic_disturbance import PeriodicDisturbance
 from pam_ros.rig.run import simulate, simulate_held
 from support import bench
 
@@ -57,13 +57,13 @@ def test_guess_finds_a_line_in_noise_well_within_its_width(frequency, seed):
     t = np.arange(0.0, 40.0, 0.01) + rng.uniform(-1e-3, 1e-3, 4000)
     line = np.sin(2.0 * np.pi * frequency * t + rng.uniform(0.0, 6.0))
     residual = line + rng.normal(0.0, 1.0, t.size) + 0.1 * t
-    starts = EFFECT.guess(t, 0 * t, 0 * t, residual)
+    starts = PeriodicDisturbance.equations.guess(t, 0 * t, 0 * t, residual)
     assert {'force_sin', 'pressure_sin'} == {s for g in starts for s in g if s.endswith('sin')}
     assert abs(starts[0]['frequency'] - frequency) < 0.1 / 40.0
     for start in starts:
-        EFFECT.values(start)
+        PeriodicDisturbance.values(start)
 
 
 def test_nothing_to_guess_from_is_no_start():
     t = np.linspace(0.0, 1.0, 100)
-    assert EFFECT.guess(t, t, t, np.zeros(100)) == ()
+    assert PeriodicDisturbance.equations.guess(t, t, t, np.zeros(100)) == ()

@@ -5,13 +5,13 @@
 import numpy as np
 import pytest
 
-from pam_ros.effects.slack import EFFECT
+from pam_ros.effects.slack import Slack
 from pam_ros.rig.run import simulate, simulate_held
 from support import bench
 
 
 def slackened(f, toe, push):
-    return EFFECT.force(f, 0.0, 0.0, 0.0, 0.0, 0.0, [], 0, [], [1.0, toe, push], 0)
+    return Slack.equations.force(f, 0.0, 0.0, 0.0, 0.0, 0.0, [], 0, [], [1.0, toe, push], 0)
 
 
 @pytest.mark.parametrize('push', [0.0, 12.0])
@@ -38,7 +38,10 @@ def test_held_muscle_pulls_or_is_slack():
 
 
 def test_half_a_share_misses_half_the_push():
-    assert EFFECT.force(-40.0, 0.0, 0.0, 0.0, 0.0, 0.0, [], 0, [], [0.5, 1.0, 0.0], 0) == -20.0
+    assert (
+        Slack.equations.force(-40.0, 0.0, 0.0, 0.0, 0.0, 0.0, [], 0, [], [0.5, 1.0, 0.0], 0)
+        == -20.0
+    )
 
 
 def test_load_falls_freely_while_the_muscle_is_slack():

@@ -82,7 +82,7 @@ def test_effects_of_the_model_hold_what_was_fitted():
     back = model_at(BAR, wider, np.append(np.zeros(7), added), ['coulomb_friction'])
     values = back.all_effects['coulomb_friction']
     assert (values['level'], values['asymmetry']) == pytest.approx((7.0, 0.1))
-    defaults = {p.name: p.default for p in friction.parameters}
+    defaults = {p.name: p.default for p in friction.parameters()}
     assert values['presliding'] == defaults['presliding']
     row = wider.row_at(np.append(np.zeros(7), added))
     np.testing.assert_allclose(back.parameters().ravel(), row)

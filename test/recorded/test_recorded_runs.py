@@ -40,7 +40,7 @@ def model(name):
 
 def without_drag(joint):
     """Return *joint* without friction on it, which 0.1.0 left out of the force of held runs."""
-    dragged = {effect.name for effect in joint.library if effect.drag is not None}
+    dragged = {effect.name for effect in joint.library if effect.equations.drag is not None}
     kept = {name: given for name, given in joint.effects.items() if name not in dragged}
     return replace(joint, effects=kept)
 

@@ -48,7 +48,7 @@ def test_a_command_within_an_interval_counts_from_its_stamp():
     np.testing.assert_allclose(out, expected, atol=1e-12)
 
 
-ALONE = [{effect.name: effect.example} for effect in EFFECTS]
+ALONE = [{effect.name: effect.example().given} for effect in EFFECTS]
 # A memory in the pressure path, one in the force, and a friction without any.
 TOGETHER = {
     'pressure_lag': {'fill': 0.03, 'vent': 0.05},

@@ -15,13 +15,14 @@ import pytest
 
 from pam_ros.compiled import HAVE_NUMBA
 from pam_ros.effects import EFFECTS
-from pam_ros.effects.base import Compensation, Effect, EffectParameter
+from pam_ros.effects.base import Compensation
 from pam_ros.rig.bind import bind
 from pam_ros.rig.layout import layout_of
 from pam_ros.rig.loads import Arm, Mass
 from pam_ros.rig.simulation import Simulation
 from pam_ros.rig.standard_joints import single_muscle_joint
 from pam_ros.rig.transmissions import Lever, Pulley, Straight
+from support.made_effects import effect_with
 
 ROOT = Path(__file__).parents[2]
 SOURCE = '''
@@ -47,9 +48,7 @@ def function_of(source):
 
 
 def effect_of(source, name='drag'):
-    strength = EffectParameter('strength', 0.0, '', '', 0.0, 1e3, scale=1.0, strength=True)
-    text = (name, '', '', (strength,), '', '', (), {'strength': 1.0}, Compensation.MODEL)
-    return Effect(*text, outside=function_of(source))
+    return effect_with(name, treated=Compensation.MODEL, outside=function_of(source))
 
 
 def loops(effects, active, transmission=Straight.equations, load=Mass.equations, muscles=1):
@@ -279,12 +278,12 @@ def names_of(function):
 
 @pytest.mark.slow
 def test_an_effect_of_ones_own_acts():
-    """2 N s/m of drag for a strength of 1: a load that falls is slowed by just that."""
+    """2 N s/m of drag for a size of 1: a load that falls is slowed by just that."""
     drag = effect_of(SOURCE)
     load = Mass(mass=10.0)
     bare, slowed = (
         Simulation([single_muscle_joint(load=load, effects=effects, library=(drag,))])
-        for effects in ({}, {'drag': {'strength': 30.0}})
+        for effects in ({}, {'drag': {'size': 30.0}})
     )
     for rig in (bare, slowed):
         rig.reset([3e5], [0.05], [0.7])

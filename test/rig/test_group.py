@@ -54,7 +54,7 @@ def state(rig, joints_at, muscles_at):
 
 # One kernel knows the effects of its own joints: those of another library are beside it.
 SWINGS = single_muscle_joint(
-    effects={'smooth_supply': {'mean': 3e5}}, library=(smooth_supply.EFFECT,)
+    effects={'smooth_supply': {'mean': 3e5}}, library=(smooth_supply.SmoothSupply,)
 )
 QUICK = single_muscle_joint(Muscle(zeta=0.3), Mass(mass=5.0), LAG)
 RIGS = {

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from pam_ros.effects import EFFECTS
-from pam_ros.effects.base import Compensation, Effect, EffectParameter
 from pam_ros.errors import ParameterError
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig import layout as at
@@ -138,25 +137,6 @@ def test_what_makes_no_joint_is_refused_with_a_sentence(parts, sentence):
     with pytest.raises(ParameterError) as error:
         Joint(**{'actuators': TWO, **PAIR, **parts})
     assert str(error.value).startswith(sentence)
-
-
-def anywhere(*_):
-    return 0.0
-
-
-def test_an_effect_in_the_muscle_and_on_the_joint_at_once_is_refused():
-    """It would have its hidden states in two rows: it must be made two effects."""
-    strength = EffectParameter('strength', 0.0, '', '', 0.0, 1.0, scale=1.0, strength=True)
-    text = ('both', '', '', (strength,), '', '', (), {'strength': 1.0}, Compensation.FEEDBACK)
-    with pytest.raises(ParameterError, match=r'effect both acts in a muscle and on the joint'):
-        Effect(*text, force=anywhere, outside=anywhere)
-    with pytest.raises(ParameterError, match='effect both acts nowhere'):
-        Effect(*text)
-    weak = (text[0], '', '', (), *text[4:])
-    with pytest.raises(ParameterError, match='effect both has no strength'):
-        Effect(*weak, force=anywhere)
-    with pytest.raises(ParameterError, match='effect both has drag without outside'):
-        Effect(*text, drag=anywhere)
 
 
 def test_only_one_muscle_can_be_asked_for_as_the_muscle():

@@ -121,7 +121,7 @@ SUPPLIES = tuple(
     {'smooth_supply': {'mean': mean * BAR, 'amplitude': amplitude * BAR, 'rate': rate}}
     for mean, amplitude, rate in SWINGS
 )
-LIBRARY = (smooth_supply.EFFECT,)
+LIBRARY = (smooth_supply.SmoothSupply,)
 
 
 def swinging(t):
@@ -143,7 +143,9 @@ EACH_SWING = pytest.mark.parametrize(
     'swing',
     [
         Swing(
-            single_muscle_joint(library=LIBRARY),
+            single_muscle_joint(
+                effects={'smooth_supply': {'mean': smooth_supply.MEAN}}, library=LIBRARY
+            ),
             hanging(lambda t: (smooth_supply.at(t),)),
             *(ALONE.bounds, (6e-3, 3e-3, 1.5e-3, 0.75e-3), 0.01),
         ),

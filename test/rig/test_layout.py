@@ -19,13 +19,13 @@ def test_every_effect_has_its_own_places_in_its_row(joint):
     for on_joint in (True, False):
         states, parameters = [], []
         for effect in layout.library:
-            if effect.acts_on_joint is not on_joint:
+            if effect.acts_on_joint() is not on_joint:
                 continue
             i, j = layout.state_at[effect.name], layout.parameter_at[effect.name]
             states += range(i, i + len(effect.states))
-            parameters += range(j, j + len(effect.parameters))
+            parameters += range(j, j + len(effect.parameters()))
             if effect.states and not on_joint:
-                assert (i < layout.memory_from) == (effect.pressure is not None)
+                assert (i < layout.memory_from) == (effect.equations.pressure is not None)
         first = at.JOINT_HIDDEN if on_joint else at.HIDDEN
         assert sorted(states) == list(range(first, first + len(states)))
         assert first + len(states) <= layout.width
@@ -36,7 +36,7 @@ def test_every_effect_has_its_own_places_in_its_row(joint):
 
 def test_load_and_transmission_stand_behind_the_effects_of_the_joint():
     layout = lever().layout
-    effects = sum(len(e.parameters) for e in layout.library if e.acts_on_joint)
+    effects = sum(len(e.parameters()) for e in layout.library if e.acts_on_joint())
     assert layout.load_at == at.JOINT_EFFECTS + effects
     assert layout.transmission_at == layout.load_at + 4
     assert layout.parameters >= layout.transmission_at + 3
@@ -54,9 +54,9 @@ def test_an_index_counts_through_all_rows(effect):
     joint = pair()
     q = np.arange(joint.parameters().size).reshape(joint.parameters().shape)
     j = joint.layout.parameter_at[effect.name]
-    row = q[at.JOINT] if effect.acts_on_joint else q[at.MUSCLE + 1]
+    row = q[at.JOINT] if effect.acts_on_joint() else q[at.MUSCLE + 1]
     assert (
-        joint.layout.index(effect, len(effect.parameters) - 1, muscle=1)
-        == row[j + len(effect.parameters) - 1]
+        joint.layout.index(effect, len(effect.parameters()) - 1, muscle=1)
+        == row[j + len(effect.parameters()) - 1]
     )
     assert joint.layout.constant(at.ZETA, muscle=1) == q[at.MUSCLE + 1, at.ZETA]

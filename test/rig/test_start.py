@@ -38,7 +38,7 @@ def test_effects_that_are_not_there_need_no_start():
     some = start_state(layout, q, [2e5], 0.03, 0.1, present)
     assert some[at.MUSCLE, at.P] == x[at.MUSCLE, at.P]
     for effect in present:
-        row = at.JOINT if effect.acts_on_joint else at.MUSCLE
+        row = at.JOINT if effect.acts_on_joint() else at.MUSCLE
         i = layout.state_at[effect.name]
         own = slice(i, i + len(effect.states))
         np.testing.assert_array_equal(some[row, own], x[row, own])
@@ -174,7 +174,7 @@ WITH_SPREAD = [e for e in EFFECTS if any(state.spread > 0.0 for state in e.state
 def test_a_run_may_begin_with_every_hidden_state_two_spreads_away(effect, sign):
     """It stays finite, and comes to move with the run that began at rest, or stays near it."""
     hidden = {effect.name: {state.name: sign * state.spread for state in effect.states}}
-    joint = bench.hanging(**{effect.name: effect.example})
+    joint = bench.hanging(**{effect.name: effect.example().given})
     t = np.linspace(0.0, 5.0, 501)
     commands = [0.0, 1.0, 2.5], [3e5, 2e5, 4e5]
     moved, still = (simulate(joint, t, *commands, hidden=h) for h in (hidden, None))

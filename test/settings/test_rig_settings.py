@@ -115,7 +115,7 @@ def test_the_rig_of_a_file_is_the_one_that_is_simulated(file):
     scene = Scene({'muscle': path})
     (simulated,) = scene.build(checked(scene.table(), {})).joints
     whole = ', '.join(f'{name}: {value!r}' for name, value in flat_of(simulated).items())
-    assert whole.count('effects.') == sum(len(effect.parameters) + 1 for effect in EFFECTS)
+    assert whole.count('effects.') == sum(len(effect.parameters()) + 1 for effect in EFFECTS)
     for name in (path, file(whole)):
         model = nominal_joint(name).joint
         assert model.parameters().tobytes() == simulated.parameters().tobytes()

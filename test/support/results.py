@@ -121,8 +121,8 @@ def candidates(chosen, ambiguous=(), untestable=()):
         if effect.name in untestable:
             decision, p = 'untestable', np.nan
             reason = f'these data cannot show it; record: {effect.experiment}'
-        name, scale = effect.parameters[0].name, effect.parameters[0].scale
-        values = {name: estimate(scale, 0.3, effect.parameters[0].unit)}
+        name, scale = effect.parameters()[0].name, effect.parameters()[0].scale
+        values = {name: estimate(scale, 0.3, effect.parameters()[0].unit)}
         error = 1e-3 * (1.0 - gain)
         found.append(
             Candidate(
@@ -225,7 +225,7 @@ def clean_result():
 def held_result():
     """Return (result, provenance) of a muscle held at three lengths, with hysteresis found."""
     hysteresis = next(e for e in EFFECTS if e.name == 'hysteresis')
-    strength = next(p for p in hysteresis.parameters if p.strength)
+    strength = next(p for p in hysteresis.parameters() if p.strength)
     values = {f'effects.hysteresis.{strength.name}': 3.0 * strength.scale}
     truth = rig(**values)
     recordings = [

@@ -5,9 +5,12 @@
 Commands are held between stamps; this is how the order of the integrator can be seen.
 """
 
+from dataclasses import dataclass
 from math import sin
+from typing import ClassVar
 
-from pam_ros.effects.base import Compensation, Effect, EffectParameter
+from pam_ros.effects.base import Compensation, Effect, EffectEquations
+from pam_ros.effects.parameter import effect_parameter, strength
 
 MEAN, AMPLITUDE, RATE = 350e3, 200e3, 5.0  # Pa, Pa, rad/s
 
@@ -22,23 +25,28 @@ def at(t):
     return (MEAN + AMPLITUDE * sin(RATE * t)) / 1e5
 
 
-def _number(name, default, strength=False):
-    return EffectParameter(name, default, name, '', -1e6, 1e6, scale=1.0, strength=strength)
+@dataclass(frozen=True)
+class SmoothSupply(Effect):
+    """A pressure that swings."""
 
+    mean: float = strength('mean', high=1e6, scale=1.0)
+    amplitude: float = effect_parameter(AMPLITUDE, 'amplitude', low=-1e6, high=1e6, scale=1.0)
+    rate: float = effect_parameter(RATE, 'rate', low=-1e6, high=1e6, scale=1.0)
 
-EFFECT = Effect(
-    name='smooth_supply',
-    text='a pressure that swings',
-    source='none: a test',
-    parameters=(
-        _number('mean', MEAN, strength=True),
-        _number('amplitude', AMPLITUDE),
-        _number('rate', RATE),
-    ),
-    signature='',
-    experiment='',
-    fit_starts=(),
-    example={'mean': MEAN},
-    compensation=Compensation.FEEDBACK,
-    pressure=pressure,
-)
+    name: ClassVar = 'smooth_supply'
+    text: ClassVar = 'a pressure that swings'
+    source: ClassVar = 'none: a test'
+    signature: ClassVar = ''
+    experiment: ClassVar = ''
+    compensation: ClassVar = Compensation.FEEDBACK
+    equations: ClassVar = EffectEquations(pressure=pressure)
+
+    @classmethod
+    def fit_starts(cls):
+        """Return none."""
+        return ()
+
+    @classmethod
+    def example(cls):
+        """Return it clearly present."""
+        return cls(mean=MEAN)

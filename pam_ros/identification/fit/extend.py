@@ -37,7 +37,7 @@ def with_effect(
     added = [proper(one) for one in effect_unknowns(joint, place, start)]
     is_new = not parameters_of(problem.unknowns, place.name)
     row = problem.row.copy()
-    for k, p in enumerate(place.effect.parameters):
+    for k, p in enumerate(place.parameters):
         indices = place.indices(joint.layout, k)
         row[indices] = start.get(p.name, p.default if is_new else row[indices[0]])
     memory = memories(problem, place) if is_new else []
@@ -69,16 +69,15 @@ def finer_starts(
     All of them from where they are in the parameter *row*, or some from where a start has them;
     strengths in the proportion to one that is fitted already in which that start has both.
     """
-    effect = place.effect
     there = parameters_of(unknowns, place.name)
     values = {
         p.name: float(row[place.indices(joint.layout, k)[0]])
-        for k, p in enumerate(effect.parameters)
+        for k, p in enumerate(place.parameters)
     }
     rest = {name: value for name, value in values.items() if name not in there}
-    units = {p.name: p.unit for p in effect.parameters if p.strength}
+    units = {p.name: p.unit for p in place.parameters if p.strength}
     options = [rest] if rest else []
-    for start in effect.fit_starts:
+    for start in place.fit_starts:
         some = {name: value for name, value in start.items() if name in rest}
         for name in some:
             shared = [n for n in start if n not in rest and units.get(n) == units.get(name, '')]
@@ -92,7 +91,7 @@ def finer_starts(
 def without_effect(problem: Problem, joint: Joint, place: Place) -> tuple[Problem, list[int]]:
     """Return the problem without the effect at *place*, and which of the unknowns are left."""
     row = problem.row.copy()
-    for k, p in enumerate(place.effect.parameters):
+    for k, p in enumerate(place.parameters):
         row[place.indices(joint.layout, k)] = p.default
     keep = [k for k, unknown in enumerate(problem.unknowns) if not belongs(unknown, place.name)]
     unknowns = tuple(problem.unknowns[k] for k in keep)
@@ -103,7 +102,7 @@ def plainer_sets(unknowns: Sequence[Unknown], place: Place) -> list[set[str]]:
     """Return the smaller sets of parameters at *place* with which a fit may begin as well."""
     there = parameters_of(unknowns, place.name)
     found: list[set[str]] = []
-    for start in place.effect.fit_starts:
+    for start in place.fit_starts:
         if {*start} < there and {*start} not in found:
             found.append({*start})
     return found
@@ -117,7 +116,7 @@ def with_parameters(
     The others are at their defaults. Also returns which of the unknowns are left.
     """
     row = problem.row.copy()
-    for k, p in enumerate(place.effect.parameters):
+    for k, p in enumerate(place.parameters):
         if p.name not in names:
             row[place.indices(joint.layout, k)] = p.default
     keep = [

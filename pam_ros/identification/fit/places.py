@@ -7,15 +7,16 @@ slides. On a joint that turns they are scaled by the arm of its muscles, so that
 joint what they do to such a load.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pam_ros.effects.base import Effect, EffectParameter
+from pam_ros.effects.base import Effect, HiddenState, Starts
 from pam_ros.effects.names import EffectName, parsed
-from pam_ros.effects.turned import turned
+from pam_ros.effects.parameter import EffectParameter
 from pam_ros.rig import layout as at
 from pam_ros.rig import statics
 from pam_ros.rig.joint import Joint
@@ -26,18 +27,88 @@ Array = NDArray[np.float64]
 INITIAL = 'initial'  # the parameter that says where an effect's memory stands at the start
 
 
+@dataclass(frozen=True)
+class Turned:
+    """A joint that turns: the mean arm of its muscles, and their mean length, both in m."""
+
+    arm: float
+    length: float
+
+    def contraction(self, angle: Array) -> Array:
+        """Return the contraction of a muscle that an *angle* in rad is."""
+        return angle * self.arm / self.length
+
+    def factor(self, unit: str) -> float:
+        """Return the size there of 1 *unit* on a load that slides.
+
+        A force at the arm is a torque, a length along the motion is an angle; a contraction is one
+        of a muscle of this length.
+        """
+        if unit == 'fraction':
+            return self.length / self.arm
+        return float(self.arm ** ARM_POWER.get(unit, 0))
+
+
 @dataclass(frozen=True, eq=False)
 class Place:
     """An effect at a place of a joint.
 
-    ``effect`` has the units, sizes and starting values that it has there. ``muscles`` are the
-    numbers of the muscles in which it acts, with the same parameters; none for an effect on the
-    joint. ``names`` are the names of these muscles where the joint has several.
+    ``muscles`` are the numbers of the muscles in which it acts, with the same parameters; none for
+    an effect on the joint. ``names`` are the names of these muscles where the joint has several.
+    Of an effect on a joint that turns, ``turned`` gives the sizes.
     """
 
-    effect: Effect
+    effect: type[Effect]
     muscles: tuple[int, ...]
     names: tuple[str, ...] = ()
+    turned: 'Turned | None' = None
+
+    @cached_property
+    def parameters(self) -> tuple[EffectParameter, ...]:
+        """The parameters of the effect, with the units and sizes that they have there."""
+        if self.turned is None:
+            return self.effect.parameters()
+        return tuple(
+            replace(p, scale=self.turned.factor(plain.unit) * p.scale)
+            for p, plain in zip(
+                self.effect.parameters(turning=True), self.effect.parameters(), strict=True
+            )
+        )
+
+    @cached_property
+    def fit_starts(self) -> Starts:
+        """Values from which a fit begins."""
+        return tuple(map(self._sized, self.effect.fit_starts()))
+
+    @cached_property
+    def example(self) -> dict[str, float]:
+        """Values with which the effect is clearly present."""
+        return self._sized(self.effect.example().given)
+
+    @cached_property
+    def states(self) -> tuple[HiddenState, ...]:
+        """The hidden states of the effect."""
+        if self.turned is None:
+            return self.effect.states
+        return tuple(
+            replace(s, spread=self.turned.factor(s.unit) * s.spread) for s in self.effect.states
+        )
+
+    def guess(self, t: Array, p: Array, position: Array, residual: Array) -> Starts:
+        """Return the values that the effect reads from a recording, as its equations describe.
+
+        *position* is the contraction of the one muscle in line with a load, else the angle.
+        """
+        if self.effect.equations.guess is None:
+            return ()
+        kappa = position if self.turned is None else self.turned.contraction(position)
+        return tuple(map(self._sized, self.effect.equations.guess(t, p, kappa, residual)))
+
+    def _sized(self, values: Mapping[str, float]) -> dict[str, float]:
+        if self.turned is None:
+            return dict(values)
+        units = {p.name: p.unit for p in self.effect.parameters()}
+        return {name: self.turned.factor(units[name]) * value for name, value in values.items()}
 
     @property
     def muscle(self) -> str:
@@ -69,7 +140,7 @@ class Place:
         That is one number for all muscles alike, but where a memory stands at the start is each
         muscle's own: of two against each other one was shortened while the other was lengthened.
         """
-        name = self.effect.parameters[parameter].name
+        name = self.parameters[parameter].name
         indices = self.indices(layout, parameter)
         if name != INITIAL or len(indices) == 1:
             return [(self.flat(name), tuple(indices))]
@@ -123,53 +194,19 @@ def places_of(joint: Joint, muscles: Sequence[str] = ()) -> dict[str, Place]:
     every = tuple(range(len(joint.muscles)))
     found = []
     names = names_of_muscles(joint, muscles) if len(every) > 1 else ()
+    turned = turned_of(joint)
     for effect in joint.library:
-        if effect.acts_on_joint:
-            found.append(Place(sized(effect, joint), ()))
+        if effect.acts_on_joint():
+            found.append(Place(effect, (), turned=turned))
             continue
         found.append(Place(effect, every, names))
         found += [Place(effect, (i,), (name,)) for i, name in enumerate(names)]
     return {place.name: place for place in found}
 
 
-def sized(effect: Effect, joint: Joint) -> Effect:
-    """Return an *effect* on the joint with the units and the sizes that it has on this one."""
+def turned_of(joint: Joint) -> Turned | None:
+    """Return the sizes of a *joint* that turns, None for a load that slides."""
     if not joint.is_revolute:
-        return effect
+        return None
     arm = float(np.mean(np.abs(statics.middle_arms(joint))))
-    length = float(np.mean([m.l0 for m in joint.muscles]))
-    factor = {p.name: _factor(p.unit, arm, length) for p in effect.parameters}
-
-    def scaled(values: dict[str, float]) -> dict[str, float]:
-        return {name: factor[name] * value for name, value in values.items()}
-
-    def guess(t: Array, p: Array, place: Array, residual: Array) -> tuple[dict[str, float], ...]:
-        # The angle as the contraction that it is of a muscle, of which the effect speaks.
-        assert effect.guess is not None
-        return tuple(map(scaled, effect.guess(t, p, place * arm / length, residual)))
-
-    changed = turned(effect)
-    parameters: list[EffectParameter] = [
-        replace(p, scale=factor[p.name] * p.scale) for p in changed.parameters
-    ]
-    return replace(
-        changed,
-        parameters=tuple(parameters),
-        fit_starts=tuple(map(scaled, effect.fit_starts)),
-        example=scaled(effect.example),
-        states=tuple(
-            replace(s, spread=_factor(s.unit, arm, length) * s.spread) for s in effect.states
-        ),
-        guess=guess if effect.guess is not None else None,
-    )
-
-
-def _factor(unit: str, arm: float, length: float) -> float:
-    """Return the size on a joint that turns of 1 *unit* on a load that slides.
-
-    A force at the *arm* is a torque, a length along the motion is an angle; a contraction is one
-    of a muscle of this *length* in m.
-    """
-    if unit == 'fraction':
-        return length / arm
-    return float(arm ** ARM_POWER.get(unit, 0))
+    return Turned(arm, float(np.mean([m.l0 for m in joint.muscles])))

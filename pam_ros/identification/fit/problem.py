@@ -56,7 +56,7 @@ class Problem:
 
     segments: tuple[Segment, ...]
     layout: Layout
-    active: tuple[Effect, ...]
+    active: tuple[type[Effect], ...]
     row: Array
     unknowns: tuple[Unknown, ...]
     step: float = 1e-3
@@ -229,19 +229,19 @@ class Problem:
         return np.stack(found, axis=1) if found else np.empty((r.size, 0))
 
     @cached_property
-    def _present(self) -> tuple[Effect, ...]:
+    def _present(self) -> tuple[type[Effect], ...]:
         """The effects that may be there, in the order of the library."""
         free = {effect_of(k.of.place) for k in self.unknowns if isinstance(k.of, OfEffect)}
         index, muscles = self.layout.index, range(self.layout.muscles)
 
-        def has_strength(effect: Effect) -> bool:
-            strengths = [k for k, p in enumerate(effect.parameters) if p.strength]
+        def has_strength(effect: type[Effect]) -> bool:
+            strengths = [k for k, p in enumerate(effect.parameters()) if p.strength]
             return any(self.row[index(effect, k, i)] != 0.0 for k in strengths for i in muscles)
 
         return tuple(e for e in self.layout.library if e.name in free or has_strength(e))
 
     @cached_property
-    def _strengths(self) -> list[tuple[Effect, int]]:
+    def _strengths(self) -> list[tuple[type[Effect], int]]:
         """The effects of unknown strength, and where the strengths stand in the parameter row."""
         library = {effect.name: effect for effect in self.layout.library}
         unknown = [k.of for k in self.unknowns if isinstance(k.of, OfEffect)]
@@ -249,7 +249,7 @@ class Problem:
         return [
             (effect, index)
             for effect, of in found
-            if any(p.strength and p.name == of.parameter for p in effect.parameters)
+            if any(p.strength and p.name == of.parameter for p in effect.parameters())
             for index in of.indices
         ]
 

@@ -265,7 +265,7 @@ def effect_unknowns(model: Joint, place: Place, start: Mapping[str, float]) -> l
     positive.
     """
     found = []
-    for k, p in enumerate(place.effect.parameters):
+    for k, p in enumerate(place.parameters):
         if p.name not in start:
             continue
         positive = p.low > 0.0 or (p.low == 0.0 and not p.strength and start[p.name] > 0.0)
@@ -294,19 +294,18 @@ def memory_unknowns(layout: Layout, place: Place, runs: int) -> list[Unknown]:
     muscle its own; none where a parameter of the effect, ``initial``, says already where its
     memory begins.
     """
-    effect = place.effect
-    if any(p.name == INITIAL for p in effect.parameters):
+    if any(p.name == INITIAL for p in place.parameters):
         return []
     return [
         Unknown(
-            MemoryStart(run, row, layout.state_at[effect.name] + i, place.name, state.name),
+            MemoryStart(run, row, layout.state_at[place.effect.name] + i, place.name, state.name),
             0.0,
             state.spread,
             prior=1.0,
         )
         for run in range(runs)
         for row in place.rows
-        for i, state in enumerate(effect.states)
+        for i, state in enumerate(place.states)
         if state.spread > 0.0
     ]
 

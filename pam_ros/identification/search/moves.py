@@ -33,7 +33,7 @@ def with_each(parent: Model, names: list[str], setting: Setting) -> list[Model]:
 
     # An effect may have no start here: a frequency that nothing is read of.
     # Those with most starts begin first, so that no thread is left with a long one at the end.
-    longest = sorted(names, key=lambda name: -len(setting.places[name].effect.fit_starts))
+    longest = sorted(names, key=lambda name: -len(setting.places[name].fit_starts))
     some = [found for found in setting.pool.map(look, longest) if found]
     if not some:
         return []

@@ -39,7 +39,7 @@ def power(model: Model, place: Place, setting: Setting) -> float:
     up for is taken off. The effect is present as in its example, and as at each start of a fit.
     """
     known = model.solution
-    starts = (place.effect.example, *place.effect.fit_starts, *guessed(model, place))
+    starts = (place.example, *place.fit_starts, *guessed(model, place))
     slopes = np.vstack(
         [
             known.problem.whitened(known.jacobian, known.whitenings) / known.noise,
@@ -61,8 +61,8 @@ def _fall(
     return float(np.sum((whole - made_up) ** 2))
 
 
-def _reason(effect: Effect, size: float, is_held: bool) -> str:
-    if is_held and effect.acts_on_joint and effect.drag is None:
+def _reason(effect: type[Effect], size: float, is_held: bool) -> str:
+    if is_held and effect.acts_on_joint() and effect.equations.drag is None:
         return (
             'these data cannot show it: it acts on a load that moves freely, and a machine '
             f'prescribes the position here; with a free load, record: {effect.experiment}'

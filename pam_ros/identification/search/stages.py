@@ -66,7 +66,7 @@ def stages(ends: Final, found: Search, test: Sequence[Segment]) -> tuple[Stage, 
 
 def at_place(estimates: Mapping[str, Estimate], place: Place) -> dict[str, Estimate]:
     """Return those of named *estimates* that are parameters at *place*, by the parameter."""
-    names = [p.name for p in place.effect.parameters]
+    names = [p.name for p in place.parameters]
     return {name: estimates[place.flat(name)] for name in names if place.flat(name) in estimates}
 
 

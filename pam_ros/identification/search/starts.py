@@ -28,7 +28,7 @@ def looks(parent: Model, place: Place, setting: Setting) -> list[Solution]:
     re-tuning has given values that make up for what is missing; with the parent's discrepancy and
     with none, because a slow discrepancy hides what is slow from a fit that begins without it.
     """
-    starts = (*place.effect.fit_starts, *guessed(parent, place))
+    starts = (*place.fit_starts, *guessed(parent, place))
     found = []
     for known, processes in _grounds(parent.solution):
         begun = [extended(known, place, start, setting) for start in starts]
@@ -97,8 +97,7 @@ def without_idle(known: Solution, noise: float) -> Solution:
 
 def guessed(parent: Model, place: Place) -> tuple[dict[str, float], ...]:
     """Return the starts that an effect reads from what *parent* leaves of the longest run."""
-    effect = place.effect
-    if effect.guess is None:
+    if place.effect.equations.guess is None:
         return ()
     problem = parent.solution.problem
     longest = max(range(len(problem.segments)), key=lambda k: problem.segments[k].t.size)
@@ -112,4 +111,4 @@ def guessed(parent: Model, place: Place) -> tuple[dict[str, float], ...]:
     # A contraction of one muscle in line with the load, else the angle itself.
     length = problem.row[at.LENGTH]
     pressure = out[:, at.RUN_P :: 2].mean(axis=1)
-    return effect.guess(s.t, pressure, position / length, residual)
+    return place.guess(s.t, pressure, position / length, residual)

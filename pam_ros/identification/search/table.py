@@ -64,7 +64,7 @@ def _candidate(model: Model, parent: Model, tried: list[Model], found: Search) -
     name = model.effects[-1]
     known = estimates(model.solution, model.solution.discrepancy, found.setting.joint)
     own = at_place(known, found.setting.places[name])
-    strengths = [p.name for p in found.setting.places[name].effect.parameters if p.strength]
+    strengths = [p.name for p in found.setting.places[name].parameters if p.strength]
     intervals = [own[strength] for strength in strengths if strength in own]
     return Candidate(
         name,

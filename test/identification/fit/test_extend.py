@@ -40,7 +40,7 @@ def test_an_effect_comes_with_its_parameters_and_where_its_memory_began(problem)
     assert 'creep: slow contraction[0]' in names
     u = np.concatenate([np.zeros(len(problem.unknowns)), added])
     row = new.row_at(u)
-    for k, p in enumerate(EFFECT['creep'].parameters):
+    for k, p in enumerate(EFFECT['creep'].parameters()):
         expected = START.get(p.name, p.default)
         assert row[MODEL.layout.index(EFFECT['creep'], k)] == pytest.approx(expected)
     assert all(np.isfinite(one.prior) for one in new.unknowns[len(problem.unknowns) :])
@@ -61,7 +61,7 @@ def test_more_of_an_effect_leaves_what_it_has(problem):
     assert [one.name for one in wider.unknowns[len(new.unknowns) :]] == ['effects.creep.spread']
     row, before = wider.row_at(np.append(u, more)), new.row_at(u)
     changed = np.flatnonzero(row != before)
-    names = [p.name for p in EFFECT['creep'].parameters]
+    names = [p.name for p in EFFECT['creep'].parameters()]
     assert list(changed) == [MODEL.layout.index(EFFECT['creep'], names.index('spread'))]
     assert row[changed[0]] == pytest.approx(4.0)
 
@@ -94,7 +94,7 @@ def test_parameters_of_an_effect_go_back_to_their_defaults(problem):
     }
     u = np.concatenate([np.zeros(len(with_lag.unknowns)), added])
     row = less.row_at(u[keep])
-    for k, p in enumerate(friction.parameters):
+    for k, p in enumerate(friction.parameters()):
         kept = p.name in ('level', 'asymmetry')
         expected = start[p.name] if kept else p.default
         assert row[MODEL.layout.index(friction, k)] == pytest.approx(expected)

@@ -11,7 +11,6 @@ from pam_ros.identification.fit.places import (
     muscle_of,
     place_of,
     places_of,
-    sized,
     spelled,
 )
 from pam_ros.muscle.muscle import Muscle
@@ -35,7 +34,7 @@ def test_one_muscle_on_a_mass_has_each_effect_once_and_as_it_is():
 
 def test_what_acts_in_muscles_can_be_in_all_or_in_each():
     places = places_of(ELBOW, NAMES)
-    in_muscles = [e.name for e in EFFECTS if not e.acts_on_joint]
+    in_muscles = [e.name for e in EFFECTS if not e.acts_on_joint()]
     expected = [e.name for e in EFFECTS]
     expected += [f'{muscle}.{effect}' for muscle in NAMES for effect in in_muscles]
     assert sorted(places) == sorted(expected)
@@ -81,7 +80,7 @@ def test_a_parameter_belongs_to_a_place():
 
 def test_sizes_on_a_joint_that_turns_are_those_at_the_arm():
     """What moves a muscle's end by d turns the joint by d / r; a force F has the torque r F."""
-    friction, plain = sized(EFFECT['coulomb_friction'], ELBOW), EFFECT['coulomb_friction']
+    friction, plain = places_of(ELBOW)['coulomb_friction'], places_of(RIG)['coulomb_friction']
     scale = {p.name: p.scale for p in friction.parameters}
     before = {p.name: p.scale for p in plain.parameters}
     assert scale['level'] == pytest.approx(RADIUS * before['level'])
@@ -89,15 +88,18 @@ def test_sizes_on_a_joint_that_turns_are_those_at_the_arm():
     assert friction.fit_starts[0]['level'] == pytest.approx(RADIUS * plain.fit_starts[0]['level'])
     assert friction.states[0].spread == pytest.approx(RADIUS * plain.states[0].spread)
     assert {p.name: p.unit for p in friction.parameters}['level'] == 'N m'
-    viscous = sized(EFFECT['viscous_friction'], ELBOW)
+    viscous = places_of(ELBOW)['viscous_friction']
     assert viscous.example['coefficient'] == pytest.approx(RADIUS**2 * 30.0)
-    assert sized(EFFECT['payload'], ELBOW).example == EFFECT['payload'].example
+    assert places_of(ELBOW)['payload'].example == {'mass': 1.5}
     # Nothing changes on a load that slides.
-    assert sized(plain, RIG) is plain
+    assert plain.parameters == EFFECT['coulomb_friction'].parameters()
+    assert plain.fit_starts == EFFECT['coulomb_friction'].fit_starts()
+    assert plain.example == EFFECT['coulomb_friction'].example().given
+    assert plain.states == EFFECT['coulomb_friction'].states
 
 
 def test_a_stop_is_where_the_muscle_would_have_its_contraction():
-    stop = sized(EFFECT['end_stop'], ELBOW)
+    stop = places_of(ELBOW)['end_stop']
     assert stop.example['upper'] == pytest.approx(0.2 * LENGTH / RADIUS)
     t = np.linspace(0.0, 10.0, 500)
     angle = 0.6 * np.sin(t)
@@ -109,7 +111,7 @@ def test_a_stop_is_where_the_muscle_would_have_its_contraction():
 def test_where_a_memory_begins_is_each_muscles_own():
     """All else of an effect in both is one number for both."""
     both, layout = places_of(ELBOW, NAMES)['hysteresis'], ELBOW.layout
-    parameters = [p.name for p in EFFECT['hysteresis'].parameters]
+    parameters = [p.name for p in EFFECT['hysteresis'].parameters()]
     initial, slip = parameters.index('initial'), parameters.index('slip')
     places = [layout.index(EFFECT['hysteresis'], initial, i) for i in (0, 1)]
     assert both.split(layout, initial) == [

@@ -170,7 +170,7 @@ def test_a_pressure_that_begins_away_from_rest_decays_as_its_lag_says(away):
 @pytest.mark.parametrize('name', [e.name for e in EFFECTS if any(s.spread for s in e.states)])
 def test_a_memory_begins_where_a_simulation_begins_that_is_told_so(name):
     effect = LIBRARY[name]
-    model = single_muscle_joint(Muscle(), Mass(mass=20.0), {name: effect.example})
+    model = single_muscle_joint(Muscle(), Mass(mass=20.0), {name: effect.example().given})
     t = np.arange(60) / 50.0
     command = 3e5 + 5e4 * np.sin(6.0 * t)
     y = np.full(t.size, equilibrium(model, command[0]))

@@ -142,13 +142,13 @@ def test_a_start_stays_as_near_as_noise_and_curvature_allow():
 @pytest.mark.parametrize('effect', EFFECTS, ids=lambda effect: effect.name)
 def test_what_a_start_names_is_what_moves(effect):
     layout = RIG.layout
-    names = [p.name for p in effect.parameters]
-    for start in effect.fit_starts:
+    names = [p.name for p in effect.parameters()]
+    for start in effect.fit_starts():
         found = effect_unknowns(RIG, PLACES[effect.name], start)
         assert {u.name for u in found} == {f'effects.{effect.name}.{name}' for name in start}
         for one in found:
             name = one.of.parameter
-            p = effect.parameters[names.index(name)]
+            p = effect.parameters()[names.index(name)]
             assert one.of.indices == (layout.index(effect, names.index(name)),)
             assert one.prior == np.inf
             # The start lies within, and no value can leave what the simulator accepts.

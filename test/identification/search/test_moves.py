@@ -109,7 +109,7 @@ def test_looks_come_best_first_and_never_worse_than_their_start(retuned, setting
     place = setting.places['pressure_lag']
     found = looks(retuned, place, setting)
     assert [one.score for one in found] == sorted(one.score for one in found)
-    starts = place.effect.fit_starts
+    starts = place.effect.fit_starts()
     begun = [extended(retuned.solution, place, start, setting) for start in starts]
     assert found[0].score < min(one.score for one in begun)
 

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Units of effects on a joint that turns: none is missing; one that is not known is refused."""
+"""Parameters of effects: their ranges, and their units on a joint that turns."""
 
 import math
 from dataclasses import replace
@@ -9,20 +9,23 @@ import numpy as np
 import pytest
 
 from pam_ros.effects import EFFECTS
-from pam_ros.effects.base import ON_JOINT, Compensation, Effect, EffectParameter
-from pam_ros.effects.turned import turned
+from pam_ros.effects.base import ON_JOINT
+from pam_ros.effects.end_stop import EndStop
+from pam_ros.effects.leak import Leak
+from pam_ros.effects.parameter import start_from
 from pam_ros.errors import ParameterError
 from pam_ros.rig.simulation import Simulation
 from pam_ros.rig.standard_joints import single_muscle_joint
 from pam_ros.units import TURNED, turned_unit
 from support.joint_models import lever, pair
+from support.made_effects import effect_with
 
-ON_LOAD = [effect for effect in EFFECTS if effect.acts_on_joint]
+ON_LOAD = [effect for effect in EFFECTS if effect.acts_on_joint()]
 BY_EFFECT = pytest.mark.parametrize('effect', ON_LOAD, ids=lambda effect: effect.name)
 
 
 def described(effect):
-    return {p.name: (p.unit, p.low, p.high) for p in turned(effect).parameters}
+    return {p.name: (p.unit, p.low, p.high) for p in effect.parameters(turning=True)}
 
 
 def test_effects_on_a_joint_that_turns_have_its_units():
@@ -39,13 +42,8 @@ def test_effects_on_a_joint_that_turns_have_its_units():
 
 
 @BY_EFFECT
-def test_nothing_else_about_it_differs(effect):
-    """Its equations, its states and its example are the same."""
-    other = turned(effect)
-    for name in vars(effect):
-        if name != 'parameters':
-            assert getattr(other, name) is getattr(effect, name)
-    for one, this in zip(other.parameters, effect.parameters, strict=True):
+def test_nothing_else_about_them_differs(effect):
+    for one, this in zip(effect.parameters(turning=True), effect.parameters(), strict=True):
         assert one.unit == TURNED[this.unit]
         if this.unit != 'fraction':
             assert replace(one, unit=this.unit) == this
@@ -53,15 +51,15 @@ def test_nothing_else_about_it_differs(effect):
 
 def test_every_effect_acts_in_a_muscle_or_on_the_joint():
     for effect in EFFECTS:
-        on_joint = [bool(getattr(effect, place)) for place in ON_JOINT]
-        assert effect.acts_on_joint is any(on_joint)
+        on_joint = [bool(getattr(effect.equations, place)) for place in ON_JOINT]
+        assert effect.acts_on_joint() is any(on_joint)
     assert len(ON_LOAD) < len(EFFECTS)
 
 
 def test_no_unit_of_the_library_is_missing():
     """Of parameters and of hidden states, each of which is known where it is turned."""
     for effect in ON_LOAD:
-        for p in (*effect.parameters, *effect.states):
+        for p in (*effect.parameters(), *effect.states):
             assert turned_unit(p.unit, p.name) == TURNED[p.unit]
 
 
@@ -75,34 +73,31 @@ def outside(f, p, y, v, t, h, x, i, xn, q, j):
     return f - q[j] * v * abs(v)
 
 
-DRAG = Effect(
-    'air_drag', 'drag of the air', '',
-    (EffectParameter('strength', 0.0, 'drag', 'N s^2/m^2', 0.0, 1e3, 1.0, strength=True),),
-    '', '', (), {'strength': 1.0}, Compensation.FEEDBACK, outside=outside,
-)  # fmt: skip
+DRAG = effect_with('air_drag', 'N s^2/m^2', outside=outside)
 
 
 def test_a_unit_of_which_nobody_has_said_what_it_is_there_is_refused():
     sentence = (
-        'effects.air_drag.strength is in N s^2/m^2: what that is on a joint that turns is not '
+        'effects.air_drag.size is in N s^2/m^2: what that is on a joint that turns is not '
         'known; add the unit to TURNED in pam_ros/units.py'
     )
     with pytest.raises(ParameterError) as error:
-        turned(DRAG)
+        DRAG.parameters(turning=True)
     assert str(error.value) == sentence
     library = (DRAG,)
-    single_muscle_joint(effects={'air_drag': {'strength': 1.0}}, library=library)  # it slides
+    single_muscle_joint(effects={'air_drag': {'size': 1.0}}, library=library)  # it slides
     with pytest.raises(ParameterError) as error:
-        pair(load={'air_drag': {'strength': 1.0}}, library=library)
+        pair(load={'air_drag': {'size': 1.0}}, library=library)
     assert str(error.value) == sentence
 
 
 @pytest.mark.slow
 def test_with_its_unit_named_it_acts_there(monkeypatch):
     monkeypatch.setitem(TURNED, 'N s^2/m^2', 'N m s^2/rad^2')
-    assert described(DRAG)['strength'][0] == 'N m s^2/rad^2'
-    joint = pair(load={'air_drag': {'strength': 0.3}}, library=(DRAG,))
-    bare = pair(library=(DRAG,))
+    drag = effect_with('air_drag', 'N s^2/m^2', outside=outside)
+    assert described(drag)['size'][0] == 'N m s^2/rad^2'
+    joint = pair(load={'air_drag': {'size': 0.3}}, library=(drag,))
+    bare = pair(library=(drag,))
     found = []
     for one in (joint, bare):
         rig = Simulation([one])
@@ -129,3 +124,21 @@ def test_what_is_given_in_these_units_acts_in_them(made, load, effort):
         rig.reset([3e5, 3e5], [0.3], [2.0])
         found.append(rig.joint_outputs().acceleration[0])
     np.testing.assert_allclose((found[0] - found[1]) * made().inertia, effort, rtol=1e-6)
+
+
+def test_a_contraction_on_a_joint_may_be_an_angle():
+    """One dataclass serves both kinds of joint, each of which checks its own range."""
+    assert EndStop(upper=3.0, stiffness=1e3).upper == 3.0
+    with pytest.raises(ParameterError, match=r'effects.end_stop.upper = 3.5 is not allowed'):
+        EndStop(upper=3.5)
+    single_muscle_joint(effects={'end_stop': {'upper': 0.9, 'stiffness': 1e3}})
+    with pytest.raises(ParameterError, match=r'effects.end_stop.upper = 1.5 is not allowed'):
+        single_muscle_joint(effects={'end_stop': {'upper': 1.5, 'stiffness': 1e3}})
+
+
+def test_where_a_fit_starts_names_parameters_and_values_that_there_are():
+    assert start_from(Leak, rate=0.3, refill=0.0) == {'rate': 0.3, 'refill': 0.0}
+    with pytest.raises(ParameterError, match=r'effects.leak.rate = 20.0 is not allowed'):
+        start_from(Leak, rate=20.0)
+    with pytest.raises(TypeError, match='leakage'):
+        start_from(Leak, leakage=0.1)
