@@ -64,7 +64,9 @@ def test_a_byte_order_mark_does_no_harm(file):
         ('a: 0x_', "'0x_' is not a whole number"),
         ('a: ' + '9' * 5000, 'is not a whole number'),
         ('{[1]: 2}', 'unhashable key'),
-        ('a: ' + '[' * 5000 + ']' * 5000, 'more than 32 mappings or lists'),
+        # PyYAML 6.0.4 has a limit of its own, which it meets while it looks ahead.
+        ('a: ' + '[' * 5000 + ']' * 5000, 'more than 32 mappings or lists|nesting depth'),
+        ('a: ' + '[' * 100 + ']' * 100, 'more than 32 mappings or lists'),
         ('a: ' + '{a: ' * 5000 + '}' * 5000, 'more than 32 mappings or lists'),
         ('a: &a {b: *a}', 'anchors and aliases'),
         ('a: &a [*a]', 'anchors and aliases'),
