@@ -36,11 +36,11 @@ class Reports:
         self._implausibility, self._is_implausibility_new = what, True
         self._logger.warning(what, throttle_duration_sec=1.0)
 
-    def begin_anew(self, silent: int, longest: float) -> None:
-        """Say that no command was given for *silent* ns, more than *longest* s."""
+    def begin_anew(self, silent: int, limit: str) -> None:
+        """Say that no command was given for *silent* ns, longer than the *limit* in words."""
         self._silence = (
-            f'no command was given for {silent / SECOND:.2f} s, longer than command_timeout '
-            f'({longest:g} s): control starts again from the present position'
+            f'no command was given for {silent / SECOND:.2f} s, longer than {limit}: '
+            'control starts again from the present position'
         )
         self._is_silence_new = True
         self._silences += 1

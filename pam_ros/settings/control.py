@@ -128,6 +128,12 @@ class ControlSettings:
         """Silence of its own in s after which the controller starts again."""
         return self.command_timeout or LONGEST_SILENCE
 
+    @property
+    def silence_limit(self) -> str:
+        """That silence in words; 0 as the time-out means that the rig has none."""
+        name = 'command_timeout' if self.command_timeout else 'permitted with command_timeout 0'
+        return f'{name} ({self.longest_silence:g} s)'
+
 
 class ControlParameters(RigParameters):
     """The muscles and joints of a rig, one of which is controlled."""

@@ -87,3 +87,16 @@ def test_only_another_rig_or_other_limits_need_a_new_law(change, needs):
 def test_what_does_not_go_together_is_refused(given, sentence):
     with pytest.raises(ParameterError, match=sentence):
         setup(given)
+
+
+@pytest.mark.parametrize(
+    ('timeout', 'seconds', 'words'),
+    [
+        (0.5, 0.5, 'command_timeout (0.5 s)'),
+        (0.0, 1.0, 'permitted with command_timeout 0 (1 s)'),
+    ],
+)
+def test_how_long_it_may_be_silent_is_said_in_words(timeout, seconds, words):
+    settings = setup({'command_timeout': timeout}).settings
+    assert settings.longest_silence == seconds
+    assert settings.silence_limit == words

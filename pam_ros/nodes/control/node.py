@@ -147,7 +147,7 @@ class PamControl(TickingNode):
         self._chambers.forget()
         self._stamp = None
         if self._loop.is_enabled:
-            self._reports.begin_anew(silent, self._setup.settings.longest_silence)
+            self._reports.begin_anew(silent, self._setup.settings.silence_limit)
 
     def _watch(self) -> None:
         if self._stamp is None:
