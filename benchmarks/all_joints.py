@@ -30,7 +30,7 @@ def main() -> None:
     failed = 0
     print('| joint | load | muscles | law | last error | beyond |\n|---|---|---|---|---|---|')
     for kind, load in cases:
-        for name, effects in (('push', {}), ('cannot push', SLACK)):
+        for name, effects in (('push', ()), ('cannot push', SLACK)):
             for law in (Pid, SlidingMode):
                 joint = declared(kind, load, effects)
                 begin = f'| {kind} | {load:g} | {name} | {law.__name__} '

@@ -27,13 +27,13 @@ from truth.control_plants import FEEDBACK_NOISE as NOISE
 
 # Plant, what is declared of it; largest error at rest and RMS of the sine, mm.
 ROWS = {
-    'nominal': ('nominal', None, 0.01, 0.02),
-    'payload +5 kg': ('payload', None, 0.01, 0.02),
-    'hysteresis 40 N': ('hysteresis', None, 0.03, 0.15),
-    'friction 15/25 N': ('friction', None, 0.03, 0.15),
-    'valve lag 50/70 ms': ('lag', None, 0.03, 0.25),
+    'nominal': ('nominal', (), 0.01, 0.02),
+    'payload +5 kg': ('payload', (), 0.01, 0.02),
+    'hysteresis 40 N': ('hysteresis', (), 0.03, 0.15),
+    'friction 15/25 N': ('friction', (), 0.03, 0.15),
+    'valve lag 50/70 ms': ('lag', (), 0.03, 0.25),
     'valve lag, declared': ('lag', LAG, 0.01, 0.05),
-    'all, and 10 ms dead time': ('all', None, 0.06, 0.6),
+    'all, and 10 ms dead time': ('all', (), 0.06, 0.6),
 }
 LAWS = {'sliding mode': SlidingMode, 'PID': Pid}
 OVER_DDS = {'nominal': 0.0, 'payload +5 kg': 5.0}  # kg that are not declared

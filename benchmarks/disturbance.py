@@ -55,24 +55,24 @@ def lag(fill: float, vent: float) -> tuple[Any, ...]:
 
 # Plant, what is declared of its muscle.
 ROWS = {
-    'nominal': ('nominal', None),
-    'payload +5 kg': ('payload', None),
-    'hysteresis 40 N': ('hysteresis', None),
-    'friction 15/25 N': ('friction', None),
-    'valve lag 10/14 ms': (lag(0.010, 0.014), None),
-    'valve lag 20/28 ms': (lag(0.020, 0.028), None),
-    'valve lag 50/70 ms': ('lag', None),
+    'nominal': ('nominal', ()),
+    'payload +5 kg': ('payload', ()),
+    'hysteresis 40 N': ('hysteresis', ()),
+    'friction 15/25 N': ('friction', ()),
+    'valve lag 10/14 ms': (lag(0.010, 0.014), ()),
+    'valve lag 20/28 ms': (lag(0.020, 0.028), ()),
+    'valve lag 50/70 ms': ('lag', ()),
     'the same lag, declared': ('lag', LAG),
-    'dead time 20 ms': ((effect('dead_time', dead_time_s=0.020),), None),
-    'all, and 10 ms dead time': ('all', None),
+    'dead time 20 ms': ((effect('dead_time', dead_time_s=0.020),), ()),
+    'all, and 10 ms dead time': ('all', ()),
 }
 # Level, plant, what is declared: the loop whose margins are stated.
 LOOPS = {
-    'level 0.35, nominal': (FIRST, 'nominal', None),
-    'level 0.35, valve lag 20/28 ms': (FIRST, lag(0.020, 0.028), None),
-    'level 0.35, valve lag 50/70 ms': (FIRST, 'lag', None),
-    'level 1, nominal': (1.0, 'nominal', None),
-    'level 1, valve lag 10/14 ms': (1.0, lag(0.010, 0.014), None),
+    'level 0.35, nominal': (FIRST, 'nominal', ()),
+    'level 0.35, valve lag 20/28 ms': (FIRST, lag(0.020, 0.028), ()),
+    'level 0.35, valve lag 50/70 ms': (FIRST, 'lag', ()),
+    'level 1, nominal': (1.0, 'nominal', ()),
+    'level 1, valve lag 10/14 ms': (1.0, lag(0.010, 0.014), ()),
     'level 1, lag 50/70 ms declared': (1.0, 'lag', LAG),
 }
 
@@ -182,7 +182,7 @@ def print_others(seed: int) -> None:
         sagged = hold(make, plant, None, BEGIN + 10.0, sagging(plant))
         rests = []
         for effects in ('nominal', lag(0.020, 0.028)):
-            still = hold(make, truth(effects, seed=seed), None, 6.0, lambda t: 0.0)
+            still = hold(make, truth(effects, seed=seed), (), 6.0, lambda t: 0.0)
             rests.append(1e3 * float(np.max(np.abs(still.error[still.last(2.0)]))))
         print(
             f'{name:<18}{outside(run, BEGIN, end):>11.2f} s{outside(run, end, end + 3.0):>6.2f} s'

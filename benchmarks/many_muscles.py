@@ -11,10 +11,13 @@ in CPU time, which other programs on the machine change least.
 import os
 import sys
 import time
+from collections.abc import Sequence
 
 import numpy as np
 
 from pam_ros.compiled import HAVE_NUMBA
+from pam_ros.effects import ViscousFriction
+from pam_ros.effects.base import Effect
 from pam_ros.rig.joint import Actuator, Joint
 from pam_ros.rig.loads import Arm, Mass
 from pam_ros.rig.simulation import Simulation
@@ -26,10 +29,10 @@ STEP = 1e-3  # s
 TURNS = 15
 MUSCLES = (1, 8, 64)
 # An effect that is present but does nothing to speak of: the kernel steps all of the library.
-SLIGHT = {'viscous_friction': {'coefficient': 1e-9}}
+SLIGHT = [ViscousFriction(coefficient=1e-9)]
 
 
-def rigs(effects: dict[str, dict[str, float]]) -> dict[str, Simulation]:
+def rigs(effects: Sequence[Effect]) -> dict[str, Simulation]:
     """Return rigs by name, with as many muscles as the name says."""
     single = single_muscle_joint(effects=effects)
     hung = Actuator(contraction=0.1)
@@ -52,7 +55,7 @@ def main() -> None:
     """Measure all in turn and print the table."""
     if not HAVE_NUMBA:
         sys.exit('this benchmark needs numba')
-    kinds = {'no effects': rigs({}), 'all effects bound': rigs(SLIGHT)}
+    kinds = {'no effects': rigs(()), 'all effects bound': rigs(SLIGHT)}
     contestants = {(kind, name): rig for kind in kinds for name, rig in kinds[kind].items()}
     took: dict[tuple[str, str], list[float]] = {key: [] for key in contestants}
     for turn in range(TURNS + 1):

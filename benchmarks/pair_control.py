@@ -24,15 +24,15 @@ from truth.pair import pair_plant
 
 # Plant, what is declared of its muscles; largest RMS of the sine, degrees.
 ROWS = {
-    'nominal': ('nominal', None, 0.03),
-    'payload +0.3 kg': ('payload', None, 0.05),
-    'friction 0.15/0.22 N m': ('friction', None, 0.1),
-    'payload and friction': ('payload and friction', None, 0.1),
-    'valve lag 20/30 ms': ('quick lag', None, 0.1),
-    'valve lag 50/70 ms': ('lag', None, 0.06),
+    'nominal': ('nominal', (), 0.03),
+    'payload +0.3 kg': ('payload', (), 0.05),
+    'friction 0.15/0.22 N m': ('friction', (), 0.1),
+    'payload and friction': ('payload and friction', (), 0.1),
+    'valve lag 20/30 ms': ('quick lag', (), 0.1),
+    'valve lag 50/70 ms': ('lag', (), 0.06),
     'the same, declared': ('lag', LAG, 0.03),
-    'hysteresis 15 N each': ('hysteresis', None, 0.06),
-    'all, and 10 ms dead time': ('all', None, 0.2),
+    'hysteresis 15 N each': ('hysteresis', (), 0.06),
+    'all, and 10 ms dead time': ('all', (), 0.2),
 }
 LAWS = {'sliding mode': SlidingMode, 'PID': Pid}
 SWING, FREQUENCY, SINE, JUDGED = radians(15.0), 0.5, 12.0, 4.0

@@ -14,12 +14,14 @@ import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import numpy as np
 
 from pam_ros.compiled import HAVE_NUMBA
+from pam_ros.effects import ViscousFriction
+from pam_ros.effects.base import Effect
 from pam_ros.rig.simulation import Simulation
 from pam_ros.rig.standard_joints import single_muscle_joint
 
@@ -77,7 +79,7 @@ def plain_c(folder: str, compiler: str) -> Callable[[], float]:
     return run
 
 
-def rig(effects: dict[str, dict[str, float]]) -> Callable[[], float]:
+def rig(effects: Sequence[Effect]) -> Callable[[], float]:
     """Return this package's rig as a node steps it."""
     plant = Simulation([single_muscle_joint(effects=effects)], STEP)
 
@@ -98,8 +100,8 @@ def main() -> None:
         contestants = {
             'MuJoCo, one slider, RK4': mujoco_slider(),
             'plain C, gcc -O2': plain_c(folder, compiler),
-            'pam_ros': rig({}),
-            'pam_ros, one effect of all': rig({'viscous_friction': {'coefficient': 1e-9}}),
+            'pam_ros': rig(()),
+            'pam_ros, one effect of all': rig([ViscousFriction(coefficient=1e-9)]),
         }
         ends = {name: run() for name, run in contestants.items()}  # warm, and checked
         assert abs(ends['pam_ros'] - ends['plain C, gcc -O2']) < 1e-12, 'not the same equations'

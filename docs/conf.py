@@ -105,6 +105,8 @@ def reference() -> str:
     for what, names in groups_of_names().items():
         title = what[0].upper() + what[1:]
         parts += [f'{title}\n{"-" * len(title)}\n', *map(documented, names)]
+    parts += ['The effects\n-----------\n']
+    parts += [f'.. autoclass:: pam_ros.effects.{effect.__name__}\n' for effect in pam_ros.EFFECTS]
     return '\n'.join(parts)
 
 

@@ -24,13 +24,14 @@ from pam_ros import (
     simulate,
     single_muscle_joint,
 )
+from pam_ros.effects import CoulombFriction
 
 parser = argparse.ArgumentParser(description='Identify a simulated recording, save the report.')
 parser.add_argument('folder', help='folder for the report')
 folder = parser.parse_args().folder
 
 muscle, mass = Muscle(), Mass(mass=20.0)
-real = single_muscle_joint(muscle, mass, {'coulomb_friction': {'level': 8.0}})
+real = single_muscle_joint(muscle, mass, [CoulombFriction(level=8.0)])
 t = np.arange(0.0, 30.0, 0.02)
 command = 300e3 + 120e3 * np.sin(2.0 * np.pi * 0.2 * t) + 60e3 * np.sign(np.sin(0.9 * t))
 noise = np.random.default_rng(1).normal(0.0, 20e-6, t.size)

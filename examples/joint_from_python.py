@@ -15,6 +15,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from pam_ros import Arm, Gains, Muscle, Reference, Simulation, SlidingMode, antagonistic_joint
+from pam_ros.effects import CoulombFriction, PressureLag, Slack
 
 PERIOD = 2e-3  # s between two commands
 START = 250e3  # Pa in both muscles
@@ -30,9 +31,9 @@ def joint(effects):
     return antagonistic_joint(Muscle(), radius=0.04, load=load, contraction=0.1, effects=effects)
 
 
-slack = {'slack': {'share': 1.0}}
+slack = [Slack(share=1.0)]
 nominal = joint(slack)
-real = joint({**slack, 'coulomb_friction': {'level': 0.3}, 'pressure_lag': {'fill': 0.03}})
+real = joint([*slack, CoulombFriction(level=0.3), PressureLag(fill=0.03)])
 plant = Simulation([real], step=1e-3)
 plant.reset(START, [0.0], [0.0])
 law = SlidingMode(nominal, Gains.for_joint(nominal))

@@ -39,6 +39,7 @@ from pam_ros import (
     single_muscle_joint,
     write_csv,
 )
+from pam_ros.effects import Creep, PressureLag, ViscousFriction
 
 ONE = single_muscle_joint()
 STRAND = Actuator(contraction=0.1)
@@ -302,7 +303,7 @@ NUMBERS = {
     'simulate velocity': lambda v: simulate(ONE, T, T, COMMAND, velocity=v),
     'simulate step': lambda v: simulate(ONE, T, T, COMMAND, step=v),
     'simulate hidden.creep.force': lambda v: simulate(
-        single_muscle_joint(effects={'creep': {'stiffness': 300.0, 'time': 0.5}}),
+        single_muscle_joint(effects=[Creep(stiffness=300.0, time=0.5)]),
         T,
         T,
         COMMAND,
@@ -386,7 +387,7 @@ def test_a_muscle_that_a_rig_does_not_have_is_not_commanded(muscle):
 
 # Objects ---------------------------------------------------------------------------------------
 
-LAG = {'pressure_lag': {'fill': 0.1}}
+LAG = (PressureLag(fill=0.1),)
 OBJECTS = {
     'joint of an actuator': (Joint, (STRAND,), 'actuators = Actuator(muscle='),
     'joint of a muscle': (Joint, ((Muscle(),),), 'actuators[0] = Muscle(a1='),
@@ -406,7 +407,17 @@ OBJECTS = {
     'joint with effects by name': (
         Joint,
         ((STRAND,), Mass(), Pulley(), ['creep']),
-        "effects = ['creep']",
+        "effects[0] = 'creep'",
+    ),
+    'joint with effects in a table': (
+        Joint,
+        ((STRAND,), Mass(), Pulley(), {'viscous_friction': {'coefficient': 1.0}}),
+        "effects = {'viscous_friction': {'coefficient': 1.0}}",
+    ),
+    'joint with an effect that is not made': (
+        Joint,
+        ((STRAND,), Mass(), Pulley(), [ViscousFriction]),
+        "effects[0] = <class 'pam_ros.effects.viscous_friction.ViscousFriction'>",
     ),
     'joint with an effect as library': (
         lambda: Joint(library=EFFECTS[0]),
@@ -414,11 +425,11 @@ OBJECTS = {
         "library = <class 'pam_ros.effects.dead_time.DeadTime'>",
     ),
     'actuator of a number': (Actuator, (0.4,), 'muscle = 0.4'),
-    'actuator of effects': (Actuator, (LAG,), "muscle = {'pressure_lag':"),
-    'actuator with an effect as a number': (
+    'actuator of effects': (Actuator, (LAG,), 'muscle = (PressureLag(fill=0.1),)'),
+    'actuator with an effect that is not in a list': (
         Actuator,
-        (Muscle(), {'leak': 0.1}),
-        'effects.leak = 0.1',
+        (Muscle(), LAG[0]),
+        'effects = PressureLag(fill=0.1)',
     ),
     'one muscle of a mass': (
         single_muscle_joint,
@@ -434,8 +445,8 @@ OBJECTS = {
     ),
     'one muscle with an effect as a number': (
         single_muscle_joint,
-        (None, None, {'viscous_friction': 30.0}),
-        'effects.viscous_friction = 30.0',
+        (None, None, [30.0]),
+        'effects[0] = 30.0',
     ),
     'muscle of a text': (Muscle, ('4',), "a1 = '4'"),
     'rig of a joint': (Simulation, (ONE,), 'joints = Joint(actuators='),

@@ -91,11 +91,6 @@ def _drag(joint: Joint) -> float:
     """
     drag, row = 0.0, joint.parameters()[at.JOINT].tolist()
     for effect in joint.present[at.JOINT]:
-        if effect.equations.outside is not None and effect.compensation is Compensation.MODEL:
-            j = joint.layout.parameter_at[effect.name]
-            outside = effect.equations.outside
-            up, down = (
-                outside(0.0, 0.0, 0.0, v, 0.0, 0.0, (), 0, (), row, j) for v in (1.0, -1.0)
-            )
-            drag += 0.5 * (down - up)
+        if effect.compensation is Compensation.MODEL:
+            drag += effect.equations.viscous_drag(row, joint.layout.parameter_at[effect.name])
     return drag

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from math import exp, inf
 
 from pam_ros.compiled import plain
-from pam_ros.effects.base import Compensation
+from pam_ros.effects.base import Compensation, EffectEquations
 from pam_ros.muscle import law
 from pam_ros.rig import layout as at
 from pam_ros.rig.joint import Joint
@@ -38,7 +38,7 @@ class MuscleModel:
         offsets = joint.layout.parameter_at
         self._contraction: list[tuple[Callable[..., float], int]] = []
         self._dampings: list[tuple[Callable[..., float], int]] = []
-        self._forces: list[tuple[Callable[..., float], int]] = []
+        self._forces: list[tuple[EffectEquations, int]] = []
         for effect in present:
             j = offsets[effect.name]
             if effect.equations.contraction is not None:
@@ -46,7 +46,7 @@ class MuscleModel:
             if effect.equations.damping is not None:
                 self._dampings.append((effect.equations.damping, j))
             if effect.equations.force is not None and effect.compensation is Compensation.MODEL:
-                self._forces.append((effect.equations.force, j))
+                self._forces.append((effect.equations, j))
 
     @property
     def may_be_slack(self) -> bool:
@@ -87,8 +87,8 @@ class MuscleModel:
         return self._slack(self.force_law(p, y), p, self.contraction(y))
 
     def _slack(self, f: float, p: float, kappa: float) -> float:
-        for function, j in self._forces:
-            f = function(f, p, kappa, 0.0, 0.0, 0.0, (), 0, (), self._row, j)
+        for equations, j in self._forces:
+            f = equations.resting_force(f, p, kappa, self._row, j)
         return f
 
     def slack_pressure(self, y: float) -> float:

@@ -7,10 +7,9 @@ Dead time, offset, gain, dead band and lag are those of the declared effects who
 """
 
 from collections import deque
-from collections.abc import Callable
 from math import exp
 
-from pam_ros.effects.base import Compensation
+from pam_ros.effects.base import Compensation, EffectEquations
 from pam_ros.rig import layout as at
 from pam_ros.rig.acting import delays_of
 from pam_ros.rig.joint import Joint
@@ -49,15 +48,15 @@ class PressurePath:
         row = q[at.MUSCLE + muscle].tolist()
         fill = vent = 0.0
         self._row = row
-        self._static: list[tuple[Callable[..., float], int]] = []  # those without a memory
+        self._static: list[tuple[EffectEquations, int]] = []  # those without a memory
         for effect in joint.present[at.MUSCLE + muscle]:
             if effect.compensation is not Compensation.PATH:
                 continue
             j = layout.parameter_at[effect.name]
             if effect.equations.lag is not None:
                 fill, vent = effect.equations.lag(row, j)
-            elif effect.equations.pressure is not None:
-                self._static.append((effect.equations.pressure, j))
+            else:
+                self._static.append((effect.equations, j))
         low, high = self.reached(LOW), self.reached(HIGH)
         self._gain = (high - low) / (HIGH - LOW)
         self._offset = low - self._gain * LOW
@@ -75,8 +74,8 @@ class PressurePath:
 
     def reached(self, command: float) -> float:
         """Return the pressure in Pa at which the chamber rests under a *command*."""
-        for act, j in self._static:
-            command = act(command, 0.0, 0.0, (), 0, (), self._row, j)
+        for equations, j in self._static:
+            command = equations.resting_pressure(command, self._row, j)
         return command
 
     def command_at_rest(self, pressure: float) -> float:

@@ -145,6 +145,27 @@ class EffectEquations:
         """The places at which it acts."""
         return tuple(place for place in PLACES if getattr(self, place))
 
+    # What a controller asks of an effect without memory. Its parameters are q[j], q[j + 1], ...
+
+    def resting_pressure(self, p: float, q: Any, j: int) -> float:
+        """Return the pressure in Pa that goes downstream for ever if *p* Pa comes in."""
+        if self.pressure is None:
+            return p
+        return float(self.pressure(p, 0.0, 0.0, (), 0, (), q, j))
+
+    def resting_force(self, f: float, p: float, kappa: float, q: Any, j: int) -> float:
+        """Return the pull in N of a muscle at rest, which has *f* N without the effect."""
+        if self.force is None:
+            return f
+        return float(self.force(f, p, kappa, 0.0, 0.0, 0.0, (), 0, (), q, j))
+
+    def viscous_drag(self, q: Any, j: int) -> float:
+        """Return the damping in N s/m or N m s/rad of the joint: its slope over -1 to 1."""
+        if self.outside is None:
+            return 0.0
+        up, down = (self.outside(0.0, 0.0, 0.0, v, 0.0, 0.0, (), 0, (), q, j) for v in (1.0, -1.0))
+        return 0.5 * float(down - up)
+
 
 @dataclass(frozen=True)
 class Effect(ABC):
@@ -196,6 +217,7 @@ class Effect(ABC):
 
     def __init_subclass__(cls) -> None:
         """Refuse equations that act nowhere or in two rows, or that cannot be inverted."""
+        cls.__repr__ = Effect.__repr__  # type: ignore[method-assign]  # the dataclass keeps it
         acts = cls.equations.places
         if not acts:
             raise ParameterError(f'effect {cls.name} acts nowhere: give it a function')
@@ -214,8 +236,13 @@ class Effect(ABC):
                 'follow: give lag, or Compensation.FEED_FORWARD or FEEDBACK'
             )
 
+    def __repr__(self) -> str:
+        """Return the call that makes it, without what has its default."""
+        given = ', '.join(f'{name}={value!r}' for name, value in self.given.items())
+        return f'{type(self).__name__}({given})'
+
     def __post_init__(self) -> None:
-        """Check every value; the joint checks those that it gives other ranges."""
+        """Check every value; the joint checks those that have another range there."""
         for p in (*self.parameters(), ONSET):
             about = p.on_any_joint() if self.acts_on_joint() else p
             flat = EffectName(self.name, p.name).flat
@@ -245,35 +272,29 @@ class Effect(ABC):
         """Say whether it acts on the joint, and not in a muscle or its pressure path."""
         return any(place in ON_JOINT for place in cls.equations.places)
 
-    @classmethod
-    def values(cls, given: Mapping[str, float], *, turning: bool = False) -> list[float]:
-        """Return the parameters in order, *given* over the defaults, checked.
+    def check(self, *, turning: bool) -> None:
+        """Raise ParameterError for a value that is out of range on this kind of joint."""
+        for p in self.parameters(turning=turning):
+            p.check(EffectName(self.name, p.name).flat, getattr(self, p.name), float)
 
-        The onset, which *given* may have, too, is checked and is none of them. With *turning* the
-        ranges are those of a joint that turns. Raises ParameterError for an unknown name or a
-        value out of range.
-        """
-        each = (*cls.parameters(turning=turning), ONSET)
-        names = [p.name for p in each]
-        for name in given:
-            if name not in names:
-                raise ParameterError(
-                    f'{EffectName(cls.name, name).flat} is not known: give one of '
-                    + ', '.join(names)
-                )
-        checked: list[float] = [
-            p.check(EffectName(cls.name, p.name).flat, given.get(p.name, p.default), float)
-            for p in each
-        ]
-        return checked[:-1]
+    @property
+    def row(self) -> tuple[float, ...]:
+        """Its own parameters in order, as q has them."""
+        return tuple(getattr(self, p.name) for p in self.parameters())
 
-    @classmethod
-    def is_present(cls, given: Mapping[str, float]) -> bool:
-        """Say whether any strength in *given* differs from zero."""
-        return any(given.get(p.name, p.default) != 0.0 for p in cls.parameters() if p.strength)
+    @property
+    def is_present(self) -> bool:
+        """Whether any of its strengths differs from zero."""
+        return any(getattr(self, p.name) != 0.0 for p in self.parameters() if p.strength)
+
+    @property
+    def values(self) -> dict[str, float]:
+        """Its own parameters by name, and the onset where it has one."""
+        own = {p.name: float(getattr(self, p.name)) for p in self.parameters()}
+        return own if self.onset == 0.0 else {**own, ONSET.name: self.onset}
 
     @property
     def given(self) -> dict[str, float]:
         """Those of its values that differ from their defaults, by name."""
-        each = ((p, getattr(self, p.name)) for p in (*self.parameters(), ONSET))
-        return {p.name: value for p, value in each if value != p.default}
+        default = {p.name: p.default for p in (*self.parameters(), ONSET)}
+        return {name: value for name, value in self.values.items() if value != default[name]}

@@ -39,12 +39,3 @@ def by_effect(values: Mapping[str, T]) -> dict[str, dict[str, T]]:
         if name is not None:
             found.setdefault(name.effect, {})[name.parameter] = value
     return found
-
-
-def flattened(effects: Mapping[str, Mapping[str, T]]) -> dict[str, T]:
-    """Return effect -> parameter -> value as flat values."""
-    return {
-        EffectName(effect, parameter).flat: value
-        for effect, given in effects.items()
-        for parameter, value in given.items()
-    }

@@ -44,7 +44,8 @@ class EffectParameter(Parameter):
         """Return it with the range that it has on one kind of joint or the other."""
         if self.unit != 'fraction':
             return self
-        return replace(self, low=min(self.low, -math.pi), high=max(self.high, math.pi))
+        low, high = min(self.low, -math.pi), max(self.high, math.pi)
+        return replace(self, unit='fraction or rad', low=low, high=high)
 
 
 def effect_parameter(

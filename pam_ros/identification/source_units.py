@@ -86,15 +86,17 @@ def with_row(
     of the model are limited to where it went, and in the last resort its constants are taken back
     towards those declared until they make muscles.
     """
-    in_muscles = [dict(actuator.effects) for actuator in model.actuators]
-    on_joint = dict(model.effects)
+    kinds = [{type(e): e for e in actuator.effects} for actuator in model.actuators]
+    kinds_on_joint = {type(e): e for e in model.effects}
     for place in added:
-        targets = [in_muscles[i] for i in place.muscles] or [on_joint]
+        targets = [kinds[i] for i in place.muscles] or [kinds_on_joint]
         rows = [place.indices(model.layout, k) for k in range(len(place.parameters))]
         for n, target in enumerate(targets):
-            target[place.effect.name] = {
-                p.name: float(q[row[n]]) for p, row in zip(place.parameters, rows, strict=True)
-            }
+            target[place.effect] = place.effect(
+                **{p.name: float(q[row[n]]) for p, row in zip(place.parameters, rows, strict=True)}
+            )
+    in_muscles = [tuple(effects.values()) for effects in kinds]
+    on_joint = tuple(kinds_on_joint.values())
     went = np.concatenate(
         [s.position if isinstance(s, HeldSegment) else s.target for s in segments]
     )

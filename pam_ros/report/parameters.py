@@ -17,7 +17,6 @@ from pam_ros.report.provenance import Provenance
 from pam_ros.report.summary import last_line
 from pam_ros.report.wording import listed
 from pam_ros.rig.arrangements import ARRANGEMENTS, LOAD
-from pam_ros.rig.effect_values import EffectValues
 from pam_ros.rig.joint import Joint
 from pam_ros.settings.files import write
 from pam_ros.settings.rig import RigParameters
@@ -32,22 +31,19 @@ def identified(result: Identification, source: Provenance) -> Joint:
     model = result.stages[-1].model
     names = listed([recording.name for recording in source.recordings])
     text = plain_text(f'pam_ros, re-tuned on {names}; declared in {source.parameters}')
-    on_joint, *in_muscles = model.present
     actuators = tuple(
         replace(
             actuator,
             muscle=replace(actuator.muscle, source=text),
-            effects=_only(actuator.effects, present),
+            effects=_present(actuator.effects),
         )
-        for actuator, present in zip(model.actuators, in_muscles, strict=True)
+        for actuator in model.actuators
     )
-    return replace(model, actuators=actuators, effects=_only(model.effects, on_joint))
+    return replace(model, actuators=actuators, effects=_present(model.effects))
 
 
-def _only(effects: EffectValues, present: Sequence[type[Effect]]) -> EffectValues:
-    """Return those of *effects* that are *present*."""
-    names = {effect.name for effect in present}
-    return {name: values for name, values in effects.items() if name in names}
+def _present(effects: Sequence[Effect]) -> tuple[Effect, ...]:
+    return tuple(effect for effect in effects if effect.is_present)
 
 
 def write_identified(path: Path, result: Identification, source: Provenance) -> None:

@@ -14,7 +14,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from pam_ros.effects.base import ONSET, Effect
+from pam_ros.effects.base import Effect
 from pam_ros.errors import ParameterError
 from pam_ros.rig.acting import acting_commands, delays_of
 from pam_ros.rig.bind import Kernel
@@ -48,12 +48,12 @@ def changes_of(joint: Joint, start: float) -> list[Change]:
 
 def refuse_onsets(joint: Joint, who: str) -> None:
     """Raise ParameterError where an effect of *joint* begins after the start: *who* needs all."""
-    for given in (joint.effects, *(actuator.effects for actuator in joint.actuators)):
-        for name, values in given.items():
-            if values.get(ONSET.name, 0.0) > 0.0:
+    for effects in (joint.effects, *(actuator.effects for actuator in joint.actuators)):
+        for effect in effects:
+            if effect.onset > 0.0:
                 raise ParameterError(
-                    f'effects.{name}.onset = {values[ONSET.name]:g} s is not allowed: {who} takes '
-                    'effects that act from the start, give 0 or leave the effect out'
+                    f'effects.{effect.name}.onset = {effect.onset:g} s is not allowed: {who} '
+                    'takes effects that act from the start, give 0 or leave the effect out'
                 )
 
 

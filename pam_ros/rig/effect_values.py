@@ -1,59 +1,64 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The values of effects as they are given: where each acts, and from when on."""
+"""The effects of a joint as they are given: where each acts, and from when on."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
-from pam_ros.arguments import instance
+from pam_ros.arguments import sequence
 from pam_ros.effects import EFFECTS
 from pam_ros.effects.base import ONSET, Effect
+from pam_ros.effects.names import EffectName
 from pam_ros.errors import ParameterError
 
-EffectValues = Mapping[str, Mapping[str, float]]
+
+def checked_effects(effects: Sequence[Effect]) -> tuple[Effect, ...]:
+    """Return *effects* as a tuple; raises ParameterError for something else, and for two alike."""
+    found = sequence('effects', effects, Effect, 'an effect, such as PressureLag(fill=0.1)')
+    for i, effect in enumerate(found):
+        if any(type(effect) is type(other) for other in found[:i]):
+            raise ParameterError(f'effects[{i}] is a second {effect.name}: give one of each')
+    return found
 
 
-def refuse_other_than_effects(effects: EffectValues) -> None:
-    """Raise ParameterError where *effects* are not tables of parameters by name."""
-    example = "{'pressure_lag': {'fill': 0.1, 'vent': 0.2}}"
-    instance('effects', effects, Mapping, f'effects with their parameters, such as {example}')
-    for name, given in effects.items():
-        instance(f'effects.{name}', given, Mapping, f'its parameters by name, as in {example}')
+def effects_from(
+    values: Mapping[str, Mapping[str, float]], library: Sequence[type[Effect]] = EFFECTS
+) -> tuple[Effect, ...]:
+    """Return the effects that *values* give by the names of effects and of their parameters.
+
+    They are in the order of the *library*. Raises ParameterError for an effect that it does not
+    have, for an unknown parameter, and for a value out of range.
+    """
+    known = {effect.name: effect for effect in library}
+    for name, given in values.items():
+        if name not in known:
+            raise ParameterError(f'effects.{name} is not known: give one of ' + ', '.join(known))
+        names = [p.name for p in (*known[name].parameters(), ONSET)]
+        for parameter in given:
+            if parameter not in names:
+                raise ParameterError(
+                    f'{EffectName(name, parameter).flat} is not known: give one of '
+                    + ', '.join(names)
+                )
+    return tuple(effect(**values[name]) for name, effect in known.items() if name in values)
 
 
 def split_effects(
-    effects: EffectValues, library: Sequence[type[Effect]] = EFFECTS
-) -> tuple[EffectValues, EffectValues]:
-    """Return those of *effects* that act in a muscle, and those that act on the joint.
-
-    Raises ParameterError for an effect that *library* does not have.
-    """
-    refuse_other_than_effects(effects)
-    on_joint = {effect.name: effect.acts_on_joint() for effect in library}
-    for name in effects:
-        if name not in on_joint:
-            raise ParameterError(
-                f'effects.{name} is not known: give one of ' + ', '.join(on_joint)
-            )
+    effects: Sequence[Effect],
+) -> tuple[tuple[Effect, ...], tuple[Effect, ...]]:
+    """Return those of *effects* that act in a muscle, and those that act on the joint."""
+    checked = checked_effects(effects)
     return (
-        {name: given for name, given in effects.items() if not on_joint[name]},
-        {name: given for name, given in effects.items() if on_joint[name]},
+        tuple(effect for effect in checked if not effect.acts_on_joint()),
+        tuple(effect for effect in checked if effect.acts_on_joint()),
     )
 
 
-def onsets(effects: EffectValues, present: Sequence[type[Effect]]) -> set[float]:
-    """Return the times in s after 0 at which those of *effects* begin to act that are *present*.
-
-    *present* are the effects that act when all have begun.
-    """
-    names = {effect.name for effect in present}
-    times = {given.get(ONSET.name, 0.0) for name, given in effects.items() if name in names}
-    return times - {0.0}
+def onsets(effects: Sequence[Effect]) -> set[float]:
+    """Return the times in s after 0 at which those of *effects* that are present begin to act."""
+    return {effect.onset for effect in effects if effect.is_present} - {0.0}
 
 
-def begun(effects: EffectValues, time: float) -> EffectValues:
+def begun(effects: Sequence[Effect], time: float) -> tuple[Effect, ...]:
     """Return those of *effects* that act at *time* s, as effects that have always acted."""
-    return {
-        name: {parameter: value for parameter, value in given.items() if parameter != ONSET.name}
-        for name, given in effects.items()
-        if given.get(ONSET.name, 0.0) <= time
-    }
+    return tuple(replace(effect, onset=0.0) for effect in effects if effect.onset <= time)

@@ -3,7 +3,7 @@
 """A joint as declared: its load, the muscles that move it, how they are connected, and effects."""
 
 import itertools
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -17,7 +17,7 @@ from pam_ros.errors import ParameterError, RangeError
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig import layout as at
 from pam_ros.rig import statics
-from pam_ros.rig.effect_values import EffectValues, begun, onsets, refuse_other_than_effects
+from pam_ros.rig.effect_values import begun, checked_effects, onsets
 from pam_ros.rig.layout import Layout, layout_of
 from pam_ros.rig.loads import Load, LoadEquations, Mass
 from pam_ros.rig.transmissions import Straight, Transmission, TransmissionEquations
@@ -34,13 +34,13 @@ class Actuator:
     """
 
     muscle: Muscle = field(default_factory=Muscle)
-    effects: EffectValues = field(default_factory=dict)
+    effects: Sequence[Effect] = ()
     contraction: float = 0.0
 
     def __post_init__(self) -> None:
         """Check what was given; the joint checks which effects there are."""
         instance('muscle', self.muscle, Muscle, 'a Muscle')
-        refuse_other_than_effects(self.effects)
+        object.__setattr__(self, 'effects', checked_effects(self.effects))
         number('contraction', self.contraction)
 
 
@@ -51,13 +51,12 @@ class Joint:
     ``actuators`` are the muscles in order, ``transmission`` says how they are connected to the
     coordinate, ``load`` what they move: a ``Mass`` by a ``Straight`` transmission, an ``Arm`` by
     a ``Pulley``, a ``Lever`` or one of your own. ``effects`` are those on the joint, such as
-    friction, in the joint's units; effect values map an effect's name to its parameters in SI,
-    and what is not given has its default, absent. ``library`` are the effects that the kernel
-    knows. The paper's rig, one muscle on a mass, is what
+    friction, in the joint's units. ``library`` are the effects that the kernel knows. The paper's
+    rig, one muscle on a mass, is what
     :func:`pam_ros.single_muscle_joint` makes.
 
-    An effect with an ``onset`` in s, ``{'leak': {'rate': 0.1, 'onset': 20.0}}``, begins to act
-    then: in simulations, whose time it is. Until then it is absent, and at the moment no pressure
+    An effect with an ``onset`` in s, ``Leak(rate=0.1, onset=20.0)``, begins to act then: in
+    simulations, whose time it is. Until then it is absent, and at the moment no pressure
     and no position jumps. All else here describes the joint on which all effects act.
 
     Raises ParameterError for effects that are unknown, out of range or at the wrong place, and
@@ -68,7 +67,7 @@ class Joint:
     actuators: tuple[Actuator, ...] = field(default_factory=lambda: (Actuator(),))
     load: Load = field(default_factory=Mass)
     transmission: Transmission = field(default_factory=Straight)
-    effects: EffectValues = field(default_factory=dict)
+    effects: Sequence[Effect] = ()
     library: tuple[type[Effect], ...] = field(default_factory=lambda: EFFECTS, repr=False)
 
     def __post_init__(self) -> None:
@@ -81,11 +80,12 @@ class Joint:
                 f'{type(self.transmission).__name__} moves no {type(self.load).__name__}: a load '
                 'that slides needs a transmission in m, one that turns one in rad'
             )
-        for name, given in self.effects.items():
-            self._known(name, on_joint=True).values(given, turning=self.is_revolute)
+        for effect in self.effects:
+            self._check_place(effect, on_joint=True)
+            effect.check(turning=self.is_revolute)
         for actuator in self.actuators:
-            for name, given in actuator.effects.items():
-                self._known(name, on_joint=False).values(given)
+            for effect in actuator.effects:
+                self._check_place(effect, on_joint=False)
         if not self.is_driven:
             self._check_equilibria()
         _ = self.stages  # each of them must be a joint, too
@@ -109,21 +109,19 @@ class Joint:
         ):
             given = getattr(part, 'equations', None)
             instance(f'{name}.equations', given, kind, f'{kind.__name__}, as a field of its class')
-        refuse_other_than_effects(self.effects)
+        object.__setattr__(self, 'effects', checked_effects(self.effects))
         object.__setattr__(self, 'library', library_of(self.library))
 
-    def _known(self, name: str, *, on_joint: bool) -> type[Effect]:
-        """Return the effect of that *name*, or say why there is none."""
-        found = [effect for effect in self.library if effect.name == name]
-        if not found:
+    def _check_place(self, effect: Effect, *, on_joint: bool) -> None:
+        """Raise ParameterError for an effect that is not of the library, or acts elsewhere."""
+        if type(effect) not in self.library:
             raise ParameterError(
-                f'effects.{name} is not known: give one of '
-                + ', '.join(e.name for e in self.library if e.acts_on_joint() is on_joint)
+                f'effects.{effect.name} is not known: give one of '
+                + ', '.join(known.name for known in self.library)
             )
-        if found[0].acts_on_joint() is not on_joint:
-            where = 'on the load' if found[0].acts_on_joint() else 'in a muscle'
-            raise ParameterError(f'effects.{name} acts {where}: give it there')
-        return found[0]
+        if effect.acts_on_joint() is not on_joint:
+            where = 'on the load' if effect.acts_on_joint() else 'in a muscle'
+            raise ParameterError(f'effects.{effect.name} acts {where}: give it there')
 
     def _check_equilibria(self) -> None:
         for i, muscle in enumerate(self.muscles):
@@ -191,7 +189,7 @@ class Joint:
     def stages(self) -> tuple[tuple[float, 'Joint'], ...]:
         """The joint as it is from each time in s on, at first from 0: without later effects."""
         each = [self.effects, *(actuator.effects for actuator in self.actuators)]
-        times = set().union(*map(onsets, each, self.present))
+        times = set().union(*map(onsets, each))
         if not times:
             return ((0.0, self),)
         return tuple((time, self._at(time)) for time in sorted({0.0, *times}))
@@ -218,9 +216,9 @@ class Joint:
         return self.actuators[0].muscle
 
     @property
-    def all_effects(self) -> dict[str, Mapping[str, float]]:
+    def all_effects(self) -> tuple[Effect, ...]:
         """The effects of a joint with one muscle, those in it and those on the joint."""
-        return {**self.actuators[0].effects, **self.effects}
+        return (*self.actuators[0].effects, *self.effects)
 
     # What the kernel gets ----------------------------------------------------------------------
 
@@ -238,9 +236,8 @@ class Joint:
     def present(self) -> tuple[tuple[type[Effect], ...], ...]:
         """The effects that are present on the joint, then those in each muscle, by row."""
         each = [self.effects, *(actuator.effects for actuator in self.actuators)]
-        return tuple(
-            tuple(e for e in self.library if e.is_present(given.get(e.name, {}))) for given in each
-        )
+        present = [{type(effect) for effect in row if effect.is_present} for row in each]
+        return tuple(tuple(e for e in self.library if e in row) for row in present)
 
     @property
     def all_present(self) -> tuple[type[Effect], ...]:
@@ -277,14 +274,13 @@ class Joint:
         self._fill(row, self.effects, on_joint=True)
         return row
 
-    def _fill(self, row: Array, effects: EffectValues, *, on_joint: bool) -> None:
+    def _fill(self, row: Array, effects: Sequence[Effect], *, on_joint: bool) -> None:
+        given = {type(effect): effect.row for effect in effects}
         for effect in self.library:
             if effect.acts_on_joint() is on_joint:
                 j = self.layout.parameter_at[effect.name]
-                given = effects.get(effect.name, {})
-                row[j : j + len(effect.parameters())] = [
-                    given.get(p.name, p.default) for p in effect.parameters()
-                ]
+                absent = tuple(p.default for p in effect.parameters())
+                row[j : j + len(absent)] = given.get(effect, absent)
 
 
 def fill_load(row: Array, layout: Layout, load: Load, transmission: Transmission) -> None:

@@ -10,7 +10,7 @@ from pam_ros.arguments import one_each
 from pam_ros.effects import EFFECTS
 from pam_ros.effects.base import Effect
 from pam_ros.muscle.muscle import Muscle
-from pam_ros.rig.effect_values import EffectValues, split_effects
+from pam_ros.rig.effect_values import split_effects
 from pam_ros.rig.joint import Actuator, Joint, library_of
 from pam_ros.rig.loads import Arm, Mass
 from pam_ros.rig.transmissions import Pulley, Straight
@@ -19,22 +19,21 @@ from pam_ros.rig.transmissions import Pulley, Straight
 def single_muscle_joint(
     muscle: Muscle | None = None,
     load: Mass | None = None,
-    effects: EffectValues | None = None,
+    effects: Sequence[Effect] = (),
     library: Sequence[type[Effect]] | None = None,
 ) -> Joint:
     """Return one muscle on a mass, the paper's rig, with *effects* in the one and on the other.
 
-    What is None has its default: ``Muscle()``, ``Mass()``, no effects, and EFFECTS as the library.
+    What is None has its default: ``Muscle()``, ``Mass()``, and EFFECTS as the library.
     Raises ParameterError as Joint does.
     """
-    library = library_of(EFFECTS if library is None else library)
-    in_muscle, on_joint = split_effects({} if effects is None else effects, library)
+    in_muscle, on_joint = split_effects(effects)
     return Joint(
         (Actuator(Muscle() if muscle is None else muscle, in_muscle),),
         Mass() if load is None else load,
         Straight(),
         on_joint,
-        library,
+        library_of(EFFECTS if library is None else library),
     )
 
 
@@ -45,7 +44,7 @@ def antagonistic_joint(
     radius: float = 0.04,
     load: Arm | None = None,
     contraction: ArrayLike = 0.1,
-    effects: EffectValues | None = None,
+    effects: Sequence[Effect] = (),
     library: Sequence[type[Effect]] | None = None,
 ) -> Joint:
     """Return two muscles that turn a pulley of *radius* m against each other.
@@ -56,8 +55,7 @@ def antagonistic_joint(
     those of a load on the joint; for muscles with different effects make a ``Joint`` of two
     ``Actuator``. Raises ParameterError as Joint does.
     """
-    library = library_of(EFFECTS if library is None else library)
-    in_muscle, on_joint = split_effects({} if effects is None else effects, library)
+    in_muscle, on_joint = split_effects(effects)
     first = Muscle() if muscle is None else muscle
     muscles = (first, first if antagonist is None else antagonist)
     at_zero = one_each('contraction', contraction, 2, 'muscle').tolist()
@@ -68,5 +66,5 @@ def antagonistic_joint(
         Arm() if load is None else load,
         Pulley(radius=radius),
         on_joint,
-        library,
+        library_of(EFFECTS if library is None else library),
     )

@@ -2,14 +2,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """The joint that a parameter file describes, with the names of its muscles, and back to a file."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import Any
 
 from pam_ros.arguments import refuse, sequence
-from pam_ros.effects.names import flattened
+from pam_ros.effects.base import Effect
+from pam_ros.effects.names import EffectName
 from pam_ros.parameters import Parameter
 from pam_ros.rig.arrangements import ARRANGEMENTS, LOAD, Arrangement
 from pam_ros.rig.joint import Joint
@@ -70,7 +71,7 @@ class NominalJoint:
         """
         joint = self.joint if joint is None else joint
         each = [
-            {**flat(actuator.muscle), **flattened(actuator.effects)}
+            {**flat(actuator.muscle), **_flat_effects(actuator.effects)}
             for actuator in joint.actuators
         ]
         values: dict[str, Any] = {}
@@ -90,7 +91,7 @@ class NominalJoint:
             values |= flat(joint.transmission)
             pairs = zip(mountings(self.kind), joint.actuators, strict=True)
             values |= {name: actuator.contraction for name, actuator in pairs}
-        return {**values, **flat(joint.load), **flattened(joint.effects)}
+        return {**values, **flat(joint.load), **_flat_effects(joint.effects)}
 
 
 def nominal_of(joint: Joint, muscles: tuple[str, ...] = ()) -> NominalJoint:
@@ -149,3 +150,11 @@ def uncertain_values(name: str | Path) -> dict[str, Any]:
     head = 'uncertain.'
     found = read_any(find(str(name)), 'pam_identify')
     return {flat.removeprefix(head): found[flat] for flat in found if flat.startswith(head)}
+
+
+def _flat_effects(effects: Sequence[Effect]) -> dict[str, float]:
+    return {
+        EffectName(effect.name, parameter).flat: value
+        for effect in effects
+        for parameter, value in effect.values.items()
+    }

@@ -15,10 +15,11 @@ from functools import cached_property
 from itertools import chain
 from typing import Any, ClassVar
 
+from pam_ros.effects.base import Effect
 from pam_ros.errors import ParameterError
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig.arrangements import ARRANGEMENTS, LOAD
-from pam_ros.rig.effect_values import split_effects
+from pam_ros.rig.effect_values import effects_from, split_effects
 from pam_ros.rig.joint import Actuator, Joint
 from pam_ros.settings.contradictions import refuse_contradictions
 from pam_ros.settings.files import read_known
@@ -215,14 +216,14 @@ class RigParameters:
         kind = self.kind
         contractions: list[Any] = [joint.get(n, kind.contraction) for n in mountings(kind)]
         actuators = tuple(
-            Actuator(build(Muscle, own), split_effects(effects_of(own))[0], contraction)
+            Actuator(build(Muscle, own), _effects(own)[0], contraction)
             for own, contraction in zip(muscles, contractions or [0.0], strict=True)
         )
         made = Joint(
             actuators,
             build(kind.load, joint),
             build(kind.transmission, joint),
-            split_effects(effects_of(joint))[1],
+            _effects(joint)[1],
         )
         refuse_contradictions(made)
         return made
@@ -237,3 +238,8 @@ def _found(values: Values, table: Table, names: Iterable[str]) -> dict[str, Any]
                 found[rest] = values[flat]
                 break
     return found
+
+
+def _effects(values: Values) -> tuple[tuple[Effect, ...], tuple[Effect, ...]]:
+    """Return the effects among flat *values*: those in a muscle, and those on the joint."""
+    return split_effects(effects_from(effects_of(values)))

@@ -19,7 +19,7 @@ from pam_ros.errors import ParameterError
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.parameters import Parameter, described
 from pam_ros.rig.arrangements import LOAD, Arrangement
-from pam_ros.rig.effect_values import split_effects
+from pam_ros.rig.effect_values import effects_from
 
 Value = bool | int | float | str | tuple[str, ...]
 Values = Mapping[str, Value]
@@ -152,10 +152,7 @@ def refuse_unknown_effects(values: Values) -> None:
                 f'{name} is not a parameter: give {GROUP}.<effect>.<parameter>, such as '
                 'effects.payload.mass'
             )
-    given = effects_of(strange)
-    split_effects(given)
-    for effect in EFFECTS:
-        effect.values(given.get(effect.name, {}))
+    effects_from(effects_of(strange))
 
 
 def override(text: str, table: Table) -> tuple[str, Any]:

@@ -14,6 +14,7 @@ from pam_ros.recording.recording import Recording
 from pam_ros.rig.run import simulate
 from pam_ros.settings.load import load_joint
 from pam_ros.settings.nominal import nominal_joint
+from support.by_name import by_name
 from support.pages import ROOT
 
 pytestmark = pytest.mark.needs_numba
@@ -117,7 +118,7 @@ def test_the_parameter_file_is_the_joint_that_was_found(found):
     again = nominal_joint(folder / 'identified.yaml')
     assert (again.muscles, again.kind.name) == (NAMES, 'antagonistic')
     first, second = again.joint.actuators
-    assert first.effects['pressure_lag']['fill'] == pytest.approx(0.06, abs=1e-3)
+    assert by_name(first.effects)['pressure_lag'].fill == pytest.approx(0.06, abs=1e-3)
     assert not second.effects
     assert first.muscle != second.muscle
     assert again.joint.load.arm == 0.25

@@ -12,6 +12,7 @@ from pam_ros.control.gains import Gains
 from pam_ros.control.model import ControlModel
 from pam_ros.control.signals import Reference
 from pam_ros.control.sliding_mode import SlidingMode
+from pam_ros.effects import CoulombFriction, Creep, Hysteresis, Leak, Payload
 from pam_ros.rig.joint import Actuator
 from pam_ros.rig.run import simulate_held
 from pam_ros.rig.simulation import Simulation
@@ -19,12 +20,9 @@ from pam_ros.rig.standard_joints import single_muscle_joint
 from support.pair_loop import declared
 
 DT = 2e-3
-LOSSES = {
-    'hysteresis': {'slip': 30.0, 'slip_width': 0.02},
-    'creep': {'force': 0.04},
-}
-FRICTION = {'coulomb_friction': {'level': 0.3}}
-HYSTERESIS = {'hysteresis': {'slip': 20.0}}
+LOSSES = [Hysteresis(slip=30.0, slip_width=0.02), Creep(force=0.04)]
+FRICTION = [CoulombFriction(level=0.3)]
+HYSTERESIS = [Hysteresis(slip=20.0)]
 
 
 def losses_of(joint):
@@ -51,7 +49,7 @@ def test_losses_along_a_motion_are_what_the_rig_pulls_less():
 
 
 def test_friction_turns_over_with_the_motion():
-    losses = losses_of(single_muscle_joint(effects={'coulomb_friction': {'level': 15.0}}))
+    losses = losses_of(single_muscle_joint(effects=[CoulombFriction(level=15.0)]))
     losses.start(0.05, (300e3,))
     for n in range(100):
         up = losses.follow(DT, Reference(0.05 + 1e-4 * n, 0.05), (300e3,))
@@ -68,14 +66,12 @@ def test_without_effects_nothing_is_lost():
 
 
 def test_it_says_what_it_leaves_to_feedback():
-    joint = single_muscle_joint(
-        effects={'payload': {'mass': 1.0}, 'leak': {'rate': 0.1}, 'hysteresis': {'slip': 3.0}}
-    )
+    joint = single_muscle_joint(effects=[Payload(mass=1.0), Leak(rate=0.1), Hysteresis(slip=3.0)])
     assert left_to_feedback(joint) == ('leak',)
 
 
 def test_what_one_muscle_of_several_has_is_said_as_well():
-    plain, leaks = Actuator(contraction=0.1), Actuator(effects={'leak': {'rate': 0.1}})
+    plain, leaks = Actuator(contraction=0.1), Actuator(effects=[Leak(rate=0.1)])
     joint = declared()
     assert left_to_feedback(joint) == ()
     assert left_to_feedback(type(joint)((plain, leaks), joint.load, joint.transmission)) == (

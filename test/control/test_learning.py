@@ -9,6 +9,7 @@ from pam_ros.control.features import FeatureTuning
 from pam_ros.control.gains import Gains
 from pam_ros.control.learning import LearningTuning
 from pam_ros.control.sliding_mode import SlidingMode
+from pam_ros.effects import CoulombFriction
 from support.closed_loop import LAG, step_target
 from support.kinds import EACH_KIND, ONE, PAIR, rms
 
@@ -18,7 +19,7 @@ ELEMENTS = len(FeatureTuning().reaches)
 ARMS = {ONE: 1.0, PAIR: 0.08}  # of all muscles together, m on a joint that turns
 
 
-def swung(kind, plant, seconds=12.0, effects=None, **gains):
+def swung(kind, plant, seconds=12.0, effects=(), **gains):
     joint = kind.declared(effects)
     law = SlidingMode(joint, Gains.for_joint(joint, **gains))
     return law, kind.close(law, kind.truth(plant, seed=5), kind.swing, seconds)
@@ -101,7 +102,7 @@ def test_a_declared_lag_leaves_nothing_to_learn(kind):
 
 @pytest.mark.slow
 def test_declared_friction_is_not_learned_again():
-    friction = {'coulomb_friction': {'level': 15.0, 'breakaway': 25.0, 'stribeck_speed': 0.01}}
+    friction = [CoulombFriction(level=15.0, breakaway=25.0, stribeck_speed=0.01)]
     _, run = swung(ONE, 'friction', effects=friction)
     assert np.max(np.abs(run.terms['learned'][run.last(6.0)])) < 5.0
     assert rms(ONE, run) < 0.55

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from pam_ros.control.model import ControlModel
+from pam_ros.effects import LengthOffset, Payload, PressureDependentDamping, ViscousFriction
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig import statics
 from pam_ros.rig.joint import Actuator, Joint
@@ -18,15 +19,15 @@ from support.joint_models import UNEQUAL, pair
 
 # One muscle --------------------------------------------------------------------------------------
 
-EFFECTS = {
-    'payload': {'mass': 5.0},
-    'length_offset': {'offset': 0.02},
-    'viscous_friction': {'coefficient': 40.0},
-    'pressure_dependent_damping': {'inflating': 3e-4, 'deflating': 5e-4},
-}
+EFFECTS = [
+    Payload(mass=5.0),
+    LengthOffset(offset=0.02),
+    ViscousFriction(coefficient=40.0),
+    PressureDependentDamping(inflating=3e-4, deflating=5e-4),
+]
 
 
-@pytest.mark.parametrize('effects', [{}, EFFECTS])
+@pytest.mark.parametrize('effects', [(), EFFECTS])
 @pytest.mark.parametrize('v', [0.1, -0.1])
 def test_it_is_the_rig_without_memory(effects, v):
     joint = single_muscle_joint(Muscle(zeta=0.15), Mass(mass=20.0), effects)
@@ -42,16 +43,14 @@ def test_it_is_the_rig_without_memory(effects, v):
 
 
 def test_the_inverse_is_one():
-    muscle = ControlModel(
-        single_muscle_joint(effects={'length_offset': {'offset': 0.02}})
-    ).muscles[0]
+    muscle = ControlModel(single_muscle_joint(effects=[LengthOffset(offset=0.02)])).muscles[0]
     assert muscle.force(muscle.pressure_for(200.0, 0.03), 0.03) == pytest.approx(200.0)
     slope = (muscle.force(301e3, 0.03) - muscle.force(300e3, 0.03)) / 1e3
     assert muscle.gain(0.03) == pytest.approx(slope, rel=1e-9)
 
 
 def test_gravity_is_the_weight_of_the_moved_mass_and_adds_no_stiffness():
-    model = ControlModel(single_muscle_joint(effects={'payload': {'mass': 5.0}}))
+    model = ControlModel(single_muscle_joint(effects=[Payload(mass=5.0)]))
     assert model.gravity(0.05) == model.weight == pytest.approx(25.0 * 9.80665)
     assert model.gravity_stiffness(0.05) == 0.0
     assert (model.arm, model.arms) == (1.0, 1.0)
@@ -90,7 +89,7 @@ def test_the_arms_of_a_pair_are_the_radius():
 
 
 def test_the_acceleration_of_a_pair_is_the_rigs():
-    joint = pair(load={'viscous_friction': {'coefficient': 0.2}, 'payload': {'mass': 0.4}})
+    joint = pair(load=[ViscousFriction(coefficient=0.2), Payload(mass=0.4)])
     model, rig = ControlModel(joint), Simulation([joint])
     rig.reset([4e5, 2e5], [0.1], [1.3])
     acceleration = rig.joint_outputs().acceleration[0]
@@ -100,13 +99,11 @@ def test_the_acceleration_of_a_pair_is_the_rigs():
 
 # Other joints ------------------------------------------------------------------------------------
 
-HUNG = Actuator(Muscle(zeta=0.15), {'length_offset': {'offset': 0.01}}, 0.1)
+HUNG = Actuator(Muscle(zeta=0.15), [LengthOffset(offset=0.01)], 0.1)
 OTHERS = {
     'parallel': Joint((Actuator(), Actuator(Muscle(l0=0.38))), Mass(mass=40.0), Straight()),
     'lever': Joint((HUNG, HUNG), Arm(hanging_at=0.2), Lever()),
-    'crank': Joint(
-        (HUNG,), Arm(hanging_at=-0.6), Lever(), {'viscous_friction': {'coefficient': 0.1}}
-    ),
+    'crank': Joint((HUNG,), Arm(hanging_at=-0.6), Lever(), [ViscousFriction(coefficient=0.1)]),
 }
 
 

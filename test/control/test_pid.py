@@ -11,6 +11,7 @@ from pam_ros.control.co_contraction import CoContraction
 from pam_ros.control.limits import Limits
 from pam_ros.control.pid import Pid, PidGains
 from pam_ros.control.signals import Reference
+from pam_ros.effects import Payload
 from pam_ros.errors import RangeError
 from pam_ros.rig import statics
 from pam_ros.rig.standard_joints import single_muscle_joint
@@ -77,7 +78,7 @@ def test_a_pair_follows_a_sine(plant, most):
 @pytest.mark.parametrize('goal', [-1.0, -0.6, 0.8])
 def test_a_lever_rests_where_it_shall_also_where_a_muscle_is_at_its_limit(goal):
     joint = JOINTS['lever']
-    heavy = replace(joint, effects={'payload': {'mass': 0.2}})
+    heavy = replace(joint, effects=[Payload(mass=0.2)])
     run = close_joint(Pid(joint), heavy, lambda t: goal if t > 0.5 else 0.0, 6.0, begin=0.0)
     assert np.all(np.isfinite(run.pressure))
     assert np.max(np.abs(run.error[run.last(1.0)])) < 0.01 * PAIR.unit

@@ -8,15 +8,16 @@ import numpy as np
 import pytest
 
 from pam_ros.control.pressure_path import PressurePath
+from pam_ros.effects import DeadBand, DeadTime, PressureLag, PressureOffset
 from pam_ros.rig.simulation import Simulation
 from pam_ros.rig.standard_joints import single_muscle_joint
 
 DT = 2e-3
-EFFECTS = {
-    'dead_time': {'delay': 0.01},
-    'pressure_offset': {'offset': 5e3, 'gain': 0.02},
-    'pressure_lag': {'fill': 0.05, 'vent': 0.07},
-}
+EFFECTS = [
+    DeadTime(delay=0.01),
+    PressureOffset(offset=5e3, gain=0.02),
+    PressureLag(fill=0.05, vent=0.07),
+]
 
 
 def test_it_knows_the_chamber_of_the_rig():
@@ -33,7 +34,7 @@ def test_it_knows_the_chamber_of_the_rig():
         assert path.chamber.pressure == pytest.approx(rig.pressure[0], abs=1.0)
 
 
-@pytest.mark.parametrize('effects', [{}, EFFECTS])
+@pytest.mark.parametrize('effects', [(), EFFECTS])
 def test_a_foreseen_pressure_arrives_without_lag(effects):
     path = PressurePath(single_muscle_joint(effects=effects), 0, 0.02)
     start = path.command_at_rest(300e3)
@@ -58,7 +59,7 @@ def test_at_rest_the_chamber_has_the_wanted_pressure():
 
 
 def test_a_dead_band_is_made_up_for():
-    band = {'dead_band': {'band': 4e4, 'width': 2e3}, 'pressure_offset': {'gain': 0.1}}
+    band = [DeadBand(band=4e4, width=2e3), PressureOffset(gain=0.1)]
     joint = single_muscle_joint(effects=band)
     rig, path = Simulation([joint]), PressurePath(joint, 0, 0.02)
     for pressure in (0.0, 1e3, 1e4, 2e5):
@@ -70,9 +71,7 @@ def test_a_dead_band_is_made_up_for():
 
 
 def test_the_lag_of_what_is_not_foreseen_shrinks_to_the_quickest():
-    path = PressurePath(
-        single_muscle_joint(effects={'pressure_lag': {'fill': 0.06, 'vent': 0.06}}), 0, 0.02
-    )
+    path = PressurePath(single_muscle_joint(effects=[PressureLag(fill=0.06, vent=0.06)]), 0, 0.02)
     path.start(100e3)
     for n in range(100):
         path.follow(path.command_for(200e3, 0.0), 1e-4)

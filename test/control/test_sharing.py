@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from pam_ros.control.limits import Limits
 from pam_ros.control.pressure_path import PressurePath
 from pam_ros.control.sharing import OneSide, TwoSides
+from pam_ros.effects import PressureLag, Slack
 from pam_ros.errors import ParameterError, RangeError
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig import co_contraction, statics
@@ -48,7 +49,7 @@ def test_a_load_beyond_the_limits_of_pressure_is_refused():
         shared(heavy, Limits(pressure_high=100e3))
 
 
-def parallel(**effects):
+def parallel(*effects):
     muscles = (Actuator(effects=effects), Actuator(Muscle(l0=0.38)))
     return Joint(muscles, Mass(mass=40.0), Straight())
 
@@ -94,7 +95,7 @@ def test_the_reach_of_one_side_is_where_its_limits_hold_the_load(joint):
 
 
 def hanging(at=0.0, **slack):
-    muscle = Actuator(effects={'slack': {'share': 1.0, **slack}}, contraction=0.1)
+    muscle = Actuator(effects=[Slack(share=1.0, **slack)], contraction=0.1)
     return Joint((muscle,), Arm(hanging_at=at), Lever())
 
 
@@ -119,11 +120,11 @@ def test_what_a_muscle_may_push_before_it_buckles_is_in_the_reach():
 
 
 def test_muscles_that_pull_everywhere_in_the_reach_have_the_same_one_if_they_cannot_push():
-    assert shared(parallel(slack={'share': 1.0})).reach == pytest.approx(shared(parallel()).reach)
+    assert shared(parallel(Slack(share=1.0))).reach == pytest.approx(shared(parallel()).reach)
 
 
 def test_one_muscle_that_cannot_push_holds_no_cart_on_a_level_track():
-    muscle = Actuator(effects={'slack': {'share': 1.0}})
+    muscle = Actuator(effects=[Slack(share=1.0)])
     with pytest.raises(ParameterError, match='cannot be held anywhere'):
         shared(Joint((muscle,), Mass(mount='horizontal'), Straight()))
 
@@ -235,9 +236,9 @@ def test_an_arm_that_cannot_be_held_is_refused():
 
 
 def test_each_muscle_keeps_its_own_effects():
-    lag = {'pressure_lag': {'fill': 0.03, 'vent': 0.05}}
-    joint = pair(effects=({}, lag))
-    assert [one.effects for one in shared(joint).model.joint.actuators] == [{}, lag]
+    lag = (PressureLag(fill=0.03, vent=0.05),)
+    joint = pair(effects=((), lag))
+    assert [one.effects for one in shared(joint).model.joint.actuators] == [(), lag]
     lever = Joint(joint.actuators, Arm(), Lever())
     assert [PressurePath(lever, i, 0.02).is_lag_declared for i in (0, 1)] == [False, True]
 

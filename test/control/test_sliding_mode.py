@@ -13,6 +13,7 @@ from pam_ros.control.limits import Limits
 from pam_ros.control.pid import Pid
 from pam_ros.control.signals import Reference
 from pam_ros.control.sliding_mode import SlidingMode
+from pam_ros.effects import Payload, Slack
 from pam_ros.errors import RangeError
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig import statics
@@ -154,7 +155,7 @@ def test_the_first_commands_are_the_pressures_that_are_there(case, observer):
 @pytest.mark.parametrize('hanging_at', [-0.8, 0.0, 0.6])
 def test_an_arm_that_hangs_on_vented_muscles_stays_where_it_is(hanging_at):
     # Slack muscles hold nothing, where the bare law would let them push.
-    slack = Actuator(effects={'slack': {'share': 1.0}}, contraction=0.1)
+    slack = Actuator(effects=[Slack(share=1.0)], contraction=0.1)
     joint = Joint((slack, slack), Arm(hanging_at=hanging_at), Pulley())
     begin = equilibrium(joint, [0.0, 0.0])
     assert begin == pytest.approx(hanging_at, abs=0.01)
@@ -273,9 +274,9 @@ def test_a_stiffness_that_the_angle_does_not_leave_gives_way_and_comes_back():
 @pytest.mark.parametrize('law', [SlidingMode, Pid])
 def test_an_effect_that_begins_later_is_not_known_to_the_law(law):
     """It holds the load that is there at the start; without the onset it would hold another."""
-    weights = {'payload': {'mass': 5.0}}
-    late = {'payload': {'mass': 5.0, 'onset': 20.0}}
-    laws = [law(single_muscle_joint(effects=effects)) for effects in ({}, late, weights)]
+    weights = [Payload(mass=5.0)]
+    late = [Payload(mass=5.0, onset=20.0)]
+    laws = [law(single_muscle_joint(effects=effects)) for effects in ((), late, weights)]
     for each in laws:
         each.start(0.05, (3e5,))
     plain, later, loaded = (

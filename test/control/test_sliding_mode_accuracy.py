@@ -10,8 +10,9 @@ import pytest
 
 from pam_ros.control.gains import Gains
 from pam_ros.control.sliding_mode import SlidingMode
-from pam_ros.effects import EFFECTS
+from pam_ros.effects import EFFECTS, DeadBand, Payload, ViscousFriction
 from pam_ros.rig import co_contraction
+from pam_ros.rig.effect_values import effects_from
 from recorded.cases import MUSCLE_EFFECTS, TURNED_EFFECTS
 from support.closed_loop import LAG, shared
 from support.joint_loop import JOINTS, close_joint
@@ -27,23 +28,25 @@ NOISES = {True: 0.02 * DEGREE, False: 20e-6}  # of an angle, of a position
 AT_REST = {True: 0.03 * DEGREE, False: 30e-6}
 QUIET = {'noise': 0.0}
 # Those of the recorded runs, and what the package has had since.
-IN_MUSCLES = {**MUSCLE_EFFECTS, 'dead_band': {'band': 2e4, 'width': 4e3}}
+IN_MUSCLES = (*effects_from(MUSCLE_EFFECTS), DeadBand(band=2e4, width=4e3))
+ON_JOINT = effects_from(TURNED_EFFECTS)
+NAMES = [effect.name for effect in (*IN_MUSCLES, *ON_JOINT)]
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ('kind', 'plant', 'effects', 'more', 'rate', 'error', 'swing'),
     [
-        (ONE, 'nominal', None, {'seed': 7}, 500.0, 0.01, 3e3),
-        (ONE, 'payload', None, {'seed': 7}, 500.0, 0.01, 3e3),
+        (ONE, 'nominal', (), {'seed': 7}, 500.0, 0.01, 3e3),
+        (ONE, 'payload', (), {'seed': 7}, 500.0, 0.01, 3e3),
         (ONE, 'lag', LAG, {'seed': 7}, 500.0, 0.01, 3e3),
-        (ONE, 'hysteresis', None, {'seed': 7}, 500.0, 0.03, 3e3),
-        (ONE, 'nominal', None, QUIET, 500.0, 0.06, 1e3),
-        (ONE, 'lag', None, QUIET, 500.0, 0.06, 1e3),
-        (ONE, 'all', None, QUIET, 500.0, 0.06, 1e3),
-        (ONE, 'payload', None, {}, 200.0, 0.01, 3e3),
-        (ONE, 'payload', None, {}, 1000.0, 0.01, 3e3),
-        (PAIR, 'payload and friction', None, {}, 500.0, 0.01, 1e3),
+        (ONE, 'hysteresis', (), {'seed': 7}, 500.0, 0.03, 3e3),
+        (ONE, 'nominal', (), QUIET, 500.0, 0.06, 1e3),
+        (ONE, 'lag', (), QUIET, 500.0, 0.06, 1e3),
+        (ONE, 'all', (), QUIET, 500.0, 0.06, 1e3),
+        (ONE, 'payload', (), {}, 200.0, 0.01, 3e3),
+        (ONE, 'payload', (), {}, 1000.0, 0.01, 3e3),
+        (PAIR, 'payload and friction', (), {}, 500.0, 0.01, 1e3),
     ],
     ids=str,
 )
@@ -63,18 +66,18 @@ def test_a_step_is_reached_and_then_it_is_calm(kind, plant, effects, more, rate,
 @pytest.mark.parametrize(
     ('kind', 'plant', 'effects', 'rate', 'most'),
     [
-        (ONE, 'nominal', None, 500.0, 0.02),
-        (ONE, 'payload', None, 500.0, 0.02),
+        (ONE, 'nominal', (), 500.0, 0.02),
+        (ONE, 'payload', (), 500.0, 0.02),
         (ONE, 'lag', LAG, 500.0, 0.05),
-        (ONE, 'hysteresis', None, 500.0, 0.15),
-        (PAIR, 'nominal', None, 500.0, 0.2),
-        (PAIR, 'payload', None, 500.0, 0.2),
-        (PAIR, 'friction', None, 500.0, 0.2),
-        (PAIR, 'payload and friction', None, 500.0, 0.2),
-        (PAIR, 'quick lag', None, 500.0, 0.2),
+        (ONE, 'hysteresis', (), 500.0, 0.15),
+        (PAIR, 'nominal', (), 500.0, 0.2),
+        (PAIR, 'payload', (), 500.0, 0.2),
+        (PAIR, 'friction', (), 500.0, 0.2),
+        (PAIR, 'payload and friction', (), 500.0, 0.2),
+        (PAIR, 'quick lag', (), 500.0, 0.2),
         (PAIR, 'lag', LAG, 500.0, 0.2),
-        (PAIR, 'payload', None, 200.0, 0.2),
-        (PAIR, 'payload', None, 1000.0, 0.2),
+        (PAIR, 'payload', (), 200.0, 0.2),
+        (PAIR, 'payload', (), 1000.0, 0.2),
     ],
     ids=str,
 )
@@ -126,10 +129,7 @@ def test_a_heavier_arm_that_begins_away_from_rest_is_caught():
 def heavier(joint):
     """Return a joint with a load and friction that nobody declared."""
     friction = 0.05 if joint.is_revolute else 20.0
-    unknown = {
-        'payload': {'mass': 0.2 * joint.load.mass},
-        'viscous_friction': {'coefficient': friction},
-    }
+    unknown = [Payload(mass=0.2 * joint.load.mass), ViscousFriction(coefficient=friction)]
     return replace(joint, effects=unknown)
 
 
@@ -182,15 +182,15 @@ def test_muscles_that_pull_the_same_way_get_the_same_pressure():
 
 
 def test_each_effect_is_declared_below():
-    assert {*IN_MUSCLES, *TURNED_EFFECTS} == {effect.name for effect in EFFECTS}
+    assert {*NAMES} == {effect.name for effect in EFFECTS}
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize('name', [*IN_MUSCLES, *TURNED_EFFECTS, 'all'])
+@pytest.mark.parametrize('name', [*NAMES, 'all'])
 def test_effects_that_are_declared_of_a_pair_give_a_law_that_runs(name):
     in_muscles, on_load = (
-        effects if name == 'all' else {name: effects[name]} if name in effects else {}
-        for effects in (IN_MUSCLES, TURNED_EFFECTS)
+        [effect for effect in effects if name in ('all', effect.name)]
+        for effects in (IN_MUSCLES, ON_JOINT)
     )
     joint = declared(in_muscles, on_load)
     run = close_joint(SlidingMode(joint), joint, lambda t: 0.3 if t > 0.2 else 0.0, 2.5, begin=0.0)

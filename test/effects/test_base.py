@@ -8,7 +8,15 @@ from typing import ClassVar
 
 import pytest
 
-from pam_ros.effects import EFFECTS, CoulombFriction, Leak, Payload
+from pam_ros.effects import (
+    EFFECTS,
+    CoulombFriction,
+    Leak,
+    Payload,
+    PressureOffset,
+    Slack,
+    ViscousFriction,
+)
 from pam_ros.effects.base import ONSET, Compensation, EffectEquations, HiddenState
 from pam_ros.effects.parameter import strength
 from pam_ros.errors import ParameterError
@@ -41,15 +49,19 @@ def test_its_fields_are_in_the_order_of_its_rows_and_the_onset_has_a_name():
     friction = CoulombFriction(8.0, 12.0, onset=3.0)
     assert (friction.level, friction.breakaway, friction.onset) == (8.0, 12.0, 3.0)
     assert friction == CoulombFriction(level=8, breakaway=12, onset=3)
-    assert CoulombFriction.values(friction.given)[:3] == [8.0, 12.0, 0.01]
+    assert friction.row[:3] == (8.0, 12.0, 0.01)
+    assert friction.given == {'level': 8.0, 'breakaway': 12.0, 'onset': 3.0}
+    assert [*friction.values][:3] == ['level', 'breakaway', 'stribeck_speed']
+    assert 'onset' not in CoulombFriction().values
+    assert repr(friction) == 'CoulombFriction(level=8.0, breakaway=12.0, onset=3.0)'
     with pytest.raises(FrozenInstanceError):
         friction.level = 3.0
 
 
 def test_it_is_present_by_its_strengths():
-    assert Leak.is_present(Leak(rate=0.1).given)
-    assert not Leak.is_present(Leak(refill=0.1).given)
-    assert not Payload.is_present({})
+    assert Leak(rate=0.1).is_present
+    assert not Leak(refill=0.1).is_present
+    assert not Payload().is_present
 
 
 @pytest.mark.parametrize(
@@ -99,3 +111,17 @@ def test_a_parameter_with_the_name_of_a_place_hides_no_function():
         class Hidden(effect_with(outside=anywhere)):
             pressure: float = strength('hides the function', high=1.0, scale=0.1)
             equations: ClassVar = EffectEquations(pressure=pressure)
+
+
+def test_what_a_controller_asks_of_an_effect_without_memory():
+    """Closed forms; an effect that does not act there leaves what it gets."""
+    offset = PressureOffset(offset=5e3, gain=0.02)
+    assert offset.equations.resting_pressure(1e5, offset.row, 0) == 1.02 * 1e5 + 5e3
+    slack = Slack(share=1.0, push=3.0)
+    assert slack.equations.resting_force(-1e4, 0.0, 0.1, slack.row, 0) == pytest.approx(-3.0)
+    assert slack.equations.resting_force(1e4, 0.0, 0.1, slack.row, 0) == pytest.approx(1e4)
+    drag = ViscousFriction(coefficient=30.0)
+    assert drag.equations.viscous_drag(drag.row, 0) == 30.0
+    assert drag.equations.resting_pressure(1e5, drag.row, 0) == 1e5
+    assert drag.equations.resting_force(7.0, 1e5, 0.1, drag.row, 0) == 7.0
+    assert offset.equations.viscous_drag(offset.row, 0) == 0.0

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
+from pam_ros.effects import CoulombFriction, PeriodicDisturbance
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig.equilibrium import equilibrium
 from pam_ros.rig.loads import Mass
@@ -15,7 +16,7 @@ from support import bench
 
 
 def dry(**values):
-    return {'coulomb_friction': values}
+    return [CoulombFriction(**values)]
 
 
 @pytest.mark.parametrize(
@@ -23,7 +24,7 @@ def dry(**values):
 )
 def test_coasting_load_brakes_evenly_and_then_stands(v0, level):
     t = np.linspace(0.0, 5.0, 501)
-    model = bench.cart(**dry(level=6.0, asymmetry=0.2))
+    model = bench.cart(*dry(level=6.0, asymmetry=0.2))
     run = simulate(model, t, [0.0], [0.0], position=0.0, velocity=v0)
     brake = level / bench.MASS
     s = np.minimum(t, abs(v0) / brake)
@@ -54,7 +55,7 @@ def test_stuck_load_stays_where_it_is(mass, level):
 def test_load_does_not_drift_under_a_shaken_force_below_breakaway():
     # Dahl and LuGre ratchet here; measured contacts do not (Dupont et al. 2002).
     shake = {'force_sin': 2.0, 'frequency': 7.0}
-    model = bench.cart(**dry(level=6.0), periodic_disturbance=shake)
+    model = bench.cart(*dry(level=6.0), PeriodicDisturbance(**shake))
     t = np.linspace(0.0, 20.0, 2001)
     run = simulate(model, t, [0.0, 1.0], [0.0, 3.0], position=0.0)
     assert np.ptp(run.position) < 3e-5
@@ -68,7 +69,7 @@ def test_load_breaks_away_at_its_level_and_slides_at_the_lower_one():
     stamps = np.arange(0.0, 4.0, 0.01)
     ramp = 4.0 * stamps
     t = np.linspace(0.0, 4.0, 401)
-    run = simulate(bench.cart(m, **friction), t, stamps, ramp, position=0.0)
+    run = simulate(bench.cart(*friction, mass=m), t, stamps, ramp, position=0.0)
     moved = t[np.argmax(run.position > 1e-4)]
     assert 2.0 < moved < 2.15  # 8 N after 2 s, and the time to go 0.1 mm
     assert np.all(run.position[t < 1.95] < 2e-5)
@@ -94,7 +95,7 @@ def test_load_breaks_away_at_its_level_and_slides_at_the_lower_one():
 
 def test_friction_grows_with_pressure():
     p, growth = 100.0, 0.01
-    model = bench.cart(**dry(level=2.0, per_pressure=growth))
+    model = bench.cart(*dry(level=2.0, per_pressure=growth))
     run = simulate(model, [0.0, 0.3], [0.0], [p], position=0.0, velocity=0.5)
     rise = (p - 2.0 - growth * p) / bench.MASS
     assert run.velocity[1] == pytest.approx(0.5 + 0.3 * rise, abs=1e-5)
@@ -130,7 +131,7 @@ def test_swing_dies_in_the_turns_and_where_an_ideal_slider_sticks():
     y0 = bench.rest(3e5) + 0.02
     turns, stuck = swing(y0, level, end=2.0)
     t = np.linspace(0.0, 4.0, 4001)
-    run = simulate(bench.hanging(**dry(level=level)), t, [0.0], [3e5], position=y0)
+    run = simulate(bench.hanging(*dry(level=level)), t, [0.0], [3e5], position=y0)
     assert len(turns) >= 4
     at_turns = np.interp([s for s, _ in turns], t, run.position)
     np.testing.assert_allclose(at_turns, [y for _, y in turns], atol=6e-5)
@@ -140,7 +141,7 @@ def test_swing_dies_in_the_turns_and_where_an_ideal_slider_sticks():
 @pytest.mark.parametrize('step', [1e-3, 4e-3])
 def test_a_light_load_with_much_friction_neither_rings_nor_gains_energy(step):
     t = np.linspace(0.0, 2.0, 501)
-    model = bench.cart(0.5, **dry(level=200.0, breakaway=300.0))
+    model = bench.cart(*dry(level=200.0, breakaway=300.0), mass=0.5)
     run = simulate(model, t, [0.0, 0.5], [0.0, 150.0], position=0.0, velocity=0.5, step=step)
     speeds = np.abs(run.velocity)
     assert np.max(speeds[t < 0.5]) == 0.5

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from scipy.integrate import trapezoid
 
+from pam_ros.effects import Creep
 from pam_ros.rig.run import simulate, simulate_held
 from support import bench
 
@@ -23,10 +24,10 @@ def late(after, balance=0.5):
 @pytest.mark.parametrize('of', ['force', 'pressure'])
 def test_force_at_held_length_creeps_after_a_step_of_pressure(of, balance, share):
     # The pull is affine in the pressure: a share of either is the same share of the step.
-    effect = {of: share, 'time': TIME, 'spread': SPREAD, 'balance': balance}
+    creep = Creep(**{of: share}, time=TIME, spread=SPREAD, balance=balance)
     t = np.concatenate([[0.0, 1.0], 1.0 + 1e-9 + np.linspace(0.0, 20.0, 201)])
     p = np.where(t > 1.0, 4e5, 2e5)
-    run = simulate_held(bench.hanging(creep=effect), t, p, np.full(t.size, 0.03))
+    run = simulate_held(bench.hanging(creep), t, p, np.full(t.size, 0.03))
     low, high = bench.pull(2e5, 0.03), bench.pull(4e5, 0.03)
     expected = np.where(t > 1.0, high - share * (high - low) * late(t - 1.0, balance), low)
     np.testing.assert_allclose(run.force, expected, rtol=1e-8)
@@ -35,10 +36,10 @@ def test_force_at_held_length_creeps_after_a_step_of_pressure(of, balance, share
 @pytest.mark.parametrize('step', [1e-3, 0.1])
 def test_pull_relaxes_after_a_ramp_of_length_at_any_step(step):
     stiffness, speed = 800.0, 0.02
-    effect = {'stiffness': stiffness, 'time': TIME}
+    creep = Creep(stiffness=stiffness, time=TIME)
     t = np.linspace(0.0, 10.0, 101)
     y = 0.03 + speed * np.minimum(t, 1.0)
-    run = simulate_held(bench.hanging(creep=effect), t, np.full(t.size, 3e5), y, 0 * t, step)
+    run = simulate_held(bench.hanging(creep), t, np.full(t.size, 3e5), y, 0 * t, step)
     # A ramp of rate r leaves r T (1 - exp(-t/T)) behind; it fades after its end.
     rate = speed / bench.L0
     behind = rate * TIME * (np.exp(-np.maximum(t - 1.0, 0.0) / TIME) - np.exp(-t / TIME))
@@ -48,10 +49,10 @@ def test_pull_relaxes_after_a_ramp_of_length_at_any_step(step):
 
 def test_load_creeps_up_after_a_step_of_pressure():
     stiffness = 900.0
-    effect = {'force': 0.05, 'stiffness': stiffness, 'time': TIME, 'spread': SPREAD}
+    creep = Creep(force=0.05, stiffness=stiffness, time=TIME, spread=SPREAD)
     t = np.linspace(0.0, 8.0, 161)
     commands = ((0.0, 2e5), (0.5, 3e5))
-    run = simulate(bench.hanging(creep=effect), t, *zip(*commands, strict=True))
+    run = simulate(bench.hanging(creep), t, *zip(*commands, strict=True))
     fast, slow = TIME / SPREAD, TIME * SPREAD
 
     def rhs(_, state, u):
@@ -77,11 +78,11 @@ def test_load_creeps_up_after_a_step_of_pressure():
 
 
 def test_work_over_closed_loops_is_never_gained():
-    effect = {'stiffness': 900.0, 'time': 0.5}
+    creep = Creep(stiffness=900.0, time=0.5)
     for period in (0.1, 1.0, 10.0):
         t = np.linspace(0.0, 10.0 * period, 4001)
         y = 0.05 + 0.02 * np.sin(2.0 * np.pi * t / period)
         p, still = np.full(t.size, 3e5), np.zeros(t.size)
-        force = simulate_held(bench.hanging(creep=effect), t, p, y, still).force
+        force = simulate_held(bench.hanging(creep), t, p, y, still).force
         last = t >= 9.0 * period - 1e-9
         assert trapezoid(force[last], y[last]) < 0.0

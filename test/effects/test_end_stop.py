@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pam_ros.effects.end_stop import EndStop
+from pam_ros.effects import EndStop
 from pam_ros.effects.rows import INERTIA, LENGTH
 from pam_ros.rig.run import simulate
 from support import bench
@@ -15,9 +15,9 @@ from support import bench
 
 def test_load_bounces_off_the_upper_pad():
     stiffness, damping, m = 2e4, 3.0, bench.MASS
-    effect = {'upper': 0.05, 'stiffness': stiffness, 'damping': damping}
+    stop = EndStop(upper=0.05, stiffness=stiffness, damping=damping)
     t = np.linspace(0.0, 0.5, 101)
-    run = simulate(bench.cart(m, end_stop=effect), t, [0.0], [0.0], position=0.0, velocity=0.4)
+    run = simulate(bench.cart(stop, mass=m), t, [0.0], [0.0], position=0.0, velocity=0.4)
 
     def rhs(_, state, u):
         y, v = state
@@ -32,8 +32,8 @@ def test_load_bounces_off_the_upper_pad():
 
 def test_load_rests_on_the_lower_pad():
     stiffness = 5e4
-    effect = {'lower': 0.06, 'lower_stiffness': stiffness}
-    run = simulate(bench.hanging(end_stop=effect), [0.0, 5.0], [0.0], [0.0], position=0.03)
+    pad = EndStop(lower=0.06, lower_stiffness=stiffness)
+    run = simulate(bench.hanging(pad), [0.0, 5.0], [0.0], [0.0], position=0.03)
     y = run.position[1]
     depth = 0.06 * bench.L0 - y
     carried = bench.MASS * bench.G - bench.pull(0.0, y)
@@ -64,16 +64,16 @@ def test_pads_push_apart_and_never_pull(y, v, stiffness, damping, step):
 @pytest.mark.parametrize('mass', [0.5, 100.0])
 @pytest.mark.parametrize('step', [1e-3, 1e-2])
 def test_hardest_pad_neither_explodes_nor_adds_energy(mass, step):
-    effect = {
-        'upper': 0.02,
-        'stiffness': 1e8,
-        'lower': -0.02,
-        'lower_stiffness': 1e8,
-        'damping': 1e3,
-    }
+    pads = EndStop(upper=0.02, stiffness=1e8, lower=-0.02, lower_stiffness=1e8, damping=1e3)
     t = np.linspace(0.0, 5.0, 501)
     run = simulate(
-        bench.cart(mass, end_stop=effect), t, [0.0], [0.0], position=0.0, velocity=0.3, step=step
+        bench.cart(pads, mass=mass),
+        t,
+        [0.0],
+        [0.0],
+        position=0.0,
+        velocity=0.3,
+        step=step,
     )
     assert np.all(np.abs(run.velocity) <= 0.3 * (1.0 + 1e-9))
     assert np.all(np.abs(run.position) < 0.02 + 0.3 * step * 2.0)
@@ -83,6 +83,6 @@ def test_guess_lies_within_the_travel():
     kappa = np.sin(np.linspace(0.0, 20.0, 500)) * 0.1 + 0.1
     kappa[100:200] = np.nan
     for start in EndStop.equations.guess(kappa, kappa, kappa, kappa):
-        EndStop.values(start)
+        EndStop(**start)
         where = start.get('upper', start.get('lower'))
         assert 0.0 < where < 0.2

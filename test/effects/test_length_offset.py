@@ -5,6 +5,7 @@
 import numpy as np
 import pytest
 
+from pam_ros.effects import LengthOffset
 from pam_ros.rig.run import simulate, simulate_held
 from support import bench
 
@@ -15,7 +16,7 @@ def test_held_force_is_that_of_the_felt_contraction(offset):
     y = np.linspace(0.0, 0.2 * bench.L0, 50)
     t = 10.0 * np.arange(50)  # so slowly that damping is nothing
     p = np.linspace(1e5, 5e5, 50)
-    model = bench.hanging(length_offset={'offset': offset})
+    model = bench.hanging(LengthOffset(offset=offset))
     run = simulate_held(model, t, p, y, velocity=np.zeros(50))
     expected = [bench.pull(a, b + offset * bench.L0) for a, b in zip(p, y, strict=True)]
     np.testing.assert_allclose(run.force, expected, rtol=1e-12, atol=1e-9)
@@ -23,7 +24,7 @@ def test_held_force_is_that_of_the_felt_contraction(offset):
 
 def test_load_swings_about_a_moved_equilibrium():
     offset = 0.02
-    model = bench.hanging(length_offset={'offset': offset})
+    model = bench.hanging(LengthOffset(offset=offset))
     t = np.linspace(0.0, 1.0, 101)
     y0 = bench.rest(3e5)
     run = simulate(model, t, [0.0], [3e5], position=y0)

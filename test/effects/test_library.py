@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from pam_ros import effects as effects_room
 from pam_ros.compiled import HAVE_NUMBA
-from pam_ros.effects import EFFECTS
+from pam_ros.effects import EFFECTS, EndStop, Payload
 from pam_ros.effects.base import PLACES, Compensation
 from pam_ros.rig.acting import acting_commands, delays_of
 from pam_ros.rig.bind import bind
@@ -35,23 +35,18 @@ BY_EFFECT = pytest.mark.parametrize('effect', EFFECTS, ids=lambda e: e.name)
 
 
 def free(effects, step=1e-3):
-    return simulate(bench.hanging(**effects), T, AT, U, step=step)
+    return simulate(bench.hanging(*effects), T, AT, U, step=step)
 
 
 def held(effects, step=1e-3):
     p = np.interp(T, AT, U)
     y = 0.03 + 0.02 * np.sin(3.0 * T)
-    return simulate_held(bench.hanging(**effects), T, p, y, step=step)
-
-
-def clear(effect):
-    """Return the values with which the effect is clearly there on the rig of ``hanging``."""
-    return {effect.name: effect.example().given}
+    return simulate_held(bench.hanging(*effects), T, p, y, step=step)
 
 
 def run_bound(active, effects, step=1e-3, mass=bench.MASS):
     """Run the free rig on the kernel into which only *active* are bound."""
-    joint = bench.hanging(mass, **effects)
+    joint = bench.hanging(*effects, mass=mass)
     layout, q = joint.layout, joint.parameters()
     x = start_state(layout, q, U[:1], equilibrium(joint, U[0]), 0.0)
     out = np.empty((T.size, layout.run_columns))
@@ -93,11 +88,9 @@ def test_effect_says_all_that_is_asked_of_it(effect):
     assert set(effect.contains) <= set(NAMES) - {effect.name}
     assert effect.fit_starts()
     for start in effect.fit_starts():
-        effect.values(start)
-        assert effect.is_present(start)
-    effect.values(effect.example().given)
-    assert effect.is_present(effect.example().given)
-    assert not effect.is_present({})
+        assert effect(**start).is_present
+    assert effect.example().is_present
+    assert not effect().is_present
     for p in effect.parameters():
         assert p.text
         assert p.low <= p.default <= p.high
@@ -125,24 +118,24 @@ def test_what_a_controller_does_about_it_is_what_it_can_do(effect):
         assert effect.equations.force is not None or effect.equations.outside is not None
     if effect.equations.lag is not None:
         layout = single_muscle_joint().layout
-        q = single_muscle_joint(effects=clear(effect)).parameters()[1]
+        q = single_muscle_joint(effects=[effect.example()]).parameters()[1]
         assert min(effect.equations.lag(q, layout.parameter_at[effect.name])) > 0.0
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize('active', [EFFECTS, *HALVES], ids=['all', 'even', 'odd'])
 def test_absent_effects_are_absent_to_the_bit(active):
-    np.testing.assert_array_equal(run_bound(active, {}), run_bound((), {}))
+    np.testing.assert_array_equal(run_bound(active, ()), run_bound((), ()))
 
 
 @BY_EFFECT
 def test_effect_alone_is_the_same_in_either_kernel(effect):
     """In the one that has all effects, and in that which has every other of them."""
-    effects = clear(effect)
+    effects = [effect.example()]
     half = next(half for half in HALVES if effect in half)
     among_half, among_all = run_bound(half, effects), run_bound(EFFECTS, effects)
     np.testing.assert_allclose(among_half, among_all, rtol=1e-12, atol=1e-12)
-    assert np.max(np.abs(among_half - run_bound((), {}))[:, 0]) > 1e-5
+    assert np.max(np.abs(among_half - run_bound((), ()))[:, 0]) > 1e-5
 
 
 @pytest.mark.needs_numba
@@ -150,7 +143,7 @@ def test_effect_alone_is_the_same_in_either_kernel(effect):
 def test_rig_at_rest_stays_at_rest(effect):
     if effect.moves_by_itself:
         pytest.skip('with it a load never rests')
-    model = bench.hanging(**clear(effect))
+    model = bench.hanging(effect.example())
     end = simulate(model, [0.0, 30.0], [0.0], [3e5])
     again = simulate(model, [0.0, 5.0], [0.0], [3e5], position=end.position[1])
     assert abs(again.position[1] - again.position[0]) < 1e-7
@@ -161,7 +154,7 @@ def test_rig_at_rest_stays_at_rest(effect):
 @BY_EFFECT
 def test_only_what_moves_by_itself_keeps_a_load_moving(effect):
     end = simulate(
-        bench.hanging(**clear(effect)), [0.0, *np.linspace(30.0, 31.0, 101)], [0.0], [3e5]
+        bench.hanging(effect.example()), [0.0, *np.linspace(30.0, 31.0, 101)], [0.0], [3e5]
     )
     moving = np.ptp(end.position[1:])
     assert bool(moving > 1e-5) is effect.moves_by_itself
@@ -170,7 +163,7 @@ def test_only_what_moves_by_itself_keeps_a_load_moving(effect):
 @pytest.mark.needs_numba
 @BY_EFFECT
 def test_answer_converges_as_the_step_shrinks(effect):
-    effects = clear(effect)
+    effects = [effect.example()]
     exact = free(effects, 1e-3 / 32).position
     coarse, usual, fine = (
         np.abs(free(effects, h).position - exact).max() for h in (4e-3, 1e-3, 2.5e-4)
@@ -182,7 +175,7 @@ def test_answer_converges_as_the_step_shrinks(effect):
 
 @BY_EFFECT
 def test_held_answer_converges_as_the_step_shrinks(effect):
-    effects = clear(effect)
+    effects = [effect.example()]
     exact = held(effects, 1e-3 / 16)
     errors = [np.abs(held(effects, h).force - exact.force).max() for h in (1e-2, 1e-3)]
     assert errors[1] < 3.0
@@ -192,7 +185,7 @@ def test_held_answer_converges_as_the_step_shrinks(effect):
 @pytest.mark.parametrize(('effect', 'start'), STARTS, ids=lambda a: getattr(a, 'name', ''))
 @pytest.mark.parametrize('step', [1e-3, 1e-2])
 def test_start_of_a_fit_simulates(effect, start, step):
-    effects = {effect.name: start}
+    effects = [effect(**start)]
     out = run_bound(EFFECTS, effects, step, mass=20.0)
     assert np.all(np.isfinite(out))
     assert np.all(np.abs(out[:, 0]) < 0.5 * bench.L0)
@@ -203,10 +196,10 @@ def test_start_of_a_fit_simulates(effect, start, step):
 def subsets(draw):
     """Draw any effects with any values that are allowed and that a rig may have."""
     chosen = draw(st.lists(st.sampled_from(EFFECTS), unique=True, min_size=1))
-    effects = {}
+    effects = []
     for effect in chosen:
         if draw(st.booleans()):
-            effects[effect.name] = draw(st.sampled_from(effect.fit_starts()))
+            effects.append(effect(**draw(st.sampled_from(effect.fit_starts()))))
             continue
         values = {}
         for p in effect.parameters():
@@ -215,20 +208,14 @@ def subsets(draw):
                 min(p.high, p.default + 20.0 * p.scale),
             )
             values[p.name] = draw(st.floats(low, high))
-        effects[effect.name] = values
+        effects.append(effect(**values))
     return effects
 
 
-LIGHT_BETWEEN_PADS = {
-    'payload': {'mass': -8.0},
-    'end_stop': {
-        'upper': 0.0,
-        'stiffness': 450138.0,
-        'lower': 0.0,
-        'lower_stiffness': 293795.0,
-        'damping': 42.0,
-    },
-}
+LIGHT_BETWEEN_PADS = [
+    Payload(mass=-8.0),
+    EndStop(upper=0.0, stiffness=450138.0, lower=0.0, lower_stiffness=293795.0, damping=42.0),
+]
 
 
 @pytest.mark.slow
@@ -236,7 +223,7 @@ LIGHT_BETWEEN_PADS = {
 @given(effects=subsets())
 @example(effects=LIGHT_BETWEEN_PADS)
 def test_any_subset_works_together(effects):
-    assume(longest_step(bench.hanging(**effects)) >= 1e-3)
+    assume(longest_step(bench.hanging(*effects)) >= 1e-3)
     first, second = free(effects), free(effects)
     for a, b in zip(vars(first).values(), vars(second).values(), strict=True):
         np.testing.assert_array_equal(a, b)
@@ -249,12 +236,10 @@ def test_any_subset_works_together(effects):
 @settings(max_examples=30 if HAVE_NUMBA else 10)
 @given(effects=subsets())
 def test_those_left_out_change_nothing(effects):
-    active = tuple(e for e in EFFECTS if e.is_present(effects.get(e.name, {})))
-    spelled = {
-        e.name: effects.get(e.name, {p.name: 0.0 for p in e.parameters() if p.strength})
-        for e in EFFECTS
-    }
-    model, bare = bench.hanging(**spelled), bench.hanging(**effects)
+    found = {type(effect): effect for effect in effects}
+    active = tuple(e for e in EFFECTS if e in found and found[e].is_present)
+    spelled = [found.get(e, e()) for e in EFFECTS]
+    model, bare = bench.hanging(*spelled), bench.hanging(*effects)
     assume(longest_step(bare) >= 1e-3)
     assert model.all_present == bare.all_present == active
     np.testing.assert_array_equal(
@@ -267,7 +252,7 @@ def test_dissipation_never_adds_to_the_energy(name):
     # At constant pressure the muscle is a spring: kinetic and potential energy only fall,
     # but for what a hidden spring lends and returns.
     (effect,) = (effect for effect in EFFECTS if effect.name == name)
-    model = bench.hanging(**clear(effect))
+    model = bench.hanging(effect.example())
     p, y0 = 3e5, bench.rest(3e5) + 0.025
     t = np.linspace(0.0, 4.0, 4001)
     run = simulate(model, t, [0.0], [p], position=y0)

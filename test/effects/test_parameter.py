@@ -8,10 +8,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pam_ros.effects import EFFECTS
+from pam_ros.effects import EFFECTS, EndStop, Leak, ViscousFriction
 from pam_ros.effects.base import ON_JOINT
-from pam_ros.effects.end_stop import EndStop
-from pam_ros.effects.leak import Leak
 from pam_ros.effects.parameter import start_from
 from pam_ros.errors import ParameterError
 from pam_ros.rig.simulation import Simulation
@@ -85,9 +83,9 @@ def test_a_unit_of_which_nobody_has_said_what_it_is_there_is_refused():
         DRAG.parameters(turning=True)
     assert str(error.value) == sentence
     library = (DRAG,)
-    single_muscle_joint(effects={'air_drag': {'size': 1.0}}, library=library)  # it slides
+    single_muscle_joint(effects=[DRAG(size=1.0)], library=library)  # it slides
     with pytest.raises(ParameterError) as error:
-        pair(load={'air_drag': {'size': 1.0}}, library=library)
+        pair(load=[DRAG(size=1.0)], library=library)
     assert str(error.value) == sentence
 
 
@@ -96,7 +94,7 @@ def test_with_its_unit_named_it_acts_there(monkeypatch):
     monkeypatch.setitem(TURNED, 'N s^2/m^2', 'N m s^2/rad^2')
     drag = effect_with('air_drag', 'N s^2/m^2', outside=outside)
     assert described(drag)['size'][0] == 'N m s^2/rad^2'
-    joint = pair(load={'air_drag': {'size': 0.3}}, library=(drag,))
+    joint = pair(load=[drag(size=0.3)], library=(drag,))
     bare = pair(library=(drag,))
     found = []
     for one in (joint, bare):
@@ -110,9 +108,9 @@ def test_with_its_unit_named_it_acts_there(monkeypatch):
 @pytest.mark.parametrize(
     ('load', 'effort'),
     [
-        ({'viscous_friction': {'coefficient': 0.3}}, -0.3 * 2.0),
-        ({'end_stop': {'upper': 0.1, 'stiffness': 50.0, 'damping': 0.0}}, -50.0 * 0.2),
-        ({'end_stop': {'lower': 0.7, 'lower_stiffness': 20.0, 'damping': 0.0}}, 20.0 * 0.4),
+        ([ViscousFriction(coefficient=0.3)], -0.3 * 2.0),
+        ([EndStop(upper=0.1, stiffness=50.0, damping=0.0)], -50.0 * 0.2),
+        ([EndStop(lower=0.7, lower_stiffness=20.0, damping=0.0)], 20.0 * 0.4),
     ],
     ids=['friction', 'above', 'below'],
 )
@@ -129,11 +127,12 @@ def test_what_is_given_in_these_units_acts_in_them(made, load, effort):
 def test_a_contraction_on_a_joint_may_be_an_angle():
     """One dataclass serves both kinds of joint, each of which checks its own range."""
     assert EndStop(upper=3.0, stiffness=1e3).upper == 3.0
-    with pytest.raises(ParameterError, match=r'effects.end_stop.upper = 3.5 is not allowed'):
+    allowed = 'give -3.14159 to 3.14159 fraction or rad'
+    with pytest.raises(ParameterError, match=f'upper = 3.5 is not allowed: {allowed}'):
         EndStop(upper=3.5)
-    single_muscle_joint(effects={'end_stop': {'upper': 0.9, 'stiffness': 1e3}})
+    single_muscle_joint(effects=[EndStop(upper=0.9, stiffness=1e3)])
     with pytest.raises(ParameterError, match=r'effects.end_stop.upper = 1.5 is not allowed'):
-        single_muscle_joint(effects={'end_stop': {'upper': 1.5, 'stiffness': 1e3}})
+        single_muscle_joint(effects=[EndStop(upper=1.5, stiffness=1e3)])
 
 
 def test_where_a_fit_starts_names_parameters_and_values_that_there_are():

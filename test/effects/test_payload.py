@@ -5,6 +5,7 @@
 import numpy as np
 import pytest
 
+from pam_ros.effects import Payload
 from pam_ros.rig.run import simulate
 from support import bench
 
@@ -13,7 +14,7 @@ from support import bench
 def test_load_moves_with_weight_and_inertia_of_the_sum(more):
     t = np.linspace(0.0, 1.0, 101)
     y0 = bench.rest(3e5)
-    run = simulate(bench.hanging(payload={'mass': more}), t, [0.0], [3e5], position=y0)
+    run = simulate(bench.hanging(Payload(mass=more)), t, [0.0], [3e5], position=y0)
     m = bench.MASS + more
 
     def rhs(_, state, u):
@@ -28,5 +29,5 @@ def test_load_moves_with_weight_and_inertia_of_the_sum(more):
 
 def test_load_is_never_less_than_a_fifth():
     t = np.array([0.0, 0.5])
-    run = simulate(bench.cart(10.0, payload={'mass': -50.0}), t, [0.0], [6.0], position=0.0)
+    run = simulate(bench.cart(Payload(mass=-50.0), mass=10.0), t, [0.0], [6.0], position=0.0)
     assert run.velocity[1] == pytest.approx(6.0 / 2.0 * 0.5)

@@ -5,7 +5,7 @@
 import numpy as np
 import pytest
 
-from pam_ros.effects.periodic_disturbance import PeriodicDisturbance
+from pam_ros.effects import PeriodicDisturbance
 from pam_ros.rig.run import simulate, simulate_held
 from support import bench
 
@@ -16,7 +16,7 @@ def test_force_shakes_a_free_load():
     a, b, m = 4.0, -3.0, bench.MASS
     effect = {'force_sin': a, 'force_cos': b, 'frequency': 3.7}
     t = np.linspace(0.0, 2.0, 201)
-    run = simulate(bench.cart(periodic_disturbance=effect), t, [0.0], [0.0], position=0.0)
+    run = simulate(bench.cart(PeriodicDisturbance(**effect)), t, [0.0], [0.0], position=0.0)
     s, c = np.sin(OMEGA * t), np.cos(OMEGA * t)
     y = (a * (OMEGA * t - s) + b * (1.0 - c)) / (m * OMEGA**2)
     np.testing.assert_allclose(run.position, y, atol=1e-10)
@@ -27,7 +27,7 @@ def test_ripple_is_in_the_chamber_and_in_the_held_force():
     effect = {'pressure_sin': a, 'pressure_cos': b, 'frequency': 3.7}
     t = np.linspace(0.0, 2.0, 201)
     ripple = a * np.sin(OMEGA * t) + b * np.cos(OMEGA * t)
-    model = bench.hanging(periodic_disturbance=effect)
+    model = bench.hanging(PeriodicDisturbance(**effect))
     free = simulate(model, t, [0.0], [3e5])
     np.testing.assert_allclose(free.pressure, 3e5 + ripple, rtol=1e-12)
     held = simulate_held(model, t, np.full(201, 3e5), np.full(201, 0.02))
@@ -38,7 +38,7 @@ def test_load_on_a_rippling_muscle_against_an_adaptive_solver():
     effect = {'pressure_sin': 5e3, 'frequency': 3.7}
     t = np.linspace(0.0, 2.0, 201)
     y0 = bench.rest(3e5)
-    run = simulate(bench.hanging(periodic_disturbance=effect), t, [0.0], [3e5], position=y0)
+    run = simulate(bench.hanging(PeriodicDisturbance(**effect)), t, [0.0], [3e5], position=y0)
 
     def rhs(s, state, u):
         y, v = state
@@ -61,7 +61,7 @@ def test_guess_finds_a_line_in_noise_well_within_its_width(frequency, seed):
     assert {'force_sin', 'pressure_sin'} == {s for g in starts for s in g if s.endswith('sin')}
     assert abs(starts[0]['frequency'] - frequency) < 0.1 / 40.0
     for start in starts:
-        PeriodicDisturbance.values(start)
+        PeriodicDisturbance(**start)
 
 
 def test_nothing_to_guess_from_is_no_start():

@@ -5,11 +5,12 @@
 import numpy as np
 import pytest
 
+from pam_ros.effects import PressureLag
 from pam_ros.rig.run import simulate
 from support import bench
 
 FILL, VENT = 0.08, 0.2
-EFFECT = {'pressure_lag': {'fill': FILL, 'vent': VENT}}
+EFFECT = [PressureLag(fill=FILL, vent=VENT)]
 COMMANDS = ((0.0, 2e5), (0.1, 4e5), (0.4, 1e5), (0.4137, 3e5), (0.7, 2.5e5))
 
 
@@ -28,14 +29,14 @@ def chamber(t):
 @pytest.mark.parametrize('step', [1e-3, 1e-2])
 def test_fills_and_vents_exponentially_at_any_step(step):
     t = np.linspace(0.0, 1.0, 101)
-    model = bench.cart(mass=1e4, **EFFECT)
+    model = bench.cart(*EFFECT, mass=1e4)
     run = simulate(model, t, *zip(*COMMANDS, strict=True), position=0.0, step=step)
     np.testing.assert_allclose(run.pressure, [chamber(a) for a in t], rtol=1e-12)
 
 
 def test_load_follows_the_lagging_pressure():
     t = np.linspace(0.0, 1.0, 101)
-    run = simulate(bench.hanging(**EFFECT), t, *zip(*COMMANDS, strict=True))
+    run = simulate(bench.hanging(*EFFECT), t, *zip(*COMMANDS, strict=True))
 
     def rhs(s, state, u):
         y, v, p = state
@@ -49,7 +50,7 @@ def test_load_follows_the_lagging_pressure():
 
 def test_either_way_may_be_immediate():
     t = np.array([0.0, 0.1, 0.2, 0.3])
-    model = bench.cart(pressure_lag={'vent': 0.1})
+    model = bench.cart(PressureLag(vent=0.1))
     run = simulate(model, t, [0.0, 0.05, 0.2], [100.0, 300.0, 100.0], position=0.0)
     np.testing.assert_allclose(run.pressure, [100.0, 300.0, 300.0, 100.0 + 200.0 / np.e])
 
@@ -58,7 +59,7 @@ def test_either_way_may_be_immediate():
 def test_choked_flow_limits_the_slope(tau):
     # 200 kPa at 5e5 Pa/s: straight until the difference is down to 5e5 tau, then exponential.
     fastest = 5e5
-    model = bench.cart(mass=1e4, pressure_lag={'fill': tau, 'vent': 0.05, 'fastest': fastest})
+    model = bench.cart(PressureLag(fill=tau, vent=0.05, fastest=fastest), mass=1e4)
     t = np.linspace(0.0, 0.8, 161)
     run = simulate(model, t, [0.0], [3e5], position=0.0)
     assert run.pressure[0] == pytest.approx(3e5)
@@ -72,7 +73,7 @@ def test_choked_flow_limits_the_slope(tau):
     np.testing.assert_allclose(vented, 1e5 + 2e5 * np.exp(-np.maximum(after, 0.0) / 0.05))
     limits = {'fill': 0.01, 'vent': 0.05, 'fastest_vent': 1e6}
     slower = simulate(
-        bench.cart(mass=1e4, pressure_lag=limits), t, [0.0, 0.1], [3e5, 1e5], position=0.0
+        bench.cart(PressureLag(**limits), mass=1e4), t, [0.0, 0.1], [3e5, 1e5], position=0.0
     ).pressure
     # 150 kPa straight at 1e6 Pa/s, the last 50 kPa exponentially.
     straight = np.clip(3e5 - 1e6 * np.maximum(after, 0.0), 1.5e5, 3e5)
@@ -102,14 +103,14 @@ def test_orifices_choke_as_iso_6358_says():
     (p,) = bench.solved(rhs, t, (1e5,), commands)
     errors = []
     for step in (4e-3, 2e-3, 1e-3):
-        model = bench.cart(mass=1e4, pressure_lag=given)
+        model = bench.cart(PressureLag(**given), mass=1e4)
         run = simulate(model, t, *zip(*commands, strict=True), position=0.0, step=step)
         errors.append(np.max(np.abs(run.pressure - p)))
     # Of second order but in the step in which the valve begins to close.
     assert errors[0] < 20.0
     assert errors[0] > 2.0 * errors[1] > 4.0 * errors[2]
     # An orifice that does not care about the pressures is the plain lag.
-    plain = simulate(bench.cart(mass=1e4, pressure_lag={**given, 'choking': 0.0}), t, [0.0, 0.1],
+    plain = simulate(bench.cart(PressureLag(**given | {'choking': 0.0}), mass=1e4), t, [0.0, 0.1],
                      [1e5, 2e5], position=0.0).pressure  # fmt: skip
     after = np.maximum(t - 0.1, 0.0)
     straight = (1e5 - 1.5e6 * 0.06) / 1.5e6

@@ -5,7 +5,7 @@
 import numpy as np
 import pytest
 
-from pam_ros.effects.slack import Slack
+from pam_ros.effects import Slack
 from pam_ros.rig.run import simulate, simulate_held
 from support import bench
 
@@ -31,7 +31,7 @@ def test_held_muscle_pulls_or_is_slack():
     p = np.linspace(0.0, 4e5, 101)
     t = np.linspace(0.0, 1.0, 101)
     y = np.full(101, 0.15 * bench.L0)
-    run = simulate_held(bench.hanging(slack={'share': 1.0, 'toe': 1e-3}), t, p, y)
+    run = simulate_held(bench.hanging(Slack(share=1.0, toe=1e-3)), t, p, y)
     expected = np.maximum([bench.pull(a, y[0]) for a in p], 0.0)
     np.testing.assert_allclose(run.force, expected, atol=1e-3)
     assert expected[0] == 0.0 < expected[-1]
@@ -47,7 +47,7 @@ def test_half_a_share_misses_half_the_push():
 def test_load_falls_freely_while_the_muscle_is_slack():
     t = np.linspace(0.0, 0.05, 51)
     y0 = 0.12
-    model = bench.hanging(slack={'share': 1.0, 'toe': 1e-3})
+    model = bench.hanging(Slack(share=1.0, toe=1e-3))
     run = simulate(model, t, [0.0], [0.0], position=y0)
 
     def rhs(_, state, u):

@@ -5,7 +5,7 @@
 import numpy as np
 import pytest
 
-from pam_ros.effects import softening
+from pam_ros.effects import Softening, softening
 from pam_ros.rig.run import simulate, simulate_held
 from support import bench
 
@@ -16,7 +16,7 @@ LIMIT = 0.08
 def held_gain(effect, t, p, y, step=1e-3):
     """Return the share of the pull that is left, at every stamp."""
     still = np.zeros(t.size)
-    soft = simulate_held(bench.hanging(softening=effect), t, p, y, still, step).force
+    soft = simulate_held(bench.hanging(Softening(**effect)), t, p, y, still, step).force
     return soft / simulate_held(bench.hanging(), t, p, y, still, step).force
 
 
@@ -57,8 +57,8 @@ def test_noise_of_the_sensor_is_no_work():
 
 def test_load_sinks_as_the_muscle_softens():
     t = np.linspace(0.0, 20.0, 101)
-    effect = {'limit': LIMIT, 'per_second': 0.2}
-    run = simulate(bench.hanging(softening=effect), t, [0.0], [3e5])
+    softens = Softening(limit=LIMIT, per_second=0.2)
+    run = simulate(bench.hanging(softens), t, [0.0], [3e5])
 
     def rhs(s, state, u):
         y, v = state

@@ -56,8 +56,8 @@ def test_an_effect_is_named_and_measured(there, numbers):
     assert augmented < (4.0 if there.kind == 'coulomb_friction' else 1.2) * NOISE
     assert found.noise.sigma == pytest.approx(NOISE, rel=0.15)
     assert there.kind in found.sentence
-    assert found.stages[2].model.all_effects.keys() == {there.kind}
-    assert found.stages[0].model.all_effects == {}
+    assert [one.name for one in found.stages[2].model.all_effects] == [there.kind]
+    assert found.stages[0].model.all_effects == ()
 
 
 @pytest.mark.parametrize('rho', [0.0, 0.9])
@@ -104,7 +104,8 @@ def test_what_begins_in_the_middle_is_named_with_its_moment():
     assert f'payload from {found.since.value:.3f} s' in found.sentence
     assert found.stages[2].held_error < 1.1 * NOISE
     # The model that is written has it from the start.
-    assert found.stages[2].model.all_effects['payload']['mass'] == pytest.approx(-4.0, rel=0.02)
+    (payload,) = found.stages[2].model.all_effects
+    assert payload.mass == pytest.approx(-4.0, rel=0.02)
     # Three quarters of what comes after are fitted or decide.
     (segment,) = found.segments
     assert segment.t[segment.fit][-1] == pytest.approx(15.0 + 0.75 * 21.0, abs=0.3)

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from pam_ros.effects import ViscousFriction
 from pam_ros.errors import ParameterError, RecordingError
 from pam_ros.identification.identify import identify
 from pam_ros.identification.search.criteria import CRITERIA
@@ -60,9 +61,7 @@ def test_an_effect_of_one_muscle_is_named_with_the_muscle(lag):
 def test_the_model_that_is_found_has_the_effect_in_that_muscle_alone(lag):
     trial, found = lag
     model = found.stages[2].model
-    has = [
-        bool(actuator.effects.get('pressure_lag', {}).get('fill')) for actuator in model.actuators
-    ]
+    has = [any(effect.is_present for effect in actuator.effects) for actuator in model.actuators]
     assert has == [name == trial.where for name in NAMES]
     # Each muscle is a specimen of its own.
     a, b = (muscle.si for muscle in model.muscles)
@@ -123,7 +122,7 @@ def test_recordings_of_another_joint_are_refused(lag):
 
 def test_a_nominal_joint_with_an_onset_is_refused(lag):
     trial, _ = lag
-    late = replace(declared(trial), effects={'viscous_friction': {'coefficient': 1, 'onset': 9}})
+    late = replace(declared(trial), effects=[ViscousFriction(coefficient=1, onset=9)])
     with pytest.raises(ParameterError) as error:
         identify(late, [recording(trial)])
     assert str(error.value) == (

@@ -18,6 +18,7 @@ from pam_ros.recording.recording import Recording
 from pam_ros.rig import layout as at
 from pam_ros.rig.loads import Mass
 from pam_ros.rig.standard_joints import single_muscle_joint
+from support.by_name import by_name
 
 BAR = single_muscle_joint(Muscle(), Mass(mass=20.0))
 # The same muscle in other units: p in Pa, contraction as a fraction, by hand.
@@ -61,7 +62,7 @@ def test_the_declared_model_comes_back():
     for name in ('a1', 'a2', 'a3', 'a4', 'a5', 'a6', 'zeta', 'l0', 'kappa_max', 'p_max'):
         assert getattr(back.muscle, name) == pytest.approx(getattr(BAR.muscle, name), rel=1e-12)
     assert back.load == BAR.load
-    assert back.all_effects == {}
+    assert back.all_effects == ()
 
 
 @pytest.mark.parametrize('model', [BAR, SI], ids=['bar', 'Pa'])
@@ -80,7 +81,7 @@ def test_effects_of_the_model_hold_what_was_fitted():
         problem, BAR, places_of(BAR)['coulomb_friction'], {'level': 7.0, 'asymmetry': 0.1}
     )
     back = model_at(BAR, wider, np.append(np.zeros(7), added), ['coulomb_friction'])
-    values = back.all_effects['coulomb_friction']
+    values = by_name(back.all_effects)['coulomb_friction'].values
     assert (values['level'], values['asymmetry']) == pytest.approx((7.0, 0.1))
     defaults = {p.name: p.default for p in friction.parameters()}
     assert values['presliding'] == defaults['presliding']

@@ -121,7 +121,7 @@ def test_the_finder_is_given_what_a_user_has():
     np.testing.assert_allclose(model.muscle.si, trial.declared.constants_si)
     assert not np.allclose(model.muscle.si, trial.constants_si, rtol=1e-3)
     assert model.load.mass == trial.mass
-    assert model.all_effects == {}
+    assert model.all_effects == ()
     assert recording.kind == 'free'
     assert (recording.force, recording.pressure, recording.velocity) == (None, None, None)
     assert recording.t[0] == 0.0

@@ -18,6 +18,7 @@ from pam_ros.settings.files import read
 from pam_ros.settings.nominal import nominal_joint
 from pam_ros.settings.scene import Scene
 from pam_ros.settings.tables import checked
+from support.by_name import by_name
 
 HERE = Path(__file__).parent
 RECORDED = json.loads((HERE / 'parameters.json').read_text(encoding='utf-8'))
@@ -120,8 +121,8 @@ def test_an_identified_file_makes_its_joint_to_the_bit(reader):
         }
         for effect in row
     )
-    assert {**joint.actuators[0].effects['pressure_lag']}.items() >= lag.items()
-    assert {**joint.effects['coulomb_friction']}.items() >= friction.items()
+    assert by_name(joint.actuators[0].effects)['pressure_lag'].values.items() >= lag.items()
+    assert by_name(joint.effects)['coulomb_friction'].values.items() >= friction.items()
 
 
 def test_both_programs_make_the_same_joint_of_it():

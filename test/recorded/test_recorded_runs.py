@@ -11,10 +11,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from pam_ros.effects import CoulombFriction, ViscousFriction
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig import statics
 from pam_ros.rig.acting import acting_commands, delays_of
 from pam_ros.rig.bind import bind
+from pam_ros.rig.effect_values import effects_from
 from pam_ros.rig.equilibrium import equilibrium
 from pam_ros.rig.joint import Actuator, Joint
 from pam_ros.rig.loads import Arm, Mass
@@ -35,14 +37,15 @@ BY_RIG = pytest.mark.parametrize('name', RIGS)
 
 def model(name):
     rig = RIGS[name]
-    return single_muscle_joint(Muscle(**rig['muscle']), Mass(**rig['load']), rig['effects'])
+    return single_muscle_joint(
+        Muscle(**rig['muscle']), Mass(**rig['load']), effects_from(rig['effects'])
+    )
 
 
 def without_drag(joint):
     """Return *joint* without friction on it, which 0.1.0 left out of the force of held runs."""
     dragged = {effect.name for effect in joint.library if effect.equations.drag is not None}
-    kept = {name: given for name, given in joint.effects.items() if name not in dragged}
-    return replace(joint, effects=kept)
+    return replace(joint, effects=[e for e in joint.effects if e.name not in dragged])
 
 
 def stepped(joints, muscles, seed=3):
@@ -93,7 +96,7 @@ def test_one_muscle_runs_over_stamps_as_ever(name):
 
 
 def test_a_drive_without_a_muscle_runs_as_ever():
-    effects = {'viscous_friction': {'coefficient': 200.0}, 'coulomb_friction': {'level': 20.0}}
+    effects = [ViscousFriction(coefficient=200.0), CoulombFriction(level=20.0)]
     drive = single_muscle_joint(Muscle(**cases.DRIVE), Mass(95.0, 'horizontal'), effects)
     at, u = cases.commands()
     compare('free/drive', columns(simulate(drive, cases.stamps(), at, u * 1e-5 - 3, position=0.0)))
@@ -134,13 +137,14 @@ def test_rest_step_and_weight_of_one_muscle_are_as_ever(name):
 
 
 def pair(in_muscles, on_joint):
-    actuator = Actuator(Muscle(), in_muscles, 0.1)
-    return Joint((actuator, actuator), Arm(), Pulley(), on_joint)
+    actuator = Actuator(Muscle(), effects_from(in_muscles), 0.1)
+    return Joint((actuator, actuator), Arm(), Pulley(), effects_from(on_joint))
 
 
 def parallel(in_muscles, on_joint):
-    actuators = (Actuator(Muscle(), in_muscles, 0.05), Actuator(Muscle(l0=0.38), in_muscles))
-    return Joint(actuators, Mass(mass=40.0), Straight(), on_joint)
+    effects = effects_from(in_muscles)
+    actuators = (Actuator(Muscle(), effects, 0.05), Actuator(Muscle(l0=0.38), effects))
+    return Joint(actuators, Mass(mass=40.0), Straight(), effects_from(on_joint))
 
 
 JOINTS = {

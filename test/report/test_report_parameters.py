@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 import yaml
 
+from pam_ros.effects import CoulombFriction, Creep
 from pam_ros.report.parameters import identified, write_identified
 from pam_ros.rig.run import simulate, simulate_held
 from pam_ros.rig.standard_joints import single_muscle_joint
@@ -47,10 +48,7 @@ def test_awkward_numbers_survive(friction, tmp_path):
     odd = single_muscle_joint(
         replace(model.muscle, a1=-4.1e-7, a5=302.00000000000006, a2=1e2 / 3.0),
         model.load,
-        {
-            'coulomb_friction': {'level': np.float64(1.0) / 3.0, 'presliding': 1e-5},
-            'creep': {},
-        },
+        [CoulombFriction(level=np.float64(1.0) / 3.0, presliding=1e-5), Creep()],
     )
     other = replace(result, stages=(*result.stages[:2], replace(result.stages[2], model=odd)))
     again = reloaded((other, source, None), tmp_path)

@@ -23,7 +23,7 @@ from pam_ros import (
     save_parameters,
     save_report,
 )
-from pam_ros.effects import CoulombFriction
+from pam_ros.effects import CoulombFriction, Slack
 from pam_ros.report import write
 from pam_ros.report.write import FILES
 from pam_ros.rig.standard_joints import antagonistic_joint, single_muscle_joint
@@ -86,7 +86,7 @@ CRANK = load_joint('dmsp_10', joint='crank', crank=0.03, mass=0.5)
 @pytest.mark.parametrize(
     ('joint', 'muscles'),
     [
-        (single_muscle_joint(Muscle(), Mass(mass=8), {'slack': {'share': 1.0}}), ()),
+        (single_muscle_joint(Muscle(), Mass(mass=8), [Slack(share=1.0)]), ()),
         (antagonistic_joint(Muscle(), radius=0.03, load=Arm(0.5, 0.2)), ('biceps', 'triceps')),
         (Joint(TWO, Mass(30.0)), ('left', 'right')),
         (CRANK, ()),
@@ -127,7 +127,7 @@ def test_a_custom_effect_is_refused(friction, tmp_path):
     last = friction[0].stages[-1].model
     felt = type('Felt', (CoulombFriction,), {'name': 'felt'})
     library = tuple(felt if effect is CoulombFriction else effect for effect in last.library)
-    joint = replace(last, effects={'felt': {'level': 8.0}}, library=library)
+    joint = replace(last, effects=[felt(level=8.0)], library=library)
     with pytest.raises(PamError, match='cannot describe the custom effect felt'):
         save_parameters(of_joint(friction[0], joint), tmp_path / 'joint.yaml')
 

@@ -5,7 +5,7 @@
 import numpy as np
 import pytest
 
-from pam_ros.effects import EFFECTS
+from pam_ros.effects import EFFECTS, DeadTime, Hysteresis, PressureLag, ViscousFriction
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig.acting import acting_commands, delays_of
 from pam_ros.rig.bind import bind
@@ -48,15 +48,17 @@ def test_a_command_within_an_interval_counts_from_its_stamp():
     np.testing.assert_allclose(out, expected, atol=1e-12)
 
 
-ALONE = [{effect.name: effect.example().given} for effect in EFFECTS]
+ALONE = [[effect.example()] for effect in EFFECTS]
 # A memory in the pressure path, one in the force, and a friction without any.
-TOGETHER = {
-    'pressure_lag': {'fill': 0.03, 'vent': 0.05},
-    'hysteresis': {'amplitude': 8.0, 'width': 0.01},
-    'viscous_friction': {'coefficient': 100.0},
-}
+TOGETHER = [
+    PressureLag(fill=0.03, vent=0.05),
+    Hysteresis(amplitude=8.0, width=0.01),
+    ViscousFriction(coefficient=100.0),
+]
 EACH = pytest.mark.parametrize(
-    'effects', [{}, *ALONE, TOGETHER], ids=lambda effects: '+'.join(effects) or 'none'
+    'effects',
+    [(), *ALONE, TOGETHER],
+    ids=lambda some: '+'.join(e.name for e in some) or 'none',
 )
 T_END = 4.0
 AT = np.array([0.0, 0.45, 1.2, 2.0, 2.1, 3.0])
@@ -85,7 +87,7 @@ def errors(joint, u):
 @EACH
 def test_forces_along_a_free_run_give_its_velocity(effects):
     """Between stamps the motion is taken as linear: the error falls with their square."""
-    (coarse, most_coarse), (fine, most_fine) = errors(bench.hanging(**effects), U)
+    (coarse, most_coarse), (fine, most_fine) = errors(bench.hanging(*effects), U)
     assert coarse < 2.5e-3
     assert fine < coarse / 1.5
     assert most_coarse < 3e-4
@@ -96,8 +98,8 @@ def test_forces_along_a_free_run_give_its_velocity(effects):
 @pytest.mark.parametrize('made', [pair, lever])
 def test_so_do_those_of_two_muscles_on_a_joint_that_turns(made):
     u = np.stack([U, U[::-1]], axis=1)
-    late = {'dead_time': {'delay': 0.013}}, {'pressure_lag': {'fill': 0.03, 'vent': 0.05}}
-    joint = made(effects=late, load={'viscous_friction': {'coefficient': 0.2}})
+    late = [DeadTime(delay=0.013)], [PressureLag(fill=0.03, vent=0.05)]
+    joint = made(effects=late, load=[ViscousFriction(coefficient=0.2)])
     (coarse, _), (fine, _) = errors(joint, u)
     assert coarse < 1e-4
     assert fine < coarse / 3.5

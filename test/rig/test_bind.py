@@ -205,6 +205,7 @@ import numpy as np
 if {blocked}:
     sys.modules['numba'] = None  # as if it were not installed
 from pam_ros.compiled import HAVE_NUMBA
+from pam_ros.effects import CoulombFriction, Creep, DeadTime, PressureLag
 from pam_ros.rig.joint import Actuator, Joint
 from pam_ros.rig.standard_joints import single_muscle_joint
 from pam_ros.rig.loads import Arm, Mass
@@ -212,12 +213,10 @@ from pam_ros.rig.simulation import Simulation
 from pam_ros.rig.run import simulate, simulate_held
 from pam_ros.rig.transmissions import Lever, Pulley
 assert HAVE_NUMBA is not {blocked}
-effects = {{
-    'pressure_lag': {{'fill': 0.05, 'vent': 0.1}},
-    'dead_time': {{'delay': 0.01}},
-    'creep': {{'stiffness': 300.0, 'time': 0.5}},
-    'coulomb_friction': {{'level': 5.0}},
-}}
+in_muscle = [
+    PressureLag(fill=0.05, vent=0.1), DeadTime(delay=0.01), Creep(stiffness=300.0, time=0.5)
+]
+effects = [*in_muscle, CoulombFriction(level=5.0)]
 found = []
 for model in (single_muscle_joint(), single_muscle_joint(load=Mass(mass=8.0), effects=effects)):
     rig = Simulation([model])
@@ -227,8 +226,7 @@ for model in (single_muscle_joint(), single_muscle_joint(load=Mass(mass=8.0), ef
         found += [*rig.position, *rig.velocity, *rig.pressure, *np.ravel(rig.muscle_outputs())]
     run = simulate(model, [0.0, 0.05, 0.1], [0.0, 0.031], [2e5, 5e5])
     found += [*run.position, *run.velocity, *run.force]
-in_muscle = {{name: effects[name] for name in ('pressure_lag', 'dead_time', 'creep')}}
-on_load = {{'coulomb_friction': {{'level': 0.3}}}}
+on_load = [CoulombFriction(level=0.3)]
 two = Actuator(contraction=0.1), Actuator(contraction=0.1)
 lagging = Actuator(effects=in_muscle, contraction=0.1), two[1]
 for model in (
@@ -283,7 +281,7 @@ def test_an_effect_of_ones_own_acts():
     load = Mass(mass=10.0)
     bare, slowed = (
         Simulation([single_muscle_joint(load=load, effects=effects, library=(drag,))])
-        for effects in ({}, {'drag': {'size': 30.0}})
+        for effects in ((), [drag(size=30.0)])
     )
     for rig in (bare, slowed):
         rig.reset([3e5], [0.05], [0.7])

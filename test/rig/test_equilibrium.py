@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
+from pam_ros.effects import CoulombFriction, EndStop, LengthOffset, Payload, PressureOffset, Slack
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig import statics
 from pam_ros.rig.equilibrium import equilibrium, held
@@ -15,16 +16,16 @@ from pam_ros.rig.standard_joints import single_muscle_joint
 from support import joints, paper
 from support.joint_models import UNEQUAL, lever, pair, parallel
 
-SLACK = {'slack': {'share': 1.0}}
-STOP = {'end_stop': {'lower': -0.3, 'lower_stiffness': 2e3}}
-PAYLOAD = {'payload': {'mass': 0.8}}
+SLACK = [Slack(share=1.0)]
+STOP = [EndStop(lower=-0.3, lower_stiffness=2e3)]
+PAYLOAD = [Payload(mass=0.8)]
 CASES = [
-    ((SLACK, SLACK), {}, (0.0, 0.0)),
+    ((SLACK, SLACK), (), (0.0, 0.0)),
     ((SLACK, SLACK), STOP, (0.0, 0.0)),
-    (({}, {}), STOP, (0.0, 5e5)),
-    (({'length_offset': {'offset': 0.02}}, {}), {}, (3e5, 3e5)),
-    (({}, {'pressure_offset': {'offset': 3e4}}), PAYLOAD, (3e5, 2e5)),
-    (({}, {}), {'coulomb_friction': {'level': 1.0}}, (3e5, 2e5)),
+    (((), ()), STOP, (0.0, 5e5)),
+    (([LengthOffset(offset=0.02)], ()), (), (3e5, 3e5)),
+    (((), [PressureOffset(offset=3e4)]), PAYLOAD, (3e5, 2e5)),
+    (((), ()), [CoulombFriction(level=1.0)], (3e5, 2e5)),
 ]
 
 

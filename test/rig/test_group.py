@@ -5,6 +5,7 @@
 import numpy as np
 import pytest
 
+from pam_ros.effects import CoulombFriction, Creep, DeadTime, Hysteresis, Payload, PressureLag
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig.joint import Actuator, Joint
 from pam_ros.rig.loads import Mass
@@ -14,20 +15,20 @@ from support import joints, smooth_supply
 from support.joint_models import BOTH_LONG, UNEQUAL, lever, muscle, pair, parallel
 from support.joint_runs import MASS, run
 
-LAG = {'pressure_lag': {'fill': 0.05, 'vent': 0.1}}
-CREEP = {'creep': {'stiffness': 300.0, 'time': 0.5}}
-IN_MUSCLE = CREEP | {'dead_time': {'delay': 0.0125}}
-ON_LOAD = {'coulomb_friction': {'level': 0.5}, 'payload': {'mass': 0.5}}
+LAG = [PressureLag(fill=0.05, vent=0.1)]
+CREEP = [Creep(stiffness=300.0, time=0.5)]
+IN_MUSCLE = [*CREEP, DeadTime(delay=0.0125)]
+ON_LOAD = [CoulombFriction(level=0.5), Payload(mass=0.5)]
 MIXED = (
-    single_muscle_joint(effects=IN_MUSCLE | ON_LOAD),
-    pair(effects=(IN_MUSCLE, {}), load=ON_LOAD),
-    parallel(MASS, effects=({}, IN_MUSCLE)),
-    single_muscle_joint(load=Mass(mount='horizontal'), effects={'hysteresis': {'slip': 3.0}}),
-    lever(effects=({}, IN_MUSCLE), load=ON_LOAD),
+    single_muscle_joint(effects=[*IN_MUSCLE, *ON_LOAD]),
+    pair(effects=(IN_MUSCLE, ()), load=ON_LOAD),
+    parallel(MASS, effects=((), IN_MUSCLE)),
+    single_muscle_joint(load=Mass(mount='horizontal'), effects=[Hysteresis(slip=3.0)]),
+    lever(effects=((), IN_MUSCLE), load=ON_LOAD),
     lever(UNEQUAL[:1], effects=(IN_MUSCLE,)),
     pair(BOTH_LONG, load=ON_LOAD, plane='horizontal'),
     single_muscle_joint(),
-    single_muscle_joint(effects={'payload': {'mass': 3.0, 'onset': 0.1}}),
+    single_muscle_joint(effects=[Payload(mass=3.0, onset=0.1)]),
 )
 
 
@@ -54,7 +55,7 @@ def state(rig, joints_at, muscles_at):
 
 # One kernel knows the effects of its own joints: those of another library are beside it.
 SWINGS = single_muscle_joint(
-    effects={'smooth_supply': {'mean': 3e5}}, library=(smooth_supply.SmoothSupply,)
+    effects=[smooth_supply.SmoothSupply(mean=3e5)], library=(smooth_supply.SmoothSupply,)
 )
 QUICK = single_muscle_joint(Muscle(zeta=0.3), Mass(mass=5.0), LAG)
 RIGS = {
@@ -66,7 +67,7 @@ RIGS = {
     'lag': (
         single_muscle_joint(),
         QUICK,
-        single_muscle_joint(load=Mass(mount='horizontal'), effects=CREEP | LAG),
+        single_muscle_joint(load=Mass(mount='horizontal'), effects=[*CREEP, *LAG]),
     ),
     'delay': (
         single_muscle_joint(load=Mass(mass=8.0), effects=IN_MUSCLE),
@@ -96,7 +97,7 @@ def test_each_joint_is_what_it_is_alone(mixed):
 
 def test_one_muscle_mounted_elsewhere_is_the_same_muscle():
     """A contraction at position 0 only moves where the position is counted from."""
-    moved = Joint((Actuator(muscle(joints.LONG), {}, 0.1),), Mass())
+    moved = Joint((Actuator(muscle(joints.LONG), (), 0.1),), Mass())
     t = np.linspace(0.0, 2.0, 201)
     there = run(single_muscle_joint(muscle(joints.LONG)), t, (0.06, 0.2), (3e5,))
     here = run(moved, t, (0.06 - 0.1 * joints.LONG.l0, 0.2), (3e5,))

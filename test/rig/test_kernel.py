@@ -118,7 +118,7 @@ def test_the_experiment_of_the_paper_comes_to_rest():
 # Muscles under pressures that swing, each in its own way.
 SWINGS = ((3.0, 1.2, 5.0), (2.5, -0.8, 8.0))  # mean and amplitude in bar, rad/s
 SUPPLIES = tuple(
-    {'smooth_supply': {'mean': mean * BAR, 'amplitude': amplitude * BAR, 'rate': rate}}
+    [smooth_supply.SmoothSupply(mean=mean * BAR, amplitude=amplitude * BAR, rate=rate)]
     for mean, amplitude, rate in SWINGS
 )
 LIBRARY = (smooth_supply.SmoothSupply,)
@@ -144,7 +144,7 @@ EACH_SWING = pytest.mark.parametrize(
     [
         Swing(
             single_muscle_joint(
-                effects={'smooth_supply': {'mean': smooth_supply.MEAN}}, library=LIBRARY
+                effects=[smooth_supply.SmoothSupply(mean=smooth_supply.MEAN)], library=LIBRARY
             ),
             hanging(lambda t: (smooth_supply.at(t),)),
             *(ALONE.bounds, (6e-3, 3e-3, 1.5e-3, 0.75e-3), 0.01),

@@ -6,6 +6,14 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
+from pam_ros.effects import (
+    CoulombFriction,
+    EndStop,
+    Hysteresis,
+    Payload,
+    PressureLag,
+    ViscousFriction,
+)
 from pam_ros.rig import statics
 from pam_ros.rig.equilibrium import equilibrium
 from pam_ros.rig.simulation import Simulation
@@ -15,9 +23,9 @@ from support.joint_runs import BAR, run, solve
 
 
 def test_a_lag_in_one_muscle_of_the_pair():
-    lag = {'pressure_lag': {'fill': 0.08, 'vent': 0.2}}
+    lag = [PressureLag(fill=0.08, vent=0.2)]
     t = np.linspace(0.0, 1.0, 101)
-    rig = Simulation([pair(effects=({}, lag))])
+    rig = Simulation([pair(effects=((), lag))])
     rig.reset([3e5, 3e5], [0.0], [0.0])
     rig.command([2e5, 5e5])
     found = [0.0]
@@ -33,11 +41,11 @@ def test_a_lag_in_one_muscle_of_the_pair():
 def test_hysteresis_of_one_muscle_of_the_pair():
     """Dahl's law, dz/dkappa = (1 - z sign(v)) / W, on the second muscle, which v lengthens."""
     amplitude, width = 20.0, 0.01
-    rub = {'hysteresis': {'amplitude': amplitude, 'width': width}}
+    rub = [Hysteresis(amplitude=amplitude, width=width)]
     t = np.linspace(0.0, 0.5, 51)
     # Towards one side alone: Dahl's law is smooth there, and exact at any step.
     start = (0.0, 0.0)
-    found = run(pair(effects=({}, rub)), t, start, (4.0 * BAR, 2.0 * BAR), step=1e-4)
+    found = run(pair(effects=((), rub)), t, start, (4.0 * BAR, 2.0 * BAR), step=1e-4)
     two = UNEQUAL[1]
 
     def rhs(_, state):
@@ -60,7 +68,7 @@ def test_hysteresis_of_one_muscle_of_the_pair():
 def test_friction_of_the_pivot_and_a_payload_on_the_arm():
     """Viscous friction in N m s/rad; a payload moves, and weighs, at the end of the arm."""
     friction, more = 0.4, 0.7
-    on_load = {'viscous_friction': {'coefficient': friction}, 'payload': {'mass': more}}
+    on_load = [ViscousFriction(coefficient=friction), Payload(mass=more)]
     t = np.linspace(0.0, 2.0, 201)
     model = pair(load=on_load)
     found = run(model, t, (0.5, 0.0), (4.2 * BAR, 2.9 * BAR))
@@ -80,7 +88,7 @@ def test_friction_of_the_pivot_and_a_payload_on_the_arm():
 
 def test_dry_friction_of_the_pivot_holds_the_arm():
     """It stays where the muscles' torque and gravity differ by less than the friction."""
-    rig = Simulation([pair(load={'coulomb_friction': {'level': 0.8}})])
+    rig = Simulation([pair(load=[CoulombFriction(level=0.8)])])
     at_rest = equilibrium(rig.joints[0], [4e5, 3e5])
     k = joints.R**2 * sum(
         strand.stiffness(p, y)
@@ -97,7 +105,7 @@ def test_dry_friction_of_the_pivot_holds_the_arm():
 
 
 def test_a_stop_begins_at_its_angle():
-    rig = Simulation([pair(load={'end_stop': {'upper': 0.2, 'stiffness': 1e4}})])
+    rig = Simulation([pair(load=[EndStop(upper=0.2, stiffness=1e4)])])
     assert statics.equilibrium(rig.joints[0], [5e5, 1e5]) > 0.5
     rig.command([5e5, 1e5])
     rig.advance(3000)

@@ -5,7 +5,7 @@
 import numpy as np
 import pytest
 
-from pam_ros.effects import EFFECTS
+from pam_ros.effects import EFFECTS, Payload
 from pam_ros.rig import layout as at
 from pam_ros.rig.standard_joints import single_muscle_joint
 from support.joint_models import lever, pair, parallel
@@ -45,7 +45,7 @@ def test_load_and_transmission_stand_behind_the_effects_of_the_joint():
 
 
 def test_joints_of_one_kind_share_their_layout_and_other_kinds_do_not():
-    assert pair().layout is pair(mass=2.0, load={'payload': {'mass': 0.1}}).layout
+    assert pair().layout is pair(mass=2.0, load=[Payload(mass=0.1)]).layout
     assert len({id(joint.layout) for joint in KINDS}) == len(KINDS)
 
 

@@ -7,6 +7,7 @@ from math import pi, sin
 import numpy as np
 import pytest
 
+from pam_ros.effects import Payload
 from pam_ros.errors import ParameterError
 from pam_ros.rig import statics
 from pam_ros.rig.equilibrium import equilibrium
@@ -63,7 +64,7 @@ def test_the_mass_on_an_arm_adds_its_moment_of_inertia():
 
 
 def test_a_payload_is_at_the_end_of_the_arm():
-    joint = pair(load={'payload': {'mass': 0.5}})
+    joint = pair(load=[Payload(mass=0.5)])
     assert joint.inertia == pytest.approx(0.01 + 2.0 * 0.2**2)
     assert statics.weight(joint, 0.4) == pytest.approx(
         2.0 * GRAVITY * 0.2 * sin(0.4 - joints.HANGING_AT)

@@ -11,6 +11,16 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
+from pam_ros.effects import (
+    CoulombFriction,
+    Creep,
+    DeadTime,
+    EndStop,
+    Hysteresis,
+    Payload,
+    PressureLag,
+    ViscousFriction,
+)
 from pam_ros.errors import ParameterError
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig.acting import acting_commands
@@ -31,9 +41,9 @@ SOURCE = Muscle(
 FREE = Mass(mass=2.0, mount='horizontal')
 
 
-LATE = {'dead_time': {'delay': 0.012}}
-LATER = {'dead_time': {'delay': 0.031}, 'pressure_lag': {'fill': 0.03, 'vent': 0.05}}
-CREEP = {'creep': {'stiffness': 300.0, 'time': 0.5}}
+LATE = [DeadTime(delay=0.012)]
+LATER = [DeadTime(delay=0.031), PressureLag(fill=0.03, vent=0.05)]
+CREEP = [Creep(stiffness=300.0, time=0.5)]
 AT = np.array([0.0, 0.1, 0.25, 0.26, 0.6])
 U = 1e5 * np.array([[3.0, 3.0], [4.0, 2.5], [2.0, 3.5], [2.2, 3.5], [3.0, 3.2]])
 T = np.arange(1001) * 1e-3
@@ -58,7 +68,7 @@ def stepped(joint, begin):
 @pytest.mark.parametrize(
     ('joint', 'bound'),
     [
-        (single_muscle_joint(load=Mass(mass=8.0), effects=LATE | CREEP), 1e-12),
+        (single_muscle_joint(load=Mass(mass=8.0), effects=[*LATE, *CREEP]), 1e-12),
         (pair(effects=(LATE, LATER)), 1e-11),
         (lever(effects=(LATE, LATER)), 1e-11),
         (parallel(50.0), 1e-11),
@@ -103,7 +113,7 @@ stamps = st.lists(stamp, min_size=1, max_size=12).map(sorted)
 @given(stamps, stamps, st.integers(0, 2**32 - 1), st.sampled_from([0.0, 0.004, 0.0137]))
 def test_commands_act_at_their_very_stamps(t, command_t, seed, delay):
     command = np.random.default_rng(seed).uniform(-100.0, 100.0, len(command_t))
-    model = single_muscle_joint(SOURCE, FREE, {'dead_time': {'delay': delay}})
+    model = single_muscle_joint(SOURCE, FREE, [DeadTime(delay=delay)])
     found = simulate(model, t, command_t, command, position=0.3, velocity=-0.1)
     y, v = parabolas(t, command_t, command, 0.3, -0.1, delay)
     np.testing.assert_allclose(found.position, y, rtol=0.0, atol=1e-12)
@@ -118,7 +128,7 @@ def test_commands_act_at_their_very_stamps_in_each_muscle(made, equations):
     """Stamps between the steps, and a dead time that none of them divides: against DOP853."""
     delays, at = (0.0137, 0.0), np.array([0.0, 0.1003, 0.2371])
     u = np.array([[3.0, 2.0], [4.0, 2.5], [2.5, 3.0]])
-    joint = made(effects=({'dead_time': {'delay': delays[0]}}, {}))
+    joint = made(effects=([DeadTime(delay=delays[0])], ()))
     run = simulate(joint, T[::10], at, 1e5 * u, position=0.1, step=5e-4)
     edges = np.unique(np.concatenate([at + delay for delay in delays]))
     state, now, found = np.array([0.1, 0.0]), 0.0, []
@@ -148,7 +158,7 @@ def test_a_sample_is_the_state_before_the_command_of_its_stamp():
 
 def test_viscous_friction_follows_its_exponential():
     """2 y'' = p - c y' with c = 5: v = p/c (1 - exp(-c t / m)); the step divides nothing."""
-    model = single_muscle_joint(SOURCE, FREE, {'viscous_friction': {'coefficient': 5.0}})
+    model = single_muscle_joint(SOURCE, FREE, [ViscousFriction(coefficient=5.0)])
     t = np.array([0.0, 0.0123, 0.5, 0.50031, 2.0])
     found = simulate(model, t, [0.0], [30.0], position=0.0)
     rate, end = 5.0 / 2.0, 30.0 / 5.0
@@ -162,12 +172,12 @@ def test_viscous_friction_follows_its_exponential():
     [
         (single_muscle_joint(), [1e5, 3e5, 6e5], 3e5),
         (
-            single_muscle_joint(effects={'pressure_lag': {'fill': 0.1, 'vent': 0.1}}),
+            single_muscle_joint(effects=[PressureLag(fill=0.1, vent=0.1)]),
             [1e5, 3e5, 6e5],
             3e5,
         ),
         (
-            lever(effects=({'dead_time': {'delay': 0.3}}, {})),
+            lever(effects=([DeadTime(delay=0.3)], ())),
             [[2e5, 3e5], [4e5, 3.5e5], [6e5, 6e5]],
             [2e5, 3.5e5],
         ),
@@ -182,7 +192,7 @@ def test_it_starts_at_rest_under_the_commands_in_force(joint, command, acting):
 
 
 def test_a_late_command_is_not_yet_in_force_at_the_start():
-    model = single_muscle_joint(effects={'dead_time': {'delay': 0.3}})
+    model = single_muscle_joint(effects=[DeadTime(delay=0.3)])
     found = simulate(model, [2.2, 2.3, 2.4], [1.0, 2.0], [1e5, 3e5])
     np.testing.assert_array_equal(found.pressure, [1e5, 1e5, 3e5])
 
@@ -262,7 +272,7 @@ def test_a_held_rig_takes_a_given_velocity():
 def test_each_held_muscle_feels_its_pressure_after_its_own_dead_time():
     t = np.linspace(0.0, 2.0, 401)
     p = np.stack([3e5 + 1e5 * np.sin(6.0 * t), 2e5 + 5e4 * np.cos(4.0 * t)], axis=1)
-    effects = {'dead_time': {'delay': 0.0237}}, {'dead_time': {'delay': 0.1}}
+    effects = [DeadTime(delay=0.0237)], [DeadTime(delay=0.1)]
     run = simulate_held(lever(effects=effects), t, p, 0.0 * t + 0.2)
     for i, delay in enumerate((0.0237, 0.1)):
         expected = np.interp(t - delay, t, p[:, i])
@@ -272,13 +282,13 @@ def test_each_held_muscle_feels_its_pressure_after_its_own_dead_time():
 @pytest.mark.slow
 def test_held_muscles_remember_apart_and_friction_of_the_joint_is_not_felt():
     """Slip of one muscle over its own contraction, at any step; the load's effects are none."""
-    slip = {'hysteresis': {'slip': 9.0, 'slip_width': 0.02, 'slip_onset': 1.0}}
+    slip = [Hysteresis(slip=9.0, slip_width=0.02, slip_onset=1.0)]
     t = np.linspace(0.0, 1.0, 201)
     s = 0.4 * np.sin(2.0 * np.pi * t)
     p, still = np.full((201, 2), 3e5), 0.0 * t
-    rub = {'coulomb_friction': {'level': 2.0}}
+    rub = [CoulombFriction(level=2.0)]
     bare, one = (
-        simulate_held(pair(effects=({}, own), load=rub), t, p, s, still) for own in ({}, slip)
+        simulate_held(pair(effects=((), own), load=rub), t, p, s, still) for own in ((), slip)
     )
     np.testing.assert_array_equal(bare.force[:, 0], one.force[:, 0])
     # Ten elements of one threshold are one play: the force is within 9 N, and at its end there.
@@ -307,15 +317,10 @@ def test_friction_is_in_the_force_of_a_machine_that_moves_the_actuator():
     y = 0.012 * np.abs((t + 0.5) % 2.0 - 1.0)
     v = np.where((t + 0.5) % 2.0 < 1.0, -0.012, 0.012)
     p = np.where(t < 2.1, 200.0, 600.0)
-    frictions = {
-        'coulomb_friction': {
-            'level': 5.0,
-            'per_pressure': 1e-2,
-            'asymmetry': 0.1,
-            'presliding': 1e-4,
-        },
-        'viscous_friction': {'coefficient': 150.0},
-    }
+    frictions = [
+        CoulombFriction(level=5.0, per_pressure=1e-2, asymmetry=0.1, presliding=1e-4),
+        ViscousFriction(coefficient=150.0),
+    ]
     plain = simulate_held(single_muscle_joint(SOURCE, FREE), t, p, y, v)
     run = simulate_held(single_muscle_joint(SOURCE, FREE, frictions), t, p, y, v)
     np.testing.assert_array_equal(plain.force, p)
@@ -331,7 +336,7 @@ def test_friction_of_a_machine_takes_work_at_any_step_and_mass():
     """Nothing swings on the contact: neither step nor load is in what a machine measures."""
     t = np.linspace(0.0, 6.0, 601)
     y = 0.02 * np.sin(2.0 * t)
-    friction = {'coulomb_friction': {'level': 8.0, 'breakaway': 12.0}}
+    friction = [CoulombFriction(level=8.0, breakaway=12.0)]
     runs = [
         simulate_held(
             single_muscle_joint(SOURCE, Mass(mass=mass), friction), t, 0.0 * t, y, step=step
@@ -349,12 +354,9 @@ def test_friction_of_a_machine_takes_work_at_any_step_and_mass():
 def test_what_acts_on_the_load_alone_is_not_in_the_force_of_a_machine():
     t = np.linspace(0.0, 3.0, 301)
     y, p = 0.04 + 0.04 * np.sin(3.0 * t), np.full(t.size, 3e5)
-    beside = {
-        'payload': {'mass': 4.0},
-        'end_stop': {'upper': 0.1, 'stiffness': 1e5},
-    }
+    beside = [Payload(mass=4.0), EndStop(upper=0.1, stiffness=1e5)]
     alone, loaded = (
-        simulate_held(single_muscle_joint(effects=some), t, p, y) for some in ({}, beside)
+        simulate_held(single_muscle_joint(effects=some), t, p, y) for some in ((), beside)
     )
     # The mass is in the damping of equation (4): the payload there is that of the muscle's own.
     still = np.abs(alone.velocity) < 1e-3
@@ -366,6 +368,6 @@ def test_friction_of_a_wheel_is_not_in_the_force_of_its_muscles():
     """The force cells are at the ends of the muscles, the bearing is beside them."""
     t = np.linspace(0.0, 2.0, 201)
     angle, p = 0.2 * np.sin(3.0 * t), np.full((t.size, 2), 2e5)
-    rubs = {'coulomb_friction': {'level': 2.0}, 'viscous_friction': {'coefficient': 1.0}}
+    rubs = [CoulombFriction(level=2.0), ViscousFriction(coefficient=1.0)]
     plain = simulate_held(pair(), t, p, angle)
     np.testing.assert_array_equal(simulate_held(pair(load=rubs), t, p, angle).force, plain.force)

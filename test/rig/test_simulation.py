@@ -2,11 +2,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """Joints stepped in time: same bits however they are driven, commands by muscle, changes."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from pam_ros.effects import Creep, DeadTime, Leak, PressureLag, ViscousFriction
 from pam_ros.errors import ParameterError
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig.equilibrium import equilibrium
@@ -17,18 +20,18 @@ from support import joints
 from support.joint_models import UNEQUAL, lever, pair, parallel
 
 # Effects with memory in the pressure path and in the force, and one that delays.
-LAG = {'pressure_lag': {'fill': 0.05, 'vent': 0.1}}
-DELAY = {'dead_time': {'delay': 0.0125}}
-CREEP = {'creep': {'stiffness': 300.0, 'time': 0.5}}
+LAG = [PressureLag(fill=0.05, vent=0.1)]
+DELAY = [DeadTime(delay=0.0125)]
+CREEP = [Creep(stiffness=300.0, time=0.5)]
 MODELS = (
     single_muscle_joint(),
-    pair(effects=(LAG, DELAY), load={'viscous_friction': {'coefficient': 0.1}}),
+    pair(effects=(LAG, DELAY), load=[ViscousFriction(coefficient=0.1)]),
     single_muscle_joint(Muscle(zeta=0.3), Mass(mass=5.0), LAG),
-    single_muscle_joint(load=Mass(mount='horizontal'), effects=CREEP | LAG),
-    parallel(50.0, effects=(CREEP, {})),
-    single_muscle_joint(load=Mass(mass=8.0), effects=DELAY | CREEP),
+    single_muscle_joint(load=Mass(mount='horizontal'), effects=[*CREEP, *LAG]),
+    parallel(50.0, effects=(CREEP, ())),
+    single_muscle_joint(load=Mass(mass=8.0), effects=[*DELAY, *CREEP]),
     lever(effects=(DELAY, LAG)),
-    pair(effects=(CREEP, {'pressure_lag': {**LAG['pressure_lag'], 'onset': 0.1505}})),
+    pair(effects=(CREEP, [replace(LAG[0], onset=0.1505)])),
 )
 MUSCLES = sum(len(model.muscles) for model in MODELS)
 
@@ -116,7 +119,7 @@ def test_time_is_counted():
 @pytest.mark.parametrize(('delay', 'late'), [(0.0, 0), (0.003, 3), (0.0031, 4), (1.0, 1000)])
 def test_a_command_acts_when_its_dead_time_is_over(delay, late):
     """At the first step that starts at or after that moment."""
-    rig = Simulation([single_muscle_joint(effects={'dead_time': {'delay': delay}})])
+    rig = Simulation([single_muscle_joint(effects=[DeadTime(delay=delay)])])
     rig.advance(5)
     rig.command(4e5)
     rig.advance(late)
@@ -126,7 +129,7 @@ def test_a_command_acts_when_its_dead_time_is_over(delay, late):
 
 
 def test_each_muscle_of_a_joint_hears_its_own_command_after_its_own_dead_time():
-    late = pair(effects=({'dead_time': {'delay': 0.003}}, {'dead_time': {'delay': 0.005}}))
+    late = pair(effects=([DeadTime(delay=0.003)], [DeadTime(delay=0.005)]))
     rig = Simulation([single_muscle_joint(), late])
     rig.command([1e5, 2e5, 3e5])
     heard = []
@@ -140,7 +143,7 @@ def test_each_muscle_of_a_joint_hears_its_own_command_after_its_own_dead_time():
 
 def test_all_commands_of_a_long_dead_time_arrive_in_order():
     """A second of delay with a command at each step: a thousand are under way."""
-    rig = Simulation([single_muscle_joint(effects={'dead_time': {'delay': 1.0}})] * 2)
+    rig = Simulation([single_muscle_joint(effects=[DeadTime(delay=1.0)])] * 2)
     heard = []
     for k in range(2200):
         rig.command([100.0 * k, 50.0 * k])
@@ -224,10 +227,10 @@ def test_parameters_change_while_it_runs(first, then):
     [
         (
             single_muscle_joint(),
-            single_muscle_joint(effects=LAG | CREEP),
-            single_muscle_joint(load=Mass(mass=21.0), effects=LAG | CREEP),
+            single_muscle_joint(effects=[*LAG, *CREEP]),
+            single_muscle_joint(load=Mass(mass=21.0), effects=[*LAG, *CREEP]),
         ),
-        (pair(), pair(effects=(LAG, {})), pair(mass=1.6, effects=(LAG, {}))),
+        (pair(), pair(effects=(LAG, ())), pair(mass=1.6, effects=(LAG, ()))),
     ],
     ids=['one muscle', 'pair'],
 )
@@ -253,7 +256,7 @@ def test_an_effect_that_appears_starts_from_the_present_state(first, then, later
     assert rig.pressure[0] == pytest.approx(2e5 + (lagging - 2e5) * np.exp(-1e-3 / 0.1))
 
 
-LATE = {'leak': {'rate': 0.5, 'refill': 0.1, 'onset': 0.2}}
+LATE = [Leak(rate=0.5, refill=0.1, onset=0.2)]
 
 
 def test_an_onset_is_a_change_at_its_step():
@@ -287,7 +290,7 @@ def test_an_onset_that_is_set_while_it_runs(at, begins):
     rig.change([single_muscle_joint(effects=LATE)])
     rig.advance(500 - at)
     other.advance(begins)
-    other.change([single_muscle_joint(effects={'leak': {'rate': 0.5, 'refill': 0.1}})])
+    other.change([single_muscle_joint(effects=[Leak(rate=0.5, refill=0.1)])])
     other.advance(500 - begins)
     np.testing.assert_array_equal(state(rig), state(other))
 
@@ -297,7 +300,7 @@ def test_an_onset_that_is_moved_ahead_ends_the_effect_until_then():
     rig.reset(4e5, 0.03, 0.0)
     rig.advance(300)
     leaking = rig.pressure[0]
-    rig.change([single_muscle_joint(effects={'leak': LATE['leak'] | {'onset': 0.4}})])
+    rig.change([single_muscle_joint(effects=[replace(LATE[0], onset=0.4)])])
     rig.advance(50)
     assert leaking < rig.pressure[0] == 4e5
     rig.advance(100)

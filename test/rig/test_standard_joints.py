@@ -4,7 +4,7 @@
 
 import pytest
 
-from pam_ros.effects import EFFECTS
+from pam_ros.effects import EFFECTS, PressureLag, ViscousFriction
 from pam_ros.errors import ParameterError
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig.equilibrium import equilibrium
@@ -13,19 +13,19 @@ from pam_ros.rig.loads import Arm, Mass
 from pam_ros.rig.standard_joints import antagonistic_joint, single_muscle_joint
 from pam_ros.rig.transmissions import Pulley, Straight
 
-LAG = {'pressure_lag': {'fill': 0.03, 'vent': 0.05}}
-FRICTION = {'viscous_friction': {'coefficient': 0.1}}
+LAG = (PressureLag(fill=0.03, vent=0.05),)
+FRICTION = (ViscousFriction(coefficient=0.1),)
 SHORT = Muscle(l0=0.36)
 
 
 def test_one_muscle_lifts_a_mass():
-    made = single_muscle_joint(SHORT, Mass(mass=12.0), LAG | FRICTION)
+    made = single_muscle_joint(SHORT, Mass(mass=12.0), [*LAG, *FRICTION])
     assert made == Joint((Actuator(SHORT, LAG),), Mass(mass=12.0), Straight(), FRICTION)
 
 
 def test_two_muscles_turn_a_pulley_with_an_arm():
     made = antagonistic_joint(
-        SHORT, radius=0.03, load=Arm(mass=0.7), contraction=0.12, effects=LAG | FRICTION
+        SHORT, radius=0.03, load=Arm(mass=0.7), contraction=0.12, effects=[*LAG, *FRICTION]
     )
     muscle = Actuator(SHORT, LAG, 0.12)
     assert made == Joint((muscle, muscle), Arm(mass=0.7), Pulley(radius=0.03), FRICTION)

@@ -5,7 +5,16 @@
 import numpy as np
 import pytest
 
-from pam_ros.effects import EFFECTS
+from pam_ros.effects import (
+    EFFECTS,
+    CoulombFriction,
+    Creep,
+    Hysteresis,
+    Payload,
+    PressureLag,
+    PressureOffset,
+    ViscousFriction,
+)
 from pam_ros.errors import ParameterError
 from pam_ros.rig import layout as at
 from pam_ros.rig.equilibrium import equilibrium
@@ -15,13 +24,13 @@ from pam_ros.rig.start import begin_effects, start_joint, start_muscle, start_st
 from support import bench, joints
 from support.joint_models import UNEQUAL, lever, pair
 
-LAG = {'pressure_lag': {'fill': 0.1, 'vent': 0.2}}
+LAG = [PressureLag(fill=0.1, vent=0.2)]
 T = np.linspace(0.0, 1.0, 101)
 
 
 def test_a_start_is_a_long_rest():
     """A lagging chamber is full, and what is downstream of an offset has got it."""
-    joint = single_muscle_joint(effects=LAG | {'pressure_offset': {'offset': 5e3}})
+    joint = single_muscle_joint(effects=[*LAG, PressureOffset(offset=5e3)])
     x = start_state(joint.layout, joint.parameters(), [2e5], 0.03, 0.1)
     assert list(x[at.JOINT, [at.S, at.V]]) == [0.03, 0.1]
     assert x[at.MUSCLE, at.P] == 2.05e5
@@ -30,10 +39,10 @@ def test_a_start_is_a_long_rest():
 
 def test_effects_that_are_not_there_need_no_start():
     """What is known to be there begins as ever, and what is not leaves the run as it is."""
-    effects = LAG | {'creep': {'force': 0.03}, 'viscous_friction': {'coefficient': 20.0}}
+    effects = [*LAG, Creep(force=0.03), ViscousFriction(coefficient=20.0)]
     joint = single_muscle_joint(effects=effects)
     layout, q = joint.layout, joint.parameters()
-    present = tuple(e for e in joint.library if e.name in effects)
+    present = tuple(type(effect) for effect in effects)
     x = start_state(layout, q, [2e5], 0.03, 0.1)
     some = start_state(layout, q, [2e5], 0.03, 0.1, present)
     assert some[at.MUSCLE, at.P] == x[at.MUSCLE, at.P]
@@ -62,9 +71,9 @@ def test_one_effect_can_be_started_alone():
 @pytest.mark.parametrize(
     ('joint', 'ends'),
     [
-        (pair(effects=({}, {'hysteresis': {'slip': 3.0}})), joints.ends(0.3, UNEQUAL)),
+        (pair(effects=((), [Hysteresis(slip=3.0)])), joints.ends(0.3, UNEQUAL)),
         (
-            lever(effects=({}, {'hysteresis': {'slip': 3.0}})),
+            lever(effects=((), [Hysteresis(slip=3.0)])),
             [
                 kappa * strand.l0 + joints.drawn(0.3, i)
                 for i, (kappa, strand) in enumerate(
@@ -116,11 +125,10 @@ def test_all_muscles_of_a_joint_begin_alike_away_from_rest():
 
 def test_what_creeps_begins_unrelaxed_and_relaxes():
     """What follows the contraction begins 0.01 below it: the stiffness of so much is there."""
-    creep = {'stiffness': 5.0, 'time': 0.5}
     away = {'creep': {'fast contraction': -0.01, 'slow contraction': -0.01}}
     t = np.linspace(0.0, 2.0, 101)
     held_at = 0.05
-    joint = bench.cart(mass=1e4, creep=creep)
+    joint = bench.cart(Creep(stiffness=5.0, time=0.5), mass=1e4)
     run = simulate(joint, t, [0.0], [0.0], position=held_at, hidden=away)
     # A cart of ten tons hardly moves: 5 N of 0.01 pull it back, and exp(-t/0.5) of them are left.
     np.testing.assert_allclose(run.force, -0.05 * np.exp(-t / 0.5), atol=5e-5)
@@ -136,9 +144,9 @@ def test_nothing_is_moved_where_nothing_is_said():
 def test_an_absent_effect_may_begin_anywhere():
     """Its hidden states are there but do nothing."""
     hidden = {'pressure_lag': {'pressure': 5e4}, 'hysteresis': {'loop': 0.5}}
-    bare = simulate(single_muscle_joint(effects={'payload': {'mass': 1.0}}), T, [0.0], [3e5])
+    bare = simulate(single_muscle_joint(effects=[Payload(mass=1.0)]), T, [0.0], [3e5])
     moved = simulate(
-        single_muscle_joint(effects={'payload': {'mass': 1.0}}), T, [0.0], [3e5], hidden=hidden
+        single_muscle_joint(effects=[Payload(mass=1.0)]), T, [0.0], [3e5], hidden=hidden
     )
     np.testing.assert_array_equal(bare.position, moved.position)
     np.testing.assert_array_equal(bare.pressure, moved.pressure)
@@ -174,7 +182,7 @@ WITH_SPREAD = [e for e in EFFECTS if any(state.spread > 0.0 for state in e.state
 def test_a_run_may_begin_with_every_hidden_state_two_spreads_away(effect, sign):
     """It stays finite, and comes to move with the run that began at rest, or stays near it."""
     hidden = {effect.name: {state.name: sign * state.spread for state in effect.states}}
-    joint = bench.hanging(**{effect.name: effect.example().given})
+    joint = bench.hanging(effect.example())
     t = np.linspace(0.0, 5.0, 501)
     commands = [0.0, 1.0, 2.5], [3e5, 2e5, 4e5]
     moved, still = (simulate(joint, t, *commands, hidden=h) for h in (hidden, None))
@@ -196,8 +204,8 @@ def test_spreads_are_there_where_a_state_is_not_known_beforehand():
 
 def test_effects_that_begin_leave_the_joint_where_it_is():
     """Memories are those of a rest at the pressures that the chambers have, in each muscle."""
-    each = LAG | {'creep': {'force': 0.03}}
-    joint = pair(effects=(each, each), load={'coulomb_friction': {'level': 1.0}})
+    each = [*LAG, Creep(force=0.03)]
+    joint = pair(effects=(each, each), load=[CoulombFriction(level=1.0)])
     layout = joint.layout
     without = pair().parameters()
     x = start_state(layout, without, [2e5, 3e5], 0.2, 0.5)

@@ -138,7 +138,7 @@ def test_a_joint_without_an_equilibrium_says_what_is_left_over():
 
 def test_only_one_muscle_on_a_mass_has_its_coordinate_from_its_length():
     assert statics.is_direct(single_muscle_joint())
-    moved = Joint((Actuator(Muscle(), {}, 0.1),), Mass())
+    moved = Joint((Actuator(Muscle(), (), 0.1),), Mass())
     assert not any(map(statics.is_direct, (pair(), lever(), parallel(50.0), moved)))
     # It rests as far up as the other does, counted from where it is mounted.
     shift = equilibrium(single_muscle_joint(), 3e5) - equilibrium(moved, 3e5)

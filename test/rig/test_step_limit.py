@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from pam_ros.effects import PressureDependentDamping, ViscousFriction
 from pam_ros.errors import ParameterError
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig import statics
@@ -104,12 +105,12 @@ def test_drag_shortens_the_step():
     free = longest_step(pair())
     decay = 0.5 * 30.0 / joints.J + joints.ZETA / free
     expected = decay + np.sqrt(decay**2 - 1.0 / free**2)
-    slow = pair(load={'viscous_friction': {'coefficient': 30.0}})
+    slow = pair(load=[ViscousFriction(coefficient=30.0)])
     assert longest_step(slow) == pytest.approx(1.0 / expected)
-    by_pressure = {'pressure_dependent_damping': {'inflating': 0.08, 'deflating': 0.01}}
+    by_pressure = [PressureDependentDamping(inflating=0.08, deflating=0.01)]
     decay = 0.5 * 0.08 * 6e5 * joints.R**2 / joints.J + joints.ZETA / free
     expected = decay + np.sqrt(decay**2 - 1.0 / free**2)
-    assert longest_step(pair(effects=(by_pressure, {}))) == pytest.approx(1.0 / expected)
+    assert longest_step(pair(effects=(by_pressure, ()))) == pytest.approx(1.0 / expected)
 
 
 def test_two_equal_muscles_need_the_step_of_one_with_half_the_mass():
@@ -201,7 +202,7 @@ def test_nor_does_a_mass_on_two_muscles(mass, zeta, commanded):
 
 def drive(load, transmission, contraction, zeta, commanded):
     try:
-        actuator = Actuator(Muscle(zeta=zeta), {}, contraction)
+        actuator = Actuator(Muscle(zeta=zeta), (), contraction)
         joint = Joint((actuator, actuator), load, transmission)
     except ParameterError:
         return

@@ -10,6 +10,7 @@ import pytest
 COMPILED_AFTERWARDS = """
 import numpy as np
 from numba.core import event
+from pam_ros.effects import ViscousFriction
 from pam_ros.rig.arrangements import ARRANGEMENTS
 from pam_ros.rig.bind import bind
 from pam_ros.rig.standard_joints import single_muscle_joint
@@ -36,7 +37,7 @@ for kind in ARRANGEMENTS:
         plant.advance(10)
         plant.read()
 t, p = np.array([0.0, 0.01]), np.array([1e5, 2e5])
-for effects in ({}, {'viscous_friction': {'coefficient': 0.1}}):
+for effects in ((), [ViscousFriction(coefficient=0.1)]):
     alone = single_muscle_joint(effects=effects)
     simulate(alone, t, t, p)
     simulate_held(alone, t, p, t)

@@ -18,6 +18,7 @@ from pam_ros.settings.load import load_joint, load_muscle
 from pam_ros.settings.nominal import nominal_joint
 from pam_ros.settings.scene import Scene
 from pam_ros.settings.tables import checked
+from support.by_name import by_name
 
 ANTAGONISTIC = Path(__file__).parents[2] / 'config' / 'antagonistic.yaml'
 SLACK = {'effects.slack.share': 1.0}
@@ -52,8 +53,8 @@ def test_a_file_of_an_antagonistic_joint_makes_one():
         load=Arm(mass=1.0, arm=0.25),
         effects=small.actuators[0].effects,
     )
-    assert small.actuators[0].effects['slack']['share'] == 1.0
-    assert list(small.actuators[0].effects) == ['slack']
+    assert by_name(small.actuators[0].effects)['slack'].share == 1.0
+    assert list(by_name(small.actuators[0].effects)) == ['slack']
 
 
 @pytest.mark.parametrize('kind', [kind.name for kind in ARRANGEMENTS])

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from pam_ros.effects import CoulombFriction, PressureLag
 from pam_ros.errors import ParameterError
 from pam_ros.rig.arrangements import ARRANGEMENTS
 from pam_ros.rig.joint import Actuator
@@ -32,12 +33,8 @@ def test_every_kind_goes_to_a_file_and_comes_back(kind, tmp_path):
 def test_muscles_that_differ_stand_behind_their_names(tmp_path):
     nominal = nominal_joint(ANTAGONISTIC, NAMED)
     first, second = nominal.joint.actuators
-    late = Actuator(
-        replace(second.muscle, a5=310.0), {'pressure_lag': {'fill': 0.06, 'vent': 0.09}}, 0.12
-    )
-    joint = replace(
-        nominal.joint, actuators=(first, late), effects={'coulomb_friction': {'level': 0.2}}
-    )
+    late = Actuator(replace(second.muscle, a5=310.0), [PressureLag(fill=0.06, vent=0.09)], 0.12)
+    joint = replace(nominal.joint, actuators=(first, late), effects=[CoulombFriction(level=0.2)])
     values = nominal.flat(joint)
     assert values['extensor.a5'] == 310.0
     assert values['flexor.a5'] == first.muscle.a5

@@ -14,6 +14,7 @@ from pam_ros.settings.files import write
 from pam_ros.settings.nominal import nominal_joint
 from pam_ros.settings.scene import Scene
 from pam_ros.settings.tables import checked
+from support.by_name import by_name
 
 
 def of(given):
@@ -38,7 +39,7 @@ def test_names_have_their_own_and_follow_in_the_rest():
     )
     a, b = now.joints
     assert (a.load.mass, b.load.mass) == (12.0, 7.0)
-    assert [joint.effects['coulomb_friction']['level'] for joint in (a, b)] == [5.0, 0.0]
+    assert [by_name(joint.effects)['coulomb_friction'].level for joint in (a, b)] == [5.0, 0.0]
     assert now.joint_names == now.muscle_names == ('a', 'b')
 
 
@@ -134,8 +135,8 @@ def test_effects_of_a_pair_are_where_they_act():
     (pair,) = now.joints
     assert isinstance(pair, Joint)
     assert pair.transmission == Pulley()
-    assert pair.effects['coulomb_friction']['level'] == 0.5
-    assert [a.effects['pressure_lag']['fill'] for a in pair.actuators] == [0.02, 0.0]
+    assert by_name(pair.effects)['coulomb_friction'].level == 0.5
+    assert [by_name(a.effects)['pressure_lag'].fill for a in pair.actuators] == [0.02, 0.0]
     assert pair.load.hanging_at == 0.2
 
 
@@ -161,7 +162,7 @@ def test_a_lever_is_declared_by_its_geometry(kind, muscles):
     (joint,) = now.joints
     assert joint.transmission == Lever(crank=0.05, angle=1.6)
     assert [a.contraction for a in joint.actuators] == [0.08, 0.1][:muscles]
-    assert joint.effects['end_stop']['upper'] == 0.9
+    assert by_name(joint.effects)['end_stop'].upper == 0.9
     assert joint.moved_mass == joint.load.mass + 0.2
     assert now.joint_names == ('elbow',)
     assert len(now.muscle_names) == muscles

@@ -20,12 +20,12 @@ MASS = 10.0
 ZETA = 0.15
 
 
-def hanging(mass=MASS, **effects):
+def hanging(*effects, mass=MASS):
     """Return the paper's muscle with a hanging load."""
     return single_muscle_joint(Muscle(zeta=ZETA), Mass(mass=mass), effects)
 
 
-def cart(mass=MASS, **effects):
+def cart(*effects, mass=MASS):
     """Return a load on a horizontal guide, drawn with 1 N per Pa, and nothing else."""
     drawn = Muscle(
         a1=0.0,

@@ -11,6 +11,7 @@ from pam_ros.control.limits import Limits
 from pam_ros.control.model import ControlModel
 from pam_ros.control.reference.shaping import Shape, Shaper
 from pam_ros.control.sharing import sharing_of
+from pam_ros.effects import PressureLag
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig.loads import Mass
 from pam_ros.rig.standard_joints import single_muscle_joint
@@ -18,7 +19,7 @@ from truth import CONTROL_PLANTS, Sensor, TruthPlant
 from truth.control_plants import FEEDBACK_NOISE
 
 STREAM = 0.01  # s between two samples of a moving target
-LAG = {'pressure_lag': {'fill': 0.050, 'vent': 0.070}}
+LAG = [PressureLag(fill=0.050, vent=0.070)]
 
 
 @dataclass
@@ -49,9 +50,9 @@ def truth(name, mass=20.0, p0=300e3, noise=FEEDBACK_NOISE, seed=0, **more):
     )
 
 
-def declared(mass=20.0, effects=None, **muscle):
+def declared(mass=20.0, effects=(), **muscle):
     """Return the rig as it is declared to the controller."""
-    return single_muscle_joint(Muscle(zeta=0.15, **muscle), Mass(mass=mass), effects or {})
+    return single_muscle_joint(Muscle(zeta=0.15, **muscle), Mass(mass=mass), effects)
 
 
 def shared(joint, limits=None):

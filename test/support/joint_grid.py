@@ -7,12 +7,13 @@ from itertools import permutations
 
 import numpy as np
 
+from pam_ros.effects import Slack
 from pam_ros.rig.arrangements import ARRANGEMENTS
 from pam_ros.rig.joint import Actuator, Joint
 from pam_ros.rig.loads import Mass
 from support.joint_loop import close_joint
 
-SLACK = {'slack': {'share': 1.0}}
+SLACK = [Slack(share=1.0)]
 # Of the masses of the defaults, 20 kg on a slide and 1 kg on an arm; no lighter arm has a reach on
 # a lever, and none heavier than four times can be lifted by a crank far from where it hangs.
 LOADS = (0.5, 1.0, 3.0)
@@ -24,10 +25,10 @@ REACHED = {'Pid': 0.04, 'SlidingMode': 2e-4}
 BEYOND = {'Pid': 0.3, 'SlidingMode': 0.01}
 
 
-def declared(kind, load=1.0, effects=None):
+def declared(kind, load=1.0, effects=()):
     """Return a joint of a *kind* by name: its defaults with *load* times the mass."""
     (found,) = (one for one in ARRANGEMENTS if one.name == kind)
-    muscle = Actuator(effects=effects or {}, contraction=found.contraction)
+    muscle = Actuator(effects=effects, contraction=found.contraction)
     default = found.load()
     if isinstance(default, Mass) or load >= 1.0:
         default = replace(default, mass=load * default.mass)

@@ -19,7 +19,7 @@ def muscle(strand, zeta=joints.ZETA):
     return Muscle(**dict(zip(NAMES, strand.a, strict=True)), l0=strand.l0, zeta=zeta)
 
 
-def actuators(strands, contractions, effects=({}, {}), zeta=joints.ZETA):
+def actuators(strands, contractions, effects=((), ()), zeta=joints.ZETA):
     return tuple(
         Actuator(muscle(strand, zeta), own, contraction)
         for strand, own, contraction in zip(strands, effects, contractions, strict=True)
@@ -39,26 +39,26 @@ PAIR = {
 OF_ARM = ('inertia', 'mass', 'arm', 'hanging_at')
 
 
-def pair(strands=UNEQUAL, effects=({}, {}), zeta=joints.ZETA, library=EFFECTS, load=(), **changes):
+def pair(strands=UNEQUAL, effects=((), ()), zeta=joints.ZETA, library=EFFECTS, load=(), **changes):
     """Return the antagonistic pair; *effects* of each muscle, *load* those on the arm."""
     arm = PAIR | changes
     pulley = Pulley(arm.pop('radius'))
     contractions = arm.pop('contraction_1'), arm.pop('contraction_2')
     muscles = actuators(strands, contractions, effects, zeta)
-    return Joint(muscles, Arm(**arm), pulley, dict(load), library)
+    return Joint(muscles, Arm(**arm), pulley, load, library)
 
 
 def parallel(
-    mass, strands=UNEQUAL, offsets=(0.0, 0.0), effects=({}, {}), zeta=joints.ZETA, load=()
+    mass, strands=UNEQUAL, offsets=(0.0, 0.0), effects=((), ()), zeta=joints.ZETA, load=()
 ):
     """Return a mass on two muscles."""
     muscles = actuators(strands, offsets, effects, zeta)
-    return Joint(muscles, Mass(mass=mass), Straight(), dict(load))
+    return Joint(muscles, Mass(mass=mass), Straight(), load)
 
 
 def lever(
     strands=UNEQUAL,
-    effects=({}, {}),
+    effects=((), ()),
     zeta=joints.ZETA,
     load=(),
     geometry=joints.GEOMETRY,
@@ -69,4 +69,4 @@ def lever(
     arm = {name: value for name, value in PAIR.items() if name in OF_ARM} | changes
     n = len(strands)
     muscles = actuators(strands, contractions[:n], effects[:n], zeta)
-    return Joint(muscles, Arm(**arm), Lever(*geometry), dict(load))
+    return Joint(muscles, Arm(**arm), Lever(*geometry), load)

@@ -60,7 +60,7 @@ def ends_on_lever(s):
 
 CASES = {
     'one muscle': Case(
-        lambda effects=({}, {}): single_muscle_joint(effects=effects[0]),
+        lambda effects=((), ()): single_muscle_joint(effects=effects[0]),
         *(20.0, lambda s: [s], lambda s: [1.0]),
     ),
     'pair': Case(

@@ -38,7 +38,7 @@ class Kind:
         return self.name
 
 
-def _declared(effects=None):
+def _declared(effects=()):
     return closed_loop.declared(effects=effects)
 
 

@@ -41,10 +41,10 @@ class PairRun:
         return self.t > self.t[-1] - seconds
 
 
-def declared(effects=None, load=None):
+def declared(effects=(), load=()):
     """Return the joint as it is declared to the controller; *effects* of both muscles."""
-    actuator = Actuator(effects=effects or {}, contraction=0.1)
-    return Joint((actuator, actuator), Arm(), Pulley(), load or {})
+    actuator = Actuator(effects=effects, contraction=0.1)
+    return Joint((actuator, actuator), Arm(), Pulley(), load)
 
 
 def close_pair(

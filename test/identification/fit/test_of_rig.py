@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from pam_ros.effects import Payload, PressureLag
 from pam_ros.errors import ParameterError
 from pam_ros.identification.fit.of_rig import OfRig, changed, fill, numbers_of
 from pam_ros.muscle.muscle import Muscle
@@ -15,10 +16,10 @@ from pam_ros.rig.loads import Arm, Mass
 from pam_ros.rig.standard_joints import single_muscle_joint
 from pam_ros.rig.transmissions import Lever, Pulley, Straight
 
-ACTUATOR = Actuator(Muscle(), {'pressure_lag': {'fill': 0.03}}, contraction=0.1)
+ACTUATOR = Actuator(Muscle(), [PressureLag(fill=0.03)], contraction=0.1)
 ARM = Arm(inertia=0.02, mass=1.5, arm=0.3, hanging_at=0.2)
 JOINTS = {
-    'load': single_muscle_joint(Muscle(), Mass(mass=12.0), {'payload': {'mass': 2.0}}),
+    'load': single_muscle_joint(Muscle(), Mass(mass=12.0), [Payload(mass=2.0)]),
     'parallel': Joint((Actuator(Muscle()), Actuator(Muscle())), Mass(mass=12.0), Straight()),
     'antagonistic': Joint((ACTUATOR, ACTUATOR), ARM, Pulley(radius=0.04)),
     'lever': Joint((ACTUATOR, ACTUATOR), replace(ARM, mass=8.0), Lever()),

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from scipy.optimize import approx_fprime
 
-from pam_ros.effects import EFFECTS
+from pam_ros.effects import EFFECTS, Creep, PressureLag
 from pam_ros.identification.data.segment import segments_of
 from pam_ros.identification.fit.discrepancy import Discrepancy
 from pam_ros.identification.fit.places import places_of
@@ -145,7 +145,7 @@ def test_jacobian_of_the_force_law_in_closed_form():
 
 def lagging(tau):
     """Return a force source whose pressure lags by *tau* s."""
-    return single_muscle_joint(FORCE, RAIL, {'pressure_lag': {'fill': tau, 'vent': tau}})
+    return single_muscle_joint(FORCE, RAIL, [PressureLag(fill=tau, vent=tau)])
 
 
 @pytest.mark.parametrize('away', [0.5, -1.0])
@@ -170,7 +170,7 @@ def test_a_pressure_that_begins_away_from_rest_decays_as_its_lag_says(away):
 @pytest.mark.parametrize('name', [e.name for e in EFFECTS if any(s.spread for s in e.states)])
 def test_a_memory_begins_where_a_simulation_begins_that_is_told_so(name):
     effect = LIBRARY[name]
-    model = single_muscle_joint(Muscle(), Mass(mass=20.0), {name: effect.example().given})
+    model = single_muscle_joint(Muscle(), Mass(mass=20.0), [effect.example()])
     t = np.arange(60) / 50.0
     command = 3e5 + 5e4 * np.sin(6.0 * t)
     y = np.full(t.size, equilibrium(model, command[0]))
@@ -248,7 +248,7 @@ def test_a_state_that_is_always_known_is_no_unknown():
 @pytest.mark.needs_numba
 def test_jacobian_of_a_swinging_muscle_against_scipy():
     model = single_muscle_joint(
-        Muscle(), Mass(mass=20.0), {'creep': {'stiffness': 500.0, 'pressure': 0.02, 'time': 0.7}}
+        Muscle(), Mass(mass=20.0), [Creep(stiffness=500.0, pressure=0.02, time=0.7)]
     )
     t = np.arange(400) / 100.0
     command = 3e5 + 5e4 * np.sin(2 * np.pi * 1.3 * t)

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 
+from pam_ros.effects import ViscousFriction
 from pam_ros.identification.data.parts import parts_of
 from pam_ros.identification.search.criteria import BUDGET, CRITERIA
 from pam_ros.identification.search.search import absent, matters, no_worse, search
@@ -101,7 +102,7 @@ def test_nothing_sees_what_judges():
 
 def test_an_effect_that_is_declared_is_not_tried():
     model = bench_truth.declared()
-    known = replace(model, effects={'viscous_friction': {'coefficient': 60.0}})
+    known = replace(model, effects=[ViscousFriction(coefficient=60.0)])
     found = searched([bench_truth.free(effect('viscous_friction'), seed=3)], known)
     assert found.best.effects == ()
     assert 'viscous_friction' not in absent(found.best, found.setting)

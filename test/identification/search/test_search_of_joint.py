@@ -7,6 +7,7 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 import pytest
 
+from pam_ros.effects import PressureLag
 from pam_ros.identification.data.parts import parts_of
 from pam_ros.identification.fit.solve import solved
 from pam_ros.identification.search.criteria import BUDGET, CRITERIA
@@ -28,7 +29,7 @@ COMMAND = 1e3 * np.stack(
     ],
     axis=1,
 )
-LAG = {'pressure_lag': {'fill': 0.05, 'vent': 0.07}}
+LAG = [PressureLag(fill=0.05, vent=0.07)]
 
 
 def elbow(first, second):
@@ -43,7 +44,7 @@ def found():
     recording = Recording('elbow', T, T, COMMAND, angle, muscles=NAMES, unit='rad')
     parts = parts_of([recording], CRITERIA.fit, CRITERIA.choose)
     with ThreadPoolExecutor(2) as pool:
-        setting = Setting(elbow({}, {}), parts, CRITERIA, BUDGET, pool, NAMES)
+        setting = Setting(elbow((), ()), parts, CRITERIA, BUDGET, pool, NAMES)
         problem = setting.problem
         retuned = setting.model((), solved(problem, np.zeros(len(problem.unknowns)), pool=pool))
         yield Search(setting, retuned, retuned, [retuned])

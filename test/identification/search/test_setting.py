@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from pam_ros.effects import Creep
 from pam_ros.identification.data.parts import parts_of
 from pam_ros.identification.fit.extend import with_effect
 from pam_ros.identification.fit.solve import begun, least_squares
@@ -72,7 +73,7 @@ def test_at_a_prescribed_length_what_chooses_begins_at_rest():
         unsettled = setting.errors(begun(problem, np.where(memories, 5.0, u)))
         (part,) = setting.thin
         s = part.segment
-        creeping = single_muscle_joint(joint.muscle, joint.load, effects={'creep': start})
+        creeping = single_muscle_joint(joint.muscle, joint.load, effects=[Creep(**start)])
         run = simulate_held(creeping, s.t, s.pressure, s.position)
         e = run.force - s.target
         assert unsettled.choose == pytest.approx(rms(e[part.choose]), rel=0.02)

@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from pam_ros.effects import ViscousFriction
 from pam_ros.identification.data.segment import segments_of
 from pam_ros.identification.search.final import final
 from pam_ros.identification.search.stages import stages
@@ -16,6 +17,7 @@ from pam_ros.rig.loads import Mass
 from pam_ros.rig.run import simulate
 from pam_ros.rig.standard_joints import single_muscle_joint
 from support import bench_truth
+from support.by_name import by_name
 from support.searches import FILL, found_in
 from truth import effect
 
@@ -53,9 +55,9 @@ def test_the_last_one_has_the_effect_and_the_others_have_not(three):
     declared, retuned, augmented = three
     assert [stage.name for stage in three] == ['declared', 'retuned', 'augmented']
     assert declared.model == bench_truth.declared()
-    assert 'pressure_lag' not in {**declared.model.all_effects, **retuned.model.all_effects}
+    assert not by_name((*declared.model.all_effects, *retuned.model.all_effects))
     found = augmented.parameters['effects.pressure_lag.fill']
-    assert augmented.model.all_effects['pressure_lag']['fill'] == pytest.approx(found.value)
+    assert by_name(augmented.model.all_effects)['pressure_lag'].fill == pytest.approx(found.value)
     assert found.unit == 's'
     assert found.low < FILL < found.high
     assert retuned.parameters.keys() < augmented.parameters.keys()
@@ -108,7 +110,7 @@ def test_a_load_without_a_spring_is_shown_in_one_run_from_its_measured_start(poo
     units = {'pressure_unit': 'Pa', 'contraction_unit': 'fraction'}
     rail = Mass(mass=5.0, mount='horizontal')
     declared = single_muscle_joint(Muscle(a5=0.0102, **source, **units), rail)
-    there = {'viscous_friction': {'coefficient': 4.0}}
+    there = [ViscousFriction(coefficient=4.0)]
     true = replace(single_muscle_joint(Muscle(a5=0.0100, **source, **units), rail), effects=there)
     t = np.arange(1600) / 100.0
     command = 100.0 * np.where(np.sin(1.3 * t) > 0.0, 1.0, -1.0)

@@ -12,6 +12,7 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64, Float64MultiArray
 from std_srvs.srv import SetBool, Trigger
 
+from pam_ros.effects import Leak, Payload
 from pam_ros.rig.simulation import Simulation
 from pam_ros.rig.standard_joints import single_muscle_joint
 from support.harness import Peer, Program, lose_nothing
@@ -91,8 +92,8 @@ def test_a_command_is_a_period_to_the_bit_and_nothing_else_is(peer):
 
 def test_effects_begin_at_their_onsets_also_those_set_while_it_runs(peer):
     """A load is taken off after 0.1 s, and a leak that is declared at 0.12 s begins at 0.2 s."""
-    dropped = {'payload': {'mass': -5.0, 'onset': 0.1}}
-    leaking = {'leak': {'rate': 2.0, 'refill': 0.1, 'onset': 0.2}}
+    dropped = [Payload(mass=-5.0, onset=0.1)]
+    leaking = [Leak(rate=2.0, refill=0.1, onset=0.2)]
     late = {'effects.payload.mass': -5.0, 'effects.payload.onset': 0.1}
     with Program('pam_sim', parameters={**LOCKSTEP, **RELEASED, **late}) as sim:
         controller = Controller(peer)
@@ -104,7 +105,7 @@ def test_effects_begin_at_their_onsets_also_those_set_while_it_runs(peer):
         got += [controller.answer(pressure_at(k)) for k in range(60, 150)]
         begun = 'effects.leak acts from 0.2 s of simulated time on'
         peer.until(lambda: begun in sim.output, 'the line of the leak')
-    expected_ones = expected(150, single_muscle_joint(effects=dropped | leaking))
+    expected_ones = expected(150, single_muscle_joint(effects=[*dropped, *leaking]))
     assert [(m.position[0], m.velocity[0]) for m in got] == expected_ones
     assert expected_ones != expected(150, single_muscle_joint(effects=dropped))
     assert expected_ones[:51] == expected(51)

@@ -10,6 +10,7 @@ from sensor_msgs.msg import FluidPressure, JointState
 from std_msgs.msg import Float64, Float64MultiArray
 from std_srvs.srv import SetBool, Trigger
 
+from pam_ros.effects import PressureLag, ViscousFriction
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig.equilibrium import equilibrium
 from pam_ros.rig.joint import Actuator, Joint
@@ -111,9 +112,7 @@ def test_each_muscle_is_its_own_and_what_it_is_not_told_is_everybodys(peer):
         models = [
             single_muscle_joint(load=Mass(mass=7.0)),
             single_muscle_joint(Muscle(a1=-4.0), Mass(mass=15.0, mount='horizontal')),
-            single_muscle_joint(
-                load=Mass(mass=15.0), effects={'viscous_friction': {'coefficient': 30.0}}
-            ),
+            single_muscle_joint(load=Mass(mass=15.0), effects=[ViscousFriction(coefficient=30.0)]),
         ]
         is_as(arm, states, simulated(models, pressures))
         assert states[-1].name == names
@@ -148,12 +147,12 @@ def test_an_antagonistic_pair_is_an_angle_in_rad(peer):
     pressures = [4e5, 2.5e5]
     with Program('pam_sim', parameters=given):
         states = arm.run(pressures)
-        lag = {'pressure_lag': {'fill': 0.02}}
+        lag = [PressureLag(fill=0.02)]
         pair = Joint(
             (Actuator(contraction=0.1), Actuator(effects=lag, contraction=0.1)),
             ArmLoad(mass=0.8),
             Pulley(radius=0.05),
-            {'viscous_friction': {'coefficient': 0.3}},
+            [ViscousFriction(coefficient=0.3)],
         )
         is_as(arm, states, simulated([pair], pressures))
     assert states[-1].name == ['pam']
