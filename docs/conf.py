@@ -106,7 +106,11 @@ def reference() -> str:
         title = what[0].upper() + what[1:]
         parts += [f'{title}\n{"-" * len(title)}\n', *map(documented, names)]
     parts += ['The effects\n-----------\n']
-    parts += [f'.. autoclass:: pam_ros.effects.{effect.__name__}\n' for effect in pam_ros.EFFECTS]
+    # Their methods are those of every Effect, which stands above.
+    parts += [
+        f'.. autoclass:: pam_ros.effects.{effect.__name__}\n   :no-members:\n'
+        for effect in pam_ros.EFFECTS
+    ]
     return '\n'.join(parts)
 
 
