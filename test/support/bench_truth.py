@@ -13,6 +13,7 @@ from truth import (
     Sensor,
     TruthPlant,
     held_record,
+    play,
     play_late,
     record,
     stamps,
@@ -48,6 +49,18 @@ def late(one, onset, seed=0, duration=40.0, rate=100.0, noise=20e-6):
     t = stamps(rate, duration)
     first = int(np.searchsorted(t, onset))
     return recording_of(play_late(plant, [one], t, u, first, seed), 'late.csv')
+
+
+def step_and_back(one, seed, duration=12.0, rate=100.0, noise=20e-6):
+    """Return the recording of a free load whose pressure rises at 1 s and falls at its end."""
+    plant = TruthPlant(mass=MASS, effects=[one], sensor=Sensor(noise=noise), seed=seed)
+    low, high = working_range(plant.constants, MASS)
+    first, step = np.random.default_rng([seed, 9]).uniform([0.0, 0.3], [0.5, 0.5])
+    t = stamps(rate, duration)
+    is_up = (t >= 1.0) & (t < 0.8 * duration)
+    u = low + (high - low) * (first + step * is_up)
+    plant.reset(u[0], seed)
+    return recording_of(play(plant, t, u, seed=seed), f'{seed}.csv')
 
 
 def held(*effects, name='truth.csv', **settings):

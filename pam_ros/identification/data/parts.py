@@ -3,9 +3,11 @@
 """Three parts of every recording: what fits see, what choices see, and what judges at the end.
 
 Where a load moves freely they are the first, the next and the last of the time: what a model is
-worth is how far it carries on by itself. A muscle at a prescribed length has no motion of its own,
-and such a recording often has a single rise and a single fall of the pressure. There the parts are
-blocks of time in turn, so that each of them sees all that was done.
+worth is how far it carries on by itself. Where there are enough recordings, whole ones decide:
+each may have a single step up and a single step back at its end, which no fit would see otherwise.
+A muscle at a prescribed length has no motion of its own, and such a recording often has a single
+rise and a single fall of the pressure. There the parts are blocks of time in turn, so that each of
+them sees all that was done.
 """
 
 from collections.abc import Sequence
@@ -88,19 +90,24 @@ class Part:
 def parts_of(recordings: Sequence[Recording], fit: float, choose: float) -> list[Part]:
     """Return the gapless stretches of *recordings*, those with enough to be fitted first.
 
-    *fit* is the share of each recording's time that is fitted, *choose* the share that is fitted
-    or decides. Raises RecordingError when kinds are mixed.
+    *fit* is the share of the time that is fitted, *choose* the share that is fitted or decides:
+    of each recording, or, but for what judges, of the recordings where whole ones can decide.
+    Raises RecordingError when kinds are mixed.
     """
     require_one_kind(recordings)
+    deciding = _deciding(recordings, 1.0 - fit / choose)
     found = []
-    for recording in recordings:
+    for k, recording in enumerate(recordings):
         segments = segments_of([recording])
         if not segments:
             continue
         start, end = segments[0].t[0], segments[-1].t[-1]
         if recording.kind == 'held':
             places = np.arange(1, BLOCKS) / BLOCKS
-            draws = np.arange(1, BLOCKS + 1) * GOLDEN % 1.0
+            draws = _draws(BLOCKS)
+        elif deciding:
+            places = np.array([choose])
+            draws = np.array([fit if k in deciding else 0.0, choose])
         else:
             places, draws = np.array([fit, choose]), np.array([0.0, fit, choose])
         # The last sample belongs to the last part that there is.
@@ -108,6 +115,26 @@ def parts_of(recordings: Sequence[Recording], fit: float, choose: float) -> list
         roles = np.searchsorted([fit, choose], draws, side='right')
         found += [Part(segment, ends, roles) for segment in segments]
     return sorted(found, key=lambda part: not part.is_fitted)
+
+
+def _deciding(recordings: Sequence[Recording], share: float) -> set[int]:
+    """Return the numbers of the free recordings that decide as a whole: none where they are few.
+
+    They have at most this *share* of the time of all.
+    """
+    if recordings[0].kind == 'held':
+        return set()
+    times = [recording.duration for recording in recordings]
+    found: set[int] = set()
+    for k in np.argsort(-_draws(len(recordings)), kind='stable').tolist():
+        if sum(times[i] for i in (*found, k)) <= share * sum(times):
+            found.add(k)
+    return found
+
+
+def _draws(count: int) -> Array:
+    """Return numbers (count,) between 0 and 1, in no rhythm."""
+    return np.asarray(np.arange(1, count + 1) * GOLDEN % 1.0, dtype=float)
 
 
 def run_of(segment: Segment, fit: Mask) -> Segment:

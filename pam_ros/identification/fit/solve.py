@@ -24,6 +24,7 @@ from numpy.typing import NDArray
 from pam_ros.identification.fit import score as evidence
 from pam_ros.identification.fit.discrepancy import WHITE, Discrepancy, Whitening, deviance
 from pam_ros.identification.fit.problem import Problem
+from pam_ros.identification.fit.unknowns import DECLARED
 
 Array = NDArray[np.float64]
 LEAST_DAMPING = 1e-9
@@ -131,6 +132,19 @@ def settled(known: Solution, iterations: int = 20, pool: Executor | None = None)
             break
         known = improved(replace(known, discrepancy=found), iterations, pool)
     return fresh(known, pool)
+
+
+def with_nominal_constants(known: Solution) -> list[Solution]:
+    """Return *known* with the constants of muscles and rig at their nominal values, to fit anew.
+
+    Nothing where none lies further from there than a deviation of its prior. Constants that a fit
+    has moved far may have made up for what was missing, and no fit finds the way back from there.
+    """
+    constants = [isinstance(unknown.of, DECLARED) for unknown in known.problem.unknowns]
+    if np.max(np.abs(known.z[constants]), initial=0.0) <= 1.0:
+        return []
+    u = np.where(constants, 0.0, known.u)
+    return [replace(known, u=u, r=known.problem.residuals(u), is_fresh=False)]
 
 
 def least_squares(known: Solution, iterations: int = 20, pool: Executor | None = None) -> Solution:

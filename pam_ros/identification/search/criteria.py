@@ -67,8 +67,8 @@ class Budget:
     iterations, as the last fits are from where long steps have led. ``iterations``: those of a fit
     to its end. ``finer``: steps of the last fit for one of the others. ``nearer``: iterations from
     the place of the best score towards the nearest free run. ``window``: length in s of the runs
-    of a load without a spring. ``samples``: most thinned samples of several recordings that a
-    search looks at; a single recording it sees whole.
+    of a load without a spring. ``samples``: most thinned samples that a search fits; of what is
+    longer, rests are shortened, and recordings left out but for one.
     """
 
     effects: int = 3

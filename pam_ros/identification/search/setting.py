@@ -4,7 +4,8 @@
 
 Models are compared by their score, under the discrepancy; what they leave is measured where the
 free run is nearest to the measurement, by least squares from there. Under a discrepancy slow
-errors cost little, and the free run of a model that lacks something drifts.
+errors cost little, and the free run of a model that lacks something drifts: constants that lead
+to the best score can be far from those of the nearest free run.
 """
 
 from collections.abc import Iterable, Sequence
@@ -17,13 +18,14 @@ from numpy.typing import NDArray
 
 from pam_ros.identification.data.noise import noise_of
 from pam_ros.identification.data.parts import Part
+from pam_ros.identification.data.rests import without_rests
 from pam_ros.identification.data.segment import Segment, windows
 from pam_ros.identification.data.thinning import coarse_step, thinned
 from pam_ros.identification.fit.discrepancy import WHITE
 from pam_ros.identification.fit.places import Place, muscle_of, places_of
 from pam_ros.identification.fit.problem import Problem
 from pam_ros.identification.fit.run_levels import level_unknowns
-from pam_ros.identification.fit.solve import Solution, improved
+from pam_ros.identification.fit.solve import Solution, improved, with_nominal_constants
 from pam_ros.identification.fit.uncertain import Spreads, spread_unknowns
 from pam_ros.identification.fit.unknowns import (
     DECLARED,
@@ -76,14 +78,20 @@ class Model:
 
     @cached_property
     def _near(self) -> Solution:
-        plain = replace(self.solution, discrepancy=WHITE)
-        return improved(plain, self.setting.budget.nearer, renew=not self.is_look)
+        setting, plain = self.setting, replace(self.solution, discrepancy=WHITE)
+        near = improved(plain, setting.budget.nearer, renew=not self.is_look)
+        if self.is_look or self.strain <= setting.criteria.strain:
+            return near
+        again = (improved(one, setting.budget.nearer) for one in with_nominal_constants(plain))
+        return min((near, *again), key=lambda one: one.cost)
 
     @property
     def nearest(self) -> Array:
         """The unknowns (k,) with which its free run is nearest to the measurement.
 
-        By least squares from where the fit ended; those of a cheap look are as cheap.
+        By least squares from where the fit ended, and, where it has moved the constants further
+        than specimens differ, from there with nominal ones: the nearer end of both. Those of a
+        cheap look are as cheap.
         """
         return self._near.u
 
@@ -124,6 +132,11 @@ class Setting:
         """Longest step in s of simulations."""
         return coarse_step(self.joint)
 
+    @property
+    def is_crossed(self) -> bool:
+        """Whether recordings that are not fitted choose, as in a cross-validation."""
+        return not any(part.fit.any() and part.choose.any() for part in self.parts)
+
     @cached_property
     def thin(self) -> list[Part]:
         """The parts that are searched, thinned."""
@@ -131,19 +144,27 @@ class Setting:
 
     @cached_property
     def searched(self) -> Sequence[Part]:
-        """The parts that a search looks at: all, or evenly as many as the budget has room for.
+        """The parts that a search looks at: all, or what the budget has room for.
 
-        Hours of a rig say little more of which effects it has than many minutes, and take as many
-        times as long. The last fits are to all of them.
+        What is too long is searched without the middle of its rests, of the fitted recordings the
+        shortest first: each is another experiment, and a longer one says little more of which
+        effects there are. The last fits are to all. What is not fitted costs little.
         """
-        sizes = {id(part): thinned(part.segment, self.step).t.size for part in self.parts}
-        chosen = self.parts
-        fitted = [part for part in self.parts if part.is_fitted]
-        count = len(fitted)
-        while sum(sizes[id(part)] for part in chosen) > self.budget.samples and count > 0:
-            chosen = [fitted[int((k + 0.5) * len(fitted) / count)] for k in range(count)]
-            count -= 1
-        return chosen
+        if self._size(self.parts) <= self.budget.samples:
+            return self.parts
+        # A moment on the clock of the recording must stay there.
+        brief = self.parts
+        if self.onset is None:
+            brief = [without_rests(part, self.noise) for part in self.parts]
+        fitted = sorted((part for part in brief if part.is_fitted), key=lambda p: self._size([p]))
+        sizes = np.cumsum([self._size([part]) for part in fitted])
+        room = max(1, int(np.count_nonzero(sizes <= self.budget.samples)))
+        left_out = fitted[room:]
+        return [part for part in brief if part not in left_out]
+
+    def _size(self, parts: Sequence[Part]) -> int:
+        """Return how many thinned samples of *parts* are fitted."""
+        return sum(thinned(p.segment, self.step).t.size for p in parts if p.is_fitted)
 
     @cached_property
     def problem(self) -> Problem:

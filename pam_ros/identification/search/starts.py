@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from pam_ros.identification.fit.discrepancy import WHITE, Discrepancy
 from pam_ros.identification.fit.extend import with_effect
 from pam_ros.identification.fit.places import Place
-from pam_ros.identification.fit.solve import Solution, improved
-from pam_ros.identification.fit.unknowns import DECLARED, MemoryStart
+from pam_ros.identification.fit.solve import Solution, improved, with_nominal_constants
+from pam_ros.identification.fit.unknowns import MemoryStart
 from pam_ros.identification.search.setting import Model, Setting
 from pam_ros.rig import layout as at
 
@@ -44,20 +44,9 @@ def _look(begun: Solution, setting: Setting) -> Solution:
 
 
 def _grounds(known: Solution) -> list[tuple[Solution, list[Discrepancy]]]:
-    """Return places from which an effect is added, each with the discrepancies to begin with.
-
-    Constants that re-tuning has moved by more than a deviation of their priors may have made up
-    for what is missing, and so far that no fit with it finds the way back.
-    """
+    """Return places from which an effect is added, each with the discrepancies to begin with."""
     own = [known.discrepancy] if known.discrepancy != WHITE else []
-    found = [(known, [*own, WHITE])]
-    constants = [isinstance(unknown.of, DECLARED) for unknown in known.problem.unknowns]
-    if np.max(np.abs(known.z[constants]), initial=0.0) > 1.0:
-        u = np.where(constants, 0.0, known.u)
-        r = known.problem.residuals(u)
-        declared = replace(known, u=u, r=r, is_fresh=False)
-        found.append((declared, [WHITE]))
-    return found
+    return [(known, [*own, WHITE]), *((one, [WHITE]) for one in with_nominal_constants(known))]
 
 
 def _with_own_discrepancy(known: Solution) -> Solution:

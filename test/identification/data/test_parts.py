@@ -41,6 +41,57 @@ def test_each_recording_is_divided_by_itself():
     np.testing.assert_allclose(second.ends, first.ends + 100.0)
 
 
+def roles(recordings, fit=0.55, choose=0.75):
+    """Return for each recording which shares of it are fitted, decide and judge."""
+    parts = {part.segment.t[0]: part for part in parts_of(recordings, fit, choose)}
+    found = [parts[recording.t[0]] for recording in recordings]
+    return [(np.array(counts(part)) / part.segment.t.size).round(2).tolist() for part in found]
+
+
+def several(*durations):
+    """Return recordings of these durations in s, one after the other."""
+    found, begin = [], 0.0
+    for duration in durations:
+        keep, sent = FREE.t <= duration, FREE.command_t <= duration
+        found.append(
+            replace(
+                FREE,
+                name=f'{len(found)}',
+                t=FREE.t[keep] + begin,
+                position=FREE.position[keep],
+                command_t=FREE.command_t[sent] + begin,
+                command=FREE.command[sent],
+            )
+        )
+        begin += 100.0
+    return found
+
+
+def test_whole_recordings_decide_where_there_are_enough():
+    """At most the share of the time that decides: 0.27 of what does not judge."""
+    fitted, deciding = [0.75, 0.0, 0.25], [0.0, 0.75, 0.25]
+    assert roles(several(20.0, 20.0, 20.0, 20.0)) == [fitted, fitted, deciding, fitted]
+    assert roles(several(*[20.0] * 8)).count(deciding) == 2
+    all_of_it = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]
+    assert roles(several(*[20.0] * 4), 0.55 / 0.75, 1.0) == [all_of_it[k] for k in (0, 0, 1, 0)]
+
+
+def test_where_they_are_few_each_is_divided():
+    assert roles(several(20.0, 20.0, 20.0)) == [[0.55, 0.20, 0.25]] * 3
+
+
+def test_a_long_recording_does_not_decide_over_short_ones():
+    long, short = 20.0, 5.0
+    shares = roles(several(short, short, long, short), 0.55 / 0.75, 1.0)
+    assert shares == [[0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 0.0, 0.0]]
+
+
+def test_recordings_at_a_prescribed_length_are_always_divided():
+    held = bench_truth.held(duration=40.0)
+    four = [replace(held, name=f'{k}', t=held.t + 100.0 * k) for k in range(4)]
+    assert all(0.0 not in shares for shares in roles(four))
+
+
 def test_gaps_divide_a_recording_but_not_its_parts():
     t = FREE.t
     keep = (t < 4.0) | (t > 5.0)

@@ -10,8 +10,9 @@ import pytest
 
 from pam_ros.effects import ViscousFriction
 from pam_ros.identification.data.parts import parts_of
+from pam_ros.identification.fit.solve import begun
 from pam_ros.identification.search.criteria import BUDGET, CRITERIA
-from pam_ros.identification.search.search import absent, matters, no_worse, search
+from pam_ros.identification.search.search import absent, leading, matters, no_worse, search
 from pam_ros.identification.search.setting import Errors, Setting
 from pam_ros.identification.verdict import explains
 from support import bench_truth
@@ -21,10 +22,10 @@ pytestmark = [pytest.mark.slow, pytest.mark.needs_numba]
 OFF = np.array([0.02, -0.03, 0.01, -0.02, 0.01, 0.03])  # a specimen within its priors
 
 
-def searched(recordings, model=None):
+def searched(recordings, model=None, shares=(CRITERIA.fit, CRITERIA.choose)):
     """Return the search of recordings for what *model* lacks."""
     model = model or bench_truth.declared(off=OFF)
-    parts = parts_of(recordings, CRITERIA.fit, CRITERIA.choose)
+    parts = parts_of(recordings, *shares)
     with ThreadPoolExecutor() as pool:
         return search(Setting(model, parts, CRITERIA, BUDGET, pool))
 
@@ -86,6 +87,15 @@ def test_creep_that_has_not_settled_when_the_recording_begins():
     found = searched([part])
     assert found.best.effects == ('creep',)
     assert found.best.errors.fit < 1.2 * found.setting.noise
+
+
+def test_hysteresis_is_found_where_every_recording_falls_at_its_end_only():
+    """Whole recordings choose, so that fits see the way back; divided in time, creep was found."""
+    there = effect('hysteresis', 'pressure')
+    recordings = [bench_truth.step_and_back(there, seed=k) for k in range(6)]
+    found = searched(recordings, shares=(CRITERIA.fit / CRITERIA.choose, 1.0))
+    assert found.best.effects == ('hysteresis',)
+    assert explains(found)
 
 
 def test_nothing_sees_what_judges():
@@ -177,3 +187,33 @@ def test_what_lowers_the_score_alone_gives_way_to_what_shows_in_the_free_run():
     there = (effect('viscous_friction', viscous_ns_m=42.0), effect('creep', 'pressure'))
     found = searched([bench_truth.free(*there, seed=9, duration=60.0)])
     assert set(found.best.effects) == {'viscous_friction', 'creep'}
+
+
+@pytest.mark.parametrize(('count', 'first'), [(1, 'softening'), (4, 'creep')])
+def test_where_other_recordings_choose_the_nearest_free_run_leads(count, first):
+    """Scores and errors are given; a look leads to neither, and what does not pay comes last."""
+    recordings = [bench_truth.free(seed=k, name=f'{k}.csv') for k in range(count)]
+    parts = parts_of(recordings, CRITERIA.fit, CRITERIA.choose)
+    with ThreadPoolExecutor() as pool:
+        setting = Setting(bench_truth.declared(), parts, CRITERIA, BUDGET, pool)
+        problem = setting.problem
+        place = begun(problem, np.zeros(len(problem.unknowns)))
+
+    def model(name, score, error, is_look=False):
+        found = setting.model((name,), replace(place), is_look)
+        # Both are computed once, when they are asked for first.
+        found.solution.__dict__['score'] = score
+        found.__dict__['errors'] = Errors(error, error, error)
+        return found
+
+    best = model('', 0.0, 10.0)
+    tried = [
+        model('softening', -90.0, 5.0),
+        model('leak', -80.0, 2.0, is_look=True),
+        model('creep', -70.0, 3.0),
+        model('slack', -1.0, 1.0),
+    ]
+    order = [one.effects[0] for one in leading(tried, best, setting)]
+    assert setting.is_crossed is (count == 4)
+    assert order[0] == first
+    assert order[2:] == (['creep', 'slack'] if count == 1 else ['leak', 'slack'])

@@ -11,7 +11,11 @@ import pytest
 from pam_ros.effects import Creep
 from pam_ros.identification.data.parts import parts_of
 from pam_ros.identification.fit.extend import with_effect
-from pam_ros.identification.fit.solve import begun, least_squares
+from pam_ros.identification.fit.solve import (
+    begun,
+    least_squares,
+    with_nominal_constants,
+)
 from pam_ros.identification.fit.unknowns import MemoryStart
 from pam_ros.identification.search.criteria import BUDGET, CRITERIA
 from pam_ros.identification.search.setting import Setting
@@ -57,6 +61,36 @@ def test_errors_are_those_of_the_nearest_free_run_whatever_the_score_prefers(set
     # The few cheap iterations of a look come most of the way.
     looked_at = setting.model((), solution, is_look=True).errors.fit
     assert 0.99 * near < looked_at < near + 0.5 * (far - near)
+
+
+def far_off(setting, retuned, by):
+    """Return the re-tuned model's solution with its constants *by* deviations off, and which."""
+    problem = setting.problem
+    constants = np.array([one.is_parameter for one in problem.unknowns])
+    signs = np.where(np.arange(constants.size) % 2, -1.0, 1.0)
+    u = np.where(constants, by * signs * problem.prior, retuned.nearest)
+    return begun(problem, u), constants
+
+
+def test_constants_go_back_to_their_nominal_values_where_a_fit_has_moved_them(setting, retuned):
+    known, constants = far_off(setting, retuned, 1.1)
+    (back,) = with_nominal_constants(known)
+    np.testing.assert_array_equal(back.u, np.where(constants, 0.0, known.u))
+    np.testing.assert_array_equal(back.r, known.problem.residuals(back.u))
+    assert not back.is_fresh
+    assert with_nominal_constants(far_off(setting, retuned, 0.9)[0]) == []
+
+
+def test_the_nearest_free_run_is_looked_for_from_nominal_constants_too(setting, retuned):
+    """Here without any iterations: of two places the better one counts."""
+    short = replace(setting, budget=replace(BUDGET, nearer=0))
+    known, _ = far_off(setting, retuned, 12.0)
+    (nominal,) = with_nominal_constants(known)
+    errors = short.model((), known).errors
+    assert errors == short.errors(nominal)
+    assert errors.fit < 0.9 * short.errors(known).fit
+    best = retuned.errors.fit
+    assert short.model((), least_squares(known, 60)).errors.fit == pytest.approx(best, rel=0.01)
 
 
 def test_at_a_prescribed_length_what_chooses_begins_at_rest():
