@@ -36,12 +36,13 @@ def without_rests(part: Part, noise: float) -> Part:
         return part
     begins, ends = np.array([(segment.t[i], segment.t[j]) for i, j in rests]).T
 
-    def earlier(t: Array) -> Array:
-        gone = np.clip(t[:, None] - begins, 0.0, ends - begins).sum(axis=1)
-        return np.asarray(t - gone)
-
     def moves(t: Array) -> NDArray[np.bool_]:
         return np.asarray(~((t[:, None] >= begins) & (t[:, None] < ends)).any(axis=1))
+
+    def earlier(t: Array) -> Array:
+        # What is left out takes place at its end: exactly at the first sample that is kept again.
+        at = np.where(moves(t), t, ends[np.searchsorted(ends, t, side='right') % ends.size])
+        return np.asarray(at - np.clip(at[:, None] - begins, 0.0, ends - begins).sum(axis=1))
 
     kept, sent = moves(segment.t), moves(segment.drive_t)
     return replace(

@@ -135,7 +135,8 @@ class Setting:
     @property
     def is_crossed(self) -> bool:
         """Whether recordings that are not fitted choose, as in a cross-validation."""
-        return not any(part.fit.any() and part.choose.any() for part in self.parts)
+        fitted = {part.segment.name for part in self.parts if part.fit.any()}
+        return fitted.isdisjoint(part.segment.name for part in self.parts if part.choose.any())
 
     @cached_property
     def thin(self) -> list[Part]:

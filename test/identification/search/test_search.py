@@ -215,5 +215,15 @@ def test_where_other_recordings_choose_the_nearest_free_run_leads(count, first):
     ]
     order = [one.effects[0] for one in leading(tried, best, setting)]
     assert setting.is_crossed is (count == 4)
+    # A gap at which *choose* begins leaves no stretch with both, and is no other recording.
+    one = recordings[0]
+    a, b = (int(share * one.t.size) for share in (0.5, 0.6))
+    rows = np.r_[:a, b : one.t.size]
+    gap = replace(
+        one, t=one.t[rows], position=one.position[rows], gaps=((one.t[a - 1], one.t[b]),)
+    )
+    cut = parts_of([gap], CRITERIA.fit, CRITERIA.choose)
+    assert not any(part.fit.any() and part.choose.any() for part in cut)
+    assert not replace(setting, parts=cut).is_crossed
     assert order[0] == first
     assert order[2:] == (['creep', 'slack'] if count == 1 else ['leak', 'slack'])
