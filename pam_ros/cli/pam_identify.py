@@ -131,7 +131,7 @@ def run(given: argparse.Namespace, command: str) -> str:
     from pam_ros.compiled import HAVE_NUMBA
     from pam_ros.identification.data.segment import require_joint
     from pam_ros.identification.identify import identify
-    from pam_ros.recording.inputs import refuse_idle
+    from pam_ros.recording.inputs import refuse_copies, refuse_idle
     from pam_ros.recording.mapping import read_mapping
     from pam_ros.recording.read import read_recording
     from pam_ros.report.provenance import provenance
@@ -166,14 +166,10 @@ def run(given: argparse.Namespace, command: str) -> str:
     )
     require_joint([*recordings, *test], model)
     refuse_idle(recordings)  # here already, so that no warning stands before the reason
-    for recording in test:
-        if recording.digest in {other.digest for other in recordings}:
-            raise PamError(
-                f'{recording.name} is to be fitted and to test: what was fitted tests nothing'
-            )
-    for recording in (*recordings, *test):
-        for warning in recording.warnings:
-            print(shown(f'{recording.name}: {warning}'), file=sys.stderr)
+    refuse_copies([*recordings, *test])
+    known = [(one, warning) for one in (*recordings, *test) for warning in one.warnings]
+    for recording, warning in known:
+        print(shown(f'{recording.name}: {warning}'), file=sys.stderr)
     if not HAVE_NUMBA:
         print('numba is not installed: this takes some hundred times as long', file=sys.stderr)
     source = provenance(nominal, given.params, given.set, recordings, test, command)
@@ -184,6 +180,8 @@ def run(given: argparse.Namespace, command: str) -> str:
         write_report(given.out, answer, source)
     finally:
         progress.close()
+    for warning in answer.warnings[len(known) :]:
+        print(shown(warning), file=sys.stderr)
     return printable(f'{last_line(answer)}; see {given.out / "report.html"}')
 
 

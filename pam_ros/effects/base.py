@@ -41,7 +41,7 @@ joint's own are at the indices of :mod:`pam_ros.effects.rows`.
 """
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Mapping, MutableSequence
+from collections.abc import Callable, Collection, Mapping, MutableSequence
 from dataclasses import dataclass, fields, replace
 from enum import Enum
 from functools import cache
@@ -57,6 +57,7 @@ from pam_ros.parameters import described, field_about
 
 Array = NDArray[np.float64]
 Starts = tuple[dict[str, float], ...]
+Bounds = tuple[float, float]
 # A row of float64: numpy's array, or numba's; both are indexed like this.
 Row = MutableSequence[float]
 ON_JOINT = ('mass', 'outside', 'drag')
@@ -272,10 +273,25 @@ class Effect(ABC):
         """Say whether it acts on the joint, and not in a muscle or its pressure path."""
         return any(place in ON_JOINT for place in cls.equations.places)
 
-    def check(self, *, turning: bool) -> None:
-        """Raise ParameterError for a value that is out of range on this kind of joint."""
+    def check(self, *, mass: float, turning: bool) -> None:
+        """Raise ParameterError for a value that is out of range on a joint.
+
+        *mass* in kg is what it moves without effects, and *turning* says that it is revolute.
+        """
         for p in self.parameters(turning=turning):
             p.check(EffectName(self.name, p.name).flat, getattr(self, p.name), float)
+
+    @classmethod
+    def fit_bounds(
+        cls, near: Mapping[str, float], fitted: Collection[str], mass: float
+    ) -> dict[str, Bounds]:
+        """Return the bounds of its parameters in a fit, where they are narrower than their ranges.
+
+        *near* are the values of all its parameters from which the fit begins, *fitted* the names
+        of those that it changes, and *mass* in kg is what the joint moves without effects. Each
+        joint that a fit can end with, is then one that may be declared.
+        """
+        return {}
 
     @property
     def row(self) -> tuple[float, ...]:

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """End stops: the load meets a stiff pad at the top, and another at the bottom."""
 
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from math import hypot
 from typing import ClassVar
@@ -10,6 +11,7 @@ import numpy as np
 
 from pam_ros.effects.base import (
     Array,
+    Bounds,
     Compensation,
     Effect,
     EffectEquations,
@@ -19,8 +21,11 @@ from pam_ros.effects.base import (
 )
 from pam_ros.effects.parameter import effect_parameter, start_from, strength
 from pam_ros.effects.rows import INERTIA, LENGTH
+from pam_ros.errors import ParameterError
 
 UPPER, STIFFNESS, LOWER, LOWER_STIFFNESS, DAMPING = range(5)
+
+LEAST_TRAVEL = 1e-6  # contraction, or rad, that a fit leaves between two pads
 
 
 def outside(
@@ -113,6 +118,25 @@ class EndStop(Effect):
     states: ClassVar = (HiddenState('step', 's'),)
     rivals: ClassVar = ('slack', 'length_offset')
     equations: ClassVar = EffectEquations(outside=outside, start=start, guess=guess)
+
+    def __post_init__(self) -> None:
+        """Check the values, and that two pads leave a travel between them."""
+        super().__post_init__()
+        if self.stiffness > 0.0 and self.lower_stiffness > 0.0 and self.lower >= self.upper:
+            raise ParameterError(
+                f'effects.end_stop.lower = {self.lower:g} is not allowed: give less than '
+                f'effects.end_stop.upper = {self.upper:g}'
+            )
+
+    @classmethod
+    def fit_bounds(
+        cls, near: Mapping[str, float], fitted: Collection[str], mass: float
+    ) -> dict[str, Bounds]:
+        """Return bounds that keep two pads on either side of the middle between them."""
+        if not all(near[pad] > 0.0 or pad in fitted for pad in ('stiffness', 'lower_stiffness')):
+            return {}
+        middle = 0.5 * (near['lower'] + near['upper'])
+        return {'lower': (-np.inf, middle - LEAST_TRAVEL), 'upper': (middle, np.inf)}
 
     @classmethod
     def fit_starts(cls) -> Starts:

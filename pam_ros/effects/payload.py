@@ -2,11 +2,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """Payload: the moved mass is not the declared one."""
 
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
-from pam_ros.effects.base import Compensation, Effect, EffectEquations, Row, Starts
+import numpy as np
+
+from pam_ros.effects.base import Bounds, Compensation, Effect, EffectEquations, Row, Starts
 from pam_ros.effects.parameter import start_from, strength
+from pam_ros.errors import ParameterError
 
 MASS = 0
 
@@ -41,6 +45,26 @@ class Payload(Effect):
     compensation: ClassVar = Compensation.MODEL
     rivals: ClassVar = ('pressure_offset', 'length_offset')
     equations: ClassVar = EffectEquations(mass=moved)
+
+    def check(self, *, mass: float, turning: bool) -> None:
+        """Raise ParameterError where it leaves the joint less than a fifth of its *mass* in kg.
+
+        The equations keep a fifth whatever the payload is, for fits that change the mass as well.
+        """
+        super().check(mass=mass, turning=turning)
+        least = (LEAST_SHARE - 1.0) * mass
+        if self.mass < least:
+            raise ParameterError(
+                f'effects.payload.mass = {self.mass:g} kg leaves {mass + self.mass:g} kg of '
+                f'mass = {mass:g} kg: give at least {least:g} kg'
+            )
+
+    @classmethod
+    def fit_bounds(
+        cls, near: Mapping[str, float], fitted: Collection[str], mass: float
+    ) -> dict[str, Bounds]:
+        """Return the bounds of its mass that leave the joint a fifth of the declared one."""
+        return {'mass': ((LEAST_SHARE - 1.0) * mass, np.inf)}
 
     @classmethod
     def fit_starts(cls) -> Starts:

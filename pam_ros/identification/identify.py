@@ -34,11 +34,12 @@ from pam_ros.identification.search.table import candidates, reason_for
 from pam_ros.identification.structure import Structure, structure_of
 from pam_ros.identification.verdict import (
     next_experiment,
+    of_absolute_pressures,
     sentence,
     too_little,
     verdict,
 )
-from pam_ros.recording.inputs import refuse_idle
+from pam_ros.recording.inputs import driving, refuse_copies, refuse_idle
 from pam_ros.recording.recording import Recording
 from pam_ros.rig import layout as at
 from pam_ros.rig.changes import refuse_onsets
@@ -68,9 +69,10 @@ def identify(
     ``{'inertia': '50%', 'mass': 0.2}``, see :mod:`pam_ros.identification.fit.uncertain`. Without
     one the numbers of load, transmission and mounting are taken as they are.
 
-    Raises RecordingError when there are no recordings, when they do not fit together, carry no
-    output or are too short for any fit, and ParameterError for objects of another type, for a
-    model with an onset and for an uncertain parameter that the model does not have.
+    Raises RecordingError when there are no recordings, when two are the same, when they do not fit
+    together, carry no output or are too short for any fit, and ParameterError for objects of
+    another type, for a model with an onset and for an uncertain parameter that the model does not
+    have.
     """
     refuse_onsets(instance('model', model, Joint, 'a Joint'), 'a nominal joint')
     recordings = sequence('recordings', recordings, Recording, 'a Recording')
@@ -80,6 +82,7 @@ def identify(
     tell: Progress = progress or (lambda share, text: None)
     require_one_kind([*recordings, *test])
     require_joint([*recordings, *test], model)
+    refuse_copies([*recordings, *test])
     uncertain = {} if uncertain is None else uncertain
     spread_unknowns(model, recordings[0].muscles, uncertain)  # refused before a fit takes its time
     refuse_idle(recordings)
@@ -117,6 +120,9 @@ def identify(
             *(text for recording in (*recordings, *test) for text in recording.warnings),
             *apart(ends.augmented, answer.noise.sigma),
             *untold(ends.augmented),
+            *of_absolute_pressures(
+                answer.stages[2].parameters, driving(recordings[0])[0].quantity
+            ),
         ),
     )
     tell(1.0, 'done')

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """From numbers to a sentence: which of five verdicts, and what to record next."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from math import sqrt
 
 import numpy as np
@@ -13,6 +13,8 @@ from pam_ros.identification.fit.places import effect_of, spelled
 from pam_ros.identification.result import Estimate, Identification
 from pam_ros.identification.search.criteria import Criteria
 from pam_ros.identification.search.search import Search
+
+ATMOSPHERE, WEATHER = 101325.0, 6e3  # Pa, the second as it changes by weather and up to 500 m
 
 
 def too_little(segments: Sequence[Segment], noise: float, criteria: Criteria) -> str:
@@ -107,6 +109,20 @@ def sentence(answer: Identification, lacking: str) -> str:
         f'held-out data, and {100 * answer.structure.ceiling:.0f} % of the residual can be '
         f'predicted from the input.{since} {floor}'
     )
+
+
+def of_absolute_pressures(parameters: Mapping[str, Estimate], signal: str) -> list[str]:
+    """Return a warning of each pressure offset that is the pressure of the air.
+
+    *signal* is the pressure that drives the recordings: ``pressure_command`` or ``pressure``.
+    """
+    return [
+        f'{name} = {one.value:.6g} Pa is the pressure of the air: are the pressures of the '
+        f"recording absolute? Gauge pressures are expected: --column 'NAME={signal}_Pa-101325'"
+        for name, one in parameters.items()
+        if name.endswith('effects.pressure_offset.offset')
+        and abs(one.value + ATMOSPHERE) < WEATHER
+    ]
 
 
 def next_experiment(answer: Identification, library: tuple[type[Effect], ...]) -> str:

@@ -72,6 +72,27 @@ def refuse_idle(recordings: Sequence[Recording]) -> None:
             )
 
 
+def refuse_copies(recordings: Sequence[Recording]) -> None:
+    """Raise RecordingError where two of *recordings* have the same samples.
+
+    One that is fitted twice counts twice, and one that is fitted must not judge.
+    """
+    for k, one in enumerate(recordings):
+        for other in recordings[:k]:
+            pairs = zip(_samples(one), _samples(other), strict=True)
+            if all(np.array_equal(*pair) for pair in pairs):
+                raise RecordingError(
+                    f'{one.name} has the same samples as {other.name}: give each recording once, '
+                    'to be fitted or to test'
+                )
+
+
+def _samples(recording: Recording) -> list[Array]:
+    """Return stamps, commands and what was measured, an empty array for what was not."""
+    all_of_it = (recording.t, *(getattr(recording, name) for name in ('command', *OUTPUTS)))
+    return [np.zeros(0) if one is None else one for one in all_of_it]
+
+
 def quantity_of(recording: Recording, name: str) -> Quantity:
     """Return the quantity that the output *name* of *recording* is."""
     return quantity_in(recording.unit, name)

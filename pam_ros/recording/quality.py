@@ -14,10 +14,13 @@ from pam_ros.recording.unusable import PERIODS, refuse_unusable
 Array = NDArray[np.float64]
 
 SHORT = 10.0  # s
+SLOW = 0.05  # s between samples, beyond which those of a free load's oscillation are few
 RESTING = 0.02  # share of samples at an extreme value from which it may be a stop
 SATURATED = 0.6  # share of samples of an input at one end of its range that is too much
 LEVELS = 100  # distinct values, fewer of which are called coarse
 SMALL_RANGE = 0.2  # of the input's largest value
+AGAINST = -0.5  # correlation of position and pressure from which on one counts the other way
+SMALL_MOTION = 1e-3  # of the length or the reach, where a muscle moves by some hundredths of it
 
 
 def check(
@@ -38,6 +41,9 @@ def check(
         *_warn_slow(recording),
         *_warn_gaps(recording),
         *_warn_range(recording, l0, inputs),
+        *_warn_small(recording, l0, inputs, reach),
+        *_warn_direction(recording, inputs),
+        *_warn_idle_force(recording),
         *_warn_extremes(recording, inputs),
         *_warn_coarse(recording),
         *_warn_excitation(recording, inputs),
@@ -45,7 +51,7 @@ def check(
 
 
 def _warn_slow(recording: Recording) -> tuple[str, ...]:
-    if recording.period <= PERIODS[1]:
+    if recording.period <= (PERIODS[1] if recording.kind == 'held' else SLOW):
         return ()
     return (f'samples are {recording.period:.4g} s apart: is the time in another unit?',)
 
@@ -79,6 +85,50 @@ def _warn_range(recording: Recording, l0: float | None, inputs: Sequence[Input])
                 "absolute? Pressures are gauge: --column 'NAME=pressure_Pa-101325'"
             )
     return found
+
+
+def _warn_small(
+    recording: Recording,
+    l0: float | None,
+    inputs: Sequence[Input],
+    reach: tuple[float, float] | None,
+) -> list[str]:
+    """Warn of a free load that hardly moves while its pressure changes, as if m were called mm."""
+    whole = (reach[1] - reach[0] if reach is not None else None) if l0 is None else l0
+    if recording.kind != 'free' or recording.position is None or whole is None:
+        return []
+    moved = float(np.ptp(recording.position))
+    changes = [float(np.ptp(one.values)) / one.p_max for one in inputs if one.p_max is not None]
+    if moved >= SMALL_MOTION * whole or max(changes, default=0.0) < SMALL_RANGE:
+        return []
+    of = 'its reach' if l0 is None else f'l0 = {l0:g} m'
+    return [
+        f'position moves by {moved:.3g} {recording.unit} only, {100 * moved / whole:.2g} % of '
+        f'{of}, while the pressure changes by {100 * max(changes):.0f} % of p_max: is it in '
+        f'another unit (position_{recording.unit}), or does something block the load?'
+    ]
+
+
+def _warn_direction(recording: Recording, inputs: Sequence[Input]) -> list[str]:
+    """Warn of a position that grows where the muscle gets longer."""
+    y = recording.position
+    if recording.kind != 'free' or y is None or recording.unit != 'm' or np.ptp(y) == 0.0:
+        return []
+    p = inputs[0].values
+    if np.ptp(p) == 0.0 or float(np.corrcoef(p, y)[0, 1]) > AGAINST:
+        return []
+    return [
+        f'position falls where {inputs[0].name} rises: a shorter muscle has a greater position; '
+        "with --column 'NAME=position_m*-1' it counts the other way"
+    ]
+
+
+def _warn_idle_force(recording: Recording) -> list[str]:
+    return [
+        f'{name} is {values[0]:.6g} {si} in every sample: is the force cell connected?'
+        for name, values, si in outputs(recording)
+        if name.rpartition('.')[2] == 'force' and np.ptp(values) == 0.0
+    ]
 
 
 def _warn_extremes(recording: Recording, inputs: Sequence[Input]) -> list[str]:

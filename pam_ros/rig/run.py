@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Simulate one joint over given stamps: a recording's, or an experiment's on paper."""
 
+import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass
 
@@ -19,6 +20,7 @@ from pam_ros.rig.start import disturb, start_state
 from pam_ros.rig.step_limit import check_step
 
 Array = NDArray[np.float64]
+IN_KPA = 1e-3  # share of p_max up to which a pressure may have been meant in kPa
 
 
 @dataclass(frozen=True)
@@ -66,6 +68,7 @@ def simulate(
     start = [stage for time, stage in joint.stages if time <= max(t[0], 0.0)][-1]
     q, layout = start.parameters(), joint.layout
     command = by_muscle('command', command, 'command_t', command_t.size, layout.muscles)
+    _warn_low('command', command, joint)
     velocity = number('velocity', velocity)
     delays = delays_of(layout, q)
     first = [
@@ -75,7 +78,7 @@ def simulate(
     s = equilibrium(start, first) if position is None else number('position', position)
     x = start_state(layout, q, first, s, velocity)
     if hidden:
-        disturb(layout, q, x, first, hidden)
+        disturb(layout, q, x, first, hidden, start.all_present)
     kernel, changes = bind(layout, joint.active), changes_of(joint, float(t[0]))
     out = run_over(kernel, layout, x, t, q, changes, command_t, command, step, forces=True)
     return trajectory(t, out)
@@ -109,6 +112,7 @@ def simulate_held(
     v = _rate(t, position) if velocity is None else along('velocity', velocity, 't', t.size)
     q, layout = joint.parameters(), joint.layout
     pressure = by_muscle('pressure', pressure, 't', t.size, layout.muscles)
+    _warn_low('pressure', pressure, joint)
     x = start_state(layout, q, pressure[0], float(position[0]), float(v[0]))
     out = np.empty((len(t), layout.run_columns))
     bind(layout, joint.active).simulate_held(
@@ -140,6 +144,18 @@ def by_muscle(name: str, value: ArrayLike, clock: str, count: int, muscles: int)
             allowed = f'{wanted}, a row for each stamp of {clock} and a column for each muscle'
         refuse_shape(name, found, allowed)
     return found
+
+
+def _warn_low(name: str, pressure: Array, joint: Joint) -> None:
+    """Warn of a *pressure* in Pa (m, muscles) that would be one of *joint* if it were in kPa."""
+    p_max = max(muscle.p_max for muscle in joint.muscles)
+    highest = float(np.max(np.abs(pressure), initial=0.0))
+    if 0.0 < highest <= IN_KPA * p_max and not joint.is_driven:
+        warnings.warn(
+            f'{name} reaches {highest:g} Pa only, and p_max is {p_max:g} Pa: '
+            'pressures are in Pa, is it in kPa or bar?',
+            stacklevel=3,
+        )
 
 
 def _rate(t: Array, position: Array) -> Array:

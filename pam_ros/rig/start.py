@@ -126,20 +126,27 @@ def disturb(
     x: Array,
     pressures: Sequence[float] | Array,
     away: Mapping[str, Mapping[str, float]],
+    present: Sequence[type[Effect]],
 ) -> None:
     """Move hidden states of x *away* from where a long rest at *pressures* Pa has left them.
 
     *away* maps the name of an effect to the names of its states and the change of each, in the
     state's unit; an effect in muscles is moved in all of them alike. The chambers then have the
     pressures of the states that were moved. Raises ParameterError for an effect without hidden
-    states, or a state that it does not have.
+    states, one that is not among those that are *present*, or a state that it does not have.
     """
     known = {effect.name: effect for effect in layout.library if effect.states}
+    here = [effect.name for effect in known.values() if effect in present]
     instance('hidden', away, Mapping, 'the effects with the changes of their hidden states')
     for name, changes in away.items():
         if name not in known:
             raise ParameterError(
                 f'effect {name} has no hidden states: give one of ' + ', '.join(known)
+            )
+        if name not in here:
+            raise ParameterError(
+                f'effect {name} is absent from this joint: hidden may be of '
+                + (', '.join(here) or 'none')
             )
         effect = known[name]
         names = [state.name for state in effect.states]

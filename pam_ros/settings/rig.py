@@ -21,7 +21,6 @@ from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig.arrangements import ARRANGEMENTS, LOAD
 from pam_ros.rig.effect_values import effects_from, split_effects
 from pam_ros.rig.joint import Actuator, Joint
-from pam_ros.settings.contradictions import refuse_contradictions
 from pam_ros.settings.files import read_known
 from pam_ros.settings.sim import MUSCLE, SimSettings
 from pam_ros.settings.tables import (
@@ -219,14 +218,12 @@ class RigParameters:
             Actuator(build(Muscle, own), _effects(own)[0], contraction)
             for own, contraction in zip(muscles, contractions or [0.0], strict=True)
         )
-        made = Joint(
+        return Joint(
             actuators,
             build(kind.load, joint),
             build(kind.transmission, joint),
             _effects(joint)[1],
         )
-        refuse_contradictions(made)
-        return made
 
 
 def _found(values: Values, table: Table, names: Iterable[str]) -> dict[str, Any]:

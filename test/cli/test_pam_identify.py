@@ -151,7 +151,7 @@ def test_residual_file_gives_the_errors_of_the_report(found):
         (('friction.csv', *DECLARED, '--mapping', 'absent.yaml'), 'absent.yaml cannot be read'),
         (('friction.csv', *DECLARED, '--kind', 'held'), 'has no force'),
         (('friction.csv', *DECLARED, '--kind', 'loose'), 'invalid choice'),
-        (('friction.csv', *DECLARED, '--test', 'friction.csv'), 'what was fitted tests nothing'),
+        (('friction.csv', *DECLARED, '--test', 'friction.csv'), 'give each recording once'),
         (('friction.csv',), 'the following arguments are required: --params'),
     ],
 )

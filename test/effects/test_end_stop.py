@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from pam_ros.effects import EndStop
 from pam_ros.effects.rows import INERTIA, LENGTH
+from pam_ros.errors import ParameterError
 from pam_ros.rig.run import simulate
 from support import bench
 
@@ -86,3 +87,30 @@ def test_guess_lies_within_the_travel():
         EndStop(**start)
         where = start.get('upper', start.get('lower'))
         assert 0.0 < where < 0.2
+
+
+PADS = {'stiffness': 1e4, 'lower_stiffness': 1e4}
+
+
+@pytest.mark.parametrize(('lower', 'upper'), [(0.2, 0.1), (0.1, 0.1)])
+def test_two_pads_leave_a_travel(lower, upper):
+    words = rf'^effects\.end_stop\.lower = {lower} is not allowed: give less than .*upper = 0\.1$'
+    with pytest.raises(ParameterError, match=words):
+        EndStop(lower=lower, upper=upper, **PADS)
+    EndStop(lower=lower, upper=upper, stiffness=1e4)  # one pad: the place of the other is unused
+
+
+@given(
+    lower=st.floats(-0.49, 1.0), upper=st.floats(-0.5, 1.0), a=st.floats(0, 1), b=st.floats(0, 1)
+)
+def test_a_fit_of_two_pads_cannot_cross_them(lower, upper, a, b):
+    """Wherever it begins, and wherever within its bounds it ends."""
+    near = {'lower': lower, 'upper': upper, 'stiffness': 0.0, 'lower_stiffness': 3e4}
+    bounds = EndStop.fit_bounds(near, {'upper', 'stiffness'}, 20.0)
+    low, high = bounds['lower'], bounds['upper']
+    least, most = max(-0.5, high[0]), min(1.0, low[1])
+    EndStop(lower=-0.5 + a * (most + 0.5), upper=least + b * (1.0 - least), **PADS)
+    if lower < upper - 1e-5:
+        assert low[0] <= lower <= low[1]
+        assert high[0] <= upper <= high[1]
+    assert EndStop.fit_bounds(near, {'upper', 'damping'}, 20.0) == {}

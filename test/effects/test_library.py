@@ -202,10 +202,13 @@ def subsets(draw):
             effects.append(effect(**draw(st.sampled_from(effect.fit_starts()))))
             continue
         values = {}
+        usual = {p.name: p.default for p in effect.parameters()}
+        bounds = effect.fit_bounds(usual, usual, bench.MASS)  # what a joint may have together
         for p in effect.parameters():
+            least, most = bounds.get(p.name, (p.low, p.high))
             low, high = (
-                max(p.low, p.default - 20.0 * p.scale),
-                min(p.high, p.default + 20.0 * p.scale),
+                max(p.low, least, p.default - 20.0 * p.scale),
+                min(p.high, most, p.default + 20.0 * p.scale),
             )
             values[p.name] = draw(st.floats(low, high))
         effects.append(effect(**values))
@@ -214,7 +217,7 @@ def subsets(draw):
 
 LIGHT_BETWEEN_PADS = [
     Payload(mass=-8.0),
-    EndStop(upper=0.0, stiffness=450138.0, lower=0.0, lower_stiffness=293795.0, damping=42.0),
+    EndStop(upper=1e-6, stiffness=450138.0, lower=0.0, lower_stiffness=293795.0, damping=42.0),
 ]
 
 

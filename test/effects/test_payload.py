@@ -6,7 +6,12 @@ import numpy as np
 import pytest
 
 from pam_ros.effects import Payload
+from pam_ros.errors import ParameterError
+from pam_ros.muscle.muscle import Muscle
+from pam_ros.rig.joint import Joint
+from pam_ros.rig.loads import Arm, Mass
 from pam_ros.rig.run import simulate
+from pam_ros.rig.standard_joints import antagonistic_joint, single_muscle_joint
 from support import bench
 
 
@@ -28,6 +33,23 @@ def test_load_moves_with_weight_and_inertia_of_the_sum(more):
 
 
 def test_load_is_never_less_than_a_fifth():
-    t = np.array([0.0, 0.5])
-    run = simulate(bench.cart(Payload(mass=-50.0), mass=10.0), t, [0.0], [6.0], position=0.0)
-    assert run.velocity[1] == pytest.approx(6.0 / 2.0 * 0.5)
+    """A joint refuses less; a fit that changes the mass as well may try it on its way."""
+    assert Payload.equations.mass(10.0, [-50.0], 0) == 2.0
+    assert Payload.equations.mass(10.0, [-7.0], 0) == 3.0
+
+
+@pytest.mark.parametrize(
+    'make',
+    [
+        lambda effect: single_muscle_joint(Muscle(), Mass(mass=20.0), effects=[effect]),
+        lambda effect: antagonistic_joint(load=Arm(mass=20.0), effects=[effect]),
+        lambda effect: Joint(load=Mass(mass=20.0), effects=[effect]),
+    ],
+)
+def test_no_joint_has_less_than_a_fifth(make):
+    assert make(Payload(mass=-16.0)).moved_mass == pytest.approx(4.0)
+    words = r'^effects\.payload\.mass = -25 kg leaves -5 kg of mass = 20 kg: give at least -16 kg$'
+    for effect in (Payload(mass=-25.0), Payload(mass=-25.0, onset=2.0)):
+        with pytest.raises(ParameterError, match=words):
+            make(effect)
+    assert Payload.fit_bounds({'mass': -1.0}, {'mass'}, 20.0)['mass'][0] == -16.0

@@ -15,6 +15,7 @@ from pam_ros.identification.search.setting import Errors
 from pam_ros.identification.verdict import (
     explains,
     next_experiment,
+    of_absolute_pressures,
     sentence,
     time_of,
     too_little,
@@ -169,3 +170,15 @@ def test_without_a_name_the_effect_that_comes_nearest_says_what_to_record():
     assert next_experiment(answer, library).startswith(f'{best.effect} comes nearest')
     none = replace(answer, candidates=())
     assert next_experiment(none, library).startswith('Record force and pressure')
+
+
+@pytest.mark.parametrize(
+    ('offset', 'is_told'), [(-101362.0, True), (-96e3, True), (-9e4, False), (101325.0, False)]
+)
+def test_an_offset_of_the_pressure_of_the_air_is_told(offset, is_told):
+    name = 'up.effects.pressure_offset.offset'
+    told = of_absolute_pressures({name: results.estimate(offset, 0.01, 'Pa')}, 'pressure')
+    assert bool(told) is is_told
+    if told:
+        assert "'NAME=pressure_Pa-101325'" in told[0]
+        assert told[0].startswith(f'{name} = {offset:.6g} Pa is the pressure of the air')

@@ -2,11 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """What drives a recording, muscle by muscle."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from pam_ros.errors import ParameterError, RecordingError
-from pam_ros.recording.inputs import driving, outputs, quantity_of
+from pam_ros.recording.inputs import driving, outputs, quantity_of, refuse_copies
 from pam_ros.recording.recording import Recording
 
 T = np.arange(500) * 0.005
@@ -57,3 +59,15 @@ def test_the_position_of_a_joint_that_turns_is_an_angle():
     assert quantity_of(of_two(), 'position').si == 'rad'
     assert quantity_of(of_two(), 'pressure').si == 'Pa'
     assert quantity_of(of_one([0.0], [1.0]), 'position').si == 'm'
+
+
+def test_no_recording_is_given_twice():
+    one = of_one(np.array([0.0, 1.0]), np.array([1.0, 2.0]))
+    other = of_one(np.array([0.0, 1.0]), np.array([1.0, 3.0]))
+    longer = replace(one, t=np.append(T, 2.5), position=np.append(one.position, 0.0))
+    refuse_copies([one, other, longer, of_two()])
+    copy = replace(one, name='copy')
+    with pytest.raises(RecordingError, match=r'^copy has the same samples as one: give each rec'):
+        refuse_copies([one, other, copy])
+    with pytest.raises(RecordingError, match='two has the same samples as two'):
+        refuse_copies([of_two(), of_two()])

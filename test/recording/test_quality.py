@@ -168,3 +168,34 @@ def test_poor_excitation(changes, words):
 def test_a_short_recording():
     warnings = check(recording().part(0, 1500))
     assert any('only 7.5 s long' in warning for warning in warnings)
+
+
+def test_a_load_that_hardly_moves_may_be_in_another_unit():
+    """Metres called mm: 0.1 mm of 400 mm, where the pressure changes by two thirds of p_max."""
+    small = recording(position=1e-3 * recording().position)
+    words = ['% of l0 = 0.4 m', 'changes by 65 % of p_max', 'position_m']
+    warning = only(small, l0=0.4, p_max=6e5)
+    assert all(word in warning for word in words), warning
+    quiet = recording(command=3e5 + 2e4 * np.sin(T), position=1e-3 * recording().position)
+    assert not any('another unit' in one for one in check(quiet, l0=0.4, p_max=6e5))
+    assert check(recording(), l0=0.4, p_max=6e5) == check(held(), l0=0.4, p_max=6e5) == ()
+    turned = replace(small, unit='rad')
+    assert '% of its reach' in only(turned, p_max=6e5, reach=(-1.0, 1.0))
+
+
+def test_a_free_load_that_is_hardly_resolved():
+    """Milliseconds of a logger at 10 kHz that are taken for seconds."""
+    slow = recording(t=T * 20.0, command_t=T * 20.0)
+    assert any('0.1 s apart' in one and 'another unit' in one for one in check(slow))
+    assert check(held(t=T * 20.0, pressure=recording().pressure)) == ()
+
+
+def test_a_force_that_is_always_the_same():
+    warning = only(recording(force=np.zeros(T.size)))
+    assert warning == 'force is 0 N in every sample: is the force cell connected?'
+
+
+def test_a_position_that_counts_the_other_way():
+    turned = recording(position=0.12 - recording().position)
+    assert only(turned).startswith('position falls where pressure_command rises')
+    assert check(recording(position=0.05 + 1e-3 * np.sin(40.0 * T))) == ()  # of no direction

@@ -3,6 +3,7 @@
 """Good files with some of their bytes changed: read, or refused with a sentence of the package."""
 
 import contextlib
+import io
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -10,6 +11,8 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from mcap.reader import make_reader
+from mcap.writer import CompressionType, Writer
 
 from pam_ros.errors import PamError
 from pam_ros.recording.bag import read_bag
@@ -74,7 +77,25 @@ def bag():
         return (bags.write_bag(Path(folder) / 'bag', topics) / 'bag.mcap').read_bytes()
 
 
+def packed(data, compression):
+    """Return a bag's bytes with its messages in small chunks that are compressed in this way."""
+    file = io.BytesIO()
+    writer = Writer(file, chunk_size=4000, compression=compression)
+    writer.start(profile='ros2')
+    channels = {}
+    for schema, channel, message in make_reader(io.BytesIO(data)).iter_messages():
+        if channel.id not in channels:
+            number = writer.register_schema(schema.name, schema.encoding, schema.data)
+            encoding = channel.message_encoding
+            channels[channel.id] = writer.register_channel(channel.topic, encoding, number)
+        number = channels[channel.id]
+        writer.add_message(number, message.log_time, message.data, message.publish_time)
+    writer.finish()
+    return file.getvalue()
+
+
 BAG = bag()
+BAGS = {one.name: packed(BAG, one) for one in CompressionType} | {'one chunk': BAG}
 
 
 def edits(parts):
@@ -118,10 +139,11 @@ def test_yaml(file, changes):
 
 
 @QUICK
+@pytest.mark.parametrize('data', BAGS.values(), ids=BAGS)
 @given(changes=edits(BAG_PARTS))
-def test_bag(file, changes):
+def test_bag(file, data, changes):
     mcap = file.with_suffix('.mcap')
-    mcap.write_bytes(spoiled(BAG, changes))
+    mcap.write_bytes(spoiled(data, changes))
     with contextlib.suppress(PamError):
         read_bag(mcap, ColumnMapping())
 

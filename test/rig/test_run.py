@@ -371,3 +371,22 @@ def test_friction_of_a_wheel_is_not_in_the_force_of_its_muscles():
     rubs = [CoulombFriction(level=2.0), ViscousFriction(coefficient=1.0)]
     plain = simulate_held(pair(), t, p, angle)
     np.testing.assert_array_equal(simulate_held(pair(load=rubs), t, p, angle).force, plain.force)
+
+
+@pytest.mark.parametrize('command', [300.0, -3.0, [[4.0, 0.0], [0.0, 600.0]]])
+def test_pressures_in_kpa_are_warned_of(command):
+    many = isinstance(command, list)
+    joint = pair() if many else single_muscle_joint(Muscle(), Mass(mass=5.0))
+    stamps = [0.0, 0.1] if many else [0.0]
+    with pytest.warns(UserWarning, match='command reaches .* Pa only, and p_max is 6') as w:
+        simulate(joint, [0.0, 0.1], stamps, command if many else [command])
+    assert w[0].filename == __file__
+    held = np.broadcast_to(command, (2, 2)) if many else [command, command]
+    with pytest.warns(UserWarning, match='pressure reaches .* Pa only'):
+        simulate_held(joint, [0.0, 0.1], held, [0.02, 0.02])
+
+
+def test_pressures_that_may_be_meant_are_not_warned_of():
+    joint = single_muscle_joint(Muscle(), Mass(mass=5.0))
+    for command in (0.0, 700.0, 3e5):  # warnings are errors here
+        simulate(joint, [0.0, 0.1], [0.0, 0.05], [0.0, command])

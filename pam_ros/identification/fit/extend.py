@@ -51,6 +51,33 @@ def with_effect(
     return new, np.array([*u, *(0.0 for _ in memory)])
 
 
+def bounded(problem: Problem, u: Array, joint: Joint, place: Place) -> Problem:
+    """Return the problem, whose fit begins at u, with the bounds that the effect at *place* gives.
+
+    Within them *joint* may have it.
+    """
+    fitted = parameters_of(problem.unknowns, place.name)
+    near = _values(problem.row_at(u), joint, place)
+    bounds = place.effect.fit_bounds(near, fitted, joint.load.mass)
+
+    def within(unknown: Unknown) -> Unknown:
+        of = unknown.of
+        if not (isinstance(of, OfEffect) and of.place == place.name and of.parameter in bounds):
+            return unknown
+        low, high = bounds[of.parameter]
+        return replace(unknown, low=max(unknown.low, low), high=min(unknown.high, high))
+
+    return replace(problem, unknowns=tuple(map(within, problem.unknowns)))
+
+
+def _values(row: Array, joint: Joint, place: Place) -> dict[str, float]:
+    """Return the values of the effect at *place* in the parameter *row* of *joint*."""
+    return {
+        p.name: float(row[place.indices(joint.layout, k)[0]])
+        for k, p in enumerate(place.parameters)
+    }
+
+
 def memories(problem: Problem, place: Place) -> list[Unknown]:
     """Return where the memory of the effect at *place* may stand at the start of each run.
 
@@ -70,10 +97,7 @@ def finer_starts(
     strengths in the proportion to one that is fitted already in which that start has both.
     """
     there = parameters_of(unknowns, place.name)
-    values = {
-        p.name: float(row[place.indices(joint.layout, k)[0]])
-        for k, p in enumerate(place.parameters)
-    }
+    values = _values(row, joint, place)
     rest = {name: value for name, value in values.items() if name not in there}
     units = {p.name: p.unit for p in place.parameters if p.strength}
     options = [rest] if rest else []

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pam_ros.identification.fit.discrepancy import WHITE, Discrepancy
-from pam_ros.identification.fit.extend import with_effect
+from pam_ros.identification.fit.extend import bounded, with_effect
 from pam_ros.identification.fit.places import Place
 from pam_ros.identification.fit.solve import Solution, improved, with_nominal_constants
 from pam_ros.identification.fit.unknowns import MemoryStart
@@ -59,7 +59,9 @@ def extended(known: Solution, place: Place, start: dict[str, float], setting: Se
     Its own columns are computed, the others kept.
     """
     problem, added = with_effect(known.problem, setting.joint, place, start)
-    u = np.clip(np.concatenate([known.u, added]), *problem.bounds)
+    begin = np.concatenate([known.u, added])
+    problem = bounded(problem, begin, setting.joint, place)
+    u = np.clip(begin, *problem.bounds)
     r = problem.residuals(u)
     own = problem.jacobian(u, r, only=range(known.u.size, u.size))
     whole = Solution(problem, u, r, np.hstack([known.jacobian, own]), known.discrepancy)

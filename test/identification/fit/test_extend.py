@@ -9,6 +9,7 @@ from pam_ros.effects import EFFECTS
 from pam_ros.identification.data.segment import segments_of
 from pam_ros.identification.fit.extend import (
     belongs,
+    bounded,
     plainer_sets,
     with_effect,
     with_parameters,
@@ -17,6 +18,7 @@ from pam_ros.identification.fit.extend import (
 from pam_ros.identification.fit.places import places_of
 from pam_ros.identification.fit.problem import Problem
 from pam_ros.identification.fit.unknowns import declared_unknowns, run_unknowns
+from pam_ros.identification.source_units import with_row
 from support import bench_truth
 
 MODEL = bench_truth.declared()
@@ -100,3 +102,25 @@ def test_parameters_of_an_effect_go_back_to_their_defaults(problem):
         assert row[MODEL.layout.index(friction, k)] == pytest.approx(expected)
     others = [k for k, one in enumerate(new.unknowns) if 'friction' not in one.name]
     assert set(others) <= set(keep)
+
+
+STOPS = {'upper': 0.1, 'stiffness': 3e4, 'lower': 0.02, 'lower_stiffness': 3e4}
+
+
+@pytest.mark.parametrize(
+    ('effect', 'start'), [('payload', {'mass': -1.0}), ('end_stop', STOPS), ('creep', START)]
+)
+@pytest.mark.parametrize('end', [-1e9, 1e9])
+def test_what_a_fit_ends_with_is_a_joint(problem, effect, start, end):
+    """Also where each of its unknowns is at a bound, to the last digit."""
+    place = PLACES[effect]
+    new, added = with_effect(problem, MODEL, place, start)
+    u = np.concatenate([np.zeros(len(problem.unknowns)), added])
+    now = bounded(new, u, MODEL, place)
+    assert np.all(np.clip(u, *now.bounds) == u)
+    own = len(problem.unknowns)
+    u[own:] = np.clip(np.full(u.size, end), *now.bounds)[own:]
+    row = now.row_at(u)
+    found = with_row(MODEL, row, SEGMENTS, [place], {})
+    np.testing.assert_allclose(found.parameters().ravel(), row, rtol=1e-12)
+    assert (now.unknowns != new.unknowns) is (effect != 'creep')
