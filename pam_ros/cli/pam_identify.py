@@ -167,9 +167,9 @@ def run(given: argparse.Namespace, command: str) -> str:
     require_joint([*recordings, *test], model)
     refuse_idle(recordings)  # here already, so that no warning stands before the reason
     refuse_copies([*recordings, *test])
-    known = [(one, warning) for one in (*recordings, *test) for warning in one.warnings]
-    for recording, warning in known:
-        print(shown(f'{recording.name}: {warning}'), file=sys.stderr)
+    for recording in (*recordings, *test):
+        for warning in recording.warnings:
+            print(shown(f'{recording.name}: {warning}'), file=sys.stderr)
     if not HAVE_NUMBA:
         print('numba is not installed: this takes some hundred times as long', file=sys.stderr)
     source = provenance(nominal, given.params, given.set, recordings, test, command)
@@ -180,7 +180,7 @@ def run(given: argparse.Namespace, command: str) -> str:
         write_report(given.out, answer, source)
     finally:
         progress.close()
-    for warning in answer.warnings[len(known) :]:
+    for warning in answer.own_warnings:
         print(shown(warning), file=sys.stderr)
     return printable(f'{last_line(answer)}; see {given.out / "report.html"}')
 

@@ -288,8 +288,8 @@ class Effect(ABC):
         """Return the bounds of its parameters in a fit, where they are narrower than their ranges.
 
         *near* are the values of all its parameters from which the fit begins, *fitted* the names
-        of those that it changes, and *mass* in kg is what the joint moves without effects. Each
-        joint that a fit can end with, is then one that may be declared.
+        of those that it changes, and *mass* in kg is what the joint moves without effects. A fit
+        within them ends with a joint that may be declared.
         """
         return {}
 

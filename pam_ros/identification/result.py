@@ -122,6 +122,13 @@ class Identification:
     uncertain: Mapping[str, str]
 
     @property
+    def own_warnings(self) -> tuple[str, ...]:
+        """The warnings that none of the recordings had before."""
+        recordings = (*self.recordings, *self.test_recordings)
+        before = {warning for recording in recordings for warning in recording.warnings}
+        return tuple(warning for warning in self.warnings if warning not in before)
+
+    @property
     def untestable(self) -> tuple[str, ...]:
         """The effects that the recordings could not have shown."""
         names = [c.effect for c in self.candidates if c.decision == 'untestable']

@@ -13,8 +13,9 @@ from pam_ros.identification.fit.places import effect_of, spelled
 from pam_ros.identification.result import Estimate, Identification
 from pam_ros.identification.search.criteria import Criteria
 from pam_ros.identification.search.search import Search
+from pam_ros.recording.quantities import ATMOSPHERE
 
-ATMOSPHERE, WEATHER = 101325.0, 6e3  # Pa, the second as it changes by weather and up to 500 m
+WEATHER = 6e3  # Pa by which the pressure of the air differs by weather and up to 500 m
 
 
 def too_little(segments: Sequence[Segment], noise: float, criteria: Criteria) -> str:

@@ -9,12 +9,12 @@ from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 from pam_ros.recording.bag import (
-    ATMOSPHERE,
     FLOAT64,
     FLOAT64_ARRAY,
     FLUID_PRESSURE,
     JOINT_STATE,
 )
+from pam_ros.recording.quantities import ATMOSPHERE
 
 MOST_COLUMNS = 32  # of one message that are drawn: more cannot be told apart
 REFERENCE = 'reference'  # the term of the controller's state that is drawn

@@ -14,12 +14,11 @@ from pam_ros.errors import RecordingError
 from pam_ros.recording.bag_decode import Topic
 from pam_ros.recording.bag_source import BagSource, Message, bag_files, open_bag
 from pam_ros.recording.mapping import ColumnMapping, Meaning
-from pam_ros.recording.quantities import Target
+from pam_ros.recording.quantities import ATMOSPHERE, Target
 from pam_ros.recording.series import Series
 
 __all__ = ['bag_files', 'read_bag']
 
-ATMOSPHERE = 101325.0  # Pa: FluidPressure is absolute, a recording's pressures are gauge
 _LATENCY = (-2e-3, 0.5)  # s from a header's stamp to its receipt; outside, the clocks differ
 _SIMULATED = 10**18  # ns: no real clock is before 2001
 _LATEST = 2**63 - 1  # ns: that ROS counts; an MCAP file can hold twice as many

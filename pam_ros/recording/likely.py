@@ -10,7 +10,7 @@ import shlex
 from collections.abc import Collection, Sequence
 
 from pam_ros.recording.mapping import ColumnMapping
-from pam_ros.recording.quantities import OF_MUSCLE, OF_ONE, QUANTITIES, Target, unit_in
+from pam_ros.recording.quantities import ATMOSPHERE, OF_MUSCLE, OF_ONE, QUANTITIES, Target, unit_in
 
 # Words by which programs call our quantities, beside a unit of that quantity.
 _WORDS = {
@@ -29,7 +29,6 @@ _COMMAND = {
     *('ref', 'reference', 'des', 'desired', 'demand', 'input'),
 }
 _ABSOLUTE = {'abs', 'absolute'}
-_AMBIENT = 101325.0  # Pa
 _WITH_UNIT = re.compile(
     r'(?P<stem>.+?)(?:\s*[\[(]\s*(?P<unit>[^\])]+?)\s*[\])]|_(?P<word>[^_\[\]()]+))'
 )
@@ -90,5 +89,5 @@ def _linear(key: str) -> str:
 def _rule(name: str, target: Target) -> str:
     """Return the right side of the option; an absolute pressure becomes one above ambient."""
     if target.quantity in ('pressure', 'pressure_command') and _words(name) & _ABSOLUTE:
-        return f'{target}-{_AMBIENT / QUANTITIES[target.quantity].units[target.unit]:g}'
+        return f'{target}-{ATMOSPHERE / QUANTITIES[target.quantity].units[target.unit]:g}'
     return str(target)

@@ -8,6 +8,7 @@ from math import pi
 
 from pam_ros.errors import RecordingError
 
+ATMOSPHERE = 101325.0  # Pa: messages have absolute pressures, a recording's are gauge
 _TIME = {'s': 1.0, 'sec': 1.0, 'seconds': 1.0, 'ms': 1e-3, 'us': 1e-6, 'ns': 1e-9}
 _PRESSURE = {
     'Pa': 1.0,

@@ -103,9 +103,8 @@ def curves_of(result: Identification, runs: list[Run]) -> list[Curve]:
 
 def warnings_of(result: Identification, source: Provenance) -> list[tuple[str, str]]:
     """Return (recording, what limits it) and, without a name, what limits the whole result."""
+    found = [('', warning) for warning in result.own_warnings]
     all_of_them = (*source.recordings, *source.test)
-    shown = {warning for recording in all_of_them for warning in recording.warnings}
-    found = [('', warning) for warning in result.warnings if warning not in shown]
     found += [(one.name, '; '.join(one.warnings)) for one in all_of_them if one.warnings]
     return found
 

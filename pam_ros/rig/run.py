@@ -60,7 +60,8 @@ def simulate(
     to act at that time of the stamps t. Samples are the state before a command or an onset of the
     same stamp has acted. Steps are at most *step* s and never reach across either. Raises
     ParameterError when *step* is too long for the joint, when shapes do not fit, stamps go back,
-    or a number is not finite.
+    a number is not finite, or *hidden* has an effect that the joint lacks. Warns of commands that
+    seem to be in kPa or bar.
     """
     step = number('step', step)
     check_step(instance('joint', joint, Joint, 'a Joint'), step)
