@@ -38,7 +38,9 @@ except ImportError:  # Jazzy before its patch release of 2025
     EventsExecutor = SingleThreadedExecutor
 
 BAD_INPUT = 2
-LAST_ANSWER = 0.5  # s in which the answer of a service that was told to stop is read
+# s in which the answer of a service that was told to stop is read. One that is lost among the
+# states is sent again after the heartbeat of the middleware: 3 s, WriterTimes of Fast DDS.
+LAST_ANSWER = 4.0
 # s in which the middleware must be left, which takes some 0.1 s: it may hang, at any end.
 LEAVING = 20.0
 LONGEST_WAIT = 0.1  # s in the executor, so that a stop is heeded whatever the rate
