@@ -28,7 +28,7 @@ Contraction is positive: the load moves up. Parameters say what they are:
 ``ros2 param describe /pam_sim <name>``. Time is real, scaled or in lockstep (time_mode). A
 pressure command outside p_min..p_max is clamped. One that is not a number is rejected, and the
 last valid one stays in force. If no command arrives for command_timeout seconds, the muscle
-vents (on_timeout).
+vents within vent_time (on_timeout).
 """
 
 from pam_ros.cli.start import start_node

@@ -20,9 +20,8 @@ WAITING, RUNNING, BLIND, DISABLED = 'waiting', 'running', 'blind', 'disabled'
 # Shortest step in periods, since a law divides by it, and longest in s: what passes in a longer
 # one is not controlled, and a law that took it for one step would overshoot.
 LEAST, MOST = 0.1, 0.1
-# s for which 0 Pa is commanded where nothing is seen, so that a lost message does not matter. A
-# simulator or valve that starts again comes later, and must not obey a command that was meant for
-# the one that is gone.
+# s for which 0 Pa is commanded after venting, so that a lost message does not matter. A simulator
+# or valve that starts again later must not obey what was meant for the one that is gone.
 VENTING = 0.2
 
 
@@ -53,6 +52,9 @@ class Loop:
         how many measurements were left out because they cannot be true
     timeout, safe
         age in s of the newest measurement after which the loop is BLIND, and what it then commands
+    vent_time
+        s in which VENT lowers the pressures to 0 Pa, all in proportion: muscles that pull against
+        each other keep the ratio of their pressures
     """
 
     def __init__(
@@ -61,7 +63,7 @@ class Loop:
         """Make it wait for the first measurement; *period* in s."""
         self.law, self.course, self.period = law, course, period
         self.plausibility, self.implausible = plausibility, 0
-        self.timeout, self.safe = 0.1, HOLD
+        self.timeout, self.safe, self.vent_time = 0.1, HOLD, 0.0
         self.state = WAITING
         self.pressures: Pressures | None = None
         self.chambers: Pressures | None = None  # commands in Pa that would hold what is measured
@@ -70,6 +72,8 @@ class Loop:
         self._seen: Reading | None = None
         self._is_new = False
         self._lost: float | None = None  # since when nothing is seen, s
+        self._left: Pressures = ()  # the pressures then, Pa
+        self._has_left = False  # whether the rig is left to itself
         self.time = 0.0
 
     @property
@@ -132,7 +136,7 @@ class Loop:
         if reading is None or now - reading.time > self.timeout:
             self.plausibility.forget()
             return self._stay_safe(now)
-        self._lost = None
+        self._lost, self._has_left = None, False
         if self.state != RUNNING:
             if self.awaits_chamber and self.chambers is None:
                 return self.pressures if self.state == BLIND and self.safe == HOLD else None
@@ -165,9 +169,21 @@ class Loop:
             return None
         if self.safe == HOLD:
             return self.pressures
-        self.pressures = (0.0,) * len(self.pressures)
-        self._lost = now if self._lost is None else self._lost
-        return self.pressures if now - self._lost <= VENTING else None
+        if self._lost is None:
+            self._lost, self._left = now, self.pressures
+        passed = now - self._lost
+        self.pressures = self.vented(self._left, passed)
+        is_over = self._has_left or passed > self.vent_time + VENTING
+        return None if is_over else self.pressures
+
+    def vented(self, pressures: Pressures, time: float) -> Pressures:
+        """Return what is left in Pa of *pressures* after *time* in s of venting."""
+        share = max(1.0 - time / self.vent_time, 0.0) if self.vent_time else 0.0
+        return tuple(share * pressure for pressure in pressures)
+
+    def leave(self) -> None:
+        """Command no more until something is seen: the rig is another one by now."""
+        self._has_left = True
 
 
 def warm_up(law: PositionLaw, reach: tuple[float, float], period: float) -> None:

@@ -78,6 +78,14 @@ class ControlSettings:
         'what is commanded when joint states stay away: vent to 0 Pa, or hold the last pressure',
         choices=(VENT, HOLD),
     )
+    vent_time: float = parameter_field(
+        2.0,
+        'how long venting takes to 0 Pa, whatever the pressure before: that of on_timeout, and '
+        'that of the rig after command_timeout; 0: at once',
+        's',
+        low=0.0,
+        high=60.0,
+    )
     command_timeout: float = parameter_field(
         1.0,
         'how long the rig goes on with the last command before it vents; 0: for ever. After a '

@@ -69,6 +69,13 @@ class SimSettings:
         'what the valve does when commands stay away: vent to 0 Pa, or hold the last one',
         choices=('vent', 'hold'),
     )
+    vent_time: float = parameter_field(
+        2.0,  # no load of a preset falls faster than 0.15 m/s or 2.5 rad/s then
+        'how long the valve takes to 0 Pa when it vents, whatever the pressure before; 0: at once',
+        's',
+        low=0.0,
+        high=60.0,
+    )
     ambient_pressure: float = parameter_field(
         101325.0,
         'absolute pressure around the muscle, added to the gauge pressure on topic pressure',

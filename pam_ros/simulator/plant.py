@@ -14,9 +14,11 @@ from pam_ros.rig.simulation import Simulation
 from pam_ros.settings.scene import SimulationSetup
 from pam_ros.simulator.contractions import Contractions
 from pam_ros.simulator.pressure_input import PressureInput
+from pam_ros.simulator.venting import Venting
 
 Array = NDArray[np.float64]
 OneReading = tuple[float, float, float, float, float, float]  # see Plant.read_one
+FINE = 1e-3  # s of simulated time for which a valve that vents keeps a pressure
 
 
 class BadCommand(NamedTuple):
@@ -68,6 +70,7 @@ class Plant:
         self.commanded_at = np.full(len(pressures), np.nan)
         self.is_silent = np.zeros(len(pressures), dtype=bool)
         self._deadline = math.inf  # simulated time of the first silence to come
+        self._venting = Venting()
 
     @property
     def time(self) -> float:
@@ -86,9 +89,15 @@ class Plant:
 
     def advance(self, step: int) -> None:
         """Simulate until this step."""
-        if step > self.step:
-            self._simulation.advance(step - self.step)
-            self.step = step
+        rate = self.setup.settings.physics_rate
+        while step > self.step:
+            steps = step - self.step
+            if self._venting:
+                steps = min(steps, max(round(FINE * rate), 1))
+                for muscle, pressure in self._venting.move(steps / rate).items():
+                    self._order(muscle, self.inputs[muscle].within_limits(pressure))
+            self._simulation.advance(steps)
+            self.step += steps
             if self._simulation.time > self._deadline:
                 self._fall_silent()
 
@@ -100,6 +109,7 @@ class Plant:
         pressure = given.take(value)
         if pressure is None:
             return self._bad(muscle, is_refused=True)
+        self._venting.end(muscle)
         self._order(muscle, pressure)
         self.commanded_at[muscle] = self._simulation.time
         self.is_silent[muscle] = False
@@ -118,6 +128,7 @@ class Plant:
             if pressure != value:
                 bad = self._bad(i, is_refused=pressure is None)
             if pressure is not None:
+                self._venting.end(i)
                 ordered[i] = pressure
                 self.commanded_at[i] = now
                 self.is_silent[i] = False
@@ -151,8 +162,15 @@ class Plant:
                 self.is_silent[i] = True
                 self.silences += 1
                 if settings.on_timeout == 'vent':
-                    self._order(i, self.inputs[i].within_limits(0.0))
+                    self._vent(i, settings.vent_time)
         self._set_deadline()
+
+    def _vent(self, muscle: int, time: float) -> None:
+        rest = self.inputs[muscle].within_limits(0.0)
+        if time:
+            self._venting.begin(muscle, self._ordered[muscle].item(), rest, time)
+        else:
+            self._order(muscle, rest)
 
     # Sensors ---------------------------------------------------------------------------------
 

@@ -141,6 +141,52 @@ def test_a_rig_that_returns_later_finds_no_command_to_vent(loop):
     assert loop.tick(4.0) == (0.0,)  # and again for a while where states stay away again
 
 
+def test_it_vents_slowly_and_in_proportion(loop):
+    loop.safe, loop.vent_time = VENT, 2.0
+    loop.law.update = lambda *_: (300e3, 100e3)
+    loop.see(Reading(1.0, 0.05))
+    loop.tick(1.0)
+    assert loop.tick(1.5) == (300e3, 100e3)
+    assert loop.tick(2.5) == pytest.approx((150e3, 50e3))
+    assert loop.tick(3.5) == (0.0, 0.0)
+    assert loop.tick(3.5 + 0.9 * VENTING) == (0.0, 0.0)
+    assert loop.tick(3.5 + 1.1 * VENTING) is None
+
+
+def test_seen_again_while_it_vents_it_begins_at_the_pressure_that_is_left(loop):
+    loop.safe, loop.vent_time = VENT, 2.0
+    loop.see(Reading(1.0, 0.05))
+    loop.tick(1.0)
+    loop.tick(1.5)
+    (left,) = loop.tick(2.0)
+    assert left == pytest.approx(0.75 * first(1)[0])
+    loop.see(Reading(2.1, 0.04))
+    loop.tick(2.1)
+    assert loop.law.starts[-1] == (0.04, (left,))
+    assert loop.tick(3.0) == first(2)  # and from there where states stay away again
+    assert loop.tick(4.0) == pytest.approx((0.5 * first(2)[0],))
+
+
+@pytest.mark.parametrize(
+    ('vent_time', 'time', 'share'), [(2.0, 0.5, 0.75), (2.0, 9.0, 0.0), (0.0, 0.0, 0.0)]
+)
+def test_what_is_left_of_pressures(loop, vent_time, time, share):
+    loop.vent_time = vent_time
+    assert loop.vented((300e3, 100e3), time) == (share * 300e3, share * 100e3)
+
+
+def test_a_rig_that_is_left_finds_no_command_until_it_is_seen(loop):
+    loop.safe, loop.vent_time = VENT, 2.0
+    loop.see(Reading(1.0, 0.05))
+    loop.tick(1.0)
+    assert loop.tick(1.5) == first(1)
+    loop.leave()
+    assert loop.tick(1.6) is None
+    loop.see(Reading(2.0, 0.03))
+    assert loop.tick(2.0) == first(2)
+    assert loop.tick(2.5) == first(2)  # the next rig is not left
+
+
 def test_it_vents_as_long_each_time_that_states_stay_away(loop):
     """Also where it has waited for a pressure between, without having begun."""
     loop.safe = VENT

@@ -106,7 +106,7 @@ def test_a_bad_command_is_clamped_or_refused_and_named(is_array, value, applied,
 
 @pytest.mark.parametrize(('on_timeout', 'left'), [('vent', 0.0), ('hold', 400e3)])
 def test_silence_vents_or_holds_its_muscle_alone_and_a_new_command_is_obeyed(on_timeout, left):
-    rig = plant(muscles=['a', 'b'], command_timeout=0.3, on_timeout=on_timeout)
+    rig = plant(muscles=['a', 'b'], command_timeout=0.3, on_timeout=on_timeout, vent_time=0.0)
     rig.take_all([400e3, 300e3])
     for step in range(50, 1000, 50):
         rig.take(1, 300e3)
@@ -122,8 +122,56 @@ def test_silence_vents_or_holds_its_muscle_alone_and_a_new_command_is_obeyed(on_
     assert pressures(rig) == [200e3, 300e3]
 
 
+@pytest.mark.parametrize('stride', [1, 20, 500])
+@pytest.mark.parametrize('physics_rate', [500.0, 1000.0, 4000.0])
+def test_a_silent_muscle_vents_evenly_however_often_it_is_read(physics_rate, stride):
+    rig = plant(physics_rate=physics_rate, publish_rate=1.0, command_timeout=0.5, vent_time=1.0)
+    rig.take(0, 400e3)
+    seconds = np.arange(1, round(2.0 * physics_rate) + 1) / physics_rate
+    found = []
+    for step in range(stride, seconds.size + 1, stride):
+        rig.advance(step)
+        found += pressures(rig)
+    began = next(k for k, p in enumerate(found) if p < 400e3) * stride / physics_rate
+    # A silence is found when the muscle is read.
+    assert 0.5 <= began <= 0.5 + max(stride, 2) / physics_rate
+    expected = 400e3 * np.clip(1.0 - (seconds[stride - 1 :: stride] - began), 0.0, 1.0)
+    assert np.max(np.abs(found - expected)) < 400e3 * max(1e-3, 1.0 / physics_rate) * 1.01
+
+
+@pytest.mark.parametrize(
+    ('given', 'pressure'),
+    [
+        ({}, 300e3),
+        ({}, 500e3),
+        ({'mass': 5.0}, 500e3),
+        ({'mass': 40.0}, 500e3),
+        ({'joint': 'antagonistic'}, (600e3, 150e3)),
+        ({'joint': 'lever'}, (400e3, 100e3)),
+        ({'joint': 'crank'}, 300e3),
+        ({'joint': 'parallel'}, 500e3),
+    ],
+)
+def test_no_load_is_dropped_when_commands_stop(given, pressure):
+    def fastest(**more):
+        rig = Plant(simulation({**given, **more}))
+        pressures = np.broadcast_to(pressure, len(rig.inputs)).tolist()
+        speeds = []
+        for step in range(100, 16_000, 4):
+            if step <= 12_000:  # until it rests
+                rig.take_all(pressures)
+            rig.advance(step)
+            speeds.append(abs(rig.read().velocity.item()))
+        return max(speeds[-1000:])
+
+    turns = given.get('joint') in ('antagonistic', 'lever', 'crank')
+    limit = 2.5 if turns else 0.15  # rad/s or m/s; bounds of a reference are 2 and 0.1
+    assert fastest() < limit
+    assert fastest(vent_time=0.0) > 3.0 * limit
+
+
 def test_a_bad_command_does_not_reset_the_timeout():
-    rig = plant(command_timeout=0.3)
+    rig = plant(command_timeout=0.3, vent_time=0.0)
     rig.take(0, 400e3)
     for step in range(10, 401, 10):
         rig.take(0, math.nan)

@@ -128,9 +128,17 @@ class Station:
         """Return which state and which terms come next."""
         return len(self.states), len(self.watch.terms)
 
-    def is_vented(self):
-        """Wait until the controller is blind and commands no pressure."""
-        self.peer.until(lambda: self.watch.commands[-1].data == 0.0, 'a command to vent')
+    def vents(self):
+        """Wait until the controller is blind and lowers the pressure."""
+        held = self.watch.commands[-1].data
+        self.peer.until(lambda: self.watch.commands[-1].data < 0.9 * held, 'a command to vent')
+
+    def is_let_down(self):
+        """Wait until the valve has vented the muscle and the load rests."""
+        self.peer.until(
+            lambda: self.pressures[-1].fluid_pressure - AMBIENT < VENTED, 'a vented muscle'
+        )
+        self.rests()
 
     def rests(self):
         """Wait until the load has been at rest for half a second of its own time."""

@@ -36,6 +36,7 @@ class Intake:
         self._node, self._is_followed = node, is_followed
         self._longest, self._on_silence = longest, on_silence
         self._silence = Silence(steady_ns())
+        self.silent = 0  # ns that the last silence was long
         self._newest: dict[str, Callable[[], None]] = {}
 
     def look(self) -> bool:
@@ -45,6 +46,7 @@ class Intake:
         if self._is_followed:
             return False  # the simulated time that passes from one state to the next one tells
         if silent:
+            self.silent = silent
             self._on_silence(silent)
         return bool(silent)
 

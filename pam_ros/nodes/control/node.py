@@ -10,7 +10,7 @@ from std_msgs.msg import Float64
 from std_srvs.srv import SetBool
 from trajectory_msgs.msg import JointTrajectory
 
-from pam_ros.control.loop import BLIND, RUNNING, WAITING, Loop, Reading, warm_up
+from pam_ros.control.loop import BLIND, RUNNING, VENT, WAITING, Loop, Reading, warm_up
 from pam_ros.control.plausibility import Plausibility, bounds_of
 from pam_ros.control.reference.serialised import read_trajectory
 from pam_ros.control.signals import Pressures, term_names
@@ -27,6 +27,7 @@ from pam_ros.nodes.control.chamber_input import ChamberInput
 from pam_ros.nodes.control.inputs import Sight, sight_of
 from pam_ros.nodes.control.intake import Intake
 from pam_ros.nodes.control.output import commands_of
+from pam_ros.nodes.control.rig_watch import RigWatch
 from pam_ros.nodes.control.state import StateTopic
 from pam_ros.nodes.control.topics import watch_topics
 from pam_ros.settings.control import ControlSetup, settings_of
@@ -87,7 +88,7 @@ class PamControl(TickingNode):
         law, period = setup.make_law(), 1.0 / setup.settings.rate
         warm_up(law, setup.reach, period)
         loop = Loop(law, setup.make_course(), period, Plausibility(bounds_of(law.sharing)))
-        loop.timeout, loop.safe = setup.settings.state_timeout, setup.settings.on_timeout
+        _protect(loop, setup)
         loop.enable(setup.settings.start_enabled)
         return loop
 
@@ -104,6 +105,7 @@ class PamControl(TickingNode):
             intake.subscribe(Float64, 'co_contraction_reference', self._take_co_contraction)
         self._states = StateTopic(self, term_names(len(self._setup.muscles)))
         self._commands = commands_of(self, self._setup)
+        self._rig = RigWatch(self, 'joint_states', self._commands.publishers)
 
     # Time ----------------------------------------------------------------------------------
 
@@ -194,12 +196,19 @@ class PamControl(TickingNode):
             self.get_logger().error(self._fault)
         elif loop.state == BLIND != before:
             self._look_for_states()
+        if loop.state == BLIND and loop.safe == VENT:
+            if before != BLIND:
+                self._rig.begin()
+            elif self._rig.is_new():
+                loop.leave()
+                return
         self._publish(pressures)
         if self._intake.look():
             # Stopped while it published: the rig may have received the old command just now. One
-            # that had vented meanwhile must not obey it; one that holds for ever still had it.
-            if self._setup.settings.command_timeout:
-                self._publish((0.0,) * len(pressures))
+            # that vents meanwhile must not obey it; one that holds for ever still had it.
+            timeout = self._setup.settings.command_timeout
+            if timeout:
+                self._publish(loop.vented(pressures, self._intake.silent / SECOND - timeout))
             return
         rate = self._setup.settings.state_rate
         # A little early is on time: stamps of a grid are rounded.
@@ -312,7 +321,7 @@ class PamControl(TickingNode):
         """Go on with other parameters."""
         before, self._setup = self._setup, now
         loop, settings = self._loop, now.settings
-        loop.timeout, loop.safe = settings.state_timeout, settings.on_timeout
+        _protect(loop, now)
         loop.period = 1.0 / settings.rate
         if now.needs_new_law(before):
             law = now.make_law()
@@ -355,3 +364,10 @@ class PamControl(TickingNode):
         commanded, self._commanded = self._commanded, 0
         wanted = None if self._is_followed else self._setup.settings.rate
         return control_health.timing(self.ticker.report(monotonic_ns()), commanded, wanted)
+
+
+def _protect(loop: Loop, setup: ControlSetup) -> None:
+    """Let *loop* do what the settings say where joint states stay away."""
+    settings = setup.settings
+    loop.timeout, loop.safe = settings.state_timeout, settings.on_timeout
+    loop.vent_time = settings.vent_time

@@ -31,6 +31,7 @@ class ArrayCommand:
             MultiArrayDimension(label=','.join(muscles), size=size, stride=size)
         ]
         self._publisher = _publisher(node, Float64MultiArray, topic)
+        self.publishers = [self._publisher]
 
     def publish(self, pressures: Sequence[float]) -> None:
         """Command *pressures* in Pa, muscles in order."""
@@ -44,11 +45,11 @@ class EachCommand:
     def __init__(self, node: Node, topics: Sequence[str]) -> None:
         """Create the publishers on *node*."""
         self._message = Float64()
-        self._publishers = [_publisher(node, Float64, topic) for topic in topics]
+        self.publishers = [_publisher(node, Float64, topic) for topic in topics]
 
     def publish(self, pressures: Sequence[float]) -> None:
         """Command *pressures* in Pa, muscles in order."""
-        for publisher, pressure in zip(self._publishers, pressures, strict=True):
+        for publisher, pressure in zip(self.publishers, pressures, strict=True):
             self._message.data = pressure
             publisher.publish(self._message)
 

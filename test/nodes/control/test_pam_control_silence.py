@@ -1,6 +1,9 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""``pam_control`` is stopped, its rig goes on, and the node wakes: the load does not jump."""
+"""``pam_control`` is stopped, its rig goes on, and the node wakes: the load is not thrown.
+
+The rig vents meanwhile, from 1 s on and within 2 s.
+"""
 
 import os
 import signal
@@ -18,8 +21,8 @@ from support.harness import Program, lose_nothing
 
 RIG = {'initial.pressure': 300e3}
 WAY = 0.01  # m
-VENTED = 0.02  # m: below this the load swings and rests without pressure; it is held at 75 mm
 BUMP = 2e-3  # m that the load may move where control begins
+FASTEST = 0.15  # m/s; max_velocity is 0.1
 COUNTER = 'starts after a silence'
 
 
@@ -42,9 +45,9 @@ def values(status):
 
 
 @pytest.mark.parametrize(
-    ('seconds', 'on_timeout'), [(1.3, 'vent'), (2.0, 'vent'), (2.0, 'hold'), (5.0, 'vent')]
+    ('seconds', 'on_timeout'), [(1.3, 'vent'), (2.0, 'vent'), (2.0, 'hold'), (6.0, 'vent')]
 )
-def test_a_rig_that_has_vented_does_not_jump(watch, seconds, on_timeout):
+def test_a_rig_that_has_begun_to_vent_does_not_jump(watch, seconds, on_timeout):
     peer = watch.peer
     states = peer.collect(JointState, 'joint_states')
     given = {'on_timeout': on_timeout}
@@ -52,9 +55,10 @@ def test_a_rig_that_has_vented_does_not_jump(watch, seconds, on_timeout):
         begin = watch.begin()
         watch.refer(begin + WAY)
         peer.until(lambda: abs(watch.latest('position') - begin - WAY) < 1e-4, 'the position')
+        first = len(states)
         with stopped(control):
             peer.work(seconds)
-            woke = stamp(states[-1])
+            woke, there = stamp(states[-1]), states[-1].position[0]
 
         def again():
             return [term for term in watch.terms if stamp(term) > woke]
@@ -63,9 +67,10 @@ def test_a_rig_that_has_vented_does_not_jump(watch, seconds, on_timeout):
         began = stamp(again()[0])
         free = np.array([one.position[0] for one in states if stamp(one) > woke])
         held = np.array([one.position[0] for one in states if stamp(one) > began])
-        assert free.max() < VENTED
-        if seconds >= 2.0:  # before, the load still swings
-            assert np.ptp(held) < BUMP
+        assert free.max() < there + BUMP
+        assert np.max(np.abs([one.velocity[0] for one in states[first:]])) < FASTEST
+        # A load that sinks is stopped first.
+        assert np.ptp(held) < (BUMP if seconds > 4.0 else 4.0 * BUMP)
         reference = again()[0].position[watch.names.index('reference')]
         assert reference == pytest.approx(held[0], abs=BUMP)
 
@@ -79,7 +84,7 @@ def test_a_rig_that_has_vented_does_not_jump(watch, seconds, on_timeout):
             lambda: abs(watch.latest('position') - reference - WAY) < 1e-3, 'the new position'
         )
         speeds = [one.velocity[0] for one in states if stamp(one) > last]
-        assert np.max(np.abs(speeds)) < 0.15  # m/s; max_velocity is 0.1
+        assert np.max(np.abs(speeds)) < FASTEST
 
 
 # A process that is stopped in the middle of a command: it is sent when the process wakes.
@@ -129,17 +134,19 @@ def test_the_command_that_a_stop_held_up_throws_nothing(watch, on_timeout, comma
         that_stops_itself(given) as process,
     ):
         peer.until(lambda: is_stopped(process), 'the stop')
-        before = states[-1].position[0]
+        before, first = states[-1].position[0], len(states)
         peer.work(2.0)
-        woke = stamp(states[-1])
+        woke, there = stamp(states[-1]), states[-1].position[0]
         process.send_signal(signal.SIGCONT)
         peer.until(
             lambda: len([term for term in watch.terms if stamp(term) > woke]) > 100,
             'control again',
         )
         after = np.array([one.position[0] for one in states if stamp(one) > woke])
-        if command_timeout:  # it has vented, and stays there
-            assert after.max() < VENTED
+        assert np.max(np.abs([one.velocity[0] for one in states[first:]])) < FASTEST
+        if command_timeout:  # it vents, and does not rise
+            assert there < before - BUMP
+            assert after.max() < there + BUMP
         else:  # it still holds
             assert np.max(np.abs(after - before)) < BUMP
 
