@@ -190,11 +190,12 @@ class PamControl(TickingNode):
         if pressures is None or self._intake.look():  # it may be stopped here as well as anywhere
             return
         if not all(map(isfinite, pressures)):
-            loop.enable(False)
-            loop.pressures = pressures = (0.0,) * len(self._setup.muscles)
-            self._fault = 'the law gave no number: vented and disabled'
+            loop.enable(False)  # the valve lets the load down after its time-out
+            loop.pressures = None
+            self._fault = 'the law gave no number: disabled'
             self.get_logger().error(self._fault)
-        elif loop.state == BLIND != before:
+            return
+        if loop.state == BLIND != before:
             self._look_for_states()
         if loop.state == BLIND and loop.safe == VENT:
             if before != BLIND:

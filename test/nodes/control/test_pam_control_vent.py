@@ -3,9 +3,12 @@
 """``pam_control`` vents slowly where joint states stay away, and no other rig than its own."""
 
 import signal
+import subprocess
+import sys
 
 import numpy as np
 import pytest
+from diagnostic_msgs.msg import DiagnosticStatus
 from sensor_msgs.msg import FluidPressure, JointState
 
 from support.control_watch import Simulation, Watch
@@ -55,6 +58,40 @@ def test_a_rig_that_starts_meanwhile_does_not_obey(watch, kind):
             peer.until(lambda: len(watch.terms) > controlled + 100, 'control')
     lowest = min(one.fluid_pressure for one in pressures) - AMBIENT
     assert lowest > 0.98 * RIG['initial.pressure']
+
+
+# A law that gives no number, which no input makes it give.
+GIVES_NAN = """
+from math import nan
+from pam_ros.cli.pam_control import main
+from pam_ros.control.sliding_mode import SlidingMode
+
+update, calls = SlidingMode.update, []
+
+def update_to_nan(self, *arguments):
+    calls.append(arguments)
+    pressures = update(self, *arguments)
+    return (nan,) * len(pressures) if len(calls) > 1500 else pressures
+
+SlidingMode.update = update_to_nan
+main()
+"""
+
+
+def test_a_law_without_a_number_is_disabled_and_the_load_let_down(watch):
+    peer = watch.peer
+    states = peer.collect(JointState, 'joint_states')
+    with Program('pam_sim', parameters=RIG):
+        process = subprocess.Popen([sys.executable, '-c', GIVES_NAN])
+        try:
+            status = watch.status(lambda s: 'no number' in s.message, 'the fault')
+            peer.until(lambda: states[-1].position[0] < 0.01, 'the load let down')
+        finally:
+            process.send_signal(signal.SIGINT)
+            assert process.wait(60.0) == 0
+    assert status.level == DiagnosticStatus.ERROR
+    assert np.all(np.isfinite([one.data for one in watch.commands]))
+    assert max(abs(one.velocity[0]) for one in states) < FASTEST
 
 
 def test_a_rig_whose_joint_states_are_false_is_let_down(watch):
