@@ -35,7 +35,7 @@ def main(given: list[str]) -> int:
         return 2
     for name in wanted:
         if name not in known:
-            print(f'{name} is no benchmark: there are {", ".join(known)}', file=sys.stderr)
+            print(f'{name} is not a benchmark: give one of {", ".join(known)}', file=sys.stderr)
             return 2
     failed = []
     for name in wanted or known:

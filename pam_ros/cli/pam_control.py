@@ -21,7 +21,7 @@ in N m/rad) as well.
 
 Contraction is positive: the load moves up. Parameters say what they are:
 ``ros2 param describe /pam_control <name>``. It begins by holding the load where it is. A reference
-that is out of reach is refused and the last one holds; when joint_states stay away for
+that is out of reach is refused and the last one holds; when joint_states has stopped for
 state_timeout seconds the muscle vents within vent_time, or its pressure is held (on_timeout).
 """
 

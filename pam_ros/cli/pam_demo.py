@@ -31,7 +31,7 @@ def main() -> None:
     given = parser.parse_args()
     for name in given.chapters:
         if name not in CHAPTERS:
-            parser.error(f'there is no chapter {name}: give one of ' + ', '.join(CHAPTERS))
+            parser.error(f'the chapter {name} does not exist: give one of ' + ', '.join(CHAPTERS))
     names = given.chapters or [*CHAPTERS]
     print(plan(names, given.out), flush=True)
     # Each signal that asks for the end stops the programs that a chapter has started.

@@ -103,7 +103,7 @@ class MuscleModel:
         return _gain(self.contraction(y), a1, a3, a4, a5)
 
     def stiffness(self, p: float, y: float) -> float:
-        """Return k in N/m: equation (2), sign mended."""
+        """Return k in N/m: equation (2), sign corrected."""
         a1, a2, a3, a4, _, _ = self.a
         return -_slope_at(exp(a3 * self.contraction(y)), p, a1, a2, a3, a4) / self.l0
 

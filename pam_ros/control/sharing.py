@@ -306,8 +306,8 @@ class TwoSides(Sharing):
         held = [self._is_held(s) for s in places]
         if not any(held):
             raise ParameterError(
-                'the load cannot be held anywhere: mend the limits of pressure, the load, or how '
-                'the muscles are hung up (contraction_1, contraction_2)'
+                'the load cannot be held anywhere: check the limits of pressure, the load, and '
+                'the mounting of the muscles (contraction_1, contraction_2)'
             )
         # The stretch in one piece that is nearest to 0.
         middle = min((abs(s), k) for k, s in enumerate(places) if held[k])[1]

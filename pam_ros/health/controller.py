@@ -80,7 +80,7 @@ def trouble(loop: Loop, on_timeout: str, blindness: str, fault: str) -> str:
     return {
         RUNNING: '',
         WAITING: f'waits for {missing}' + why,
-        BLIND: f'joint_states stay away: {did}' + why,
+        BLIND: f'joint_states has stopped: {did}' + why,
         DISABLED: fault or 'disabled: commands nothing',
     }[loop.state]
 

@@ -52,13 +52,13 @@ def slope_at(e: float, p: float, a1: float, a2: float, a3: float, a4: float) -> 
 def stiffness(
     p: float, kappa: float, a1: float, a2: float, a3: float, a4: float, l0: float
 ) -> float:
-    """Return k = -(dF/dkappa)/l0 in N/m: equation (2) with its sign mended, positive."""
+    """Return k = -(dF/dkappa)/l0 in N/m: equation (2) with its sign corrected, positive."""
     return -slope_at(exp(a3 * kappa), p, a1, a2, a3, a4) / l0
 
 
 @scalar
 def damping(k: float, mass: float, zeta: float) -> float:
-    """Return c = 2 zeta sqrt(m k) in N s/m: equation (4) with the mended stiffness.
+    """Return c = 2 zeta sqrt(m k) in N s/m: equation (4) with the corrected stiffness.
 
     Where k is not positive the muscle has no spring and the equation no root: c is 0 there.
     A model with such a point in its working range is refused when it is made.

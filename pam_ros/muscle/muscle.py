@@ -93,8 +93,8 @@ class Muscle:
         if not self.force_max / FAR_OFF < strongest < self.force_max * FAR_OFF:
             raise ParameterError(
                 f'the constants a1..a6 give {strongest:.4g} N at p_max = {self.p_max / 1e3:g} kPa '
-                f'and contraction 0, which is far from force_max = {self.force_max:g} N: mend '
-                'pressure_unit, the constants, or force_max'
+                f'and contraction 0, which is far from force_max = {self.force_max:g} N: '
+                'correct pressure_unit, the constants, or force_max'
             )
 
     def _extremes_of_gain(self) -> Array:
@@ -129,12 +129,12 @@ class Muscle:
         return _array(law.force_v(*alike(p=p, kappa=kappa), *self.si))
 
     def stiffness(self, p: ArrayLike, kappa: ArrayLike) -> Array:
-        """Return k in N/m, positive: equation (2), sign mended."""
+        """Return k in N/m, positive: equation (2), sign corrected."""
         a1, a2, a3, a4, _, _ = self.si
         return _array(law.stiffness_v(*alike(p=p, kappa=kappa), a1, a2, a3, a4, self.l0))
 
     def damping(self, p: ArrayLike, kappa: ArrayLike, mass: ArrayLike) -> Array:
-        """Return c in N s/m for a load of *mass* kg: equation (4), sign mended."""
+        """Return c in N s/m for a load of *mass* kg: equation (4), sign corrected."""
         p, kappa, mass = alike(p=p, kappa=kappa, mass=mass)
         return _array(law.damping_v(self.stiffness(p, kappa), mass, self.zeta))
 

@@ -127,4 +127,4 @@ def _check_file(path: Path) -> None:
     if path.is_dir():
         raise PamError(f'--png {path} is a folder: give the path of a file')
     if not path.parent.is_dir():
-        raise PamError(f'--png {path} cannot be written: there is no folder {path.parent}')
+        raise PamError(f'--png {path} cannot be written: the folder {path.parent} does not exist')

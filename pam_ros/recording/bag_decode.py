@@ -45,8 +45,8 @@ class RosbagsDecoder:
         if not topic.definition:
             if topic.type not in self._known.fielddefs:
                 raise RecordingError(
-                    f'the bag does not define {topic.type}, and it is none of the standard types: '
-                    'convert it to MCAP with ros2 bag convert where this type is installed'
+                    f'the bag does not define {topic.type}, and it is not one of the standard '
+                    'types: convert it to MCAP with ros2 bag convert where this type is installed'
                 )
             return self._known
         store = get_typestore(Stores.EMPTY)

@@ -57,7 +57,7 @@ def bag_files(path: Path) -> list[Path]:
         return files
     found = [file for suffix in ('mcap', 'db3') for file in path.glob(f'*.{suffix}')]
     if not found:
-        raise RecordingError(f'{path} is no rosbag2: it has neither a .mcap nor a .db3 file')
+        raise RecordingError(f'{path} is not a rosbag2: it has neither a .mcap nor a .db3 file')
     return sorted(found, key=lambda file: (len(file.name), file.name))
 
 
@@ -107,7 +107,9 @@ def _is_unfinished(file: Path) -> bool:
         return False
     with file.open('rb') as stream:
         if stream.read(len(_MAGIC)) != _MAGIC:
-            raise RecordingError(f'{file.name} cannot be read as a rosbag2: it is no MCAP file')
+            raise RecordingError(
+                f'{file.name} cannot be read as a rosbag2: it is not an MCAP file'
+            )
         size = stream.seek(0, 2)
         stream.seek(size - len(_MAGIC))
         return stream.read() != _MAGIC or size == len(_MAGIC)

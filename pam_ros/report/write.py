@@ -34,7 +34,7 @@ def check_folder(folder: Path) -> None:
         check_parent(folder)
         return
     except NotADirectoryError:
-        raise PamError(f'{folder} is no folder: give one for the report') from None
+        raise PamError(f'{folder} is not a folder: give one for the report') from None
     except OSError as error:
         raise PamError(f'{folder} cannot be read: {error.strerror}') from error
     strange = [name for name in found if name not in FILES]
@@ -43,7 +43,7 @@ def check_folder(folder: Path) -> None:
     if strange:
         others = f' and {len(strange) - 1} more' if len(strange) > 1 else ''
         raise PamError(
-            f'{folder} holds {strange[0]}{others}, which is no report of pam_identify: '
+            f'{folder} holds {strange[0]}{others}, which is not a report of pam_identify: '
             'give a new folder'
         )
     check_parent(folder)
@@ -55,7 +55,7 @@ def check_parent(path: Path) -> None:
     while not parent.exists():
         parent = parent.parent
     if not parent.is_dir() or not os.access(parent, os.W_OK | os.X_OK):
-        raise PamError(f'{path} cannot be made: {parent} is no folder to write in')
+        raise PamError(f'{path} cannot be made: {parent} is not a folder that can be written to')
 
 
 def _is_report(folder: Path) -> bool:

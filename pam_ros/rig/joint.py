@@ -135,7 +135,7 @@ class Joint:
             if low >= high:
                 raise ParameterError(
                     'the muscles of this joint are never within kappa_min and kappa_max '
-                    'together: mend contraction_1, contraction_2 or the lengths l0'
+                    'together: correct contraction_1, contraction_2 or the lengths l0'
                 )
         try:
             for p in itertools.product(*((m.p_min, m.p_max) for m in self.muscles)):
@@ -143,8 +143,8 @@ class Joint:
         except RangeError as error:
             raise ParameterError(
                 f'mass = {self.load.mass:g} kg and '
-                f'{"this muscle" if len(self.actuators) == 1 else "these muscles"} make no rig: '
-                f'{error}'
+                f'{"this muscle" if len(self.actuators) == 1 else "these muscles"} do not fit '
+                f'together: {error}'
             ) from error
 
     # What it is ------------------------------------------------------------------------------

@@ -75,7 +75,7 @@ class ControlSettings:
     )
     on_timeout: str = parameter_field(
         VENT,
-        'what is commanded when joint states stay away: vent to 0 Pa, or hold the last pressure',
+        'what is commanded when joint states stop: vent to 0 Pa, or hold the last pressure',
         choices=(VENT, HOLD),
     )
     vent_time: float = parameter_field(
@@ -224,7 +224,7 @@ class ControlParameters(RigParameters):
         if self.kind is LOAD and not has_topics:
             return None
         raise ParameterError(
-            f'joint_name = {name} is none of the joints {", ".join(self.joints)}: say which '
+            f'joint_name = {name} is not one of the joints {", ".join(self.joints)}: say which '
             'of them is controlled'
         )
 

@@ -86,7 +86,7 @@ def refuse_unknown(file: str, known: Iterable[str], words: Iterable[str]) -> Non
     given = [word.partition(':=')[0] for word in words if ':=' in word]
     for stranger in refuse_mistyped(given, known):
         raise ParameterError(
-            f'{stranger} is no argument of {name}: give one of {", ".join(known)}, or a '
+            f'{stranger} is not an argument of {name}: give one of {", ".join(known)}, or a '
             'parameter file as params'
         )
 

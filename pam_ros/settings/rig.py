@@ -72,7 +72,7 @@ class RigParameters:
         self.muscles = _lists(given.get('muscles')) or self._names(alone, per_joint)
         if len(self.muscles) % per_joint:
             raise ParameterError(
-                f'muscles: {len(self.muscles)} names make no joint = {self.kind.name}: give '
+                f'muscles: {len(self.muscles)} names do not fit joint = {self.kind.name}: give '
                 f'{per_joint} for each joint'
             )
         count = len(self.muscles) // per_joint
@@ -102,7 +102,7 @@ class RigParameters:
                     continue
                 if not NAME.fullmatch(name) or '__' in name or name.endswith('_'):
                     raise ParameterError(
-                        f'{kind}: {name!r} is no name: give letters, digits and single _'
+                        f'{kind}: {name!r} is not a valid name: give letters, digits and single _'
                     )
                 if name in taken:
                     raise ParameterError(f'{kind}: {name} is the name of a parameter')

@@ -118,7 +118,7 @@ class SimulationSetup:
             what = f'place of joint = {self.settings.joint}'
         if not low <= position <= high:
             raise ParameterError(
-                f'{whose}initial.position = {position:g} {unit} is no {what}: give '
+                f'{whose}initial.position = {position:g} {unit} is not a {what}: give '
                 f'{low:g} to {high:g} {unit}'
             )
 

@@ -66,7 +66,7 @@ class SimSettings:
     )
     on_timeout: str = parameter_field(
         'vent',
-        'what the valve does when commands stay away: vent to 0 Pa, or hold the last one',
+        'what the valve does when commands stop: vent to 0 Pa, or hold the last one',
         choices=('vent', 'hold'),
     )
     vent_time: float = parameter_field(

@@ -66,7 +66,7 @@ class Plant:
         self.contractions.forget()
         self.step = 0
         self._ordered = pressures.copy()  # Pa, the last commands of the valves
-        # Simulated time of each muscle's last good command, NaN before there was one.
+        # Simulated time of each muscle's last valid command, NaN before there was one.
         self.commanded_at = np.full(len(pressures), np.nan)
         self.is_silent = np.zeros(len(pressures), dtype=bool)
         self._deadline = math.inf  # simulated time of the first silence to come

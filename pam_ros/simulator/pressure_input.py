@@ -11,7 +11,7 @@ class PressureInput:
     """Takes commands in Pa gauge, and remembers how many were bad and why.
 
     A value outside p_min..p_max is clamped, as a valve that is fully open or closed does. A value
-    that is no number is refused: the last good command stays in force.
+    that is not a number is refused: the last valid command stays in force.
     """
 
     def __init__(self, muscle: Muscle) -> None:
@@ -21,13 +21,15 @@ class PressureInput:
         self.clamped = 0
         self.refused = 0
         self.reason = ''
-        self.last: float | None = None  # Pa, the last good command as it came
+        self.last: float | None = None  # Pa, the last valid command as it came
 
     def take(self, value: float) -> float | None:
         """Return the pressure to apply in Pa, or None where *value* is refused."""
         if not math.isfinite(value):
             self.refused += 1
-            self.reason = f'pressure command {value} is no number: the last good one holds'
+            self.reason = (
+                f'pressure command {value} is not a number: the last valid one stays in force'
+            )
             return None
         self.accepted += 1
         self.last = value

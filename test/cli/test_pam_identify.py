@@ -188,8 +188,8 @@ def test_a_folder_with_other_files_is_refused_before_any_work(bench, tmp_path):
     code, _, errors = run(bench, 'friction.csv', *DECLARED, '--out', tmp_path)
     assert code == 2
     assert errors == (
-        f'pam_identify: {tmp_path} holds thesis.tex, which is no report of pam_identify: give a '
-        'new folder\n'
+        f'pam_identify: {tmp_path} holds thesis.tex, which is not a report of pam_identify: give '
+        'a new folder\n'
     )
 
 

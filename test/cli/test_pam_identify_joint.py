@@ -143,7 +143,7 @@ def test_the_parameter_file_is_the_joint_that_was_found(found):
         ),
         (
             ('fit.csv', '--params', 'elbow.yaml', '--set', 'muscles=one'),
-            'muscles: 1 names make no joint = antagonistic: give 2 for each joint',
+            'muscles: 1 names do not fit joint = antagonistic: give 2 for each joint',
         ),
         (
             ('idle.csv', '--params', 'elbow.yaml'),
@@ -152,8 +152,8 @@ def test_the_parameter_file_is_the_joint_that_was_found(found):
         ),
         (
             ('fit.csv', '--params', 'elbow.yaml', '--uncertain', 'nosuch=5%'),
-            'the uncertain parameter nosuch is none of this joint that a recording can tell: give '
-            'one of flexor.a1, a1, ',
+            'the uncertain parameter nosuch is not one that a recording of this joint can '
+            'determine: give one of flexor.a1, a1, ',
         ),
         (
             ('fit.csv', '--params', 'elbow.yaml', '--uncertain', 'inertia'),

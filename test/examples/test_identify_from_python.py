@@ -28,4 +28,4 @@ def test_a_folder_with_other_files_is_one_sentence(run_example, tmp_path):
     done = run_example('identify_from_python.py', '.')
     assert done.returncode == 2
     assert len(done.stderr.splitlines()) == 1
-    assert 'holds notes.txt, which is no report' in done.stderr
+    assert 'holds notes.txt, which is not a report' in done.stderr

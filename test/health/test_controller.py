@@ -67,7 +67,7 @@ def setup():
             Level.ERROR,
             f'waits for joint_states: {NO_JOINT}',
         ),
-        (BLIND, {}, '', Level.ERROR, 'joint_states stay away: vents'),
+        (BLIND, {}, '', Level.ERROR, 'joint_states has stopped: vents'),
         (DISABLED, {}, '', Level.OK, 'disabled: commands nothing'),
         (DISABLED, {}, 'the law gave no number', Level.ERROR, 'the law gave no number'),
     ],

@@ -157,5 +157,5 @@ def test_a_wrong_inertia_that_is_declared_as_uncertain_is_found():
 
 def test_an_uncertain_parameter_that_the_joint_lacks_is_refused_before_the_fit():
     trial = pair_trial('noise_only', SEED)
-    with pytest.raises(ParameterError, match='the uncertain parameter crank is none'):
+    with pytest.raises(ParameterError, match='the uncertain parameter crank is not one'):
         identify(declared(trial), [recording(trial)], uncertain={'crank': '5%'})

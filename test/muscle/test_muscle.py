@@ -92,7 +92,7 @@ REFUSED = [
     ({'a3': -1e6}, r'stiffness k = .* \(are the units right\?\)'),
     ({'a3': 1e6}, 'stiffness k = -inf N/m'),
     ({'pressure_unit': 'kPa'}, 'give 1.787e.05 N at p_max = 600 kPa and contraction 0, which is'),
-    ({'pressure_unit': 'Pa'}, 'far from force_max = 1500 N: mend pressure_unit, the constants'),
+    ({'pressure_unit': 'Pa'}, 'far from force_max = 1500 N: correct pressure_unit, the constants'),
     ({'a5': 1.7976931348623157e308}, 'give inf N at p_max'),  # without a warning of numpy
     ({'zeta': -0.1}, '^zeta = -0.1 is not allowed: give 0 to 5$'),
     ({'l0': 0.0}, '^l0 = 0.0 is not allowed: give 0.001 to 10 m$'),

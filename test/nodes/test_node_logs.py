@@ -117,14 +117,14 @@ def test_a_controller_waits_for_states_and_tells_when_they_stop_and_come_back(pe
             return control.output.count(words) >= count
 
         peer.until(lambda: sees('control begins'), 'the end of the wait')
-        wait_for(peer, control, 'joint_states stay away: vents')
+        wait_for(peer, control, 'joint_states has stopped: vents')
         # States that come more slowly than the time-out say nothing new.
         for _ in range(4):
             sees('')
             peer.work(0.8)
-        assert control.output.count('stay away') == 1
+        assert control.output.count('has stopped') == 1
         peer.until(lambda: sees('joint_states are received again'), 'the end')
-        wait_for(peer, control, 'stay away', 2)
+        wait_for(peer, control, 'has stopped', 2)
         for words in (
             'waits for joint_states',
             'control begins',

@@ -74,7 +74,7 @@ def test_goes_on_after_a_failure_and_tells(run):
 def test_refuses_an_unknown_name(run):
     done = run({'a': 'def main(): print(1)\n'}, 'c')
     assert done.returncode == 2
-    assert done.stderr == 'c is no benchmark: there are a\n'
+    assert done.stderr == 'c is not a benchmark: give one of a\n'
     assert done.stdout == ''
 
 

@@ -130,7 +130,10 @@ def test_a_parameter_file_is_given_to_every_program_and_not_overruled(programs_o
         ('mass:=heavy', 'mass = .heavy. is not allowed'),
         ('publish_rate:=0', 'publish_rate = 0.0 is not allowed'),
         ('mas:=10.0', 'mas is not a parameter: was mass meant'),
-        ('zeta:=0.2', r'zeta is no argument of .*launch.py: give one of muscle, .*, or a para'),
+        (
+            'zeta:=0.2',
+            r'zeta is not an argument of .*launch.py: give one of muscle, .*, or a',
+        ),
         ('sim_params:=a.yaml', 'sim_params is no'),
     ],
 )

@@ -177,7 +177,7 @@ def test_bad_input_ends_it_with_a_sentence(tmp_path):
         (['--bag', table, '--namespace', 'left'], '--namespace is for bags'),
         (['--bag', bag, '--column', 'adc=force_N'], '--column is for CSV files'),
         (['--bag', bag, '--png', tmp_path / 'rig.pdf'], 'give a name that ends in .png'),
-        (['--bag', bag, '--png', tmp_path / 'no' / 'rig.png'], 'there is no folder'),
+        (['--bag', bag, '--png', tmp_path / 'no' / 'rig.png'], 'does not exist'),
         (['--bag', bag, '--seconds', '3'], '--seconds is not allowed with --bag'),
         (['--bag', bag, '--wait', '3'], '--wait is not allowed with --bag'),
         (['--bag', bag, '--png', out, '--port', '80'], '--port is not allowed with --png'),

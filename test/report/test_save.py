@@ -113,7 +113,7 @@ OFFSET = Joint((Actuator(contraction=0.05),), Mass(20.0), Straight())
     [
         (DRUM, ('a', 'b'), r'this joint of 2 muscle\(s\), Drum and Arm: it can be one of load'),
         (OFFSET, (), r'this joint of 1 muscle\(s\), Straight and Mass'),
-        (Joint(TWO, Mass(30.0)), ('left one', 'right'), "'left one' is no name"),
+        (Joint(TWO, Mass(30.0)), ('left one', 'right'), "'left one' is not a valid name"),
         (Joint(TWO, Mass(30.0)), ('mass', 'right'), 'mass is the name of a parameter'),
     ],
 )
@@ -145,11 +145,11 @@ def test_the_report_of_such_a_joint_has_no_parameter_file(friction, tmp_path):
 def test_paths_that_cannot_be_written_are_one_sentence(friction, tmp_path):
     (tmp_path / 'file').write_text('', encoding='utf-8')
     for save, path, said in (
-        (save_report, 'file', 'is no folder: give one for the report'),
-        (save_report, 'file/below', 'is no folder'),
-        (save_report, '.', 'holds file, which is no report of pam_identify'),
+        (save_report, 'file', 'is not a folder: give one for the report'),
+        (save_report, 'file/below', 'is not a folder'),
+        (save_report, '.', 'holds file, which is not a report of pam_identify'),
         (save_parameters, '.', 'is a folder: give the path of a file'),
-        (save_parameters, 'file/below', 'is no folder to write in'),
+        (save_parameters, 'file/below', 'is not a folder that can be written to'),
     ):
         with pytest.raises(PamError, match=said):
             save(friction[0], tmp_path / path)
@@ -159,7 +159,7 @@ def test_paths_that_cannot_be_written_are_one_sentence(friction, tmp_path):
 def test_a_folder_without_permission_is_one_sentence(friction, tmp_path, monkeypatch):
     monkeypatch.setattr(write.os, 'access', lambda *_: False)
     for save in (save_report, save_parameters):
-        with pytest.raises(PamError, match=f'{tmp_path} is no folder to write in'):
+        with pytest.raises(PamError, match=f'{tmp_path} is not a folder that can be written to'):
             save(friction[0], tmp_path / 'new')
 
 

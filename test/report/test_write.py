@@ -161,22 +161,22 @@ def test_a_full_disk_is_a_sentence(tmp_path):
 def test_other_folders_are_refused(tmp_path, friction):
     result, source, _ = friction
     (tmp_path / 'notes.txt').write_text('mine', encoding='utf-8')
-    with pytest.raises(PamError, match=r'holds notes\.txt, which is no report'):
+    with pytest.raises(PamError, match=r'holds notes\.txt, which is not a report'):
         write_report(tmp_path, result, source)
     assert names(tmp_path) == ['notes.txt']
 
 
 def test_files_that_only_look_like_a_report_are_refused(tmp_path):
     (tmp_path / 'report.json').write_text('{"title": "accounts"}', encoding='utf-8')
-    with pytest.raises(PamError, match='no report of pam_identify'):
+    with pytest.raises(PamError, match='not a report of pam_identify'):
         check_folder(tmp_path)
 
 
 def test_a_file_is_refused_and_an_empty_or_new_folder_taken(tmp_path):
     (tmp_path / 'file').write_text('', encoding='utf-8')
-    with pytest.raises(PamError, match='is no folder'):
+    with pytest.raises(PamError, match='is not a folder'):
         check_folder(tmp_path / 'file')
-    with pytest.raises(PamError, match='is no folder'):
+    with pytest.raises(PamError, match='is not a folder'):
         check_folder(tmp_path / 'file' / 'below')
     (tmp_path / 'empty').mkdir()
     check_folder(tmp_path / 'empty')

@@ -80,5 +80,5 @@ def test_it_rests_where_one_of_two_equal_muscles_rests_with_half_the_mass():
 
 def test_a_crank_with_a_load_that_no_muscle_lifts_is_refused():
     actuator = Actuator(contraction=CRANK.contraction)
-    with pytest.raises(ParameterError, match='mass = 200 kg and this muscle make no rig'):
+    with pytest.raises(ParameterError, match='mass = 200 kg and this muscle do not fit together'):
         Joint((actuator,), CRANK.load(mass=200.0, hanging_at=-1.5), CRANK.transmission())

@@ -187,7 +187,7 @@ def test_stages_are_joints_without_what_has_not_begun():
 
 def test_a_stage_that_is_no_joint_is_refused():
     """No muscle carries 3.5 t until a part of them is gone; 50 g are too light for the step."""
-    with pytest.raises(ParameterError, match='mass = 3500 kg and this muscle make no rig'):
+    with pytest.raises(ParameterError, match='mass = 3500 kg and this muscle do not fit together'):
         single_muscle_joint(load=Mass(mass=3500.0), effects=[Payload(mass=-1000.0, onset=5.0)])
     joint = single_muscle_joint(load=Mass(mass=0.05), effects=[Payload(mass=20.0, onset=5.0)])
     with pytest.raises(ParameterError, match=r'does not resolve a mass of 0\.05 kg'):

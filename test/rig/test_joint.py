@@ -68,7 +68,7 @@ def test_an_undeclared_payload_moves_and_weighs():
 ALONE = [
     (
         {'load': Mass(mass=5000.0)},
-        'mass = 5000 kg and this muscle make no rig: no equilibrium: at 0',
+        'mass = 5000 kg and this muscle do not fit together: no equilibrium: at 0',
     ),
     (
         {'effects': {'dead_time': {'delay': 0.1}}},
@@ -81,7 +81,7 @@ ALONE = [
     ),
     (
         {'muscle': Muscle(contraction_unit='fraction')},
-        'mass = 20 kg and this muscle make no rig: no equilibrium: at 0 kPa the muscle pulls',
+        'mass = 20 kg and this muscle do not fit together: no equilibrium: at 0 kPa the ',
     ),
 ]
 
@@ -120,15 +120,15 @@ REFUSED = [
     (
         {'actuators': (Actuator(contraction=0.6), Actuator(contraction=0.1))},
         'the muscles of this joint are never within kappa_min and kappa_max together: '
-        'mend contraction_1, contraction_2 or the lengths l0',
+        'correct contraction_1, contraction_2 or the lengths l0',
     ),
     (
         {'load': Mass(mass=9000.0), 'transmission': Straight()},
-        'mass = 9000 kg and these muscles make no rig: no equilibrium: with 0 and 0 kPa the',
+        'mass = 9000 kg and these muscles do not fit together: no equilibrium: with 0 and 0 ',
     ),
     (
         {'transmission': Lever(angle=0.3)},
-        'mass = 1 kg and these muscles make no rig: no equilibrium: with ',
+        'mass = 1 kg and these muscles do not fit together: no equilibrium: with ',
     ),
 ]
 

@@ -115,7 +115,7 @@ def test_gains_and_stiffness_are_taken_over():
 @pytest.mark.parametrize(
     ('given', 'sentence'),
     [
-        ({**FOUR}, 'joint_name = pam is none of the joints shoulder, elbow'),
+        ({**FOUR}, 'joint_name = pam is not one of the joints shoulder, elbow'),
         ({**FOUR, 'joint_name': 'elbow'}, 'set muscle_topics, here and in pam_sim'),
         ({'gains__velocity_bandwidth': 1000.0}, 'too fast for a control rate of 500 Hz'),
         ({'limits__pressure_low': 700e3}, 'leaves no range below the p_max'),
@@ -178,7 +178,9 @@ def test_of_several_loads_one_is_controlled_by_its_own_topic():
     assert now.joint.load.mass == 12.0
     assert now.command_topics == ('right/pressure_command',)
     assert now.pressure_topics == ('right/pressure',)
-    with pytest.raises(ParameterError, match='joint_name = pam is none of the joints left, right'):
+    with pytest.raises(
+        ParameterError, match='joint_name = pam is not one of the joints left, right'
+    ):
         setup(**names)
 
 

@@ -73,7 +73,7 @@ def test_reach_is_where_the_muscles_have_a_length():
         (['mas=3'], 'mas is not a parameter: was mass meant?'),
         (['mass'], 'sets nothing: give name=value'),
         (['wrist.l0=2'], 'wrist.l0 is not a parameter of joint = antagonistic'),
-        (['muscles=one'], 'muscles: 1 names make no joint = antagonistic'),
+        (['muscles=one'], 'muscles: 1 names do not fit joint = antagonistic'),
         (['muscles=a,b,c,d'], 'describes 2 joints, pam_1, pam_2: give a file with one joint'),
         (['rate=100'], 'rate is not a parameter of joint = antagonistic'),
         (['contraction_1=0.8'], r'never within kappa_min and kappa_max'),

@@ -97,7 +97,7 @@ def test_a_mistyped_name_in_a_file_is_refused_and_a_strangers_is_not(file):
         ('effects.creep.time: a', r"effects\.creep\.time = 'a' is not allowed"),
         ('mass: a', r"mass = 'a' is not allowed"),
         ('l0: [a]', r"l0 = \('a',\) is not allowed"),
-        ('mass: 9000', 'mass = 9000 kg and this muscle make no rig: '),
+        ('mass: 9000', 'mass = 9000 kg and this muscle do not fit together: '),
     ],
 )
 def test_a_file_that_makes_no_rig_is_refused(file, given, sentence):

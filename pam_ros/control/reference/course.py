@@ -56,7 +56,7 @@ class Course:
     def set_target(self, position: float, ago: float = 0.0) -> None:
         """Take a target in m that was set *ago* s ago; raises RangeError out of reach."""
         if not isfinite(position):
-            raise RangeError(f'reference {position} is no position')
+            raise RangeError(f'reference {position} is not a valid position')
         refuse_unreachable(position, self.reach, self.unit)
         if self._trajectory is not None:
             self._leave()

@@ -50,8 +50,8 @@ def spread_unknowns(joint: Joint, muscles: Sequence[str], spreads: Spreads) -> l
         if not constants and not own:
             known = [one for k in found for one in _names(k)] + [of.name for of in numbers]
             raise ParameterError(
-                f'the uncertain parameter {name} is none of this joint that a recording can tell: '
-                f'give one of {", ".join(dict.fromkeys(known))}'
+                f'the uncertain parameter {name} is not one that a recording of this joint can '
+                f'determine: give one of {", ".join(dict.fromkeys(known))}'
             )
         for k in constants:
             found[k] = _constant(found[k], _deviation(name, given, 1.0, is_share=True))

@@ -126,7 +126,7 @@ class PamControl(TickingNode):
         self._intake.mark(steady_ns())
 
     def tick(self) -> None:
-        """Command; where the states make the time, only see whether they stay away."""
+        """Command; where the states make the time, only see whether they stop."""
         now = steady_ns()
         self._intake.look()
         self._prepare()
@@ -368,7 +368,7 @@ class PamControl(TickingNode):
 
 
 def _protect(loop: Loop, setup: ControlSetup) -> None:
-    """Let *loop* do what the settings say where joint states stay away."""
+    """Let *loop* do what the settings say where joint states stop."""
     settings = setup.settings
     loop.timeout, loop.safe = settings.state_timeout, settings.on_timeout
     loop.vent_time = settings.vent_time

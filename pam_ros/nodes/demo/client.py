@@ -65,7 +65,7 @@ class Client:
         end = monotonic() + self._patience
         while not (result := condition()):
             if monotonic() > end:
-                raise PamError(f'waited {self._patience:g} s in vain for {what}')
+                raise PamError(f'timed out after {self._patience:g} s while waiting for {what}')
             self._turn(TURN)
         return result
 

@@ -222,7 +222,7 @@ class PamExcite(TickingNode):
         return time.monotonic()
 
     def _play(self) -> None:
-        """Play on; where states make the time, only see whether they stay away."""
+        """Play on; where states make the time, only see whether they stop."""
         if not self._is_followed or self._problem():
             self._play_at(self._ros_time())
 

@@ -120,7 +120,7 @@ class PamRecord(TickingNode):
         try:
             return str(self.resolve_topic_name(name))
         except RuntimeError as error:
-            raise RecordingError(f'{name!r} is no name of a topic: {error}') from error
+            raise RecordingError(f'{name!r} is not a valid topic name: {error}') from error
 
     # Finding topics ------------------------------------------------------------------------
 

@@ -78,8 +78,8 @@ def test_one_muscle_has_a_constant_without_its_name():
 @pytest.mark.parametrize(
     ('spreads', 'words'),
     [
-        ({'nosuch': '5%'}, 'the uncertain parameter nosuch is none of this joint'),
-        ({'kappa_max': '5%'}, 'the uncertain parameter kappa_max is none'),
+        ({'nosuch': '5%'}, 'the uncertain parameter nosuch is not one that a recording of this'),
+        ({'kappa_max': '5%'}, 'the uncertain parameter kappa_max is not one'),
         ({'inertia': '0%'}, "uncertain inertia = '0%' is not allowed: give a standard deviation"),
         ({'inertia': -0.1}, 'uncertain inertia = -0.1 is not allowed'),
         ({'inertia': 'nan'}, "uncertain inertia = 'nan' is not allowed"),

@@ -170,7 +170,7 @@ def test_silence_of_the_joint_is_answered_safely(watch, kind, action, word):
     given = {**kind.given, 'on_timeout': action, 'state_timeout': 0.2}
     with Program('pam_control', parameters=given):
         rig.tell_until(lambda: len(watch.terms) > 10, 'control', kind.middle)
-        status = watch.status(lambda s: 'stay away' in s.message, 'the time-out')
+        status = watch.status(lambda s: 'has stopped' in s.message, 'the time-out')
         assert status.level == DiagnosticStatus.ERROR
         assert word in status.message
         commanded = np.atleast_1d(watch.steady_command())

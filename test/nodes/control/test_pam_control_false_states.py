@@ -85,7 +85,7 @@ def test_states_that_stay_false_are_no_states(watch):
         rig.tell_until(lambda: len(watch.terms) > 10, 'control', 0.06)
         rig.tell_until(
             lambda: any(
-                'stay away: vents: joint_states has a position -0.3 m' in s.message
+                'has stopped: vents: joint_states has a position -0.3 m' in s.message
                 for array in watch.arrays
                 for s in array.status
             ),

@@ -29,7 +29,7 @@ def test_the_pressure_is_lowered_evenly_and_then_nothing_is_commanded(watch):
     given = {'state_timeout': 0.2, 'vent_time': 1.0, 'rate': 100.0}
     with Program('pam_control', parameters=given):
         rig.tell_until(lambda: len(watch.terms) > 10, 'control')
-        watch.status(lambda s: 'stay away' in s.message, 'the time-out')
+        watch.status(lambda s: 'has stopped' in s.message, 'the time-out')
         watch.peer.until(lambda: watch.commands[-1].data == 0.0, 'a command of 0 Pa')
         watch.falls_silent()
     commands = np.array([one.data for one in watch.commands])

@@ -80,7 +80,7 @@ def test_a_lost_answer_is_asked_for_again(requests, losing):
 def test_what_may_act_twice_is_not_asked_for_again(requests, losing):
     with (
         Client(patience=1.0) as client,
-        pytest.raises(PamError, match='in vain for the answer of act'),
+        pytest.raises(PamError, match='while waiting for the answer of act'),
     ):
         client.call(Trigger, 'act')
     assert len(requests) == 1

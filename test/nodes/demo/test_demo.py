@@ -55,7 +55,7 @@ def test_the_papers_experiment_over_topics(tmp_path):
 def test_an_unknown_chapter_is_refused_with_those_that_there_are(tmp_path):
     result = run_in(tmp_path, 'encore')
     assert result.returncode == 2
-    assert 'there is no chapter encore' in result.stderr
+    assert 'the chapter encore does not exist' in result.stderr
     assert 'paper' in result.stderr
     assert not list(tmp_path.iterdir())
 

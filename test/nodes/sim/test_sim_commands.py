@@ -70,7 +70,7 @@ def test_bad_commands_are_clamped_or_refused_counted_and_named(watch):
         _, values = watch.status('commands', lambda s, v: v['refused'] == '3')
         assert 'inf' in values['last reason']
         assert values['accepted'] == '1'
-        watch.pressure_becomes(300e3)  # the last good one holds
+        watch.pressure_becomes(300e3)  # the last valid one stays in force
         watch.command(-5.0)
         watch.pressure_becomes(0.0)
         watch.command(601e3)
@@ -80,8 +80,8 @@ def test_bad_commands_are_clamped_or_refused_counted_and_named(watch):
         assert '601000' in values['last reason']
         assert values['last command (Pa)'] == '601000'
         said = sim.output
-        assert 'nan is no number' in said
-        assert said.count('is no number') < 3  # throttled
+        assert 'nan is not a number' in said
+        assert said.count('is not a number') < 3  # throttled
         assert '-5' in said
         # The last command is above a new limit.
         assert watch.peer.set_one('pam_sim', p_max=4.5e5).successful

@@ -272,7 +272,7 @@ def test_pause_step_and_reset_are_for_all_of_them(peer):
 REFUSED = [
     (['-p', 'muscles:=[a, a]'], ['muscles', 'a is named twice']),
     (['-p', 'muscles:=[mass, b]'], ['mass is the name of a parameter']),
-    (['-p', 'muscles:=["a b", c]'], ["'a b' is no name"]),
+    (['-p', 'muscles:=["a b", c]'], ["'a b' is not a valid name"]),
     (['-p', 'muscles:=[a]', '-p', 'joint:=parallel'], ['1 names', 'parallel', '2 for each']),
     (['-p', 'muscles:=[a, b]', '-p', 'a.mas:=3.0'], ['a.mas', 'a.mass']),
     (['-p', 'muscles:=[a, b]', '-p', 'a.colour:=3.0'], ['a.colour']),
