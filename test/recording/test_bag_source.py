@@ -152,7 +152,7 @@ def test_a_type_that_nothing_defines_is_said():
 @pytest.mark.parametrize(
     ('spoil', 'words'),
     [
-        (lambda bag: [f.unlink() for f in bag.iterdir()], ['no rosbag2', '.mcap', '.db3']),
+        (lambda bag: [f.unlink() for f in bag.iterdir()], ['not a rosbag2', '.mcap', '.db3']),
         (lambda bag: (bag / 'bag.mcap').unlink(), ['lists bag.mcap', 'not there']),
         (lambda bag: (bag / 'metadata.yaml').write_text('{'), ['metadata.yaml', 'not valid YAML']),
         (lambda bag: (bag / 'metadata.yaml').write_text('a: 1'), ['not the metadata']),
