@@ -52,6 +52,8 @@ class Loop:
         how many measurements were left out because they cannot be true
     timeout, safe
         age in s of the newest measurement after which the loop is BLIND, and what it then commands
+    lost
+        time in s from which on it vents, None where it does not
     vent_time
         s in which VENT lowers the pressures to 0 Pa, all in proportion: muscles that pull against
         each other keep the ratio of their pressures
@@ -71,7 +73,7 @@ class Loop:
         self.starts = 0
         self._seen: Reading | None = None
         self._is_new = False
-        self._lost: float | None = None  # since when nothing is seen, s
+        self.lost: float | None = None
         self._left: Pressures = ()  # the pressures then, Pa
         self._has_left = False  # whether the rig is left to itself
         self.time = 0.0
@@ -136,7 +138,7 @@ class Loop:
         if reading is None or now - reading.time > self.timeout:
             self.plausibility.forget()
             return self._stay_safe(now)
-        self._lost, self._has_left = None, False
+        self.lost, self._has_left = None, False
         if self.state != RUNNING:
             if self.awaits_chamber and self.chambers is None:
                 return self.pressures if self.state == BLIND and self.safe == HOLD else None
@@ -169,9 +171,9 @@ class Loop:
             return None
         if self.safe == HOLD:
             return self.pressures
-        if self._lost is None:
-            self._lost, self._left = now, self.pressures
-        passed = now - self._lost
+        if self.lost is None:
+            self.lost, self._left = now, self.pressures
+        passed = now - self.lost
         self.pressures = self.vented(self._left, passed)
         is_over = self._has_left or passed > self.vent_time + VENTING
         return None if is_over else self.pressures

@@ -10,7 +10,7 @@ from std_msgs.msg import Float64
 from std_srvs.srv import SetBool
 from trajectory_msgs.msg import JointTrajectory
 
-from pam_ros.control.loop import BLIND, RUNNING, VENT, WAITING, Loop, Reading, warm_up
+from pam_ros.control.loop import BLIND, RUNNING, WAITING, Loop, Reading, warm_up
 from pam_ros.control.plausibility import Plausibility, bounds_of
 from pam_ros.control.reference.serialised import read_trajectory
 from pam_ros.control.signals import Pressures, term_names
@@ -197,12 +197,9 @@ class PamControl(TickingNode):
             return
         if loop.state == BLIND != before:
             self._look_for_states()
-        if loop.state == BLIND and loop.safe == VENT:
-            if before != BLIND:
-                self._rig.begin()
-            elif self._rig.is_new():
-                loop.leave()
-                return
+        if loop.lost is not None and self._rig.is_new(loop.lost):
+            loop.leave()
+            return
         self._publish(pressures)
         if self._intake.look():
             # Stopped while it published: the rig may have received the old command just now. One

@@ -21,15 +21,19 @@ class RigWatch:
         self._node, self._states, self._publishers = node, states, publishers
         self._names: set[tuple[str, str]] = set()
         self._fewest = [0, 0]
+        self._since: float | None = None
 
-    def begin(self) -> None:
-        """Take the rig that is there now for the one that is vented."""
-        found = self._node.get_publishers_info_by_topic(self._states)
-        self._names = {(info.node_name, info.node_namespace) for info in found}
-        self._fewest = self._count()
+    def is_new(self, since: float) -> bool:
+        """Say whether another rig has come since the time *since* in s, when venting began.
 
-    def is_new(self) -> bool:
-        """Say whether there are more nodes or subscribers than the fewest since then."""
+        That is so where there are more nodes or subscribers than the fewest since then. The rig
+        that is there when a new time is given is the one that is vented.
+        """
+        if since != self._since:
+            found = self._node.get_publishers_info_by_topic(self._states)
+            self._names = {(info.node_name, info.node_namespace) for info in found}
+            self._since, self._fewest = since, self._count()
+            return False
         now = self._count()
         self._fewest = [min(pair) for pair in zip(self._fewest, now, strict=True)]
         return now != self._fewest

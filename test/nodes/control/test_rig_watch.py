@@ -1,0 +1,70 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""A rig that has come in the place of the one that is vented: its node, or its subscriber."""
+
+import pytest
+import rclpy
+from sensor_msgs.msg import JointState
+from std_msgs.msg import Float64
+
+from pam_ros.nodes.control.rig_watch import RigWatch
+from support.harness import Peer
+
+
+@pytest.fixture
+def publisher(peer):
+    return peer.node.create_publisher(Float64, 'pressure_command', 10)
+
+
+@pytest.fixture
+def watch(peer, publisher):
+    return RigWatch(peer.node, 'joint_states', [publisher])
+
+
+def test_a_new_subscriber_is_another_rig_until_venting_begins_again(peer, publisher, watch):
+    with Peer() as first:
+        first.collect(Float64, 'pressure_command')
+        peer.until(lambda: publisher.get_subscription_count() == 1, 'the rig')
+        assert not watch.is_new(1.0)
+        assert not watch.is_new(1.0)
+        with Peer() as second:
+            second.collect(Float64, 'pressure_command')
+            peer.until(lambda: watch.is_new(1.0), 'another rig')
+            assert watch.is_new(1.0)
+            assert not watch.is_new(5.0)
+            assert not watch.is_new(5.0)
+
+
+def test_one_that_comes_after_the_other_has_gone_is_another_rig(peer, publisher, watch):
+    with Peer() as first:
+        first.collect(Float64, 'pressure_command')
+        peer.until(lambda: publisher.get_subscription_count() == 1, 'the rig')
+        assert not watch.is_new(1.0)
+    peer.until(lambda: publisher.get_subscription_count() == 0, 'its end')
+    assert not watch.is_new(1.0)
+    with Peer() as second:
+        second.collect(Float64, 'pressure_command')
+        peer.until(lambda: watch.is_new(1.0), 'another rig')
+
+
+def test_a_node_of_the_same_name_is_another_rig_before_it_subscribes(peer, publisher, watch):
+    def start(context):
+        rclpy.init(context=context)
+        return rclpy.create_node('rig', context=context)
+
+    contexts = rclpy.Context(), rclpy.Context()
+    first = start(contexts[0])
+    first.create_publisher(JointState, 'joint_states', 10)
+
+    def is_known():
+        found = peer.node.get_publishers_info_by_topic('joint_states')
+        return [info.node_name for info in found] == ['rig']
+
+    peer.until(is_known, 'the rig')
+    assert not watch.is_new(1.0)
+    second = start(contexts[1])
+    peer.until(lambda: watch.is_new(1.0), 'another rig')
+    assert publisher.get_subscription_count() == 0
+    for node, context in zip((first, second), contexts, strict=True):
+        node.destroy_node()
+        rclpy.shutdown(context=context)
