@@ -13,8 +13,8 @@ from dataclasses import dataclass
 from math import exp, expm1, log1p
 from typing import ClassVar
 
-from pam_ros.compiled import plain, scalar
 from pam_ros.effects.base import Compensation, Effect, EffectEquations, HiddenState, Row, Starts
+from pam_ros.effects.maxwell_slip import ELEMENTS, EVEN, MOST, slipped, strains
 from pam_ros.effects.parameter import effect_parameter, start_from, strength
 from pam_ros.effects.rows import A1, A3, A4, A5
 from pam_ros.muscle.law import gain
@@ -31,41 +31,13 @@ from pam_ros.muscle.law import gain
     PRESSURE_WIDTH,
     PRESSURE_ONSET,
     INITIAL,
-    SLIP_CROWDING,
-    PRESSURE_CROWDING,
+    SLIP_RATIO,
+    PRESSURE_RATIO,
 ) = range(13)
 
-ELEMENTS = 10
 # Hidden states; the strains of the elements follow, over contraction and over pressure.
 LOOP, LAST_KAPPA, LAST_P, STRAINS = range(4)
 P_REFERENCE = 3e5  # Pa, where the amplitude is as given, whatever its growth
-
-
-@scalar
-def threshold(n: int, onset: float, crowding: float) -> float:
-    """Return the threshold of Maxwell element n as a share of the last one's.
-
-    From onset to 1, evenly with crowding 0; the nearer to 1 it is, the more of them are small.
-    """
-    s = (n + 0.5) / ELEMENTS
-    return onset + (1.0 - onset) * s * (1.0 - crowding) / (1.0 - crowding * s)
-
-
-@scalar
-def slipped(
-    ds: float, width: float, onset: float, crowding: float, x: Row, i: int, xn: Row
-) -> float:
-    """Return the mean of Maxwell elements after a way ds, in -1..1; x[i] and on are strains.
-
-    They stick up to their thresholds, the last one's being *width*, and slip there.
-    """
-    mean = 0.0
-    for n in range(ELEMENTS):
-        d = width * threshold(n, onset, crowding)
-        strain = min(max(x[i + n] + ds, -d), d)
-        xn[i + n] = strain
-        mean += strain / d
-    return mean / ELEMENTS
 
 
 def force(
@@ -111,7 +83,7 @@ def force(
         rub = q[j + AMPLITUDE] * xn[i + LOOP]
     if q[j + SLIP] != 0.0:
         rub += q[j + SLIP] * slipped(
-            ds, q[j + SLIP_WIDTH], q[j + SLIP_ONSET], q[j + SLIP_CROWDING], x, i + STRAINS, xn
+            ds, q[j + SLIP_WIDTH], q[j + SLIP_ONSET], q[j + SLIP_RATIO], x, i + STRAINS, xn
         )
     f -= max(1.0 + q[j + PRESSURE_GROWTH] * (p / P_REFERENCE - 1.0), 0.0) * rub
     if q[j + PRESSURE] != 0.0:
@@ -119,7 +91,7 @@ def force(
             dp,
             q[j + PRESSURE_WIDTH],
             q[j + PRESSURE_ONSET],
-            q[j + PRESSURE_CROWDING],
+            q[j + PRESSURE_RATIO],
             x,
             i + STRAINS + ELEMENTS,
             xn,
@@ -130,13 +102,9 @@ def force(
 
 def start(q: Row, j: int, p: float, kappa: float, y: float) -> tuple[float, ...]:
     """Return all loops at the share initial of their height: from -1 to 1, 0 in the middle."""
-    every, share_of = range(ELEMENTS), plain(threshold)
-    initial, width, over = q[j + INITIAL], q[j + SLIP_WIDTH], q[j + PRESSURE_WIDTH]
-    slip = [initial * width * share_of(n, q[j + SLIP_ONSET], q[j + SLIP_CROWDING]) for n in every]
-    over_p = [
-        initial * over * share_of(n, q[j + PRESSURE_ONSET], q[j + PRESSURE_CROWDING])
-        for n in every
-    ]
+    initial = q[j + INITIAL]
+    slip = strains(initial, q[j + SLIP_WIDTH], q[j + SLIP_ONSET], q[j + SLIP_RATIO])
+    over_p = strains(initial, q[j + PRESSURE_WIDTH], q[j + PRESSURE_ONSET], q[j + PRESSURE_RATIO])
     return (initial, kappa, p, *slip, *over_p)
 
 
@@ -208,19 +176,19 @@ class Hysteresis(Effect):
         high=1.0,
         scale=0.5,
     )
-    slip_crowding: float = effect_parameter(
-        0.0,
-        'how far the thresholds crowd at small ways; 0: evenly spread',
-        low=0.0,
-        high=0.98,
-        scale=0.3,
+    slip_ratio: float = effect_parameter(
+        EVEN,
+        'growth of the gaps between thresholds; 1: equal gaps, 1/slip_onset: geometric',
+        low=EVEN,
+        high=MOST,
+        scale=10.0,
     )
-    pressure_crowding: float = effect_parameter(
-        0.0,
-        'how far the thresholds crowd at small ways; 0: evenly spread',
-        low=0.0,
-        high=0.98,
-        scale=0.3,
+    pressure_ratio: float = effect_parameter(
+        EVEN,
+        'growth of the gaps between thresholds; 1: equal gaps, 1/pressure_onset: geometric',
+        low=EVEN,
+        high=MOST,
+        scale=10.0,
     )
 
     name: ClassVar = 'hysteresis'
@@ -254,7 +222,7 @@ class Hysteresis(Effect):
             start_from(cls, slip=5.0, slip_width=0.01, initial=0.0),
             start_from(cls, slip=10.0, slip_width=0.05, initial=0.0),
             start_from(
-                cls, slip=8.0, slip_width=0.03, slip_onset=0.05, slip_crowding=0.5, initial=0.0
+                cls, slip=8.0, slip_width=0.03, slip_onset=0.05, slip_ratio=20.0, initial=0.0
             ),
             start_from(cls, pressure=3e3, pressure_width=1e4, initial=0.0),
             start_from(cls, pressure=1e4, pressure_width=5e4, initial=0.0),
@@ -263,7 +231,7 @@ class Hysteresis(Effect):
                 pressure=6e3,
                 pressure_width=5e4,
                 pressure_onset=0.05,
-                pressure_crowding=0.5,
+                pressure_ratio=20.0,
                 initial=0.0,
             ),
         )

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The whole identification in one line."""
 
-from pam_ros.identification.fit.places import place_of, spelled
+from pam_ros.identification.fit.places import effect_of, muscle_of, place_of, spelled
 from pam_ros.identification.result import Identification
 from pam_ros.identification.verdict import time_of
 from pam_ros.report.wording import listed, number, scale_for
@@ -28,6 +28,9 @@ def last_line(result: Identification) -> str:
 
 
 def added(result: Identification) -> list[str]:
-    """Return the names of the places of the effects that were added to the last model."""
-    found = (place_of(name) for name in result.stages[-1].parameters)
-    return list(dict.fromkeys(name for name in found if name))
+    """Return the names of the places of the effects that were added to the last model.
+
+    Of an effect in all muscles alike each muscle has a start of its own, which is no other place.
+    """
+    found = dict.fromkeys(place_of(name) for name in result.stages[-1].parameters)
+    return [name for name in found if name and not (muscle_of(name) and effect_of(name) in found)]

@@ -11,17 +11,20 @@ A file holds a table for each node name, ``/**`` for all of them, with dotted or
           creep: {gain: 0.05}
 """
 
+import logging
 import os
 import tempfile
 from collections.abc import Iterator, Mapping
+from functools import cache
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import yaml
 
-from pam_ros.errors import ParameterError, printable
+from pam_ros.errors import ParameterError, printable, shown
 from pam_ros.plain_yaml import read_yaml
+from pam_ros.settings.former_names import renamed
 from pam_ros.settings.tables import Table, Value, refuse_mistyped, refuse_unknown_effects
 
 TABLE = 'ros__parameters'
@@ -110,7 +113,19 @@ def read_any(path: Path, node: str) -> dict[str, Value]:
                     f'{path}: {name} = {read!r} is not a single value, nor a list of texts'
                 )
             values[name] = tuple(read) if is_list else read
+    try:
+        values, sentence = renamed(values)
+    except ParameterError as error:
+        raise ParameterError(f'{path}: {error}') from error
+    if sentence:
+        _warn(f'{path}: {sentence}')
     return values
+
+
+@cache
+def _warn(sentence: str) -> None:
+    """Log a sentence, once in this process; without a handler it is printed on stderr."""
+    logging.getLogger('pam_ros').warning('%s', shown(sentence))
 
 
 def _tables(content: Any, name: str = '') -> Iterator[tuple[str, Any]]:

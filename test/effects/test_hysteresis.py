@@ -10,7 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp, trapezoid
 
-from pam_ros.effects.hysteresis import ELEMENTS, Hysteresis
+from pam_ros.effects.hysteresis import Hysteresis
+from pam_ros.effects.maxwell_slip import ELEMENTS
 from pam_ros.rig.run import simulate, simulate_held
 from support import bench
 
@@ -49,30 +50,31 @@ def test_bouc_wen_loops_against_their_differential_equation(unloading):
     np.testing.assert_allclose(force[::50], expected, atol=1e-7)
 
 
-def thresholds(width, onset, crowding):
-    """Return Prandtl's radii: quantiles of (1 - c) s / (1 - c s) between the onset and 1."""
+def thresholds(width, onset, ratio):
+    """Return Prandtl's radii: quantiles of (r^s - 1) / (r - 1) between the onset and 1."""
     s = (np.arange(ELEMENTS) + 0.5) / ELEMENTS
-    return width * (onset + (1 - onset) * (1 - crowding) / (1 / s - crowding))
+    share = s if ratio == 1.0 else (ratio**s - 1.0) / (ratio - 1.0)
+    return width * (onset + (1.0 - onset) * share)
 
 
-@pytest.mark.parametrize(('onset', 'crowding'), [(0.0, 0.0), (0.3, 0.0), (1.0, 0.5), (0.1, 0.8)])
-def test_maxwell_slip_is_the_complement_of_prandtls_plays(onset, crowding):
+@pytest.mark.parametrize(('onset', 'ratio'), [(0.0, 1.0), (0.3, 1.0), (1.0, 4.0), (0.1, 25.0)])
+def test_maxwell_slip_is_the_complement_of_prandtls_plays(onset, ratio):
     kappa = path()
-    radii = thresholds(SLIP['slip_width'], onset, crowding)
+    radii = thresholds(SLIP['slip_width'], onset, ratio)
     play, expected = np.full(ELEMENTS, kappa[0]), []
     for k in kappa:
         play = np.maximum(k - radii, np.minimum(k + radii, play))
         expected.append(-SLIP['slip'] * np.mean((k - play) / radii))
-    force = loop({**SLIP, 'slip_onset': onset, 'slip_crowding': crowding}, kappa)
+    force = loop({**SLIP, 'slip_onset': onset, 'slip_ratio': ratio}, kappa)
     np.testing.assert_allclose(force, expected, atol=1e-9)
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(('onset', 'crowding'), [(0.0, 0.0), (0.4, 0.0), (0.1, 0.7)])
-def test_slip_over_pressure_against_prandtls_plays(onset, crowding):
+@pytest.mark.parametrize(('onset', 'ratio'), [(0.0, 1.0), (0.4, 1.0), (0.1, 10.0)])
+def test_slip_over_pressure_against_prandtls_plays(onset, ratio):
     turns = 1e5 * np.array([0.0, 3.0, 2.0, 5.0, 4.5, 4.8, 1.0])
     p, y, width, half = path(turns), 0.03, 6e4, 8e3
-    radii = thresholds(width, onset, crowding)
+    radii = thresholds(width, onset, ratio)
     slope = (bench.pull(2e5, y) - bench.pull(1e5, y)) / 1e5
     play, expected = np.full(ELEMENTS, p[0]), []
     for a in p:
@@ -82,7 +84,7 @@ def test_slip_over_pressure_against_prandtls_plays(onset, crowding):
         'pressure': half,
         'pressure_width': width,
         'pressure_onset': onset,
-        'pressure_crowding': crowding,
+        'pressure_ratio': ratio,
     }
     force = loop(effect, np.full(p.size, y / bench.L0), p)
     np.testing.assert_allclose(force, expected, atol=1e-7)
@@ -157,7 +159,9 @@ def test_load_on_a_muscle_with_hysteresis_against_an_adaptive_solver():
     assert np.ptp(y) > 0.01
 
 
-@pytest.mark.parametrize('effect', [BOUC_WEN, SLIP, {'pressure': 5e3}])
+@pytest.mark.parametrize(
+    'effect', [BOUC_WEN, SLIP, {**SLIP, 'slip_ratio': 10.0}, {'pressure': 5e3}]
+)
 @pytest.mark.parametrize('side', [1.0, -1.0])
 def test_loops_can_start_where_a_long_way_has_left_them(effect, side):
     far = np.linspace(0.0, side * 0.4, 401) + 0.1

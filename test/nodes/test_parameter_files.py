@@ -75,6 +75,24 @@ def test_a_dump_starts_the_same_node_again(peer, tmp_path, program, rig):
         assert 'not known' not in again.output
 
 
+@pytest.mark.parametrize('program', ['pam_sim', 'pam_control'])
+def test_former_names_of_parameters_start_a_node_that_says_so(peer, tmp_path, program):
+    file = tmp_path / 'of_0_1_0.yaml'
+    file.write_text(
+        '/**:\n  ros__parameters:\n    joint_name: joint_1\n'
+        '    effects: {hysteresis: {pressure: 4000.0, pressure_crowding: 0.8}}\n'
+        '    joint_1:\n      effects.hysteresis.slip_crowding: 0.5\n'
+    )
+    now = 'effects.hysteresis.pressure_ratio'
+    with Program(program, '--params-file', str(file)) as node:
+        wait_for(peer, node)
+        found = peer.get(f'/{program}', now, 'joint_1.effects.hysteresis.slip_ratio')
+        assert found == pytest.approx([25.0, 4.0])
+        assert node.stop() == 0
+        assert node.output.count(f'effects.hysteresis.pressure_crowding is {now} = 25') == 1
+        assert 'not known' not in node.output
+
+
 SHIPPED = sorted(p for p in CONFIG.rglob('*.yaml') if 'ros__parameters' in p.read_text())
 
 

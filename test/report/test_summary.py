@@ -40,3 +40,13 @@ def test_added_effects_are_those_that_were_not_declared(friction):
     result, _, _ = friction
     assert added(result) == ['coulomb_friction']
     assert added(replace(result, stages=3 * result.stages[:1])) == []
+
+
+def test_an_effect_in_all_muscles_is_one_though_each_has_its_own_start(friction):
+    result = friction[0]
+    *before, last = result.stages
+    estimate = Estimate(0.1, 0.0, 0.2, '')
+    names = ['effects.hysteresis.slip', 'agonist.effects.leak.rate']
+    starts = [f'{muscle}.effects.hysteresis.initial' for muscle in ('agonist', 'antagonist')]
+    stage = replace(last, parameters=dict.fromkeys([*names, *starts], estimate))
+    assert added(replace(result, stages=(*before, stage))) == ['hysteresis', 'agonist.leak']

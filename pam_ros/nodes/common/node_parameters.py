@@ -17,6 +17,7 @@ from rclpy.parameter import Parameter as RosParameter
 from pam_ros.errors import PamError, shown
 from pam_ros.parameters import Parameter
 from pam_ros.plain_yaml import EXPONENTIAL
+from pam_ros.settings.former_names import renamed
 from pam_ros.settings.tables import Table, checked, refuse_mistyped
 
 T = TypeVar('T')
@@ -43,6 +44,9 @@ class NodeParameters(Generic[T]):
     ) -> None:
         """Declare all of *table* on *node* with the values that it was started with."""
         self._node, self._table = node, table
+        sentence = renamed(_overrides(node))[1]
+        if sentence:
+            node.get_logger().warning(shown(sentence))
         self._build, self._apply = build, apply
         self.values = checked(table, given(node))
         self.built = build(self.values)
@@ -118,7 +122,12 @@ def _is_number(parameter: RosParameter) -> bool:
 
 
 def given(node: Node) -> dict[str, Any]:
-    """Return the values that *node* was started with, declared or not, by name.
+    """Return the values that *node* was started with, declared or not, by the names of today."""
+    return renamed(_overrides(node))[0]
+
+
+def _overrides(node: Node) -> dict[str, Any]:
+    """Return the values that *node* was started with by the names that were given.
 
     An empty list has no type in YAML and arrives as not set, which nothing else can be here.
     """
