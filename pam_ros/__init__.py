@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from pam_ros.errors import PamError
     from pam_ros.identification.identify import identify
     from pam_ros.identification.result import Identification
+    from pam_ros.muscle.braid import Braid
     from pam_ros.muscle.fit import fit_static_map
     from pam_ros.muscle.muscle import Muscle
     from pam_ros.parameters import parameter_field
@@ -60,6 +61,7 @@ __all__ = [
     'EFFECTS',
     'Actuator',
     'Arm',
+    'Braid',
     'CoContraction',
     'Effect',
     'Gains',
@@ -125,6 +127,7 @@ _PLACES = {
     'errors': ('PamError',),
     'identification.identify': ('identify',),
     'identification.result': ('Identification',),
+    'muscle.braid': ('Braid',),
     'muscle.fit': ('fit_static_map',),
     'muscle.muscle': ('Muscle',),
     'parameters': ('parameter_field',),

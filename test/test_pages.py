@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 import yaml
 
-from pam_ros import equilibrium
+from pam_ros import Braid, equilibrium, load_muscle
 from pam_ros.settings.files import read_known
 from pam_ros.settings.scene import Scene
 from pam_ros.settings.tables import checked
@@ -48,7 +48,11 @@ def test_parameter_files_of_a_tutorial_make_the_joints_of_its_examples(tmp_path,
     names = {}
     for example in blocks(page, 'python'):
         exec(example, names)
-    files = blocks(page, 'yaml')
+    braid, *files = blocks(page, 'yaml')
+    Path('braid.yaml').write_text(braid, encoding='utf-8')
+    geometry = yaml.safe_load(braid)['/**']['ros__parameters'].pop('braid')
+    muscle = load_muscle('braid.yaml')
+    assert muscle == Braid(**geometry).muscle(l0=0.185, p_max=500e3, kappa_max=0.28)
     for file, name in zip(files, ('elbow', 'lever', 'crank'), strict=True):
         Path('joint.yaml').write_text(file, encoding='utf-8')
         nested = yaml.safe_load(file)['/**']['ros__parameters']

@@ -3,16 +3,18 @@
 """What is declared to ``pam_excite``: the rig, limits, and the programme that they make."""
 
 from dataclasses import dataclass, replace
+from types import MappingProxyType
 from typing import Any
 
 from pam_ros.excitation.programme import Programme, plan, programme
 from pam_ros.excitation.settings import Excitation
 from pam_ros.rig.joint import Joint
 from pam_ros.rig.run import simulate
+from pam_ros.settings.braid import BRAID, with_braid
 from pam_ros.settings.files import read_known
 from pam_ros.settings.rig import RigParameters
 from pam_ros.settings.sim import MUSCLE
-from pam_ros.settings.tables import Table, build, rig_table, table_of, with_defaults
+from pam_ros.settings.tables import Table, Values, build, rig_table, table_of, with_defaults
 
 
 @dataclass(frozen=True)
@@ -46,17 +48,19 @@ class Experiment:
         return '\n'.join(lines)
 
 
-def table(muscle: Any = '') -> Table:
-    """Return the table of all parameters; their defaults come from *muscle* where it is given.
+def table(given: Values = MappingProxyType({})) -> Table:
+    """Return the table of all parameters; the muscle or braid among those *given* has defaults.
 
     None of them can change while the programme is played.
     """
-    live = {**MUSCLE, **rig_table(), **table_of(Excitation)}
+    live = {**MUSCLE, **BRAID, **rig_table(), **table_of(Excitation)}
     plain: Table = {
         name: (kind, default, replace(about, live=False))
         for name, (kind, default, about) in live.items()
     }
-    return with_defaults(plain, read_known(str(muscle), plain)) if muscle else plain
+    muscle = given.get('muscle')
+    preset = read_known(str(muscle), plain) if muscle else {}
+    return with_defaults(plain, with_braid(preset, given, plain))
 
 
 def experiment(values: dict[str, Any]) -> Experiment:

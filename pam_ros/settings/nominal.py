@@ -133,12 +133,20 @@ def nominal_joint(name: str | Path, overrides: Iterable[str] = ()) -> NominalJoi
     for text in texts:
         key, _, value = (part.strip() for part in text.partition('='))
         # The names of muscles and joints say which parameters there are.
-        raw[key] = listed(value) if key in ('muscles', 'joint_names') else value
+        raw[key] = listed(value) if key in ('muscles', 'joint_names') else _number_or(value)
     if raw.get('joint', LOAD.name) not in KINDS:
         refuse('joint', raw['joint'], f'one of {", ".join(KINDS)}')
     scene, values = read_scene(name, raw, typed)
     joint = only_joint(name, scene, values)
     return NominalJoint(joint, scene.kind, tuple(scene.muscles), scene.joints[0])
+
+
+def _number_or(text: str) -> float | str:
+    """Return the number that a text is, or the text: the braid is needed before types are."""
+    try:
+        return float(text)
+    except ValueError:
+        return text
 
 
 def uncertain_values(name: str | Path) -> dict[str, Any]:

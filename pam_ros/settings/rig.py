@@ -21,6 +21,7 @@ from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig.arrangements import ARRANGEMENTS, LOAD
 from pam_ros.rig.effect_values import effects_from, split_effects
 from pam_ros.rig.joint import Actuator, Joint
+from pam_ros.settings.braid import BRAID, LIMITS, NAMES, with_braid
 from pam_ros.settings.files import read_known
 from pam_ros.settings.sim import MUSCLE, SimSettings
 from pam_ros.settings.tables import (
@@ -113,7 +114,7 @@ class RigParameters:
     def _of_muscle(self) -> Table:
         """The table of all that a muscle can have of its own."""
         start = {flat: about for flat, about in self.start.items() if flat.endswith('.pressure')}
-        return {**MUSCLE, **muscle_table(), **start}
+        return {**MUSCLE, **BRAID, **muscle_table(), **start}
 
     @cached_property
     def _of_joint(self) -> Table:
@@ -133,19 +134,21 @@ class RigParameters:
         """Return the table of the common parameters."""
         plain = {
             **MUSCLE,
+            **BRAID,
             **muscle_table(),
             **joint_table(self.kind),
             **self.common,
             **self.start,
         }
-        return with_defaults(plain, self._preset(self._given, plain))
+        preset = self._preset(self._given, plain)
+        return with_defaults(plain, with_braid(preset, self._given, plain))
 
-    def _preset(self, given: Values, known: Table) -> Values:
+    def _preset(self, given: Values, known: Table) -> dict[str, Any]:
         """Return what a preset says: of the load, only for one muscle on a mass, as it has."""
         if not given.get('muscle'):
             return {}
         values = read_known(str(given['muscle']), known)
-        here = known if self.kind is LOAD else muscle_table()
+        here = known if self.kind is LOAD else {**BRAID, **muscle_table()}
         return {name: value for name, value in values.items() if name in here}
 
     def table(self) -> Table:
@@ -163,7 +166,8 @@ class RigParameters:
             all_known = {f'{name}.{rest}' for rest in known}
             for stranger in refuse_mistyped((f'{name}.{rest}' for rest in given), all_known):
                 raise ParameterError(f'{stranger}: {name} has no parameter of this name')
-            preset = self._preset(given, known)
+            common = {flat: self._given.get(flat, table[flat][1]) for flat in (*NAMES, *LIMITS)}
+            preset = with_braid(self._preset(given, known), given, known, common)
             known = with_defaults(known, preset)
             table |= {f'{name}.{rest}': known[rest] for rest in chain(preset, given)}
         return table

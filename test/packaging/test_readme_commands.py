@@ -113,7 +113,7 @@ def check_benchmarks(words):
 TABLES = {
     'pam_sim': lambda given: Scene(given).table(),
     'pam_control': lambda given: settings_of(given)[0],
-    'pam_excite': lambda given: excite.table(given.get('muscle', '')),
+    'pam_excite': excite.table,
 }
 BUILDERS = {
     'pam_sim': lambda given, values: Scene(given).build(values),

@@ -9,6 +9,7 @@ import pytest
 from pam_ros.control.pid import Pid
 from pam_ros.control.sliding_mode import SlidingMode
 from pam_ros.errors import ParameterError
+from pam_ros.settings.braid import BRAID
 from pam_ros.settings.control import settings_of
 from pam_ros.settings.files import read
 from pam_ros.settings.tables import checked, rig_table
@@ -29,7 +30,7 @@ def setup(given, muscle=''):
 def test_control_yaml_lists_all_but_the_rig_and_the_gains_with_its_defaults():
     values = read(CONFIG / 'control.yaml', 'pam_control')
     # ROS has no empty list in a file: names are shown in a comment there.
-    left_out = {*rig_table(), 'muscle', 'muscles', 'joint_names'}
+    left_out = {*rig_table(), *BRAID, 'muscle', 'muscles', 'joint_names'}
     beside = {
         name: default
         for name, (_, default, _) in table({}).items()

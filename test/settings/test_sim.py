@@ -8,6 +8,7 @@ import pytest
 
 from pam_ros.errors import ParameterError
 from pam_ros.rig import statics
+from pam_ros.settings.braid import BRAID
 from pam_ros.settings.files import read
 from pam_ros.settings.scene import Scene
 from pam_ros.settings.tables import checked, rig_table
@@ -25,7 +26,7 @@ def built(given):
 def test_sim_yaml_lists_all_that_is_not_the_rig_with_its_defaults():
     values = read(CONFIG / 'sim.yaml')
     # ROS has no empty list in a file: names are shown in a comment there.
-    left_out = {*rig_table(), 'muscle', 'muscles', 'joint_names'}
+    left_out = {*rig_table(), *BRAID, 'muscle', 'muscles', 'joint_names'}
     beside = {n: entry for n, entry in Scene({}).table().items() if n not in left_out}
     assert values == {name: default for name, (_, default, _) in beside.items()}
     assert {n: type(v) for n, v in values.items()} == {

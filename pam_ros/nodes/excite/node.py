@@ -41,9 +41,7 @@ class PamExcite(TickingNode):
     def __init__(self, csv: Path | None, is_dry: bool) -> None:
         """Make the programme that the parameters describe."""
         super().__init__('pam_excite')
-        parameters = NodeParameters(
-            self, table(given(self).get('muscle', '')), experiment, _nothing_live
-        )
+        parameters = NodeParameters(self, table(given(self)), experiment, _nothing_live)
         self._now = parameters.built
         parameters.refuse_mistyped()
         if csv is not None:

@@ -1,0 +1,169 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The constants of a self-made McKibben muscle from the geometry of its braid.
+
+A braid of threads that do not stretch, around a cylinder at p Pa, pulls by virtual work with
+
+    F = pi r^2 p (a (1 - k kappa)^2 - b),    a = 3 / tan(angle)^2,    b = 1 / sin(angle)^2
+
+(Chou and Hannaford 1996 for k = 1; Tondu and Lopez 2000 with k for the ends, which stay narrow).
+The force law (1) of Sárosi (2015) has an exponential and a straight line in the place of the
+parabola: given a3 they are fitted to it by least squares, from contraction 0 to the greatest that
+is permitted.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+from math import pi, radians, sin, sqrt, tan
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from pam_ros.arguments import alike
+from pam_ros.errors import ParameterError
+from pam_ros.muscle.constants import Constants
+from pam_ros.muscle.muscle import Muscle
+from pam_ros.parameters import check_all, described, parameter_field
+
+Array = NDArray[np.float64]
+# a3 times the greatest contraction. The smaller it is, the closer an exponential follows a
+# parabola, and the larger are a1 and a4, which then cancel each other: 0.9 leaves less than 0.5 %
+# of the greatest force and keeps each of them at the size of the force.
+BEND = -0.9
+POINTS = 401  # contractions that are fitted
+CONSTANTS = ('a1', 'a2', 'a3', 'a4', 'a5', 'a6')
+
+
+@dataclass(frozen=True)
+class Braid:
+    """The braid of a McKibben muscle at rest, without pressure and load.
+
+    ``bladder`` is not a geometry but a stiffness, which the law of the braid does not have: the
+    force is less by bladder (1 - exp(a3 kappa)) at all pressures. It can hardly be known without
+    a measurement: give it a wide prior in an identification (``--uncertain a2=1000%``).
+
+    Raises ParameterError for a value that is not allowed.
+    """
+
+    radius: float = parameter_field(
+        0.01, 'radius of the braid at rest', 'm', low=5e-4, high=0.2, live=False
+    )
+    angle: float = parameter_field(
+        20.0,
+        'angle between the threads of the braid and the axis of the muscle at rest',
+        'deg',
+        low=1.0,
+        high=54.0,
+        live=False,
+    )
+    end_factor: float = parameter_field(
+        1.0,
+        'factor of the contraction for the ends, which stay narrow; 1: as wide as the middle',
+        low=1.0,
+        high=2.0,
+        live=False,
+    )
+    bladder: float = parameter_field(
+        10.0,
+        'force with which the bladder resists large contractions',
+        'N',
+        low=1e-3,
+        high=1e4,
+        live=False,
+    )
+
+    def __post_init__(self) -> None:
+        """Check every field."""
+        check_all(self)
+
+    @cached_property
+    def _ab(self) -> tuple[float, float]:
+        angle = radians(self.angle)
+        return 3.0 / tan(angle) ** 2, 1.0 / sin(angle) ** 2
+
+    def force(self, p: ArrayLike, kappa: ArrayLike) -> Array:
+        """Return the force of the braid in N at p Pa gauge, the bladder not included.
+
+        Arrays broadcast; kappa is the contraction as a fraction of the length at rest.
+        """
+        p, kappa = alike(p=p, kappa=kappa)
+        return np.asarray(p * self._per_pressure(kappa), dtype=float)
+
+    def _per_pressure(self, kappa: Array) -> Array:
+        a, b = self._ab
+        force: Array = pi * self.radius**2 * (a * (1.0 - self.end_factor * kappa) ** 2 - b)
+        return force
+
+    @property
+    def greatest_contraction(self) -> float:
+        """Contraction at which the braid stops to pull: its threads are 54.7 degrees steep."""
+        a, b = self._ab
+        return (1.0 - sqrt(b / a)) / self.end_factor
+
+    def constants(self, kappa_max: float) -> Constants:
+        """Return a1..a6 in SI units, fitted for contractions from 0 to *kappa_max*.
+
+        Raises ParameterError when that is beyond the contraction at which the braid stops to pull.
+        """
+        if not 0.0 < kappa_max < self.greatest_contraction:
+            raise ParameterError(
+                f'kappa_max = {kappa_max:g} is not allowed: this braid stops to pull at a '
+                f'contraction of {self.greatest_contraction:.3g}; give less'
+            )
+        kappa = np.linspace(0.0, kappa_max, POINTS)
+        a3 = BEND / kappa_max
+        columns = np.stack([np.exp(a3 * kappa), kappa, np.ones_like(kappa)], axis=1)
+        found = np.linalg.lstsq(columns, self._per_pressure(kappa), rcond=None)[0]
+        a1, a4, a5 = (float(x) for x in found)
+        return a1, self.bladder, a3, a4, a5, -self.bladder
+
+    def misfit(self, kappa_min: float, kappa_max: float) -> float:
+        """Return the greatest difference of the force law to the braid's, by the greatest force.
+
+        Both without the bladder, for contractions from *kappa_min* to *kappa_max*.
+        """
+        a1, _, a3, a4, a5, _ = self.constants(kappa_max)
+        kappa = np.linspace(kappa_min, kappa_max, POINTS)
+        braid = self._per_pressure(kappa)
+        law = a1 * np.exp(a3 * kappa) + a4 * kappa + a5
+        return float(np.max(np.abs(law - braid)) / np.max(np.abs(braid)))
+
+    def fields(self, p_max: float, kappa_min: float, kappa_max: float) -> dict[str, Any]:
+        """Return what a muscle with this braid has, by the names of the fields of Muscle.
+
+        *p_max* in Pa and the contractions are those that the muscle permits. ``source`` states the
+        geometry, and the greatest difference between the force law and the braid's. Raises
+        ParameterError as :meth:`constants` does.
+        """
+        source = (
+            f'braid of radius {self.radius:g} m and {self.angle:g} deg, end factor '
+            f'{self.end_factor:g}; law of Tondu and Lopez 2000, within '
+            f'{100.0 * self.misfit(kappa_min, kappa_max):.2g} % of its greatest force'
+        )
+        return {
+            **dict(zip(CONSTANTS, self.constants(kappa_max), strict=True)),
+            'pressure_unit': 'Pa',
+            'contraction_unit': 'fraction',
+            'inside_diameter': 2.0 * self.radius,
+            'force_max': float(self.force(p_max, 0.0)),
+            'source': source,
+        }
+
+    def muscle(self, **fields: Any) -> Muscle:
+        """Return a muscle with this braid; *fields* are those of Muscle that it leaves open.
+
+        Without them its inside diameter is that of the braid, its rated force the one at ``p_max``
+        and contraction 0, and its ``source`` the geometry with the greatest difference between
+        both laws. Raises ParameterError as :meth:`constants` and Muscle do, and when *fields* have
+        constants of their own.
+        """
+        for name in (*CONSTANTS, 'pressure_unit', 'contraction_unit'):
+            if name in fields:
+                raise ParameterError(f'{name} follows from the braid: it cannot be given as well')
+        about = described(Muscle)
+        p_max, low, high = (
+            float(about[name][2].check(name, fields.get(name, about[name][1]), float))
+            for name in ('p_max', 'kappa_min', 'kappa_max')
+        )
+        return Muscle(**{**self.fields(p_max, low, high), **fields})
