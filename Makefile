@@ -13,7 +13,8 @@ export ROS_AUTOMATIC_DISCOVERY_RANGE := LOCALHOST
 export PYTHON
 
 .DEFAULT_GOAL := help
-.PHONY: help environment warm demo test test-fast test-oldest test-all faults lint docs tables bench clean
+.PHONY: help environment warm demo test test-fast test-oldest test-all faults lint docs tables
+.PHONY: notebook bench clean
 
 help:
 	@echo 'make demo       the experiment of the paper, controllers and the closed loop, over ROS topics: see demo/'
@@ -24,6 +25,7 @@ help:
 	@echo 'make lint       style and types'
 	@echo 'make docs       the pages and the public names as a site: build/docs/index.html'
 	@echo 'make tables     write the tables of docs/effects.md again, from the library of effects'
+	@echo 'make notebook   run docs/notebooks/ again, and store what the cells print and draw'
 	@echo 'make bench      the speed claims, measured on this machine (ARGS=plant_step for one)'
 	@echo 'make clean      remove what these commands made'
 	@echo 'The first of them sets up the environment $(VENV); PYTHON=python3.12 chooses its Python.'
@@ -74,6 +76,9 @@ docs:
 
 tables: environment
 	$(PY) tools/tables.py
+
+notebook: warm
+	$(PY) tools/notebook.py
 
 bench: warm
 	$(PY) -m benchmarks $(ARGS)

@@ -17,11 +17,17 @@ FILES_OF_A_USER = ('docs/tutorials/add_an_effect.md',)
 NEEDS_A_SIMULATOR = 'import rclpy'
 # Not everywhere where ROS is: rosdep has no key for it.
 HAVE_SYBIL = importlib.util.find_spec('sybil') is not None
+# Nor for these, with which test/notebooks/ runs the notebooks.
+OF_NOTEBOOKS = ('ipykernel', 'nbclient', 'nbformat')
 
 
 def pytest_report_header():
-    """Say where the examples are not run."""
-    return [] if HAVE_SYBIL else ['without Sybil: the examples of the pages are not run']
+    """Say where the examples and the notebooks are not run."""
+    lines = [] if HAVE_SYBIL else ['without Sybil: the examples of the pages are not run']
+    absent = [name for name in OF_NOTEBOOKS if importlib.util.find_spec(name) is None]
+    if absent:
+        lines.append(f'without {", ".join(absent)}: the notebooks are not run')
+    return lines
 
 
 @pytest.fixture(scope='session')

@@ -24,6 +24,7 @@ from pam_ros.parameters import described  # noqa: E402
 NAVIGATION = {
     'Tutorials': (
         'docs/tutorials/muscle_in_ten_minutes',
+        'docs/notebooks/muscle',
         'docs/tutorials/your_own_rig',
         'docs/tutorials/your_own_controller',
         'docs/tutorials/your_own_muscle_and_joint',
@@ -61,9 +62,11 @@ START = 'README'
 
 project = 'pam_ros'
 version = release = pam_ros.__version__
-extensions = ['sphinx.ext.autodoc', 'myst_parser']
+extensions = ['sphinx.ext.autodoc', 'myst_nb']
 root_doc = START
 include_patterns = ['*.md', '*.rst', 'docs/*.md', 'docs/*.rst', 'docs/tutorials/*.md']
+include_patterns += ['docs/notebooks/*.ipynb']
+nb_execution_mode = 'off'  # a test has run the cells, whose outputs are stored
 myst_heading_anchors = 6  # every heading can be linked to, by the name that it has on GitHub
 python_maximum_signature_line_length = 80
 toc_object_entries_show_parents = 'hide'

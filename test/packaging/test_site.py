@@ -17,6 +17,7 @@ import pam_ros
 from support.pages import DOCS, PAGES, ROOT, anchors
 
 SITE = ROOT / 'build' / 'docs'
+SOURCES = ('.md', '.rst', '.ipynb')
 DEADLINE = 900.0  # s; bounds how long an installation that hangs may take
 NAMES = set(pam_ros.__all__) - {'__version__'}
 
@@ -35,7 +36,7 @@ def listed(settings):
 
 
 def source_of(entry):
-    (found,) = (path for suffix in ('.md', '.rst') if (path := ROOT / f'{entry}{suffix}').exists())
+    (found,) = (path for suffix in SOURCES if (path := ROOT / f'{entry}{suffix}').exists())
     return found
 
 

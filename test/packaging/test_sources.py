@@ -14,6 +14,7 @@ FILES = sorted(
 )
 # Pages and settings as well, at the top and in these folders.
 WRITTEN = ('.html', '.js', '.j2', '.json', '.md', '.py', '.rst', '.toml', '.txt', '.xml', '.yaml')
+WRITTEN += ('.ipynb',)
 TEXTS = sorted(
     path.relative_to(ROOT)
     for path in [

@@ -1,7 +1,11 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What a page of the documentation shows: commands, names in code, tables, links, headings."""
+"""What a page of the documentation shows: commands, names in code, tables, links, headings.
 
+A notebook is a page whose cells of code are blocks of Python.
+"""
+
+import json
 import re
 import shlex
 from pathlib import Path
@@ -11,12 +15,19 @@ README = ROOT / 'README.md'
 DOCS = ROOT / 'docs'
 SIMULATOR, CONTROLLER = DOCS / 'simulator.md', DOCS / 'controller.md'
 AT_THE_TOP = [README, ROOT / 'ARCHITECTURE.md', ROOT / 'CONTRIBUTING.md']
-PAGES = [*AT_THE_TOP, *sorted(DOCS.rglob('*.md'))]
+NOTEBOOKS = sorted((DOCS / 'notebooks').glob('*.ipynb'))
+PAGES = [*AT_THE_TOP, *sorted(DOCS.rglob('*.md')), *NOTEBOOKS]
 SHELL_WORDS = ('make ', 'ros2 ', 'pam_', '.venv/bin/')
 
 
 def text_of(page):
-    return page.read_text(encoding='utf-8')
+    text = page.read_text(encoding='utf-8')
+    if page.suffix != '.ipynb':
+        return text
+    cells = [(cell['cell_type'], ''.join(cell['source'])) for cell in json.loads(text)['cells']]
+    return '\n\n'.join(
+        f'```python\n{source}\n```\n' if kind == 'code' else source for kind, source in cells
+    )
 
 
 def fences(page):
