@@ -20,6 +20,8 @@ from PIL import Image
 
 ROOT = Path(__file__).parents[1]
 NOTEBOOKS = sorted((ROOT / 'docs' / 'notebooks').glob('*.ipynb'))
+# What pyproject.toml ignores in tests, too: scipy before 1.12 warns of SLSQP's own rounding.
+IGNORED = 'ignore:Values in x were outside bounds:RuntimeWarning'
 DEADLINE = 300  # s; bounds how long a cell that hangs may take
 METADATA = {
     'kernelspec': {'display_name': 'Python 3', 'language': 'python', 'name': 'python3'},
@@ -46,6 +48,7 @@ def executed(notebook: NotebookNode, folder: Path) -> NotebookNode:
             'IPYTHONDIR': own,
             'MPLBACKEND': 'module://matplotlib_inline.backend_inline',
             'PYTHONPATH': os.pathsep.join(paths),
+            'PYTHONWARNINGS': IGNORED,
         }
         kernel = AsyncKernelManager(
             kernel_name='python3',
