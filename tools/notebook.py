@@ -63,6 +63,7 @@ def executed(notebook: NotebookNode, folder: Path) -> NotebookNode:
             resources={'metadata': {'path': str(folder)}},
             record_timing=False,
             coalesce_streams=True,
+            shutdown_kernel='immediate',  # it has nothing to save
         )
         client.execute(env=environment, cleanup_kc=True)  # ends the kernel as well
     return clean(copy)
