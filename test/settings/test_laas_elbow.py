@@ -5,7 +5,8 @@
 import numpy as np
 import pytest
 
-from pam_ros.settings.nominal import nominal_joint
+from pam_ros.identification.fit.uncertain import spread_unknowns
+from pam_ros.settings.nominal import nominal_joint, uncertain_values
 
 RADIUS, BRAID, END, LENGTH, WHEEL = 8.5e-3, np.radians(20.0), 1.25, 0.185, 0.015
 
@@ -41,3 +42,15 @@ def test_both_muscles_have_the_initial_contraction_in_the_middle(elbow):
     low, high = elbow.reach
     assert low < -0.5
     assert high > 2.0
+
+
+def test_it_says_how_exactly_its_values_are_known(elbow):
+    found = spread_unknowns(elbow.joint, elbow.muscles, uncertain_values('laas_elbow'))
+    known = {unknown.name: unknown for unknown in found}
+    bladder = known['agonist.a2']
+    assert bladder.scale * bladder.prior == pytest.approx(300.0)
+    # A degree and 0.4 mm: of a radius, and of the force of each muscle without contraction.
+    wider = np.pi * (RADIUS + 0.4e-3) ** 2 * (3.0 / np.tan(BRAID - np.radians(1.0)) ** 2)
+    share = wider / (np.pi * RADIUS**2 * 3.0 / np.tan(BRAID) ** 2) - 1.0
+    assert 0.5 * share < known['antagonist.a4'].scale / abs(known['antagonist.a4'].base) < share
+    assert {'contraction_1', 'contraction_2', 'inertia'} <= set(known)
