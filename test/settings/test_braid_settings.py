@@ -106,8 +106,12 @@ def test_an_excitation_is_planned_for_it(file):
     assert muscle == MUSCLE
 
 
-def test_without_an_angle_the_constants_count():
-    assert load_joint('dmsp_10', {'braid.angle': 0.0, 'kappa_max': 0.2}).muscle.l0 == 0.25
+@pytest.mark.parametrize('name', ['braid.angle', 'braid.radius'])
+def test_without_an_angle_the_constants_count(name):
+    given = {name: 0.0 if name == 'braid.angle' else 0.02}
+    assert load_joint('dmsp_10', given).muscle == load_muscle('dmsp_10')
+    texts = [f'{key}={value}' for key, value in given.items()]
+    assert nominal_joint('dmsp_10', texts).joint.muscle == load_muscle('dmsp_10')
 
 
 @pytest.mark.parametrize(
