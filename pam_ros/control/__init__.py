@@ -1,3 +1,3 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Position control of a joint: reference, laws, and what they know of the rig."""
+"""Position control of a joint: reference, control laws, and their models of the rig."""

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""How stiff muscles make their joint by pulling against each other: set, and approached."""
+"""The desired stiffness of a joint with antagonistic muscles, and how it is approached."""
 
 from dataclasses import dataclass
 
@@ -8,14 +8,14 @@ from pam_ros.control.reference.profile import Bounds, Rest
 from pam_ros.control.sharing import Sharing
 from pam_ros.parameters import check_all, parameter_field
 
-RISE = 0.05  # s in which the rate is reached, and its change: some three samples of a 50 Hz topic
+RISE = 0.05  # s to reach the rate, and its slope: some three samples of a 50 Hz topic
 
 
 @dataclass(frozen=True)
 class CoContraction:
-    """The stiffness that a joint shall have, and how fast it may change.
+    """The desired stiffness of a joint, and how fast it may change.
 
-    In N/m, or N m/rad of a joint that turns.
+    In N/m, or N m/rad of a revolute joint.
     """
 
     co_contraction: float = parameter_field(
@@ -40,9 +40,9 @@ class CoContraction:
         check_all(self)
 
     def wanted(self, sharing: Sharing) -> float:
-        """Return the stiffness for this joint; raises RangeError where it has none.
+        """Return the stiffness for this joint; raises RangeError if it cannot have this stiffness.
 
-        0 where the effort settles the stiffness.
+        0 if the effort determines the stiffness.
         """
         if not sharing.can_stiffen:
             return 0.0
@@ -65,30 +65,30 @@ class StiffnessCourse:
 
     @property
     def stiffness(self) -> float:
-        """The stiffness that the joint shall have now."""
+        """The desired stiffness now."""
         return self.goal + self._offset.state[0]
 
     @property
     def is_moving(self) -> bool:
-        """Whether the stiffness is on its way to the goal."""
+        """Whether the stiffness has not reached the goal yet."""
         return self._is_new or any(self._offset.state)
 
     def start(self, stiffness: float) -> None:
-        """Begin anew, at rest at *stiffness*, on the way to the goal."""
+        """Start again at rest at *stiffness*, and approach the goal."""
         self._offset.state = (stiffness - self.goal, 0.0, 0.0)
         self._is_new = True
 
     def set_goal(self, goal: float) -> None:
-        """Go to another *goal*."""
+        """Approach another *goal*."""
         x, v, a = self._offset.state
         self._offset.state = (x + self.goal - goal, v, a)
         self.goal = goal
         self._is_new = True
 
     def follow(self, dt: float) -> float:
-        """Return the stiffness *dt* s on."""
+        """Return the stiffness after another *dt* s."""
         if self._is_new:
-            # However often it is set, the way is sought once a step.
+            # The profile is computed once a step, however often the goal is set.
             slope = self.rate / RISE
             self._offset.begin(self._offset.state, Bounds(self.rate, slope, slope / RISE))
             self._is_new = False

@@ -1,11 +1,11 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What declared effects with a memory take from the effort along the reference.
+"""The effort that configured effects with a memory take from the joint along the reference.
 
-Friction, hysteresis and creep are fed forward: their own equations, those of the simulator, run
-along the motion that the load shall make. Driven by the reference alone they can neither
-destabilise the loop nor amplify noise; where the load does not follow, the observer sees the
-difference.
+Friction, hysteresis and creep are fed forward: their equations, which are those of the
+simulator, are evaluated along the reference. Since only the reference drives them, they can
+neither destabilise the loop nor amplify noise. If the load does not follow the reference, the
+observer sees the difference.
 """
 
 from pam_ros.control.model import ControlModel, Pressures
@@ -15,25 +15,25 @@ from pam_ros.rig import layout as at
 from pam_ros.rig.joint import Joint
 from pam_ros.rig.start import start_state
 
-# An effect, and where its states and its parameters begin in its row.
+# An effect, and the indices at which its states and its parameters begin in its row.
 _Placed = tuple[type[Effect], int, int]
 
 
 def left_to_feedback(joint: Joint) -> tuple[str, ...]:
-    """Return the declared effects that no part of a controller compensates ahead."""
+    """Return the configured effects for which the controller has no feed-forward."""
     return tuple(
         effect.name for effect in joint.all_present if effect.compensation is Compensation.FEEDBACK
     )
 
 
 class Losses:
-    """The effort that declared effects to be fed forward take along the reference.
+    """The effort that configured effects with a feed-forward take along the reference.
 
-    Those of the muscles run along their own ends, those on the joint along its coordinate.
+    Effects of muscles are evaluated at the muscles' ends, those of the joint at its coordinate.
     """
 
     def __init__(self, model: ControlModel) -> None:
-        """Take those that are present in the declared joint."""
+        """Take those effects that are present in the nominal joint."""
         self._model, joint = model, model.joint
         self._layout, self._q = joint.layout, joint.parameters()
         self._placed = [
@@ -54,15 +54,15 @@ class Losses:
         self.start(0.0, [0.0] * len(model.muscles))
 
     def start(self, position: float, pressures: Pressures) -> None:
-        """Begin anew after a long rest at *position*, chambers at *pressures* Pa."""
-        for _ in range(2):  # effects may be compiled when they are first called: not in flight
+        """Start again after a long rest at *position*, with *pressures* Pa in the chambers."""
+        for _ in range(2):  # the first call may compile the effects, which takes too long later
             self._x = start_state(self._layout, self._q, list(pressures), position, 0.0)
             self._xn[:, : self._layout.width] = self._x
             self.follow(1e-6, Reference(position), pressures)
         self.effort = 0.0
 
     def follow(self, dt: float, reference: Reference, pressures: Pressures) -> float:
-        """Go on by *dt* s to *reference*, chambers at *pressures* Pa; return the effort."""
+        """Advance by *dt* s to *reference*, chambers at *pressures* Pa; return the effort."""
         if not any(self._placed):
             return 0.0
         s, v = reference.position, reference.velocity

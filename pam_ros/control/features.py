@@ -1,11 +1,12 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What a muscle and its guide may have beside their model, as features of the motion.
+"""Forces of a muscle and its guide that the model may lack, as features of the motion.
 
-Friction and hysteresis are a sum of play elements: each is a spring that slips at its reach, and
-together they make any loop that a turning point starts anew (Maxwell slip; generalised
-Prandtl-Ishlinskii). The first, with its reach of a few micrometres, is dry friction; Stribeck's
-surplus at rest goes with it. A stiffness other than the declared one is a force over position.
+Friction and hysteresis are a sum of play elements (Maxwell slip; generalised
+Prandtl-Ishlinskii). Each is a spring that slips at its reach. Together they form any hysteresis
+loop that starts again at each reversal. The first element, with a reach of a few micrometres, is
+dry friction; Stribeck's additional friction at rest is added to it. An error of the nominal
+stiffness is a force over position.
 """
 
 from dataclasses import dataclass
@@ -19,7 +20,7 @@ CONSTANT = COUNT - 1  # index of the constant force
 
 @dataclass(frozen=True)
 class FeatureTuning:
-    """Sizes of the features, and what is expected of the force that each stands for."""
+    """Sizes of the features, and the expected size of the force that each one describes."""
 
     reaches: tuple[float, ...] = number(
         (50e-6, 250e-6, 0.8e-3, 2e-3, 5e-3),
@@ -52,27 +53,28 @@ class FeatureTuning:
 
 
 class Features:
-    """The features along one motion: a force in N each, once multiplied with its weight.
+    """The features along one motion; a feature times its weight is a force in N.
 
-    ``values`` are 1 or of its size; ``rates`` their change per second in the last step. All
-    resist the motion or grow with the position: they are what must be pulled against.
+    ``values`` have no unit: at most 1 in size, except for the position in strokes; ``rates`` are
+    their change per second in the last step. All features are forces against the motion or forces
+    that grow with the position: the muscles must overcome them.
     """
 
     def __init__(self, tuning: FeatureTuning) -> None:
-        """Make them at rest at 0."""
+        """Create the features at rest at 0."""
         self._tuning = tuning
         self.values = [0.0] * COUNT
         self.rates = [0.0] * COUNT
         self.start(0.0)
 
     def start(self, position: float) -> None:
-        """Begin anew at rest: no element is bent."""
+        """Start again at rest: no element is deflected."""
         self._origin = self._position = position
         self.values[:] = [0.0] * CONSTANT + [1.0]
         self.rates[:] = [0.0] * COUNT
 
     def follow(self, dt: float, position: float, velocity: float) -> list[float]:
-        """Go on by *dt* s to *position* m, where the velocity is *velocity* m/s."""
+        """Advance by *dt* s to *position* m and *velocity* m/s."""
         way = position - self._position
         self._position = position
         now = [

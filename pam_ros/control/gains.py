@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The gains of the sliding-mode law, as bandwidths and bounds, and the conditions on them."""
+"""The gains of the sliding-mode law, as bandwidths and bounds, and their conditions."""
 
 from dataclasses import dataclass
 from math import acos, exp, log, pi, sqrt
@@ -16,7 +16,7 @@ BOUNDARY_LAYER, SUPER_TWISTING = 'boundary_layer', 'super_twisting'
 
 @dataclass(frozen=True)
 class OrderTuning:
-    """What must hold between the bandwidths of a law."""
+    """Conditions between the bandwidths of a law."""
 
     spread: float = number(
         4.0,
@@ -39,24 +39,25 @@ ORDER = OrderTuning()
 class Gains(JointSettings):
     """Gains of :class:`pam_ros.control.sliding_mode.SlidingMode`.
 
-    Units are those of a load that slides; for one that turns, m is rad and N is N m, and the
-    defaults are others (:meth:`for_joint`). What follows from them, for a moved mass m (or a
-    moment of inertia):
+    Units are those of a prismatic joint. For a revolute joint, read rad for m and N m for N; its
+    defaults are different (:meth:`for_joint`). For a moved mass m (or a moment of inertia) the
+    gains have these consequences:
 
     switching gain
-        K = disturbance_bound / m. Reaching condition (Slotine & Li 1991, section 7.1): with
-        |d| <= disturbance_bound, where d is what the observer leaves of the disturbance, s s' <
-        0 outside the boundary layer, and s reaches it within |s(0)| m / (disturbance_bound - |d|).
+        K = disturbance_bound / m. Reaching condition (Slotine & Li 1991, section 7.1): d is
+        the part of the disturbance that the observer does not cancel. If |d| <=
+        disturbance_bound, then s s' < 0 outside the boundary layer, and s reaches it within
+        |s(0)| m / (disturbance_bound - |d|).
     boundary width
-        Phi = K / bandwidth: K sat(s / Phi) is bandwidth s within the layer, so that s decays at
-        *bandwidth* there. Boundedness: |s| <= Phi for ever, and |e| <= :meth:`error_bound`.
+        Phi = K / bandwidth. Within the layer K sat(s / Phi) = bandwidth s, so that s decays at
+        *bandwidth* there. Boundedness: |s| <= Phi always, and |e| <= :meth:`error_bound`.
     super-twisting
-        k1 = 1.5 sqrt(L), k2 = 1.1 L with L = disturbance_rate / m >= |d'| / m: the pair of Levant
-        (1998). k2 > L is necessary; Moreno & Osorio (2012) prove convergence in finite time for
-        each such k2 with k1 large enough.
+        k1 = 1.5 sqrt(L), k2 = 1.1 L with L = disturbance_rate / m >= |d'| / m, the values of
+        Levant (1998). k2 > L is necessary; Moreno & Osorio (2012) prove convergence in finite
+        time for each such k2 if k1 is large enough.
 
-    Raises ParameterError for a value out of range, or where the conditions that do not depend on
-    the rig fail; :meth:`check` has the others.
+    Raises ParameterError for a value out of range, or if a condition fails that does not depend
+    on the rig; :meth:`check` tests the other conditions.
     """
 
     bandwidth: float = parameter_field(
@@ -191,7 +192,7 @@ class Gains(JointSettings):
     )
 
     def __post_init__(self) -> None:
-        """Check every field, then what must hold between them."""
+        """Check every field, then the conditions between them."""
         super().__post_init__()
         if self.fast_bandwidth < self.bandwidth:
             raise ParameterError(
@@ -212,7 +213,7 @@ class Gains(JointSettings):
             )
 
     def check(self, sharing: Sharing, period: float) -> None:
-        """Raise ParameterError where these gains do not suit a joint, sampled each *period* s."""
+        """Raise ParameterError if these gains do not suit a joint, sampled each *period* s."""
         if self.velocity_bandwidth * period > ORDER.samples:
             raise ParameterError(
                 f'velocity_bandwidth = {self.velocity_bandwidth:g} rad/s is too fast for a '
@@ -246,9 +247,9 @@ class Gains(JointSettings):
     def error_bound(self, disturbance: float, mass: float, frequency: float) -> float:
         """Return the largest error in m under any disturbance that stays within +-*disturbance*.
 
-        With a surface of natural *frequency* in rad/s: |s| <= disturbance / (m bandwidth), times
-        the absolute area of the impulse response from s to e, which is that of
-        p / (p^2 + 2 z w p + w^2).
+        The surface has the natural *frequency* in rad/s. |s| <= disturbance / (m bandwidth) is
+        multiplied by the absolute area of the impulse response from s to e, whose transfer
+        function is p / (p^2 + 2 z w p + w^2).
         """
         z, w = self.surface_damping, frequency
         if z < 1.0:

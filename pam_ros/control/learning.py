@@ -1,17 +1,17 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Learn from motion what the declared model lacks, and feed it forward.
+"""Learn from motion what the nominal model lacks, and feed it forward.
 
-A second, fast observer estimates the whole force that the model misses. It is explained by two
-hypotheses, side by side: friction, hysteresis and stiffness alone (:mod:`.features`), or these
-and an undeclared lag of the pressure. Both are linear regressions over the same filter
-as the observer's, the lag's time constants by their sensitivities (Ljung 1999, chapter 11). The
-one that predicts better is used, weighed by how much of the missing force it explains; nothing
-is used before the load has moved for a while.
+A second, fast observer estimates the whole force that the model lacks. Two hypotheses explain
+this force in parallel: friction, hysteresis and stiffness alone (:mod:`.features`), or these and
+an unmodelled lag of the pressure. Both are linear regressions, filtered in the same way as the
+observer; the time constants of the lag are estimated by their sensitivities (Ljung 1999, chapter
+11). The hypothesis that predicts better is used. Its weight is the share of the missing force
+that it explains. Nothing is used before the load has moved for a while.
 
-What is learned acts as a feed-forward along the reference. It is bounded and, driven by the
-reference alone, cannot destabilise the loop. A learned lag is inverted, and one that is found to
-be short lets the bandwidth grow.
+The learned force acts as a feed-forward along the reference. It is bounded, and since only the
+reference drives it, it cannot destabilise the loop. A learned lag is inverted; if the lag is
+found to be short, the bandwidth grows.
 """
 
 from dataclasses import dataclass
@@ -36,7 +36,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class LearningTuning:
-    """How fast is learned, when it is trusted, and what is fed forward at most."""
+    """How fast to learn, when to trust the result, and the bound of the feed-forward."""
 
     fast: float = number(
         60.0,
@@ -82,9 +82,9 @@ class LearningTuning:
     most: float = number(200.0, 'N', 'that is fed forward at most: the disturbance bound')
 
 
-# Columns of the filter: the features, how the missing force depends on both time constants, and
-# efforts: by which the learned chambers differ from those of the law and from those without a
-# lag, and which both hypotheses see along the reference.
+# Columns of the filter: the features; the sensitivity of the missing force to both time constants;
+# and efforts: the difference of the learned chambers from those of the law, the difference from
+# chambers without a lag, and the effort that both hypotheses see along the reference.
 _N = beside.COUNT
 _FILL, _VENT, _FROM_LAW, _FROM_NO_LAG, _PLAIN, _LAGGED, _COLUMNS = range(_N, _N + 7)
 _LAGS = slice(_FILL, _VENT + 1)  # of a column or of a parameter
@@ -92,30 +92,30 @@ _UNKNOWNS = _VENT + 1
 
 
 class _Sensitivity:
-    """How the pressure of a chamber changes with its two time constants, Pa/s."""
+    """Sensitivity of the pressure of a chamber to its two time constants, Pa/s."""
 
     def __init__(self) -> None:
         self.fill = self.vent = 0.0
 
     def follow(self, rate: float, fills: bool, tau: float, dt: float) -> None:
-        """Go on by *dt* s in which the pressure went at *rate* Pa/s."""
+        """Advance by *dt* s in which the pressure changed at *rate* Pa/s."""
         share = 1.0 - exp(-dt / max(tau, dt))
         self.fill += share * ((-rate if fills else 0.0) - self.fill)
         self.vent += share * ((0.0 if fills else -rate) - self.vent)
 
 
 class Learner:
-    """What has been learned, and the feed-forward that comes of it.
+    """The learned parameters, and the feed-forward that results from them.
 
     trust
-        0 to 1: how far what has been learned is used
+        0 to 1: the weight with which the learned parameters are used
     lag
-        (fill, vent) in s: the lag that is to be inverted, where none is declared
+        (fill, vent) in s: the lag to be inverted, if no lag is configured
     bandwidth
-        1/s: what the lag allows, between the two bandwidths of the gains
+        1/s: the bandwidth that the lag allows, between the two bandwidths of the gains
 
-    For a joint that turns, read rad for m, and N m for N. All muscles of a joint are taken to have
-    the same lag.
+    For a revolute joint, read rad for m, and N m for N. All muscles of a joint are assumed to
+    have the same lag.
     """
 
     def __init__(
@@ -127,7 +127,7 @@ class Learner:
         *,
         lag_is_declared: bool,
     ) -> None:
-        """Make one that has learned nothing; *tuning* and *features* are in the joint's units."""
+        """Start without learned parameters; *tuning* and *features* are in the joint's units."""
         self._sharing, self.gains, self._tuning = sharing, gains, tuning
         self._model: ControlModel = sharing.model
         self._lag_is_declared = lag_is_declared
@@ -159,8 +159,8 @@ class Learner:
         self._lagged = Regression(self._spread, self._low, self._high, noise)
         for one in (self._plain, self._lagged):
             one.theta[beside.CONSTANT] = -disturbance
-        # Three equal poles, like the observer's: of the features, and of the force by which the
-        # learned chamber differs from the declared one.
+        # Three equal poles, like the observer's, for the features and for the difference in force
+        # between the learned chamber and the nominal one.
         self._filter = np.zeros((3, _COLUMNS))
         self._filter[:, beside.CONSTANT] = 1.0
         self._input = np.zeros(_COLUMNS)
@@ -179,7 +179,7 @@ class Learner:
         return mix
 
     def feed_forward(self, dt: float, reference: Reference) -> tuple[float, float]:
-        """Return the effort that the reference needs more than modelled, and its rate."""
+        """Return the effort that the reference needs beyond the model, and its rate."""
         most = self._tuning.most
         self._wanted.follow(dt, reference.position, reference.velocity)
         values = self._wanted.values
@@ -201,7 +201,7 @@ class Learner:
         return force, rate
 
     def _let_grow(self, dt: float) -> None:
-        """Let the bandwidth follow what the lag allows."""
+        """Let the bandwidth approach the one that the lag allows."""
         low, high = self.gains.bandwidth, self.gains.fast_bandwidth
         wanted = low
         if self.trust > 0.0 and not self._lag_is_declared:
@@ -213,7 +213,7 @@ class Learner:
         self.bandwidth += dt / self._tuning.grow * (wanted - self.bandwidth)
 
     def see(self, dt: float, waited: float, position: float | None) -> None:
-        """Take in a measured *position*, the first for *waited* s, if there is a new one."""
+        """Take in a measured *position*, if any; the previous one came *waited* s before."""
         if position is not None:
             self._observer.correct(position, waited, self._tuning.fast, self._tuning.fast)
         observer = self._observer
@@ -222,9 +222,10 @@ class Learner:
     def go_on(
         self, dt: float, inflows: Pressures, declared: Pressures, losses: float, *, may_learn: bool
     ) -> None:
-        """Go on by *dt* s with *inflows* Pa at the chambers, in them *declared* Pa as declared.
+        """Advance by *dt* s with *inflows* Pa at the inlets of the chambers.
 
-        *losses* is the effort that declared effects take along the reference: not to be learned.
+        *declared* are the pressures in Pa of the nominal chambers. *losses* is the effort that
+        configured effects take along the reference: it is not learned again.
         """
         share = 1.0 - exp(-self._tuning.fast * dt)
         stages = self._filter
@@ -240,7 +241,7 @@ class Learner:
         self._advance(dt, inflows, declared, losses)
 
     def _advance(self, dt: float, inflows: Pressures, declared: Pressures, losses: float) -> None:
-        """Let the observer and the learned chambers go on, and see how they depend on the lag."""
+        """Advance the observer and the learned chambers, with their sensitivities to the lag."""
         observer = self._observer
         gains = self._sharing.gains(observer.position)
         means = [0.5 * (a + b) for a, b in zip(self._declared, declared, strict=True)]
@@ -268,11 +269,11 @@ class Learner:
         observer.predict(dt, pressures, -losses)
 
     def _learn(self, span: float) -> None:
-        """Let both hypotheses take in the force that is missing now, *span* s after the last."""
+        """Update both hypotheses with the missing force, *span* s after the last update."""
         phi = self._filter[2, :_UNKNOWNS]
         missing = -self._observer.disturbance
         as_declared = missing - self._filter[2, _FROM_LAW]
-        # What would be missing if no lag were inverted: all that there is to explain.
+        # The force that would be missing without an inverted lag: all that is to be explained.
         unlearned = missing - self._filter[2, _FROM_NO_LAG]
         plain = as_declared - float(phi[:_N] @ self._plain.theta[:_N])
         lagged = missing - float(phi[:_N] @ self._lagged.theta[:_N])
@@ -286,13 +287,13 @@ class Learner:
             (missing - self._filter[2, _LAGGED]) ** 2 - self._lagged_miss
         )
         if not self._has_learned:
-            # An undeclared load is no evidence of anything else.
+            # The offset of an unmodelled load is no evidence of another effect.
             self._centre, self._has_learned = unlearned, True
         self._centre += min(span / self._tuning.centre, 1.0) * (unlearned - self._centre)
         self._whole += share * ((unlearned - self._centre) ** 2 - self._whole)
         self._choose(span)
         forgotten = self._tuning.forgotten * span
-        # What was seen while the lag was thought to be another one said where to go from there.
+        # Early samples were taken under another estimate of the lag: they only give a direction.
         early = self._tuning.early * span * exp(-self._moved / self._tuning.settled)
         by_parameter = np.full(_UNKNOWNS, forgotten)
         by_parameter[_LAGS] += early
@@ -300,7 +301,7 @@ class Learner:
         self._lagged.update(phi, lagged, by_parameter)
 
     def _choose(self, span: float) -> None:
-        """Prefer a hypothesis, restart one that is lost, and say how far to trust."""
+        """Select a hypothesis, restart one that has diverged, and find the trust."""
         tuning = self._tuning
         is_worse = self._plain_error < tuning.worse * self._lagged_error
         self._doubt = self._doubt + span if is_worse else 0.0
@@ -318,7 +319,7 @@ class Learner:
         self.trust = min(max(1.25 * explained, 0.0), 1.0) * practice
 
     def _restart_lagged(self) -> None:
-        """Let the hypothesis with a lag begin anew from the one without, at no lag."""
+        """Restart the hypothesis with a lag from the one without, with a lag of 0."""
         self._restarted = self._moved
         self._lagged_error = self._plain_error
         self._lagged.theta = self._plain.theta.copy()

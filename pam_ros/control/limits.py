@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What a valve may be asked for, and where a load can be held."""
+"""Limits of the commanded pressure, and the positions at which a load can be held."""
 
 from dataclasses import dataclass
 
@@ -31,7 +31,7 @@ class Limits:
     )
 
     def __post_init__(self) -> None:
-        """Check every field, then that they leave a range."""
+        """Check every field, then that the range is not empty."""
         check_all(self)
         if self.pressure_low >= self.pressure_high:
             raise ParameterError(
@@ -72,7 +72,7 @@ class Limiter:
 
 
 def refuse_unreachable(position: float, reach: tuple[float, float], unit: str = 'm') -> None:
-    """Raise RangeError, with the range, for a reference at which the load cannot be held."""
+    """Raise RangeError, with the range, if the load cannot be held at this reference."""
     low, high = reach
     if not low <= position <= high:
         raise RangeError(

@@ -1,9 +1,9 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""A law in service: it starts where the load is, and does what is safe when nothing is seen.
+"""A law in operation: starts at the position of the load, and is safe without measurements.
 
-All times are seconds of one clock, whose time is given with each call; measurements carry the
-time at which they were taken.
+All times are seconds of one clock, and each call gives the time. Each measurement carries the time
+at which it was taken.
 """
 
 from dataclasses import dataclass
@@ -17,20 +17,20 @@ from pam_ros.control.signals import PositionLaw, Pressures, Reference
 
 HOLD, VENT = 'hold', 'vent'
 WAITING, RUNNING, BLIND, DISABLED = 'waiting', 'running', 'blind', 'disabled'
-# Shortest step in periods, since a law divides by it, and longest in s: what passes in a longer
-# one is not controlled, and a law that took it for one step would overshoot.
+# Shortest step in periods, since a law divides by it, and longest step in s: during a longer one
+# nothing was controlled, and a law that took it as one step would overshoot.
 LEAST, MOST = 0.1, 0.1
-# s for which 0 Pa is commanded after venting, so that a lost message does not matter. A simulator
-# or valve that starts again later must not obey what was meant for the one that is gone.
+# s for which 0 Pa is commanded after venting, so that a lost message does not matter. After this
+# time a simulator or a valve that starts again must not receive the command for the old one.
 VENTING = 0.2
 
 
 @dataclass(frozen=True)
 class Reading:
-    """A measurement: time taken in s, position in m, velocity in m/s where there is one.
+    """A measurement: time taken in s, position in m, velocity in m/s if it is measured.
 
-    ``stamp`` is the time in s by the clock of the sensor, which may be another than that of the
-    loop; None where there is none.
+    ``stamp`` is the time in s by the clock of the sensor, which may differ from that of the
+    loop; None without a stamp.
     """
 
     time: float
@@ -43,20 +43,20 @@ class Loop:
     """Runs a law at a period, on measurements and set targets.
 
     state
-        WAITING for a first measurement, RUNNING, BLIND without fresh measurements, DISABLED
+        WAITING for a first measurement, RUNNING, BLIND (no recent measurements), DISABLED
     pressures
-        the last commands in Pa, one a muscle, None before there were any
+        the last commands in Pa, one a muscle, None before the first command
     time
         of the last step, s
     implausible
-        how many measurements were left out because they cannot be true
+        number of measurements that were left out as not plausible
     timeout, safe
-        age in s of the newest measurement after which the loop is BLIND, and what it then commands
+        age in s of the newest measurement after which the loop is BLIND, and its command then
     lost
-        time in s from which on it vents, None where it does not
+        time in s from which the loop vents, None if it does not vent
     vent_time
-        s in which VENT lowers the pressures to 0 Pa, all in proportion: muscles that pull against
-        each other keep the ratio of their pressures
+        s in which VENT lowers the pressures to 0 Pa, all in proportion: antagonistic muscles
+        keep the ratio of their pressures
     """
 
     def __init__(
@@ -68,66 +68,66 @@ class Loop:
         self.timeout, self.safe, self.vent_time = 0.1, HOLD, 0.0
         self.state = WAITING
         self.pressures: Pressures | None = None
-        self.chambers: Pressures | None = None  # commands in Pa that would hold what is measured
+        self.chambers: Pressures | None = None  # Pa: commands that hold the measured pressures
         self.awaits_chamber = False  # whether to wait for such a measurement
         self.starts = 0
         self._seen: Reading | None = None
         self._is_new = False
         self.lost: float | None = None
         self._left: Pressures = ()  # the pressures then, Pa
-        self._has_left = False  # whether the rig is left to itself
+        self._has_left = False  # whether the rig gets no more commands
         self.time = 0.0
 
     @property
     def is_enabled(self) -> bool:
-        """Whether it commands, or will when it sees something."""
+        """Whether it sends commands, or will do so with the first measurement."""
         return self.state != DISABLED
 
     def enable(self, is_enabled: bool) -> None:
-        """Begin anew from wherever the load is, or command nothing."""
+        """Start again at the present position of the load, or stop all commands."""
         if is_enabled != self.is_enabled:
             self.state = WAITING if is_enabled else DISABLED
             self._seen = None
             self.plausibility.forget()
 
     def see(self, reading: Reading) -> str:
-        """Take in a measurement; return why it cannot be true, '' where it can.
+        """Take in a measurement; return why it is not plausible, or '' if it is plausible.
 
-        One that cannot be true is left out, and so is one that is older than the last: control
-        goes on by the model, and after the time-out as where nothing is seen.
+        A measurement is left out if it is not plausible or older than the last one. Control then
+        continues by the model, and after the timeout as without measurements.
         """
         last = self._seen
         if last is not None and reading.time <= last.time:
             return ''
         passed = 0.0 if last is None else reading.time - last.time
         if last is not None and last.stamp is not None and reading.stamp is not None:
-            # Messages that were held up arrive at once: their time of receipt is no clock.
+            # Messages that were delayed arrive at once: their time of receipt says nothing.
             passed = max(reading.stamp - last.stamp, 0.0)
         fault = self.plausibility.fault_of(passed, reading.position, reading.velocity)
         if fault:
             self.implausible += 1
             return fault
         if self.plausibility.is_first and self.state == RUNNING:
-            self.state = BLIND  # either this or the one that control began at is false
+            self.state = BLIND  # either this measurement or the one at the start is wrong
         self._seen, self._is_new = reading, True
         return ''
 
     def change(self, law: PositionLaw, course: Course) -> None:
-        """Go on with another law and course from where the load and the pressure are."""
+        """Continue with another law and reference, from the present position and pressure."""
         if self.state == RUNNING:
             law.start(self.law.terms.position, self.pressures)
             course.start(self.course.reference.position)
         self.law, self.course = law, course
 
     def forget(self) -> None:
-        """Begin anew at the next measurement: the clock has jumped."""
+        """Start again at the next measurement, since the clock has jumped."""
         self._seen = None
         self.plausibility.forget()
         if self.is_enabled:
             self.state = WAITING
 
     def age(self, now: float) -> float | None:
-        """Return how old the newest measurement is, in s."""
+        """Return the age of the newest measurement in s."""
         return None if self._seen is None else now - self._seen.time
 
     def tick(self, now: float) -> Pressures | None:
@@ -155,7 +155,7 @@ class Loop:
         return self.pressures
 
     def _start(self, reading: Reading, now: float) -> None:
-        """Begin anew where the load is, at the pressure that is there."""
+        """Start again at the present position and pressure of the load."""
         known = self.pressures if self.chambers is None else self.chambers
         self.law.start(reading.position, known)
         self.course.start(reading.position)
@@ -164,7 +164,7 @@ class Loop:
         self.starts += 1
 
     def _stay_safe(self, now: float) -> Pressures | None:
-        """Return what is commanded when nothing is seen: nothing before the first start."""
+        """Return the command without measurements: None before the first start."""
         if self.state == RUNNING:
             self.state = BLIND
         if self.state != BLIND or self.pressures is None:
@@ -179,17 +179,17 @@ class Loop:
         return None if is_over else self.pressures
 
     def vented(self, pressures: Pressures, time: float) -> Pressures:
-        """Return what is left in Pa of *pressures* after *time* in s of venting."""
+        """Return the pressures in Pa that remain of *pressures* after *time* s of venting."""
         share = max(1.0 - time / self.vent_time, 0.0) if self.vent_time else 0.0
         return tuple(share * pressure for pressure in pressures)
 
     def leave(self) -> None:
-        """Command no more until something is seen: the rig is another one by now."""
+        """Send no commands before the next measurement: the rig may have been replaced."""
         self._has_left = True
 
 
 def warm_up(law: PositionLaw, reach: tuple[float, float], period: float) -> None:
-    """Let *law* and trajectories compile and load all that they need, before time counts."""
+    """Let *law* and trajectories compile and load all that they need, before control begins."""
     middle = 0.5 * (reach[0] + reach[1]) if isfinite(reach[0]) else 0.0
     for rest in ((), (0.0,), (0.0, 0.0)):  # each kind of interpolation
         Trajectory(Reference(middle), Points.of([Point(1.0, middle, *rest)]), reach)

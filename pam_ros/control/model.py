@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The declared joint as a position law sees it, as scalars: efforts, stiffness, damping."""
+"""The nominal joint for a position law, in scalars: efforts, stiffness, damping."""
 
 from collections.abc import Sequence
 
@@ -14,12 +14,12 @@ Pressures = Sequence[float]
 
 
 class ControlModel:
-    """The declared joint without memory: what holds at one instant.
+    """The nominal joint without memory: what holds at one instant.
 
     s is its coordinate, v its velocity, p the gauge pressures in the chambers in Pa, one a
-    muscle. Declared payload, length offset, slack, viscous and pressure-dependent damping are
-    in; effects with a memory are in :mod:`pam_ros.control.compensation`. ``weight`` is the part
-    of gravity that is the same everywhere.
+    muscle. It includes the configured payload, length offset, slack, viscous damping and damping
+    that depends on pressure; effects with a memory are in :mod:`pam_ros.control.compensation`.
+    ``weight`` is the part of gravity that does not depend on the position.
     """
 
     def __init__(self, joint: Joint) -> None:
@@ -34,7 +34,7 @@ class ControlModel:
 
     @property
     def arms(self) -> float:
-        """Sum of the muscles' arms at the coordinate 0: effort of a newton in each of them."""
+        """Sum of the muscles' arms at the coordinate 0: the effort if each pulls with 1 N."""
         return sum(abs(muscle.arm(0.0)) for muscle in self.muscles)
 
     @property
@@ -53,7 +53,7 @@ class ControlModel:
         )
 
     def effort(self, p: Pressures, s: float) -> float:
-        """Return what the muscles pull the joint with at rest."""
+        """Return the effort of the muscles on the joint at rest."""
         total = 0.0
         for muscle, pressure in zip(self.muscles, p, strict=True):
             total += muscle.arm(s) * muscle.force(pressure, muscle.position(s))
@@ -67,14 +67,14 @@ class ControlModel:
         return total
 
     def damping(self, p: Pressures, s: float, v: float) -> float:
-        """Return the joint's damping: equation (4) and the declared effects of damping."""
+        """Return the joint's damping: equation (4) and the configured effects of damping."""
         total = 0.0
         for muscle, pressure in zip(self.muscles, p, strict=True):
             total += muscle.pull(pressure, s, v, self.inertia)[1]
         return total + self._viscous
 
     def pull(self, p: Pressures, s: float, v: float) -> float:
-        """Return the effort on the load: muscles less damping, and the gravity that changes."""
+        """Return the effort on the load: muscles, damping, and variable part of gravity."""
         total = damping = 0.0
         for muscle, pressure in zip(self.muscles, p, strict=True):
             effort, c = muscle.pull(pressure, s, v, self.inertia)

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""A muscle of a joint as a position law sees it: force, stiffness, damping and their inverse."""
+"""A muscle of a joint for a position law: force, stiffness, damping and their inverse."""
 
 from collections.abc import Callable
 from math import exp, inf
@@ -11,17 +11,17 @@ from pam_ros.muscle import law
 from pam_ros.rig import layout as at
 from pam_ros.rig.joint import Joint
 
-# The law's own source: a controller steps in Python and must not wait for a compiler.
+# The Python source of the force law: the steps of a controller must not wait for a compiler.
 _force_at, _slope_at, _gain = plain(law.force_at), plain(law.slope_at), plain(law.gain)
 _damping, _pressure_for_force = plain(law.damping), plain(law.pressure_for_force)
-PUSH = 1e6  # N: more than any muscle pushes; what is left of it is what a slack one does
+PUSH = 1e6  # N: more than any muscle pushes; what slack leaves of it is the force of a slack one
 
 
 class MuscleModel:
-    """One muscle of the declared joint without memory: what holds at one instant.
+    """One muscle of the nominal joint without memory: what holds at one instant.
 
-    s is the joint's coordinate, y the muscle's contraction in m, p gauge Pa in its chamber, v and
-    w their velocities. Of its effects those are in that have no memory: length offset, slack,
+    s is the joint's coordinate, y the muscle's contraction in m, p gauge Pa in its chamber, v
+    and w the velocities of s and y. It includes the effects without memory: length offset, slack,
     damping that depends on pressure.
     """
 
@@ -50,7 +50,7 @@ class MuscleModel:
 
     @property
     def may_be_slack(self) -> bool:
-        """Whether an effect is declared that takes from the force law, such as slack."""
+        """Whether an effect is configured that changes the force law, such as slack."""
         return bool(self._forces)
 
     # Where it is -----------------------------------------------------------------------------
@@ -60,7 +60,7 @@ class MuscleModel:
         return self._at_zero + self._geometry.travel(s, self._i, self._numbers, 0)
 
     def arm(self, s: float) -> float:
-        """Return how fast it shortens with the coordinate."""
+        """Return the moment arm: the change of the contraction with the coordinate."""
         return self._geometry.arm(s, self._i, self._numbers, 0)
 
     def arm_slope(self, s: float) -> float:
@@ -68,7 +68,7 @@ class MuscleModel:
         return self._geometry.arm_slope(s, self._i, self._numbers, 0)
 
     def contraction(self, y: float) -> float:
-        """Return the contraction that the muscle feels, a fraction."""
+        """Return the effective contraction, with the length offset, a fraction."""
         kappa = y / self.l0
         for function, j in self._contraction:
             kappa = function(kappa, self._row, j)
@@ -77,13 +77,13 @@ class MuscleModel:
     # Along its own line ------------------------------------------------------------------------
 
     def force_law(self, p: float, y: float) -> float:
-        """Return equation (1) in N, which is affine in the pressure: also where it pushes."""
+        """Return equation (1) in N, which is affine in the pressure, even if it is negative."""
         a1, a2, a3, a4, a5, a6 = self.a
         kappa = self.contraction(y)
         return _force_at(exp(a3 * kappa), p, kappa, a1, a2, a4, a5, a6)
 
     def force(self, p: float, y: float) -> float:
-        """Return the static pull in N: equation (1), slack if that is declared."""
+        """Return the static force in N: equation (1), with slack if that is configured."""
         return self._slack(self.force_law(p, y), p, self.contraction(y))
 
     def _slack(self, f: float, p: float, kappa: float) -> float:
@@ -92,7 +92,7 @@ class MuscleModel:
         return f
 
     def slack_pressure(self, y: float) -> float:
-        """Return the pressure in Pa below which the muscle is slack; -inf where it never is."""
+        """Return the pressure in Pa below which the muscle is slack; -inf if it never is."""
         if not self._forces:
             return -inf
         return self.pressure_for(self._slack(-PUSH, 0.0, self.contraction(y)), y)
@@ -108,11 +108,11 @@ class MuscleModel:
         return -_slope_at(exp(a3 * self.contraction(y)), p, a1, a2, a3, a4) / self.l0
 
     def pressure_for(self, force: float, y: float) -> float:
-        """Return the pressure in Pa that pulls with *force* N: (1) solved for p, not clamped."""
+        """Return the pressure in Pa for a *force* in N: (1) solved for p, not clamped."""
         return _pressure_for_force(force, self.contraction(y), *self.a)
 
     def damping(self, p: float, y: float, w: float, mass: float) -> float:
-        """Return c in N s/m: equation (4) for *mass* kg, and the declared effects of damping."""
+        """Return c in N s/m: equation (4) for *mass* kg, and the configured effects of damping."""
         return self._damping_of(self.stiffness(p, y), p, y, w, mass)
 
     def _damping_of(self, k: float, p: float, y: float, w: float, mass: float) -> float:
@@ -124,7 +124,7 @@ class MuscleModel:
     # As the joint feels it ---------------------------------------------------------------------
 
     def pull(self, p: float, s: float, v: float, inertia: float) -> tuple[float, float]:
-        """Return effort and damping that it gives the joint at the coordinate s.
+        """Return the effort and the damping that it gives the joint at the coordinate s.
 
         *inertia* is that of the joint, of which each muscle moves its share.
         """

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Estimate velocity and disturbance from position: an extended-state observer.
 
-The disturbance is a third state with no dynamics of its own (Han 2009, "From PID to active
-disturbance rejection control"); what the model knows is fed through, so that only what it lacks
-shows up there.
+The disturbance is a third state without dynamics of its own (Han 2009, "From PID to active
+disturbance rejection control"). The force of the model is fed through, so that the disturbance is
+only what the model lacks.
 """
 
 from math import ceil, exp
@@ -17,27 +17,27 @@ SUBSTEP = 1e-3  # s, longest: the physics step at which the model is known to be
 class Observer:
     """Position, velocity and disturbance of the load, from measured positions.
 
-    In m, m/s and N, or rad, rad/s and N m. The disturbance is the force upwards that the model
-    does not have. Poles are real: two at the
-    *velocity* bandwidth, one at the *disturbance* bandwidth, both in rad/s and free to change at
-    any step. The velocity lags a motion that the model does not foresee by 2/velocity s, the
-    disturbance by 1/disturbance + 2/velocity s; a motion that it foresees, not at all.
+    In m, m/s and N, or rad, rad/s and N m. The disturbance is the upward force that the model
+    lacks. The poles are real: two at the *velocity* bandwidth, one at the *disturbance* bandwidth,
+    both in rad/s and free to change at any step. In a motion that the model does not predict, the
+    velocity lags by 2/velocity s, the disturbance by 1/disturbance + 2/velocity s. In a motion
+    that the model predicts there is no lag.
     """
 
     def __init__(self, model: ControlModel) -> None:
-        """Make it at rest at 0; see :meth:`start`."""
+        """Start at rest at 0; see :meth:`start`."""
         self.model = model
         self.start(0.0, 0.0)
 
     def start(self, position: float, disturbance: float) -> None:
-        """Begin anew, at rest."""
+        """Start again, at rest."""
         self.position, self.velocity, self.disturbance = position, 0.0, disturbance
 
     def correct(self, position: float, dt: float, velocity: float, disturbance: float) -> None:
         """Take in a measured *position*, *dt* s after the last one, with these bandwidths.
 
-        The gains place the three discrete poles exactly for the chain of integrators that the
-        model's feed-through leaves.
+        The gains place the three discrete poles exactly for the chain of integrators that remains
+        after the feed-through of the model.
         """
         slow, fast = exp(-disturbance * dt), exp(-velocity * dt)
         first = slow + 2.0 * fast
@@ -52,7 +52,7 @@ class Observer:
         self.disturbance += l3 * surprise * self.model.inertia
 
     def predict(self, dt: float, pressures: Pressures, known: float = 0.0) -> None:
-        """Go on by *dt* s with chambers at *pressures* Pa and a *known* force upwards in N."""
+        """Advance by *dt* s with chambers at *pressures* Pa and a *known* upward force in N."""
         model = self.model
         steps = ceil(dt / SUBSTEP - 1e-6)
         h = dt / max(steps, 1)

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""A PID law behind the same interface, to compare with: simple-pid's, with what it needs here."""
+"""A PID law with the same interface, as a comparison; it is simple-pid's, with additions."""
 
 from dataclasses import dataclass
 from importlib import import_module
@@ -31,25 +31,25 @@ from pam_ros.rig.joint import Joint
 class PidGains(JointSettings):
     """Gains of the PID law.
 
-    The defaults are the best that one set can be for all rigs of ``benchmarks/control.py`` with an
-    undeclared lag or load: of all gains, by differential evolution, those with the least
-    integral of the absolute error after a load of 50 N, at the worst place from 45 to 85 mm,
+    The defaults are the best single set for all rigs of ``benchmarks/control.py`` with an
+    unmodelled lag or load. They were found by differential evolution: the gains with the least
+    integral of the absolute error after a load of 50 N, at the worst position from 45 to 85 mm,
 
-    - with a largest sensitivity of 1.6 at most on the nominal rig, at each place, and of 2.0 with
-      5 kg more, with a lag of 60 ms, and with both and 10 ms of dead time (Astrom & Hagglund,
-      Advanced PID Control, 2006: 1.2 to 2.0),
-    - and with 400 Pa of noise in the pressure at most, of 20 um in the position at 500 Hz.
+    - with a largest sensitivity of 1.6 at most on the nominal rig, at each position, and of 2.0
+      with 5 kg more, with a lag of 60 ms, and with both and 10 ms of dead time (Astrom &
+      Hagglund, Advanced PID Control, 2006: 1.2 to 2.0),
+    - and with 400 Pa of noise in the pressure at most, for 20 um in the position at 500 Hz.
 
     Gains for the nominal rig alone have a third of these errors there, and are unstable with the
     lag.
 
-    The defaults of a joint that turns are found by the same rule for the pair of
+    The defaults of a revolute joint are found by the same rule for the pair of
     ``benchmarks/pair_control.py`` (two muscles of 400 mm on a pulley of 40 mm, 1 kg on an arm of
-    250 mm): the least error after a torque of 2 N m, which is 50 N at the radius, at the worst
-    angle from 0 to 0.8 rad, up to which the default stiffness can be had; with the same bounds of
-    the sensitivity, 0.3 kg more for the 5 kg; and with 400 Pa of noise in each pressure, of 0.02
-    degrees in the angle. With them the largest sensitivity is 1.15 on the nominal pair: the lag
-    and the noise are what bounds them.
+    250 mm). They have the least error after a torque of 2 N m, which is 50 N at the radius, at the
+    worst angle from 0 to 0.8 rad, the largest angle at which the default stiffness is possible.
+    The bounds of the sensitivity are the same, with 0.3 kg more instead of 5 kg; the noise is 400
+    Pa in each pressure for 0.02 degrees in the angle. Their largest sensitivity is 1.15 on the
+    nominal pair: the lag and the noise limit these gains.
     """
 
     proportional: float = parameter_field(
@@ -92,12 +92,12 @@ class PidGains(JointSettings):
 
 
 class Pid:
-    """PID on the error, on top of the pressures that hold the load at the reference.
+    """PID on the error, added to the pressures that hold the load at the reference.
 
     The error is filtered twice at the same bandwidth, since its derivative would be noise. The
     static part comes from the same model as that of the sliding-mode law: without it no PID
-    follows a muscle's curve. Of muscles against each other, some get what the others lose: the
-    stiffness is that of the static part.
+    follows a muscle's curve. For antagonistic muscles the output is added to one side and
+    subtracted from the other, and the stiffness is that of the static part.
     """
 
     def __init__(
@@ -107,10 +107,10 @@ class Pid:
         limits: Limits | None = None,
         co_contraction: CoContraction | None = None,
     ) -> None:
-        """Make it for a declared joint, of whose effects it knows those without an onset.
+        """Take the nominal joint; only its effects without an onset are used.
 
-        Raises ParameterError where simple-pid is missing, or the gains are for the other kind of
-        joint, or no share of them is stable in all of the reach.
+        Raises ParameterError if simple-pid is missing, if the gains are for the other kind of
+        joint, or if some place of the reach has no stable share of the gains.
         """
         try:
             maker: Any = import_module('simple_pid').PID
@@ -145,7 +145,7 @@ class Pid:
         self.start(0.0)
 
     def _static(self, position: float) -> Pressures:
-        """Return the commands in Pa that hold the load at *position*, as modelled."""
+        """Return the commands in Pa that hold the load at *position*, according to the model."""
         effort = self.model.gravity(position)
         chambers = self.sharing.split(effort, self._stiffness, position).pressures
         return tuple(
@@ -156,14 +156,14 @@ class Pid:
         return [1.0 if gain > 0.0 else -1.0 for gain in self.sharing.gains(position)]
 
     def stiffen(self, stiffness: float) -> None:
-        """Take a stiffness; raises RangeError where it cannot be had at the reference."""
+        """Set a stiffness; raises RangeError if it is not possible at the reference."""
         self.sharing.refuse_stiffness(stiffness, self.terms.reference)
         if self._schedule is not None:
             self._schedule.refuse_stiffness(stiffness)
         self._stiffness = stiffness
 
     def start(self, position: float, pressures: Pressures | None = None) -> None:
-        """Begin anew at rest at *position*, under commands of *pressures* Pa if they are known.
+        """Start again at rest at *position*, under commands of *pressures* Pa if they are known.
 
         Raises ParameterError as :meth:`pam_ros.control.signals.PositionLaw.start` says.
         """
@@ -194,15 +194,15 @@ class Pid:
         """Return the gauge pressures in Pa to command from now on, *dt* s after the last call.
 
         Without a new measurement the static part follows the reference, and the output of the PID
-        stays: the reference less an old position is no error. What is not finite is taken, or
-        refused, as :meth:`pam_ros.control.signals.PositionLaw.update` says.
+        is kept: the reference minus an old position is not an error. For numbers that are not
+        finite see :meth:`pam_ros.control.signals.PositionLaw.update`.
         """
         position, _ = step_arguments(dt, reference, position, velocity, age)
         self._waited += dt
         static, gains = self._static(reference.position), self.sharing.gains(reference.position)
         signs = self._signs(reference.position)
         if position is not None:
-            # What the limits leave of the range: simple-pid stops its integral there.
+            # The range that the limits leave to the output: simple-pid stops its integral there.
             self._pid.output_limits = self._room(reference.position, static, signs)
             self._correct(reference.position, position)
         output = self._output
@@ -246,7 +246,7 @@ class Pid:
         self._output = self._pid(-self._filtered, dt=dt)
 
     def _note_stiffness(self) -> None:
-        """Put the stiffness that is set, and the one that the commands give, into the terms."""
+        """Set the terms of the desired stiffness and of the stiffness under the commands."""
         if not self.sharing.can_stiffen:
             return
         terms = self.terms
@@ -260,9 +260,9 @@ class Pid:
     def _room(
         self, reference: float, static: Pressures, signs: list[float]
     ) -> tuple[float, float]:
-        """Return the least and the greatest output that leave one of the pressures a way to go.
+        """Return the least and the greatest output at which one of the pressures can still change.
 
-        Where the static part has a muscle at a limit already, the others go on alone. A muscle
+        If the static part has a muscle at a limit already, only the others count. A muscle
         that is slack at the reference is at a limit.
         """
         low, high = float('inf'), -float('inf')

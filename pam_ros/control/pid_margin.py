@@ -1,17 +1,19 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""How much of the PID gains a declared joint bears: bounded sensitivity at each reference.
+"""The share of the PID gains that a nominal joint allows: bounded sensitivity everywhere.
 
-Near a reference the joint is J s'' + c s' + k s = G p, where k has the stiffness of gravity and G
-is the effort per pressure. The loop with the PID law, its filter of bandwidth a and a delay T is
+Near a reference the joint is J s'' + c s' + k s = G p, where k includes the stiffness of gravity
+and G is the effort per pressure. With the PID law, its filter of bandwidth a and a delay T the
+loop is
 
     L = (Kp + Ki / x + Kd x) (a / (x + a))^2 G e^(-T x) / (J x^2 + c x + k)
 
-The default gains are those with the least error after a load whose largest sensitivity
-|1 / (1 + L)| is bounded, on one muscle and on one pair. The same bounds hold here for every
-declared joint: of all shares of the gains (one for all three, another one for the integral) the
-one with the most integral gain is used, since the integral of the error after a load is the
-inverse of that (Astrom & Hagglund, Advanced PID Control, 2006, sections 4.4 and 7.1).
+The default gains have the least error after a load, with a bounded largest sensitivity
+|1 / (1 + L)|, on one muscle and on one pair. The same bounds are applied here to every nominal
+joint. A share is one factor for all three gains and another one for the integral gain. Of all
+shares within the bounds, the one with the most integral gain is used, since the integral of the
+error after a load is its inverse (Astrom & Hagglund, Advanced PID Control, 2006, sections 4.4 and
+7.1).
 """
 
 from collections.abc import Sequence
@@ -63,11 +65,11 @@ _ORDER = 5  # of the loop without the lag: the load, the filter and the integral
 
 
 def share(gains: Sequence[float], plant: Plant) -> Share | None:
-    """Return what share of *gains* the bounds leave at *plant*.
+    """Return the share of *gains* that the bounds allow at *plant*.
 
-    *gains* are Kp, Ki, Kd in Pa and m or rad, and the bandwidth of the filter in rad/s. Where no
-    share is within the bounds it is the stable one with the least sensitivity, and None where
-    none is stable.
+    *gains* are Kp, Ki, Kd in Pa and m or rad, and the bandwidth of the filter in rad/s. If no
+    share is within the bounds, it is the stable one with the least sensitivity; None if no
+    share is stable.
     """
     if plant.gain <= 0.0:
         return None
@@ -75,7 +77,7 @@ def share(gains: Sequence[float], plant: Plant) -> Share | None:
     x, late = _frequencies()
     kp, ki, kd, a = gains
     load = plant.inertia * x * x + plant.damping * x + plant.stiffness
-    # Both times x, so that there is no pole at 0, and over the filter, which is in the loop.
+    # Both are multiplied by x, against the pole at 0, and divided by the filter of the loop.
     opened = x * load * ((x + a) / a) ** 2
     delayed = plant.gain * np.exp(-t.delay * x)
     even, integral = (kp + kd * x) * x * delayed, ki * delayed
@@ -103,7 +105,7 @@ def share(gains: Sequence[float], plant: Plant) -> Share | None:
 
 @cache
 def _frequencies() -> tuple[Any, Any]:
-    """Return x = j w, and what a loop with the lag is divided by."""
+    """Return x = j w, and the divisor of a loop with the lag."""
     t = TUNING
     x = 1j * np.geomspace(t.slowest, t.quickest, t.frequencies)
     return x, t.lag * x + 1.0
@@ -111,7 +113,7 @@ def _frequencies() -> tuple[Any, Any]:
 
 @cache
 def _candidates() -> Any:
-    """Return shares (n, 2): those with most of the integral gain first, then those of all."""
+    """Return shares (n, 2): first those with most of the integral gain, then those of all."""
     t = TUNING
     powers = np.arange(t.halvings * t.steps + 1)
     of_all, of_integral = (a.ravel() for a in np.meshgrid(powers, powers, indexing='ij'))
@@ -120,11 +122,12 @@ def _candidates() -> Any:
 
 
 def _is_stable(characteristic: Any, order: int) -> Any:
-    """Say of each row whether its zeros have negative real parts: Mikhailov's criterion.
+    """Return for each row whether its zeros have negative real parts: Mikhailov's criterion.
 
     The phase of such a function of x = j w of this *order* goes from 0 to order pi / 2 with w.
-    Each zero on the other side takes pi from that. A delay leaves it so where it is not in the
-    term of highest order (Bellman & Cooke, Differential-Difference Equations, 1963, chapter 13).
+    Each zero with a positive real part reduces it by pi. This is also true with a delay that is
+    not in the term of highest order (Bellman & Cooke, Differential-Difference Equations, 1963,
+    chapter 13).
     """
     phase = np.unwrap(np.angle(characteristic), axis=1)
     return phase[:, -1] > (order - 1) * 0.5 * np.pi

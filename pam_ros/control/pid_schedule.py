@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Shares of the PID gains along the reach of a declared joint, and over its stiffness."""
+"""Shares of the PID gains over the reach and the stiffness of a nominal joint."""
 
 from bisect import bisect
 from dataclasses import dataclass
@@ -25,7 +25,7 @@ TUNING = ScheduleTuning()
 
 
 def plant_at(sharing: Sharing, s: float, stiffness: float) -> Plant:
-    """Return the joint at rest at *s*, with the *stiffness* where one can be chosen."""
+    """Return the joint at rest at *s*, with the *stiffness* if it can be chosen."""
     model = sharing.model
     p = sharing.split(model.gravity(s), stiffness, s).pressures
     k = model.stiffness(p, s) + model.gravity_stiffness(s)
@@ -36,13 +36,13 @@ def plant_at(sharing: Sharing, s: float, stiffness: float) -> Plant:
 class Schedule:
     """Shares of some gains (Kp, Ki, Kd, bandwidth of the filter) for each reference.
 
-    Raises ParameterError where no share of the gains is stable at some place of the reach.
+    Raises ParameterError if some place of the reach has no stable share of the gains.
     """
 
     def __init__(
         self, sharing: Sharing, gains: tuple[float, float, float, float], stiffness: float
     ) -> None:
-        """Find them for the *stiffness* that is wanted, and for the least and the greatest."""
+        """Find them for the desired *stiffness*, and for the least and the greatest one."""
         low, high = sharing.reach
         self._places = np.linspace(low, high, TUNING.places) if isfinite(high) else np.zeros(1)
         self._sharing, self._gains = sharing, gains
@@ -71,7 +71,7 @@ class Schedule:
                 )
 
     def refuse_stiffness(self, stiffness: float) -> None:
-        """Raise RangeError where no share of the gains is stable with a *stiffness*."""
+        """Raise RangeError if no share of the gains is stable with a *stiffness*."""
         below, above, _ = self._between(stiffness)
         if None not in self._table[below] and None not in self._table[above]:
             return
@@ -87,13 +87,13 @@ class Schedule:
         self._table.insert(at, row)
 
     def at(self, s: float, stiffness: float) -> Share:
-        """Return the share at a reference *s*, interpolated over place and stiffness."""
+        """Return the share at a reference *s*, interpolated over position and stiffness."""
         below, above, part = self._between(stiffness)
         one, two = self._along(below, s), self._along(above, s)
         return Share(*(a + part * (b - a) for a, b in zip(one, two, strict=True)))
 
     def _between(self, stiffness: float) -> tuple[int, int, float]:
-        """Return the levels around a *stiffness*, and how far it is from the first."""
+        """Return the levels around a *stiffness*, and its distance from the first."""
         levels = self._levels
         for i in range(len(levels) - 1):
             if stiffness < levels[i + 1]:
@@ -112,4 +112,4 @@ class Schedule:
         return Share(*(a + part * (b - a) for a, b in zip(one, two, strict=True)))
 
 
-_NONE = Share(1.0, 1.0)  # where none is stable, which is refused before it is used
+_NONE = Share(1.0, 1.0)  # if no share is stable: rejected before use

@@ -1,16 +1,16 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Which measurements physics can have produced, and which are faults of a sensor or of a line.
+"""Separate plausible measurements from faults of a sensor or of a line.
 
-A position law pulls at what it is told: one false sample throws or drops a load. A position is
-plausible within the travel of the joint, and as far from the last plausible one as the force of
-the muscles can have moved the declared inertia:
+A position law acts on its measurements: one false sample throws or drops a load. A position is
+plausible within the travel of the joint, and if its distance from the last plausible one is not
+more than the force of the muscles can have moved the nominal inertia:
 
     |s - s_last| <= v (t + J) + a t^2 / 2 + n
 
-t is the time between the two measurements and v the highest speed lately measured, which allows a
-load to stop at once or to bounce back, and covers the noise of the sensor. J allows for stamps
-that jitter, a is the greatest acceleration and n an allowance of one two-hundredth of the travel.
+t is the time between the two measurements, and v the highest speed measured lately: v allows a
+load to stop at once or to bounce back, and covers the noise of the sensor. J allows for jitter of
+the stamps, a is the greatest acceleration and n an allowance of one two-hundredth of the travel.
 A measured velocity is plausible up to v + a (t + J).
 """
 
@@ -23,16 +23,16 @@ from pam_ros.control.model import ControlModel
 from pam_ros.control.sharing import Sharing
 from pam_ros.rig import statics
 
-# Contraction beyond the permitted range that a load may reach: overshoot, and a zero that is not
-# where it was declared.
+# Contraction beyond the permitted range that a load may reach: overshoot, and an offset of the
+# zero position.
 BEYOND = 0.1
-# Times the declared acceleration: the load may be half as heavy, or pushed as hard from outside.
+# Times the nominal acceleration: the load may be half as heavy, or pushed as hard from outside.
 LIGHTER = 2.0
 # Of the permitted travel, at any time: five times the noise of the sensors in use.
 ALLOWANCE = 0.005
-JITTER = 0.01  # s of a stamp: the time of a turn of a loaded computer
+JITTER = 0.01  # s of a stamp: one time slice of a loaded computer
 LATELY = 0.05  # s in which a measured speed is forgotten to 1/e
-SHORTEST = 1e-3  # s between two measurements: stamps of the time of receipt may be nearer
+SHORTEST = 1e-3  # s between two measurements: times of receipt may be closer together
 OVERPRESSURE = (
     1.25  # times the highest permitted pressure: what valves let pass and sensors err by
 )
@@ -41,9 +41,9 @@ PLACES = 41  # at which the force over the travel is looked up
 
 @dataclass(frozen=True)
 class MotionBounds:
-    """What a joint can do.
+    """Limits of the motion of a joint.
 
-    For a joint that turns, read rad for m.
+    For a revolute joint, read rad for m.
 
     low, high
         the travel, m
@@ -63,7 +63,7 @@ class MotionBounds:
 
 
 def bounds_of(sharing: Sharing) -> MotionBounds:
-    """Return what the declared joint can do with the pressures that the limits leave it."""
+    """Return the limits of motion of the nominal joint with the pressures within the limits."""
     model = sharing.model
     joint, unit = model.joint, model.joint.transmission.equations.unit
     low, high = statics.span(joint, BEYOND, BEYOND)
@@ -80,7 +80,7 @@ def bounds_of(sharing: Sharing) -> MotionBounds:
 
 
 def _greatest_effort(model: ControlModel, sharing: Sharing, s: float) -> float:
-    """Return the greatest effort on the load at s, the muscles' and gravity's together."""
+    """Return the greatest effort on the load at s, of the muscles and gravity together."""
     total = abs(model.gravity(s))
     for muscle, range_ in zip(model.muscles, sharing.ranges, strict=True):
         y = muscle.position(s)
@@ -89,7 +89,7 @@ def _greatest_effort(model: ControlModel, sharing: Sharing, s: float) -> float:
 
 
 def fault_of_pressure(gauge: float, ambient: float, highest: float) -> str:
-    """Return why a gauge pressure in Pa measured in a muscle is not plausible, '' where it is.
+    """Return why a measured gauge pressure in Pa is not plausible, or '' if it is plausible.
 
     No chamber holds less than a vacuum, *ambient* Pa below the pressure around it, nor much more
     than the *highest* gauge pressure that the muscle permits.
@@ -101,11 +101,11 @@ def fault_of_pressure(gauge: float, ambient: float, highest: float) -> str:
 
 
 class Plausibility:
-    """Tells measurements that can be true from those that cannot, one after the other.
+    """Separates plausible measurements from those that are not, one after the other.
 
-    The position of the first one after :meth:`forget` is only held against the travel. Where the
-    second one does not fit it, nobody can say which of them is false: the second one is taken for
-    the first then, and :attr:`is_first` is true again, for whoever uses it to begin anew.
+    The first position after :meth:`forget` is only compared with the travel. If the second one
+    does not fit it, either of them may be false: the second one then counts as the first, and
+    :attr:`is_first` is true again, so that a caller can start again.
     """
 
     def __init__(self, bounds: MotionBounds) -> None:
@@ -114,18 +114,18 @@ class Plausibility:
         self.forget()
 
     def forget(self) -> None:
-        """Begin anew: the next measurement is the first."""
+        """Start again: the next measurement is the first."""
         self._last: float | None = None
         self._speed = 0.0
         self._is_confirmed = False  # by a second one
 
     @property
     def is_first(self) -> bool:
-        """Whether the last plausible measurement has nothing before it that it fits."""
+        """Whether the last plausible measurement is not confirmed by one before it."""
         return not self._is_confirmed
 
     def fault_of(self, passed: float, position: float, velocity: float | None = None) -> str:
-        """Return why a measurement is not plausible, '' where it is.
+        """Return why a measurement is not plausible, or '' if it is plausible.
 
         It was taken *passed* s after the last plausible one. Only plausible ones are remembered.
         """

@@ -1,9 +1,9 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The way of the pressure from the command to the chamber, and its inverse.
+"""The path of the pressure from the command to the chamber, and its inverse.
 
-Dead time, offset, gain, dead band and lag are those of the declared effects whose compensation is
-``PATH``.
+Dead time, offset, gain, dead band and lag are those of the configured effects whose compensation
+is ``PATH``.
 """
 
 from collections import deque
@@ -14,20 +14,20 @@ from pam_ros.rig import layout as at
 from pam_ros.rig.acting import delays_of
 from pam_ros.rig.joint import Joint
 
-# Pa, between which every path without a memory is an offset and a gain: beyond all dead bands.
+# Pa, beyond all dead bands: between these every path without a memory is an offset and a gain.
 LOW, HIGH = 4e5, 5e5
 
 
 class Chamber:
-    """A chamber that follows what flows in by a first-order lag, filling and venting apart."""
+    """A chamber with a first-order lag, with separate time constants to fill and to vent."""
 
     def __init__(self, fill: float = 0.0, vent: float = 0.0) -> None:
-        """Make it with time constants in s; 0 is none."""
+        """Take the time constants in s; 0: no lag."""
         self.fill, self.vent = fill, vent
         self.pressure = 0.0
 
     def follow(self, inflow: float, dt: float) -> float:
-        """Go on by *dt* s with *inflow* Pa upstream; return the mean pressure meanwhile."""
+        """Advance by *dt* s with *inflow* Pa upstream; return the mean pressure meanwhile."""
         before = self.pressure
         tau = self.fill if inflow > before else self.vent
         left = exp(-dt / tau) if tau > 1e-6 else 0.0
@@ -36,14 +36,14 @@ class Chamber:
 
 
 class PressurePath:
-    """What is known of the chamber of a muscle from the commands that it was given.
+    """The pressure in the chamber of a muscle, predicted from the commands.
 
-    *quickest* is the time constant in s that the inverse makes of a lag: a shorter one would ask
-    for more pressure than it is worth, since noise is amplified by lag / quickest.
+    *quickest* is the shortest time constant in s to which the inverse reduces a lag: a shorter
+    one would cost too much pressure, since noise is amplified by lag / quickest.
     """
 
     def __init__(self, joint: Joint, muscle: int, quickest: float) -> None:
-        """Take the declared effects of one *muscle*."""
+        """Take the configured effects of one *muscle*."""
         q, layout = joint.parameters(), joint.layout
         row = q[at.MUSCLE + muscle].tolist()
         fill = vent = 0.0
@@ -67,31 +67,31 @@ class PressurePath:
         self.start(0.0)
 
     def start(self, command: float) -> None:
-        """Begin anew, long after a *command* in Pa."""
+        """Start again a long time after a *command* in Pa."""
         self._queue: deque[tuple[float, float]] = deque()
         self._time = 0.0
         self.inflow = self.chamber.pressure = self.reached(command)
 
     def reached(self, command: float) -> float:
-        """Return the pressure in Pa at which the chamber rests under a *command*."""
+        """Return the steady pressure of the chamber in Pa under a *command*."""
         for equations, j in self._static:
             command = equations.resting_pressure(command, self._row, j)
         return command
 
     def command_at_rest(self, pressure: float) -> float:
-        """Return the command in Pa under which the chamber rests at *pressure*.
+        """Return the command in Pa whose steady pressure in the chamber is *pressure*.
 
-        For no pressure it is the edge of a dead band, so that the muscle can pull at once.
+        For a pressure of 0 it is the edge of a dead band, so that the muscle can pull at once.
         """
         return (pressure - self._offset) / self._gain
 
     def command_for(self, pressure: float, rate: float) -> float:
-        """Return the command in Pa that brings the chamber to *pressure*, which goes at *rate*.
+        """Return the command in Pa that brings the chamber to *pressure*, which changes at *rate*.
 
-        The part of *pressure* that is foreseen has its known *rate* in Pa/s and is commanded
-        ahead of time by the delay of the path: dead time and lag, the lag down to ``quickest``.
-        The rest of a longer lag is driven out by ``u = p + r (p - chamber)``, which closes a loop
-        of that time around the lag.
+        The predicted part of *pressure* has the known *rate* in Pa/s. It is commanded in advance
+        by the delay of the path: dead time and lag, the lag down to ``quickest``. The rest of a
+        longer lag is compensated by ``u = p + r (p - chamber)``, which closes a loop with that
+        time constant around the lag.
         """
         chamber = self.chamber
         lag = min(0.5 * (chamber.fill + chamber.vent), self.quickest)
@@ -101,7 +101,7 @@ class PressurePath:
         return self.command_at_rest(ahead + drive * (ahead - chamber.pressure))
 
     def follow(self, command: float, dt: float) -> float:
-        """Give a *command* in Pa for *dt* s; return the chamber's mean pressure meanwhile."""
+        """Apply a *command* in Pa for *dt* s; return the mean pressure in the chamber."""
         self._queue.append((self._time + self.delay, command))
         while self._queue and self._queue[0][0] <= self._time + 0.5 * dt:
             self.inflow = self.reached(self._queue.popleft()[1])

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Recursive least squares with a prior: Kalman's filter of parameters that hardly change."""
+"""Recursive least squares with a prior: a Kalman filter of parameters that hardly change."""
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,9 +11,8 @@ Array = NDArray[np.float64]
 class Regression:
     """Finds theta in y = phi . theta + noise, one sample after another.
 
-    *spread* (n,) are the standard deviations expected of theta before anything is known, *low* and
-    *high* (n,) what is physically possible, *noise* the variance of y. A spread of 0 keeps a
-    parameter where it is.
+    *spread* (n,) are the standard deviations of the prior of theta, *low* and *high* (n,) its
+    physical limits, *noise* the variance of y. A parameter with a spread of 0 does not change.
     """
 
     def __init__(self, spread: Array, low: Array, high: Array, noise: float) -> None:
@@ -26,8 +25,8 @@ class Regression:
     def update(self, phi: Array, error: float, forgotten: float | Array) -> None:
         """Take in a sample whose y was *error* above phi . theta.
 
-        *forgotten* is the share of the prior variance by which theta may have wandered since the
-        last sample, one number or one a parameter.
+        *forgotten* is the share of the prior variance by which theta may have drifted since the
+        last sample, one number for all or one for each parameter.
         """
         direction = self.covariance @ phi
         gain = direction / (self._noise + phi @ direction)

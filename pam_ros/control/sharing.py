@@ -1,12 +1,12 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""How muscles share what a joint wants: pressures for an effort, and for a stiffness beside it.
+"""Allocation: the pressures of the muscles for an effort, and for a stiffness if possible.
 
-Muscles that pull the same way are a side, and have one pressure. With one side the effort settles
-the pressure, and with it the stiffness. With two sides against each other, effort and stiffness
-are both affine in the two pressures, so that both wanted together are two linear equations for
-them (:mod:`pam_ros.rig.pair`): co-contraction is their common mode. Where the limits of pressure
-do not leave both, the effort comes first.
+Muscles that pull in the same direction are a side, and have one pressure. With one side the effort
+determines the pressure, and with it the stiffness. With two antagonistic sides, effort and
+stiffness are both affine in the two pressures, so that desired values of both give two linear
+equations for the pressures (:mod:`pam_ros.rig.pair`): co-contraction is their common mode. If the
+limits of pressure do not allow both, the effort has priority.
 """
 
 from abc import ABC, abstractmethod
@@ -22,7 +22,7 @@ from pam_ros.rig.pair import Line
 
 
 class Split(NamedTuple):
-    """Pressures of the muscles in Pa, and the effort that they cannot give."""
+    """Pressures of the muscles in Pa, and the part of the effort that they cannot give."""
 
     pressures: tuple[float, ...]
     short: float
@@ -31,12 +31,12 @@ class Split(NamedTuple):
 class Sharing(ABC):
     """The pressures of the muscles of one joint.
 
-    ``ranges`` are the lowest and highest pressure of each muscle in Pa. ``reach`` are the
+    ``ranges`` are the lowest and highest pressure of each muscle in Pa. ``reach`` is the range of
     coordinates at which the load can be held, with a MARGIN of the range of pressure left at both
-    ends. Raises ParameterError where there is none.
+    ends. Raises ParameterError if there is no such range.
     """
 
-    can_stiffen = False  # whether a stiffness can be chosen beside the effort
+    can_stiffen = False  # whether a stiffness can be chosen in addition to the effort
     reach: tuple[float, float]
 
     def __init__(self, model: ControlModel, limits: Limits) -> None:
@@ -46,16 +46,16 @@ class Sharing(ABC):
 
     @abstractmethod
     def split(self, effort: float, stiffness: float, s: float) -> Split:
-        """Return the pressures that give *effort*, and *stiffness* as nearly as can be."""
+        """Return the pressures that give *effort*, and *stiffness* as nearly as possible."""
 
     @abstractmethod
     def rates(
         self, dt: float, foreseen: float, rate: float, stiffness: float, s: float
     ) -> tuple[float, ...]:
-        """Return how fast the pressures go, Pa/s, while the joint moves along its reference.
+        """Return the rates of the pressures, Pa/s, while the joint moves along its reference.
 
-        *foreseen* is the effort that the reference needs, and *rate* how fast the muscles' efforts
-        at constant length would have to change, which their spring along the reference adds to.
+        *foreseen* is the effort that the reference needs, and *rate* the required rate of the
+        muscles' efforts at constant length; the spring along the reference is added to it.
         """
 
     def gains(self, s: float) -> tuple[float, ...]:
@@ -72,14 +72,14 @@ class Sharing(ABC):
 
     @abstractmethod
     def stiffness_range(self, s: float) -> tuple[float, float]:
-        """Return the least and the greatest stiffness that can be had while the load rests."""
+        """Return the least and the greatest stiffness that are possible while the load rests."""
 
     def start(self) -> None:
-        """Begin anew: no pressures are known of a step before."""
+        """Start again without pressures of a former step."""
         return
 
     def refuse_stiffness(self, stiffness: float, s: float) -> None:
-        """Raise RangeError, with the range, for a stiffness that cannot be had at s."""
+        """Raise RangeError, with the range, for a stiffness that is not possible at s."""
         low, high = self.stiffness_range(s)
         if not low <= stiffness <= high:
             unit = self.model.joint.transmission.equations
@@ -91,9 +91,10 @@ class Sharing(ABC):
 
 
 class OneSide(Sharing):
-    """Muscles that all pull the same way, with one pressure: that for the effort.
+    """Muscles that all pull in the same direction, with one pressure: that for the effort.
 
-    It is not clamped to the limits, but where slack is declared no lower than slack muscles have.
+    It is not clamped to the limits. If slack is configured, it is not below the pressure at which
+    the muscles become slack.
     """
 
     def __init__(self, model: ControlModel, limits: Limits) -> None:
@@ -103,9 +104,9 @@ class OneSide(Sharing):
         self.reach = self._reach()
 
     def split(self, effort: float, stiffness: float, s: float) -> Split:
-        """Return the pressure for *effort*; the stiffness is settled by it."""
+        """Return the pressure for *effort*, which determines the stiffness, too."""
         if len(self.model.muscles) == 1:
-            # The law's own inverse: the sums below round differently.
+            # The inverse of the force law itself, since the sums below round differently.
             muscle = self.model.muscles[0]
             p = muscle.pressure_for(effort / muscle.arm(s), muscle.position(s))
             return self._taut((p,), s)
@@ -117,9 +118,9 @@ class OneSide(Sharing):
         return self._taut(((effort - rest) / gain,) * len(self.model.muscles), s)
 
     def _taut(self, pressures: tuple[float, ...], s: float) -> Split:
-        """Return *pressures* no lower than those at which the muscles are slack, where declared.
+        """Return *pressures* not below those at which the muscles become slack, if configured.
 
-        A lower one changes nothing, and would have to be made up for before they pull again.
+        A lower pressure changes nothing, and would have to rise first before they pull again.
         """
         if not self._may_be_slack:
             return Split(pressures, 0.0)
@@ -149,7 +150,7 @@ class OneSide(Sharing):
         return total
 
     def stiffness_range(self, s: float) -> tuple[float, float]:
-        """Return the stiffness that there is, twice."""
+        """Return the present stiffness as both the least and the greatest."""
         p = self.split(self.model.gravity(s), 0.0, s).pressures
         k = self.model.stiffness(p, s)
         return k, k
@@ -165,8 +166,8 @@ class OneSide(Sharing):
         bounds = statics.span(joint)
         found = max(min(ends), bounds[0]), min(max(ends), bounds[1])
         if self._may_be_slack:
-            # Where the law has them push, what returns the load is gravity alone: an arm is not
-            # held below where it hangs, and a cart on a level track by no muscle of one side.
+            # If the force law would need a push, only gravity returns the load: an arm cannot be
+            # held below the angle at which it hangs, nor a cart on a level track by one side.
             pressures = low + spare, high - spare
             found = stretch(found, lambda s: self._is_pulled(s, pressures)) or found[::-1]
         if found[0] >= found[1]:
@@ -180,7 +181,7 @@ class OneSide(Sharing):
         return found
 
     def _is_pulled(self, s: float, pressures: tuple[float, float]) -> bool:
-        """Say whether the least pressures that have an effect hold less than the load at s."""
+        """Return whether the muscles can hold the load at s with pressures that have an effect."""
         model = self.model
         low, high = pressures
         least = tuple(max(low, p) for p in self.least(s))
@@ -189,7 +190,7 @@ class OneSide(Sharing):
 
 
 class TwoSides(Sharing):
-    """Muscles against each other: those that a positive coordinate shortens, and the others."""
+    """Antagonistic muscles: those that a positive coordinate shortens, and the others."""
 
     can_stiffen = True
 
@@ -218,7 +219,7 @@ class TwoSides(Sharing):
         self.reach = self._reach()
 
     def start(self) -> None:
-        """Begin anew: no pressures are known of a step before."""
+        """Start again without pressures of a former step."""
         self._before = None
 
     def lines(self, s: float) -> tuple[Line, Line]:
@@ -252,7 +253,7 @@ class TwoSides(Sharing):
         return one, two
 
     def split(self, effort: float, stiffness: float, s: float) -> Split:
-        """Return the pressures that give *effort*, and *stiffness* as nearly as can be.
+        """Return the pressures that give *effort*, and *stiffness* as nearly as possible.
 
         Pressures are within the limits and no muscle pushes.
         """
@@ -273,24 +274,24 @@ class TwoSides(Sharing):
     def rates(
         self, dt: float, foreseen: float, rate: float, stiffness: float, s: float
     ) -> tuple[float, ...]:
-        """Return the change of the foreseen pressures since the step before.
+        """Return the rates of the predicted pressures since the previous step.
 
-        So a limit that holds one of them lets the other one go faster.
+        So a limit that holds one of them lets the other one change faster.
         """
         ahead = self.split(foreseen, stiffness, s).pressures
         before, self._before = self._before or ahead, ahead
         return tuple((now - then) / dt for now, then in zip(ahead, before, strict=True))
 
     def available(self) -> float:
-        """Return greatest less least effort in the middle of the reach."""
+        """Return the greatest minus the least effort in the middle of the reach."""
         lines = self.lines(0.5 * (self.reach[0] + self.reach[1]))
         least, most = _ends(lines, self._pulling(lines, self._within))
         return _given(lines, most) - _given(lines, least)
 
     def stiffness_range(self, s: float) -> tuple[float, float]:
-        """Return the least and the greatest stiffness that can be had while the load rests.
+        """Return the least and the greatest stiffness that are possible while the load rests.
 
-        With the MARGIN left; equal where s is out of reach.
+        A MARGIN of the pressure is left. Both are equal if s is out of reach.
         """
         one, two = lines = self.lines(s)
         effort = self.model.gravity(s)
@@ -309,7 +310,7 @@ class TwoSides(Sharing):
                 'the load cannot be held anywhere: check the limits of pressure, the load, and '
                 'the mounting of the muscles (contraction_1, contraction_2)'
             )
-        # The stretch in one piece that is nearest to 0.
+        # The range without gaps that is nearest to 0.
         middle = min((abs(s), k) for k, s in enumerate(places) if held[k])[1]
         first = last = middle
         while first > 0 and held[first - 1]:

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What goes into a position law and what can be read out of it."""
+"""Inputs and outputs of a position law."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -14,7 +14,7 @@ Pressures = tuple[float, ...]  # gauge Pa, one a muscle
 
 
 class Reference(NamedTuple):
-    """Where the load shall be: m, m/s, m/s^2, m/s^3, contraction positive."""
+    """Desired position and its derivatives: m, m/s, m/s^2, m/s^3, contraction positive."""
 
     position: float
     velocity: float = 0.0
@@ -24,32 +24,32 @@ class Reference(NamedTuple):
 
 @dataclass
 class Terms:
-    """What a law found at its last step, for plots: SI, forces in N, contraction positive.
+    """Results of the last step of a law, for plots: SI, forces in N, contraction positive.
 
-    For a joint that turns, read rad for m, and N m for N.
+    For a revolute joint, read rad for m, and N m for N.
 
     reference, speed
-        where the load shall be and how fast it shall go, m and m/s
+        desired position and velocity, m and m/s
     position, velocity
-        where it is estimated to be and how fast it goes, m and m/s
+        estimated position and velocity, m and m/s
     error
         reference less position, m
     surface
         sliding variable, m/s; 0 where the law has none
     equivalent, switching, observer, learned
-        parts of the wanted force: what the model wants, what the sliding variable wants, what
-        the disturbance observer takes back, and what has been learned
+        parts of the wanted force: from the model, from the sliding variable, from the
+        disturbance observer, and from learning
     pressures
         gauge Pa commanded, one a muscle
     co_contraction, stiffness
-        stiffness in N/m that the muscles shall give the joint, where it can be chosen, and that
-        they give it as modelled
+        desired stiffness of the joint in N/m, if it can be chosen, and the one that the
+        muscles give it according to the model
     bandwidth
         decay rate of the sliding variable in use, 1/s
     rejection, highest_rejection
-        level at which disturbances are rejected, 0 to 1, and the highest that it may rise to
+        level at which disturbances are rejected, 0 to 1, and the present upper limit of it
     cut
-        force that is wanted and that a limit of pressure or of its rate cuts off
+        part of the wanted force that a limit of pressure or of its rate cuts off
     """
 
     reference: float = 0.0
@@ -77,7 +77,7 @@ class Terms:
 
     @property
     def saturated(self) -> bool:
-        """Whether a limit of pressure or of its rate holds."""
+        """Whether a limit of pressure or of its rate is active."""
         return self.cut != 0.0
 
     def value(self, name: str) -> float:
@@ -95,9 +95,9 @@ def step_arguments(
     velocity: float | None,
     age: float,
 ) -> tuple[float | None, float | None]:
-    """Return position and velocity as a law's step takes them: None where they are not finite.
+    """Return position and velocity for a law's step: None if they are not finite.
 
-    A sensor that fails says NaN, and a law that took it in would return NaN for ever. Raises
+    A failed sensor reads NaN, and a law that took it in would return NaN for ever. Raises
     ParameterError for a time step that is not above 0, since laws divide by it, and for a
     reference or an age that is not finite, since these do not come from a sensor.
     """
@@ -115,7 +115,7 @@ def step_arguments(
 
 
 def start_arguments(position: float, pressures: Sequence[float] | None, muscles: int) -> None:
-    """Raise ParameterError unless a law of so many *muscles* can begin at these."""
+    """Raise ParameterError unless a law for this number of *muscles* can start here."""
     number('position', position)
     if pressures is None:
         return
@@ -144,14 +144,14 @@ TERMS = (
 
 
 def term_names(muscles: int) -> tuple[str, ...]:
-    """Return the names of what is shown of a joint of so many muscles, in order.
+    """Return the names of the terms of a joint with this number of muscles, in order.
 
-    Of several, beside the TERMS, the pressure of each (their mean is ``pressure``), and the
-    stiffness in N/m or N m/rad that is wanted and that there is as modelled.
+    For several muscles these are the TERMS, the pressure of each muscle (their mean is
+    ``pressure``), and the stiffness in N/m or N m/rad, desired and according to the model.
     """
     if muscles == 1:
         return TERMS
-    # These two come last: plots that show terms by number know the others at their places.
+    # These two come last: plots that show terms by number expect the others at their places.
     last = ('learned', 'rejection')
     return (
         *(name for name in TERMS if name not in last),
@@ -163,27 +163,27 @@ def term_names(muscles: int) -> tuple[str, ...]:
 
 
 class PositionLaw(Protocol):
-    """A law that turns positions into pressures; it has no clock and does not depend on ROS.
+    """A law from positions to pressures; it has no clock and does not depend on ROS.
 
-    For a joint that turns, read rad for m, and N m for N.
+    For a revolute joint, read rad for m, and N m for N.
     """
 
     @property
     def terms(self) -> Terms:
-        """What the last step found."""
+        """The results of the last step."""
 
     @property
     def sharing(self) -> Sharing:
-        """How the muscles share what the law wants."""
+        """The allocation of the effort to the muscles."""
 
     def stiffen(self, stiffness: float) -> None:
-        """Take a stiffness in N/m; raises RangeError where it cannot be had at the reference."""
+        """Set a stiffness in N/m; raises RangeError if it is not possible at the reference."""
 
     def start(self, position: float, pressures: Pressures | None = None) -> None:
-        """Begin anew with the load at *position* m, under commands of *pressures* Pa if known.
+        """Start again with the load at *position* m, under commands of *pressures* Pa if known.
 
-        The first pressures that are commanded then are these. Raises ParameterError for what is
-        not finite, and for another number of pressures than of muscles.
+        Then the first commands are these pressures. Raises ParameterError for numbers that are
+        not finite, and if the number of pressures is not that of the muscles.
         """
 
     def update(
@@ -196,9 +196,9 @@ class PositionLaw(Protocol):
     ) -> Pressures:
         """Return the gauge pressures in Pa to command from now on, *dt* s after the last call.
 
-        *reference* is where the load shall be now. *position* is the newest measurement in m,
-        taken *age* s ago, None where there was none since the last call; *velocity* is the
-        measured one in m/s, where there is one. A measurement that is not finite is taken for
-        none. Raises ParameterError, and changes nothing, for a *dt* that is not above 0 and for a
+        *reference* is the desired position now. *position* is the newest measurement in m,
+        taken *age* s ago, None if there was none since the last call; *velocity* is the
+        measured one in m/s, if there is one. A measurement that is not finite is ignored.
+        Raises ParameterError, and changes nothing, for a *dt* that is not above 0 and for a
         reference or an age that is not finite.
         """

@@ -2,12 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """The sliding-mode position law of every joint.
 
-The joint, with J its inertia, tau what the muscles move it with, G gravity and d what is not known
-of it; for one muscle on a mass J is m, tau its force F, and G m g:
+In the joint, J is its inertia, tau the effort of the muscles, G gravity and d the unknown
+disturbance. For one muscle with a mass, J is m, tau its force F, and G m g:
 
     J s'' = tau(p, s) - c s' - G(s) + d
 
-The error e = r - s shall obey e'' + 2 z w e' + w^2 e = 0, written as a sliding variable with
+The error e = r - s should obey e'' + 2 z w e' + w^2 e = 0, written as a sliding variable with
 integral action (Utkin & Shi 1996: there is no reaching phase from a bumpless start)
 
     sigma = e' + int (2 z w e' + w^2 e) dt,
@@ -15,21 +15,21 @@ integral action (Utkin & Shi 1996: there is no reaching phase from a bumpless st
 and the wanted effort is
 
     tau = J r'' + G(r) + c r' + losses          equivalent control, model along the reference
-        + (2 z w J - c) e' + (w^2 J - k) e      the rest of it
+        + (2 z w J - c) e' + (w^2 J - k) e      feedback of the equivalent control
         + K J sat(sigma / Phi)                  switching, or super-twisting
         - d^                                    disturbance observer
 
-so that sigma' = -K sat(sigma / Phi) + (d^ - d) / J: see :class:`pam_ros.control.gains.Gains` for
-what follows. The pressures are the explicit inverse of the force law **at the reference**, not
-at the load (:mod:`.sharing`): tau(p, r) = tau(p, s) - k e, so the joint's own spring pulls the
-load to the reference, without noise and without lag, and -k e above takes account of it. w is the
-joint's own sqrt(k / J) unless the gains ask for more; then (w^2 J - k) e is nothing. Muscles
-against each other have a stiffness as a second set-point, which does not move the coordinate.
+so that sigma' = -K sat(sigma / Phi) + (d^ - d) / J, with the consequences in
+:class:`pam_ros.control.gains.Gains`. The pressures are the explicit inverse of the force law **at
+the reference**, not at the load (:mod:`.sharing`): tau(p, r) = tau(p, s) - k e. So the joint's own
+spring pulls the load to the reference, without noise and without lag, and -k e above accounts for
+it. w is the joint's own sqrt(k / J) unless the gains ask for more; then (w^2 J - k) e is 0.
+Antagonistic muscles have the stiffness as a second set-point, which does not move the coordinate.
 
 While the reference rests, the bandwidths shrink as the goal is reached (:mod:`.rest.standstill`)
-and grow as a disturbance moves the load (:mod:`.rest.rejection`), and a load that sticks and slips
-is pushed to its goal (:mod:`.rest.stiction`). What motion shows is learned (:mod:`.learning`);
-declared effects are compensated (:mod:`.compensation`, :mod:`.pressure_path`).
+and grow when a disturbance moves the load (:mod:`.rest.rejection`). A load that sticks and slips
+is pushed to its goal (:mod:`.rest.stiction`). The law learns from the motion (:mod:`.learning`),
+and configured effects are compensated (:mod:`.compensation`, :mod:`.pressure_path`).
 
 Sources: Slotine & Li, Applied Nonlinear Control, 1991, chapter 7; Lilly & Quesada 2004 (sliding
 mode for a muscle, boundary layer under wrong coefficients); Levant 1993; Han 2009 (observer);
@@ -68,7 +68,7 @@ from pam_ros.rig.joint import Joint
 
 @dataclass(frozen=True)
 class LawTuning:
-    """What is left of the law itself."""
+    """Tuning numbers of the law that belong to no other part."""
 
     quickest: float = number(
         2.0,
@@ -82,7 +82,7 @@ class LawTuning:
 
 
 class SlidingMode:
-    """The law for one joint; ``terms`` holds what its last step found."""
+    """The law for one joint; ``terms`` holds the results of its last step."""
 
     def __init__(
         self,
@@ -91,9 +91,9 @@ class SlidingMode:
         limits: Limits | None = None,
         co_contraction: CoContraction | None = None,
     ) -> None:
-        """Make it for a declared joint, at rest in the middle of its reach; see :meth:`start`.
+        """Take the nominal joint, at rest in the middle of its reach; see :meth:`start`.
 
-        Of the joint's effects it knows those without an onset. Raises ParameterError for
+        Only those of the joint's effects are used that have no onset. Raises ParameterError for
         gains of the other kind of joint (``Gains.for_joint``).
         """
         gains = Gains.for_joint(joint) if gains is None else gains
@@ -136,7 +136,7 @@ class SlidingMode:
         self.start(0.5 * (low + high) if high < float('inf') else 0.0)
 
     def set_gains(self, gains: Gains) -> None:
-        """Go on from the present state with other gains; ParameterError as for a new law."""
+        """Continue from the present state with other gains; ParameterError as for a new law."""
         gains.require(turning=self.joint.is_revolute)
         self.gains = self._learner.gains = self._rejection.gains = gains
         for path in self._paths:
@@ -144,25 +144,25 @@ class SlidingMode:
         self._standstill.tolerance = gains.rest_tolerance
 
     def set_co_contraction(self, wanted: CoContraction) -> None:
-        """Go on to another stiffness, or at another rate; raises RangeError out of reach."""
+        """Approach another stiffness, or at another rate; raises RangeError out of reach."""
         self._stiffness.set_goal(wanted.wanted(self.sharing))
         self._stiffness.rate = wanted.co_contraction_rate
 
     def stiffen(self, stiffness: float) -> None:
-        """Take a stiffness; raises RangeError where it cannot be had at the reference.
+        """Set a stiffness; raises RangeError if it is not possible at the reference.
 
-        In N/m or N m/rad. On the way to other places it is kept as nearly as the limits of
-        pressure leave it.
+        In N/m or N m/rad. At other positions it is kept as nearly as the limits of pressure
+        allow.
         """
         self.sharing.refuse_stiffness(stiffness, self.terms.reference)
         self._stiffness.set_goal(stiffness)
 
     def start(self, position: float, pressures: Pressures | None = None) -> None:
-        """Begin anew; what was learned is forgotten.
+        """Start again; what was learned is forgotten.
 
-        Where *pressures* are not known, it is taken that the load rests as the model says, with
-        the stiffness that was set. Raises ParameterError as
-        :meth:`pam_ros.control.signals.PositionLaw.start` says.
+        If *pressures* are not known, it is assumed that the load rests as the model predicts, with
+        the set stiffness. Raises ParameterError in the cases of
+        :meth:`pam_ros.control.signals.PositionLaw.start`.
         """
         model = self.model
         start_arguments(position, pressures, len(model.muscles))
@@ -176,7 +176,7 @@ class SlidingMode:
             limiter.start(pressure)
             path.start(limiter.last)
         chambers = self._chambers
-        # What the model lacks to explain that the load rests here.
+        # The force that the model lacks for a load at rest here.
         disturbance = model.gravity(position) - model.effort(chambers, position)
         self._stiffness.start(model.stiffness(chambers, position))
         self._observer.start(position, disturbance)
@@ -212,10 +212,10 @@ class SlidingMode:
     ) -> Pressures:
         """Return the gauge pressures in Pa to command from now on, *dt* s after the last call.
 
-        *reference* is where the load shall be now. *position* is the newest measurement in m or
-        rad, taken *age* s ago, None where there was none since the last call. *velocity*, measured
-        in m/s or rad/s, is used if the gains say so. What is not finite is taken, or refused, as
-        :meth:`pam_ros.control.signals.PositionLaw.update` says.
+        *reference* is the desired position now. *position* is the newest measurement in m or
+        rad, taken *age* s ago, None if there was none since the last call. *velocity*, measured
+        in m/s or rad/s, is used if the gains say so. For numbers that are not finite see
+        :meth:`pam_ros.control.signals.PositionLaw.update`.
         """
         position, velocity = step_arguments(dt, reference, position, velocity, age)
         self._go_on(dt)
@@ -236,7 +236,7 @@ class SlidingMode:
         return self.terms.pressures
 
     def _note(self, commands: Pressures) -> None:
-        """Put the pressures and what they make of the stiffness into the terms."""
+        """Set the terms of the pressures and of the resulting stiffness."""
         terms = self.terms
         terms.pressures = commands
         if self.sharing.can_stiffen:
@@ -244,7 +244,7 @@ class SlidingMode:
             terms.stiffness = self.model.stiffness(self._chambers, terms.position)
 
     def _go_on(self, dt: float) -> None:
-        """Let all estimates go on by *dt* s under the last commands."""
+        """Advance all estimates by *dt* s under the last commands."""
         paths = self._paths
         means = [
             path.follow(limiter.last, dt)
@@ -293,7 +293,7 @@ class SlidingMode:
     def _wanted_effort(
         self, dt: float, reference: Reference, velocity: float | None
     ) -> tuple[float, float, float]:
-        """Return the wanted effort, its part that is foreseen, and how fast that goes."""
+        """Return the wanted effort, its predicted part, and the rate of that part."""
         model, gains, observer, terms = self.model, self.gains, self._observer, self.terms
         inertia, chambers = model.inertia, self._chambers
         s, v, a, jerk = reference
@@ -353,7 +353,7 @@ class SlidingMode:
             self._pushed = pushed
             return pushed
         if self._pushed is not None:
-            # The law goes on from the effort that was pushed with last.
+            # The law continues from the effort of the last push.
             missing = self._pushed - effort
             self._surface.integral += missing / (self.model.inertia * self._bandwidth)
             effort, self._pushed = self._pushed, None
@@ -371,11 +371,11 @@ class SlidingMode:
         return inertia * term
 
     def _integrate(self, dt: float, effort: float, cut: float) -> None:
-        """Integrate the surface, and watch how the load answers to the wanted *effort*."""
+        """Integrate the surface, and watch how the load responds to the wanted *effort*."""
         standstill, inertia = self._standstill, self.model.inertia
         spring = self._square * self._error
         if standstill.stiffness > 1.0 and self._rejection.level == 0.0:
-            # A load that sticks: load its contact faster, though not faster than it can be seen.
+            # Load the contact of a sticking load faster, but not faster than can be observed.
             most = max(abs(spring), self._tuning.stuck_rate / (inertia * self._bandwidth))
             spring = min(max(spring * standstill.stiffness, -most), most)
         growth = (self._decay * self._error_rate + spring) * dt

@@ -1,19 +1,19 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The stretch of a coordinate in which something holds."""
+"""The range of a coordinate in which a condition holds."""
 
 from collections.abc import Callable
 
-PLACES = 400  # at which it is looked for: what holds on less than a place may be missed
-HALVINGS = 20  # of the stretch between two places, which find an end in it
+PLACES = 400  # that are tested: a range that is shorter than their distance may be missed
+HALVINGS = 20  # of the distance between two places, to find an end of the range in it
 
 
 def stretch(
     within: tuple[float, float], holds: Callable[[float], bool]
 ) -> tuple[float, float] | None:
-    """Return the least and the greatest coordinate *within* at which *holds* says yes, or None.
+    """Return the least and the greatest coordinate *within* at which *holds* is true, or None.
 
-    It is taken that it holds at all places between these.
+    It is assumed that it holds at all places between these.
     """
     low, high = within
     if low >= high:

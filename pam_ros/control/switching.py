@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Switching terms: what drives the sliding variable to zero against what is not known."""
+"""Switching terms: they drive the sliding variable to zero against unknown disturbances."""
 
 from math import sqrt
 
@@ -15,9 +15,9 @@ class SuperTwisting:
 
         s' = -k1 sqrt|s| sign s + w + d,    w' = -k2 sign s
 
-    The root is taken of the s that results at the end of the step, and sign s is s itself
-    where a whole step of w would overshoot (after the implicit schemes of Brogliato, Polyakov &
-    Efimov 2020). At rest w is -d of the step before, and |s| is what d changed since, times dt.
+    The root is that of s at the end of the step, and sign s is replaced by s where a whole step
+    of w would overshoot (after the implicit schemes of Brogliato, Polyakov & Efimov 2020). At
+    rest w is -d of the step before, and |s| is the change of d since then, times dt.
     """
 
     def __init__(self) -> None:
@@ -27,7 +27,7 @@ class SuperTwisting:
     def step(self, s: float, dt: float, k1: float, k2: float, cut: float = 0.0) -> float:
         """Return the term in m/s^2 that acts against *s* m/s for the next *dt* s.
 
-        *cut* is what the limits took of the last wanted effort: w does not add to it.
+        *cut* is the part of the last wanted effort that the limits cut off: w does not add to it.
         """
         first = dt * k1
         root = 0.5 * (sqrt(first * first + 4.0 * abs(s)) - first)
@@ -39,8 +39,8 @@ class SuperTwisting:
 class Surface:
     """The sliding variable s = e' + z with its integral part z, and what drives it to zero.
 
-    ``value`` is s of the last step, ``integral`` z, which the law integrates; both in m/s, or in
-    rad/s of a joint.
+    ``value`` is s of the last step, ``integral`` is z, which the law integrates; both in m/s, or
+    in rad/s for a revolute joint.
     """
 
     def __init__(self) -> None:
@@ -49,16 +49,16 @@ class Surface:
         self.start()
 
     def start(self) -> None:
-        """Begin anew, with nothing integrated."""
+        """Start again, with nothing integrated."""
         self._twisting.w = 0.0
         self._bandwidth = 0.0  # of the last step, 1/s
-        self._excess = 0.0  # by which bandwidth s is beyond the gain, with its sign, m/s^2
+        self._excess = 0.0  # bandwidth s minus its value after saturation, m/s^2
         self.integral = self.value = 0.0
 
     def drive(self, error_rate: float, bandwidth: float, gain: float) -> float:
         """Return the acceleration of the boundary layer; the *bandwidth* in 1/s may change."""
         if self._bandwidth:
-            # The integral stands for a force, which must not jump with the bandwidth.
+            # The integral represents a force, which must not jump with the bandwidth.
             self.integral *= self._bandwidth / bandwidth
         self._bandwidth = bandwidth
         self.value = error_rate + self.integral
@@ -67,15 +67,15 @@ class Surface:
         return term
 
     def twist(self, error_rate: float, dt: float, k1: float, k2: float, cut: float = 0.0) -> float:
-        """Return the acceleration of super-twisting for the next *dt* s; *cut* as its step has."""
+        """Return the acceleration of super-twisting for the next *dt* s; *cut* as in its step."""
         self.value = error_rate + self.integral
         return self._twisting.step(self.value, dt, k1, k2, cut)
 
     def integrate(self, growth: float, cut: float) -> None:
-        """Let the integral part grow by *growth* m/s, unless what it asks for is limited already.
+        """Add *growth* m/s to the integral part, unless a limit would cut its effect.
 
         Anti-windup: at a limit of the pressures, which *cut* some of the wanted effort, and beyond
-        the boundary layer, whose term is at its own limit, it may only change away from that.
+        the boundary layer, whose term is at its own limit, it may only change away from the limit.
         """
         if growth * cut <= 0.0 and growth * self._excess <= 0.0:
             self.integral += growth

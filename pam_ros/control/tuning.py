@@ -1,14 +1,13 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Tuning numbers of the control laws: each with its unit and with where it comes from.
+"""Tuning numbers of the control laws: each with its unit and its source.
 
 They are fields of frozen dataclasses, one for each part. Lengths and forces are those along the
-line of a muscle, so that they hold for every joint: on one that turns, a length is divided by the
-muscles' arm and a force multiplied by it (:func:`scaled`).
+line of a muscle, so that they are valid for every joint: on a revolute one, a length is divided by
+the muscles' arm and a force multiplied by it (:func:`scaled`).
 
-Sources that are named there: *noise* is the noise of 20 um of the position that the benchmark has;
-``control`` and ``pair_control`` are benchmarks (``make bench ARGS=control``), with the row that
-decided.
+Names of sources: *noise* is the noise of 20 um of the position in the benchmarks; ``control`` and
+``pair_control`` are benchmarks (``make bench ARGS=control``), with the row that decided.
 """
 
 from dataclasses import dataclass, field, fields, replace
@@ -16,7 +15,7 @@ from typing import Any, TypeVar
 
 T = TypeVar('T')
 
-# How often the scale of lengths, and that of forces, is in a unit.
+# Powers of the scale of lengths and of the scale of forces in each unit.
 _POWERS = {
     '': (0, 0),
     's': (0, 0),
@@ -33,7 +32,7 @@ _POWERS = {
 
 @dataclass(frozen=True)
 class Number:
-    """What is known of a tuning number beside its value."""
+    """Unit and source of a tuning number."""
 
     unit: str
     source: str
@@ -52,7 +51,7 @@ def numbers_of(cls: type) -> dict[str, tuple[Any, Number]]:
 def scaled(tuning: T, length: float, force: float) -> T:
     """Return *tuning* with lengths and forces in the joint's own units.
 
-    *length* is how much of the coordinate a metre of muscle is, *force* the effort of a newton.
+    *length* is the coordinate for a metre of muscle, *force* the effort of a newton.
     """
     changes = {}
     for name, (_, about) in numbers_of(type(tuning)).items():

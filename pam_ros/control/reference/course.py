@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Where the load shall go: hold, follow set positions or a trajectory, always without a jump."""
+"""The reference of the load: rest, set positions or a trajectory, always without a jump."""
 
 from math import isfinite
 
@@ -29,7 +29,7 @@ class Course:
 
     @property
     def reference(self) -> Reference:
-        """Where the load shall be now; never out of reach but where it was started."""
+        """The desired position now; within the reach, or between it and the start position."""
         reference = self._shaper.reference
         low, high = min(self.reach[0], self._start), max(self.reach[1], self._start)
         if low <= reference.position <= high:
@@ -39,17 +39,17 @@ class Course:
 
     @property
     def is_on_trajectory(self) -> bool:
-        """Whether a trajectory is played, or waits for its start."""
+        """Whether a trajectory is followed, or waits for its start."""
         return self._trajectory is not None
 
     def start(self, position: float) -> None:
-        """Hold the load at *position* m, whatever target was set before."""
+        """Hold the load at *position* m; the target before does not matter."""
         self._trajectory = None
         self._start = position
         self._shaper.start(position)
 
     def set_shape(self, shape: Shape) -> None:
-        """Go on within other bounds; ParameterError as for a new one."""
+        """Continue within other bounds; ParameterError as for a new one."""
         shape.require(turning=self.unit == 'rad')
         self._shaper.set_shape(shape)
 
@@ -63,10 +63,10 @@ class Course:
         self._shaper.take(position, ago)
 
     def play(self, points: Points, wait: float = 0.0) -> None:
-        """Follow *points* from *wait* s from now on, from between them where that is negative.
+        """Follow *points* after *wait* s, or from a place between them if *wait* is negative.
 
-        Without points, stop where it is. Raises RangeError for points that make no motion within
-        reach; then all stays as it was.
+        Without points, stop at the present place. Raises RangeError for points that give no
+        motion within reach; then nothing changes.
         """
         if not points.count:
             self._leave()
@@ -81,10 +81,10 @@ class Course:
         self._shaper.stop()
 
     def follow(self, dt: float, late: float = 0.0) -> Reference:
-        """Return the reference *dt* s on.
+        """Return the reference after another *dt* s.
 
-        Where *late* s more have passed unseen, a trajectory has gone on all the same, as others
-        that move with it; what was missed is made up for within the bounds.
+        If *late* s passed before that without a call, the trajectory continued, as those of other
+        joints that move with it; the reference catches up within the bounds.
         """
         if self._trajectory is None:
             self._shaper.follow(dt)
@@ -93,7 +93,7 @@ class Course:
         self._since += dt + late
         now = self._trajectory.at(self._since)
         if late > 0.0 or before < 0.0 <= self._since:
-            # It may begin in motion.
+            # The trajectory may begin in motion.
             self._shaper.join(now)
         self._shaper.along(dt, now)
         if self._since >= self._trajectory.duration:

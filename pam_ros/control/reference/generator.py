@@ -26,8 +26,8 @@ class ReferenceGenerator:
     A target that jumps is approached within the bounds of *shape*; a target that moves smoothly
     from call to call is followed without lag. ``reach`` has the lowest and the highest position
     at which the muscles can hold the load within *limits*. Positions are in m, contraction
-    positive, in rad for a revolute joint. All methods raise ParameterError for numbers that are
-    not finite.
+    positive, or in rad for a revolute joint. All methods raise ParameterError for numbers that
+    are not finite.
     """
 
     def __init__(
@@ -65,13 +65,13 @@ class ReferenceGenerator:
         velocity: ArrayLike | None = None,
         acceleration: ArrayLike | None = None,
     ) -> None:
-        """Follow a trajectory through points, from the present reference on.
+        """Follow a trajectory through points, starting from the present reference.
 
         *t* (n,) in s from now on, ascending; *position*, *velocity* and *acceleration* (n,) at
         these times. With velocities and accelerations the motion between two points is a
         polynomial of fifth order, with velocities alone of third order, and with positions alone
         a cubic spline that is at rest at both ends. The last position is held. Raises RangeError
-        for a motion out of reach, and ParameterError for arrays that do not fit together; then the
+        for a motion out of reach, and ParameterError if the sizes of the arrays differ; then the
         former target remains.
         """
         times = stamps('t', t, strict=True)

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The points of a trajectory as arrays: long trajectories are checked without a loop over them."""
+"""The points of a trajectory as arrays: long trajectories are checked without a loop."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -16,7 +16,7 @@ Bools = NDArray[np.bool_]
 
 @dataclass(frozen=True)
 class Point:
-    """Where the load shall be *time* s after the start: m, and m/s and m/s^2 where given."""
+    """Desired position *time* s after the start: m, and m/s and m/s^2 if given."""
 
     time: float
     position: float
@@ -51,7 +51,7 @@ class Points:
         )
 
     def before(self, other: 'Points') -> 'Points':
-        """Return these points, and behind them those of *other*."""
+        """Return these points, followed by those of *other*."""
         return Points(
             np.concatenate([self.times, other.times]),
             np.concatenate([self.positions, other.positions]),
@@ -67,7 +67,7 @@ class Points:
         return len(self.times)
 
     def refuse_bad(self) -> None:
-        """Raise RangeError where there are no points, or stamps or values make no motion."""
+        """Raise RangeError if there are no points, or if times or values are not valid."""
         if not self.count:
             raise RangeError('a trajectory without points makes no motion')
         columns = self.times, self.positions, self.velocities, self.accelerations

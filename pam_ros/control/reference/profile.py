@@ -1,10 +1,10 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The quickest way to rest at zero under bounds of velocity, acceleration and jerk.
+"""The quickest motion to rest at zero within bounds of velocity, acceleration and jerk.
 
-From any position, velocity and acceleration: to a peak velocity, along it, and to rest, each
-change of velocity by at most three pieces of constant jerk. The distance that this covers grows
-with the peak, which is found by bisection.
+It starts from any position, velocity and acceleration, goes to a peak velocity, keeps it, and
+comes to rest. Each change of velocity has at most three pieces of constant jerk. The distance of
+the motion grows with the peak velocity, which is found by bisection.
 """
 
 from math import copysign, sqrt
@@ -29,9 +29,9 @@ class Piece(NamedTuple):
 
 
 def change(velocity: float, acceleration: float, wanted: float, bounds: Bounds) -> list[Piece]:
-    """Return the pieces to the *wanted* velocity at no acceleration."""
+    """Return the pieces to the *wanted* velocity, with no acceleration at the end."""
     j, most = bounds.jerk, bounds.acceleration
-    # Where the velocity ends when the acceleration is taken away at once decides the direction.
+    # The direction depends on the velocity that is reached if the acceleration is removed at once.
     straight = velocity + acceleration * abs(acceleration) / (2.0 * j)
     sign = 1.0 if wanted >= straight else -1.0
     gain, a = sign * (wanted - velocity), sign * acceleration
@@ -39,7 +39,7 @@ def change(velocity: float, acceleration: float, wanted: float, bounds: Bounds) 
     along = 0.0
     if peak > most:
         peak = most
-        # A start above the bound goes down to it, and gains on the way.
+        # A start above the bound slows down to it, and covers distance meanwhile.
         first = (peak * peak - a * a) / (2.0 * j) * (1.0 if a <= peak else -1.0)
         along = max((gain - first - peak * peak / (2.0 * j)) / peak, 0.0)
     up = peak - a
@@ -63,7 +63,7 @@ def advance(state: tuple[float, float, float], jerk: float, t: float) -> tuple[f
 def _ways(
     state: tuple[float, float, float], peak: float, bounds: Bounds
 ) -> tuple[list[Piece], list[Piece], float]:
-    """Return the pieces to a *peak* velocity and from there to rest, and where they end."""
+    """Return the pieces to a *peak* velocity and from there to rest, and their end position."""
     to = change(state[1], state[2], peak, bounds)
     back = change(peak, 0.0, 0.0, bounds)
     now: tuple[float, ...] = state
@@ -77,7 +77,8 @@ def to_rest(state: tuple[float, float, float], bounds: Bounds) -> list[Piece]:
     for peak in (bounds.velocity, -bounds.velocity):
         to, back, end = _ways(state, peak, bounds)
         if end * peak <= 0.0:
-            # Short of the goal even so: the rest is made at the peak velocity.
+            # The bound does not suffice to reach the goal: the rest is covered at the peak
+            # velocity.
             return [*to, Piece(0.0, -end / peak), *back]
     low, high = -bounds.velocity, bounds.velocity
     for _ in range(HALVINGS):
@@ -88,7 +89,7 @@ def to_rest(state: tuple[float, float, float], bounds: Bounds) -> list[Piece]:
 
 
 class Rest:
-    """A motion along such a way, step by step; at rest at 0 when it is over."""
+    """A motion along such pieces, step by step; at rest at 0 when it is over."""
 
     def __init__(self) -> None:
         """Rest at 0."""
@@ -97,12 +98,12 @@ class Rest:
         self._pieces: list[Piece] = []
 
     def begin(self, state: tuple[float, float, float], bounds: Bounds) -> None:
-        """Set out from *state* (m, m/s, m/s^2) within *bounds*."""
+        """Start from *state* (m, m/s, m/s^2) within *bounds*."""
         self.state = state
         self._pieces = to_rest(state, bounds)
 
     def follow(self, dt: float) -> tuple[float, float, float]:
-        """Go on by *dt* s and return the state there."""
+        """Advance by *dt* s and return the state there."""
         self.jerk = 0.0
         while self._pieces and dt > 0.0:
             jerk, duration = self._pieces[0]

@@ -2,12 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """A trajectory_msgs/JointTrajectory, read from its bytes.
 
-As objects of Python the points cost some 10 µs each before one is used, and a controller gives no
-command meanwhile. Points that are alike, as those of one planner are, stand at equal distances in
-the bytes, and are read as arrays.
+As Python objects the points cost some 10 µs each before one is used, and a controller sends no
+command meanwhile. Points of equal layout, as those of one planner are, follow each other at equal
+distances in the bytes, and are read as arrays.
 
-OMG's CDR: values are aligned to their size, counted from behind four bytes that tell the byte
-order; a sequence is its length and its values, without padding where it is empty.
+OMG's CDR: values are aligned to their size, counted from after the first four bytes, which give
+the byte order; a sequence is its length and its values, without padding if it is empty.
 """
 
 from typing import NamedTuple
@@ -20,7 +20,7 @@ from pam_ros.errors import RangeError
 from pam_ros.timing.pace import SECOND
 
 MOST_POINTS = 100_000  # of one trajectory: so many delay a command by some 0.2 s
-WORD = 4  # bytes; all that stands in the message begins at a multiple of them
+WORD = 4  # bytes; every value of the message begins at a multiple of them
 KINDS = ('positions', 'velocities', 'accelerations', 'effort')
 USED = KINDS[:3]
 LENGTHS, TIME = slice(0, len(KINDS)), 2 * len(KINDS)  # columns of the places of points
@@ -40,10 +40,10 @@ class Sent(NamedTuple):
 
 
 def read_trajectory(data: bytes, joint: str) -> Sent:
-    """Return what the message *data* holds for *joint*.
+    """Return the trajectory for *joint* in the message *data*.
 
-    Raises RangeError where it is not for the joint, has points without a position of it, has
-    more than MOST_POINTS points, or is no such message.
+    Raises RangeError if the message is not for the joint, has points without a position of it,
+    has more than MOST_POINTS points, or is not such a message.
     """
     order = ORDERS.get(data[:2])
     if order is None:
@@ -95,7 +95,7 @@ def read_trajectory(data: bytes, joint: str) -> Sent:
 
 
 def _text(body: bytes, words: Words, at: int) -> tuple[str, int]:
-    """Return the text at a place, and the place behind it."""
+    """Return the text at a place, and the place after it."""
     length, first = int(words[at]), (at + 1) * WORD
     if first + length > len(body):
         raise IndexError
@@ -104,12 +104,12 @@ def _text(body: bytes, words: Words, at: int) -> tuple[str, int]:
 
 
 def _places(words: Words, at: int, count: int) -> Places:
-    """Return where the *count* points stand, the first of them *at* this word.
+    """Return the places of the *count* points, the first of which begins *at* this word.
 
     (count, 9) words: the length of each kind of values, the first value of each kind, the time.
     """
-    # From the second on, points that are alike stand at equal distances: the first point may
-    # be aligned in another way.
+    # From the second on, points of equal layout have equal distances: the first point may be
+    # aligned differently.
     head, end = _one_by_one(words, at, min(count, 2))
     if count <= 2:
         return head
@@ -123,7 +123,7 @@ def _places(words: Words, at: int, count: int) -> Places:
 
 
 def _one_by_one(words: Words | list[int], at: int, count: int) -> tuple[Places, int]:
-    """Return where points stand that need not be alike, and the place behind the last of them."""
+    """Return the places of points of any layout, and the place after the last of them."""
     rows, size = [], len(words)
     for _ in range(count):
         lengths, firsts = [], []
@@ -143,7 +143,7 @@ def _one_by_one(words: Words | list[int], at: int, count: int) -> tuple[Places, 
 
 
 def _refuse_incomplete(lengths: Words, joints: int) -> None:
-    """Raise RangeError where a point has no position, or values for another number of joints."""
+    """Raise RangeError if a point has no position, or values for another number of joints."""
     is_bad = lengths != joints
     is_bad[:, 1:] &= lengths[:, 1:] > 0
     if is_bad.any():

@@ -1,10 +1,10 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""From the target that is set for the load to a reference that it can follow.
+"""From the target for the load to a reference that it can follow.
 
 A target that jumps is approached within bounds of velocity, acceleration and jerk. A target that
-moves smoothly is passed on with its derivatives and without lag, whatever the bounds: what is
-added to it is an offset that goes to zero within the bounds and is nothing once it is there.
+moves smoothly is passed on with its derivatives and without lag, whatever the bounds: the
+reference differs from it by an offset that goes to zero within the bounds.
 """
 
 from dataclasses import dataclass
@@ -19,7 +19,7 @@ from pam_ros.parameters import OnTurning, parameter_field
 
 @dataclass(frozen=True)
 class StreamTuning:
-    """How a target that is set again and again is distinguished from one that jumps."""
+    """How a target that is set repeatedly is distinguished from one that jumps."""
 
     quick: float = number(
         80.0, 'rad/s', 'of the tracker: a sine of 0.5 Hz is followed to 6e-5 of its amplitude'
@@ -43,7 +43,7 @@ STREAM = StreamTuning()
 
 @dataclass(frozen=True)
 class Shape(JointSettings):
-    """Bounds of the motion to a target that jumps; in rad of a joint that turns."""
+    """Bounds of the motion to a target that jumps; in rad for a revolute joint."""
 
     max_velocity: float = parameter_field(
         0.1,
@@ -80,13 +80,13 @@ class Shape(JointSettings):
 
 
 class Tracker:
-    """Velocity and acceleration of a target that is only given as positions, sample by sample.
+    """Velocity and acceleration of a target of which only position samples are given.
 
-    An alpha-beta-gamma filter with three equal poles at ``StreamTuning.quick``: it follows a
-    constant acceleration without error, a sine of amplitude A and w rad/s with one of
+    An alpha-beta-gamma filter with three equal poles at ``StreamTuning.quick``. It follows a
+    constant acceleration without error, and a sine of amplitude A and w rad/s with an error of
     A (w / quick)^3. A sample that no acceleration within *bounds* explains is a jump: the target
-    is there, at rest. A second one in a row, within the bound of velocity, is the second sample
-    of a motion.
+    is at rest there. If a second sample in a row is unexplained, but within the bound of
+    velocity, it is the second sample of a motion.
     """
 
     def __init__(self, bounds: Bounds) -> None:
@@ -95,14 +95,14 @@ class Tracker:
         self.start(0.0)
 
     def start(self, position: float) -> None:
-        """Begin anew with a target at rest at *position* m."""
+        """Start again with a target at rest at *position* m."""
         self.state = (position, 0.0, 0.0)
         self._last = position
         self._age = self._interval = STREAM.pause
         self._has_jumped = False
 
     def follow(self, dt: float) -> bool:
-        """Go on by *dt* s; return whether the target jumped because its stream ended."""
+        """Advance by *dt* s; return whether the target jumped because its stream ended."""
         self._age += dt
         x, v, a = self.state
         if v == a == 0.0:
@@ -114,12 +114,12 @@ class Tracker:
         return False
 
     def take(self, position: float, ago: float) -> bool:
-        """Take in a sample in m that came *ago* s ago; return whether it is a jump."""
+        """Take in a sample in m, set *ago* s ago; return whether it is a jump."""
         interval = max(self._age - ago, STREAM.least_interval)
         way = position - self._last
         self._interval, self._age, self._last = interval, ago, position
         x, v, a = self.state
-        # Compared where both are now: the sample is taken along.
+        # Both are compared at the present time: the sample is extrapolated.
         surprise = position + ago * (v + 0.5 * ago * a) - x
         rate = min(STREAM.quick, STREAM.per_sample / interval)
         if (
@@ -156,13 +156,13 @@ class Shaper:
         self.start(0.0)
 
     def start(self, position: float) -> None:
-        """Begin anew at rest at *position* m."""
+        """Start again at rest at *position* m."""
         self._tracker.start(position)
         self._offset = Rest()
         self.reference = Reference(position)
 
     def set_shape(self, shape: Shape) -> None:
-        """Go on within other bounds, those of the present approach apart."""
+        """Continue within other bounds; the present approach keeps its own."""
         self.shape = shape
         self._tracker.bounds = shape.bounds
 
@@ -172,15 +172,15 @@ class Shaper:
             self._set_out(*self._tracker.state)
 
     def join(self, target: Reference) -> None:
-        """Let the target go on from the motion *target*, as that of a trajectory.
+        """Let the target continue from the motion *target*, which is that of a trajectory.
 
-        Its acceleration is taken at once, as at all of its points: what the bounds of jerk would
-        add to a quick beginning could go beyond the reach.
+        The reference takes its acceleration at once, as at all points of a trajectory: an approach
+        within the bounds of jerk could go beyond the reach after a quick beginning.
         """
         self._set_out(target.position, target.velocity, self.reference.acceleration)
 
     def _set_out(self, position: float, velocity: float, acceleration: float) -> None:
-        """Approach a target that is in another state than the reference."""
+        """Approach a target whose state differs from that of the reference."""
         now = self.reference
         start = (
             now.position - position,
@@ -190,13 +190,13 @@ class Shaper:
         self._offset.begin(start, self.shape.bounds)
 
     def follow(self, dt: float) -> Reference:
-        """Return the reference *dt* s on."""
+        """Return the reference after another *dt* s."""
         if self._tracker.follow(dt):
             self._set_out(*self._tracker.state)
         return self.along(dt, Reference(*self._tracker.state))
 
     def along(self, dt: float, target: Reference) -> Reference:
-        """Return the reference *dt* s on, where the target is *target* and joined."""
+        """Return the reference after another *dt* s, for the joined *target*."""
         x, v, a = self._offset.follow(dt)
         self.reference = Reference(
             target.position + x,
@@ -212,7 +212,7 @@ class Shaper:
         self._set_out(position, 0.0, 0.0)
 
     def stop(self) -> None:
-        """Let the target rest where the reference can stop soonest."""
+        """Let the target rest at the place where the reference can stop soonest."""
         _, velocity, acceleration, _ = self.reference
         state: tuple[float, ...] = (self.reference.position, velocity, acceleration)
         for jerk, duration in change(velocity, acceleration, 0.0, self.shape.bounds):

@@ -18,9 +18,9 @@ class Trajectory:
     """A piecewise polynomial through points.
 
     With velocities and accelerations at all points it is of fifth order between them, with
-    velocities alone of third; with positions alone it is the cubic spline that is smooth in
-    acceleration and at rest at both ends. Raises RangeError for points that make no motion, or
-    one that leaves the *reach* (lowest, highest position in *unit*).
+    velocities alone of third order. With positions alone it is the cubic spline with a
+    continuous acceleration that is at rest at both ends. Raises RangeError for points that are
+    not valid, or a motion that leaves the *reach* (lowest, highest position in *unit*).
     """
 
     def __init__(
@@ -30,7 +30,7 @@ class Trajectory:
         reach: tuple[float, float],
         unit: str = 'm',
     ) -> None:
-        """Pass through *points*, in order; one at time 0 takes the place of *start*."""
+        """Pass through *points*, in order; a point at time 0 replaces *start*."""
         points.refuse_bad()
         if points.times[0] > 0.0:
             first = Point(0.0, start.position, start.velocity, start.acceleration)
@@ -44,7 +44,7 @@ class Trajectory:
         _refuse_out_of_reach(points, self._pieces, reach, unit)
 
     def at(self, t: float) -> Reference:
-        """Return the reference *t* s after the start; before and after the ends, at rest."""
+        """Return the reference *t* s after the start; at rest outside of the points."""
         if not 0.0 <= t < self.duration:
             return Reference(self._at(min(max(t, 0.0), self.duration)).position)
         return self._at(t)
@@ -73,7 +73,8 @@ def _pieces(points: Points) -> Floats:
     if not points.has_acceleration[1:].all():
         return np.ascontiguousarray(CubicHermiteSpline(t, y, v).c.T)
     # The polynomial of fifth order with the given values, first and second derivatives at both
-    # ends; b is what the Taylor polynomial at the begin lacks at the end, of each of the three.
+    # ends; b is the error of the Taylor polynomial from the first end at the second, for all
+    # three.
     h = np.diff(t)
     begin, end = slice(None, -1), slice(1, None)
     b0 = y[end] - (y[begin] + h * (v[begin] + 0.5 * h * a[begin]))
@@ -95,9 +96,10 @@ def _pieces(points: Points) -> Floats:
 def _refuse_out_of_reach(
     points: Points, pieces: Floats, reach: tuple[float, float], unit: str
 ) -> None:
-    """Raise RangeError where a point, or a place between two points, is out of reach."""
+    """Raise RangeError if a point, or a place between two points, is out of reach."""
     low, high = reach
-    # Points as they are given: one at the end of the reach is not refused for a rounding error.
+    # The given points are checked as they are: rounding must not reject one at the end of the
+    # reach.
     blocks = [points.positions]
     steps = np.diff(points.times)[:, None] * (np.arange(1, CHECKS) / CHECKS)
     for n in range(0, len(pieces), BLOCK):

@@ -1,13 +1,13 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Find out that a loop oscillates by itself, from its error alone.
+"""Detect from the error alone that a loop oscillates by itself.
 
-A delay that the model does not have makes a fast loop oscillate about its own bandwidth, with an
-amplitude that does not fall. A disturbance from outside is slower, or its response decays. So the
-error is taken apart into swings from one turning point to the next, as rainflow counting does,
-and swings in turn that are quick and do not fall are an oscillation. Stability observers of
-haptic devices look for the same in windows of the spectrum (Ryu, Song, Kang & Kim 2008), which
-takes several periods; here it is found after one and a half.
+A delay that the model does not have makes a fast loop oscillate at about its own bandwidth, with
+an amplitude that does not fall. A disturbance from outside is slower, or its response decays. So
+the error is divided into swings from one reversal to the next, as in rainflow counting. Successive
+swings that are quick and do not fall are an oscillation. Stability observers of haptic devices
+look for the same in windows of the spectrum (Ryu, Song, Kang & Kim 2008), which takes several
+periods; this method takes one and a half.
 """
 
 from dataclasses import dataclass
@@ -18,7 +18,7 @@ from pam_ros.control.tuning import number
 
 @dataclass(frozen=True)
 class OscillationTuning:
-    """What an oscillation of the loop is."""
+    """Criteria for an oscillation of the loop."""
 
     swings: int = number(3, '', 'in turn that are an oscillation: a damped response has two')
     lasting: float = number(
@@ -36,7 +36,7 @@ class Oscillation:
     """Watches the error of a loop.
 
     quiet
-        how long no swing was one of an oscillation, s
+        time since the last swing of an oscillation, s
     """
 
     def __init__(self, tuning: OscillationTuning) -> None:
@@ -45,22 +45,22 @@ class Oscillation:
         self.start(0.0)
 
     def start(self, error: float) -> None:
-        """Begin anew at this *error*: no swings are known."""
+        """Start again at this *error*, without swings."""
         self.quiet = 0.0
         self._side = 1.0  # direction of the present swing
-        self._turned = self._extreme = error  # the last turning point, and the farthest since
-        self._lasted = self._reached = 0.0  # since that point: now, and when the farthest was
+        self._turned = self._extreme = error  # at the last reversal, and the farthest since
+        self._lasted = self._reached = 0.0  # time since the reversal: now, and at the farthest
         self._was_cut = False
         self._swings, self._swing = 0, 0.0
 
     def see(
         self, dt: float, error: float, least: float, bandwidth: float, *, is_cut: bool
     ) -> bool:
-        """Take in the *error* for *dt* s; return whether it has just shown an oscillation.
+        """Take in the *error* for *dt* s; return whether it completes an oscillation.
 
-        Turns of less than *least* are noise, swings of less than twice that are small;
-        *bandwidth* is that of the loop in rad/s. While the command is cut by a limit (*is_cut*)
-        an oscillation is slower, so that each swing counts as quick.
+        Reversals of less than *least* are noise, swings of less than twice that are small;
+        *bandwidth* is that of the loop in rad/s. While a limit cuts the command (*is_cut*), an
+        oscillation is slower, so that each swing counts as quick.
         """
         self.quiet += dt
         self._lasted += dt
@@ -73,7 +73,7 @@ class Oscillation:
         return False
 
     def _turn(self, error: float, least: float, bandwidth: float) -> bool:
-        """End a swing at the farthest error, and say whether it completes an oscillation."""
+        """End a swing at the farthest error; return whether it completes an oscillation."""
         tuning = self._tuning
         swing, lasted = abs(self._extreme - self._turned), self._reached
         is_quick = self._was_cut or lasted < pi / (tuning.quick * bandwidth)

@@ -1,23 +1,23 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""How hard disturbances are rejected: bandwidths that follow what the load shows.
+"""How strongly disturbances are rejected: bandwidths that depend on the error of the load.
 
-A fixed observer is a choice between noise and stiffness: with a high bandwidth it turns the noise
-of the sensor into pressure, with a low one a push moves the load. So the bandwidths are scheduled
-by the error, as in the variable-gain control of wafer stages (Heertjes, Schuurbiers & Nijmeijer
-2009): by a level between 0, at which the load is calm, and 1, at which it is held as hard as the
-gains allow. The level rises at once with the error of a load that shall rest, and falls slowly
-when the error has gone.
+A fixed observer is a compromise between noise and stiffness: with a high bandwidth it turns the
+noise of the sensor into pressure, with a low one a push moves the load. So the bandwidths are
+scheduled by the error, as in the variable-gain control of wafer stages (Heertjes, Schuurbiers &
+Nijmeijer 2009). The level is between 0, at which the load is calm, and 1, at which it is held as
+firmly as the gains allow. It rises at once with the error of a load that should rest, and falls
+slowly when the error has gone.
 
-What bounds the level is the delay between a command and its force, which nobody may have
-declared. Where the level is too high for it, the loop oscillates (:mod:`.oscillation`). That
-lowers the highest level; while the load is disturbed without such an oscillation, the highest
-level rises again, to below the level at which the loop oscillated last.
+The level is limited by the delay between a command and its force, which may be unknown. If the
+level is too high for this delay, the loop oscillates (:mod:`.oscillation`). That lowers the
+highest level. While the load is disturbed without such an oscillation, the highest level rises
+again, to below the level of the last oscillation.
 
-After a motion of the reference the error is at first what friction and hysteresis leave, which
-:mod:`.standstill` and :mod:`.stiction` bring to its goal. The level begins to act when the error
-was within the noise for a moment, or when the load is shaken: it moves all the time, both ways.
-A load that sticks and slips moves for short times only.
+After a motion of the reference the error is at first that of friction and hysteresis, which
+:mod:`.standstill` and :mod:`.stiction` remove. The level begins to act when the error was within
+the noise for a moment, or when the load is shaken: a shaken load moves all the time in both
+directions, while a load that sticks and slips moves for short times only.
 """
 
 from dataclasses import dataclass
@@ -83,31 +83,31 @@ class Rejection:
     level
         0 (calm) to ``highest``
     highest
-        what the level may rise to now, at most 1
+        present upper limit of the level, at most 1
 
-    Errors and positions are in m, or in rad of a joint that turns.
+    Errors and positions are in m, or in rad for a revolute joint.
     """
 
     def __init__(
         self, gains: Gains, tuning: RejectionTuning, oscillation: OscillationTuning
     ) -> None:
-        """Begin; ``gains`` may be others later on."""
+        """Start at rest; ``gains`` may be replaced later."""
         self.gains, self._tuning = gains, tuning
         self._oscillation = Oscillation(oscillation)
         self.start()
 
     def start(self) -> None:
-        """Begin anew, at rest at the goal: nothing is known of the delay."""
+        """Start again at rest at the goal, without knowledge of the delay."""
         self.level, self.highest = 0.0, self._first_level()
         self._bound = 1.0
         self._error = 0.0
-        self._last = (0.0, 0.0)  # the two positions before
+        self._last = (0.0, 0.0)  # the last two positions
         self._seen, self._variance = 0, 0.0
         self._begin_rest()
         self._acts = True
 
     def _first_level(self) -> float:
-        """Return the level at which the observer has the first bandwidth."""
+        """Return the level at which the observer has the bandwidth of the start."""
         calm, full = self.gains.observer_bandwidth, self.gains.rejection_bandwidth
         if full <= calm:
             return 1.0
@@ -116,11 +116,11 @@ class Rejection:
 
     @property
     def noise(self) -> float:
-        """The standard deviation of the measured positions, as seen at rest and in motion."""
+        """The standard deviation of the measured positions, estimated at rest and in motion."""
         return sqrt(self._variance)
 
     def between(self, calm: float, full: float) -> float:
-        """Return the value at this level between those at 0 and 1, on a logarithmic scale."""
+        """Return the value at this level between *calm* at 0 and *full* at 1, logarithmically."""
         return calm if self.level == 0.0 else calm * (full / calm) ** self.level
 
     def see(
@@ -128,8 +128,8 @@ class Rejection:
     ) -> None:
         """Take in the *error* for *dt* s.
 
-        *measured* is the position if there is a new one, *moves* whether the reference or the
-        stiffness that is set does, and *is_cut* whether a limit cuts the command.
+        *measured* is the position if there is a new one, *moves* whether the reference or the set
+        stiffness moves, and *is_cut* whether a limit cuts the command.
         """
         tuning = self._tuning
         if measured is not None:
@@ -138,7 +138,7 @@ class Rejection:
         if moves or not self.gains.rejection:
             self._begin_rest()
             return
-        # The error from which on the load is disturbed.
+        # The least error that counts as a disturbance of the load.
         least = max(tuning.tolerances * self.gains.rest_tolerance, tuning.noises * self.noise)
         if self._seen < tuning.known:
             return
@@ -153,7 +153,7 @@ class Rejection:
             self.level = min(self.level, self.highest)
 
     def _follow(self, dt: float, size: float) -> None:
-        """Let the levels follow an error of *size* times the least."""
+        """Let the levels follow an error of *size* times the least error of a disturbance."""
         tuning = self._tuning
         wanted = self.highest * min(max((size - 1.0) / (tuning.full - 1.0), 0.0), 1.0)
         if wanted >= self.level:
@@ -168,26 +168,26 @@ class Rejection:
             self.highest = min(self.highest + tuning.climb * dt, self._bound)
 
     def _see_noise(self, dt: float, measured: float) -> None:
-        """Average the squares of second differences: those of white noise are six times it."""
+        """Average the squares of second differences: for white noise, six times its variance."""
         first, second = self._last
         self._last = second, measured
         self._seen += 1
         if self._seen < 3:
             return
         difference = measured - 2.0 * second + first
-        # At first the mean of all, so that it is right from the beginning.
+        # At first the mean of all samples, so that the estimate is right from the beginning.
         share = max(dt / self._tuning.memory, 1.0 / (self._seen - 2))
         self._variance += share * (difference * difference / 6.0 - self._variance)
 
     def _begin_rest(self) -> None:
-        """Begin to look at the error that a motion leaves; until then the level is 0."""
+        """Begin to watch the error after a motion; until that error has gone the level is 0."""
         self.level, self._acts = 0.0, False
         self._calm = self._moving = self._direction = 0.0
         self._place = self._error
         self._oscillation.start(self._error)
 
     def _see_rest(self, dt: float, least: float) -> None:
-        """Find out that the motion has ended, or that the load is shaken."""
+        """Find out whether the motion has ended, or the load is shaken."""
         tuning = self._tuning
         self._calm = self._calm + dt if abs(self._error) < least else 0.0
         self._place += (1.0 - exp(-dt / tuning.place)) * (self._error - self._place)

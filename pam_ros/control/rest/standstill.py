@@ -1,11 +1,11 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What changes when the reference rests: calm at the goal, and patience with stiction.
+"""What changes while the reference rests: less bandwidth at the goal, and slow loads in stiction.
 
-A motion needs all the bandwidth there is. A load that rests where it shall needs next to none, and
-what there is turns the noise of the sensor into pressure. And a load that sticks short of its
-goal is a spring some hundred times as stiff as the muscle: an integral tuned for the muscle would
-take minutes to load it. So this measures the stiffness that the load shows.
+A motion needs all the bandwidth there is. A load that rests at its goal needs almost none, and any
+bandwidth turns the noise of the sensor into pressure. A load that sticks short of its goal acts as
+a spring some hundred times as stiff as the muscle: an integral tuned for the muscle would take
+minutes to load it. So the apparent stiffness of the load is measured here.
 """
 
 from dataclasses import dataclass
@@ -17,7 +17,7 @@ from pam_ros.control.tuning import number
 
 @dataclass(frozen=True)
 class StandstillTuning:
-    """When a reference counts as reached, and when a load as stuck."""
+    """When a reference counts as reached, and when a load counts as stuck."""
 
     after: float = number(
         0.5, 's', 'of resting reference before the motion counts as over: two periods of the load'
@@ -42,21 +42,21 @@ class StandstillTuning:
 
 
 class Standstill:
-    """Reads from reference, error and force how the load rests.
+    """Finds from reference, error and force how the load rests.
 
     factor
-        0 (rests where it shall) to 1 (moves, or shall): what all bandwidths go with
+        0 (rests at the goal) to 1 (moves, or should move): a factor of all bandwidths
     stiffness
-        how many times stiffer than the muscles the load shows itself, from 1 on
+        apparent stiffness of the load over that of the muscles, at least 1
     """
 
     def __init__(self, tolerance: float, tuning: StandstillTuning) -> None:
-        """Count an error of *tolerance* as none; *tuning* is in the joint's units."""
+        """Ignore an error of up to *tolerance*; *tuning* is in the joint's units."""
         self.tolerance, self._tuning = tolerance, tuning
         self.start()
 
     def start(self) -> None:
-        """Begin anew, at rest at the goal."""
+        """Start again, at rest at the goal."""
         self.factor = 0.0
         self.stiffness = 1.0
         self._error = 0.0
@@ -70,7 +70,7 @@ class Standstill:
         return self._since < self._tuning.after
 
     def moves(self, reference: Reference) -> bool:
-        """Say whether *reference* moves."""
+        """Return whether *reference* moves."""
         tuning = self._tuning
         return (
             abs(reference.velocity) > tuning.rest_speed

@@ -2,13 +2,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """Bring a load that sticks and slips to its goal by measured pushes.
 
-Friction that falls when the load begins to slide makes every integral hunt: the load sticks
-beside the goal, is pulled until it breaks loose, slips past and sticks on the other side. Such
-breaks, in turn each way, show the forces of this limit cycle: the force in their middle, at which
-the load would stay at rest, and the force that breaks it loose. From then on the load is pushed
-from the middle force until it breaks loose, and the push is taken back as soon as what the load
-will still slide brings it to the goal (after Popovic, Gorinevsky & Goldenberg 2000, who fix the
-pushes beforehand). In the end it rests at the middle force, where nothing pulls at it.
+If friction falls when the load begins to slide, every integral causes a limit cycle: the load
+sticks next to the goal, is pulled until it breaks loose, slips past the goal and sticks on the
+other side. Such breaks, in alternating directions, give the forces of this cycle: the middle
+force, at which the load would stay at rest, and the force that breaks it loose. From then on the
+load is pushed from the middle force until it breaks loose. The push is removed as soon as the
+remaining slide will bring the load to the goal (after Popovic, Gorinevsky & Goldenberg 2000, who
+fix the pushes beforehand). In the end the load rests at the middle force, without a resulting
+force.
 """
 
 from dataclasses import dataclass
@@ -19,7 +20,7 @@ from pam_ros.control.tuning import number
 
 @dataclass(frozen=True)
 class StictionTuning:
-    """How sticking and slipping are distinguished from other motion, and how pushes are made."""
+    """How stick-slip is distinguished from other motion, and how pushes are made."""
 
     tolerance: float = number(
         1.5, '', 'rest tolerances that a load which sticks and slips may be off: control, friction'
@@ -55,7 +56,7 @@ class StictionTuning:
 
 
 class Stiction:
-    """Says what force to apply instead of the law's, while it is at work."""
+    """Gives the force to apply instead of that of the law, while it is active."""
 
     def __init__(self, tolerance: float, tuning: StictionTuning) -> None:
         """Take *tuning.tolerance* times the rest *tolerance*; all is in the joint's units."""
@@ -63,13 +64,13 @@ class Stiction:
         self.start()
 
     def start(self) -> None:
-        """Begin anew: nothing is known of sticking."""
+        """Start again without knowledge of sticking."""
         self.is_active = False
         self._x = self._v = self._anchor = self._mean = 0.0
         self._is_new = True
         self._stuck = False
         self._dwelt = 0.0
-        self._breaks: list[tuple[float, float, float]] = []  # side, force, place
+        self._breaks: list[tuple[float, float, float]] = []  # side, force, position
         self._middle = self._breaking = 0.0
         self._force = 0.0
         self._side = 0.0  # direction of the push, 0 when there is none
@@ -82,10 +83,10 @@ class Stiction:
         self._is_content = False
 
     def follow(self, dt: float, error: float, force: float, stiffness: float) -> float | None:
-        """Go on by *dt* s under a resting reference; return the force in N to apply, or None.
+        """Advance by *dt* s under a resting reference; return the force in N to apply, or None.
 
-        *error* is the measured one in m, *force* the one that the law wants and *stiffness* how
-        many times stiffer than the muscle the load shows itself.
+        *error* is the measured error in m, *force* the force of the law, and *stiffness* the
+        apparent stiffness of the load over that of the muscle.
         """
         self._see(dt, -error)
         slipped = self._has_slipped()
@@ -101,7 +102,7 @@ class Stiction:
         return self._force
 
     def _see(self, dt: float, x: float) -> None:
-        """Filter the place, its speed, and the place where the load sticks."""
+        """Filter the position, its speed, and the position at which the load sticks."""
         if self._is_new:
             self._x = self._anchor = x
             self._is_new = False
@@ -122,7 +123,7 @@ class Stiction:
         )
 
     def _note_break(self, force: float) -> None:
-        """Take note of a break, and set to work at the third in turn of a hunt that lasts."""
+        """Record a break; begin to push at the third one in a limit cycle that lasts."""
         side = copysign(1.0, self._v)
         self._stuck = False
         if self._breaks and self._breaks[-1][0] == side:
@@ -138,7 +139,7 @@ class Stiction:
             self.is_active = True
 
     def _push(self, dt: float, slipped: bool) -> None:
-        """Load, wait for the slip and take the push back in time, or rest."""
+        """Load, wait for the slip and remove the push in time, or rest."""
         if self._side == 0.0:
             self._rest(dt)
             return
@@ -158,7 +159,7 @@ class Stiction:
         )
         self._force += self._side * rate * self._breaking * dt
         if loaded > self._tuning.too_much * self._breaking:
-            self.start()  # this is no friction as it was: back to the law
+            self.start()  # the friction has changed: back to the law
 
     def _end_push(self) -> None:
         self._force, self._side, self._is_loose = self._middle, 0.0, False
@@ -166,7 +167,7 @@ class Stiction:
         self._pushes += 1
 
     def _rest(self, dt: float) -> None:
-        """Let the load come to rest, learn how far it slid, and push again if it must be."""
+        """Let the load come to rest, learn how far it slid, and push again if necessary."""
         self._calm += dt
         if self._calm < self._tuning.calm:
             self._anchor = self._mean = self._x
@@ -175,7 +176,7 @@ class Stiction:
         if self._calm < self._tuning.calm + self._tuning.rest:
             return
         if self._speed != 0.0:
-            # How long the speed lasted beyond what was expected corrects the next push.
+            # The time for which the speed lasted longer than expected corrects the next push.
             late = (self._mean - self._expected) / self._speed
             self._reaction = min(
                 max(self._reaction + 0.5 * late, 0.0), self._tuning.longest_reaction
