@@ -13,9 +13,9 @@ from pam_ros.errors import ParameterError
 from pam_ros.identification.data.segment import HeldSegment, Segment
 from pam_ros.identification.fit.of_rig import OfRig, changed, numbers_of
 from pam_ros.identification.fit.places import Place, effect_of
-from pam_ros.identification.fit.unknowns import CONSTANTS, Constant, OfEffect, Unknown
+from pam_ros.identification.fit.unknowns import Constant, OfEffect, Unknown
 from pam_ros.identification.result import Estimate
-from pam_ros.muscle.constants import Constants, from_si
+from pam_ros.muscle.constants import CONSTANTS, Constants, from_si
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig import layout as at
 from pam_ros.rig import statics

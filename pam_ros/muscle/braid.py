@@ -22,7 +22,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from pam_ros.arguments import alike
 from pam_ros.errors import ParameterError
-from pam_ros.muscle.constants import Constants
+from pam_ros.muscle.constants import CONSTANTS, Constants
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.parameters import check_all, described, parameter_field
 
@@ -32,7 +32,6 @@ Array = NDArray[np.float64]
 # of the greatest force and keeps each of them at the size of the force.
 BEND = -0.9
 POINTS = 401  # contractions that are fitted
-CONSTANTS = ('a1', 'a2', 'a3', 'a4', 'a5', 'a6')
 
 
 @dataclass(frozen=True)
@@ -97,19 +96,19 @@ class Braid:
 
     @property
     def greatest_contraction(self) -> float:
-        """Contraction at which the braid stops to pull: its threads are 54.7 degrees steep."""
+        """Contraction from which the braid no longer pulls: its angle is 54.7 degrees there."""
         a, b = self._ab
         return (1.0 - sqrt(b / a)) / self.end_factor
 
     def constants(self, kappa_max: float) -> Constants:
         """Return a1..a6 in SI units, fitted for contractions from 0 to *kappa_max*.
 
-        Raises ParameterError when that is beyond the contraction at which the braid stops to pull.
+        Raises ParameterError for a *kappa_max* at which the braid no longer pulls.
         """
         if not 0.0 < kappa_max < self.greatest_contraction:
             raise ParameterError(
-                f'kappa_max = {kappa_max:g} is not allowed: this braid stops to pull at a '
-                f'contraction of {self.greatest_contraction:.3g}; give less'
+                f'kappa_max = {kappa_max:g} is not allowed: this braid no longer pulls '
+                f'from a contraction of {self.greatest_contraction:.3g} on; give less'
             )
         kappa = np.linspace(0.0, kappa_max, POINTS)
         a3 = BEND / kappa_max
@@ -118,12 +117,13 @@ class Braid:
         a1, a4, a5 = (float(x) for x in found)
         return a1, self.bladder, a3, a4, a5, -self.bladder
 
-    def misfit(self, kappa_min: float, kappa_max: float) -> float:
+    def misfit(self, constants: Constants, kappa_min: float, kappa_max: float) -> float:
         """Return the greatest difference of the force law to the braid's, by the greatest force.
 
-        Both without the bladder, for contractions from *kappa_min* to *kappa_max*.
+        Both without the bladder, for contractions from *kappa_min* to *kappa_max*. *constants* are
+        those of the force law in SI units, see :meth:`constants`.
         """
-        a1, _, a3, a4, a5, _ = self.constants(kappa_max)
+        a1, _, a3, a4, a5, _ = constants
         kappa = np.linspace(kappa_min, kappa_max, POINTS)
         braid = self._per_pressure(kappa)
         law = a1 * np.exp(a3 * kappa) + a4 * kappa + a5
@@ -136,13 +136,14 @@ class Braid:
         geometry, and the greatest difference between the force law and the braid's. Raises
         ParameterError as :meth:`constants` does.
         """
+        constants = self.constants(kappa_max)
         source = (
             f'braid of radius {self.radius:g} m and {self.angle:g} deg, end factor '
             f'{self.end_factor:g}; law of Tondu and Lopez 2000, within '
-            f'{100.0 * self.misfit(kappa_min, kappa_max):.2g} % of its greatest force'
+            f'{100.0 * self.misfit(constants, kappa_min, kappa_max):.2g} % of its greatest force'
         )
         return {
-            **dict(zip(CONSTANTS, self.constants(kappa_max), strict=True)),
+            **dict(zip(CONSTANTS, constants, strict=True)),
             'pressure_unit': 'Pa',
             'contraction_unit': 'fraction',
             'inside_diameter': 2.0 * self.radius,

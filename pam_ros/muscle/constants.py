@@ -11,6 +11,7 @@ from pam_ros.errors import ParameterError
 PRESSURE_UNITS = {'Pa': 1.0, 'kPa': 1e3, 'bar': 1e5}
 CONTRACTION_UNITS = {'fraction': 1.0, 'percent': 0.01}
 Constants = tuple[float, float, float, float, float, float]
+CONSTANTS = ('a1', 'a2', 'a3', 'a4', 'a5', 'a6')  # their names, as those of parameters
 
 # How often each constant of (1) carries "per unit of pressure" and "per unit of contraction".
 _PER_PRESSURE = (1, 0, 0, 1, 1, 0)

@@ -10,8 +10,8 @@ from dataclasses import fields, replace
 from typing import Any
 
 from pam_ros.errors import ParameterError
-from pam_ros.muscle.braid import CONSTANTS, Braid
-from pam_ros.muscle.constants import from_si
+from pam_ros.muscle.braid import Braid
+from pam_ros.muscle.constants import CONSTANTS, from_si
 from pam_ros.parameters import described
 from pam_ros.settings.tables import Table, Values, table_of
 
@@ -20,6 +20,7 @@ ANGLE = f'{PREFIX}angle'
 NAMES = tuple(PREFIX + item.name for item in fields(Braid))
 UNITS = ('pressure_unit', 'contraction_unit')
 LIMITS = ('p_max', 'kappa_min', 'kappa_max')
+FOLLOWING = (*CONSTANTS, *UNITS, 'inside_diameter', 'force_max', 'source')  # from a braid
 
 
 def _table() -> Table:
@@ -59,10 +60,24 @@ def is_given(values: Values) -> bool:
     return any(name in values for name in NAMES)
 
 
-def without_constants(values: Values) -> dict[str, Any]:
-    """Return *values* without what follows from a braid."""
-    left_out = {*CONSTANTS, *UNITS, 'inside_diameter', 'force_max', 'source'}
+def without_constants(values: Values, overrides: Values) -> dict[str, Any]:
+    """Return *values* of a file without what follows from the braids that *overrides* describe.
+
+    A braid of one muscle, with its name before a dot, replaces the constants of this muscle alone.
+    """
+    left_out: set[str] = set()
+    for muscle in {
+        name.removesuffix(own) for name in overrides for own in NAMES if _is(name, own)
+    }:
+        in_force = {**values, **overrides}
+        if in_force.get(muscle + ANGLE, in_force.get(ANGLE, 0.0)) != 0.0:
+            left_out |= {muscle + name for name in FOLLOWING}
     return {name: value for name, value in values.items() if name not in left_out}
+
+
+def _is(name: str, own: str) -> bool:
+    """Say whether *name* is the parameter *own*, the common one or that of one muscle."""
+    return name == own or name.endswith(f'.{own}')
 
 
 def _of_braid(values: Values, table: Table) -> dict[str, Any]:
@@ -83,7 +98,8 @@ def _of_braid(values: Values, table: Table) -> dict[str, Any]:
     except ParameterError as error:
         raise ParameterError(f'{PREFIX}{error}') from error
     found = braid.fields(*(read[name] for name in LIMITS))
-    si = braid.constants(read['kappa_max'])
-    units = [str(values.get(name, found[name])) for name in UNITS]
-    constants = dict(zip(CONSTANTS, from_si(si, *units), strict=True))
-    return {**found, **constants, **dict(zip(UNITS, units, strict=True))}
+    pressure_unit, contraction_unit = (str(values.get(name, found[name])) for name in UNITS)
+    a1, a2, a3, a4, a5, a6 = (found[name] for name in CONSTANTS)
+    constants = from_si((a1, a2, a3, a4, a5, a6), pressure_unit, contraction_unit)
+    units = zip(UNITS, (pressure_unit, contraction_unit), strict=True)
+    return {**found, **dict(zip(CONSTANTS, constants, strict=True)), **dict(units)}

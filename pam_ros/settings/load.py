@@ -11,7 +11,7 @@ from pam_ros.effects.names import GROUP
 from pam_ros.errors import ParameterError
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig.joint import Joint
-from pam_ros.settings.braid import ANGLE, is_given, without_constants
+from pam_ros.settings.braid import without_constants
 from pam_ros.settings.files import find, read
 from pam_ros.settings.scene import Scene
 from pam_ros.settings.tables import (
@@ -102,8 +102,7 @@ def read_scene(
     refuse_unknown_effects(overrides)
     if 'joint' in overrides and 'joint' not in from_file:
         from_file = {'muscle': text}
-    if is_given(overrides) and overrides.get(ANGLE, from_file.get(ANGLE, 0.0)) != 0.0:
-        from_file = without_constants(from_file)
+    from_file = without_constants(from_file, overrides)
     given = {**from_file, **overrides}
     scene = Scene(given)
     table = scene.table()

@@ -6,6 +6,7 @@ import pytest
 
 from pam_ros.errors import ParameterError
 from pam_ros.muscle.braid import Braid
+from pam_ros.muscle.constants import CONSTANTS
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.settings import excite
 from pam_ros.settings.files import read, write
@@ -82,6 +83,21 @@ def test_one_muscle_of_a_joint_has_a_braid_of_its_own(file):
     assert extensor == Braid(0.0085, 24.0, 1.25, 150.0).muscle(**FIELDS)
 
 
+def test_a_braid_of_one_muscle_replaces_its_own_constants_of_a_file(tmp_path):
+    source = load_muscle('dmsp_10')
+    constants = {name: getattr(source, name) for name in CONSTANTS}
+    each = {f'{muscle}.{name}': a for muscle in ('a', 'b') for name, a in constants.items()}
+    path = tmp_path / 'identified.yaml'
+    write(path, {'joint': 'antagonistic', 'muscles': ('a', 'b'), 'muscle': 'dmsp_10', **each})
+    plain = load_joint(path)
+    joint = load_joint(path, {'b.braid.angle': 22.0})
+    assert joint.muscles[0] == plain.muscles[0]
+    made = joint.muscles[1]
+    assert made.si == Braid(angle=22.0).muscle(kappa_max=made.kappa_max).si
+    texts = ['b.braid.angle=22', 'b.braid.radius=0.01']
+    assert nominal_joint(path, texts).joint.muscles == joint.muscles
+
+
 def test_a_preset_with_a_braid_is_one_of_a_muscle(file):
     joint = {'joint': 'antagonistic', 'muscles': ('a', 'b')}
     assert _muscles({**joint, 'muscle': str(file)}) == [MUSCLE, MUSCLE]
@@ -120,7 +136,7 @@ def test_without_an_angle_the_constants_count(name):
         ({'braid.angle': 60.0}, 'braid.angle = 60.0 is not allowed: give 0 to 54 deg'),
         ({'braid.angle': 0.5}, 'braid.angle = 0.5 is not allowed: give 1 to 54 deg'),
         ({'braid.angel': 20.0}, 'braid.angel is not a parameter: was braid.angle meant'),
-        ({'kappa_max': 0.4}, 'kappa_max = 0.4 is not allowed: this braid stops to pull'),
+        ({'kappa_max': 0.4}, 'kappa_max = 0.4 is not allowed: this braid no longer pulls'),
         ({'braid.radius': 'wide'}, "braid.radius = 'wide' is not allowed"),
         (
             {'a1': 1.0, 'a2': 1.0, 'a3': -1.0, 'a4': -1.0, 'a5': 1.0, 'a6': -1.0},

@@ -16,13 +16,13 @@ from numpy.typing import NDArray
 from pam_ros.identification.data.segment import FreeSegment, Segment, start_of
 from pam_ros.identification.fit.of_rig import OfRig
 from pam_ros.identification.fit.places import INITIAL, Place, names_of_muscles
+from pam_ros.muscle.constants import CONSTANTS
 from pam_ros.rig import layout as at
 from pam_ros.rig.joint import Joint
 from pam_ros.rig.layout import Layout
 
 Array = NDArray[np.float64]
 
-CONSTANTS = ('a1', 'a2', 'a3', 'a4', 'a5', 'a6')
 # How far a specimen's constants are expected from those declared for its type, relative. The
 # small a1 is a correction to a5 and published values differ by more than its size: a share of
 # a5 comes on top. The damping ratio is a guess more than a constant.
