@@ -33,11 +33,21 @@ def threshold(n: int, onset: float, ratio: float) -> float:
 def slipped(ds: float, width: float, onset: float, ratio: float, x: Row, i: int, xn: Row) -> float:
     """Return the mean of the elements after a displacement ds, in -1..1; x[i] and on are strains.
 
-    They stick up to their thresholds, of which *width* is the greatest, and slip there.
+    Each sticks up to its threshold, *width* times :func:`threshold`, and slips there.
     """
+    # Computed each by itself, as threshold() does, the powers of the ratio would be three quarters
+    # of the cost of a simulation. power is ratio^s - 1.
+    power, per_power = 0.0, 0.0
+    if ratio != EVEN:
+        power, per_power = expm1(log(ratio) * (0.5 / ELEMENTS)), 1.0 / (ratio - 1.0)
+    growth = power * (power + 2.0)  # the power from one element to the next, less 1
     mean = 0.0
     for n in range(ELEMENTS):
-        d = width * threshold(n, onset, ratio)
+        s = (n + 0.5) / ELEMENTS
+        if ratio != EVEN:
+            s = power * per_power
+            power += growth * (power + 1.0)
+        d = width * (onset + (1.0 - onset) * s)
         strain = min(max(x[i + n] + ds, -d), d)
         xn[i + n] = strain
         mean += strain / d

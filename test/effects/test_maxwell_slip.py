@@ -29,7 +29,9 @@ def test_the_ratio_has_no_jump_at_equal_gaps():
     np.testing.assert_allclose(thresholds(0.1, 1.0 + 1e-12), thresholds(0.1, 1.0), rtol=1e-11)
 
 
-@pytest.mark.parametrize(('onset', 'ratio'), [(0.0, 1.0), (0.0, MOST), (1.0, 1.0), (0.05, 20.0)])
+@pytest.mark.parametrize(
+    ('onset', 'ratio'), [(0.0, 1.0), (0.0, 1.0 + 1e-9), (0.0, MOST), (1.0, 1.0), (0.05, 20.0)]
+)
 @pytest.mark.parametrize('way', [1e-4, 0.3, 0.9, 5.0, -0.4])
 def test_the_first_loading_is_the_mean_of_elements_that_stick_or_slip(onset, ratio, way):
     width, after = 0.02, np.zeros(ELEMENTS)
