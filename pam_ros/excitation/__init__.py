@@ -1,3 +1,3 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Pressure programmes that bring out what a muscle does, and the limits that keep it safe."""
+"""Pressure programmes that excite the effects of a muscle, and limits for safe operation."""

@@ -1,25 +1,25 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Watch a joint while a programme is played: in its window, and heard of."""
+"""Monitor a joint while a programme runs: its position window and its state messages."""
 
 import math
 
 
 class Guard:
-    """Says when a programme must stop. Positions in m, times in s of one steady clock."""
+    """Detects when a programme must stop. Positions in m, times in s of one steady clock."""
 
     def __init__(self, low: float, high: float, silence: float, now: float) -> None:
-        """Watch for positions outside *low*..*high*, and for *silence* s without any."""
+        """Check for positions outside *low*..*high*, and for *silence* s without a position."""
         self._low, self._high, self._silence = low, high, silence
         self._seen = now
         self.position: float | None = None
 
     def see(self, position: float, now: float) -> None:
-        """Take note of the joint's position at *now*."""
+        """Record the position of the joint at the time *now*."""
         self.position, self._seen = position, now
 
     def problem(self, now: float) -> str:
-        """Return the sentence that says why to stop, or ''."""
+        """Return the reason to stop as a sentence, or ''."""
         if now - self._seen > self._silence:
             return f'joint_states has been silent for {now - self._seen:.2f} s'
         if self.position is None:

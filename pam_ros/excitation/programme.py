@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""A pressure programme that tells the effects of a muscle apart, within its limits."""
+"""A pressure programme that distinguishes the effects of a muscle, within its limits."""
 
 import csv
 from dataclasses import dataclass
@@ -15,13 +15,13 @@ from pam_ros.excitation.settings import Excitation
 
 Array = NDArray[np.float64]
 
-RAMP = 1.5  # s from one segment to the next, and in and out
+RAMP = 1.5  # s of a ramp: between segments, at the start and at the end
 REST = 1.0  # s vented at the start and at the end
 
 
 @dataclass(frozen=True)
 class Segment:
-    """A part of a programme: commands start..stop-1, and what it brings out."""
+    """A part of a programme: commands start..stop-1, and the effects that it shows."""
 
     name: str
     start: int
@@ -59,18 +59,19 @@ class Programme:
 
 
 def programme(settings: Excitation) -> Programme:
-    """Return the programme of *settings*: a function of nothing else, to the bit.
+    """Return the programme of *settings*; equal settings give bitwise equal programmes.
 
     Vented, ramp in, steps with holds, a slow triangle with minor loops, the same range four
-    times as fast, a multisine, chirps at three mean pressures, the steps' first half once more
-    (what has warmed or worn shows), ramp out, vented. All within the limits of pressure and rate.
+    times as fast, a multisine, chirps at three mean pressures, the first two fifths of the steps
+    again (which show warming and wear), ramp out, vented. All is within the limit of the rate
+    and, between the ramps in and out, within the limits of pressure.
     """
     rng = np.random.default_rng(settings.seed)
     rate = settings.rate
     time = settings.duration - 2.0 * REST - 7.0 * RAMP
     first = waves.steps(rate, 0.30 * time, rng)
     slow = waves.triangle(rate, 0.24 * time, rng, minor_loops=True)
-    # The plain triangle is less than half as long a way: this makes it four times as fast.
+    # The plain triangle has less than half the path length: this makes it four times as fast.
     fast = waves.triangle(rate, 0.0275 * time, rng, minor_loops=False)
     sines = waves.multisine(rate, 0.15 * time, rng, settings.frequency_max)
     chirps = waves.chirp(rate, 0.16 * time, settings.frequency_max)
@@ -103,7 +104,7 @@ def programme(settings: Excitation) -> Programme:
     out = np.concatenate((_ramp(last, 0.0, rate), np.zeros(round(REST * rate))))
     add('ramp out, vented', out, '')
     limited = limit_rate(np.concatenate(levels), settings.pressure_rate / rate)
-    # A slow limit may not have let it down yet.
+    # With a slow limit of the rate the pressure may not be 0 yet.
     rest = limited[-1]
     while rest > 0.0:
         rest = max(rest - settings.pressure_rate / rate, 0.0)
@@ -123,7 +124,7 @@ def limit_rate(pressure: Array, step: float) -> Array:
 
 
 def _ramp(start: float, stop: float, rate: float) -> Array:
-    """Return a smooth way from one pressure to another: a raised cosine over RAMP s."""
+    """Return a smooth path from one pressure to another: a raised cosine over RAMP s."""
     x = np.arange(1, round(RAMP * rate) + 1) / round(RAMP * rate)
     wave: Array = start + (stop - start) * 0.5 * (1.0 - np.cos(np.pi * x))
     return wave
@@ -148,7 +149,7 @@ def plan(programme: Programme, settings: Excitation) -> str:
 
 
 def write_csv(programme: Programme, path: Path) -> None:
-    """Write the commands as ``t_s,pressure_command_Pa``; raises PamError where it cannot."""
+    """Write the commands as ``t_s,pressure_command_Pa``; raises PamError if this fails."""
     partial = path.with_name(path.name + '.part')
     try:
         with partial.open('w', newline='', encoding='utf-8') as stream:

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The settings of an excitation: its limits, its length, and when to give up."""
+"""The settings of an excitation: its limits, its duration, and when it stops early."""
 
 from dataclasses import dataclass, replace
 
@@ -11,7 +11,7 @@ from pam_ros.parameters import check_all, parameter_field
 
 @dataclass(frozen=True)
 class Excitation:
-    """Limits and shape of a pressure programme. Raises ParameterError where they contradict."""
+    """Limits and shape of a pressure programme. Raises ParameterError if they contradict."""
 
     pressure_min: float = parameter_field(
         50e3, 'lowest gauge pressure of the programme', 'Pa', low=0.0, high=5e6, live=False
@@ -79,7 +79,7 @@ class Excitation:
     )
 
     def __post_init__(self) -> None:
-        """Check every field, then each against the others."""
+        """Check every field, then the conditions between them."""
         check_all(self)
         for low, high in (
             ('pressure_min', 'pressure_max'),
@@ -98,7 +98,7 @@ class Excitation:
     def within(self, muscle: Muscle) -> 'Excitation':
         """Return this excitation with the limits of *muscle* applied as well.
 
-        Raises ParameterError where nothing is left between them.
+        Raises ParameterError if no range is left between them.
         """
         return replace(
             self,

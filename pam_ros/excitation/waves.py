@@ -12,22 +12,23 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-# Levels of the staircase: both ends, steps of many sizes, up and down from most heights, none
-# so large that a lightly damped load overshoots far. The seed moves the inner ones a little.
+# Levels of the staircase: both ends, and steps of many sizes, up and down from most levels. No
+# step is so large that a lightly damped load overshoots far. The seed changes the inner levels
+# slightly.
 LEVELS = (0.5, 0.8, 0.6, 0.75, 1.0, 0.7, 0.35, 0.55, 0.2, 0.0, 0.3, 0.15, 0.45)
 SHIFT = 0.04
-LONG = 3.0  # the highest and the lowest level are held so many times longer: creep shows
+LONG = 3.0  # factor by which the highest and lowest levels are held longer, to show creep
 SINES = 14
 SLOWEST = 0.1  # Hz
 MEANS = (0.25, 0.5, 0.75)  # of the chirps
-PASSAGE = 0.6  # s from one to the next
+PASSAGE = 0.6  # s of the transition from one mean to the next
 
 
 def steps(rate: float, duration: float, rng: Generator) -> Array:
     """Return a staircase over the whole range, up and down in steps of many sizes.
 
-    The onsets show lag and dead time, the oscillation behind them damping and mass, the long
-    holds at both ends creep.
+    The onsets show lag and dead time, the oscillation after them shows damping and mass, and the
+    long holds at both ends show creep.
     """
     levels = np.array(LEVELS)
     inner = (levels > 0.0) & (levels < 1.0)
@@ -41,9 +42,10 @@ def steps(rate: float, duration: float, rng: Generator) -> Array:
 def triangle(rate: float, duration: float, rng: Generator, minor_loops: bool) -> Array:
     """Return one triangle through the range, at a constant rate of change.
 
-    With *minor_loops* it turns back three times on the way up and three times on the way down,
-    by a third of the range and less: hysteresis remembers where it turned, friction only that
-    it did. Played at two rates, what is hysteresis stays the same, what is creep does not.
+    With *minor_loops* it reverses three times on the way up and three times on the way down,
+    by a third of the range and less: hysteresis depends on the positions of the reversals,
+    friction only on the fact that there was a reversal. At another rate hysteresis remains the
+    same, creep does not.
     """
     corners = [0.0]
     if minor_loops:
@@ -63,7 +65,7 @@ def triangle(rate: float, duration: float, rng: Generator, minor_loops: bool) ->
 def multisine(rate: float, duration: float, rng: Generator, fastest: float) -> Array:
     """Return sines from 0.1 Hz to *fastest* Hz at random phases about the middle of the range.
 
-    Whole periods fit into the duration; faster ones are smaller, as the load resonates.
+    Whole periods fit into the duration; faster sines are smaller, since the load resonates.
     """
     t = np.arange(round(rate * duration)) / rate
     cycles = np.unique(np.round(np.geomspace(SLOWEST, fastest, SINES) * duration))
@@ -92,7 +94,7 @@ def chirp(rate: float, duration: float, fastest: float) -> Array:
     before = MEANS[0]
     for mean, start, end in zip(MEANS, edges[:-1], edges[1:], strict=True):
         t = np.arange(end - start) / rate
-        # A smooth way from the last mean pressure, then the chirp, faded in and out.
+        # A smooth transition from the last mean pressure, then the chirp, faded in and out.
         way = 0.5 - 0.5 * np.cos(np.pi * np.clip(t / PASSAGE, 0.0, 1.0))
         length = max(end - start, 1) / rate - PASSAGE
         x = np.clip(t - PASSAGE, 0.0, length)

@@ -1,3 +1,3 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""One muscle as the paper has it: force, stiffness, damping, inverse, units, limits."""
+"""One muscle according to the paper: force, stiffness, damping, inverse, units, limits."""

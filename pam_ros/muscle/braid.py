@@ -2,14 +2,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """The constants of a self-made McKibben muscle from the geometry of its braid.
 
-A braid of threads that do not stretch, around a cylinder at p Pa, pulls by virtual work with
+A braid of inextensible threads around a cylinder at p Pa pulls, by virtual work, with the force
 
     F = pi r^2 p (a (1 - k kappa)^2 - b),    a = 3 / tan(angle)^2,    b = 1 / sin(angle)^2
 
 (Chou and Hannaford 1996 for k = 1; Tondu and Lopez 2000 with k for the ends, which stay narrow).
-The force law (1) of Sárosi (2015) has an exponential and a straight line in the place of the
-parabola: given a3 they are fitted to it by least squares, from contraction 0 to the greatest that
-is permitted.
+The force law (1) of Sárosi (2015) has an exponential and a straight line instead of the parabola.
+For a given a3 they are fitted to the parabola by least squares, from contraction 0 to the greatest
+permitted one.
 """
 
 from dataclasses import dataclass
@@ -27,20 +27,21 @@ from pam_ros.muscle.muscle import Muscle
 from pam_ros.parameters import check_all, described, parameter_field
 
 Array = NDArray[np.float64]
-# a3 times the greatest contraction. The smaller it is, the closer an exponential follows a
-# parabola, and the larger are a1 and a4, which then cancel each other: 0.9 leaves less than 0.5 %
-# of the greatest force and keeps each of them at the size of the force.
+# a3 times the greatest contraction. The smaller its size, the closer an exponential follows a
+# parabola, but the larger are a1 and a4, which then cancel each other. With 0.9 the error is below
+# 0.5 % of the greatest force, and each of them is about as large as the force.
 BEND = -0.9
-POINTS = 401  # contractions that are fitted
+POINTS = 401  # number of contractions in the fit
 
 
 @dataclass(frozen=True)
 class Braid:
     """The braid of a McKibben muscle at rest, without pressure and load.
 
-    ``bladder`` is not a geometry but a stiffness, which the law of the braid does not have: the
-    force is less by bladder (1 - exp(a3 kappa)) at all pressures. It can hardly be known without
-    a measurement: give it a wide prior in an identification (``--uncertain a2=1000%``).
+    ``bladder`` describes not the geometry but a stiffness, which the law of the braid does not
+    contain. It reduces the force by bladder (1 - exp(a3 kappa)) at all pressures. Without a
+    measurement its value is very uncertain: give it a wide prior in an identification
+    (``--uncertain a2=1000%``).
 
     Raises ParameterError for a value that is not allowed.
     """
@@ -82,7 +83,7 @@ class Braid:
         return 3.0 / tan(angle) ** 2, 1.0 / sin(angle) ** 2
 
     def force(self, p: ArrayLike, kappa: ArrayLike) -> Array:
-        """Return the force of the braid in N at p Pa gauge, the bladder not included.
+        """Return the force of the braid in N at p Pa gauge, without the bladder.
 
         Arrays broadcast; kappa is the contraction as a fraction of the length at rest.
         """
@@ -118,10 +119,10 @@ class Braid:
         return a1, self.bladder, a3, a4, a5, -self.bladder
 
     def misfit(self, constants: Constants, kappa_min: float, kappa_max: float) -> float:
-        """Return the greatest difference of the force law to the braid's, by the greatest force.
+        """Return the greatest error of the force law relative to the greatest force of the braid.
 
-        Both without the bladder, for contractions from *kappa_min* to *kappa_max*. *constants* are
-        those of the force law in SI units, see :meth:`constants`.
+        Both are without the bladder, for contractions from *kappa_min* to *kappa_max*.
+        *constants* are those of the force law in SI units, see :meth:`constants`.
         """
         a1, _, a3, a4, a5, _ = constants
         kappa = np.linspace(kappa_min, kappa_max, POINTS)
@@ -130,10 +131,10 @@ class Braid:
         return float(np.max(np.abs(law - braid)) / np.max(np.abs(braid)))
 
     def fields(self, p_max: float, kappa_min: float, kappa_max: float) -> dict[str, Any]:
-        """Return what a muscle with this braid has, by the names of the fields of Muscle.
+        """Return the properties of a muscle with this braid, by the names of the fields of Muscle.
 
-        *p_max* in Pa and the contractions are those that the muscle permits. ``source`` states the
-        geometry, and the greatest difference between the force law and the braid's. Raises
+        *p_max* in Pa and the contractions are the limits of the muscle. ``source`` states the
+        geometry, and the greatest difference between the force law and that of the braid. Raises
         ParameterError as :meth:`constants` does.
         """
         constants = self.constants(kappa_max)
@@ -152,12 +153,12 @@ class Braid:
         }
 
     def muscle(self, **fields: Any) -> Muscle:
-        """Return a muscle with this braid; *fields* are those of Muscle that it leaves open.
+        """Return a muscle with this braid; *fields* are other fields of Muscle.
 
-        Without them its inside diameter is that of the braid, its rated force the one at ``p_max``
+        By default its inside diameter is that of the braid, its rated force the one at ``p_max``
         and contraction 0, and its ``source`` the geometry with the greatest difference between
-        both laws. Raises ParameterError as :meth:`constants` and Muscle do, and when *fields* have
-        constants of their own.
+        both laws. Raises ParameterError as :meth:`constants` and Muscle do, and if *fields*
+        contains constants or their units.
         """
         for name in (*CONSTANTS, 'pressure_unit', 'contraction_unit'):
             if name in fields:

@@ -2,15 +2,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """Fit the constants a1..a6 of the force law to a measured static map, with standard errors.
 
-Given a3, equation (1) of Sárosi (2015) is linear in the other five constants. So only a3 is
-searched, in one dimension, with the others solved for at each trial (variable projection,
-Golub & Pereyra 1973): no starting values are needed, and the least error over a wide range of
-a3 is the least of all.
+For a given a3, equation (1) of Sárosi (2015) is linear in the other five constants. So only a3 is
+searched, in one dimension, and the others are solved for each trial value (variable projection,
+Golub & Pereyra 1973). No starting values are needed, and the least error over a wide range of a3
+is the global minimum.
 
-Where a muscle is slack the law would push and the force cell reads 0: such a point says only
-that the law's force is not above that. It is fitted as censored (Tobin 1958), in Olsen's (1978)
-form, which is concave for the five linear constants and the noise together, so that the search
-stays one-dimensional and certain.
+If a muscle is slack, the force law gives a pushing force, but the force cell reads 0. Such a point
+only shows that the force of the law is not above this reading. It is fitted as censored (Tobin
+1958), in the form of Olsen (1978), which is concave for the five linear constants and the noise
+together. So the search stays one-dimensional and reliable.
 """
 
 from dataclasses import dataclass
@@ -35,12 +35,12 @@ A3_RANGE = (0.2, 100.0)
 
 @dataclass(frozen=True, eq=False)
 class StaticFit:
-    """The constants that explain a static map best, and how certain they are.
+    """The constants that explain a static map best, and their uncertainty.
 
     ``constants`` and ``standard_errors`` are a1..a6 in N, *pressure_unit* and *contraction_unit*;
-    ``covariance`` (6, 6) is in the same units. ``rmse`` in N is over the ``points`` that
-    were fitted, ``slack_points`` of the map were censored or left out. ``residuals`` (map) in N
-    are measured less fitted, NaN where slack.
+    ``covariance`` (6, 6) is in the same units. ``rmse`` in N is over the ``points`` that were
+    fitted; ``slack_points`` of the map were censored or left out. ``residuals`` (map) in N are
+    measured minus fitted values, NaN for slack points.
     """
 
     constants: Constants
@@ -54,9 +54,9 @@ class StaticFit:
     contraction_unit: str
 
     def muscle(self, **fields: Any) -> Muscle:
-        """Return a muscle of these constants; *fields* are those of Muscle that they leave open.
+        """Return a muscle with these constants; *fields* are other fields of Muscle.
 
-        Raises ParameterError when that is no muscle, as Muscle does.
+        Raises ParameterError if these are not valid for a muscle, as Muscle does.
         """
         a1, a2, a3, a4, a5, a6 = self.constants
         return Muscle(
@@ -81,13 +81,13 @@ def fit_static_map(
     slack_at: float | None = None,
     slack: str = 'censored',
 ) -> StaticFit:
-    """Fit a1..a6 to a static map by least squares (maximum likelihood where it is censored).
+    """Fit a1..a6 to a static map by least squares (by maximum likelihood with censored points).
 
-    p, kappa, force: arrays of one shape, one entry a measured point: gauge pressure in
+    p, kappa, force: arrays of one shape, one entry for each measured point: gauge pressure in
     *pressure_unit*, contraction in *contraction_unit* (positive when shortened), pulling force in
-    N. The constants come in the same units. Readings of *slack_at* N or less are slack points;
-    they are 'censored' or 'excluded' as *slack* says. Without *slack_at* every number is taken
-    as measured.
+    N. The constants have the same units. Readings of *slack_at* N or less are slack points, and
+    *slack* ('censored' or 'excluded') sets how they are used. Without *slack_at* every number is
+    used as measured.
 
     Standard errors hold for independent errors of equal size and are those of the linearised
     problem, with the noise estimated from the residuals (points - 6 degrees of freedom).
@@ -102,7 +102,7 @@ def fit_static_map(
     _one_of('slack', slack, ('censored', 'excluded'))
     slack_points = force <= (-np.inf if slack_at is None else slack_at)
     used = np.ones_like(slack_points) if slack == 'censored' else ~slack_points
-    # The units of the search: everything of the order of 1.
+    # Scales for the search, so that all values are of the order of 1.
     p_unit, kappa_unit, n = (
         float(np.max(np.abs(a[used]), initial=0.0)) or 1.0 for a in (p, kappa, force)
     )
@@ -148,7 +148,7 @@ def _one_of(name: str, value: str, allowed: tuple[str, ...]) -> None:
 
 @dataclass(frozen=True, eq=False)
 class _Search:
-    """A map in units of its own size; ``slack`` marks points that are at most ``level``."""
+    """A map scaled by its own size; ``slack`` marks points that are at most ``level``."""
 
     p: Array
     kappa: Array
@@ -187,7 +187,7 @@ class _Search:
         return constants, self._covariance(constants, noise)
 
     def _columns(self, a3: float) -> Array:
-        """Return what multiplies a1, a2, a4, a5 and a6 in (1), (points, 5)."""
+        """Return the factors of a1, a2, a4, a5 and a6 in (1), (points, 5)."""
         e = np.exp(a3 * self.kappa)
         return np.stack([self.p * e, e, self.kappa * self.p, self.p, np.ones_like(e)], axis=-1)
 
@@ -195,8 +195,8 @@ class _Search:
         """Return a1, a2, a4, a5, a6 at a given a3, the cost there, and the noise (1 sigma)."""
         columns = self._columns(a3)
         x, y = columns[~self.slack], self.force[~self.slack]
-        # Columns of one length, and least squares by singular values: exp() over a short range
-        # is nearly a straight line.
+        # Columns are scaled to one length, and least squares uses singular values: exp() over a
+        # short range is nearly a straight line.
         size = np.linalg.norm(columns, axis=0)
         linear = np.linalg.lstsq(x / size, y, rcond=None)[0]
         noise = float(np.sqrt(np.mean((y - x / size @ linear) ** 2)))
@@ -207,9 +207,10 @@ class _Search:
         return linear / size, float(cost), noise
 
     def _censored(self, x: Array, linear: Array, noise: float) -> tuple[Array, float, float]:
-        """Return what maximises the likelihood with the slack points, by Newton's method."""
+        """Return linear constants, noise and cost at the maximum likelihood (Newton's method)."""
         slack = self.slack
-        # With u = (linear, 1)/sigma, rows @ u are the residuals over sigma; at the level if slack.
+        # With u = (linear, 1)/sigma, rows @ u are the residuals over sigma. Those of slack points
+        # are relative to the level.
         rows = np.column_stack([-x, np.where(slack, self.level, self.force)])
         measured = np.count_nonzero(~slack)
         u = np.append(linear, 1.0) / noise
@@ -239,7 +240,7 @@ class _Search:
         return u[:-1] / u[-1], 1.0 / u[-1], now
 
     def _covariance(self, constants: Array, noise: float) -> Array:
-        """Return the inverse information of a1..a6 with the noise estimated beside them."""
+        """Return the inverse information of a1..a6, with the noise estimated at the same time."""
         a1, a2, a3 = constants[:3]
         columns = self._columns(a3)
         by_a3 = (a1 * self.p + a2) * self.kappa * np.exp(a3 * self.kappa)
@@ -251,8 +252,8 @@ class _Search:
                 'the map does not determine the six constants: give more pressures (2 or more) '
                 'and contractions (4 or more) with a pull'
             )
-        # Second derivatives of the cost by the constants and by the logarithm of the noise. Where
-        # measured they are simple, since the first derivatives are 0 at the optimum.
+        # Second derivatives of the cost by the constants and by the logarithm of the noise. For
+        # measured points they are simple, since the first derivatives are 0 at the optimum.
         r = (
             np.where(self.slack, self.level, self.force) - columns @ np.delete(constants, 2)
         ) / noise
@@ -267,9 +268,9 @@ class _Search:
 
 
 def _mills(r: Array, slack: Mask) -> tuple[Array, Array]:
-    """Return the cost's first and second derivative by the scaled residuals r.
+    """Return the first and second derivative of the cost by the scaled residuals r.
 
-    Of r^2/2 where measured, of -log Phi(r) where slack.
+    The cost is r^2/2 for measured points, and -log Phi(r) for slack points.
     """
     ratio = np.exp(-0.5 * r * r - 0.5 * np.log(2.0 * np.pi) - log_ndtr(r))
     return np.where(slack, -ratio, r), np.where(slack, ratio * (ratio + r), 1.0)

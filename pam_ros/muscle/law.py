@@ -6,12 +6,12 @@ Everything is SI: gauge pressure p in Pa, contraction kappa as a fraction of l0 
 the muscle shortens and lifts the load), force in N (positive when the muscle pulls). The
 constants a1..a6 are the paper's, converted to these units by :mod:`pam_ros.muscle.constants`.
 
-The paper takes x downwards and prints the bracket of (2) and (4) without a sign. Along
-contraction the force falls, so that bracket, dF/dkappa, is negative for a working muscle and
-(4) as printed is the root of a negative number. The physical stiffness is minus the bracket
-over l0; both functions below use it.
+The paper takes x downwards and prints the bracket of (2) and (4) without a sign. The force
+decreases with contraction. So this bracket, dF/dkappa, is negative for a working muscle, and (4)
+as printed is the root of a negative number. The physical stiffness is minus the bracket over l0;
+both functions below use it.
 
-The functions are plain scalar Python, compiled where numba is there, for stepping. ``force_v`` and
+The functions are plain scalar Python, compiled for stepping if numba is installed. ``force_v`` and
 so on are the same source broadcast over numpy arrays, for analysis.
 """
 
@@ -32,19 +32,19 @@ def force(
 def force_at(
     e: float, p: float, kappa: float, a1: float, a2: float, a4: float, a5: float, a6: float
 ) -> float:
-    """Return (1) where e = exp(a3 kappa) is known: the kernel shares it with the slope."""
+    """Return (1) for a known e = exp(a3 kappa), which the kernel also uses for the slope."""
     return (a1 * p + a2) * e + a4 * kappa * p + a5 * p + a6
 
 
 @scalar
 def slope(p: float, kappa: float, a1: float, a2: float, a3: float, a4: float) -> float:
-    """Return dF/dkappa in N: the bracket of equations (2) and (4), negative when it works."""
+    """Return dF/dkappa in N: the bracket of (2) and (4), negative for a working muscle."""
     return slope_at(exp(a3 * kappa), p, a1, a2, a3, a4)
 
 
 @scalar
 def slope_at(e: float, p: float, a1: float, a2: float, a3: float, a4: float) -> float:
-    """Return dF/dkappa where e = exp(a3 kappa) is known."""
+    """Return dF/dkappa for a known e = exp(a3 kappa)."""
     return (a1 * p + a2) * a3 * e + a4 * p
 
 
@@ -60,15 +60,16 @@ def stiffness(
 def damping(k: float, mass: float, zeta: float) -> float:
     """Return c = 2 zeta sqrt(m k) in N s/m: equation (4) with the corrected stiffness.
 
-    Where k is not positive the muscle has no spring and the equation no root: c is 0 there.
-    A model with such a point in its working range is refused when it is made.
+    If k is not positive, the muscle has no spring and (4) gives no damping: c is 0.
+    A muscle with such a point in its working range is refused when it is created; only a force
+    source is accepted, which has no spring and zeta 0.
     """
     return 2.0 * zeta * sqrt(mass * max(k, 0.0))
 
 
 @scalar
 def gain(kappa: float, a1: float, a3: float, a4: float, a5: float) -> float:
-    """Return dF/dp in N/Pa: the force law is affine in p, and this is its slope there."""
+    """Return dF/dp in N/Pa: the force law is affine in p, and this is its slope."""
     return a1 * exp(a3 * kappa) + a4 * kappa + a5
 
 
@@ -85,8 +86,8 @@ def pressure_for_force(
 ) -> float:
     """Return the gauge pressure in Pa at which equation (1) gives *wanted* N at *kappa*.
 
-    Explicit, since (1) is affine in p. Valid where :func:`gain` is positive; the result is not
-    clamped and may lie outside the muscle's pressure range.
+    It is explicit, since (1) is affine in p. It is valid if :func:`gain` is positive; the result
+    is not clamped and may lie outside the muscle's pressure range.
     """
     e = exp(a3 * kappa)
     return (wanted - a2 * e - a6) / (a1 * e + a4 * kappa + a5)
@@ -106,7 +107,7 @@ def potential(
 ) -> float:
     """Return the work in J that (1) does from kappa = 0 to *kappa* at constant pressure.
 
-    The closed integral of F dy, y = kappa l0; the energy check of the integrator rests on it.
+    This is the closed form of the integral of F dy, y = kappa l0; energy balances use it.
     """
     spring = (a1 * p + a2) * (exp(a3 * kappa) - 1.0) / a3 if a3 != 0.0 else (a1 * p + a2) * kappa
     return l0 * (spring + 0.5 * a4 * p * kappa * kappa + (a5 * p + a6) * kappa)

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""A muscle: its constants, length, damping ratio and limits, checked when it is made."""
+"""A muscle: its constants, length, damping ratio and limits, checked when it is created."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -16,21 +16,21 @@ from pam_ros.muscle.constants import CONTRACTION_UNITS, PRESSURE_UNITS, Constant
 from pam_ros.parameters import check_all, parameter_field
 
 Array = NDArray[np.float64]
-FAR_OFF = 20.0  # times the rated force, up or down: no muscle of that rating
+FAR_OFF = 20.0  # factor above or below the rated force at which the constants are refused
 
 
 @dataclass(frozen=True)
 class Muscle:
     """A fluidic muscle after Sárosi (2015).
 
-    Fields are what a user gives, constants in the units of their source. Methods are SI: gauge
+    Fields are given by the user, constants in the units of their source. Methods are SI: gauge
     Pa, contraction as a fraction of l0, N, N/m; arrays of finite numbers broadcast, and anything
-    else raises ParameterError. Raises ParameterError when the constants make no muscle: stiffness
-    or pressure gain not positive somewhere in the working range (p_min..p_max,
+    else raises ParameterError. Raises ParameterError if the constants are not valid for a muscle:
+    stiffness or pressure gain not positive somewhere in the working range (p_min..p_max,
     kappa_min..kappa_max), or a force far from the rated one.
 
-    With a1 = a2 = a4 = 0 there is no muscle but a force source a5 p + a6 that does not depend on
-    the position: a drive whose input then stands in for the pressure, in its own unit.
+    With a1 = a2 = a4 = 0 this is not a muscle but a force source a5 p + a6 that does not depend on
+    the position: a drive whose input replaces the pressure, in its own unit.
     """
 
     a1: float = parameter_field(-4.35573, 'constant a1 of the force law', 'N/pressure_unit')
@@ -72,7 +72,7 @@ class Muscle:
     source: str = parameter_field('', 'where the constants come from', live=False)
 
     def __post_init__(self) -> None:
-        """Check every field, then the muscle they make."""
+        """Check every field, then the muscle that they describe."""
         check_all(self)
         if self.is_load_only:
             if self.zeta != 0.0:
@@ -83,13 +83,13 @@ class Muscle:
             return
         # The stiffness is affine in p and monotone in kappa: its least value is at a corner.
         p, kappa = np.meshgrid((self.p_min, self.p_max), (self.kappa_min, self.kappa_max))
-        # Constants in the wrong units overflow exp(): that is one of the things looked for.
+        # Constants in the wrong units can overflow exp(), which the checks below find, too.
         with np.errstate(over='ignore', invalid='ignore'):
             self._refuse('stiffness k', self.stiffness(p, kappa), 'N/m', p, kappa)
             kappa = self._extremes_of_gain()
             self._refuse('pressure gain dF/dp', self.gain(kappa), 'N/Pa', 0.0 * kappa, kappa)
             strongest = float(self.force(self.p_max, 0.0))
-        # Pressure in the wrong unit changes no sign, but the force by a factor of 100 or more.
+        # A wrong unit of pressure changes no sign, but the force by a factor of 100 or more.
         if not self.force_max / FAR_OFF < strongest < self.force_max * FAR_OFF:
             raise ParameterError(
                 f'the constants a1..a6 give {strongest:.4g} N at p_max = {self.p_max / 1e3:g} kPa '
@@ -98,7 +98,7 @@ class Muscle:
             )
 
     def _extremes_of_gain(self) -> Array:
-        """Return the contractions where the gain can be least: the ends and where it is flat."""
+        """Return the contractions at which the gain can be least: the ends and a flat point."""
         a1, _, a3, a4, _, _ = self.si
         low, high = self.kappa_min, self.kappa_max
         flat = np.log(-a4 / (a1 * a3)) / a3 if a1 * a3 * a4 < 0.0 else low
@@ -150,14 +150,14 @@ class Muscle:
     def pressure_for_force(self, wanted: ArrayLike, kappa: ArrayLike) -> Array:
         """Return the gauge pressure in Pa for a wanted force in N: (1) solved for p.
 
-        Raises RangeError where the gain dF/dp is not positive or the pressure would lie outside
-        p_min..p_max; the sentence names the first such point.
+        Raises RangeError if the gain dF/dp is not positive or the pressure would lie outside
+        p_min..p_max; the message names the first such point.
         """
         f, kappa = np.broadcast_arrays(*alike(wanted=wanted, kappa=kappa))
         with np.errstate(divide='ignore', invalid='ignore'):
             p = law.pressure_for_force_v(f, kappa, *self.si)
         p = np.where(self.gain(kappa) > 0.0, p, np.nan)
-        slack = 1e-9 * (self.p_max - self.p_min)  # the ends themselves, in spite of rounding
+        slack = 1e-9 * (self.p_max - self.p_min)  # accepts the ends in spite of rounding
         bad = ~((p >= self.p_min - slack) & (p <= self.p_max + slack))
         if np.any(bad):
             i = np.unravel_index(np.argmax(bad), bad.shape)
@@ -172,9 +172,9 @@ class Muscle:
     def equilibrium(self, p: float, load: float) -> float:
         """Return the contraction at which (1) holds *load* N at *p* Pa.
 
-        Searched where the law has its branch of positive stiffness, from kappa_min - 0.1 to
-        kappa_max + 0.25: a light load rests beyond the rated contraction. Raises RangeError
-        when there is none.
+        The search covers the branch of the law with positive stiffness, from kappa_min - 0.1 to
+        kappa_max + 0.25, at most 0.95: a light load rests beyond the rated contraction. Raises
+        RangeError if there is no such contraction.
         """
         p, load = number('p', p), number('load', load)
         low, high = self.kappa_min - 0.1, min(self.kappa_max + 0.25, 0.95)
@@ -184,8 +184,8 @@ class Muscle:
                 f'no equilibrium: at {p / 1e3:g} kPa the muscle pulls {ends[0]:.4g} N at '
                 f'contraction {low:g} and {ends[1]:.4g} N at {high:g}, the load is {load:.4g} N'
             )
-        # Newton's method in a bracket. The force falls and is convex, so that from the left end
-        # it never overshoots. Importing scipy for this would cost a node 0.3 s at its start.
+        # Newton's method in a bracket. The force decreases and is convex, so that the method never
+        # overshoots from the left end. An import of scipy would cost a node 0.3 s at its start.
         a1, a2, a3, a4, _, _ = self.si
         kappa = low
         for _ in range(100):

@@ -1,3 +1,3 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""A muscle, a load and effects as equations of motion, and their integrator."""
+"""A joint with muscles, load and effects as equations of motion, and their integrator."""

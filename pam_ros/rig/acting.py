@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""When commands act on the muscles of a joint: their stamps, and the delays of the effects."""
+"""The times at which commands act on the muscles of a joint: stamps plus delays of the effects."""
 
 from collections.abc import Sequence
 
@@ -14,7 +14,7 @@ Array = NDArray[np.float64]
 
 
 def delays_of(layout: Layout, q: Array) -> tuple[float, ...]:
-    """Return the time in s by which commands act late in each muscle of the parameters q."""
+    """Return the delay in s of the commands of each muscle, from the parameters q."""
     delays = [
         (effect.equations.delay, layout.parameter_at[effect.name])
         for effect in layout.library
@@ -24,10 +24,10 @@ def delays_of(layout: Layout, q: Array) -> tuple[float, ...]:
 
 
 def acting_commands(acts: Sequence[Array], command: Array) -> tuple[Array, Array]:
-    """Return the stamps at which something changes, and the commands (m, muscles) from each on.
+    """Return the stamps at which a command changes, and the commands (m, muscles) from each on.
 
     *acts* are the times (m,) at which the rows of *command* (m, muscles) act in each muscle.
-    Where these differ, all stamps at which one muscle's command changes are stamps of all.
+    If they differ between muscles, the result has a stamp for each change of any muscle's command.
     """
     if all(np.array_equal(own, acts[0]) for own in acts[1:]):
         return acts[0], command

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The joints that users choose by name: muscles, their transmission and their load."""
+"""The joints that users choose by name: muscles, transmission and load."""
 
 from dataclasses import dataclass
 
@@ -10,11 +10,11 @@ from pam_ros.rig.transmissions import Lever, Pulley, Straight, Transmission
 
 @dataclass(frozen=True)
 class Arrangement:
-    """Muscles, a transmission and a load that go together.
+    """A combination of muscles, a transmission and a load.
 
-    ``contraction`` is what each muscle has at the coordinate 0 unless something else is declared;
-    ``has_mounting`` says that something else can be: one muscle on a mass has its coordinate
-    from its own length.
+    ``contraction`` is the default contraction of each muscle at the coordinate 0.
+    ``has_mounting`` is whether a user can set another one. This is not possible for one muscle on
+    a mass, whose coordinate is measured from the muscle's own length at rest.
     """
 
     name: str

@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Bind the kernel's templates to a kind of joint and a set of effects, and compile the result.
 
-The templates of :mod:`pam_ros.rig.kernel` call chains by name. Here each chain becomes a
-function that passes the value through the effects in their order, the geometry becomes that of the
-joint, and each template is made anew with these as its globals. numba inlines them, and keeps
-the machine code of the loops on disk under a name that holds their fingerprint: numba itself
-notices changes of one file only.
+The templates of :mod:`pam_ros.rig.kernel` call chains by name. Here each chain becomes a function
+that passes the value through the effects in their order, the geometry becomes that of the joint,
+and each template is copied with these as its globals. numba inlines them and keeps the machine
+code of the loops on disk under a name that contains their fingerprint, because numba itself only
+notices changes of one file.
 """
 
 from collections.abc import Callable
@@ -57,7 +57,7 @@ class Kernel:
 
 
 def _with_parameters(inner: Function, f: Function, j: int) -> Function:
-    """Chain ``f(value, q, j)`` behind ``inner(value, q)``."""
+    """Chain ``f(value, q, j)`` after ``inner(value, q)``."""
 
     def chain(value, q):  # type: ignore[no-untyped-def]
         return f(inner(value, q), q, j)
@@ -80,7 +80,7 @@ def _pressures(inner: Function, f: Function, i: int, j: int) -> Function:
 
 
 def _forces(inner: Function, f: Function, i: int, j: int) -> Function:
-    """Chain for muscle forces, outside forces and drag: they have the same arguments."""
+    """Chain for muscle forces, outside forces and drag, which have the same arguments."""
 
     def chain(value, p, place, v, t, h, x, xn, q):  # type: ignore[no-untyped-def]
         return f(inner(value, p, place, v, t, h, x, xn, q), p, place, v, t, h, x, i, xn, q, j)
@@ -96,7 +96,7 @@ def _dampings(inner: Function, f: Function, j: int) -> Function:
 
 
 def _or_present(inner: Function, strengths: tuple[int, ...]) -> Function:
-    """Chain the question whether any of these parameters differs from 0."""
+    """Chain the check whether any of these parameters differs from 0."""
     if not strengths:
         return inner
     first, rest = strengths[0], strengths[1:]
@@ -120,10 +120,11 @@ _CHAINED: dict[str, Callable[..., Function]] = {
 
 
 def is_dragged(layout: Layout) -> bool:
-    """Say whether friction on the joint is in the force of a machine that moves its one muscle.
+    """Return whether a machine that moves the one muscle measures the friction on the joint, too.
 
-    Muscle and load are then in one line, and what rubs is between the machine's clamps. Beside a
-    wheel or a second muscle the force cell is at a muscle's end, and does not feel the joint.
+    This is so if muscle and load are in one line: the friction is then between the clamps of the
+    machine. With a revolute joint or a second muscle the force cell is at the end of a muscle,
+    and does not measure the friction on the joint.
     """
     return layout.muscles == 1 and not layout.transmission.revolute
 
@@ -132,8 +133,8 @@ def is_dragged(layout: Layout) -> bool:
 def _chains(offsets: Offsets) -> dict[str, Function]:
     """Return the compiled chain of every place, by the name that the templates call.
 
-    The offsets are the same in joints of all kinds, whose kernels in one process share the chains
-    and so compile them once.
+    The offsets are the same for joints of all kinds. Their kernels in one process share the
+    chains, which are therefore compiled once.
     """
     chains = {
         f'{place}_chain': compiled.inner(getattr(templates, f'{place}_chain'))
@@ -151,7 +152,7 @@ def _chains(offsets: Offsets) -> dict[str, Function]:
 
 @lru_cache(maxsize=32)
 def _memories(offsets: Offsets) -> dict[str, Function]:
-    """Return the functions that say whether a row has an effect with a memory of its own."""
+    """Return the functions that check a row for an effect with a memory that is not a pressure."""
     found = {}
     for name, on_joint in (('muscle_remembers', False), ('joint_remembers', True)):
         strengths = tuple(
@@ -169,10 +170,10 @@ def _memories(offsets: Offsets) -> dict[str, Function]:
 
 @lru_cache(maxsize=32)
 def bind(layout: Layout, active: tuple[type[Effect], ...]) -> Kernel:
-    """Return the kernel in which the effects *active*, a subset of the layout's, can act.
+    """Return the kernel with the effects *active*, a subset of those of the layout.
 
-    Rows keep the layout's width whatever is active. Compilation happens at the first call of
-    each loop, or comes from disk.
+    The width of the rows is that of the layout for every subset. Each loop is compiled at its
+    first call, or loaded from disk.
     """
     transmission, load = layout.transmission, layout.load
     offsets = tuple((e, layout.state_at[e.name], layout.parameter_at[e.name]) for e in active)
@@ -196,14 +197,14 @@ def bind(layout: Layout, active: tuple[type[Effect], ...]) -> Kernel:
     }
     _bind_inner(templates, _INNER, names)
     loops = _bind_loops(templates, _LOOPS, names)
-    # The names that the runs have from the kernel are those bound above.
+    # The runs use the names of the kernel as they are bound above.
     names = {**vars(run_kernel), **{k: v for k, v in names.items() if not k.startswith('__')}}
     _bind_inner(run_kernel, _INNER_OF_RUNS, names)
     return Kernel(**loops, **_bind_loops(run_kernel, _LOOPS_OF_RUNS, names))
 
 
 def _bind_inner(module: Any, inner: tuple[str, ...], names: dict[str, Any]) -> None:
-    """Bind the functions *inner* of a module of templates to *names*, and put them there."""
+    """Bind the functions *inner* of a module of templates to *names*, and add them to *names*."""
     for name in inner:
         names[name] = compiled.inner(_rebound(getattr(module, name), names, name))
 

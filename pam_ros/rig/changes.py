@@ -1,10 +1,10 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Runs in which effects begin to act in the middle.
+"""Runs in which effects begin to act after the start.
 
-Until then they are absent. At the moment their memories begin as they do in a rig that has none
-of them yet, and the rig goes on from where it is: no pressure and no position jumps. The run is
-cut exactly there, wherever the samples are, so that it is smooth in the moment.
+Before their onset these effects are absent. At the onset their memories are at rest at the present
+state of the rig, and the run continues from this state: no pressure and no position jumps. The run
+is divided exactly at the onset, independently of the samples, so that it is smooth there.
 """
 
 from collections.abc import Sequence
@@ -27,7 +27,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class Change:
-    """What changes at ``time`` s: the parameters become ``q`` (rows, parameters).
+    """A change at ``time`` s: the parameters become ``q`` (rows, parameters).
 
     ``begun`` are the effects that begin to act, those on the joint, then those in each muscle.
     """
@@ -38,7 +38,7 @@ class Change:
 
 
 def changes_of(joint: Joint, start: float) -> list[Change]:
-    """Return what changes in a run of *joint* that begins at *start* s, in the order of time."""
+    """Return the changes in a run of *joint* that begins at *start* s, in the order of time."""
     return [
         Change(time, after.parameters(), appeared(before, after))
         for (_, before), (time, after) in pairwise(joint.stages)
@@ -47,7 +47,7 @@ def changes_of(joint: Joint, start: float) -> list[Change]:
 
 
 def refuse_onsets(joint: Joint, who: str) -> None:
-    """Raise ParameterError where an effect of *joint* begins after the start: *who* needs all."""
+    """Raise ParameterError if an effect of *joint* has an onset above 0: *who* allows none."""
     for effects in (joint.effects, *(actuator.effects for actuator in joint.actuators)):
         for effect in effects:
             if effect.onset > 0.0:
@@ -58,7 +58,7 @@ def refuse_onsets(joint: Joint, who: str) -> None:
 
 
 def appeared(before: Joint, after: Joint) -> tuple[tuple[type[Effect], ...], ...]:
-    """Return the effects that *after* has and *before* has not, by row as ``present`` is."""
+    """Return the effects that *after* has and *before* does not have, by row as in ``present``."""
     return tuple(
         tuple(effect for effect in now if effect not in then)
         for then, now in zip(before.present, after.present, strict=True)
@@ -78,12 +78,12 @@ def run_over(
     *,
     forces: bool,
 ) -> Array:
-    """Return the run over the stamps t with *changes* after its first, from the state x on.
+    """Return the run over the stamps t from the state x, with *changes* after the first stamp.
 
     x becomes the state at the end, *q* are the parameters (rows, parameters) at the beginning.
-    The other arguments and the columns are those of :func:`pam_ros.rig.run_kernel.simulate`, with
-    the commands as they are stamped: one that has acted before a change has acted, whatever delay
-    begins there.
+    The other arguments and the columns are those of :func:`pam_ros.rig.run_kernel.simulate`, but
+    the stamps of the commands do not include delays. A command that has acted before a change
+    remains active, even if a longer delay begins there.
     """
     out = np.empty((t.size, layout.run_columns))
     acts = [command_t + delay for delay in delays_of(layout, q)]

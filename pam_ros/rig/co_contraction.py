@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The stiffness of a joint, and the pressures of two muscles for it, in closed form.
 
-As in :mod:`pam_ros.rig.statics`, all of it is the declared model. Both wanted together are two
-linear equations for the two pressures.
+As in :mod:`pam_ros.rig.statics`, all of it is the nominal model. Desired values of stiffness and
+effort give two linear equations for the two pressures.
 """
 
 from typing import Any
@@ -17,10 +17,10 @@ from pam_ros.rig.joint import Joint
 
 
 def joint_stiffness(joint: Joint, p: ArrayLike, s: ArrayLike) -> Any:
-    """Return the stiffness that the muscles give the joint at s, without that of gravity.
+    """Return the stiffness of the joint at s by its muscles, without that of gravity.
 
-    p: gauge Pa, (muscles,) or one number for all. s: m or rad, a number or an array, whose shape
-    the stiffness in N/m or N m/rad has. Raises ParameterError for a p of another shape, and for
+    p: gauge Pa, (muscles,) or one number for all. s: m or rad, a number or an array; the result
+    in N/m or N m/rad has the same shape. Raises ParameterError for a p of another shape, and for
     numbers that are not finite.
     """
     muscles = len(instance('joint', joint, Joint, 'a Joint').actuators)
@@ -32,7 +32,7 @@ def co_contraction_pressures(
 ) -> tuple[float, float]:
     """Return the pressures at which two muscles give *effort* and *stiffness* at s.
 
-    The default effort holds the load there. Raises RangeError where the stiffness is outside
+    The default effort holds the load there. Raises RangeError if the stiffness is outside
     :func:`joint_stiffness_range`.
     """
     low, high = joint_stiffness_range(joint, s, effort)
@@ -52,10 +52,10 @@ def joint_stiffness_range(
 ) -> tuple[float, float]:
     """Return the least and the greatest stiffness with which two muscles give *effort* at s.
 
-    The default effort holds the load there. Within the range both muscles pull, or just do not
-    push, and their pressures are within p_min and p_max. Raises RangeError where there is no
-    such pair of pressures, and for two muscles that pull the same way with the same gains,
-    whose effort settles their stiffness.
+    The default effort holds the load there. Within the range no muscle pushes (its force is at
+    least 0), and the pressures are within p_min and p_max. Raises RangeError if there is no such
+    pair of pressures, for two muscles that pull in the same direction with the same gains, whose
+    effort determines their stiffness, and if the joint does not have two muscles.
     """
     instance('joint', joint, Joint, 'a Joint')
     number('s', s)
@@ -83,11 +83,11 @@ def joint_stiffness_range(
 
 
 def _line(joint: Joint, i: int, s: float) -> pair.Line:
-    """Return effort and stiffness of muscle i over its pressure at s."""
+    """Return effort and stiffness of muscle i at s as functions of its pressure."""
     return pair.Line(*(float(number) for number in statics.line(joint, i, s)))
 
 
 def _limits(joint: Joint, i: int, line: pair.Line) -> pair.Limits:
-    """Return the pressures of muscle i from where it begins to pull to its greatest."""
+    """Return the least pressure of muscle i at which it does not push, and its greatest one."""
     m = joint.muscles[i]
     return max(m.p_min, line.slack), m.p_max

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The effects of a joint as they are given: where each acts, and from when on."""
+"""The given effects of a joint: their check, where each one acts, and when it begins."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
@@ -13,7 +13,7 @@ from pam_ros.errors import ParameterError
 
 
 def checked_effects(effects: Sequence[Effect]) -> tuple[Effect, ...]:
-    """Return *effects* as a tuple; raises ParameterError for something else, and for two alike."""
+    """Return *effects* as a tuple; raises ParameterError for other types and for two of a kind."""
     found = sequence('effects', effects, Effect, 'an effect, such as PressureLag(fill=0.1)')
     for i, effect in enumerate(found):
         if any(type(effect) is type(other) for other in found[:i]):
@@ -24,10 +24,10 @@ def checked_effects(effects: Sequence[Effect]) -> tuple[Effect, ...]:
 def effects_from(
     values: Mapping[str, Mapping[str, float]], library: Sequence[type[Effect]] = EFFECTS
 ) -> tuple[Effect, ...]:
-    """Return the effects that *values* give by the names of effects and of their parameters.
+    """Return the effects of *values*, by the names of effects and then of their parameters.
 
-    They are in the order of the *library*. Raises ParameterError for an effect that it does not
-    have, for an unknown parameter, and for a value out of range.
+    They are in the order of the *library*. Raises ParameterError for an effect that is not in
+    the library, for an unknown parameter, and for a value out of range.
     """
     known = {effect.name: effect for effect in library}
     for name, given in values.items():
@@ -55,10 +55,10 @@ def split_effects(
 
 
 def onsets(effects: Sequence[Effect]) -> set[float]:
-    """Return the times in s after 0 at which those of *effects* that are present begin to act."""
+    """Return the times in s after 0 at which the present ones of *effects* begin to act."""
     return {effect.onset for effect in effects if effect.is_present} - {0.0}
 
 
 def begun(effects: Sequence[Effect], time: float) -> tuple[Effect, ...]:
-    """Return those of *effects* that act at *time* s, as effects that have always acted."""
+    """Return those of *effects* that act at *time* s, with their onsets set to 0."""
     return tuple(replace(effect, onset=0.0) for effect in effects if effect.onset <= time)

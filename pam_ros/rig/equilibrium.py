@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Where a joint comes to rest: slack muscles, stops and offsets among its effects."""
+"""The rest position of a joint whose effects may include slack muscles, stops and offsets."""
 
 from collections.abc import Callable
 
@@ -13,7 +13,7 @@ from pam_ros.rig.bind import bind
 from pam_ros.rig.joint import Joint
 from pam_ros.rig.start import start_state
 
-STEPS = 100  # over the span in which a rest is sought
+STEPS = 100  # over the span in which a rest position is searched
 PRECISION = 1e-13  # m or rad
 
 
@@ -21,11 +21,11 @@ def equilibrium(joint: Joint, p: ArrayLike) -> float:
     """Return the coordinate at which the joint rests when *p* Pa has long been commanded.
 
     p is gauge, (muscles,) or one number for all. For one muscle on a mass the coordinate is the
-    equilibrium of the paper's static model with the moved mass, and 0 where a known force takes
-    the muscle's place. A joint of several muscles rests nearest to that equilibrium in the
-    direction in which its effects drive it from there.
+    equilibrium of the paper's static model with the moved mass, and 0 if a known force replaces
+    the muscle. For any other joint it is the rest position nearest to the static equilibrium, in
+    the direction in which the effects drive the joint from there.
 
-    Raises RangeError when there is no equilibrium, and ParameterError for a p of another shape or
+    Raises RangeError if there is no equilibrium, and ParameterError for a p of another shape or
     one that is not finite.
     """
     p = one_each('p', p, len(instance('joint', joint, Joint, 'a Joint').actuators), 'muscle')
@@ -45,7 +45,7 @@ def equilibrium(joint: Joint, p: ArrayLike) -> float:
 
 
 def held(joint: Joint, p: ArrayLike) -> Callable[[float], float]:
-    """Return s'' as a function of s, for the joint that has long been held there at *p* Pa."""
+    """Return s'' as a function of s, for the joint after a long rest at s with *p* Pa."""
     layout, q, pressures = joint.layout, joint.parameters(), statics.each(joint, p)
     outputs = bind(layout, joint.active).outputs
     scratch = layout.scratch()[None]
@@ -61,7 +61,7 @@ def held(joint: Joint, p: ArrayLike) -> Callable[[float], float]:
 
 
 def _root(f: Callable[[float], float], a: float, b: float) -> float:
-    """Return where f changes its sign between a and b, by halving."""
+    """Return the point between a and b at which f changes its sign, by bisection."""
     sign = f(a)
     while abs(b - a) > PRECISION:
         middle = 0.5 * (a + b)

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The fingerprint of a function that is compiled: what its machine code is kept under on disk."""
+"""The fingerprint of a compiled function, under which its machine code is kept on disk."""
 
 import hashlib
 from collections.abc import Callable, Iterator, Mapping
@@ -13,11 +13,11 @@ from pam_ros import compiled
 
 
 def fingerprint(function: Callable[..., Any]) -> str:
-    """Hash what the machine code of *function* depends on and refers to.
+    """Return a hash of everything that the machine code of *function* depends on.
 
-    That is the bytecode of all functions that it reaches, in whatever files they are, the
-    constants that they read, offsets in the rows and arrays among them, and the modules that
-    numba imports when it loads the machine code.
+    That is the bytecode of all functions that it reaches, in any file, the constants that they
+    read (among them offsets in the rows, and arrays), and the modules that numba imports when it
+    loads the machine code.
     """
     digest = hashlib.sha256()
     seen: set[FunctionType] = set()
@@ -28,7 +28,7 @@ def fingerprint(function: Callable[..., Any]) -> str:
 
 
 def _parts(value: Any, seen: set[FunctionType]) -> Iterator[Any]:
-    """Yield what a function reads under one of its names, and what that in turn depends on."""
+    """Yield the parts of a *value* that a function reads, and of all that the value depends on."""
     plain = getattr(value, 'py_func', value)
     if isinstance(plain, FunctionType):
         yield plain.__module__, plain.__name__
@@ -51,16 +51,16 @@ def _parts(value: Any, seen: set[FunctionType]) -> Iterator[Any]:
 def _parts_of_code(
     code: CodeType, names: Mapping[str, Any], seen: set[FunctionType]
 ) -> Iterator[Any]:
-    """Yield the code itself, its constants, and the parts of what it finds under *names*."""
+    """Yield the code, its constants, and the parts of the values that it reads in *names*."""
     yield code.co_code, code.co_names, code.co_varnames, code.co_freevars
     for constant in code.co_consts:
-        if isinstance(constant, CodeType):  # of a function within the function
+        if isinstance(constant, CodeType):  # of a function inside the function
             yield from _parts_of_code(constant, names, seen)
         else:
             yield constant
     scopes: list[Mapping[str, Any]] = [names]
     modules: set[ModuleType] = set()
-    for scope in scopes:  # grows by the modules in which the code looks something up
+    for scope in scopes:  # grows by the modules whose names the code may read
         for name in code.co_names:
             value = scope.get(name)
             if isinstance(value, ModuleType):
@@ -68,5 +68,5 @@ def _parts_of_code(
                     modules.add(value)
                     scopes.append(vars(value))
             elif scope is names or not isinstance(value, FunctionType):
-                # Plain functions of modules are those of numpy, which numba has written itself.
+                # Plain functions of modules are those of numpy, which numba implements itself.
                 yield from _parts(value, seen)

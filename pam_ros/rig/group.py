@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Joints of one kind that are stepped together: their matrices, their commands, their kernel."""
+"""Joints of one kind that are advanced together: their matrices, commands and kernel."""
 
 from collections.abc import Sequence
 from math import ceil
@@ -15,31 +15,32 @@ from pam_ros.rig.joint import Joint
 from pam_ros.rig.start import begin_effects, start_state
 
 Array = NDArray[np.float64]
-QUEUE_LENGTH = 16  # commands of a muscle that may be under way before the queues grow
+QUEUE_LENGTH = 16  # commands of a muscle that may wait for their delay before the queues grow
 
 
 class Group:
-    """Joints with the same layout. x, q: a matrix a joint; all is (joints, muscles) otherwise.
+    """Joints with the same layout.
 
-    ``joints`` are they as declared; the parameters q are those of the effects that act by now.
+    x, q: one matrix for each joint; arrays over the muscles begin with (joints, muscles).
+    ``joints`` are the given joints; the parameters q are those of the effects that act now.
     """
 
     def __init__(self, joints: Sequence[Joint], step: float) -> None:
-        """Make their matrices for steps of *step* s; :meth:`reset` sets the state."""
+        """Create the matrices for steps of *step* s; :meth:`reset` sets the state."""
         self.layout = layout = joints[0].layout
         n, self.muscles = len(joints), layout.muscles
         self.step = step
         self._declare(joints)
-        self._changes: list[int] = []  # the steps to come before which effects begin to act
+        self._changes: list[int] = []  # later steps, before which effects begin to act
         self._present = [joint.at_start for joint in joints]
         self.q = np.array([joint.parameters() for joint in self._present])
         self.x = np.array([layout.state() for _ in joints])
-        # Parts of the state: joints' coordinates and velocities, muscles' pressures.
+        # Parts of the state: coordinates and velocities of the joints, pressures of the muscles.
         self.s, self.v = self.x[:, at.JOINT, at.S], self.x[:, at.JOINT, at.V]
         self.p = self.x[:, at.MUSCLE :, at.P]
         self._scratch = np.array([layout.scratch() for _ in joints])
-        self.u = np.zeros((n, self.muscles))  # commands in force, Pa
-        # Commands under way in the pressure path: stamps and values, grown as they are needed.
+        self.u = np.zeros((n, self.muscles))  # commands that act now, Pa
+        # Stamps and values of commands that wait for the delay of the pressure path; can grow.
         self._at = np.zeros((n, self.muscles, QUEUE_LENGTH))
         self._queue = np.zeros((n, self.muscles, QUEUE_LENGTH))
         self._count = np.zeros((n, self.muscles), dtype=np.int64)
@@ -51,7 +52,7 @@ class Group:
     def _bind(self) -> None:
         active = max((joint.active for joint in self.joints), key=len)
         self._kernel = bind(self.layout, active)
-        # Python looks into lists of numbers faster than into arrays.
+        # Python reads lists of numbers faster than arrays.
         self._of_joints = self.q[:, at.JOINT].tolist()
         self._at_zero = self.q[:, at.MUSCLE :, at.AT_ZERO].tolist()
         self._l0 = self.q[:, at.MUSCLE :, at.L0].tolist()
@@ -67,9 +68,9 @@ class Group:
         return ceil(time / self.step - 1e-9)
 
     def change(self, joints: Sequence[Joint], k: int) -> None:
-        """Go on from the present state, at step number k, as *joints* with the same layout.
+        """Continue from the present state at step number k with *joints* of the same layout.
 
-        Effects that were absent and act by then begin to act.
+        Effects that were absent and act at step number k begin to act.
         """
         self._declare(joints)
         self._take_effect(k)
@@ -87,7 +88,7 @@ class Group:
                 self.q[a] = after.parameters()
 
     def prepare(self) -> None:
-        """Call the kernels of these joints, without effects and with all, for no step."""
+        """Call both kernels of these joints, without effects and with all, for 0 steps."""
         present = self._kernel
         for active in ((), self.layout.library):
             self._kernel = bind(self.layout, active)
@@ -96,7 +97,7 @@ class Group:
         self._kernel = present
 
     def reset(self, pressures: Array, s: Array, v: Array) -> None:
-        """Set the state as after a long rest; *pressures* (joints, muscles) are commands, too."""
+        """Set the state after a long rest; *pressures* (joints, muscles) become the commands."""
         self.u[:] = pressures
         self._count[:] = 0
         self._take_effect(0)
@@ -107,7 +108,7 @@ class Group:
         """Command one muscle's pressure in Pa from *time* on."""
         i = int(self._count[joint, muscle])
         if i and self._at[joint, muscle, i - 1] == time:
-            i -= 1  # the last one counts
+            i -= 1  # the new command replaces it
         elif i == self._at.shape[2]:
             self._at = np.concatenate([self._at, self._at], axis=2)
             self._queue = np.concatenate([self._queue, self._queue], axis=2)
@@ -115,7 +116,7 @@ class Group:
         self._count[joint, muscle] = i + 1
 
     def advance(self, k: int, steps: int) -> None:
-        """Step all joints *steps* times from step number k on; effects begin at their steps."""
+        """Advance all joints by *steps* steps from step number k; effects begin at their steps."""
         end = k + steps
         while self._changes and self._changes[0] < end:
             begins = self._changes[0]
@@ -140,7 +141,7 @@ class Group:
         )
 
     def look(self, time: float) -> None:
-        """Fill ``out`` and ``joint_out`` with what the kernel's ``outputs`` says."""
+        """Fill ``out`` and ``joint_out`` by ``outputs`` of the kernel."""
         self._kernel.outputs(self.x, self._scratch, self.q, time, self.out, self.joint_out)
 
     @property

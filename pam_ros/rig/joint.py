@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""A joint as declared: its load, the muscles that move it, how they are connected, and effects."""
+"""A joint: its load, its muscles, the transmission that connects them, and the effects."""
 
 import itertools
 from collections.abc import Sequence
@@ -29,8 +29,8 @@ Array = NDArray[np.float64]
 class Actuator:
     """A muscle of a joint, with the effects in it and in its pressure path.
 
-    ``contraction`` is the one that it has, as a fraction, where the coordinate is 0. Raises
-    ParameterError where one of the three is something else.
+    ``contraction`` is that of the muscle at the coordinate 0, as a fraction. Raises
+    ParameterError if one of the three is not valid.
     """
 
     muscle: Muscle = field(default_factory=Muscle)
@@ -48,22 +48,21 @@ class Actuator:
 class Joint:
     """A load that one or more muscles move along one coordinate: all that its equations need.
 
-    ``actuators`` are the muscles in order, ``transmission`` says how they are connected to the
-    coordinate, ``load`` what they move: a ``Mass`` by a ``Straight`` transmission, an ``Arm`` by
-    a ``Pulley``, a ``Lever`` or one of your own. ``effects`` are those on the joint, such as
-    friction, in the joint's units. ``library`` are the effects that the kernel knows. The paper's
-    rig, one muscle on a mass, is what
-    :func:`pam_ros.single_muscle_joint` makes.
+    ``actuators`` are the muscles in order. ``transmission`` connects them to the coordinate.
+    ``load`` is what they move: a ``Mass`` by a ``Straight`` transmission, an ``Arm`` by a
+    ``Pulley``, a ``Lever`` or a custom one. ``effects`` are those on the joint, such as friction,
+    in the joint's units. ``library`` are the effects that the kernel knows.
+    :func:`pam_ros.single_muscle_joint` creates the paper's rig, one muscle on a mass.
 
-    An effect with an ``onset`` in s, ``Leak(rate=0.1, onset=20.0)``, begins to act then: in
-    simulations, whose time it is. Until then it is absent, and at the moment no pressure
-    and no position jumps. All else here describes the joint on which all effects act.
+    An effect with an ``onset`` in s, ``Leak(rate=0.1, onset=20.0)``, begins to act at this time
+    of a simulation. Before this time it is absent, and at this time no pressure and no position
+    jumps. Everything else here describes the joint on which all effects act.
 
     Raises ParameterError for effects that are unknown, out of range or at the wrong place, and
     for a joint that has no equilibrium over the range of pressures.
     """
 
-    # Made by functions, so that help() does not print all that they contain.
+    # Created by functions, so that help() does not print all their contents.
     actuators: tuple[Actuator, ...] = field(default_factory=lambda: (Actuator(),))
     load: Load = field(default_factory=Mass)
     transmission: Transmission = field(default_factory=Straight)
@@ -88,7 +87,7 @@ class Joint:
                 self._check_place(effect, on_joint=False)
         if not self.is_driven:
             self._check_equilibria()
-        _ = self.stages  # each of them must be a joint, too
+        _ = self.stages  # each stage must be a valid joint, too
 
     def _check_kinds(self) -> None:
         actuators = sequence(
@@ -113,7 +112,7 @@ class Joint:
         object.__setattr__(self, 'library', library_of(self.library))
 
     def _check_place(self, effect: Effect, *, on_joint: bool) -> None:
-        """Raise ParameterError for an effect that is not of the library, or acts elsewhere."""
+        """Raise ParameterError for an effect that is not in the library, or acts elsewhere."""
         if type(effect) not in self.library:
             raise ParameterError(
                 f'effects.{effect.name} is not known: give one of '
@@ -147,16 +146,16 @@ class Joint:
                 f'together: {error}'
             ) from error
 
-    # What it is ------------------------------------------------------------------------------
+    # Properties ------------------------------------------------------------------------------
 
     @property
     def is_revolute(self) -> bool:
-        """Whether it turns: its coordinate is an angle in rad, its effort a torque in N m."""
+        """Whether it is revolute: the coordinate is in rad, the effort is a torque in N m."""
         return self.transmission.equations.revolute
 
     @property
     def is_driven(self) -> bool:
-        """Whether a known force moves a mass instead of a muscle: no spring, no equilibrium."""
+        """Whether a known force, and not a muscle, moves a mass: no spring, no equilibrium."""
         return statics.is_direct(self) and self.muscles[0].is_load_only
 
     @cached_property
@@ -180,14 +179,14 @@ class Joint:
 
     @cached_property
     def inertia(self) -> float:
-        """What resists acceleration in kg or kg m^2, with the moved mass."""
+        """Inertia of the coordinate in kg or kg m^2, with the moved mass."""
         return self.load.equations.inertia(self.moved_mass, self.load.numbers, 0)
 
     # When effects begin ------------------------------------------------------------------------
 
     @cached_property
     def stages(self) -> tuple[tuple[float, 'Joint'], ...]:
-        """The joint as it is from each time in s on, at first from 0: without later effects."""
+        """The stages (start in s, joint without effects that begin later), the first from 0 s."""
         each = [self.effects, *(actuator.effects for actuator in self.actuators)]
         times = set().union(*map(onsets, each))
         if not times:
@@ -195,7 +194,7 @@ class Joint:
         return tuple((time, self._at(time)) for time in sorted({0.0, *times}))
 
     def _at(self, time: float) -> 'Joint':
-        """Return the joint of the effects that act at *time* s, which have no onset there."""
+        """Return the joint with the effects that act at *time* s, with their onsets set to 0."""
         actuators = tuple(
             replace(actuator, effects=begun(actuator.effects, time)) for actuator in self.actuators
         )
@@ -203,24 +202,24 @@ class Joint:
 
     @property
     def at_start(self) -> 'Joint':
-        """The joint as it is before any effect with an onset begins to act."""
+        """The joint before any effect with an onset begins to act."""
         return self.stages[0][1]
 
     # One muscle on a mass ----------------------------------------------------------------------
 
     @property
     def muscle(self) -> Muscle:
-        """The muscle of a joint that has one; raises ParameterError where it has several."""
+        """The muscle of a joint with one muscle; raises ParameterError if it has several."""
         if len(self.actuators) > 1:
             raise ParameterError(f'this joint has {len(self.actuators)} muscles, not one')
         return self.actuators[0].muscle
 
     @property
     def all_effects(self) -> tuple[Effect, ...]:
-        """The effects of a joint with one muscle, those in it and those on the joint."""
+        """The effects of a joint with one muscle: those in the muscle and those on the joint."""
         return (*self.actuators[0].effects, *self.effects)
 
-    # What the kernel gets ----------------------------------------------------------------------
+    # Data for the kernel -----------------------------------------------------------------------
 
     @cached_property
     def layout(self) -> Layout:
@@ -246,10 +245,10 @@ class Joint:
 
     @property
     def active(self) -> tuple[type[Effect], ...]:
-        """The effects that the kernel must step: all of the library as soon as one is present.
+        """The effects that the kernel computes: the whole library if one is present, else none.
 
-        Two machine codes for a kind of joint, without effects and with all, instead of one for
-        each subset.
+        So each kind of joint has two machine codes, without effects and with all effects, and not
+        one for each subset.
         """
         return self.library if any(self.present) else ()
 
@@ -293,10 +292,10 @@ def fill_load(row: Array, layout: Layout, load: Load, transmission: Transmission
 
 
 def library_of(library: Sequence[type[Effect]]) -> tuple[type[Effect], ...]:
-    """Return *library* as a tuple; raises ParameterError where something in it is no Effect."""
+    """Return *library* as a tuple; raises ParameterError if an entry is not a valid Effect."""
     found = sequence('library', library, type, 'an Effect, such as those of EFFECTS')
     for i, effect in enumerate(found):
         if not issubclass(effect, Effect):
             refuse(f'library[{i}]', effect, 'an Effect, such as those of EFFECTS')
-        effect.parameters()  # refuses one that is not complete
+        effect.parameters()  # raises ParameterError for an incomplete one
     return found

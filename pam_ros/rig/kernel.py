@@ -2,26 +2,27 @@
 # SPDX-License-Identifier: Apache-2.0
 """The equation of motion of a joint and its integrator, as templates.
 
-By virtual work the muscles' forces move the joint's coordinate s:
+By virtual work, the forces of the muscles accelerate the joint's coordinate s:
 
     J s'' = sum_i arm_i (F_i - c_i y_i') + outside - J fall(s),    kappa_i = y_i / l0_i
 
-For one muscle on a mass that is equation (3) of Sárosi (2015) with contraction positive (the load
+For one muscle on a mass this is equation (3) of Sárosi (2015) with contraction positive (the load
 moves up): m y'' = F(p, kappa) - c y' + outside - m g.
 
-These functions are plain scalar Python and run as they stand. The names ``*_chain``,
+These functions are plain scalar Python and can be run without compilation. The names ``*_chain``,
 ``*_remembers`` and ``*_of`` and the constants at the top are bound to the effects in use and to
-the kind of joint by :mod:`pam_ros.rig.bind`, which also compiles them; called unbound, the joint
-is one muscle on a mass, without effects. x, xn and q are the matrices of one joint (see
-:mod:`pam_ros.rig.layout`). Written ``* (1.0 / m)``, a division is done once a step and not at
-every stage.
+the kind of joint by :mod:`pam_ros.rig.bind`, which also compiles them. If they are called unbound,
+the joint is one muscle on a mass, without effects. x, xn and q are the matrices of one joint (see
+:mod:`pam_ros.rig.layout`). With the form ``* (1.0 / m)`` a division is done once per step and not
+at every stage.
 
 Integrator: Nyström's fourth-order scheme for second-order equations with a fixed step (Hairer,
 Nørsett & Wanner, Solving Ordinary Differential Equations I, section II.14). It is the classical
-Runge-Kutta scheme with better positions inside the step: half the error, and both stages in the
-middle are at one place, so that the exponential there is computed once. At 1 ms the muscle's
-4 Hz are resolved 250-fold: an explicit scheme is stable, and its error (below 1e-9 m) far below
-that of any sensor. Effects with stiff memory bring their own exact or implicit update.
+Runge-Kutta scheme with better positions inside the step. This halves the error. Both middle
+stages have the same position, so that the exponential there is computed once. A step of 1 ms
+resolves a period of the muscle's 4 Hz with 250 steps: an explicit scheme is stable, and its error
+(below 1e-9 m) is far below that of any sensor. Effects with stiff memory have their own exact or
+implicit update.
 """
 
 from math import exp
@@ -56,14 +57,14 @@ Row = Any  # float64 array; numba's and numpy's types differ, both index to floa
 # Bound to the joint's layout.
 MUSCLES = 1
 HAS_OUTSIDE = True  # whether an effect that acts from outside the muscles is in use
-IS_DRAGGED = True  # whether one in use is in the force of a machine that moves the joint
-MEMORY_FROM = 1  # first hidden state of a muscle that is not of its pressure path
+IS_DRAGGED = True  # whether an effect in use is measured by a machine that moves the joint
+MEMORY_FROM = 1  # first hidden state of a muscle that is not in its pressure path
 WIDTH = 2  # of a state
-LOAD, TRANSMISSION = JOINT_EFFECTS, JOINT_EFFECTS + 1  # where the numbers of both begin
+LOAD, TRANSMISSION = JOINT_EFFECTS, JOINT_EFFECTS + 1  # first indices of their numbers
 
 
 def delay_chain(q: Row) -> float:
-    """Return by how many seconds commands act late: 0 without effects."""
+    """Return the delay of the commands in s: 0 without effects."""
     return 0.0
 
 
@@ -73,7 +74,7 @@ def pressure_chain(p: float, t: float, h: float, x: Row, xn: Row, q: Row) -> flo
 
 
 def contraction_chain(kappa: float, q: Row) -> float:
-    """Return the contraction that the muscle feels."""
+    """Return the effective contraction of the muscle, after its effects."""
     return kappa
 
 
@@ -85,7 +86,7 @@ def mass_chain(m: float, q: Row) -> float:
 def force_chain(
     f: float, p: float, kappa: float, v: float, t: float, h: float, x: Row, xn: Row, q: Row
 ) -> float:
-    """Return the muscle's pull after its effects."""
+    """Return the muscle's force after its effects."""
     return f
 
 
@@ -104,48 +105,48 @@ def outside_chain(
 def drag_chain(
     f: float, p: float, s: float, v: float, t: float, h: float, x: Row, xn: Row, q: Row
 ) -> float:
-    """Return the force on the joint that a machine feels that moves it: friction, no load."""
+    """Return the friction on the joint, without loads, as measured by a machine that moves it."""
     return f
 
 
 def muscle_remembers(q: Row) -> bool:
-    """Return whether an effect that is present in the muscle has a memory that is no pressure."""
+    """Return whether a present effect in the muscle has a memory that is not a pressure."""
     return False
 
 
 def joint_remembers(q: Row) -> bool:
-    """Return whether an effect that is present on the joint has a memory."""
+    """Return whether a present effect on the joint has a memory."""
     return False
 
 
 def travel_of(s: float, i: int, q: Row, j: int) -> float:
-    """Return how far muscle i has been drawn."""
+    """Return the displacement of the end of muscle i, contraction positive, 0 at s = 0."""
     return s
 
 
 def arm_of(s: float, i: int, q: Row, j: int) -> float:
-    """Return how fast muscle i shortens with the coordinate."""
+    """Return the arm of muscle i: its shortening per unit of the coordinate."""
     return 1.0
 
 
 def arm_slope_of(s: float, i: int, q: Row, j: int) -> float:
-    """Return the derivative of the arm."""
+    """Return the derivative of the arm with respect to s."""
     return 0.0
 
 
 def inertia_of(m: float, q: Row, j: int) -> float:
-    """Return what resists the coordinate's acceleration."""
+    """Return the inertia of the coordinate."""
     return m
 
 
 def fall_of(s: float, m: float, inertia: float, q: Row, j: int) -> float:
-    """Return the acceleration against the coordinate that gravity alone gives."""
+    """Return the gravitational acceleration, positive against the coordinate."""
     acceleration: float = q[j]
     return acceleration
 
 
 def felt(s: float, i: int, q: Row) -> float:
-    """Return the contraction that muscle i feels at the coordinate s."""
+    """Return the effective contraction of muscle i at the coordinate s."""
     y = q[MUSCLE + i, AT_ZERO] + travel_of(s, i, q[JOINT], TRANSMISSION)
     kappa: float = contraction_chain(y * (1.0 / q[MUSCLE + i, L0]), q[MUSCLE + i])
     return kappa
@@ -154,8 +155,8 @@ def felt(s: float, i: int, q: Row) -> float:
 def share(arm: float, inertia: float) -> float:
     """Return the mass in kg that each muscle moves: the m of equation (4).
 
-    Along its line a muscle feels J / arm^2, and it shares that with the others: a joint of
-    equal muscles so has their damping ratio zeta.
+    Along the line of a muscle, J acts as the mass J / arm^2, which all muscles share equally. So
+    a joint of equal muscles has their damping ratio zeta.
     """
     return inertia / (MUSCLES * arm * arm)
 
@@ -165,7 +166,7 @@ def pull(
 ) -> float:
     """Return a muscle's force in N, effects included, h seconds after its state x.
 
-    x, xn and q are its rows; e = exp(a3 kappa).
+    x, xn and q are the rows of the muscle; e = exp(a3 kappa).
     """
     f = force_at(e, p, kappa, q[A1], q[A2], q[A4], q[A5], q[A6])
     return force_chain(f, p, kappa, v, t, h, x, xn, q)
@@ -189,7 +190,7 @@ def net_force(
     xn: Row,
     q: Row,
 ) -> float:
-    """Return the force of muscle i at *p* Pa less its damping, in N: what its end transmits."""
+    """Return the force of muscle i at *p* Pa minus its damping, in N: the force at its end."""
     r = MUSCLE + i
     arm = arm_of(s, i, q[JOINT], TRANSMISSION)
     w = arm * v
@@ -211,7 +212,7 @@ def acceleration(
     xn: Row,
     q: Row,
 ) -> float:
-    """Return s'' for the moved mass m; *stage* says which of the kept pressures acts."""
+    """Return s'' for the moved mass m; *stage* selects one of the stored pressures."""
     mean = xn[MUSCLE, WIDTH + stage]
     arm = arm_of(s, 0, q[JOINT], TRANSMISSION)
     f = arm * net_force(s, v, 0, mean, t, h, inertia, x, xn, q)
@@ -220,14 +221,14 @@ def acceleration(
         arm = arm_of(s, i, q[JOINT], TRANSMISSION)
         f += arm * net_force(s, v, i, p, t, h, inertia, x, xn, q)
         mean += p
-    if HAS_OUTSIDE:  # not even a sum with 0 otherwise: each stage would wait for it
+    if HAS_OUTSIDE:  # otherwise not even a sum with 0, which would delay each stage
         f += outside_chain(0.0, mean / MUSCLES, s, v, t, h, x[JOINT], xn[JOINT], q[JOINT])
     net: float = f * (1.0 / inertia) - fall_of(s, m, inertia, q[JOINT], LOAD)
     return net
 
 
 def remembers(q: Row) -> bool:
-    """Return whether any effect that is present has a memory that is no pressure."""
+    """Return whether any present effect has a memory that is not a pressure."""
     any_of_them: bool = joint_remembers(q[JOINT])
     for i in range(MUSCLES):
         any_of_them = any_of_them or muscle_remembers(q[MUSCLE + i])
@@ -235,7 +236,7 @@ def remembers(q: Row) -> bool:
 
 
 def keep_memories(x: Row, xn: Row) -> None:
-    """Let hidden states that are no pressures be what they have become."""
+    """Copy the new values of hidden states that are not pressures from xn to x."""
     for c in range(JOINT_HIDDEN, WIDTH):
         x[JOINT, c] = xn[JOINT, c]
     for r in range(MUSCLE, MUSCLE + MUSCLES):
@@ -244,14 +245,14 @@ def keep_memories(x: Row, xn: Row) -> None:
 
 
 def begin(x: Row, xn: Row) -> None:
-    """Let the scratch matrix be the state."""
+    """Copy the state to the scratch matrix."""
     for r in range(MUSCLE + MUSCLES):
         for c in range(WIDTH):
             xn[r, c] = x[r, c]
 
 
 def step(x: Row, xn: Row, q: Row, u: Row, t: float, h: float) -> None:
-    """Advance the state x from t by h seconds with the pressure commands u held, in place."""
+    """Advance the state x from t by h seconds with constant pressure commands u, in place."""
     s, v = x[JOINT, S], x[JOINT, V]
     half, sixth = 0.5 * h, h / 6.0
     m = mass_chain(q[JOINT, MASS], q[JOINT])
@@ -274,7 +275,7 @@ def step(x: Row, xn: Row, q: Row, u: Row, t: float, h: float) -> None:
     for r in range(MUSCLE, MUSCLE + MUSCLES):
         x[r, P] = xn[r, WIDTH + END]
     if remembers(q):
-        # Once more at the end that was reached: what the memories have become there.
+        # Evaluate once more at the end of the step, for the new values of the memories.
         acceleration(s, v, END, t + h, h, m, inertia, x, xn, q)
         keep_memories(x, xn)
 
@@ -292,13 +293,13 @@ def advance(
     steps: int,
     h: float,
 ) -> None:
-    """Advance every joint by a counted number of steps of exactly h seconds, in place.
+    """Advance every joint by *steps* steps of exactly h seconds, in place.
 
-    x, xn, q: a matrix a joint. u (joints, muscles): commands in force. at, queue (joints, muscles,
-    room): stamps and values of the commands to come, the first count[a, i] of them, in order;
-    those that have come into force are removed; done (joints, muscles) is scratch. A command
-    acts from the first step that starts at or after its stamp plus the delay of the pressure
-    path. Steps are numbered from k: time is k h, never a sum.
+    x, xn, q: one matrix for each joint. u (joints, muscles): commands that act now. at, queue
+    (joints, muscles, room): stamps and values of later commands, in order; the first count[a, i]
+    of them are valid, and those that have begun to act are removed. done (joints, muscles) is
+    scratch. A command acts from the first step that starts at or after its stamp plus the delay of
+    the pressure path. Steps are numbered from k: time is k h, never a sum.
     """
     for a in range(x.shape[0]):
         begin(x[a], xn[a])
@@ -313,7 +314,7 @@ def advance(
                     u[a, i] = queue[a, i, done[a, i]]
                     done[a, i] += 1
                 if done[a, i] < count[a, i]:
-                    end = n + 1  # one is under way: look again after the next step
+                    end = n + 1  # a command waits: check again after the next step
             for now in range(n, end):
                 step(x[a], xn[a], q[a], u[a], now * h, h)
             n = end
@@ -325,11 +326,11 @@ def advance(
 
 
 def outputs(x: Row, xn: Row, q: Row, t: float, out: Row, joint_out: Row) -> None:
-    """Fill *out* by joint and muscle, and *joint_out* by joint.
+    """Fill *out* for each joint and muscle, and *joint_out* for each joint.
 
     out (joints, muscles, 4): force N, stiffness N/m, damping N s/m, acceleration of the muscle's
-    end m/s^2. The stiffness is -dF/dkappa / l0 of the force law (2) at the contraction that is
-    felt. joint_out (joints, 3): effort, stiffness and acceleration of the coordinate.
+    end m/s^2. The stiffness is -dF/dkappa / l0 of the force law (2) at the effective contraction.
+    joint_out (joints, 3): effort, stiffness and acceleration of the coordinate.
     """
     for a in range(x.shape[0]):
         s, v = x[a, JOINT, S], x[a, JOINT, V]

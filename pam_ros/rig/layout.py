@@ -1,16 +1,16 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Where each number stands in the arrays that the compiled kernels work on.
+"""The place of each number in the arrays that the compiled kernels work on.
 
-A joint has a state x and parameters q, each a matrix with a row for the joint itself and, behind
-it, one for each of its muscles, all SI:
+A joint has a state x and parameters q. Each is a matrix with a row for the joint itself, followed
+by one row for each of its muscles, all SI:
 
     x[JOINT]         coordinate s, velocity v, hidden states of the effects on the joint
     x[MUSCLE + i]    chamber pressure, hidden states of the pressure path, those of the forces
-    q[JOINT]         inertia, length, mass, numbers of load and transmission, effects on the joint
+    q[JOINT]         inertia, length, mass, effects on the joint, numbers of load and transmission
     q[MUSCLE + i]    a1..a6, zeta, l0, position at coordinate 0, effects in the muscle
 
-The scratch matrix xn that goes with x has WORK columns more, in which a step keeps what its stages
+The scratch matrix xn that belongs to x has WORK more columns, for values that the stages of a step
 share.
 """
 
@@ -35,7 +35,7 @@ JOINT, MUSCLE = 0, 1  # rows: the joint's, and that of its first muscle
 # State of the joint, and of a muscle.
 S, V, JOINT_HIDDEN = 0, 1, 2
 P, HIDDEN = 0, 1
-# Parameters of the joint and of a muscle, behind those that effects read.
+# Parameters of the joint and of a muscle, after those that effects read.
 MASS, JOINT_EFFECTS = LENGTH + 1, LENGTH + 2
 AT_ZERO, MUSCLE_EFFECTS = L0 + 1, L0 + 2
 # Scratch of a muscle, counted from the width of a state: the chamber pressure at the start, in the
@@ -50,11 +50,11 @@ RUN_S, RUN_V, RUN_P, RUN_F = 0, 1, 2, 3
 class Layout:
     """Places of the effects of a *library* in the rows of joints of one kind.
 
-    ``state_at`` and ``parameter_at`` say, by the name of an effect, where its hidden states and
-    its parameters begin in the row in which it acts. ``memory_from`` is the first hidden state of
-    a muscle that belongs to a force, behind those of the pressure path. ``load_at`` and
-    ``transmission_at`` are where the numbers of load and transmission begin. ``width`` and
-    ``parameters`` are the widths of x and q.
+    ``state_at`` and ``parameter_at`` map the name of an effect to the index at which its hidden
+    states or its parameters begin, in the row in which it acts. ``memory_from`` is the first
+    hidden state of a muscle that belongs to a force, after those of the pressure path.
+    ``load_at`` and ``transmission_at`` are the indices at which the numbers of load and
+    transmission begin. ``width`` and ``parameters`` are the widths of x and q.
     """
 
     library: tuple[type[Effect], ...]
@@ -88,15 +88,15 @@ class Layout:
         return np.zeros((self.rows, self.width + WORK))
 
     def index(self, effect: type[Effect], parameter: int = 0, muscle: int = 0) -> int:
-        """Return where a parameter of *effect* stands in q, counted through all rows.
+        """Return the index of a parameter of *effect* in q, counted through all rows.
 
-        *muscle* says in which muscle, for an effect that acts in one.
+        *muscle* is the number of the muscle, for an effect that acts in a muscle.
         """
         row = JOINT if effect.acts_on_joint() else MUSCLE + muscle
         return row * self.parameters + self.parameter_at[effect.name] + parameter
 
     def constant(self, which: int, muscle: int = 0) -> int:
-        """Return where a constant of a muscle, such as A1 or ZETA, stands in q."""
+        """Return the index in q of a constant of a muscle, such as A1 or ZETA."""
         return (MUSCLE + muscle) * self.parameters + which
 
 
@@ -109,9 +109,10 @@ def layout_of(
 ) -> Layout:
     """Lay out joints of *muscles* muscles, with these equations and effects.
 
-    In a muscle the states of the pressure path come first, for they are settled before a step's
-    forces; otherwise states and parameters are in the order of the library. In a joint the effects
-    come before its load and transmission, so that their places are those of every kind of joint.
+    In a muscle the states of the pressure path come first, since they are computed before the
+    forces of a step; otherwise states and parameters are in the order of the library. In a joint
+    the effects come before load and transmission, so that their places are the same in every
+    kind of joint.
     """
     on_joint = [effect for effect in library if effect.acts_on_joint()]
     in_muscle = [effect for effect in library if not effect.acts_on_joint()]
@@ -149,7 +150,7 @@ def _parameters(effect: type[Effect]) -> int:
 
 
 def _place(places: dict[str, int], effects: list[type[Effect]], at: int, size: Size) -> int:
-    """Give each effect its place from *at* on; return where the next one would begin."""
+    """Give each effect its place, the first at *at*; return the index after the last one."""
     for effect in effects:
         places[effect.name] = at
         at += size(effect)

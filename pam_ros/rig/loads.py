@@ -1,9 +1,9 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What muscles move: a mass that slides or hangs, or an arm that turns.
+"""The loads of muscles: a mass that moves in a straight line, or an arm about a pivot.
 
-As with transmissions, a load is a dataclass of what a user declares, and equations that are
-compiled into the stepping kernel.
+As with transmissions, a load is a dataclass of the parameters that a user sets, and equations that
+are compiled into the stepping kernel.
 """
 
 from abc import ABC, abstractmethod
@@ -24,12 +24,12 @@ class LoadEquations:
     """The dynamics of a load; q[j], q[j + 1], ... are its *numbers* numbers.
 
     ``inertia(m, q, j) -> kg, kg m^2``
-        What resists the acceleration of the coordinate when the mass m in kg is moved: the
-        declared mass after the effects that change it. The same everywhere.
+        Inertia of the coordinate for the moved mass m in kg, which is the nominal mass after the
+        effects that change it. It does not depend on the coordinate.
     ``fall(s, m, inertia, q, j) -> m/s^2, rad/s^2``
-        Acceleration against the coordinate that gravity alone gives.
+        Acceleration by gravity alone, positive against the coordinate.
     ``fall_slope(s, m, inertia, q, j)``
-        Its derivative over s: times the inertia, the stiffness that gravity adds.
+        Its derivative with respect to s: times the inertia, it is the stiffness that gravity adds.
     """
 
     revolute: bool
@@ -40,7 +40,7 @@ class LoadEquations:
 
 
 class Load(ABC):
-    """What a user declares of a load: its mass in kg, and what else its equations need."""
+    """The parameters of a load: its mass in kg, and what else its equations need."""
 
     equations: ClassVar[LoadEquations]
     mass: float
@@ -48,7 +48,7 @@ class Load(ABC):
     @property
     @abstractmethod
     def numbers(self) -> tuple[float, ...]:
-        """The numbers of its equations beside the mass, SI."""
+        """The numbers of its equations in addition to the mass, SI."""
 
 
 # A mass ----------------------------------------------------------------------------------------
@@ -60,13 +60,13 @@ def _mass(m: float, q: Row, j: int) -> float:
 
 
 def _gravity(s: float, m: float, inertia: float, q: Row, j: int) -> float:
-    """Return the acceleration of gravity, which stretches the muscles."""
+    """Return the gravitational acceleration, which stretches the muscles."""
     acceleration: float = q[j]
     return acceleration
 
 
 def _even(s: float, m: float, inertia: float, q: Row, j: int) -> float:
-    """Return 0: gravity is the same everywhere."""
+    """Return 0: gravity does not depend on the position."""
     return 0.0
 
 
@@ -74,7 +74,7 @@ def _even(s: float, m: float, inertia: float, q: Row, j: int) -> float:
 class Mass(Load):
     """The mass that the muscles move, and how it is mounted.
 
-    ``vertical`` is the paper's pendulum: the mass hangs on the muscle. ``horizontal`` slides
+    ``vertical``: the mass hangs on the muscle, as the paper's pendulum. ``horizontal``: it slides
     without gravity (the paper's future work; friction of its guide is an effect).
     """
 
@@ -95,12 +95,12 @@ class Mass(Load):
 
     @property
     def gravity(self) -> float:
-        """Acceleration in m/s^2 with which gravity stretches the muscles."""
+        """Gravitational acceleration in m/s^2 that stretches the muscles."""
         return GRAVITY if self.mount == 'vertical' else 0.0
 
     @property
     def numbers(self) -> tuple[float, ...]:
-        """The acceleration of gravity."""
+        """The gravitational acceleration."""
         return (self.gravity,)
 
 
@@ -116,7 +116,7 @@ def _arm_inertia(m: float, q: Row, j: int) -> float:
 
 
 def _pendulum(s: float, m: float, inertia: float, q: Row, j: int) -> float:
-    """Return m g l sin(theta - theta_h) / J: a pendulum's acceleration."""
+    """Return m g l sin(theta - theta_h) / J: the acceleration of a pendulum."""
     a: float = m * q[j + _G] * q[j + _ARM] * sin(s - q[j + _HANGING_AT]) * (1.0 / inertia)
     return a
 
@@ -129,7 +129,7 @@ def _pendulum_slope(s: float, m: float, inertia: float, q: Row, j: int) -> float
 
 @dataclass(frozen=True)
 class Arm(Load):
-    """An arm that turns about a pivot, with a mass at its end."""
+    """An arm that rotates about a pivot, with a mass at its end."""
 
     inertia: float = parameter_field(
         0.02, 'moment of inertia of pulley and arm about the pivot', 'kg m^2', low=0.0, high=1e3
@@ -152,7 +152,7 @@ class Arm(Load):
     )
 
     def __post_init__(self) -> None:
-        """Check every field, then that there is something to move."""
+        """Check every field, then that the inertia is above 0."""
         check_all(self)
         if self.inertia + self.mass * self.arm**2 <= 0.0:
             raise ParameterError(
@@ -162,7 +162,7 @@ class Arm(Load):
 
     @property
     def gravity(self) -> float:
-        """Acceleration in m/s^2 with which gravity pulls on the load."""
+        """Gravitational acceleration in m/s^2 that acts on the load."""
         return GRAVITY if self.plane == 'vertical' else 0.0
 
     @property

@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Two muscles on one coordinate: the pressures for an effort and a stiffness, in closed form.
 
-At a coordinate, muscle i gives the effort a_i + b_i p_i and the stiffness c_i + d_i p_i. Both
-wanted together are two linear equations for two pressures. Pressures that give the effort alone
-are on a line, of which limits of pressure cut out a piece: along it the stiffness changes, and its
-ends are the least and the greatest that can be had. Scalars, SI.
+At a coordinate, muscle i gives the effort a_i + b_i p_i and the stiffness c_i + d_i p_i. Desired
+values of both give two linear equations for the two pressures. The pressures that give the effort
+alone are on a line, and the limits of pressure leave a segment of this line. The stiffness changes
+along the segment; its ends give the least and the greatest possible stiffness. Scalars, SI.
 """
 
 from typing import NamedTuple
@@ -23,37 +23,37 @@ class Line(NamedTuple):
 
     @property
     def slack(self) -> float:
-        """Pressure in Pa below which the law lets the muscle push."""
+        """Pressure in Pa below which the muscle pushes according to the force law."""
         return -self.a / self.b
 
 
 def is_settled(one: Line, two: Line) -> bool:
-    """Say whether the effort settles the stiffness: alike muscles that pull the same way."""
+    """Return whether the effort determines the stiffness, as for equal muscles in parallel."""
     left, right = one.b * two.d, two.b * one.d
     return abs(left - right) < 1e-9 * (abs(left) + abs(right))
 
 
 def pressures(one: Line, two: Line, effort: float, stiffness: float) -> tuple[float, float]:
-    """Return the pressures in Pa that give both, whatever the limits."""
+    """Return the pressures in Pa that give both, without regard to limits."""
     tau, k = effort - one.a - two.a, stiffness - one.c - two.c
     scale = one.b * two.d - two.b * one.d
     return (tau * two.d - k * two.b) / scale, (k * one.b - tau * one.d) / scale
 
 
 def other(one: Line, two: Line, effort: float, p: float) -> float:
-    """Return the pressure of the second muscle that gives *effort* where the first has *p* Pa."""
+    """Return the pressure of the second muscle for *effort* if the first muscle has *p* Pa."""
     return (effort - one.a - two.a - one.b * p) / two.b
 
 
 def piece(one: Line, two: Line, effort: float, within: tuple[Limits, Limits]) -> Limits:
-    """Return the least and greatest pressure of the first muscle that can be had with *effort*.
+    """Return the least and greatest possible pressure of the first muscle with *effort*.
 
-    *within* are the limits of both. Where the first is above the second there is no such pressure.
+    *within* are the limits of both. If the least is above the greatest, there is no such pressure.
     """
     ends = sorted((effort - one.a - two.a - two.b * p) / one.b for p in within[1])
     return max(within[0][0], ends[0]), min(within[0][1], ends[1])
 
 
 def stiffness_at(one: Line, two: Line, effort: float, p: float) -> float:
-    """Return the stiffness with *effort* where the first muscle has *p* Pa."""
+    """Return the stiffness with *effort* if the first muscle has *p* Pa."""
     return one.c + one.d * p + two.c + two.d * other(one, two, effort, p)

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Simulate one joint over given stamps: a recording's, or an experiment's on paper."""
+"""Simulate one joint at given stamps: those of a recording or of a planned experiment."""
 
 import warnings
 from collections.abc import Mapping
@@ -20,16 +20,16 @@ from pam_ros.rig.start import disturb, start_state
 from pam_ros.rig.step_limit import check_step
 
 Array = NDArray[np.float64]
-IN_KPA = 1e-3  # share of p_max up to which a pressure may have been meant in kPa
+IN_KPA = 1e-3  # fraction of p_max up to which a pressure may be a value in kPa
 
 
 @dataclass(frozen=True)
 class Trajectory:
-    """What a simulation gives at its stamps: s, then m and m/s (rad and rad/s), each (n,).
+    """Results of a simulation at its stamps: s, then m and m/s (rad and rad/s), each (n,).
 
     Pressure in Pa gauge and force in N are (n,) for one muscle and (n, muscles) for several.
-    Force is the muscle's pull less its damping, which is what a force cell at its end reads; where
-    a machine moves it, less friction, too: see :func:`simulate_held`.
+    The force is that of the muscle minus its damping, as a force cell at its end measures it. If
+    a machine moves the muscle, it also includes friction: see :func:`simulate_held`.
     """
 
     t: Array
@@ -49,19 +49,19 @@ def simulate(
     step: float = 1e-3,
     hidden: Mapping[str, Mapping[str, float]] | None = None,
 ) -> Trajectory:
-    """Run a joint over the stamps *t* with its commands exactly as stamped.
+    """Simulate a joint at the stamps *t*, with its commands exactly at their stamps.
 
     t (n,), command_t (m,): s, ascending. command: gauge Pa, (m, muscles), a row for each stamp of
     command_t and a column for each muscle; for one muscle also (m,), for one stamp also
-    (muscles,). A command holds from its stamp to the next, the first also before. The
-    joint starts at t[0] after a long rest under the commands that were in force there, at
-    *position* (default: where it rests) with *velocity*, and with its *hidden* states so far from
-    rest (effect, then state, then the change; in all muscles alike). Effects with an onset begin
-    to act at that time of the stamps t. Samples are the state before a command or an onset of the
-    same stamp has acted. Steps are at most *step* s and never reach across either. Raises
-    ParameterError when *step* is too long for the joint, when shapes do not fit, stamps go back,
-    a number is not finite, or *hidden* has an effect that the joint lacks. Warns of commands that
-    seem to be in kPa or bar.
+    (muscles,). A command is active from its stamp to the next one, the first also before its
+    stamp. The joint starts at t[0] after a long rest under the commands that act just before
+    t[0], at *position* (default: its rest position) with *velocity*. *hidden* gives changes of
+    the hidden states from rest, by effect and then by state, the same in all muscles. An effect
+    with an onset begins to act at this time on the time axis of t. Samples are the state before a
+    command or an onset of the same stamp has acted. Steps are at most *step* s and never extend
+    across a command or an onset. Raises ParameterError if *step* is too long for the joint, if
+    shapes do not fit, stamps go back, a number is not finite, or *hidden* has an effect that the
+    joint lacks. Warns of commands that seem to be in kPa or bar.
     """
     step = number('step', step)
     check_step(instance('joint', joint, Joint, 'a Joint'), step)
@@ -93,16 +93,16 @@ def simulate_held(
     velocity: ArrayLike | None = None,
     step: float = 1e-3,
 ) -> Trajectory:
-    """Run a joint whose coordinate is prescribed: pressure and position in, force out.
+    """Simulate a joint whose coordinate is prescribed: pressure and position in, force out.
 
     t, position, velocity (n,): s, ascending, no two equal; m, m/s or rad, rad/s (default: the
     gradient of the position, which needs two stamps). pressure: gauge Pa, (n, muscles), for one
-    muscle also (n,). All are linear between stamps, in steps of at most *step* s. In the force of
-    one muscle in line with its coordinate is the friction on the joint, against the motion: what a
-    machine measures that moves the actuator, pull - damping - friction where it shortens and
-    pull + damping + friction where it lengthens; a payload and end stops are not. Raises
-    ParameterError when an effect has an onset, when shapes do not fit, stamps do not ascend, or a
-    number is not finite.
+    muscle also (n,). All are linear between stamps, in steps of at most *step* s. The force of
+    one muscle in line with its coordinate includes the friction on the joint, against the motion.
+    This is the force that a machine measures which moves the actuator: muscle force - damping -
+    friction while it shortens, and muscle force + damping + friction while it lengthens. A payload
+    and end stops are not included. Raises ParameterError if an effect has an onset, shapes do not
+    fit, stamps do not ascend, or a number is not finite.
     """
     instance('joint', joint, Joint, 'a Joint')
     refuse_onsets(joint, 'simulate_held')
@@ -133,8 +133,8 @@ def trajectory(t: Array, out: Array) -> Trajectory:
 def by_muscle(name: str, value: ArrayLike, clock: str, count: int, muscles: int) -> Array:
     """Return *value* as (count, muscles): a row for each of *count* stamps of *clock*.
 
-    Taken as they are meant are also (count,) of one muscle, and (muscles,) at one stamp. Nothing
-    else: which muscle other shapes are for cannot be known. Raises ParameterError.
+    The shapes (count,) for one muscle and (muscles,) for one stamp are accepted, too. Others
+    raise ParameterError, since the muscle for each number would not be known.
     """
     found, wanted = array(name, value), (count, muscles)
     if (found.shape == (count,) and muscles == 1) or (found.shape == (muscles,) and count == 1):
@@ -148,7 +148,7 @@ def by_muscle(name: str, value: ArrayLike, clock: str, count: int, muscles: int)
 
 
 def _warn_low(name: str, pressure: Array, joint: Joint) -> None:
-    """Warn of a *pressure* in Pa (m, muscles) that would be one of *joint* if it were in kPa."""
+    """Warn of a *pressure* in Pa (m, muscles) that is so low that it may be in kPa or bar."""
     p_max = max(muscle.p_max for muscle in joint.muscles)
     highest = float(np.max(np.abs(pressure), initial=0.0))
     if 0.0 < highest <= IN_KPA * p_max and not joint.is_driven:

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs of one joint over the stamps of a recording, as templates.
 
-They stand beside those of :mod:`pam_ros.rig.kernel` and are bound with them. Stamps of commands
-are those at which they act in the chamber: dead times are in them already.
+They supplement those of :mod:`pam_ros.rig.kernel` and are bound with them. The stamp of a command
+is the time at which it acts in the chamber: it already includes dead times.
 """
 
 from math import ceil, exp
@@ -54,14 +54,14 @@ Row = Any  # float64 array; numba's and numpy's types differ, both index to floa
 
 
 def in_force(at: Row, i: int, now: float) -> int:
-    """Return the index of the command that acts at *now*, i or a later one: at are its stamps."""
+    """Return the index of the command that acts at *now*, not below i; *at* are the stamps."""
     while i + 1 < at.shape[0] and at[i + 1] <= now + 1e-9:
         i += 1
     return i
 
 
 def held_until(at: Row, i: int, end: float) -> float:
-    """Return when command i ceases to act, *end* at the latest."""
+    """Return the time at which command i stops acting, at most *end*."""
     if i + 1 < at.shape[0] and at[i + 1] < end - 1e-9:
         held: float = at[i + 1]
         return held
@@ -79,13 +79,13 @@ def first_command(at: Row, begin_at: float) -> int:
 def simulate(
     x: Row, xn: Row, q: Row, t: Row, at: Row, u: Row, longest: float, out: Row, forces: bool
 ) -> None:
-    """Run one joint over a recording's stamps with its commands exactly as stamped.
+    """Simulate one joint at the stamps of a recording, its commands exactly at their stamps.
 
     x: state at t[0], changed in place. t (n,): sample stamps. at (m,), u (m, muscles): stamps
-    and values of the commands, ascending; u[0] is in force before at[0]. Between two stamps the
-    steps are equal, at most *longest* seconds, and none reaches across a command. out (n,
+    and values of the commands, ascending; u[0] also acts before at[0]. Between two stamps the
+    steps are equal, at most *longest* seconds, and no step extends across a command. out (n,
     columns of a run) receives coordinate, velocity, pressure of each muscle and, if *forces*, its
-    force less its damping: the state at t[i] before a command of the same stamp has acted.
+    force minus its damping: the state at t[i] before a command of the same stamp has acted.
     """
     begin(x, xn)
     m = mass_chain(q[JOINT, MASS], q[JOINT])
@@ -113,11 +113,12 @@ def simulate(
 def simulate_held(
     x: Row, xn: Row, q: Row, t: Row, p: Row, s: Row, v: Row, longest: float, out: Row
 ) -> None:
-    """Run one joint whose coordinate is prescribed; the muscles do not move it.
+    """Simulate one joint whose coordinate is prescribed; the muscles do not move it.
 
-    t (n,): stamps. p (n, muscles): pressures measured in Pa. s, v (n,): coordinate and velocity;
-    all are taken as linear between stamps. out as with :func:`simulate`, forces included; in the
-    force of one muscle in line with the coordinate is the friction that a machine feels, too.
+    t (n,): stamps. p (n, muscles): measured pressures in Pa. s, v (n,): coordinate and velocity;
+    all are assumed to be linear between stamps. out as with :func:`simulate`, forces included.
+    The force of one muscle in line with the coordinate includes the friction that a machine
+    measures.
     """
     begin(x, xn)
     m = mass_chain(q[JOINT, MASS], q[JOINT])
@@ -136,7 +137,7 @@ def simulate_held(
                 now = t[last] + k * h
                 p_in = p[last, i] + part * (p[n, i] - p[last, i])
                 if delay > 0.0 and t.shape[0] > 1:
-                    # The pressure at the sensor, so long ago as it takes to the chamber.
+                    # The pressure at the sensor one delay ago: it reaches the chamber now.
                     then = max(now - delay, t[0])
                     late = min(n, t.shape[0] - 2)
                     while late > 0 and t[late] > then:
@@ -171,7 +172,7 @@ def simulate_held(
 def simulate_along(
     x: Row, xn: Row, q: Row, t: Row, s: Row, v: Row, at: Row, u: Row, out: Row
 ) -> None:
-    """Integrate the acceleration of the equation of motion along a motion that is given.
+    """Integrate the acceleration of the equation of motion along a given motion.
 
     t, s, v (n,): stamps, coordinate and velocity, linear between stamps. at (m,), u (m, muscles):
     commands as for :func:`simulate`. out (n - 1, 2) receives, for each interval between two

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What a rig's sensors make of its state: latency, offset, noise, resolution."""
+"""The effect of sensors on the measured state: latency, offset, noise, resolution."""
 
 from collections import deque
 from dataclasses import dataclass
@@ -18,8 +18,8 @@ POSITION, VELOCITY, PRESSURE, FORCE, ACCELERATION = range(5)
 class Sensors:
     """The faults of the sensors, all absent by default.
 
-    Noise is white and Gaussian, drawn anew for every reading; the same seed and the same
-    readings give the same noise. A resolution of 0 means none.
+    Noise is white and Gaussian, and independent for every reading; the same seed and the same
+    readings give the same noise. A resolution of 0 means no rounding.
     """
 
     latency: float = parameter_field(
@@ -67,14 +67,14 @@ class Sensors:
 
 
 class Feedback:
-    """The sensors of a rig at work.
+    """The sensors of a rig in operation.
 
     Samples are arrays (5, muscles): position m, velocity m/s, pressure Pa, force N, acceleration
     m/s^2. Readings are arrays (4, muscles) in the same order, without the acceleration.
     """
 
     def __init__(self, sensors: Sensors, muscles: int = 1) -> None:
-        """Begin without a past: until there is one, the oldest sample stands for it."""
+        """Start without past samples: before one latency has passed, the oldest one is used."""
         self._past: deque[tuple[float, Array]] = deque()
         self._muscles = muscles
         self.sensors = sensors
@@ -82,7 +82,7 @@ class Feedback:
         self.change(sensors)
 
     def change(self, sensors: Sensors) -> None:
-        """Go on with other faults; the noise begins anew if its seed has changed."""
+        """Continue with other faults; the noise starts again if its seed has changed."""
         if sensors.seed != self.sensors.seed:
             self._random = np.random.default_rng(sensors.seed)
         self.sensors = sensors
@@ -95,14 +95,14 @@ class Feedback:
         )
 
     def read(self, t: float, sample: Array) -> Array:
-        """Return what the sensors say at *t* s, when the rig's state is *sample*.
+        """Return the readings of the sensors at *t* s, when the rig's state is *sample*.
 
-        To be called in the order of time: samples are remembered for the latency.
+        Call it in the order of time: samples are stored for the latency.
         """
         reading: Array = self._late(t, sample) if self.sensors.latency else sample[:4].copy()
         reading[POSITION] += self.sensors.position_offset
         if self._is_noisy:
-            # All are drawn always, so that one sensor's noise does not depend on another's.
+            # All are drawn always, so that the noise of one sensor does not depend on another one.
             reading += self._noise * self._random.standard_normal((4, self._muscles))
         if self._is_stepped:
             for row, step in zip(reading, self._resolution[:, 0], strict=True):
@@ -111,9 +111,9 @@ class Feedback:
         return reading
 
     def _late(self, t: float, sample: Array) -> Array:
-        """Remember the sample; return the reading of one latency ago, interpolated."""
+        """Store the sample; return the reading of one latency ago, interpolated."""
         past, wanted = self._past, t - self.sensors.latency
-        if past and past[-1][0] == t:  # time stands still
+        if past and past[-1][0] == t:  # time has not advanced
             past.pop()
         past.append((t, sample.copy()))
         while len(past) > 1 and past[1][0] <= wanted:

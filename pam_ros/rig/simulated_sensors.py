@@ -17,7 +17,7 @@ Array = NDArray[np.float64]
 
 
 class SensorReadings(NamedTuple):
-    """What the sensors measure: of the joints (joints,), and of the muscles (muscles,).
+    """The readings of the sensors: of the joints (joints,), and of the muscles (muscles,).
 
     ``position`` in m and ``velocity`` in m/s, rad and rad/s for a revolute joint; ``effort`` in N
     or N m; ``pressure`` in Pa gauge, ``force`` in N.
@@ -33,8 +33,8 @@ class SensorReadings(NamedTuple):
 class SimulatedSensors:
     """Sensors that measure the state of a :class:`pam_ros.Simulation`, as those of ``pam_sim``.
 
-    The first readings come from the present state: where the simulation is reset, make new
-    sensors. Raises ParameterError for objects of another type.
+    The first readings come from the present state: create new sensors after a reset of the
+    simulation. Raises ParameterError for objects of another type.
     """
 
     def __init__(self, simulation: Simulation, sensors: Sensors) -> None:
@@ -43,16 +43,16 @@ class SimulatedSensors:
         instance('sensors', sensors, Sensors, 'Sensors')
         self._are_direct = all(map(statics.is_direct, simulation.joints))
         self.of_joints = Feedback(sensors, len(simulation.position))
-        # Where they are not as many as joints, muscles have sensors, and noise, of their own.
+        # Unless each joint is one muscle on a mass, muscles have their own sensors and noise.
         self._of_muscles = Feedback(_other_noise(sensors), len(simulation.pressure))
 
     def change(self, sensors: Sensors) -> None:
-        """Go on with other sensors; the noise begins again if its seed has changed."""
+        """Continue with other sensors; the noise starts again if its seed has changed."""
         self.of_joints.change(sensors)
         self._of_muscles.change(_other_noise(sensors))
 
     def read(self) -> SensorReadings:
-        """Return what the sensors measure now.
+        """Return the present readings of the sensors.
 
         Call it regularly, once in each control period: with a latency a reading is interpolated
         between the states of former calls.

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Joints that are stepped in time: what the simulator node and the controllers' tests drive."""
+"""Joints that are advanced in time, for the simulator node and for the tests of controllers."""
 
 from collections.abc import Sequence
 from itertools import groupby
@@ -22,10 +22,10 @@ Array = NDArray[np.float64]
 
 
 class MuscleOutputs(NamedTuple):
-    """What the muscles do, each (muscles,), in the order of joints and of muscles within them.
+    """Outputs of the muscles, each (muscles,), in the order of joints and of muscles within them.
 
-    ``force`` is the pull in N, effects included, without the damping; ``stiffness`` is in N/m,
-    ``damping`` in N s/m; ``acceleration`` is that of the muscle's end in m/s^2.
+    ``force`` is the pulling force in N, effects included, without the damping; ``stiffness`` is
+    in N/m, ``damping`` in N s/m; ``acceleration`` is that of the muscle's end in m/s^2.
     """
 
     force: Array
@@ -35,9 +35,9 @@ class MuscleOutputs(NamedTuple):
 
 
 class JointOutputs(NamedTuple):
-    """What the joints do, each (joints,), in N and m, or N m and rad for a revolute joint.
+    """Outputs of the joints, each (joints,), in N and m, or N m and rad for a revolute joint.
 
-    ``effort`` in N or N m is what the muscles exert, effects included, without their damping;
+    ``effort`` in N or N m is that of the muscles, effects included, without their damping;
     ``stiffness`` in N/m or N m/rad is that of the muscles, without gravity; ``acceleration`` is in
     m/s^2 or rad/s^2.
     """
@@ -48,15 +48,16 @@ class JointOutputs(NamedTuple):
 
 
 class Simulation:
-    """One or more joints with their muscles, stepped together at a fixed step.
+    """One or more joints with their muscles, advanced together with a fixed step.
 
-    All quantities are arrays. With one entry a joint, in the order of *joints*: position m and
-    velocity m/s (contraction positive), for a revolute joint rad and rad/s. With one entry a
-    muscle, in the order of joints and of muscles within them: pressure Pa gauge in the chamber,
-    force N (pulling), stiffness N/m, damping N s/m. Steps are counted, so time is exact; the same
-    joints, start and commands give the same bits, however the steps are split into calls.
+    All quantities are arrays. Position m and velocity m/s (contraction positive), or rad and rad/s
+    for a revolute joint, have one entry for each joint, in the order of *joints*. Pressure Pa
+    gauge in the chamber, force N (pulling), stiffness N/m and damping N s/m have one entry for
+    each muscle, in the order of joints and of muscles within them. Steps are counted, so time is
+    exact. The same joints, start and commands give bitwise equal results, for any number of steps
+    per call.
 
-    *step* is in s. Raises ParameterError when it is too long for one of the joints. All methods
+    *step* is in s. Raises ParameterError if it is too long for one of the joints. All methods
     raise ParameterError for shapes that do not fit and numbers that are not finite.
     """
 
@@ -66,11 +67,11 @@ class Simulation:
         self.joints = joints = _joints(joints)
         for joint in joints:
             check_step(joint, step)
-        # Neighbours of one kind are stepped in one call.
+        # Consecutive joints of one kind are advanced in one call.
         self._groups = [Group(tuple(alike), step) for _, alike in groupby(joints, _kind)]
         self._k = 0
-        self._has_looked = False  # at the outputs of the present state
-        # Of each muscle: its group, its joint in that, and its number in the joint.
+        self._has_looked = False  # whether the outputs of the present state are known
+        # For each muscle: its group, the number of its joint there, and its number in the joint.
         self._muscles = [
             (group, a, i)
             for group in self._groups
@@ -86,7 +87,7 @@ class Simulation:
     def prepare(self) -> None:
         """Load all machine code that these joints and any :meth:`change` of them can need.
 
-        What is not on disk is compiled, which takes many seconds; afterwards neither
+        Code that is not on disk is compiled, which takes many seconds; afterwards neither
         :meth:`advance` nor :meth:`muscle_outputs` waits for it.
         """
         for group in self._groups:
@@ -94,11 +95,11 @@ class Simulation:
         self._has_looked = False
 
     def change(self, joints: Sequence[Joint]) -> None:
-        """Go on from the present state with other parameters; with these errors, with the old.
+        """Continue from the present state with other parameters; after an error with the old ones.
 
-        Hidden states are kept; an effect that was absent begins to act, with its memory at rest
-        where the joint is, and without a jump of pressure or position. Raises ParameterError for
-        joints of other kinds: make a new Simulation for those.
+        Hidden states are kept. An effect that was absent begins to act, with its memory at rest at
+        the present position, and without a jump of pressure or position. Raises ParameterError for
+        joints of other kinds: create a new Simulation for those.
         """
         joints = _joints(joints)
         for joint in joints:
@@ -114,10 +115,10 @@ class Simulation:
         self._has_looked = False
 
     def reset(self, pressure: ArrayLike, position: ArrayLike, velocity: ArrayLike) -> None:
-        """Set time to 0 and the state to these arrays, after a long rest at *pressure* there.
+        """Set time to 0 and the state to these values, as after a long rest at *pressure*.
 
-        *pressure* (muscles,) is also the command in force; commands under way are forgotten.
-        *position* and *velocity* are (joints,). One number stands for all, of each of the three.
+        *pressure* (muscles,) is also the present command; delayed commands are discarded.
+        *position* and *velocity* are (joints,). One number sets all entries, in each of the three.
         """
         p = one_each('pressure', pressure, len(self._muscles), 'muscle')
         s = one_each('position', position, len(self.joints), 'joint')
@@ -147,7 +148,7 @@ class Simulation:
         group.command(a, i, self.time, number('pressure', pressure))
 
     def advance(self, steps: int = 1) -> None:
-        """Step all joints *steps* times, a whole number that is not negative."""
+        """Advance all joints by *steps* steps, a whole number that is not negative."""
         steps = _whole('steps', steps)
         if steps < 0:
             refuse('steps', steps, 'a whole number, at least 0')

@@ -22,9 +22,9 @@ def single_muscle_joint(
     effects: Sequence[Effect] = (),
     library: Sequence[type[Effect]] | None = None,
 ) -> Joint:
-    """Return one muscle on a mass, the paper's rig, with *effects* in the one and on the other.
+    """Return one muscle on a mass, the paper's rig, with *effects* in the muscle and on the mass.
 
-    What is None has its default: ``Muscle()``, ``Mass()``, and EFFECTS as the library.
+    None stands for the default: ``Muscle()``, ``Mass()``, and EFFECTS as the library.
     Raises ParameterError as Joint does.
     """
     in_muscle, on_joint = split_effects(effects)
@@ -47,13 +47,13 @@ def antagonistic_joint(
     effects: Sequence[Effect] = (),
     library: Sequence[type[Effect]] | None = None,
 ) -> Joint:
-    """Return two muscles that turn a pulley of *radius* m against each other.
+    """Return two antagonistic muscles on a pulley of *radius* m.
 
-    *muscle* turns it to positive angles, *antagonist* back (default: the same as *muscle*).
-    *contraction* is that of the muscles at angle 0 as a fraction, one number for both or (2,).
-    *load* is turned (default: ``Arm()``). Of *effects*, those of a muscle are in both of them, and
-    those of a load on the joint; for muscles with different effects make a ``Joint`` of two
-    ``Actuator``. Raises ParameterError as Joint does.
+    *muscle* turns the pulley in the positive direction, *antagonist* in the negative one (default:
+    the same as *muscle*). *contraction* is that of the muscles at angle 0 as a fraction, one
+    number for both or (2,). *load* is the load on the pulley (default: ``Arm()``). Of *effects*,
+    those of a muscle are in both muscles, and those of a load on the joint; for muscles with
+    different effects create a ``Joint`` of two ``Actuator``. Raises ParameterError as Joint does.
     """
     in_muscle, on_joint = split_effects(effects)
     first = Muscle() if muscle is None else muscle

@@ -28,9 +28,9 @@ def start_state(
 ) -> Array:
     """Return the state x at the coordinate s and velocity v after a long rest there.
 
-    *q* are the parameters (rows, parameters), *pressures* those that are commanded in Pa, one a
-    muscle; hidden states are those of their effect's ``start``. Those of effects that are not
-    among *present*, if they are named, are left 0: nothing reads them.
+    *q* are the parameters (rows, parameters), *pressures* the commanded ones in Pa, one for each
+    muscle; hidden states are those of their effect's ``start``. If *present* is given, the hidden
+    states of other effects remain 0, since nothing reads them.
     """
     x = layout.state()
     x[at.JOINT, at.S], x[at.JOINT, at.V] = s, v
@@ -46,7 +46,7 @@ def start_muscle(
 ) -> None:
     """Set the hidden states of those of *effects* that act in muscle i, and its pressure.
 
-    *pressure* in Pa is what its pressure path is fed with. The muscle is where the joint is.
+    *pressure* in Pa is the input of its pressure path. The muscle is at the joint's position.
     """
     row, own = at.MUSCLE + i, q[at.MUSCLE + i]
     y = position(layout, q, x, i)
@@ -78,7 +78,7 @@ def _rest(
     kappa: float,
     y: float,
 ) -> None:
-    """Set the hidden states of *effect* in its row x to those of a long rest there."""
+    """Set the hidden states of *effect* in its row x to those after a long rest."""
     if effect.equations.start is not None:
         k, j = layout.state_at[effect.name], layout.parameter_at[effect.name]
         x[k : k + len(effect.states)] = effect.equations.start(q, j, pressure, kappa, y)
@@ -87,10 +87,10 @@ def _rest(
 def begin_effects(
     layout: Layout, q: Array, x: Array, begun: Sequence[Sequence[type[Effect]]]
 ) -> None:
-    """Set the hidden states of effects as they are when these begin to act on a moving joint.
+    """Set the hidden states of effects that begin to act on a moving joint.
 
     *begun* are those on the joint, then those in each muscle; in the parameters q (rows,
-    parameters) they are still absent. Their memories are at rest where the joint is, and the
+    parameters) they are still absent. Their memories are at rest at the present position, and the
     chambers keep their pressures.
     """
     on_joint, *in_muscles = begun
@@ -104,7 +104,7 @@ def begin_effects(
 
 
 def felt_contraction(layout: Layout, q: Array, i: int, y: float) -> float:
-    """Return the contraction that muscle i feels where its end is at y m."""
+    """Return the effective contraction of muscle i with its end at y m."""
     own = q[at.MUSCLE + i]
     kappa = y / float(own[at.L0])
     for effect in layout.library:
@@ -114,7 +114,7 @@ def felt_contraction(layout: Layout, q: Array, i: int, y: float) -> float:
 
 
 def position(layout: Layout, q: Array, x: Array, i: int) -> float:
-    """Return where the end of muscle i is in m."""
+    """Return the position of the end of muscle i in m."""
     s = float(x[at.JOINT, at.S])
     travel = layout.transmission.travel(s, i, q[at.JOINT], layout.transmission_at)
     return float(q[at.MUSCLE + i, at.AT_ZERO] + travel)
@@ -128,11 +128,11 @@ def disturb(
     away: Mapping[str, Mapping[str, float]],
     present: Sequence[type[Effect]],
 ) -> None:
-    """Move hidden states of x *away* from where a long rest at *pressures* Pa has left them.
+    """Add *away* to the hidden states of x, which are those of a long rest at *pressures* Pa.
 
     *away* maps the name of an effect to the names of its states and the change of each, in the
-    state's unit; an effect in muscles is moved in all of them alike. The chambers then have the
-    pressures of the states that were moved. Raises ParameterError for an effect without hidden
+    state's unit; an effect in muscles is changed in all of them equally. The chambers then have
+    the pressures of the changed states. Raises ParameterError for an effect without hidden
     states, one that is not among those that are *present*, or a state that it does not have.
     """
     known = {effect.name: effect for effect in layout.library if effect.states}
@@ -164,13 +164,13 @@ def disturb(
 
 
 def fill_chambers(layout: Layout, q: Array, x: Array, pressures: Sequence[float] | Array) -> None:
-    """Set the chambers to what the hidden states of x leave of the commanded *pressures* Pa."""
+    """Set the chambers to the pressures that result from *pressures* Pa and the hidden states."""
     for i, pressure in enumerate(pressures):
         x[at.MUSCLE + i, at.P] = _in_chamber(layout, q, x, i, float(pressure))
 
 
 def _in_chamber(layout: Layout, q: Array, x: Array, i: int, pressure: float) -> float:
-    """Return what is in the chamber of muscle i now, with *pressure* Pa fed to its path."""
+    """Return the present pressure in the chamber of muscle i, with *pressure* Pa at its inlet."""
     row, own = at.MUSCLE + i, q[at.MUSCLE + i]
     for effect in layout.library:
         k, j = layout.state_at[effect.name], layout.parameter_at[effect.name]
@@ -179,7 +179,7 @@ def _in_chamber(layout: Layout, q: Array, x: Array, i: int, pressure: float) -> 
 
 
 def _behind(effect: type[Effect], pressure: float, x: Array, k: int, q: Array, j: int) -> float:
-    """Return the pressure behind an effect of the path with *pressure* Pa before it, now."""
+    """Return the present pressure after an effect of the path, with *pressure* Pa before it."""
     if effect.equations.pressure is None:
         return pressure
     return float(_in_python(effect.equations.pressure)(pressure, 0.0, 0.0, x, k, x.copy(), q, j))
@@ -187,5 +187,5 @@ def _behind(effect: type[Effect], pressure: float, x: Array, k: int, q: Array, j
 
 @lru_cache
 def _in_python(function: Callable[..., float]) -> Callable[..., float]:
-    """Return *function* without compiled parts: for a call a run, the compiler takes too long."""
+    """Return *function* without compiled parts: for one call per run, compilation is too slow."""
     return broadcast(function)

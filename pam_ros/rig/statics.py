@@ -7,11 +7,11 @@ Force and stiffness are affine in pressure, so that at a coordinate s
     effort tau = sum_i (a_i + b_i p_i),    stiffness K = sum_i (c_i + d_i p_i)
 
 with a = arm F(0, kappa), b = arm dF/dp, c = arm^2 k(0, kappa) - arm' F(0, kappa), and
-d = arm^2 dk/dp - arm' dF/dp, arm' being the derivative of the arm over s.
+d = arm^2 dk/dp - arm' dF/dp, where arm' is the derivative of the arm with respect to s.
 
-All of it is the declared model: the force law, the geometry, and gravity with the moved mass;
-no other effects. Coordinates are m or rad, efforts N or N m, stiffness N/m or N m/rad, as the
-joint has them; pressures p are gauge Pa, one a muscle or one for all.
+All of it is the nominal model: the force law, the geometry, and gravity with the moved mass; other
+effects are not included. Coordinates are m or rad, efforts N or N m, stiffness N/m or N m/rad, as
+the joint has them; pressures p are gauge Pa, one for each muscle or one for all.
 """
 
 from functools import cache
@@ -28,13 +28,13 @@ from pam_ros.rig.loads import Load
 from pam_ros.rig.transmissions import Straight, Transmission
 
 BAR = 1e5  # Pa
-BEYOND = 0.1, 0.25  # contraction below and above the rated one to which equilibria are sought
-LONGEST = 0.95  # contraction at which no muscle is looked at any more
+BEYOND = 0.1, 0.25  # contraction below and above the rated range that is searched for equilibria
+LONGEST = 0.95  # largest contraction that is considered for any muscle
 _on_arrays = cache(broadcast)
 
 
 class Mechanism(Protocol):
-    """What statics need of a joint: its muscles, how they are connected, and its load."""
+    """The parts of a joint that statics need: its muscles, its transmission and its load."""
 
     @property
     def muscles(self) -> tuple[Muscle, ...]:
@@ -46,28 +46,28 @@ class Mechanism(Protocol):
 
     @property
     def transmission(self) -> Transmission:
-        """How they are connected to the coordinate."""
+        """The transmission from the muscles to the coordinate."""
 
     @property
     def load(self) -> Load:
-        """What they move."""
+        """The load of the muscles."""
 
     @property
     def moved_mass(self) -> float:
-        """Mass in kg with the payload among its effects."""
+        """Mass in kg with the payload of its effects."""
 
     @property
     def inertia(self) -> float:
-        """What resists the acceleration of the coordinate, kg or kg m^2."""
+        """Inertia of the coordinate, kg or kg m^2."""
 
 
 def each(joint: Mechanism, p: ArrayLike) -> list[float]:
-    """Return pressures in Pa, one a muscle, of as many or of one for all."""
+    """Return pressures in Pa, one for each muscle; *p* has one for each, or one for all."""
     return [float(one) for one in np.broadcast_to(np.asarray(p, float), len(joint.muscles))]
 
 
 def effort(joint: Mechanism, p: ArrayLike, s: ArrayLike) -> Any:
-    """Return what the muscles pull the joint with; *s* may be an array."""
+    """Return the effort of the muscles on the joint; *s* may be an array."""
     total: Any = 0
     for i, pressure in enumerate(each(joint, p)):
         a, b, _, _ = line(joint, i, s)
@@ -76,7 +76,7 @@ def effort(joint: Mechanism, p: ArrayLike, s: ArrayLike) -> Any:
 
 
 def pull(joint: Mechanism, p: ArrayLike, s: ArrayLike) -> Any:
-    """Return :func:`effort` without what muscles push where the law lets them."""
+    """Return :func:`effort` without the pushing forces that the force law may give."""
     total: Any = 0.0
     for i, (muscle, pressure) in enumerate(zip(joint.muscles, each(joint, p), strict=True)):
         force = law.force_v(pressure, contraction(joint, i, s), *muscle.si)
@@ -85,10 +85,10 @@ def pull(joint: Mechanism, p: ArrayLike, s: ArrayLike) -> Any:
 
 
 def stiffness(joint: Mechanism, p: ArrayLike, s: ArrayLike) -> Any:
-    """Return the stiffness K that the muscles give the joint; *s* may be an array.
+    """Return the stiffness K of the joint by its muscles; *s* may be an array.
 
-    Two muscles set it by co-contraction. What returns the joint to its equilibrium is this
-    and the :func:`weight_stiffness`.
+    Two muscles set it by co-contraction. The sum of this and the :func:`weight_stiffness` returns
+    the joint to its equilibrium.
     """
     total: Any = 0
     for i, pressure in enumerate(each(joint, p)):
@@ -104,13 +104,13 @@ def weight(joint: Mechanism, s: ArrayLike) -> Any:
 
 
 def weight_stiffness(joint: Mechanism, s: ArrayLike) -> Any:
-    """Return the stiffness that gravity adds, negative for a load that stands; also arrays."""
+    """Return the stiffness that gravity adds, negative for an inverted pendulum; also arrays."""
     slope = _on_arrays(joint.load.equations.fall_slope)
     return joint.inertia * slope(_array(s), joint.moved_mass, joint.inertia, joint.load.numbers, 0)
 
 
 def position(joint: Mechanism, i: int, s: ArrayLike) -> Any:
-    """Return where the end of muscle i is in m, contraction positive; *s* may be an array."""
+    """Return the position of muscle i's end in m, contraction positive; *s* may be an array."""
     travel = _on_arrays(joint.transmission.equations.travel)
     return joint.at_zero[i] + travel(_array(s), i, joint.transmission.numbers, 0)
 
@@ -121,7 +121,7 @@ def contraction(joint: Mechanism, i: int, s: ArrayLike) -> Any:
 
 
 def arm(joint: Mechanism, i: int, s: ArrayLike) -> Any:
-    """Return how fast muscle i shortens with the coordinate; *s* may be an array."""
+    """Return the arm of muscle i: its shortening per unit of s; *s* may be an array."""
     return _on_arrays(joint.transmission.equations.arm)(
         _array(s), i, joint.transmission.numbers, 0
     )
@@ -134,7 +134,7 @@ def middle_arms(joint: Mechanism) -> Any:
 
 
 def arm_slope(joint: Mechanism, i: int, s: ArrayLike) -> Any:
-    """Return the derivative of the arm over the coordinate; *s* may be an array."""
+    """Return the derivative of the arm with respect to s; *s* may be an array."""
     return _on_arrays(joint.transmission.equations.arm_slope)(
         _array(s), i, joint.transmission.numbers, 0
     )
@@ -158,13 +158,13 @@ def line(joint: Mechanism, i: int, s: ArrayLike) -> tuple[Any, Any, Any, Any]:
 
 
 def equilibrium(joint: Mechanism, p: ArrayLike) -> float:
-    """Return the coordinate at which the muscles hold the load, stably.
+    """Return the coordinate at which the muscles hold the load in a stable equilibrium.
 
-    Of several, as a load that stands on soft muscles has, the one nearest to 0. Raises
-    RangeError when there is none at lengths that muscles have.
+    If there are several, as for an inverted pendulum with soft muscles, it is the one nearest to
+    0. Raises RangeError if there is none at the contractions that are searched (BEYOND, LONGEST).
     """
     if is_direct(joint):
-        # The same for one muscle on a mass, in the law's own terms and some 100 times as fast.
+        # The same for one muscle on a mass, from the force law itself and about 100 times as fast.
         muscle = joint.muscles[0]
         return muscle.equilibrium(each(joint, p)[0], float(weight(joint, 0.0))) * muscle.l0
     s = np.linspace(*span(joint, *BEYOND), 200)
@@ -194,15 +194,15 @@ def equilibrium(joint: Mechanism, p: ArrayLike) -> float:
 
 
 def is_direct(joint: Mechanism) -> bool:
-    """Say whether the coordinate is the contraction of one muscle, in m."""
+    """Return whether the coordinate is the contraction of one muscle, in m."""
     return isinstance(joint.transmission, Straight) and joint.at_zero == (0.0,)
 
 
 def span(joint: Mechanism, below: float = 0.0, above: float = 0.0) -> tuple[float, float]:
     """Return the least and the greatest coordinate at which all muscles are within their range.
 
-    That is kappa_min - below to kappa_max + above, never above LONGEST. Where the first is above
-    the second there is no such coordinate.
+    The range is kappa_min - below to kappa_max + above, never above LONGEST. If the least is above
+    the greatest, there is no such coordinate.
     """
     low, high = -np.inf, np.inf
     for i, m in enumerate(joint.muscles):

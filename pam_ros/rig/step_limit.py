@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""How far a joint can swing, so how stiff its muscles become, and so how short steps must be."""
+"""The longest step for a joint, from how far it can swing and how stiff its muscles become."""
 
 import itertools
 import math
@@ -17,19 +17,20 @@ from pam_ros.rig.joint import Joint
 from pam_ros.rig.start import start_state
 
 Array = NDArray[np.float64]
-BELOW, ABOVE = 0.3, 0.7  # contraction beyond the rated one that is looked at
+BELOW, ABOVE = 0.3, 0.7  # contraction below and above the rated range that is examined
 POINTS = 500
-LONGEST_WITH_EFFECTS = 0.01  # s: stops that are softened for longer steps hold nothing
-FAST = 10.0  # m/s or rad/s, at which dry friction counts for nothing beside a drag
+LONGEST_WITH_EFFECTS = 0.01  # s: end stops that are softened for longer steps are too soft to hold
+FAST = 10.0  # m/s or rad/s, at which dry friction is negligible compared with a drag
 
 
 def longest_step(joint: Joint) -> float:
-    """Return the step in s at which the joint's fastest motion turns by 1 rad.
+    """Return the step in s in which the phase of the joint's fastest motion advances by 1 rad.
 
-    That is where its muscles are stiffest: where the joint can be permissibly, and where it
-    swings to, undamped, when it is let go there. The integrator is stable to 2.6 rad, with
-    critical damping to 1.3 rad. A known force instead of a muscle sets no limit. The drag of
-    effects counts as damping; those with memory bring their own updates.
+    The motion is fastest where the muscles are stiffest: within the permissible range of the
+    joint, and at the positions that it reaches, undamped, after a release in this range. The
+    integrator is stable to 2.6 rad, with critical damping to 1.3 rad. A known force instead of a
+    muscle sets no limit. The drag of effects counts as damping; effects with memory have their own
+    updates.
     """
     if joint.is_driven:
         k, cap = 0.0, math.inf
@@ -45,7 +46,7 @@ def longest_step(joint: Joint) -> float:
 
 
 def check_step(joint: Joint, step: float) -> None:
-    """Raise ParameterError when *step* in s is none, or too long for the fastest motion."""
+    """Raise ParameterError if *step* in s is not positive, or too long for the fastest motion."""
     if not step > 0.0:
         raise ParameterError(f'a physics step of {step:g} s is not allowed: give more than 0')
     for _, stage in joint.stages:
@@ -100,7 +101,7 @@ def drag(joint: Joint) -> float:
 
 
 def _longest_arm(joint: Joint, i: int) -> float:
-    """Return the largest arm of muscle i where the joint may be."""
+    """Return the largest absolute arm of muscle i within the permissible range of the joint."""
     if statics.is_direct(joint):
         return 1.0
     return float(np.max(np.abs(statics.arm(joint, i, np.linspace(*statics.span(joint), POINTS)))))
@@ -110,11 +111,11 @@ def _longest_arm(joint: Joint, i: int) -> float:
 
 
 def _stiffest_of_one(joint: Joint) -> float:
-    """Return the largest stiffness in N/m of one muscle between its rated ends and a fall."""
+    """Return the largest stiffness in N/m of one muscle, from kappa_max to the end of a fall."""
     muscle = joint.muscle
     lowest = _deepest(muscle, float(statics.weight(joint, 0.0)))
     p, kappa = np.meshgrid((muscle.p_min, muscle.p_max), (lowest, muscle.kappa_max))
-    return float(np.max(muscle.stiffness(p, kappa)))  # as the least, the largest is at a corner
+    return float(np.max(muscle.stiffness(p, kappa)))  # the largest is at a corner, as the least is
 
 
 def _deepest(muscle: Muscle, weight: float) -> float:
@@ -129,7 +130,7 @@ def _deepest(muscle: Muscle, weight: float) -> float:
 
 
 def _stiffest(joint: Joint) -> float:
-    """Return the largest stiffness where the joint may be or swings to."""
+    """Return the largest stiffness within the joint's travel and where the joint swings to."""
     s = np.linspace(*statics.span(joint, BELOW, ABOVE), POINTS)
     far = np.zeros(POINTS, dtype=bool)
     k = np.zeros(POINTS)
@@ -141,13 +142,14 @@ def _stiffest(joint: Joint) -> float:
 
 
 def _swung(joint: Joint, s: Array, effort: Array) -> NDArray[np.bool_]:
-    """Say which of the coordinates s are reached from a rest within the joint's travel."""
+    """Return which of the coordinates s are reached from a rest within the joint's travel."""
     net = effort - statics.weight(joint, s)
     work = np.concatenate([[0.0], np.cumsum(0.5 * (net[1:] + net[:-1]) * np.diff(s))])
     low, high = statics.span(joint)
     inside = np.flatnonzero((s >= low) & (s <= high))
     first, last = int(inside[0]), int(inside[-1])
-    # What is let go has no energy beyond that of its place, minus the work done from there.
+    # Released at rest, the joint has only its potential energy: the negative of the work up to
+    # the point of release.
     least = float(np.min(work[inside]))
     reached = np.zeros(len(s), dtype=bool)
     reached[first : last + 1] = True

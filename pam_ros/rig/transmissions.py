@@ -1,17 +1,17 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""How muscles are connected to the one coordinate that they move.
+"""The transmissions that connect muscles to the one coordinate that they move.
 
 The coordinate s is a position in m or an angle in rad. Muscle i is at
 
     y_i = y_i(0) + travel(s, i),    y_i' = arm(s, i) s',    arm = d travel / d s,
 
-contraction positive. Where muscles pull against each other they take turns: the first, the third
-and so on are shortened by a positive angle, the others lengthened.
+contraction positive. Antagonistic muscles alternate: a positive angle shortens the first, the
+third and so on, and lengthens the others.
 
-A transmission is a dataclass of what a user declares, and :class:`TransmissionEquations`: plain
-scalar functions that are compiled into the stepping kernel when numba is there. To make one of
-your own, write both as below; nothing has to be registered.
+A transmission is a dataclass of the parameters that a user sets, and
+:class:`TransmissionEquations`: plain scalar functions that are compiled into the stepping kernel
+if numba is installed. For a custom transmission, write both as below; no registration is needed.
 """
 
 from collections.abc import Callable
@@ -29,13 +29,13 @@ class TransmissionEquations:
     """The geometry of a transmission; q[j], q[j + 1], ... are its *numbers* numbers.
 
     ``travel(s, i, q, j) -> m``
-        How far muscle i has been drawn at the coordinate s, 0 at s = 0.
+        Displacement of the end of muscle i at the coordinate s, contraction positive, 0 at s = 0.
     ``arm(s, i, q, j) -> m/rad, or 1``
-        Its derivative over s: how fast muscle i shortens. Never 0.
+        Its derivative with respect to s: the shortening of muscle i per unit of s. Never 0.
     ``arm_slope(s, i, q, j) -> m/rad^2, or 0``
-        The derivative of the arm.
+        The derivative of the arm with respect to s.
     ``coordinate(travel, i, q, j) -> m or rad``
-        The inverse of ``travel``. Python calls it, not the kernel.
+        The inverse of ``travel``. It is called by Python, not by the kernel.
     """
 
     name: str
@@ -53,13 +53,13 @@ class TransmissionEquations:
 
     @property
     def effort_unit(self) -> str:
-        """Unit of what the muscles move it with."""
+        """Unit of the effort of the muscles."""
         return 'N m' if self.revolute else 'N'
 
 
 @dataclass(frozen=True)
 class Transmission:
-    """What a user declares of a transmission: a dataclass of numbers."""
+    """The parameters of a transmission: a dataclass of numbers."""
 
     equations: ClassVar[TransmissionEquations]
 
@@ -87,7 +87,7 @@ def _one(s: float, i: int, q: Row, j: int) -> float:
 
 
 def _none(s: float, i: int, q: Row, j: int) -> float:
-    """Return 0: the arm is the same everywhere."""
+    """Return 0: the arm does not depend on the coordinate."""
     return 0.0
 
 
@@ -128,7 +128,7 @@ def _turned(travel: float, i: int, q: Row, j: int) -> float:
 
 @dataclass(frozen=True)
 class Pulley(Transmission):
-    """A pulley that the muscles turn by belts or chains."""
+    """A pulley that the muscles rotate by belts or chains."""
 
     radius: float = parameter_field(
         0.04, 'radius of the pulley', 'm', low=0.0, high=1.0, above_low=True
@@ -140,9 +140,9 @@ class Pulley(Transmission):
 
 
 # Lever -----------------------------------------------------------------------------------------
-# The muscle's line is the third side of a triangle whose other two meet at the pivot: the crank b
-# and the distance a of the anchor, with the angle phi = phi_0 - s between them, so that its length
-# is L = sqrt(a^2 + b^2 - 2 a b cos phi), and dL/dphi = a b sin phi / L.
+# The line of the muscle is one side of a triangle. The other two sides meet at the pivot: the
+# crank b and the distance a of the anchor, with the angle phi = phi_0 - s between them. So the
+# line has the length L = sqrt(a^2 + b^2 - 2 a b cos phi), and dL/dphi = a b sin phi / L.
 
 
 def _drawn(s: float, i: int, q: Row, j: int) -> float:
@@ -175,7 +175,7 @@ def _moment_arm_slope(s: float, i: int, q: Row, j: int) -> float:
 
 
 def _swung(travel: float, i: int, q: Row, j: int) -> float:
-    """Return the angle, short of the dead centres where the triangle is flat."""
+    """Return the angle, limited at the dead centres, where the triangle is flat."""
     crank, anchor, zero = q[j], q[j + 1], q[j + 2]
     squares = crank * crank + anchor * anchor
     product = 2.0 * crank * anchor
@@ -186,12 +186,12 @@ def _swung(travel: float, i: int, q: Row, j: int) -> float:
     return s
 
 
-DEAD_CENTRE = 0.995  # cosine of the angle next to a dead centre, where the arm becomes nothing
+DEAD_CENTRE = 0.995  # cosine of the limit of the angle near a dead centre, where the arm is 0
 
 
 @dataclass(frozen=True)
 class Lever(Transmission):
-    """A lever that the muscles turn at a crank, so that their arms change with the angle."""
+    """A lever that the muscles rotate at a crank, so that their arms change with the angle."""
 
     crank: float = parameter_field(
         0.04, 'distance of the attachment from the pivot', 'm', low=0.0, high=1.0, above_low=True

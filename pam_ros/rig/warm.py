@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Compile the kernels and keep them on disk, so that a node is up at once: run at set-up."""
+"""Compile the kernels and keep them on disk, so that nodes start quickly: run it at set-up."""
 
 import logging
 import time
@@ -17,25 +17,25 @@ from pam_ros.rig.simulation import Simulation
 from pam_ros.rig.standard_joints import single_muscle_joint
 from pam_ros.rig.start import start_state
 
-WORKERS = 2  # processes: each compiles all effects for itself, and takes half a gigabyte
+WORKERS = 2  # processes: each compiles all effects itself, and needs half a gigabyte
 
 
 def warm() -> None:
     """Call every loop of the kernels that most users need, with the types of the package.
 
-    Those that step are compiled for all kinds of joints that users choose by name, those over
-    recordings for one muscle alone; each without effects, and with all. What is not among them,
-    such as a joint of one's own, is compiled and kept when it is first used.
+    The stepping loops are compiled for all kinds of joints that users choose by name, the loops
+    over recordings for one muscle on a mass only; each without effects, and with all effects.
+    Others, such as those of a custom joint, are compiled and kept at their first use.
     """
-    # What the workers would log, each for itself, is logged here once.
+    # Each worker would log the same warnings; they are logged here once.
     with ProcessPoolExecutor(WORKERS, initializer=logging.disable) as pool:
         for done in [*(pool.submit(_step, kind) for kind in ARRANGEMENTS), pool.submit(_run)]:
             code_cache.warn(done.result())
-    _run()  # from disk: what identifies in this process has them loaded
+    _run()  # from disk: an identification in this process then finds them loaded
 
 
 def _step(kind: Arrangement) -> str:
-    """Return why nothing is kept on disk, '' where it is; :func:`_run` as well."""
+    """Return why nothing is kept on disk, or '' if it is kept; :func:`_run` does the same."""
     actuator = Actuator(contraction=kind.contraction)
     Simulation([Joint((actuator,) * kind.muscles, kind.load(), kind.transmission())]).prepare()
     return code_cache.warned()

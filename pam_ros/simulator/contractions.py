@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Which muscles contract further than they permit, and how far."""
+"""Detect muscles that contract further than they permit, and how far."""
 
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -8,16 +8,16 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-# Contraction beyond kappa_max that is no event yet: for a muscle of 400 mm 2 mm, by which the zero
-# of a contraction is uncertain where a muscle is mounted.
+# Contraction beyond kappa_max that is not yet an event. For a muscle of 400 mm this is 2 mm, the
+# uncertainty of the zero of the contraction when a muscle is mounted.
 MARGIN = 0.005
-# s without such a contraction after which an event is over: longer than the period of a load that
-# swings about the limit, so that a swinging load is one event.
+# s without such a contraction after which an event is over. It is longer than the period of a load
+# that oscillates about the limit, so that an oscillating load is one event.
 CALM = 1.0
 
 
 class Excess(NamedTuple):
-    """An event of a muscle, given by its number: its largest contraction so far."""
+    """An event: the number of the muscle, and its largest contraction so far."""
 
     muscle: int
     largest: float
@@ -32,26 +32,26 @@ class _Event:
 
 
 class Contractions:
-    """Finds events of muscles that contract beyond their limits; ``count`` is how many."""
+    """Finds events of muscles that contract beyond their limits; ``count`` is their number."""
 
     def __init__(self) -> None:
-        """Begin with no event."""
+        """Start without events."""
         self.count = 0
         self._events: dict[int, _Event] = {}
 
     def forget(self) -> None:
-        """Forget the events, but not their count: simulated time begins again."""
+        """Forget the events, but not their count: simulated time starts again."""
         self._events.clear()
 
     def see_one(self, time: float, contraction: float, limit: float) -> None:
-        """Note the contraction of a muscle alone at *time* in s, a fraction as its *limit* is."""
+        """Record the contraction of a single muscle at *time* s; it and *limit* are fractions."""
         if contraction - limit > MARGIN:
             self._note(time, 0, contraction)
 
     def see(
         self, time: float, contraction: NDArray[np.float64], limits: NDArray[np.float64]
     ) -> None:
-        """Note the contractions (muscles,) at *time* in s, fractions as their *limits* are."""
+        """Record the contractions (muscles,) at *time* in s; they and *limits* are fractions."""
         is_beyond = contraction - limits > MARGIN
         if is_beyond.any():
             for muscle in np.flatnonzero(is_beyond).tolist():
@@ -66,7 +66,7 @@ class Contractions:
             event.largest, event.last = max(event.largest, contraction), time
 
     def report(self, time: float) -> list[Excess]:
-        """Return the events that go on at *time* in s, or began since the last call."""
+        """Return the events that continue at *time* in s, or began since the last call."""
         found = []
         for muscle, event in list(self._events.items()):
             is_over = time - event.last > CALM

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The simulated rig with its valves and sensors, step by step: all of ``pam_sim`` but ROS."""
+"""The simulated rig with its valves and sensors, step by step: all of ``pam_sim`` except ROS."""
 
 import math
 from dataclasses import dataclass
@@ -18,11 +18,11 @@ from pam_ros.simulator.venting import Venting
 
 Array = NDArray[np.float64]
 OneReading = tuple[float, float, float, float, float, float]  # see Plant.read_one
-FINE = 1e-3  # s of simulated time for which a valve that vents keeps a pressure
+FINE = 1e-3  # s of simulated time for which a venting valve keeps a pressure
 
 
 class BadCommand(NamedTuple):
-    """A command that a muscle did not take as it was."""
+    """A command that was clamped or refused."""
 
     muscle: int
     reason: str
@@ -31,7 +31,10 @@ class BadCommand(NamedTuple):
 
 @dataclass(frozen=True)
 class Reading:
-    """What the sensors say: of the joints (joints,) in m or rad, of the muscles (muscles,), SI."""
+    """The readings of the sensors, and the exact stiffness and damping of the muscles.
+
+    Values of joints are (joints,) in m or rad, values of muscles are (muscles,), all SI.
+    """
 
     position: Array
     velocity: Array
@@ -43,22 +46,22 @@ class Reading:
 
 
 class Plant:
-    """Muscles that take commands as valves do, and are read as sensors do."""
+    """Muscles with the valves that receive their commands, and the sensors that measure them."""
 
     def __init__(self, setup: SimulationSetup) -> None:
-        """Make them at their initial state."""
+        """Create the rig in its initial state."""
         self.setup = setup
-        self.silences = 0  # how often commands of a muscle stopped for longer than the time-out
+        self.silences = 0  # how often commands of a muscle stopped for longer than the timeout
         self.inputs = [PressureInput(muscle) for muscle in setup.muscles]
         self._simulation = Simulation(setup.joints, 1.0 / setup.settings.physics_rate)
         self._all = range(len(self.inputs))
         self.contractions = Contractions()
         self.begin()
-        # So that neither the first step nor a change of effects waits for it.
+        # Otherwise the first step or a change of effects would wait for the compiler.
         self._simulation.prepare()
 
     def begin(self) -> None:
-        """Go to the initial state; noise begins anew."""
+        """Set the initial state; the noise starts again."""
         setup = self.setup
         pressures, positions, velocities = setup.initial
         self._simulation.reset(pressures, positions, velocities)
@@ -66,10 +69,10 @@ class Plant:
         self.contractions.forget()
         self.step = 0
         self._ordered = pressures.copy()  # Pa, the last commands of the valves
-        # Simulated time of each muscle's last valid command, NaN before there was one.
+        # Simulated time of each muscle's last valid command, NaN before the first one.
         self.commanded_at = np.full(len(pressures), np.nan)
         self.is_silent = np.zeros(len(pressures), dtype=bool)
-        self._deadline = math.inf  # simulated time of the first silence to come
+        self._deadline = math.inf  # simulated time at which the next timeout is reached
         self._venting = Venting()
 
     @property
@@ -78,7 +81,7 @@ class Plant:
         return self._simulation.time
 
     def change(self, setup: SimulationSetup) -> None:
-        """Go on with other parameters."""
+        """Continue with other parameters."""
         self._simulation.change(setup.joints)
         self.setup = setup
         self._sensors.change(setup.sensors)
@@ -104,7 +107,7 @@ class Plant:
     # Valves ----------------------------------------------------------------------------------
 
     def take(self, muscle: int, value: float) -> BadCommand | None:
-        """Command one muscle in Pa; return what was wrong with that."""
+        """Command one muscle in Pa; return the problem of the command, or None."""
         given = self.inputs[muscle]
         pressure = given.take(value)
         if pressure is None:
@@ -121,7 +124,10 @@ class Plant:
         return BadCommand(muscle, whose + self.inputs[muscle].reason, is_refused)
 
     def take_all(self, values: list[float]) -> BadCommand | None:
-        """Command all muscles in Pa; a bad value leaves its muscle as it is."""
+        """Command all muscles in Pa; return the problem of the last bad command, or None.
+
+        A refused value leaves its muscle unchanged; a value outside the limits is clamped.
+        """
         bad, now, ordered = None, self._simulation.time, self._ordered
         for i, (given, value) in enumerate(zip(self.inputs, values, strict=True)):
             pressure = given.take(value)
@@ -175,9 +181,10 @@ class Plant:
     # Sensors ---------------------------------------------------------------------------------
 
     def read_one(self) -> OneReading:
-        """Return position, velocity, pressure, force, stiffness and damping of a muscle alone.
+        """Return position, velocity, pressure, force, stiffness and damping of a single muscle.
 
-        Raises ArithmeticError where the muscle cannot be.
+        Raises ArithmeticError if the muscle is out of its reach, or its force or velocity is not
+        finite.
         """
         simulation = self._simulation
         force, stiffness, damping, acceleration = (
@@ -198,7 +205,11 @@ class Plant:
         return position, velocity, pressure, force, stiffness, damping
 
     def read(self) -> Reading:
-        """Return what the sensors say of all; raises ArithmeticError where one cannot be."""
+        """Return the readings of all sensors.
+
+        Raises ArithmeticError if a muscle is out of its reach, or a force or velocity is not
+        finite.
+        """
         simulation = self._simulation
         force, stiffness, damping, _ = simulation.muscle_outputs()
         contraction = simulation.contraction

@@ -8,23 +8,23 @@ from pam_ros.muscle.muscle import Muscle
 
 
 class PressureInput:
-    """Takes commands in Pa gauge, and remembers how many were bad and why.
+    """Accepts commands in Pa gauge, counts the bad ones, and keeps the reason of the last one.
 
-    A value outside p_min..p_max is clamped, as a valve that is fully open or closed does. A value
-    that is not a number is refused: the last valid command stays in force.
+    A value outside p_min..p_max is clamped, as by a valve that is fully open or closed. A value
+    that is not finite is refused: the last valid command stays in force.
     """
 
     def __init__(self, muscle: Muscle) -> None:
-        """Begin with the limits of *muscle* and no command."""
+        """Start with the limits of *muscle* and without a command."""
         self.muscle = muscle
         self.accepted = 0
         self.clamped = 0
         self.refused = 0
         self.reason = ''
-        self.last: float | None = None  # Pa, the last valid command as it came
+        self.last: float | None = None  # Pa, the last valid command before clamping
 
     def take(self, value: float) -> float | None:
-        """Return the pressure to apply in Pa, or None where *value* is refused."""
+        """Return the pressure to apply in Pa, or None if *value* is refused."""
         if not math.isfinite(value):
             self.refused += 1
             self.reason = (
@@ -41,5 +41,5 @@ class PressureInput:
         return applied
 
     def within_limits(self, pressure: float) -> float:
-        """Return the pressure in Pa that the valve can give nearest to *pressure*."""
+        """Return the pressure in Pa, possible for the valve, that is nearest to *pressure*."""
         return min(max(pressure, self.muscle.p_min), self.muscle.p_max)

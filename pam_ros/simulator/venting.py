@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Valves whose commands stopped vent slowly, as soft-start valves of pneumatics do.
+"""Slow venting of valves whose commands have stopped, as by pneumatic soft-start valves.
 
 A muscle that vents at once drops its load: 5 kg reach 3 m/s.
 """
@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 @dataclass
 class _Valve:
-    """Present pressure of a valve and the one at which it rests, Pa; how fast it moves, Pa/s."""
+    """Present and final pressure of a valve in Pa, and the rate of change in Pa/s."""
 
     pressure: float
     rest: float
@@ -18,10 +18,10 @@ class _Valve:
 
 
 class Venting:
-    """The valves that vent now, by the numbers of their muscles."""
+    """The valves that vent at present, by the numbers of their muscles."""
 
     def __init__(self) -> None:
-        """Begin with none."""
+        """Start without venting valves."""
         self._valves: dict[int, _Valve] = {}
 
     def __bool__(self) -> bool:
@@ -29,19 +29,19 @@ class Venting:
         return bool(self._valves)
 
     def begin(self, muscle: int, pressure: float, rest: float, time: float) -> None:
-        """Let a valve go from *pressure* to *rest* in Pa within *time* in s.
+        """Start to vent a valve from *pressure* to *rest* in Pa within *time* in s.
 
-        Each moves in proportion to its pressure: muscles that pull against each other keep the
-        ratio of their pressures, which moves their joint little at first.
+        The rate of each valve is proportional to this change: antagonistic muscles keep the ratio
+        of their pressures, so that their joint moves only a little at first.
         """
         self._valves[muscle] = _Valve(pressure, rest, abs(pressure - rest) / time)
 
     def end(self, muscle: int) -> None:
-        """Let a valve vent no longer: it is commanded."""
+        """Stop the venting of a valve: it gets commands again, or has its final pressure."""
         self._valves.pop(muscle, None)
 
     def move(self, time: float) -> dict[int, float]:
-        """Return the pressures in Pa *time* in s later; valves that rest then vent no longer."""
+        """Return the pressures in Pa after *time* s; end the venting at the final pressure."""
         moved = {}
         for muscle, valve in [*self._valves.items()]:
             most = valve.speed * time
