@@ -29,7 +29,7 @@ from pam_ros.cli.start import start_node
 
 
 def main() -> None:
-    """Run the controller until a signal asks for its end."""
+    """Run the controller until a signal requests its end."""
     start_node('pam_ros.nodes.control.node', 'PamControl', __doc__)
 
 

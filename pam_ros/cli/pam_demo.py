@@ -34,7 +34,7 @@ def main() -> None:
             parser.error(f'the chapter {name} does not exist: give one of ' + ', '.join(CHAPTERS))
     names = given.chapters or [*CHAPTERS]
     print(plan(names, given.out), flush=True)
-    # Each signal that asks for the end stops the programs that a chapter has started.
+    # Each signal that requests the end stops the programs that a chapter has started.
     heed()
     # The demonstration needs no other machine, and no other should receive its messages.
     os.environ.setdefault('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')

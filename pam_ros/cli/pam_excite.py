@@ -23,7 +23,7 @@ from pam_ros.cli.start import start_node
 
 
 def main() -> None:
-    """Play the programme to its end, or until a signal asks for its end."""
+    """Play the programme to its end, or until a signal requests its end."""
     start_node('pam_ros.nodes.excite.node', 'PamExcite', __doc__)
 
 

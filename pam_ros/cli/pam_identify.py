@@ -27,7 +27,7 @@ BAD_INPUT, INTERRUPTED, TERMINATED = 2, 130, 143
 
 
 class _Parser(argparse.ArgumentParser):
-    """Says in one sentence what is wrong with a command line."""
+    """Reports an error of the command line in one sentence."""
 
     def error(self, message: str) -> NoReturn:
         """Print the sentence and exit."""
@@ -97,10 +97,10 @@ def parser() -> argparse.ArgumentParser:
 
 
 class Progress:
-    """Shows what runs: a bar on a terminal, else a line whenever something else begins."""
+    """Shows the current step: a bar on a terminal, else a line when a new step begins."""
 
     def __init__(self) -> None:
-        """Begin at nothing."""
+        """Start at 0 %."""
         from tqdm import tqdm
 
         self._text = ''
@@ -113,7 +113,7 @@ class Progress:
         )
 
     def __call__(self, fraction: float, text: str) -> None:
-        """Show how far it is, and what runs."""
+        """Show the progress (0 to 1) and the current step."""
         if text != self._text and not self._is_shown:
             print(f'{100.0 * fraction:3.0f} %  {text}', file=sys.stderr, flush=True)
         self._text = text
@@ -122,12 +122,12 @@ class Progress:
         self._bar.refresh()
 
     def close(self) -> None:
-        """Leave nothing of the bar behind."""
+        """Remove the bar from the terminal."""
         self._bar.close()
 
 
 def run(given: argparse.Namespace, command: str) -> str:
-    """Identify what the command line names, write the report, return its last line."""
+    """Run the identification of the command line, write the report, return a summary line."""
     from pam_ros.compiled import HAVE_NUMBA
     from pam_ros.identification.data.segment import require_joint
     from pam_ros.identification.identify import identify
@@ -145,7 +145,7 @@ def run(given: argparse.Namespace, command: str) -> str:
     uncertain = {**uncertain_values(given.params), **dict(map(_deviation, given.uncertain))}
     mapping = read_mapping(given.column, given.mapping)
     p_max = [muscle.p_max for muscle in model.muscles]
-    # A length makes a position of a contraction; a known force that drives a load has none.
+    # The length converts a contraction to a position; a known force on a load has no length.
     has_length = nominal.reach is None and not model.is_driven
     recordings, test = (
         [
@@ -165,7 +165,7 @@ def run(given: argparse.Namespace, command: str) -> str:
         for paths in (given.recordings, given.test)
     )
     require_joint([*recordings, *test], model)
-    refuse_idle(recordings)  # here already, so that no warning stands before the reason
+    refuse_idle(recordings)  # here already, so that no warning is printed before the error
     refuse_copies([*recordings, *test])
     for recording in (*recordings, *test):
         for warning in recording.warnings:
@@ -196,7 +196,7 @@ def _deviation(text: str) -> tuple[str, str]:
 
 
 def main() -> None:
-    """Identify what the command line names; exit with the program's code."""
+    """Run the identification of the command line; exit with the exit code of the program."""
     signal.signal(signal.SIGTERM, _terminate)
     guard_outputs()
     try:
@@ -212,7 +212,7 @@ def main() -> None:
 
 
 def _terminate(kind: int, frame: FrameType | None) -> NoReturn:
-    """Leave as on Ctrl-C: what is half done is undone on the way."""
+    """Exit as on Ctrl-C: incomplete files are removed on the way."""
     sys.exit(TERMINATED)
 
 

@@ -31,11 +31,11 @@ from pam_ros.processes.outputs import guard_outputs
 from pam_ros.version import VERSION_HELP, VERSION_LINE
 
 BAD_INPUT, INTERRUPTED = 2, 130
-COLUMNS = 1000  # of time that a recording is thinned to: as many as a plot has pixels
+COLUMNS = 1000  # of time to which a recording is thinned: about as many as a plot has pixels
 
 
 def main() -> None:
-    """Draw a rig until a signal asks for the end, or a recording."""
+    """Draw a rig until a signal requests the end, or draw a recording."""
     own = _own(sys.argv[1:])
     if any(word in ('-h', '--help', '--bag') or word.startswith('--bag=') for word in own):
         _draw_recording(own)
@@ -57,7 +57,7 @@ def _own(arguments: list[str]) -> list[str]:
 
 
 def _draw_recording(arguments: list[str]) -> None:
-    """Draw what --bag names, without ROS; exit with the program's code."""
+    """Draw the recording of --bag, without ROS; exit with the exit code of the program."""
     heed()
     guard_outputs()
     parser = argparse.ArgumentParser(

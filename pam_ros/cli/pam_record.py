@@ -15,7 +15,7 @@ from pam_ros.cli.start import start_node
 
 
 def main() -> None:
-    """Record until a signal asks for the end."""
+    """Record until a signal requests the end."""
     start_node('pam_ros.nodes.record.node', 'PamRecord', __doc__)
 
 

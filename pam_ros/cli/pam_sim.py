@@ -35,7 +35,7 @@ from pam_ros.cli.start import start_node
 
 
 def main() -> None:
-    """Run the simulator until a signal asks for its end."""
+    """Run the simulator until a signal requests its end."""
     start_node('pam_ros.nodes.sim.node', 'PamSim', __doc__)
 
 

@@ -1,8 +1,8 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""How a node's program starts: signals first, then what takes time to import.
+"""The start of a node's program: signal handlers first, then slow imports.
 
-So that Ctrl-C and the other signals end a program cleanly from its first tenth of a second on.
+Therefore Ctrl-C and the other signals end a program cleanly from its first tenth of a second on.
 """
 
 import gc
@@ -21,14 +21,14 @@ from pam_ros.version import VERSION_LINE
 def start_node(module: str, name: str, about: str | None) -> NoReturn:
     """Run the node class *name* of *module* until it is asked to stop; exit with its code.
 
-    *about* is the docstring that ``--help`` shows. ``--version`` starts nothing of ROS.
+    *about* is the docstring that ``--help`` shows. ``--version`` does not start ROS.
     """
     stop = StopRequest()
     guard_outputs()
     if '--version' in _before_ros(sys.argv[1:]):
         print(VERSION_LINE)
         sys.exit(0)
-    # What is imported stays: looking for garbage in it would take a fifth of the start.
+    # Imported objects stay: garbage collection of them would take a fifth of the start time.
     gc.disable()
     spin = import_module('pam_ros.nodes.common.spin')
     node = getattr(import_module(module), name)

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""When the log of a node says that something is missing, and when it says that it is back."""
+"""When a node logs that something is missing, and when it logs that it is back."""
 
 from typing import Any
 
@@ -10,10 +10,10 @@ PATIENCE = 1.0  # s of waiting before it is written to the log
 
 
 class Absence:
-    """Writes one line when something is missing, and one line when it is there again.
+    """Logs one line when something is missing, and one line when it is there again.
 
-    A publisher that is slower than a time-out is missing and back in turn. So that it does not
-    fill the log, it counts as back only when it has not been missing for longer than the time-out.
+    A publisher that is slower than a timeout is alternately missing and back. To keep the log
+    short, it counts as back only if it has not been missing for longer than the timeout.
     """
 
     def __init__(
@@ -21,19 +21,19 @@ class Absence:
     ) -> None:
         """Write to *logger*, of rclpy, when something is missing for *patience* s.
 
-        *level* is that of the line then. The later line, *back*, is information.
+        *level* is that of this line. The later line, *back*, has the level info.
         """
         self._logger, self._back = logger, back
         self._patience, self._level = patience, level
-        self._is_missing = False  # as the log has it
-        self._since: float | None = None  # since when it is otherwise, s
+        self._is_missing = False  # according to the log
+        self._since: float | None = None  # time in s since which the log is no longer right
         self._times = 0
 
     def look(self, missing: str, now: float, lasting: float = 0.0, times: int = 0) -> None:
-        """Note at *now* s that something is missing: the sentence *missing*; '' if it is there.
+        """Note the state at *now* s: *missing* is a sentence on what is missing, '' if nothing is.
 
-        It is back when it is there for *lasting* s, in which *times*, a count of its absences,
-        does not change. A time that goes back begins these seconds again.
+        It counts as back after it has been there for *lasting* s without a change of *times*, the
+        count of its absences. If time goes back, these seconds start again.
         """
         has_changed, self._times = times != self._times, times
         is_missing = bool(missing) or (self._is_missing and has_changed)

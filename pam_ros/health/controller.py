@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What ``pam_control`` says of itself on ``/diagnostics``."""
+"""The health that ``pam_control`` publishes on ``/diagnostics``."""
 
 from typing import Any, NamedTuple
 
@@ -13,23 +13,23 @@ from pam_ros.timing.ticker import Punctuality
 
 
 class Received(NamedTuple):
-    """What a controller has received."""
+    """The messages that a controller has received, and their faults."""
 
     age: float | None = None  # s of the newest joint states
-    blindness: str = ''  # why the last of them was not usable
+    blindness: str = ''  # reason why the last of them was not usable
     refused: int = 0  # references and trajectories
-    refusal: str = ''  # why the last of them was refused
+    refusal: str = ''  # reason why the last of them was refused
     is_refusal_new: bool = False  # since the last report
-    implausibility: str = ''  # what was last measured that cannot be true
+    implausibility: str = ''  # sentence on the last measurement that cannot be true
     is_implausibility_new: bool = False  # since the last report
-    silences: int = 0  # times without a command for longer than the rig goes on by itself
-    silence: str = ''  # what the last of them was
+    silences: int = 0  # pauses of the commands longer than longest_silence of the settings
+    silence: str = ''  # sentence on the last of them
     is_silence_new: bool = False  # since the last report
-    tracking: str = ''  # which error or saturation lasts
+    tracking: str = ''  # sentence on an error or saturation that lasts
 
 
 def values_of(loop: Loop, setup: ControlSetup, age: float | None) -> dict[str, Any]:
-    """Return in numbers what the loop does; *age* is that of the joint states in s."""
+    """Return the state of the loop in numbers; *age* is that of the joint states in s."""
     terms, law, unit = loop.law.terms, loop.law, setup.unit
     is_running = loop.state == RUNNING
     values = {
@@ -48,7 +48,7 @@ def values_of(loop: Loop, setup: ControlSetup, age: float | None) -> dict[str, A
     if setup.settings.controller == 'sliding_mode':
         gains, inertia = setup.gains, setup.joint.inertia
         values[f'half width of the boundary layer ({unit}/s)'] = gains.boundary_width(inertia)
-        # No joint is softer than the least bandwidth of the surface lets it be.
+        # The surface never has a lower natural frequency than surface_bandwidth.
         values[f'largest error within the disturbance bound ({unit})'] = gains.error_bound(
             gains.disturbance_bound, inertia, gains.surface_bandwidth
         )
@@ -68,12 +68,12 @@ def values_of(loop: Loop, setup: ControlSetup, age: float | None) -> dict[str, A
 
 
 def shown(pressures: Pressures | None) -> float | Pressures | None:
-    """Return commands as a number where there is one, as a tuple where there are several."""
+    """Return commands as a number if there is one, as a tuple if there are several."""
     return pressures[0] if pressures is not None and len(pressures) == 1 else pressures
 
 
 def trouble(loop: Loop, on_timeout: str, blindness: str, fault: str) -> str:
-    """Say why *loop* does not control, '' where it does."""
+    """Return why *loop* does not control, '' if it does."""
     did = {VENT: 'vents', HOLD: 'holds the pressure'}[on_timeout]
     why = f': {blindness}' if blindness else ''
     missing = 'a measured pressure' if loop.awaits_chamber else 'joint_states'
@@ -86,7 +86,7 @@ def trouble(loop: Loop, on_timeout: str, blindness: str, fault: str) -> str:
 
 
 def control(loop: Loop, setup: ControlSetup, received: Received, fault: str) -> Health:
-    """Return the health of the control; *fault* is why the law was given up."""
+    """Return the health of the control; *fault* is the reason why the law was stopped."""
     state = loop.state
     why = trouble(loop, setup.settings.on_timeout, received.blindness, fault)
     values = values_of(loop, setup, received.age)
@@ -112,7 +112,7 @@ def control(loop: Loop, setup: ControlSetup, received: Received, fault: str) -> 
 
 
 def timing(kept: Punctuality, commanded: int, wanted: float | None) -> Health:
-    """Return the health of the rate; *wanted* in Hz is None where states make the time."""
+    """Return the health of the rate; *wanted* in Hz is None if joint states set the pace."""
     values = {
         'command rate (Hz)': commanded / kept.span,
         'wanted rate (Hz)': wanted,

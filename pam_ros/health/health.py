@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""How one part of a program is."""
+"""The health of one part of a program."""
 
 from collections.abc import Mapping
 from enum import Enum
@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 
 class Level(Enum):
-    """How well a part is, from good to bad."""
+    """The level of health, from good to bad."""
 
     OK = 'ok'
     WARN = 'warn'
@@ -16,7 +16,7 @@ class Level(Enum):
 
 
 class Health(NamedTuple):
-    """How one part of a program is, in a sentence and in numbers, each with its unit."""
+    """The health of one part of a program: a level, a sentence, and numbers with their units."""
 
     level: Level
     message: str

@@ -11,20 +11,20 @@ from pam_ros.simulator.plant import Plant
 
 
 class Onsets:
-    """One line for each effect that has begun to act: looked at once a second."""
+    """Logs one line for each effect that has begun to act; checked once a second."""
 
     def __init__(self, logger: Any, plant: Plant) -> None:
         """Write to *logger*, of rclpy."""
         self._logger, self._plant = logger, plant
-        self._last = 0.0  # simulated s of the last look
+        self._last = 0.0  # simulated s of the last check
         self._setup, self._begins = plant.setup, begins(plant.setup)
 
     def look(self) -> None:
-        """Write a line for each effect that has begun to act since the last look."""
+        """Write a line for each effect that has begun to act since the last call."""
         now, setup = self._plant.time, self._plant.setup
         if setup is not self._setup:
             self._setup, self._begins = setup, begins(setup)
-        last = self._last if self._last <= now else 0.0  # simulated time began again
+        last = self._last if self._last <= now else 0.0  # simulated time started again
         self._last = now
         for time, name in self._begins:
             if last < time <= now:

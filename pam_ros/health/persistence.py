@@ -4,20 +4,20 @@
 
 
 class Persistence:
-    """Says whether a condition that is looked at again and again lasts."""
+    """Determines whether a condition that is checked repeatedly lasts."""
 
     def __init__(self, begin: int, end: int) -> None:
-        """Let it last from *begin* looks in a row that find it, until *end* that do not."""
+        """Set after how many checks in a row it starts to last (*begin*) and stops (*end*)."""
         self._begin, self._end = begin, end
         self.clear()
 
     def clear(self) -> None:
-        """Forget what was found."""
+        """Remove the results of earlier checks: the condition does not last."""
         self.lasts = False
-        self._count = 0  # looks in a row that contradict `lasts`
+        self._count = 0  # checks in a row that contradict `lasts`
 
     def look(self, is_there: bool) -> bool:
-        """Note whether the condition is there now; return whether it begins to last."""
+        """Note whether the condition exists now; return whether it begins to last."""
         if is_there == self.lasts:
             self._count = 0
             return False

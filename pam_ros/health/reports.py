@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What a controller has to report of what it received, in its log and in its diagnostics."""
+"""Reports of a controller on received messages, in its log and in its diagnostics."""
 
 from typing import Any
 
@@ -11,7 +11,7 @@ from pam_ros.timing.pace import SECOND
 
 
 class Reports:
-    """Counts what went wrong with messages, and writes it to a log."""
+    """Counts the faults of received messages, and writes them to a log."""
 
     def __init__(self, logger: Any) -> None:
         """Write to *logger*, of rclpy."""
@@ -26,18 +26,18 @@ class Reports:
         )
 
     def refuse(self, reason: str) -> None:
-        """Say why a reference or a trajectory is not taken."""
+        """Report why a reference or a trajectory is refused."""
         self._refusal, self._is_refusal_new = reason, True
         self._refused += 1
         self._logger.warning(reason, throttle_duration_sec=1.0)
 
     def leave_out(self, what: str) -> None:
-        """Say that a measurement cannot be true and is not used."""
+        """Report that a measurement cannot be true and is not used."""
         self._implausibility, self._is_implausibility_new = what, True
         self._logger.warning(what, throttle_duration_sec=1.0)
 
     def begin_anew(self, silent: int, limit: str) -> None:
-        """Say that no command was given for *silent* ns, longer than the *limit* in words."""
+        """Report a pause of commands of *silent* ns, which is longer than *limit* (a text)."""
         self._silence = (
             f'no command was given for {silent / SECOND:.2f} s, longer than {limit}: '
             'control starts again from the present position'
@@ -47,25 +47,25 @@ class Reports:
         self._logger.warning(self._silence)
 
     def follow(self, tracking: str) -> None:
-        """Say which error or saturation lasts, '' where none does; in the log as it begins."""
+        """Report which error or saturation lasts, '' if none does; log it when it begins."""
         if tracking and not self._tracking:
             self._logger.warning(tracking)
         self._tracking = tracking
 
     def wait(self, why: str, now: float) -> None:
-        """Say once why control does not begin yet, '' where it has begun; *now* in s."""
+        """Report once why control has not begun yet, '' if it has begun; *now* in s."""
         self._start.look(why, now)
 
     def miss(self, why: str, now: float, timeout: float, starts: int) -> None:
-        """Say once why control has stopped, '' where it goes on.
+        """Report once why control has stopped, '' if it continues.
 
-        It goes on when it has done so for longer than *timeout* s, in which *starts*, the count
-        of its starts, does not change.
+        It counts as continued after it has done so for *timeout* s without a change of *starts*,
+        the count of its starts.
         """
         self._states.look(why, now, timeout, starts)
 
     def received(self, age: float | None, blindness: str) -> Received:
-        """Return what is to be reported now; the next time it is not new any more."""
+        """Return the current report; what is new in it is no longer new in the next one."""
         received = Received(
             age=age,
             blindness=blindness,

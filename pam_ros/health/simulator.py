@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What ``pam_sim`` says of itself on ``/diagnostics``."""
+"""The health that ``pam_sim`` publishes on ``/diagnostics``."""
 
 from collections.abc import Sequence
 from typing import NamedTuple
@@ -18,7 +18,7 @@ NO_CLOCK = 'waits for /clock (use_sim_time is set)'
 
 
 def commands(plant: Plant, last: int) -> Health:
-    """Return the health of the commands, *last* being the muscle that had a bad one last."""
+    """Return the health of the commands; *last* is the muscle with the latest invalid one."""
     inputs = plant.inputs
     commanded = plant.commanded_at[~np.isnan(plant.commanded_at)]
     age = plant.time - float(commanded.min()) if commanded.size else None
@@ -62,7 +62,7 @@ def contraction(plant: Plant, found: Sequence[Excess]) -> Health:
 
 
 def sentence_of(setup: SimulationSetup, excess: Excess) -> str:
-    """Return what is said of a muscle that contracts beyond ``kappa_max``."""
+    """Return the warning on a muscle that contracts beyond ``kappa_max``."""
     name, limit = setup.muscle_names[excess.muscle], setup.rated[excess.muscle]
     return (
         f'muscle {name} contracts by {100.0 * excess.largest:.1f} % of its length, more than the '
@@ -72,22 +72,22 @@ def sentence_of(setup: SimulationSetup, excess: Excess) -> str:
 
 
 class Progress(NamedTuple):
-    """How far a simulation has come since the last report, and what holds it up."""
+    """The progress of a simulation since the last report, and what delays it."""
 
     published: int  # samples
-    speed: float  # simulated seconds that are to pass in a second; 0: as many as can
+    speed: float  # desired simulated seconds per second; 0: as many as possible
     time: float  # simulated s since the start or the last reset
-    lost: float  # simulated s that were never made up for
+    lost: float  # simulated s of delay that were never made up for
     jumps: int  # of the clock that it follows
     is_paused: bool
     follows_clock: bool
-    has_clock: bool  # False where nothing has come of the clock that it follows
-    waits: str  # what there is to say of a long wait in lockstep
+    has_clock: bool  # False if it follows a clock that has not been received
+    waits: str  # sentence on a long wait in lockstep
     fault: str
 
 
 def timing(settings: SimSettings, kept: Punctuality, done: Progress, scheduling: str) -> Health:
-    """Return the health of the rate, of a loop that is scheduled by *scheduling*."""
+    """Return the health of the rate; *scheduling* is how the loop is scheduled."""
     rate = done.published / kept.span
     wanted = settings.publish_rate * done.speed
     values = {

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The line that a node writes to its log at the start: what it works with, and on which topics."""
+"""The line that a node logs at its start: its rig, its settings and its topics."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
@@ -22,7 +22,7 @@ def of_simulator(
 ) -> str:
     """Return the line of ``pam_sim``; *values* are its parameters.
 
-    *has_sim_time* says whether it follows ``/clock``.
+    *has_sim_time* is whether it follows ``/clock``.
     """
     settings, joints = setup.settings, setup.joints
     has_own = len(setup.joint_names) == len(setup.muscle_names)
@@ -58,7 +58,7 @@ def of_controller(
 ) -> str:
     """Return the line of ``pam_control``; *values* are its parameters.
 
-    *has_sim_time* says whether it answers joint states.
+    *has_sim_time* is whether it answers joint states.
     """
     settings, joint = setup.settings, setup.joint
     others = (settings.joint_name,) if len(setup.muscles) == 1 else setup.muscles
@@ -81,7 +81,7 @@ def of_controller(
 
 
 def listed(names: Iterable[str]) -> str:
-    """Return names in one text, each once, and of many the first ones."""
+    """Return names in one text, each once; of more than five, only the first five."""
     each = list(dict.fromkeys(names))
     return ', '.join(each[:SHOWN]) + (' and others' if len(each) > SHOWN else '')
 
@@ -92,7 +92,7 @@ def _muscles(
     names: Sequence[str],
     others: Sequence[str],
 ) -> str:
-    """Return which muscles these are: the names of their files, if any, and their lengths.
+    """Return a description of the muscles: the names of their files, if any, and lengths.
 
     Their parameters begin with one of *names*, or with one of *others*.
     """

@@ -8,27 +8,27 @@ from collections.abc import Sequence
 from pam_ros.health.health import Health, Level
 from pam_ros.health.persistence import Persistence
 
-# Looks in a row, one a second. Nodes that start find each other within this time, and one that is
-# restarted is seen twice, but its messages follow each other.
+# Checks in a row, one a second. Nodes that start find each other within this time. A node that is
+# restarted appears twice for a while, but its two processes do not send at the same time.
 LASTING = 3
-_FRAME = 12  # where a serialized JointState has the length of its frame, before the frame
+_FRAME = 12  # bytes before the length of the frame in a serialized JointState
 
 
 class Senders:
-    """Tells from the sequence numbers of messages whether more than one publisher sends them.
+    """Detects from sequence numbers whether more than one publisher sends messages.
 
-    Each publisher numbers its messages upwards. So numbers that go back are of two publishers, or
-    of one that was started again, which happens once. The graph of ROS does not say this: it also
-    has publishers that send nothing, and for some 20 s those of a process that was killed.
+    Each publisher numbers its messages upwards. If the numbers go back, there are two publishers,
+    or one that was restarted, which happens once. The ROS graph does not show this: it also
+    contains publishers that send nothing, and for some 20 s those of a process that was killed.
     """
 
     def __init__(self) -> None:
-        """Begin with no message."""
+        """Start without a message."""
         self._last: int | None = None
         self._went_back = self._went_back_before = False
 
     def take(self, number: int | None) -> None:
-        """Note the number of a message that arrived, None where the middleware has none."""
+        """Note the number of a message that arrived, None if the middleware has none."""
         if number is None:
             return
         if self._last is not None and number <= self._last:
@@ -36,9 +36,9 @@ class Senders:
         self._last = number
 
     def are_several(self) -> bool:
-        """Say whether numbers went back since the last call or the one before.
+        """Return whether numbers went back since the last call or the one before.
 
-        So a publisher of one message a second is found at each call, if these are once a second.
+        A publisher of one message per second is thus found at each call, if calls are 1 s apart.
         """
         found = self._went_back or self._went_back_before
         self._went_back, self._went_back_before = False, self._went_back
@@ -46,10 +46,10 @@ class Senders:
 
 
 class TopicHealth:
-    """How a topic is: ``unheard`` and ``contested`` say what lasts, '' where it is as it must."""
+    """The health of a topic: ``unheard`` and ``contested`` are lasting faults, '' if none."""
 
     def __init__(self, topic: str, joints: Sequence[str] = ()) -> None:
-        """Judge *topic*; of joint states only the messages with one of *joints* count."""
+        """Check *topic*; of joint states only the messages with one of *joints* count."""
         self.topic, self.joints = topic, joints
         self.unheard = self.contested = ''
         self._is_unheard = Persistence(LASTING, 1)
@@ -58,10 +58,10 @@ class TopicHealth:
     def look(
         self, publishers: Sequence[str], is_without_subscriber: bool, has_several: bool
     ) -> list[str]:
-        """Note how it is now; return the sentences of what begins to last.
+        """Note the present state; return sentences on faults that begin to last.
 
-        *publishers* are the names of the nodes, '' of one that is unknown; *has_several* says
-        whether more than one of them sends.
+        *publishers* are the names of the nodes, '' for an unknown one; *has_several* is whether
+        more than one of them sends.
         """
         begins = []
         if self._is_unheard.look(is_without_subscriber):
@@ -95,9 +95,9 @@ class TopicHealth:
 
 
 def names_one_of(joints: Sequence[str], message: bytes) -> bool:
-    """Say whether a serialized JointState has one of *joints* among its names.
+    """Return whether a serialized JointState has one of *joints* among its names.
 
-    Without making a message of it, which would cost a loop at 500 Hz several percent of its time.
+    The message is not deserialized: this would cost a loop at 500 Hz several percent of its time.
     """
     if len(message) < _FRAME + 4:
         return False

@@ -1,10 +1,10 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Whether a controller reaches what it is asked for: errors and saturations that last.
+"""Whether a controller reaches its reference: errors and saturations that last.
 
-The error is averaged, without its sign, over intervals of one second. So neither noise nor a
-large step that is soon over counts, and an oscillation about the reference does, though its error
-passes through zero.
+The absolute error is averaged over intervals of one second. Therefore noise and a large step that
+ends soon do not count. An oscillation about the reference does count, although its error passes
+through zero.
 """
 
 from collections import deque
@@ -13,25 +13,25 @@ from pam_ros.control.loop import RUNNING, Loop
 from pam_ros.health.persistence import Persistence
 
 # s. The reference rests for 0.5 s before a motion counts as over, and the bandwidth then falls
-# within 0.3 s (StandstillTuning): after a second, what is left of a motion is no transient.
+# within 0.3 s (StandstillTuning): after a second, the transient of a motion has ended.
 INTERVAL = 1.0
-# Intervals in a row. The integral and the observer of a law act within a second: three of them
+# Consecutive intervals. The integral and the observer of a law act within a second: three of them
 # without effect mean that they cannot act.
 LASTING = 3
-# Part of the first interval's error that the last one may have at most, to count as approach: the
-# time constant is then below 2 s / ln(1 / 0.8) = 9 s, slower than any valve that fills a muscle.
+# Largest ratio of the last interval's error to that of the first that counts as approach: the time
+# constant is then below 2 s / ln(1 / 0.8) = 9 s, slower than any valve that fills a muscle.
 APPROACH = 0.8
-# Times the allowance of plausibility, which is one two-hundredth of the travel: an error of a
-# tenth of the travel. The largest errors that the page on the controller lists, with undeclared
+# Multiple of the allowance of plausibility, which is one two-hundredth of the travel: an error of
+# a tenth of the travel. The largest errors that the page on the controller lists, with unmodelled
 # friction, hysteresis and lag, are below a fiftieth.
 LARGE = 20.0
 
 
 class Tracking:
-    """Looks at each step of a loop; ``warning`` says what lasts, '' where nothing does."""
+    """Checks each step of a loop; ``warning`` is a sentence on a lasting fault, '' if none."""
 
     def __init__(self) -> None:
-        """Begin with nothing seen."""
+        """Start without any steps."""
         self._large = Persistence(1, LASTING)
         self._saturation = Persistence(1, LASTING)
         self._starts = -1
@@ -64,11 +64,11 @@ class Tracking:
         self._sum, self._steps, self._saturations = 0.0, 0, 0
 
     def _close(self, loop: Loop) -> None:
-        """Judge the last intervals, one of which is over."""
+        """Evaluate the last intervals, at the end of one of them."""
         errors, allowance = self._errors, loop.plausibility.bounds.allowance
         errors.append(self._sum / self._steps)
         remains = len(errors) == LASTING and errors[-1] > APPROACH * errors[0]
-        # A saturation that leaves no error to speak of does no harm.
+        # A saturation without a significant error is harmless.
         self._saturated.append(self._saturations == self._steps and errors[-1] > allowance)
         self._saturation.look(
             self._saturated[-1] and (self._saturation.lasts or (remains and all(self._saturated)))

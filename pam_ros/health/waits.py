@@ -14,10 +14,10 @@ from pam_ros.timing.silence import steady_ns
 
 
 class Waits:
-    """One line when each is missing, and one when it is there: looked at once a second."""
+    """Logs one line when one is missing, and one when it is there; checked once a second."""
 
     def __init__(self, logger: Any, plant: Plant, topic: str) -> None:
-        """Write to *logger*, of rclpy; *topic* is the full name of that of the commands."""
+        """Write to *logger*, of rclpy; *topic* is the full name of the topic of commands."""
         self._plant, self._topic = plant, topic
         self._clock = Absence(logger, '/clock is received: simulated time passes')
         self._turn = Absence(logger, 'commands are received: simulated time passes', 0.0)
@@ -25,17 +25,17 @@ class Waits:
         self._next = Absence(logger, 'commands are received again', 0.0, Level.WARN)
 
     def look(self, no_clock: str, no_turn: str) -> None:
-        """Look for the clock, and in lockstep for the answer: what is missing, '' for nothing."""
+        """Check the clock, and in lockstep the answer: what is missing, '' if nothing is."""
         now = steady_ns() / SECOND
         self._clock.look(no_clock, now)
-        # A controller that is slow now and then is not back until the next look finds it, too.
+        # A controller that is sometimes slow is back only if the next check finds it, too.
         self._turn.look(no_turn, now, 0.5)
 
     def look_for_commands(self, silence: str) -> None:
-        """Look for the first command and, where commands have stopped, for the next one.
+        """Check for the first command and, if commands have stopped, for the next one.
 
-        *silence* says what the muscles do since then, '' where they are commanded. Both are timed
-        by simulated time, as the time-out is.
+        *silence* is a sentence on what the muscles do since then, '' if they are commanded. Both
+        are measured in simulated time, like the timeout.
         """
         plant = self._plant
         is_commanded = not np.all(np.isnan(plant.commanded_at))

@@ -1,3 +1,3 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What a rig does, drawn: the topics and their units, thinned, as a figure or as a page."""
+"""Plots of the signals of a rig: topics and their units, thinned, as a figure or as a page."""

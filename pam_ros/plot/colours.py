@@ -2,13 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """The colours of joints and muscles, in a figure and on the page."""
 
-# Told apart by every kind of colour vision (Okabe and Ito), darkened where they are too light on
+# Distinct for every kind of colour vision (Okabe and Ito), darkened if they are too light on
 # white.
 COLOURS = (
     *('#0b62a8', '#c8500a', '#007a5a', '#9c4f83'),
     *('#8a6d00', '#3a8fc4', '#59636e', '#000000'),
 )
-GREY = 6  # for what is of no joint and no muscle
+GREY = 6  # for a line that belongs to no joint and no muscle
 
 
 def colour(number: int) -> str:

@@ -15,7 +15,7 @@ from pam_ros.plot.panels import Panel
 from pam_ros.report.style import stacked, styled
 
 WIDTH, HEIGHT = 1080, 130  # px of the figure, and of one of its plots
-FINE = 144  # dots an inch: twice as fine as the pixels
+FINE = 144  # dots per inch: twice as fine as the pixels
 MOST_NAMES = 8  # in one legend
 
 
@@ -56,7 +56,7 @@ def figure(panels: Sequence[Panel], start: float, end: float) -> Figure:
 def save(made: Figure, path: Path) -> None:
     """Write a figure as PNG, completely or not at all.
 
-    Raises PamError where the file cannot be written.
+    Raises PamError if the file cannot be written.
     """
     stream = io.BytesIO()
     with styled():

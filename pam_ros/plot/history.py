@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The last seconds of a rig, thinned as they come in to what a plot can show."""
+"""The last seconds of a rig, thinned on arrival to the resolution of a plot."""
 
 from collections import deque
 from threading import Lock
@@ -10,18 +10,18 @@ import numpy as np
 from pam_ros.plot.panels import Curves
 from pam_ros.plot.topics import Key
 
-COLUMNS = 600  # of time, of each of which a curve keeps its least and its greatest value
+COLUMNS = 600  # of time; a curve keeps its least and its greatest value in each of them
 
 
 class History:
     """The curves of the last ``span`` seconds.
 
-    Of each curve at most two samples in each of 600 columns of time are kept, whatever its rate
-    and however long the span is. One thread may add samples while another looks at them.
+    At most two samples of each curve are kept in each of 600 columns of time, for any rate and
+    any span. One thread may add samples while another reads them.
     """
 
     def __init__(self, span: float) -> None:
-        """Begin without a sample; *span* is in s."""
+        """Start without a sample; *span* is in s."""
         self.span = span
         self._width = span / COLUMNS
         self._traces: dict[Key, _Trace] = {}
@@ -29,7 +29,7 @@ class History:
         self._lock = Lock()
 
     def add(self, key: Key, t: float, value: float) -> None:
-        """Add a sample at *t* s. One that is not finite is left out."""
+        """Add a sample at *t* s. One that is not finite is ignored."""
         if not np.isfinite(value):
             return
         with self._lock:
@@ -39,16 +39,16 @@ class History:
             trace.add(t, value)
 
     def name_muscles(self, names: tuple[str, ...]) -> None:
-        """Keep the names of the muscles; none changes nothing."""
+        """Store the names of the muscles; an empty tuple changes nothing."""
         self._muscles = names or self._muscles
 
     def clear(self) -> None:
-        """Forget all samples: time has gone back."""
+        """Remove all samples, because time has gone back."""
         with self._lock:
             self._traces.clear()
 
     def curves(self, end: float) -> Curves:
-        """Return the samples from ``span`` before *end* s on; curves without any are left out."""
+        """Return the samples of the last ``span`` s before *end* s; empty curves are left out."""
         with self._lock:
             found = {}
             for key, trace in self._traces.items():
@@ -60,7 +60,7 @@ class History:
 
 
 class _Trace:
-    """One curve: the least and the greatest value in each column of time, in their order."""
+    """One curve: the least and the greatest value in each column of time, in the order of time."""
 
     def __init__(self, width: float) -> None:
         self._width = width
@@ -83,13 +83,13 @@ class _Trace:
         return [] if self._column is None else sorted({self._low, self._high})
 
     def forget(self, before: float) -> None:
-        """Leave out the samples before *before* s, but for the last of them.
+        """Remove the samples before *before* s, except the last of them.
 
-        From it the line is drawn to the edge of the plot, and a reference holds until the next.
+        The line to the edge of the plot starts there, and a reference is constant until the next.
         """
         while len(self._points) > 1 and self._points[1][0] < before:
             self._points.popleft()
 
     def points(self) -> list[tuple[float, float]]:
-        """Return what is kept, in the order of time."""
+        """Return the samples that are kept, in the order of time."""
         return [*self._points, *self._of_column()]

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What the command line of ``pam_plot`` asks for."""
+"""The options on the command line of ``pam_plot``."""
 
 import argparse
 from dataclasses import dataclass
@@ -17,7 +17,7 @@ PORTS = 65535
 
 @dataclass(frozen=True)
 class Options:
-    """The options, checked; ``png`` is None for a page, ``bag`` for a rig that is running.
+    """The options, checked; ``png`` is None for a page, ``bag`` is None for a running rig.
 
     ``seconds`` is the length of the axis of time, ``wait`` how long a PNG waits for the first
     message, both in s. ``unit`` is m, rad or unknown ''.
@@ -35,7 +35,7 @@ class Options:
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Add the options to *parser*."""
-    # Whether --bag is given is looked up before a parser is made.
+    # The program looks for --bag, by its full name, before a parser is created.
     parser.allow_abbrev = False
     parser.add_argument(
         '--png', type=Path, metavar='FILE', help='write a PNG file instead of serving a page'
@@ -78,8 +78,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def checked(given: argparse.Namespace) -> Options:
     """Return the options of a command line.
 
-    Raises PamError, with the sentence for the user, for options that cannot be used or that do not
-    fit together.
+    Raises PamError, with a sentence for the user, for options that are not valid or do not match
+    each other.
     """
     _refuse_together(given)
     seconds = PAGE_SECONDS if given.png is None else PNG_SECONDS

@@ -31,8 +31,8 @@ class Curves(NamedTuple):
 class Line:
     """A line of a plot: stamps in s and values in SI, both (n,), with NaN in its gaps.
 
-    Lines of the same ``number`` are of the same joint or muscle. A command holds until the next
-    (``is_held``); what is measured is drawn as linear between its samples.
+    Lines of the same ``number`` are of the same joint or muscle. A command is constant until the
+    next one (``is_held``); a measured signal is drawn linearly between its samples.
     """
 
     name: str
@@ -67,7 +67,7 @@ def titles(unit: str) -> dict[str, str]:
 def panels(curves: Curves, unit: str, end: float, columns: int | None = None) -> list[Panel]:
     """Return the plots of *curves*, with at most two values in each of *columns* of time.
 
-    A position reference holds until *end* s. The efforts of ``joint_states`` are drawn where no
+    A position reference is constant until *end* s. The efforts of ``joint_states`` are drawn if no
     force is published.
     """
     keys = list(curves.samples)
@@ -98,13 +98,13 @@ def _line(key: Key, curves: Curves, measured: list[str], end: float, columns: in
 
 
 def _order(key: Key) -> tuple[bool, int, int]:
-    """Return by what lines are sorted: set-points first, then topics, then muscles."""
+    """Return the sort key of a line: set-points first, then topics, then muscles."""
     topics = list(TOPICS)
     return not TOPICS[key.topic].is_set_point, topics.index(key.topic), _number(key, [])
 
 
 def _number(key: Key, measured: list[str]) -> int:
-    """Return the place of a muscle, or of a joint among those *measured*."""
+    """Return the index of a muscle, or of a joint among those *measured*."""
     if key.topic == 'position_reference':
         return GREY
     if key.column.isdecimal():
@@ -128,7 +128,7 @@ def name_of(key: Key, muscles: tuple[str, ...]) -> str:
 def thinned(t: Array, value: Array, columns: int | None) -> tuple[Array, Array]:
     """Return a curve with NaN in its gaps, and at most two values in each of *columns* of time.
 
-    There is a gap where samples pause, and where time goes back.
+    There is a gap at each pause of the samples, and at each step of time backwards.
     """
     step = np.diff(t)
     limit = max(GAP_PERIODS * float(np.median(step)), GAP_SECONDS) if step.size else np.inf

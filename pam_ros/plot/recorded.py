@@ -33,7 +33,7 @@ _COLUMNS = {
 class Recorded:
     """The curves of a recording, ``start`` and ``end`` in s, the unit of positions, and notes.
 
-    The ``unit`` is m or rad, or '' where the recording does not say it.
+    The ``unit`` is m or rad, or '' if the recording does not contain it.
     """
 
     curves: Curves
@@ -46,9 +46,10 @@ class Recorded:
 def read(path: Path, namespace: str | None, mapping: ColumnMapping) -> Recorded:
     """Return the curves of the recording at *path*: a rosbag2, one of its files, or a CSV file.
 
-    Stamps of a bag are the times at which its recorder received the messages, from the first one
-    on. *namespace* chooses a rig in a bag of several; *mapping* says what columns of a CSV file
-    mean. Raises RecordingError for what cannot be read, and where nothing can be drawn.
+    Stamps of a bag are the times at which its recorder received the messages, relative to the
+    first one. *namespace* selects one of several rigs in a bag; *mapping* gives the meaning of
+    columns of a CSV file. Raises RecordingError if the recording cannot be read, or if nothing can
+    be drawn.
     """
     if not path.exists():
         raise RecordingError(f'recording {path} does not exist')
@@ -86,7 +87,7 @@ def _read_bag(path: Path, namespace: str | None) -> Recorded:
 
 
 def _topics(path: Path, source: BagSource, namespace: str | None) -> dict[str, str]:
-    """Return full name -> our name of the topics to be drawn."""
+    """Return full name -> the package's own name of the topics to be drawn."""
     of_spaces: dict[str, dict[str, str]] = {}
     for full, topic in source.topics.items():
         for name, use in TOPICS.items():

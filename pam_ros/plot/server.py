@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The page with the plots, for a browser on this machine alone."""
+"""The page with the plots, for a browser on this machine only."""
 
 import json
 from collections.abc import Callable, Sequence
@@ -17,9 +17,9 @@ from pam_ros.plot.colours import colour
 from pam_ros.plot.panels import Panel
 
 HOST = '127.0.0.1'
-PATIENCE = 10.0  # s that a browser has to send its request
+PATIENCE = 10.0  # s within which a browser must send its request
 PAGE = Path(__file__).with_name('page.html')
-# The page has all in itself, and may ask this program alone.
+# The page contains everything it needs, and may send requests to this program only.
 _HEADERS = {
     'Cache-Control': 'no-store',
     'Content-Security-Policy': (
@@ -40,7 +40,7 @@ def content(
     note: str = '',
     is_live: bool = True,
 ) -> dict[str, Any]:
-    """Return what the page draws, for JSON: the axis of time, the present time, a note, *panels*.
+    """Return the data of the page, for JSON: the axis of time, the present time, a note, *panels*.
 
     Times are in s. A gap in a line is None.
     """
@@ -75,17 +75,17 @@ def _rounded(value: float) -> float | None:
 
 
 class PageServer:
-    """Serves the page on 127.0.0.1, and what it draws.
+    """Serves the page and its data on 127.0.0.1.
 
-    Requests are answered from threads of their own; *look* is called from them. Requests to
-    another host are refused: a page of another site could otherwise read the plots through a name
-    that leads to this machine.
+    Each request is answered in a thread of its own, which calls *look*. Requests to another host
+    are refused: a page of another site could otherwise read the plots through a host name that
+    leads to this machine.
     """
 
     def __init__(self, look: Callable[[], dict[str, Any]], port: int = 0) -> None:
-        """Listen on *port*, 0 for any that is free; *look* returns the :func:`content`.
+        """Listen on *port*, 0 for any free port; *look* returns the :func:`content`.
 
-        Raises PamError where the port cannot be used.
+        Raises PamError if the port cannot be used.
         """
         try:
             self._server = _Server((HOST, port), _Handler)
@@ -123,7 +123,7 @@ class PageServer:
 
 class _Server(ThreadingHTTPServer):
     daemon_threads = True
-    block_on_close = False  # a browser that holds its connection does not hold up the end
+    block_on_close = False  # a browser that keeps its connection open does not delay the end
     look: Callable[[], dict[str, Any]]
     page: bytes
 
@@ -133,7 +133,7 @@ class _Server(ThreadingHTTPServer):
         self.server_name, self.server_port = HOST, int(self.server_address[1])
 
     def handle_error(self, request: Any, client_address: Any) -> None:
-        """Print nothing where a browser went away in the middle of an answer."""
+        """Print nothing if a browser disconnects during an answer."""
 
 
 class _Handler(BaseHTTPRequestHandler):
@@ -142,7 +142,7 @@ class _Handler(BaseHTTPRequestHandler):
     server_version, sys_version = 'pam_plot', ''
 
     def do_GET(self) -> None:
-        """Answer with the page or with what it draws."""
+        """Answer with the page or with its data."""
         port = self.server.server_port
         if self.headers.get('Host', '') not in (f'{HOST}:{port}', f'localhost:{port}'):
             self.send_error(HTTPStatus.FORBIDDEN, 'The page is for this machine alone')

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Which topics of a rig are drawn, and what the numbers of their messages are.
+"""The topics of a rig that are drawn, and the meaning of the numbers in their messages.
 
 Messages may come from ROS or from a library that reads bags: their fields have the same names.
 """
@@ -16,14 +16,14 @@ from pam_ros.recording.bag import (
 )
 from pam_ros.recording.quantities import ATMOSPHERE
 
-MOST_COLUMNS = 32  # of one message that are drawn: more cannot be told apart
+MOST_COLUMNS = 32  # of one message that are drawn: more cannot be distinguished
 REFERENCE = 'reference'  # the term of the controller's state that is drawn
 
 
 class Use(NamedTuple):
     """How a topic is drawn.
 
-    ``panel`` is the plot that its numbers belong to. They are a set-point or measured.
+    ``panel`` is the plot of its numbers. They are set-points (``is_set_point``) or measured.
     ``offset`` is added to a number: pressures are drawn as gauge pressures.
     """
 
@@ -51,10 +51,10 @@ TOPICS = {
 
 
 class Key(NamedTuple):
-    """One curve: its plot, its topic, and what it is of.
+    """One curve: its plot, its topic, and its joint or muscle.
 
-    ``column`` is the name of the joint, or the place of a muscle in an array (``0``, ``1`` ...),
-    or empty where a message has one number.
+    ``column`` is the name of the joint, or the index of a muscle in an array (``0``, ``1`` ...),
+    or empty if a message has one number.
     """
 
     panel: str
@@ -63,9 +63,9 @@ class Key(NamedTuple):
 
 
 def numbers(topic: str, message: Any) -> list[tuple[Key, float]]:
-    """Return the numbers of a *message* of one of our topics, by the curve that they belong to.
+    """Return the numbers of a *message* of a topic of the rig, by the curve that they belong to.
 
-    SI units; pressures are gauge. A JointState without efforts has positions alone.
+    SI units; pressures are gauge. A JointState without efforts gives only positions.
     """
     use = TOPICS[topic]
     if use.kind == FLOAT64:
@@ -90,7 +90,7 @@ def numbers(topic: str, message: Any) -> list[tuple[Key, float]]:
 
 
 def muscles_of(topic: str, message: Any) -> tuple[str, ...]:
-    """Return the names of the muscles in the label of an array; none where it has none."""
+    """Return the names of the muscles in the label of an array; empty if it has none."""
     if TOPICS[topic].kind != FLOAT64_ARRAY:
         return ()
     labels: Sequence[str] = [dimension.label for dimension in message.layout.dim]

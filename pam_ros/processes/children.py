@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Programs of this package as processes of their own."""
+"""Programs of this package as separate processes."""
 
 import os
 import signal
@@ -11,13 +11,14 @@ from collections.abc import Mapping
 from types import TracebackType
 from typing import Any
 
-PATIENCE = 60.0  # s that a program has to heed Ctrl-C
+PATIENCE = 60.0  # s within which a program must end after Ctrl-C
 
 
 class Program:
     """A program ``pam_ros.cli.<name>``, in a process group of its own.
 
-    As a context it is stopped at the end: by Ctrl-C, or by force where it does not heed that.
+    As a context manager it stops the program at the end: by Ctrl-C, or by SIGKILL if the program
+    does not end then.
     """
 
     def __init__(

@@ -1,9 +1,10 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The signals that ask a program to end, and the end of one that hangs while it ends.
+"""Signals that request the end of a program, and the end of one that hangs while it ends.
 
-A muscle stays under pressure when its controller ends without venting, and a recording loses what
-was not written: a terminal that is closed asks for a proper end as Ctrl-C does.
+If a controller ends without venting, the muscle stays under pressure; if a recorder does not end
+properly, data that were not written are lost. A terminal that is closed therefore requests a
+proper end, as Ctrl-C does.
 """
 
 import faulthandler
@@ -13,19 +14,20 @@ from collections.abc import Callable
 from types import FrameType
 
 ENDS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT)
-# Kept ignored where they are at the start: nohup asks for that, and shells do in the background.
+# These stay ignored if they are ignored at the start: nohup does that, and shells do it for
+# programs in the background.
 MAY_BE_IGNORED = (signal.SIGHUP, signal.SIGQUIT)
 
 ERRORS = 2  # the file descriptor of standard error
 
 
 def on_end(handler: Callable[[int, FrameType | None], None]) -> None:
-    """Call *handler*(signal, frame) for each signal that asks for the end."""
+    """Call *handler*(signal, frame) for each signal that requests the end."""
     terminals = [output for output in (1, 2) if os.isatty(output)]
 
     def take(kind: int, frame: FrameType | None) -> None:
         if kind == signal.SIGHUP:
-            # Their terminal is closed: what is printed at the end would be an error.
+            # The terminal is closed: printing at the end would cause an error.
             nothing = os.open(os.devnull, os.O_WRONLY)
             for output in terminals:
                 os.dup2(nothing, output)
@@ -39,10 +41,10 @@ def on_end(handler: Callable[[int, FrameType | None], None]) -> None:
 
 
 def ignore_ends() -> None:
-    """Ignore these signals from now on: the program ends already.
+    """Ignore these signals from now on, since the program ends already.
 
-    Python sets its own handlers back to the default before it has ended, so that a second
-    signal would end it by this signal instead of with its exit code.
+    Python restores the default handlers before it has ended. A second signal would then end the
+    program by this signal instead of with its exit code.
     """
     for kind in ENDS:
         signal.signal(kind, signal.SIG_IGN)

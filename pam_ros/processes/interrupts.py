@@ -1,8 +1,9 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Signals that ask for the end as KeyboardInterrupt, but never in the middle of rclpy's own work.
+"""Raise KeyboardInterrupt for signals that request the end, but never within rclpy's own work.
 
-Raised while rclpy handles a message, it is lost in a destructor or comes out as another error.
+A KeyboardInterrupt that is raised while rclpy handles a message is lost in a destructor, or it
+appears as another error.
 """
 
 from collections.abc import Iterator
@@ -13,23 +14,24 @@ from pam_ros.processes.ends import on_end
 
 
 class _Interrupt:
-    """What is known of it; there is one a process, as there is of signal handlers."""
+    """The state of the interrupt; there is one per process, as for signal handlers."""
 
     is_made = False
     is_held = False
 
 
 def heed() -> None:
-    """Let the first signal raise KeyboardInterrupt; later ones do no harm."""
+    """Let the first signal raise KeyboardInterrupt; later ones have no effect."""
     _Interrupt.is_made = False
     on_end(_note)
 
 
 @contextmanager
 def held_back() -> Iterator[None]:
-    """Raise KeyboardInterrupt at the end of the context for what came before or during it.
+    """Raise KeyboardInterrupt at the end of the context for a signal before or during it.
 
-    Before it, too: one that was raised in a destructor has been lost.
+    A signal before it counts, too: a KeyboardInterrupt that was raised in a destructor has been
+    lost.
     """
     _Interrupt.is_held = True
     try:

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Tell the user of what takes long."""
+"""Inform the user of a task that takes long."""
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager

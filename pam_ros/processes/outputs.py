@@ -1,9 +1,9 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Standard outputs that cannot end a program: closed, full, or without a letter for a name.
+"""Standard outputs that cannot end a program: closed, full, or without a character of a name.
 
-What a program is for, a report or a muscle under pressure, does not depend on who reads what it
-prints: after ``| head -1``, or with the disk of its log full, it goes on as if nobody looked.
+The task of a program, such as a report or a muscle under pressure, does not depend on who reads
+its output. After ``| head -1``, or if the disk of its log is full, the program continues.
 """
 
 import errno
@@ -16,7 +16,7 @@ from typing import Any
 
 
 class _Output(io.FileIO):
-    """A file descriptor that leads to nothing from the first error on."""
+    """A file descriptor that discards all data from the first error on."""
 
     def write(self, data: Any, /) -> int:
         """Write *data*; return how many bytes were taken."""
@@ -27,7 +27,7 @@ class _Output(io.FileIO):
             nothing = os.open(os.devnull, os.O_WRONLY)
             os.dup2(nothing, number)
             os.close(nothing)
-            # One that is closed on purpose, as by head, is nothing to complain about.
+            # An output that is closed on purpose, as by head, needs no message.
             if number == 1 and error.errno != errno.EPIPE:
                 program = Path(sys.argv[0]).stem
                 sentence = f'{program}: standard output cannot be written: {error.strerror}\n'
@@ -39,7 +39,8 @@ class _Output(io.FileIO):
 def guard_outputs() -> None:
     """Let no error of standard output or standard error reach the program.
 
-    A letter that the encoding lacks, as any but ASCII in the locale C, is printed as its escape.
+    A character that the encoding lacks, such as a non-ASCII one in the locale C, is printed as its
+    escape sequence.
     """
     _open_closed()
     for number, name in ((1, 'stdout'), (2, 'stderr')):
@@ -53,7 +54,7 @@ def guard_outputs() -> None:
 
 
 def _open_closed() -> None:
-    """Open descriptors 0 to 2 where they are closed: else the next file would get their number."""
+    """Open descriptors 0 to 2 if they are closed: else the next files would get their numbers."""
     while (number := os.open(os.devnull, os.O_RDWR)) <= 2:
         os.set_inheritable(number, True)
     os.close(number)
@@ -62,7 +63,7 @@ def _open_closed() -> None:
 def _guarded(number: int, stream: io.TextIOWrapper) -> io.TextIOWrapper:
     raw = _Output(number, 'w', closefd=False)
     return io.TextIOWrapper(
-        # Python has no buffer where it is told so (PYTHONUNBUFFERED).
+        # Python has no buffer if PYTHONUNBUFFERED is set.
         raw if stream.write_through else io.BufferedWriter(raw),
         encoding=stream.encoding,
         errors='backslashreplace',

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Real-time scheduling for a loop that keeps wall time, where the system permits it."""
+"""Real-time scheduling for a loop that keeps wall time, if the system permits it."""
 
 import os
 
@@ -9,12 +9,12 @@ NORMAL = 'normal'
 
 
 def prefer_real_time() -> str:
-    """Schedule the calling thread before every normal one; return how it is scheduled now.
+    """Schedule the calling thread before every normal one; return its scheduling now.
 
-    As the controller manager of ros2_control does: without it a busy machine delays ticks by
-    several periods. DDS's threads stay as they were: woken for every message before the loop,
-    they would cost it time. Where it is not permitted (``ulimit -r`` is 0), or no such thing
-    exists, nothing changes.
+    The controller manager of ros2_control does the same: without it a busy machine delays ticks by
+    several periods. The threads of DDS are unchanged: if they were woken for every message before
+    the loop, they would delay it. If real-time scheduling is not permitted (``ulimit -r`` is 0) or
+    does not exist, nothing changes.
     """
     try:
         policy = os.SCHED_FIFO | os.SCHED_RESET_ON_FORK

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""A program is asked to stop, by Ctrl-C or another signal that asks for the end."""
+"""A request to stop a program, by Ctrl-C or another signal that requests the end."""
 
 from types import FrameType
 
@@ -8,10 +8,10 @@ from pam_ros.processes.ends import on_end
 
 
 class StopRequest:
-    """Signals that ask for the end, noted instead of raised: a second one does no harm."""
+    """Notes signals that request the end instead of raising: a second one has no effect."""
 
     def __init__(self) -> None:
-        """Take over these signals."""
+        """Handle these signals from now on."""
         self.is_made = False
         on_end(self._note)
 

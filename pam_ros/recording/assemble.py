@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""From signals on stamps of their own to one recording: one clock, one kind, gaps known."""
+"""Combine signals with different stamps into one recording on one clock, with its gaps."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -16,12 +16,12 @@ from pam_ros.recording.series import GAP_SECONDS, Series, refuse_backwards
 
 Array = NDArray[np.float64]
 
-AT_REST = 5e-4  # m (half a millimetre): a position that moves less was held
-OVERLAP = 0.9  # share of the samples that a signal must cover to be kept beside the needed ones
+AT_REST = 5e-4  # m (half a millimetre): a position that moves less is constant
+OVERLAP = 0.9  # share of the samples that a signal must cover to be kept if it is not needed
 # Standard deviation in s of the time between the receipt of a command by the recorder and its
-# effect: on one machine 0.2 to 0.6 ms were measured either way, on two it is 1 ms or more.
+# effect. On one machine 0.2 to 0.6 ms was measured, earlier or later; on two it is 1 ms or more.
 RECEIPT = 1e-3
-STREAM = 0.1  # s: commands that come more often are a stream, whose end or pause says something
+STREAM = 0.1  # s: commands at shorter intervals are a stream, in which a pause is worth a note
 
 
 class MissingSignalError(RecordingError):
@@ -36,17 +36,18 @@ def assemble(
     l0: float | None = None,
     muscles: Sequence[str] = (),
 ) -> Recording:
-    """Return the recording that *series* (signal -> its values in SI) make.
+    """Return the recording that the signals *series* (signal -> its values in SI) give.
 
-    Of a joint of several muscles each has signals of its own, called ``agonist.pressure``;
-    *muscles* are their names in the order in which the joint has them.
+    A joint of several muscles has signals for each muscle, called ``agonist.pressure``; *muscles*
+    are their names in the order of the joint.
 
-    Outputs get the stamps of the signal that is predicted: the position of a free load, the force
-    of a held length. Others are taken as linear between their samples. Samples before the first
-    command are left out, as are those where a signal is missing: they become gaps. *kind* is
-    found where it is None: held where a force was measured and the position stands still.
+    All outputs get the stamps of the predicted signal: the position of a free load, or the force
+    at a prescribed length. The other signals are interpolated linearly. Samples before the first
+    command are left out. Samples at which a signal is missing are left out, too: they become gaps.
+    If *kind* is None it is found from the data: ``held`` if a force was measured and the position
+    is constant, else ``free``.
 
-    Raises RecordingError where a signal is missing that the kind needs.
+    Raises RecordingError if a signal is missing that the kind needs.
     """
     notes = list(notes)
     series = {quantity: one for quantity, one in series.items() if one.t.size}
@@ -103,10 +104,10 @@ def assemble(
 def _ascending(
     name: str, series: dict[str, Series], needed: set[str], notes: list[str]
 ) -> dict[str, Series]:
-    """Return the series with strictly ascending stamps; raise where time goes backwards.
+    """Return the series with strictly ascending stamps; raise if time goes backwards.
 
-    Samples that share their time are harmless in a command: the last one holds. Of an output,
-    many of them mean a clock too coarse: refused where it is needed, else left out.
+    Samples with equal stamps are harmless in a command: the last one is kept. In an output, many
+    of them mean that the clock is too coarse: it is refused if it is needed, else left out.
     """
     kept = {}
     for quantity, one in series.items():
@@ -175,7 +176,7 @@ def _common(
     command: Series | None,
     notes: list[str],
 ) -> Array:
-    """Return the stamps of *main* at which all *needed* signals and a command are there."""
+    """Return the stamps of *main* at which all *needed* signals and a command exist."""
     start = max(one.t[0] for one in needed)
     end = min(one.t[-1] for one in needed)
     if command is not None and command.t[0] > start:
@@ -190,7 +191,7 @@ def _common(
 
 
 def _leave_out_short(quantity: str, series: dict[str, Series], t: Array, notes: list[str]) -> None:
-    """Drop a signal that is not needed where it does not cover *t*."""
+    """Drop a signal that is not needed if it covers too little of *t*."""
     one = series[quantity]
     covered = (t >= one.t[0] - one.gap_limit) & (t <= one.t[-1] + one.gap_limit)
     for start, end in one.holes():
@@ -203,7 +204,7 @@ def _leave_out_short(quantity: str, series: dict[str, Series], t: Array, notes: 
 
 
 def spread(value: Array) -> float:
-    """Return the range of a signal without its outermost percent."""
+    """Return the range of a signal between its percentiles 0.5 and 99.5."""
     low, high = np.percentile(value, (0.5, 99.5))
     return float(high - low)
 
@@ -217,7 +218,7 @@ def _gaps(t: Array) -> list[tuple[float, float]]:
 
 
 def _note_stream(recording: Recording, notes: list[str]) -> None:
-    """Note where a stream of commands pauses: what the rig did then is not recorded."""
+    """Note where a stream of commands pauses: the behaviour of the rig then is not recorded."""
     command_t = recording.command_t
     if command_t is None or command_t.size < 10:
         return

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""A rig's topics in a rosbag2: which they are, what their fields mean, which clock counts."""
+"""The topics of a rig in a rosbag2: their names, the meaning of their fields, and their clock."""
 
 import re
 from collections.abc import Callable, Sequence
@@ -19,9 +19,9 @@ from pam_ros.recording.series import Series
 
 __all__ = ['bag_files', 'read_bag']
 
-_LATENCY = (-2e-3, 0.5)  # s from a header's stamp to its receipt; outside, the clocks differ
+_LATENCY = (-2e-3, 0.5)  # s from the stamp of a header to its receipt; outside, clocks differ
 _SIMULATED = 10**18  # ns: no real clock is before 2001
-_LATEST = 2**63 - 1  # ns: that ROS counts; an MCAP file can hold twice as many
+_LATEST = 2**63 - 1  # ns: the largest time in ROS; an MCAP file can hold twice as much
 _TICK = 0.1  # s by which a simulated clock, published in ticks, may be behind a header
 
 JOINT_STATE = 'sensor_msgs/msg/JointState'
@@ -30,7 +30,7 @@ FLOAT64_ARRAY = 'std_msgs/msg/Float64MultiArray'
 FLOAT64 = 'std_msgs/msg/Float64'
 _FLOAT = (FLOAT64, 'std_msgs/msg/Float32')
 _OUTPUTS = ('position', 'angle', 'contraction', 'force')
-_UNFILLED = ('velocity', 'angular_velocity', 'force')  # 0 where nobody fills them
+_UNFILLED = ('velocity', 'angular_velocity', 'force')  # 0 in messages that do not fill them
 _PA, _M = Target('pressure_command', 'Pa'), Target('position', 'm')
 # topic -> type -> field -> meaning: the package's own topics.
 Ours = dict[str, dict[str, dict[str, Meaning]]]
@@ -51,9 +51,9 @@ _OURS: Ours = {
 
 
 def _ours(muscles: Sequence[str], unit: str | None) -> Ours:
-    """Return our topics of one muscle on a mass, or of a joint of these *muscles* and this *unit*.
+    """Return the package's topics of one muscle on a mass, or of a joint with *muscles*, *unit*.
 
-    A joint has its pressures in arrays, with a number for each muscle.
+    The pressures of a joint are arrays with a number for each muscle.
     """
     if not muscles:
         return _OURS
@@ -82,11 +82,11 @@ class _Field(NamedTuple):
     topic: str
     path: str
     meaning: Meaning
-    asked: bool  # by the user, so that it must be there
+    asked: bool  # by the user: then it must exist
 
 
 class _Samples(NamedTuple):
-    """What was read of one topic: receive times and header stamps in ns, columns of numbers."""
+    """The samples of one topic: receive times and header stamps in ns, columns of numbers."""
 
     received: NDArray[np.int64]
     stamped: NDArray[np.int64]
@@ -102,18 +102,18 @@ def read_bag(
 ) -> tuple[dict[str, Series], list[str]]:
     """Return (signal -> series in SI, warnings) of the rosbag2 at *path*.
 
-    Read are ``pressure_command``, ``joint_states``, ``force`` and ``pressure``, in any namespace
-    when there is one rig in the bag, else in *namespace*. Of a joint they are
-    ``pressure_commands``, ``joint_states`` in *unit* (m or rad) and ``pressures``, the arrays with
-    a number for each of its *muscles*. Read is as well what *mapping* says, whose sources
-    are topics with the field: ``/valve/state.pressure`` (``.data`` where none is given), with an
-    index or a joint's name for arrays: ``/joint_states.position[elbow]``.
+    The topics ``pressure_command``, ``joint_states``, ``force`` and ``pressure`` are read, in any
+    namespace if there is one rig in the bag, else in *namespace*. Those of a joint are
+    ``pressure_commands``, ``joint_states`` in *unit* (m or rad) and ``pressures``; the arrays have
+    a number for each of its *muscles*. The sources of *mapping* are read in addition. They are
+    topics with the field: ``/valve/state.pressure`` (``.data`` if no field is given), with an
+    index or the name of a joint for arrays: ``/joint_states.position[elbow]``.
 
-    A message is stamped by its header where it has one, else by its receipt. Where the two
-    clocks differ, all are stamped by their receipt. Pressures in FluidPressure are absolute and
-    become gauge by 101325 Pa.
+    The stamp of a message is that of its header if it has one, else the time of its receipt. If
+    the two clocks differ, all messages get the time of their receipt. Pressures in FluidPressure
+    are absolute; 101325 Pa are subtracted to make them gauge pressures.
 
-    Raises RecordingError for topics that are missing, ambiguous, or of a type not known.
+    Raises RecordingError for topics that are missing, ambiguous, or of an unknown type.
     """
     source = open_bag(path)
     ours = _ours(muscles, unit)
@@ -140,7 +140,7 @@ def _fields(
     namespace: str | None,
     ours: Ours,
 ) -> list[_Field]:
-    """Return the fields to read, those of the user first: they take the place of ours."""
+    """Return the fields to read, those of the user first: they replace those of the package."""
     fields = []
     for name in mapping:
         topic, _, field = name.partition('.')
@@ -187,7 +187,7 @@ def _fields(
 def _find(
     path: Path, source: BagSource, name: str, mapping: ColumnMapping, namespace: str | None
 ) -> str | None:
-    """Return the full name of our topic *name* in the bag, or None where it is not there."""
+    """Return the full name of the package's topic *name* in the bag, or None if it is missing."""
     found = [
         topic
         for topic in source.topics
@@ -206,7 +206,7 @@ def _find(
 
 
 def _read(path: Path, source: BagSource, fields: list[_Field]) -> dict[str, _Samples]:
-    """Return what the bag has of each topic that has messages."""
+    """Return the samples of each topic that has messages."""
     messages: dict[str, list[Message]] = {field.topic: [] for field in fields}
     for message in source.messages(list(messages)):
         messages[message.topic].append(message)
@@ -247,7 +247,7 @@ def _samples(
 
 
 def _getter(path: Path, field: _Field) -> Callable[[Any], float]:
-    """Return the function that takes the field's number from a message, NaN where unfilled."""
+    """Return the function that reads the field's number from a message, NaN if it is unfilled."""
     steps = [
         (match['name'], match['index'])
         for match in re.finditer(r'(?P<name>[A-Za-z_]\w*)(?:\[(?P<index>[^\]]+)\])?', field.path)
@@ -285,7 +285,7 @@ def _element(where: str, message: Any, value: Any, index: str) -> Any:
 
 
 def _only(where: str, message: Any, value: Any) -> float:
-    """Return the one number of an array, NaN where it is empty."""
+    """Return the one number of an array, NaN if it is empty."""
     try:
         count = len(value)
         if count == 1:
@@ -302,7 +302,7 @@ def _only(where: str, message: Any, value: Any) -> float:
 
 
 def _headers_agree(samples: dict[str, _Samples], notes: list[str]) -> bool:
-    """Say whether the clock of the headers is that of the receipts; note it where it is not."""
+    """Return whether headers and receipts have the same clock; add a note if they do not."""
     for topic, one in samples.items():
         if one.stamped.min() <= 0:
             continue
@@ -326,7 +326,7 @@ def _add(
     is_received: bool,
     notes: list[str],
 ) -> None:
-    """Add one field's series, unless it was never filled."""
+    """Add one field's series, unless the field was never filled."""
     source = field.topic if field.path == 'data' else f'{field.topic}.{field.path}'
     key, quantity = field.meaning.target.key, field.meaning.target.quantity
     filled = value[~np.isnan(value)]

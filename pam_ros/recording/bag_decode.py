@@ -8,14 +8,14 @@ from pam_ros.errors import RecordingError
 
 
 class Topic(NamedTuple):
-    """A topic's type and, as the bag tells it, the text that defines the type (or '')."""
+    """The type of a topic and the text in the bag that defines this type ('' if there is none)."""
 
     type: str
     definition: str = ''
 
 
 class RosbagsDecoder:
-    """Decode messages with ``rosbags``, by the definitions in the bag where it has them."""
+    """Decode messages with ``rosbags``, by the type definitions in the bag if it has them."""
 
     def __init__(self) -> None:
         from rosbags.typesys import Stores, get_typestore

@@ -22,7 +22,7 @@ Span = tuple[int, int]  # first and last time in ns
 class BagTopic:
     """A topic as a bag describes it.
 
-    ``definition`` is the complete text of the message type, ``encoding`` its form
+    ``definition`` is the complete text of the message type, ``encoding`` its format
     (``ros2msg``), ``type_hash`` the type's description hash, ``qos`` the profiles of the
     publishers as rosbag2's metadata lists them.
     """
@@ -36,7 +36,7 @@ class BagTopic:
 
     @property
     def channel_metadata(self) -> dict[str, str]:
-        """Return what rosbag2 stores with the topic in each MCAP file."""
+        """Return the metadata that rosbag2 stores with the topic in each MCAP file."""
         return {
             'offered_qos_profiles': _dump(self.qos) if self.qos else '',
             'topic_type_hash': self.type_hash,
@@ -44,7 +44,7 @@ class BagTopic:
 
 
 class ListedFile(NamedTuple):
-    """The two places of the metadata that name a file, as YAML.
+    """The two entries of a file in the metadata, as YAML text.
 
     The text of a finished file is kept, because dumping a list of many files takes long.
     """
@@ -116,10 +116,10 @@ def _times(span: Span | None) -> dict[str, dict[str, int]]:
 
 
 class _Plain(yaml.SafeDumper):
-    """YAML without anchors, in the order in which it was made: as rosbag2 writes it."""
+    """YAML without anchors, with keys in their given order, as rosbag2 writes it."""
 
     def ignore_aliases(self, data: Any) -> bool:
-        """Write every value out."""
+        """Write every value in full, without an alias."""
         return True
 
 

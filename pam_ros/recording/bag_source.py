@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The messages of a rosbag2, read with the ``rosbags`` library.
 
-An MCAP file that its recorder did not close (killed, out of power) is read up to where it ends
-with ``mcap``.
+An MCAP file that its recorder did not close (killed, power failure) is read to its end with
+``mcap``.
 """
 
 import importlib.util
@@ -29,7 +29,7 @@ class Message(NamedTuple):
 
 
 class BagSource(NamedTuple):
-    """A bag: its topics by name, a reader of some, a decoder, and what is wrong with it."""
+    """A bag: its topics by name, a reader of selected ones, a decoder, and notes on defects."""
 
     topics: dict[str, Topic]
     messages: Callable[[Collection[str]], Iterator[Message]]
@@ -40,7 +40,7 @@ class BagSource(NamedTuple):
 def bag_files(path: Path) -> list[Path]:
     """Return the storage files of a bag (a directory or one file), in the order of recording.
 
-    Raises RecordingError where there is none.
+    Raises RecordingError if there are none.
     """
     if path.is_file():
         return [path]
@@ -64,7 +64,7 @@ def bag_files(path: Path) -> list[Path]:
 def open_bag(path: Path) -> BagSource:
     """Return the bag at *path* (a rosbag2 directory, or one .mcap or .db3 file of one).
 
-    Raises RecordingError where it cannot be read, or the library that reads it is missing.
+    Raises RecordingError if it cannot be read, or if the library that reads it is missing.
     """
     if importlib.util.find_spec('rosbags') is None:
         raise RecordingError(
@@ -102,7 +102,7 @@ def _are_texts(values: Collection[Any]) -> bool:
 
 
 def _is_unfinished(file: Path) -> bool:
-    """Say whether an MCAP lacks its end. Raises RecordingError where it is none."""
+    """Return whether an MCAP lacks its end. Raises RecordingError if it is not an MCAP."""
     if file.suffix != '.mcap':
         return False
     with file.open('rb') as stream:
@@ -116,7 +116,7 @@ def _is_unfinished(file: Path) -> bool:
 
 
 def _unreadable(path: Path, error: Exception) -> RecordingError:
-    """Return what to raise for an *error* of a library that reads the bag at *path*."""
+    """Return the exception to raise for an *error* of a library that reads the bag at *path*."""
     what = ' '.join(str(error).split()) or type(error).__name__
     return RecordingError(f'{path} cannot be read as a rosbag2: {what}')
 
@@ -156,7 +156,7 @@ def _read_with_rosbags(path: Path, parts: list[Path]) -> Read:
 
 
 class _Whole(io.BufferedReader):
-    """A file that ends where less is left than was asked for."""
+    """A file that raises EOFError if fewer bytes are left than were requested."""
 
     def __init__(self, raw: io.FileIO) -> None:
         super().__init__(raw)
@@ -165,7 +165,7 @@ class _Whole(io.BufferedReader):
 
     def read(self, size: int | None = -1, /) -> bytes:
         """Return exactly *size* bytes, or raise EOFError."""
-        # A length that was not written whole may ask for more than there is memory for.
+        # A length that was written only in part may request more than the memory can hold.
         if size is not None and size > self._size - self.tell():
             raise EOFError
         return super().read(size)
@@ -201,7 +201,7 @@ def _read_unfinished(files: list[Path]) -> Read:
                             if name in wanted:
                                 yield name, topic, Message(name, record.log_time, record.data)
                 except Exception:  # the libraries raise whatever parsing and decompression meet
-                    continue  # here ends what was written whole
+                    continue  # the complete records end here
 
     def messages(wanted: Collection[str]) -> Iterator[Message]:
         return (message for _, _, message in records(wanted) if message is not None)

@@ -1,13 +1,13 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Write serialised messages to a rosbag2 directory (MCAP) that is whole at every moment.
+"""Write serialised messages to a rosbag2 directory (MCAP) that is always complete on the disk.
 
-Each :meth:`BagWriter.seal` leaves a complete bag behind: files with summaries and
-``metadata.yaml``. A recorder that is killed therefore loses what came after the last seal, and
-nothing needs repair. Where a seal does not fit on the disk, the bag ends with the one before.
+Each :meth:`BagWriter.seal` leaves a complete bag: files with summaries and ``metadata.yaml``. A
+recorder that is killed therefore loses only the messages after the last seal, and nothing needs
+repair. If a seal does not fit on the disk, the bag ends with the seal before.
 
-As rosbag2 itself does, the bag is split into files ``NAME_0.mcap``, ``NAME_1.mcap`` and so on: the
-memory of a file and the duration of a seal grow with the number of its chunks.
+Like rosbag2 itself, the writer splits the bag into files ``NAME_0.mcap``, ``NAME_1.mcap`` and so
+on, because the memory of a file and the duration of a seal grow with the number of its chunks.
 """
 
 import shutil
@@ -17,18 +17,18 @@ from pam_ros.errors import RecordingError
 from pam_ros.recording.bag_metadata import BagTopic, ListedFile, Span, metadata_text, whole
 from pam_ros.recording.mcap_file import McapFile
 
-CHUNKS = 256  # of a file, after which a new one begins; each takes about 3 kB of memory
+CHUNKS = 256  # in a file, then a new file begins; each chunk takes about 3 kB of memory
 
 
 class BagWriter:
     """A rosbag2 directory that is being written.
 
-    ``counts`` are the messages of each topic by name. Raises RecordingError where the directory
-    exists already or cannot be made.
+    ``counts`` are the messages of each topic by name. Raises RecordingError if the directory
+    exists already or cannot be created.
     """
 
     def __init__(self, directory: Path, ros_distro: str = '') -> None:
-        """Make *directory* with an empty bag in it."""
+        """Create *directory* with an empty bag in it."""
         self._directory, self._distro = directory, ros_distro
         self._topics: dict[int, BagTopic] = {}
         self._finished: list[ListedFile] = []
@@ -51,7 +51,7 @@ class BagWriter:
             raise
 
     def _next_file(self) -> McapFile:
-        """Return a new file with all topics, which have the same channels in all files."""
+        """Return a new file with all topics, which have the same channel numbers in all files."""
         file = McapFile(self._directory / f'{self._directory.name}_{len(self._finished)}.mcap')
         for topic in self._topics.values():
             file.add_topic(topic)
@@ -75,17 +75,17 @@ class BagWriter:
         self._is_sealed = False
 
     def seal(self) -> None:
-        """Make the bag on disk whole, with all that was written so far.
+        """Make the bag on the disk complete, with all messages so far.
 
-        Raises RecordingError where the disk does not take it: the bag is then left as by the last
-        seal, and the next one tries to write all that came after it.
+        Raises RecordingError if writing to the disk fails. The bag is then left as it was after
+        the last seal, and the next seal tries again to write all later messages.
         """
         if self._is_sealed:
             return
         listed = ListedFile.of(self._file.path.name, self._file.count, self._file.span)
         try:
             self._file.put()
-            # The file first: metadata must never list a file that is not there.
+            # Write the file first: metadata must never list a file that does not exist.
             self._put_metadata(listed)
         except OSError as error:
             self._file.undo()
@@ -99,10 +99,10 @@ class BagWriter:
             self._file = self._next_file()
 
     def close(self) -> None:
-        """Seal the bag for good.
+        """Seal the bag for the last time, and close its file.
 
-        Raises RecordingError where the disk does not take it: counts and times are then those of
-        the last seal, as the bag is.
+        Raises RecordingError if writing to the disk fails. Counts and times are then those of the
+        last seal, as in the bag.
         """
         try:
             self.seal()
@@ -118,7 +118,7 @@ class BagWriter:
         return _seconds(whole(self._spans.values()))
 
     def rate(self, topic: str) -> float:
-        """Return the messages a second of *topic* between its first and its last."""
+        """Return the rate of *topic* in messages/s, from its first message to its last."""
         seconds = _seconds(self._spans.get(topic))
         return (self.counts[topic] - 1) / seconds if seconds else 0.0
 
@@ -139,7 +139,7 @@ class BagWriter:
             raise
 
     def _reason(self, error: OSError) -> str:
-        """Return the sentence that says why a seal failed."""
+        """Return a sentence with the reason why a seal failed."""
         if isinstance(error, FileNotFoundError):
             gone = self._file.path if self._directory.is_dir() else self._directory
             return f'{gone} was deleted or renamed while it was recorded: nothing more is recorded'

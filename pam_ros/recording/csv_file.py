@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""CSV files whose column names carry the unit: read into series, and written."""
+"""Read CSV files, whose column names contain the unit, into series, and write them."""
 
 import codecs
 import csv
@@ -25,12 +25,12 @@ _COMMENTS = ('#', '%', '//')
 _EMPTY = frozenset(('', 'nan', 'na', 'n/a', 'null', 'none'))
 _UTF_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
 _SWAPPED_BREAK = '\u0a00'  # a line break whose two bytes are swapped; no character otherwise
-_DENSE = 0.5  # share of filled cells from which a command column is meant to have no holes
+_DENSE = 0.5  # a command column with at least this share of filled cells must have no holes
 
 
 @dataclass(frozen=True, eq=False)
 class _Table:
-    """The used columns of a file as text, (n,) each, and the line each row stood in."""
+    """The used columns of a file as text, (n,) each, and the line number of each row."""
 
     header: list[str]
     rows: list[list[str]]
@@ -42,15 +42,17 @@ class _Table:
 def read_csv(path: Path, mapping: ColumnMapping) -> tuple[dict[str, Series], list[str], list[str]]:
     """Return (signal -> series in SI, warnings, names of the columns) of a CSV file.
 
-    A signal is a quantity, such as ``pressure``, or that of one muscle: ``agonist.pressure``.
+    A signal is a quantity, such as ``pressure``, or a quantity of one muscle:
+    ``agonist.pressure``.
 
-    The first line that is no comment names the columns. Cells are separated by commas,
-    semicolons or tabs. An empty cell (or NaN) is a sample that was not taken: columns may have
-    rates of their own. A stretch of them that is longer than ten of the column's own sampling
-    periods (and 50 ms) is refused, as a sensor that failed; so is a column that starts or ends
-    more than 1 s away from the others. A command may be given only where it changes.
+    The first line that is not a comment gives the names of the columns. Cells are separated by
+    commas, semicolons or tabs. An empty cell (or NaN) means that no sample was taken: columns may
+    have different rates. A stretch of empty cells is refused, as a sensor that failed, if it is
+    longer than ten sampling periods of its column and longer than 50 ms. A column that starts or
+    ends more than 1 s away from the others is refused, too. A command may be given only at its
+    changes.
 
-    Raises RecordingError with the line and the column of what cannot be read.
+    Raises RecordingError with the line and the column of a cell that cannot be read.
     """
     table = _read_table(path)
     mapping.need(table.header, path.name)
@@ -86,11 +88,11 @@ def read_csv(path: Path, mapping: ColumnMapping) -> tuple[dict[str, Series], lis
 
 
 def write_csv(recording: Recording, path: str | Path) -> None:
-    """Write *recording* as a CSV that reads back to the same numbers.
+    """Write *recording* as a CSV file that gives the same numbers when it is read.
 
-    Columns in SI with their unit in the name. Commands at stamps of their own stand in rows of
-    their own, whose other cells are empty. Raises RecordingError when the file cannot be written,
-    and ParameterError for objects of another kind.
+    Columns are in SI, with the unit in their names. A command with a stamp that no output has
+    gets its own row, in which the other cells are empty. Raises RecordingError if the file cannot
+    be written, and ParameterError for arguments of a wrong type.
     """
     instance('recording', recording, Recording, 'a Recording')
     path = as_path('path', path, 'the path of a file')
@@ -123,7 +125,7 @@ def write_csv(recording: Recording, path: str | Path) -> None:
 
 
 def _by_muscle(recording: Recording, values: Array) -> list[tuple[str, Array]]:
-    """Return what stands before the name of a column, and its values (n,), muscle by muscle."""
+    """Return for each muscle the prefix of its column names, and its values (n,)."""
     if values.ndim == 1:
         return [('', values)]
     return [(f'{name}.', values[:, i]) for i, name in enumerate(recording.muscles)]
@@ -152,7 +154,7 @@ def _read_table(path: Path) -> _Table:
         raise RecordingError(f'{path.name} is empty')
     last, end = content[-1]
     if len(content) > 1 and end == _unbroken(end):
-        # What was cut off a number cannot be seen in what is left of it: 13.4 may have been 13.46.
+        # A number that was cut off may still look valid: 13.4 may have been 13.46.
         notes.append(
             f'the last line ({last}) does not end with a line break: its last number may be cut '
             'off, and the line is left out'
@@ -189,7 +191,7 @@ def _unbroken(line: str) -> str:
 
 
 def _cells(path: Path, number: int, line: str, separator: str) -> list[str]:
-    """Return the cells of one line, which is one row: no cell may hold a line break."""
+    """Return the cells of one line, which is one row: no cell may contain a line break."""
     line = _unbroken(line)
     try:
         (cells,) = csv.reader([line], delimiter=separator, skipinitialspace=True, strict=True)
@@ -203,7 +205,7 @@ def _cells(path: Path, number: int, line: str, separator: str) -> list[str]:
 
 
 def _decode(path: Path, data: bytes) -> str:
-    """Return the text of a file; RecordingError where it is none."""
+    """Return the text of a file; raise RecordingError if it is not a text file."""
     try:
         text = data.decode('utf-16' if data.startswith(_UTF_16) else 'utf-8-sig')
     except UnicodeDecodeError as error:
@@ -251,7 +253,7 @@ def _choose(
 
 
 def _numbers(path: Path, table: _Table, index: int, meaning: Meaning) -> Array:
-    """Return a column in SI, NaN where a cell is empty."""
+    """Return a column in SI, NaN for an empty cell."""
     cells = [row[index] for row in table.rows]
     if table.decimal_comma:
         cells = [cell.replace(',', '.', 1) for cell in cells]

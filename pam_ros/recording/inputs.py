@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What drives a recording and what was measured, muscle by muscle."""
+"""The inputs and the measured outputs of a recording, for each muscle."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -19,9 +19,9 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Input:
-    """An input over the samples (n,) in Pa: the command or the pressure of a muscle.
+    """An input at the samples (n,) in Pa: the command or the pressure of a muscle.
 
-    ``p_max`` is the muscle's highest pressure in Pa, None where it is not known.
+    ``p_max`` is the muscle's highest pressure in Pa, None if it is not known.
     """
 
     name: str
@@ -30,15 +30,15 @@ class Input:
 
     @property
     def quantity(self) -> str:
-        """Return which quantity it is, without the name of a muscle."""
+        """Return the quantity, without the name of a muscle."""
         return self.name.rpartition('.')[2]
 
 
 def driving(recording: Recording, p_max: float | Sequence[float] | None = None) -> list[Input]:
-    """Return the inputs over the samples: of each muscle the command, or the pressure.
+    """Return the inputs at the samples: the commands of the muscles, else their pressures.
 
-    *p_max* in Pa is that of each muscle, or one for all. Raises RecordingError where nothing was
-    recorded that drives it.
+    *p_max* in Pa is a value for each muscle, or one for all. Raises RecordingError if neither
+    commands nor pressures were recorded.
     """
     if recording.command is not None and recording.command_t is not None:
         at = np.searchsorted(recording.command_t, recording.t, side='right') - 1
@@ -56,9 +56,10 @@ def driving(recording: Recording, p_max: float | Sequence[float] | None = None) 
 
 
 def refuse_idle(recordings: Sequence[Recording]) -> None:
-    """Raise RecordingError where a muscle has the same input in all *recordings*, all the time.
+    """Raise RecordingError if a muscle has the same constant input in all *recordings*.
 
-    All are of the same joint. What such a muscle does cannot be told from what the others do.
+    All are of the same joint. The effect of such a muscle cannot be distinguished from the
+    effects of the others.
     """
     if not recordings[0].muscles:
         return
@@ -73,9 +74,10 @@ def refuse_idle(recordings: Sequence[Recording]) -> None:
 
 
 def refuse_copies(recordings: Sequence[Recording]) -> None:
-    """Raise RecordingError where two of *recordings* have the same samples.
+    """Raise RecordingError if two of *recordings* have the same samples.
 
-    One that is fitted twice counts twice, and one that is fitted must not judge.
+    A recording that is fitted twice counts twice, and a recording that is fitted must not serve
+    as a test.
     """
     for k, one in enumerate(recordings):
         for other in recordings[:k]:
@@ -88,18 +90,18 @@ def refuse_copies(recordings: Sequence[Recording]) -> None:
 
 
 def _samples(recording: Recording) -> list[Array]:
-    """Return stamps, commands and what was measured, an empty array for what was not."""
+    """Return stamps, commands and outputs, an empty array for each that was not recorded."""
     all_of_it = (recording.t, *(getattr(recording, name) for name in ('command', *OUTPUTS)))
     return [np.zeros(0) if one is None else one for one in all_of_it]
 
 
 def quantity_of(recording: Recording, name: str) -> Quantity:
-    """Return the quantity that the output *name* of *recording* is."""
+    """Return the quantity of the output *name* of *recording*."""
     return quantity_in(recording.unit, name)
 
 
 def outputs(recording: Recording) -> list[tuple[str, Array, str]]:
-    """Return name, values (n,) and SI unit of each measured output, muscle by muscle."""
+    """Return name, values (n,) and SI unit of each measured output, for each muscle."""
     found = []
     for name in OUTPUTS:
         value = getattr(recording, name)
@@ -112,7 +114,7 @@ def outputs(recording: Recording) -> list[tuple[str, Array, str]]:
 
 
 def is_constant(value: Array) -> bool:
-    """Say whether a signal is one level, with or without white noise on it."""
+    """Return whether a signal is constant, with or without white noise."""
     low, high = np.percentile(value, (2.0, 98.0))
     if np.ptp(value) <= 1e-9 * np.max(np.abs(value)):
         return True
@@ -123,7 +125,7 @@ def is_constant(value: Array) -> bool:
 
 
 def is_stretched(recording: Recording) -> bool:
-    """Say whether a prescribed length moves: an input beside the pressure."""
+    """Return whether a prescribed length moves: it is then an input in addition to pressure."""
     return (
         recording.kind == 'held'
         and recording.position is not None

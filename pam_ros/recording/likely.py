@@ -1,8 +1,8 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What columns with other names probably mean, for the sentence that says what is missing.
+"""Likely meanings of columns with unknown names, for the message on missing signals.
 
-Nothing is read by these guesses: the user decides, with ``--column``.
+These guesses are not used to read data: the user decides, with ``--column``.
 """
 
 import re
@@ -12,7 +12,7 @@ from collections.abc import Collection, Sequence
 from pam_ros.recording.mapping import ColumnMapping
 from pam_ros.recording.quantities import ATMOSPHERE, OF_MUSCLE, OF_ONE, QUANTITIES, Target, unit_in
 
-# Words by which programs call our quantities, beside a unit of that quantity.
+# Words that other programs use for our quantities, together with a unit of that quantity.
 _WORDS = {
     'pressure': ('p', 'u', 'pres', 'press', 'pressure'),
     'position': (
@@ -32,14 +32,14 @@ _ABSOLUTE = {'abs', 'absolute'}
 _WITH_UNIT = re.compile(
     r'(?P<stem>.+?)(?:\s*[\[(]\s*(?P<unit>[^\])]+?)\s*[\])]|_(?P<word>[^_\[\]()]+))'
 )
-LONGEST = 12  # columns that a sentence names
+LONGEST = 12  # the most columns that a message lists
 
 
 def found_columns(header: Sequence[str], mapping: ColumnMapping, known: Collection[str]) -> str:
-    """Return which columns a file has, and the options that say what unknown ones may mean.
+    """Return a text with the columns of a file, and options with likely meanings of unknown ones.
 
-    *known* are the signals that were read; for these nothing is proposed. Columns that may mean
-    the same are alternatives.
+    *known* are the signals that were read; no options are proposed for them. Columns that may have
+    the same meaning are alternatives.
     """
     shown = ', '.join(repr(name) for name in header[:LONGEST])
     more = f' and {len(header) - LONGEST} more' if len(header) > LONGEST else ''
@@ -57,7 +57,7 @@ def found_columns(header: Sequence[str], mapping: ColumnMapping, known: Collecti
 
 
 def likely_target(name: str) -> Target | None:
-    """Return what a column called *name* probably means, by a word and a unit; None if nothing."""
+    """Return the likely meaning of a column *name*, from a word and a unit; None if unknown."""
     of_muscle = OF_ONE.fullmatch(name)
     muscle, rest = (of_muscle['muscle'], of_muscle['rest']) if of_muscle else ('', name)
     match = _WITH_UNIT.fullmatch(rest.strip())
@@ -76,18 +76,18 @@ def likely_target(name: str) -> Target | None:
 
 
 def _words(stem: str) -> set[str]:
-    """Return the words of a name without their numbers: p1, pCmd and p_cmd have a p."""
+    """Return the words of a name without its digits: p1, pCmd and p_cmd contain the word p."""
     parts = re.split(r'[^A-Za-z]+', re.sub(r'([a-z])([A-Z])', r'\1_\2', stem))
     return {part.lower() for part in parts if part}
 
 
 def _linear(key: str) -> str:
-    """Return the signal that an angle or a contraction becomes."""
+    """Return the signal to which an angle or a contraction is converted, else *key*."""
     return 'position' if key in ('angle', 'contraction') else key
 
 
 def _rule(name: str, target: Target) -> str:
-    """Return the right side of the option; an absolute pressure becomes one above ambient."""
+    """Return the right side of the option; an absolute pressure is converted to gauge."""
     if target.quantity in ('pressure', 'pressure_command') and _words(name) & _ABSOLUTE:
         return f'{target}-{ATMOSPHERE / QUANTITIES[target.quantity].units[target.unit]:g}'
     return str(target)

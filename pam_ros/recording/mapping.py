@@ -1,11 +1,11 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What columns and topics with other names mean: ``SOURCE=TARGET[*SCALE][+OFFSET]``.
+"""The meaning of columns and topics with other names: ``SOURCE=TARGET[*SCALE][+OFFSET]``.
 
 SOURCE is a column of a CSV file, or a topic with the field of its message (``/cell/wrench.
-wrench.force.z``). TARGET is a quantity with its unit, as our own columns are called
-(``force_N``), or ``ignore``. SCALE and OFFSET make the target's unit of the source's number:
-``adc=force_N*0.392-4.1786``. The same strings stand in a YAML file, as a mapping under
+wrench.force.z``). TARGET is a quantity with its unit, named like the package's own columns
+(``force_N``), or ``ignore``. SCALE and OFFSET convert the number of the source to the unit of the
+target: ``adc=force_N*0.392-4.1786``. A YAML file contains the same strings, as a mapping under
 ``columns``: ``adc: force_N*0.392-4.1786``.
 """
 
@@ -29,7 +29,7 @@ _RULE = re.compile(
 
 @dataclass(frozen=True)
 class Meaning:
-    """What a source's number x means: (x * scale + offset) in the target's unit."""
+    """The meaning of a source's number x: (x * scale + offset) in the target's unit."""
 
     target: Target
     scale: float = 1.0
@@ -37,7 +37,7 @@ class Meaning:
 
     @property
     def to_si(self) -> tuple[float, float]:
-        """Return (factor, offset) from the source's number to SI."""
+        """Return (factor, offset) that convert the source's number to SI."""
         return self.scale * self.target.factor, self.offset * self.target.factor
 
 
@@ -48,7 +48,7 @@ class ColumnMapping:
     meanings: Mapping[str, Meaning | None] = field(default_factory=dict)
 
     def __contains__(self, source: str) -> bool:
-        """Say whether the user has said what *source* is."""
+        """Return whether the user has given a meaning for *source*."""
         return source in self.meanings
 
     def __iter__(self) -> Iterator[str]:
@@ -56,9 +56,10 @@ class ColumnMapping:
         return iter(self.meanings)
 
     def meaning(self, source: str) -> Meaning | None:
-        """Return what *source* means, by the user's word first, else by its name.
+        """Return the meaning of *source*: the one that the user gave, else that of its name.
 
-        None where it means nothing to us. Raises RecordingError for an unknown unit.
+        None if it is ignored or its name is not known. Raises RecordingError for an unknown or
+        missing unit.
         """
         if source in self.meanings:
             return self.meanings[source]
@@ -76,10 +77,10 @@ class ColumnMapping:
 
 
 def read_mapping(rules: Sequence[str] = (), file: str | Path | None = None) -> ColumnMapping:
-    """Return the mapping of a YAML file, with the *rules* of the command line over it.
+    """Return the mapping of a YAML file, overridden by the *rules* of the command line.
 
-    Raises RecordingError for a file that cannot be read and for a rule that cannot be understood,
-    and ParameterError for arguments of another kind.
+    Raises RecordingError for a file that cannot be read and for a rule that is not valid, and
+    ParameterError for arguments of a wrong type.
     """
     rules = sequence('rules', rules, str, "a text such as 'adc=force_N*0.392'")
     meanings: dict[str, Meaning | None] = {}

@@ -1,9 +1,9 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""An MCAP file of a bag that is whole each time it is written to the disk.
+"""An MCAP file of a bag that is complete after each write to the disk.
 
-What is written ends in a summary and a footer. What is written next takes the place of the summary
-and ends in a new one.
+Each write ends with a summary and a footer. The next write replaces both, and ends with new
+ones.
 """
 
 import errno
@@ -32,14 +32,14 @@ class _Tail(io.BytesIO):
         return self.start + super().tell()
 
     def back_to(self, position: int) -> None:
-        """Forget everything; go on at *position* in the file."""
+        """Discard the content; continue at *position* in the file."""
         self.start = position
         self.seek(0)
         self.truncate()
 
 
 class McapFile:
-    """A file that begins to exist with the first :meth:`put`.
+    """A file that the first :meth:`put` creates on the disk.
 
     ``count`` is the number of messages, ``span`` their first and last time in ns. The file has at
     most ``most_chunks`` chunks; the summary, which each put writes again, has an entry for each.
@@ -48,7 +48,7 @@ class McapFile:
     """
 
     def __init__(self, path: Path) -> None:
-        """Make an empty file in memory, for the place *path*."""
+        """Create an empty file in memory, to be written to *path*."""
         try:
             from mcap.writer import CompressionType, Writer
         except ImportError:
@@ -64,7 +64,7 @@ class McapFile:
         self._schemas: dict[str, int] = {}
         self._bytes = 0  # of records since the last put
         self._tail = _Tail()
-        self._end = 0  # of the data that the last put wrote: there begins its summary
+        self._end = 0  # end of the data of the last put, where its summary begins
         self._summary = b''
         self._kept: tuple[int, bytes] | None = None  # position and bytes of the last summary
         self._writer: Any = Writer(
@@ -92,9 +92,9 @@ class McapFile:
         self.span = min(first, received), max(last, received)
 
     def put(self) -> None:
-        """Make the file on the disk whole, with all that was written so far.
+        """Make the file on the disk complete, with all messages so far.
 
-        Call :meth:`keep` or :meth:`undo` next. Raises OSError if the disk does not take it, and
+        Call :meth:`keep` or :meth:`undo` next. Raises OSError if writing to the disk fails, and
         FileNotFoundError if the file was deleted.
         """
         self._writer.flush()
@@ -111,15 +111,15 @@ class McapFile:
         _write(self._descriptor, data, start)
 
     def keep(self) -> None:
-        """Accept what the last put wrote: it is no longer needed in memory."""
+        """Accept the last put: its data are no longer needed in memory."""
         self._tail.back_to(self._end)
         self._kept = self._end, self._summary
 
     def undo(self) -> None:
-        """Leave the file as it was before the last put, which the next one tries again."""
+        """Restore the file to its state before the last put; the next put tries again."""
         self._tail.seek(self._end - self._tail.start)
         self._tail.truncate()
-        # The old summary was on the disk before, and cutting the file off makes room for it.
+        # The old summary was on the disk before, and truncating the file makes room for it.
         with suppress(OSError):
             if self._kept is not None and self._descriptor is not None:
                 position, summary = self._kept
@@ -136,9 +136,9 @@ class McapFile:
 
 
 def _write(file: int, data: bytes, position: int) -> None:
-    """Replace what *file* has from *position* on."""
-    # The old summary goes first: a file that lacks its end is recognized as unfinished, one
-    # whose summary is half that of another is not.
+    """Replace the content of *file* from *position* to its end."""
+    # Remove the old summary first: a file without an end is recognized as unfinished, a file whose
+    # summary is partly an old one is not.
     os.ftruncate(file, position)
     rest = memoryview(data)
     while rest:

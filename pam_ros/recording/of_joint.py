@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The signals of a joint of several muscles: one with a column for each, in the joint's order."""
+"""The signals of a joint of several muscles, combined with a column for each muscle."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -18,14 +18,15 @@ Array = NDArray[np.float64]
 def of_joint(
     name: str, series: dict[str, Series], muscles: Sequence[str], notes: list[str]
 ) -> tuple[dict[str, Series], tuple[str, ...]]:
-    """Return *series* with those of several muscles side by side, and the names of the muscles.
+    """Return *series* with the signals of several muscles combined, and the names of the muscles.
 
     Signals such as ``agonist.pressure`` become one ``pressure`` whose values are (n, muscles), in
-    the order of *muscles*, or without it in that of their first appearance. Commands are held
-    from one stamp to the next, measured pressures are linear between theirs. Of one muscle the
-    signals keep their values, and there are no names. What is left out is added to *notes*.
+    the order of *muscles*, or in that of their first appearance if *muscles* is empty. Commands
+    are a zero-order hold, measured pressures are interpolated linearly. The signals of one muscle
+    keep their values, and the names are then empty. A note on each signal that is left out is
+    added to *notes*.
 
-    Raises RecordingError, naming the recording, where a muscle is missing or too much.
+    Raises RecordingError, with the name of the recording, if a muscle is missing or unknown.
     """
     found = dict.fromkeys(key.partition('.')[0] for key in series if '.' in key)
     names = tuple(muscles) or tuple(found)
@@ -77,7 +78,7 @@ def _source_of(series: dict[str, Series], muscle: str) -> str:
 def _of_one(
     name: str, series: dict[str, Series], found: tuple[str, ...], names: tuple[str, ...]
 ) -> dict[str, Series]:
-    """Return the signals of one muscle, with its name or without."""
+    """Return the signals of one muscle by quantity, without the name of the muscle."""
     if names and found and found != names:
         raise RecordingError(
             f'{name} has signals of {", ".join(found)}, and the model one muscle, {names[0]}: '

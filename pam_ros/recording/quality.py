@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What is poor in a recording (warned of), after what makes it unusable (refused)."""
+"""Warn of poor data in a recording, after a check that refuses an unusable recording."""
 
 from collections.abc import Sequence
 
@@ -14,13 +14,13 @@ from pam_ros.recording.unusable import PERIODS, refuse_unusable
 Array = NDArray[np.float64]
 
 SHORT = 10.0  # s
-SLOW = 0.05  # s between samples, beyond which those of a free load's oscillation are few
-RESTING = 0.02  # share of samples at an extreme value from which it may be a stop
-SATURATED = 0.6  # share of samples of an input at one end of its range that is too much
-LEVELS = 100  # distinct values, fewer of which are called coarse
+SLOW = 0.05  # s between samples; above, there are few in an oscillation of a free load
+RESTING = 0.02  # share of samples at an extreme value from which on it may be a stop
+SATURATED = 0.6  # an input with a greater share of samples at one end of its range is poor
+LEVELS = 100  # a signal with fewer distinct values is called coarse
 SMALL_RANGE = 0.2  # of the input's largest value
-AGAINST = -0.5  # correlation of position and pressure from which on one counts the other way
-SMALL_MOTION = 1e-3  # of the length or the reach, where a muscle moves by some hundredths of it
+AGAINST = -0.5  # correlation of position and pressure below which one has the wrong sign
+SMALL_MOTION = 1e-3  # of the length or the reach; a muscle normally moves by some hundredths
 
 
 def check(
@@ -29,11 +29,11 @@ def check(
     p_max: float | Sequence[float] | None = None,
     reach: tuple[float, float] | None = None,
 ) -> tuple[str, ...]:
-    """Return the warnings on *recording*; raise RecordingError for what cannot be used.
+    """Return the warnings on *recording*; raise RecordingError if it cannot be used.
 
-    ``l0`` (m) and ``p_max`` (gauge Pa, that of each muscle or one for all) sharpen the checks of
-    units where known; ``reach`` are the least and the greatest position that a joint can have, in
-    m or rad.
+    ``l0`` (m) and ``p_max`` (gauge Pa, a value for each muscle or one for all) make the checks of
+    units stricter, if given; ``reach`` is the least and the greatest position that a joint can
+    have, in m or rad.
     """
     inputs = driving(recording, p_max)
     refuse_unusable(recording, inputs, l0, reach)
@@ -93,7 +93,7 @@ def _warn_small(
     inputs: Sequence[Input],
     reach: tuple[float, float] | None,
 ) -> list[str]:
-    """Warn of a free load that hardly moves while its pressure changes, as if m were called mm."""
+    """Warn of a free load that hardly moves while its pressure changes (or m was labelled mm)."""
     whole = (reach[1] - reach[0] if reach is not None else None) if l0 is None else l0
     if recording.kind != 'free' or recording.position is None or whole is None:
         return []
@@ -110,7 +110,7 @@ def _warn_small(
 
 
 def _warn_direction(recording: Recording, inputs: Sequence[Input]) -> list[str]:
-    """Warn of a position that grows where the muscle gets longer."""
+    """Warn of a position that increases when the muscle gets longer."""
     y = recording.position
     if recording.kind != 'free' or y is None or recording.unit != 'm' or np.ptp(y) == 0.0:
         return []
@@ -132,9 +132,9 @@ def _warn_idle_force(recording: Recording) -> list[str]:
 
 
 def _warn_extremes(recording: Recording, inputs: Sequence[Input]) -> list[str]:
-    """Warn of measured outputs that rest at their lowest or highest value.
+    """Warn of measured outputs that stay at their lowest or highest value.
 
-    A pressure that does so under one command is no sensor at its limit.
+    A pressure that does so at a constant command is not a sensor at its limit.
     """
     found = []
     for name, value, si in outputs(recording):
@@ -185,7 +185,7 @@ def _warn_excitation(recording: Recording, inputs: Sequence[Input]) -> list[str]
 
 
 def _excited(name: str, value: Array, p_max: float | None) -> list[str]:
-    """Return what is poor in one input."""
+    """Return warnings on poor excitation by one input."""
     if is_constant(value):
         return [f'{name} is constant at {value[0]:.6g} Pa: what it does cannot be seen']
     found = []

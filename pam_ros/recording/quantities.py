@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The quantities of a recording, the units they come in, and what can be right."""
+"""The quantities of a recording, their units, and their largest plausible values."""
 
 import re
 from dataclasses import dataclass, replace
@@ -29,9 +29,9 @@ _TURN = {'rad_s': 1.0, 'deg_s': pi / 180.0}
 
 @dataclass(frozen=True)
 class Quantity:
-    """One signal: its units with their factors to SI, and the largest value that can be right.
+    """One signal: its units with their factors to SI, and its largest plausible value.
 
-    ``si`` names the SI unit for messages. ``limit`` is in SI; beyond it the unit must be wrong.
+    ``si`` names the SI unit for messages. ``limit`` is in SI; above it the unit must be wrong.
     """
 
     name: str
@@ -54,9 +54,9 @@ QUANTITIES = {
         Quantity('angular_velocity', _TURN, 'rad/s', 1e3),
     )
 }
-# What a position and a velocity of a joint that turns are, by the units that say so.
+# The quantities that replace position and velocity for a revolute joint (units of an angle).
 TURNED = {'position': 'angle', 'velocity': 'angular_velocity'}
-OF_MUSCLE = ('pressure_command', 'pressure', 'force')  # what each muscle of a joint has
+OF_MUSCLE = ('pressure_command', 'pressure', 'force')  # quantities of each muscle of a joint
 # Spellings of the time axis without a unit; ROS and most loggers mean seconds.
 _BARE_TIME = ('t', 'time')
 OF_ONE = re.compile(r'(?P<muscle>[A-Za-z]\w*)\.(?P<rest>.+)')
@@ -64,15 +64,15 @@ _TIME_NAMES = ('t', 'time', 'timestamp', 'stamp', 'elapsed', 'elapsed_time')
 
 
 def quantity_in(unit: str, name: str) -> Quantity:
-    """Return the quantity called *name* where positions are in *unit*, m or rad."""
+    """Return the quantity called *name* if positions are in *unit*, m or rad."""
     return QUANTITIES[TURNED.get(name, name) if unit == 'rad' else name]
 
 
 @dataclass(frozen=True)
 class Target:
-    """A quantity in a unit: what a column or a field of a message means.
+    """A quantity in a unit: the meaning of a column or of a field of a message.
 
-    ``muscle`` is the name of the muscle of a joint that it belongs to, empty where there is one.
+    ``muscle`` is the name of the muscle of a joint to which it belongs, or empty.
     """
 
     quantity: str
@@ -90,16 +90,16 @@ class Target:
         return QUANTITIES[self.quantity].units[self.unit]
 
     def __str__(self) -> str:
-        """Return the column name that says the same."""
+        """Return the column name that has this meaning."""
         return f'{"t" if self.quantity == "time" else self.key}_{self.unit}'
 
 
 def target_of(name: str) -> Target | None:
-    """Return what a column called *name* means, or None when it is none of ours.
+    """Return the meaning of a column called *name*, or None if it has none.
 
-    ``position_mm``, ``position [mm]`` and ``Position (mm)`` are the same; the name of a muscle may
-    stand before what each muscle has: ``agonist.pressure_kPa``. Raises RecordingError for a
-    quantity of ours without a unit or with one that is not known.
+    ``position_mm``, ``position [mm]`` and ``Position (mm)`` are the same. The name of a muscle may
+    precede a quantity that each muscle has: ``agonist.pressure_kPa``. Raises RecordingError for a
+    known quantity without a unit or with an unknown unit.
     """
     match = OF_ONE.fullmatch(name.strip())
     if match:
@@ -110,7 +110,7 @@ def target_of(name: str) -> Target | None:
 
 
 def _target(name: str, rest: str) -> Target | None:
-    """Return what *rest*, a column's *name* without that of its muscle, means."""
+    """Return the meaning of *rest*, the *name* of a column without that of its muscle."""
     words = re.sub(r'[\s\[\](){},/]+', '_', rest.strip().replace('%', 'percent'))
     words = words.strip('_')
     if words.lower() in _BARE_TIME:
@@ -132,7 +132,7 @@ def _target(name: str, rest: str) -> Target | None:
             unit = None if turned is None else _unit(word, QUANTITIES[turned].units)
             if turned is not None and unit is not None:
                 return Target(turned, unit)
-            # One more word is meant as a unit; several make another signal's name.
+            # One further word is meant as a unit; several words are the name of another signal.
             if '_' not in word:
                 raise RecordingError(
                     _unit_sentence(name, quantity, f'has the unit {word!r}, which is not known')
@@ -141,14 +141,14 @@ def _target(name: str, rest: str) -> Target | None:
 
 
 def unit_in(word: str, quantity: str) -> str | None:
-    """Return the unit of *quantity* that *word* spells, None where it spells none."""
+    """Return the unit of *quantity* that *word* spells, None if it is not a unit of it."""
     return _unit(word, QUANTITIES[quantity].units)
 
 
 def _unit(word: str, units: dict[str, float]) -> str | None:
     if word in units:
         return word
-    # MPa and mPa differ by their case alone; nothing else does.
+    # MPa and mPa differ only in upper and lower case; no other units do.
     same = [unit for unit in units if unit.lower() == word.lower()]
     return same[0] if len(same) == 1 and word != 'mPa' else None
 

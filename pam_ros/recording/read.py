@@ -32,22 +32,23 @@ def read_recording(
     unit: str | None = None,
     reach: tuple[float, float] | None = None,
 ) -> Recording:
-    """Read the recording at *path*, checked, in SI.
+    """Read the recording at *path* in SI, and check it.
 
-    ``mapping`` says what columns or topics with other names are, ``kind`` whether the load was
-    ``free`` or the length ``held`` (found from the data where None). ``l0`` in m turns a
-    contraction into a position, and a position must be a contraction of it; ``p_max`` in gauge Pa
-    is the muscle's highest pressure, against which the unit of the input is judged, one for each
-    muscle where there are several. ``namespace`` chooses a rig in a bag of several.
+    ``mapping`` gives the meaning of columns or topics with other names. ``kind`` is ``free`` for a
+    free load or ``held`` for a prescribed length (found from the data if None). ``l0`` in m
+    converts a contraction to a position; a position must be a valid contraction of this length.
+    ``p_max`` in gauge Pa is the highest pressure of the muscle, one for each muscle if there are
+    several; the unit of the input is checked against it. ``namespace`` selects one of several rigs
+    in a bag.
 
-    Of a joint, ``muscles`` are the names of its muscles in order (without them, the order in which
-    they appear in a CSV file), ``unit`` is that of its position, ``m``, or ``rad`` where it turns,
-    and ``reach`` the least and the greatest position that it can have. Columns that belong to a
-    muscle have its name before a dot: ``agonist.pressure_command_kPa``; in a bag, arrays have a
-    number for each muscle.
+    For a joint, ``muscles`` are the names of its muscles in order (if empty, the order in which
+    they appear in a CSV file). ``unit`` is that of its position: ``m``, or ``rad`` for a revolute
+    joint. ``reach`` is the least and the greatest position that it can have. Columns that belong
+    to a muscle have its name before a dot: ``agonist.pressure_command_kPa``; in a bag, arrays have
+    a number for each muscle.
 
-    Raises RecordingError, with the sentence for the user, for what cannot be used, and
-    ParameterError for arguments of another kind.
+    Raises RecordingError, with a sentence for the user, for a recording that cannot be used, and
+    ParameterError for arguments of a wrong type.
     """
     path = as_path('path', path, 'the path of a bag or a CSV file')
     mapping = ColumnMapping() if mapping is None else mapping
@@ -60,7 +61,8 @@ def read_recording(
     if not path.exists():
         raise RecordingError(f'recording {path} does not exist')
     if not (path.is_dir() or path.is_file()):
-        # A device or a pipe may have no end, and is read twice: for its data and for its digest.
+        # A device or a pipe may have no end, and a recording is read twice: for its data and for
+        # its digest.
         raise RecordingError(f'recording {path} is neither a file nor a folder')
     header: list[str] = []
     if path.is_dir() or path.suffix in BAG_SUFFIXES:

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""A measured experiment: arrays in SI on one clock, its gaps known."""
+"""A measured experiment: arrays in SI on one clock, with its gaps."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -26,43 +26,43 @@ Array = NDArray[np.float64]
 KINDS = ('free', 'held')
 UNITS = ('m', 'rad')
 OUTPUTS = ('position', 'velocity', 'force', 'pressure')
-OF_MUSCLES = ('command', 'pressure')  # what each muscle of a joint has
+OF_MUSCLES = ('command', 'pressure')  # each muscle of a joint has these
 
 
 @dataclass(frozen=True, eq=False)
 class Recording:
-    """What was commanded and measured, and when.
+    """The commands and the measured outputs of an experiment, with their stamps.
 
-    Contraction is positive (the load moves up), pressures are gauge. Arrays hold no NaN; what was
-    not recorded is None, as it is by default. Raises RecordingError for arrays that do not fit
-    together or hold something else than finite numbers.
+    Contraction is positive (the load moves up), pressures are gauge. Arrays contain no NaN. A
+    signal that was not recorded is None, which is the default. Raises RecordingError for arrays
+    that do not match each other or contain values that are not finite numbers.
 
     ``name``
         File or bag, for reports.
     ``t``
         (n,) s since the recording's first sample, strictly ascending: stamps of the outputs. A
-        value stamped t is the state before a command of the same stamp has acted.
+        value with stamp t is the state before a command with the same stamp acts.
     ``command_t``, ``command``
-        (m,) s on the same clock, ascending, and (m,) Pa; each holds from its stamp to the next.
-        The first is at or before t[0]. None where no command was recorded.
+        (m,) s on the same clock, ascending, and (m,) Pa; each is constant until the next stamp.
+        The first is at or before t[0]. None if no command was recorded.
     ``position``, ``velocity``, ``force``, ``pressure``
-        (n,) m, m/s, N and Pa measured, or None; rad and rad/s where ``unit`` says so.
+        (n,) m, m/s, N and Pa measured, or None; rad and rad/s if ``unit`` is ``rad``.
     ``kind``
         ``free``: the load moves; ``held``: the length is prescribed, constant or moving.
     ``gaps``
-        Stretches (from, to) in s without samples: a simulation is restarted behind each.
+        Stretches (from, to) in s without samples: a simulation is restarted after each.
     ``warnings``
-        Sentences on what is poor in the data.
+        Sentences on poor properties of the data.
     ``digest``
         SHA-256 of the file or files, for provenance.
     ``command_spread``
-        Standard deviation in s of a constant by which the commands may have acted earlier or
-        later than their stamps say; 0 where one clock stamped all.
+        Standard deviation in s of a constant delay (or lead) between the stamps of the commands
+        and their effect; 0 if one clock stamped all.
     ``muscles``
         Names of the muscles of a joint that has several. ``command`` and ``pressure`` then have a
         column for each, (m, muscles) and (n, muscles), and there is no ``force``.
     ``unit``
-        Of the position: ``m``, or ``rad`` for a joint that turns.
+        Of the position: ``m``, or ``rad`` for a revolute joint.
     """
 
     name: str
@@ -82,7 +82,7 @@ class Recording:
     unit: str = 'm'
 
     def __post_init__(self) -> None:
-        """Check that the arrays fit together, and keep them as arrays."""
+        """Check that the arrays match each other, and store them as arrays."""
         try:
             self._check()
         except ParameterError as error:
@@ -125,7 +125,7 @@ class Recording:
             refuse('force', self.force, 'None for a joint of several muscles')
 
     def _along(self, name: str, value: Any, clock: str, count: int) -> Array:
-        """Return *value* as (count,), or (count, muscles) where each muscle has its own."""
+        """Return *value* as (count,), or (count, muscles) if each muscle has its own."""
         if not (self.muscles and name in OF_MUSCLES):
             return along(name, value, clock, count)
         found, wanted = array(name, value), (count, len(self.muscles))
@@ -146,15 +146,15 @@ class Recording:
     def segments(self) -> list['Recording']:
         """Return the parts between the gaps, in order, each without a gap.
 
-        Times stay on the recording's clock; a part's commands begin with the one that holds
-        at its first sample.
+        Times stay on the recording's clock; the commands of a part begin with the one that is
+        active at its first sample.
         """
         cuts = [int(np.searchsorted(self.t, start, side='right')) for start, _ in self.gaps]
         edges = [0, *cuts, self.t.size]
         return [self.part(i, j) for i, j in pairwise(edges) if j > i]
 
     def part(self, start: int, stop: int) -> 'Recording':
-        """Return samples start..stop-1 with the commands that act on them."""
+        """Return samples start..stop-1 with the commands that are active in them."""
         t = self.t[start:stop]
         changes: dict[str, Any] = {
             name: None if value is None else value[start:stop]
@@ -172,14 +172,14 @@ class Recording:
         return replace(self, t=t, gaps=inside, **changes)
 
     def drive(self, step: float) -> tuple[Array, Array]:
-        """Return (stamps in s, values in Pa) of the input, each held to the next stamp.
+        """Return (stamps in s, values in Pa) of the input, each constant until the next stamp.
 
-        Values are (m,) as the stamps, of several muscles (m, muscles). They are the command as it
-        was recorded. Where there is none, the measured pressure is taken as linear between its
-        samples, and each stretch of at most *step* s gets its mean, so that holding it delays
-        nothing.
+        Values are (m,) like the stamps, or (m, muscles) for several muscles. They are the command
+        as it was recorded. Without a command, they are the measured pressure: it is interpolated
+        linearly between its samples, and each interval of at most *step* s gets its mean, so that
+        the zero-order hold adds no delay.
 
-        Raises RecordingError where neither was recorded.
+        Raises RecordingError if neither was recorded.
         """
         if self.command_t is not None and self.command is not None:
             return self.command_t, self.command
@@ -197,7 +197,7 @@ class Recording:
 
 
 def interpolated(t: Array, known_t: Array, values: Array) -> Array:
-    """Return *values* (n,) or (n, muscles) at *known_t* as linear between them, at *t*."""
+    """Return *values* (n,) or (n, muscles) at *known_t*, interpolated linearly at *t*."""
     if values.ndim == 1:
         return np.interp(t, known_t, values)
     return np.stack([np.interp(t, known_t, column) for column in values.T], axis=1)

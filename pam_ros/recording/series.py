@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""One signal as it was sampled, on its own stamps, before a recording is made of several."""
+"""One signal as it was sampled, with its own stamps, before signals become a recording."""
 
 from dataclasses import dataclass, replace
 
@@ -12,16 +12,17 @@ from pam_ros.errors import RecordingError
 Array = NDArray[np.float64]
 
 GAP_PERIODS = 10.0  # a pause of more than this many sampling periods,
-GAP_SECONDS = 0.05  # and of more than this, is a gap: the scheduler alone makes shorter ones
+GAP_SECONDS = 0.05  # and of more than this many s, is a gap: the scheduler causes shorter ones
 EDGE = 1.0  # s that a signal may begin later or end earlier than the others
-COARSE = 0.01  # share of equal stamps from which the clock is called too coarse
+COARSE = 0.01  # share of equal stamps above which the clock is called too coarse
 
 
 @dataclass(frozen=True, eq=False)
 class Series:
-    """Values in SI over stamps in s, both (n,), as they came from *source*.
+    """Values in SI at stamps in s, both (n,), as they came from *source*.
 
-    ``is_received`` says that the stamps are those of the receipt of messages.
+    Values are (n, muscles) after the signals of several muscles are combined. ``is_received``
+    means that the stamps are those of the receipt of messages.
     """
 
     source: str
@@ -35,9 +36,10 @@ class Series:
     ) -> 'Series':
         """Return the samples that were taken: those of *value* that are not NaN.
 
-        Single ones may be missing, or the column's rate may be lower than that of the stamps *t*.
-        Raises RecordingError, naming the recording, for infinite values, and for a stretch without
-        values that is longer than :attr:`gap_limit`, 1 s at the ends: the sensor failed.
+        Single samples may be missing, or the rate of the column may be lower than that of the
+        stamps *t*. Raises RecordingError, with the name of the recording, for infinite values,
+        and for a stretch without values that is longer than :attr:`gap_limit` (at the ends also
+        longer than 1 s): then the sensor failed.
         """
         if np.isinf(value).any():
             at = t[np.argmax(np.isinf(value))]
@@ -59,7 +61,7 @@ class Series:
 
     @property
     def gap_limit(self) -> float:
-        """Return the pause in s from which on samples are missing."""
+        """Return the pause in s above which samples are missing."""
         if self.t.size < 2:
             return GAP_SECONDS
         return max(GAP_PERIODS * float(np.median(np.diff(self.t))), GAP_SECONDS)
@@ -71,22 +73,22 @@ class Series:
 
     @property
     def shared(self) -> int:
-        """Return how many samples share their time with the one before."""
+        """Return how many samples have the same time as the one before."""
         return int(np.count_nonzero(np.diff(self.t) == 0.0))
 
     @property
     def is_coarse(self) -> bool:
-        """Say whether so many do that the clock must be too coarse for the samples."""
+        """Return whether so many share their time that the clock must be too coarse."""
         return self.shared > max(COARSE * self.t.size, 2)
 
     def ascending(self) -> 'Series':
-        """Return the series with strictly ascending stamps: of those with one, the last."""
+        """Return the series with strictly ascending stamps: of equal stamps, the last is kept."""
         keep = np.append(np.diff(self.t) > 0.0, True)
         return replace(self, t=self.t[keep], value=self.value[keep])
 
 
 def refuse_backwards(t: Array, what: str) -> None:
-    """Raise RecordingError where the stamps *t* in s go backwards."""
+    """Raise RecordingError if the stamps *t* in s go backwards."""
     at = np.flatnonzero(np.diff(t) < 0.0)
     if at.size:
         i = int(at[0])

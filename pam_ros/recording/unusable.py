@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Recordings that cannot be used: each is refused with a sentence that says why."""
+"""Refuse recordings that cannot be used, with a sentence that gives the reason."""
 
 from collections.abc import Sequence
 
@@ -14,11 +14,11 @@ from pam_ros.recording.recording import OUTPUTS, Recording
 Array = NDArray[np.float64]
 
 FEWEST = 100  # samples
-# s between samples: outside, the unit of time must be wrong. Milliseconds at 1 kHz that are taken
-# for seconds are 1 s apart, seconds at 100 Hz that are taken for milliseconds 10 us.
+# s between samples; outside this range the unit of time must be wrong. Milliseconds at 1 kHz that
+# are taken for seconds are 1 s apart, seconds at 100 Hz that are taken for milliseconds 10 us.
 PERIODS = (5e-5, 0.25)
-HELD_PERIOD = 2.0  # s: a muscle that is held has no oscillation that samples must resolve
-CONTRACTIONS = (-0.2, 1.0)  # of a muscle of length l0: outside, zero or direction must be wrong
+HELD_PERIOD = 2.0  # s: at a prescribed length there is no oscillation that samples must resolve
+CONTRACTIONS = (-0.2, 1.0)  # of a muscle of length l0; outside, the zero or the sign must be wrong
 TOO_LOW = 1e-3  # an input that stays below this share of p_max is in another unit
 
 
@@ -28,10 +28,10 @@ def refuse_unusable(
     l0: float | None,
     reach: tuple[float, float] | None,
 ) -> None:
-    """Raise RecordingError where *recording* cannot be used.
+    """Raise RecordingError if *recording* cannot be used.
 
-    *inputs* are what drives it, ``l0`` (m) is the length of its muscle, and ``reach`` (m or rad)
-    the least and the greatest position of its joint, where they are known.
+    *inputs* are those of the recording, ``l0`` (m) is the length of its muscle, and ``reach`` (m
+    or rad) the least and the greatest position of its joint. The last two are None if unknown.
     """
     _refuse_few(recording)
     _refuse_units(recording)

@@ -1,9 +1,9 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What the residuals of several runs say together: sizes, correlations, spectra.
+"""Statistics of the residuals of several runs: sizes, correlations, spectra.
 
-Residuals are measured - simulated. Runs are lists of arrays, one for each gapless segment; what
-is computed over time pools the segments and never reaches across a gap.
+Residuals are measured - simulated. Runs are lists of arrays, one for each gapless segment.
+Statistics over time combine the segments and never extend across a gap.
 """
 
 from collections.abc import Sequence
@@ -18,16 +18,16 @@ Array = NDArray[np.float64]
 
 BATCHES = 20
 CONFIDENCE = 0.95
-LJUNG = 2.576  # quantile of the normal distribution for bands that hold 99 %
-COHERENCE_WINDOWS = 8  # fewest windows of which a coherence says anything
+LJUNG = 2.576  # quantile of the normal distribution for bands that contain 99 %
+COHERENCE_WINDOWS = 8  # fewest windows for which a coherence is significant
 
 
 @dataclass(frozen=True)
 class Size:
-    """How large an error is, in the unit of the target.
+    """The size of an error, in the unit of the target.
 
     rmse with its 95 % interval low..high, fit in percent (100: no error, 0: no better than the
-    mean), maximum of the magnitude; NaN where there is nothing to judge.
+    mean), maximum of the magnitude; NaN if there are no samples.
     """
 
     rmse: float
@@ -40,8 +40,9 @@ class Size:
 def size_of(residuals: Sequence[Array], targets: Sequence[Array]) -> Size:
     """Return the size of residuals (n,) of some runs with these measured targets (n,).
 
-    The interval comes from the spread of the mean square between twenty batches in time, each
-    longer than what correlates the residual. fit = 100 (1 - |e| / |y - mean y|).
+    The interval is computed from the spread of the mean square of twenty batches in time, each of
+    which should be longer than the correlation time of the residual. It needs at least forty
+    samples, else it has no width. fit = 100 (1 - |e| / |y - mean y|), NaN for constant targets.
     """
     e = np.concatenate(residuals) if residuals else np.empty(0)
     if e.size == 0:
@@ -62,9 +63,9 @@ def size_of(residuals: Sequence[Array], targets: Sequence[Array]) -> Size:
 
 
 def resampled(t: Array, values: Array, period: float) -> Array:
-    """Return the means of a signal over windows of *period* s, or its values where it is slower.
+    """Return the means of a signal over windows of *period* s, or its values if it is slower.
 
-    A mean rather than a sample, so that what is faster does not fold into what is kept.
+    Means instead of samples, so that higher frequencies do not alias.
     """
     own = float(np.median(np.diff(t)))
     stride = max(1, round(period / own))
@@ -91,8 +92,9 @@ def cross_correlation(
 ) -> tuple[Array, float]:
     """Return the correlation of residual(t + lag) with input(t) at lags -before..after.
 
-    The band holds 99 % of an independent residual's values, whatever the colour of both:
-    2.58 sqrt(sum R_e R_u / N) (Ljung, System Identification, 1999, section 16.6).
+    The band contains 99 % of the values of a residual that is independent of the input, for any
+    spectra of the two: 2.58 sqrt(sum R_e R_u / N) (Ljung, System Identification, 1999, section
+    16.6).
     """
     reach = 10 * max(before, after)
     cross = np.zeros(before + after + 1)
@@ -113,7 +115,7 @@ def cross_correlation(
 
 
 def spectrum(parts: Sequence[Array], period: float, window: float = 8.0) -> tuple[Array, Array]:
-    """Return (frequencies in Hz, amplitude density in unit/sqrt(Hz)), Welch over *window* s."""
+    """Return (frequencies in Hz, amplitude density in unit/sqrt(Hz)), by Welch over *window* s."""
     size = _window(parts, period, window)
     total, count = np.zeros(size // 2 + 1), 0
     for part in parts:
@@ -127,9 +129,9 @@ def spectrum(parts: Sequence[Array], period: float, window: float = 8.0) -> tupl
 def coherence(
     inputs: Sequence[Array], residuals: Sequence[Array], period: float, window: float = 4.0
 ) -> tuple[Array, Array, float]:
-    """Return (f in Hz, coherence of residual and input, its 95 % level for unrelated ones).
+    """Return (f in Hz, coherence of residual and input, its 95 % level for unrelated signals).
 
-    The level is 1 - 0.05^(1/(L - 1)) with L independent windows; NaN where they are too few.
+    The level is 1 - 0.05^(1/(L - 1)) with L independent windows; NaN if L is below 8.
     """
     size = _window(residuals, period, window)
     n = size // 2 + 1

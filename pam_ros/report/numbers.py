@@ -16,7 +16,8 @@ from pam_ros.recording.recording import OUTPUTS, Recording
 from pam_ros.report.provenance import Provenance
 from pam_ros.report.runs import STAGES, Run, sizes
 
-# The first number rises when a key changes its meaning or goes, the second when one comes.
+# The first number increases when a key is removed or changes its meaning, the second when a key
+# is added.
 SCHEMA_VERSION = '2.5'
 
 Table = dict[str, Any]
@@ -49,7 +50,7 @@ def numbers(result: Identification, runs: list[Run], source: Provenance) -> Tabl
 
 
 def to_json(content: Table) -> str:
-    """Return *content* as JSON; what is not finite becomes null, for JSON has no word for it."""
+    """Return *content* as JSON; numbers that are not finite become null, as JSON lacks them."""
     return json.dumps(_plain(content), indent=2, ensure_ascii=False, allow_nan=False) + '\n'
 
 

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""``report.html``: one page that needs nothing else, for whoever owns the rig."""
+"""``report.html``: a page that needs no other files, for the owner of the rig."""
 
 from itertools import pairwise
 
@@ -25,7 +25,7 @@ from pam_ros.report.wording import (
     spoken,
 )
 
-LONGEST_LABEL = 30  # characters that the names of effects may have above a plot
+LONGEST_LABEL = 30  # most characters of the names of effects above a plot
 
 VERDICTS = {
     'effect_found': 'Effect found',
@@ -43,10 +43,10 @@ def page(
     content: Table,
     no_file: str = '',
 ) -> str:
-    """Return the page as HTML: styles and plots inside, no script, nothing fetched.
+    """Return the page as HTML, with its styles and plots; it has no script and loads no files.
 
-    *runs* and *content* are those of the result, see ``runs.py`` and ``numbers.py``. *no_file*
-    says why there is no ``identified.yaml``, where there is none.
+    *runs* and *content* are those of the result, see ``runs.py`` and ``numbers.py``. *no_file* is
+    the reason why there is no ``identified.yaml``, empty if there is one.
     """
     curves = curves_of(result, runs)
     scale = scale_for(result.unit, result.stages[-1].fit_error)
@@ -88,7 +88,7 @@ def page(
 
 
 def curves_of(result: Identification, runs: list[Run]) -> list[Curve]:
-    """Return the models that differ, the declared one first, each with the name it goes by."""
+    """Return the models that differ, the nominal one first, each with its label."""
     names = [name_in_words(name) for name in added(result)]
     effects = listed(names) or 'declared effects'
     if len(effects) > LONGEST_LABEL:
@@ -102,7 +102,7 @@ def curves_of(result: Identification, runs: list[Run]) -> list[Curve]:
 
 
 def warnings_of(result: Identification, source: Provenance) -> list[tuple[str, str]]:
-    """Return (recording, what limits it) and, without a name, what limits the whole result."""
+    """Return (recording, its warnings), and with an empty name those on the whole result."""
     found = [('', warning) for warning in result.own_warnings]
     all_of_them = (*source.recordings, *source.test)
     found += [(one.name, '; '.join(one.warnings)) for one in all_of_them if one.warnings]
@@ -110,7 +110,7 @@ def warnings_of(result: Identification, source: Provenance) -> list[tuple[str, s
 
 
 def not_excluded(result: Identification, scale: Scale) -> list[str]:
-    """Return sentences on what the data leave open, whatever the verdict."""
+    """Return sentences on what the data cannot exclude, for every verdict."""
     floor = f'{scale.text(result.noise.sigma)} {scale.unit}'
     sentences = []
     for finding in result.effects:

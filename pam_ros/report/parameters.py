@@ -25,8 +25,8 @@ from pam_ros.settings.rig import RigParameters
 def identified(result: Identification, source: Provenance) -> Joint:
     """Return the identified model: re-tuned, with the effects that were found.
 
-    Effects that are absent are left out. Its constants are no longer those of the declared source,
-    and say so.
+    Effects that are absent are left out. Its constants are no longer those of the nominal source,
+    and their new source text states this.
     """
     model = result.stages[-1].model
     names = listed([recording.name for recording in source.recordings])
@@ -49,15 +49,15 @@ def _present(effects: Sequence[Effect]) -> tuple[Effect, ...]:
 def write_identified(path: Path, result: Identification, source: Provenance) -> None:
     """Write the identified model as a ROS parameter file for every node that takes a rig.
 
-    Constants are in the units of the nominal model. Read again, it makes the same rig to the bit.
-    Raises ParameterError where no parameter file can describe the joint.
+    Constants are in the units of the nominal model. The file gives the same rig bit for bit when
+    it is read. Raises ParameterError if no parameter file can describe the joint.
     """
     refuse_custom(result, source)
     write(path, source.nominal.flat(identified(result, source)), about(result, source))
 
 
 def refuse_custom(result: Identification, source: Provenance) -> None:
-    """Raise ParameterError where no parameter file can describe the identified joint."""
+    """Raise ParameterError if no parameter file can describe the identified joint."""
     nominal = source.nominal
     joint = nominal.joint
     if nominal.kind not in ARRANGEMENTS:
@@ -67,7 +67,7 @@ def refuse_custom(result: Identification, source: Provenance) -> None:
             f'a parameter file cannot describe this joint of {len(joint.actuators)} muscle(s), '
             f'{parts}: it can be one of {names}'
         )
-    if nominal.kind is not LOAD:  # the names become those of parameters
+    if nominal.kind is not LOAD:  # checks the names, which become names of parameters
         RigParameters({'joint': nominal.kind.name, 'muscles': nominal.muscles})
     known = {effect.name for effect in EFFECTS}
     for effect in itertools.chain(*result.stages[-1].model.present):

@@ -24,7 +24,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Picture:
-    """A plot with its words; ``wide`` is empty where the narrow one serves for every page."""
+    """A plot with its texts; ``wide`` is empty if the narrow plot serves for every page."""
 
     name: str
     title: str
@@ -47,7 +47,7 @@ def pictures(
 
 
 def _last_two(curves: list[Curve]) -> list[Curve]:
-    """Return the model that was chosen and the one before it: what the choice has changed."""
+    """Return the chosen model and the one before it: their difference is due to the choice."""
     return curves[-2:]
 
 
@@ -146,7 +146,7 @@ def _correlation(
 
 
 def _input(joint: Joint) -> str:
-    """Return what the one signal that drives *joint* is called."""
+    """Return the name of the one signal that drives *joint*."""
     if len(joint.muscles) == 1:
         return 'pressure'
     return 'pressure difference' if np.min(drive_of(joint)) < 0.0 else 'mean pressure'

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Where a report comes from: the files and their digests, what was declared, and with what."""
+"""The origin of a report: files with their digests, the nominal model, and versions."""
 
 import hashlib
 import platform
@@ -25,11 +25,11 @@ LIBRARIES = ('numpy', 'scipy', 'numba')
 
 @dataclass(frozen=True, eq=False)
 class Provenance:
-    """What an identification was made of.
+    """The inputs of an identification.
 
-    ``command`` is the command line; ``parameters`` the file or preset as it was named, with its
-    SHA-256 ``digest``, empty where there is no file, and the ``overrides``; ``configuration`` the
-    flat values that all this gives to the ``nominal`` joint; ``date`` in UTC, ISO 8601.
+    ``command`` is the command line. ``parameters`` is the file or preset as it was named, with its
+    SHA-256 ``digest``, empty if there is no file, and the ``overrides``. ``configuration`` has
+    the resulting flat values of the ``nominal`` joint. ``date`` is in UTC, ISO 8601.
     ``recordings`` were fitted, ``test`` was not.
     """
 
@@ -53,7 +53,7 @@ def provenance(
     test: Sequence[Recording],
     command: str,
 ) -> Provenance:
-    """Return the provenance of an identification that this process makes now."""
+    """Return the provenance of an identification that this process performs now."""
     path: Path = find(parameters)
     return Provenance(
         printable(command),
@@ -70,7 +70,7 @@ def provenance(
 
 
 def provenance_of_program(result: Identification) -> Provenance:
-    """Return the provenance of an identification whose nominal joint a program made."""
+    """Return the provenance of an identification whose nominal joint a program created."""
     nominal = nominal_of(result.stages[0].model, result.recordings[0].muscles)
     return Provenance(
         printable(shlex.join(sys.orig_argv)),
@@ -87,7 +87,7 @@ def provenance_of_program(result: Identification) -> Provenance:
 
 
 def versions() -> dict[str, str]:
-    """Return the versions of what computed: this package, Python, the numerical libraries."""
+    """Return the versions of this package, of Python and of the numerical libraries."""
     found = {'pam_ros': __version__, 'python': platform.python_version()}
     for library in LIBRARIES:
         try:

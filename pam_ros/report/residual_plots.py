@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Plots of what is left: correlations and spectra, and the residual against what moves."""
+"""Plots of the residual: its correlations and spectrum, and the residual over other signals."""
 
 from collections.abc import Callable
 from itertools import pairwise
@@ -18,14 +18,14 @@ from pam_ros.report.wording import Scale
 Array = NDArray[np.float64]
 Pick = Callable[[Run], Array]
 
-FINE, COARSE = 0.01, 0.04  # s between the values that are correlated, with themselves and inputs
+FINE, COARSE = 0.01, 0.04  # s between values, for autocorrelation and cross-correlation
 LAGS = 2.0  # s
 SLOW = 0.02  # s
 BINS = 36
 LOOP_SPANS = (5.0, 10.0, 20.0)  # s
 LOOP_JUMP = 0.1  # s
-STILL = 0.005  # of the input's range in a second: slower is neither rising nor falling
-FEWEST = 12  # samples of a bin that is drawn
+STILL = 0.005  # of the input's range per second; slower is neither rising nor falling
+FEWEST = 12  # fewest samples of a bin that is drawn
 
 
 def autocorrelation(runs: list[Run], curves: list[Curve]) -> Figure:
@@ -68,7 +68,7 @@ def cross_correlation(runs: list[Run], curves: list[Curve]) -> Figure:
 
 
 def spectrum(runs: list[Run], curves: list[Curve], scale: Scale, noise: Noise) -> Figure:
-    """Return the residuals' amplitude density, beside that of the noise alone."""
+    """Return the residuals' amplitude density, next to that of the noise alone."""
     figure, ax = style.panel()
     period = _sampling(runs)
     f = np.array([1.0])
@@ -128,7 +128,7 @@ def against(runs: list[Run], curves: list[Curve], scale: Scale, pick: Pick, labe
 def by_direction(
     runs: list[Run], curves: list[Curve], scale: Scale, pressure: Scale, label: str
 ) -> Figure:
-    """Return the residuals over the input where it rises and where it falls: loops open."""
+    """Return the residuals over rising and over falling input, which shows loops."""
     figure, ax = style.panel()
     period = _period(runs, COARSE)
     p = [diagnostics.resampled(run.t, run.drive, period) for run in runs]
@@ -152,7 +152,7 @@ def by_direction(
 def loop(
     stretch: Stretch, curves: list[Curve], scale: Scale, pressure: Scale, quantity: str, label: str
 ) -> Figure:
-    """Return measured and simulated over the input, along one stretch."""
+    """Return the measured and the simulated signal over the input, for one stretch."""
     figure, ax = style.panel()
     run, part = stretch.run, slice(stretch.start, stretch.stop)
     t = run.t[part]
@@ -182,7 +182,8 @@ def loop_stretch(runs: list[Run]) -> Stretch:
                 reach = float(np.ptp(run.drive[i:j])) if j - i > FEWEST else 0.0
                 if reach <= 0.0:
                     continue
-                # There and back is twice the reach: more is turns within it, less is no loop.
+                # The path of a full loop is twice the range of the input: a longer path has turns
+                # within it, a shorter one is not a full loop.
                 turns = float(way[j - 1] - way[i]) / reach
                 jumps = min(float(np.max(leap[i:j])) / reach, 1.0)
                 worth = reach * min(turns, 2.0) / max(turns, 2.0) * (1.0 - jumps) ** 2
@@ -192,9 +193,9 @@ def loop_stretch(runs: list[Run]) -> Stretch:
 
 
 def binned(x: Array, e: Array, bins: int = BINS) -> tuple[Array, Array, Array, Array]:
-    """Return (centre, mean, 10 % and 90 % quantile) of e in bins of x that hold equally many.
+    """Return (centre, mean, 10 % and 90 % quantile) of e in bins of x with equal counts.
 
-    Values of x that occur more often than a bin holds make a bin of their own.
+    Values of x that occur more often than the count of a bin get a bin of their own.
     """
     order = np.argsort(x, kind='stable')
     x, e = x[order], e[order]

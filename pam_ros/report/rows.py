@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The rows of a page's tables: numbers of the result as texts, in the units that people read."""
+"""The rows of a page's tables: numbers of the result as texts, in convenient units."""
 
 from dataclasses import dataclass
 from typing import Any
@@ -28,7 +28,7 @@ ORDER = {'chosen': 0, 'ambiguous': 1, 'rejected': 2, 'untestable': 3}
 
 @dataclass(frozen=True)
 class Row:
-    """Cells by the name of their column, and a word for how the row is to look."""
+    """Cells by the name of their column, and a word that selects the style of the row."""
 
     cells: dict[str, Any]
     kind: str = ''
@@ -56,9 +56,9 @@ def errors(content: Table, scale: Scale, labels: dict[int, str]) -> list[Row]:
 
 
 def rounds(result: Identification, scale: Scale) -> list[tuple[str, list[Row]]]:
-    """Return for each round of the search what was tried on top of which model.
+    """Return for each round of the search the base model and the candidates added to it.
 
-    Within a round those that count come first, then the others by their score.
+    Within a round the candidates are in the order of ``ORDER``, then of their score.
     """
     found: dict[tuple[str, ...], list[Candidate]] = {}
     for candidate in result.candidates:
@@ -92,7 +92,7 @@ def _candidate(candidate: Candidate, scale: Scale) -> Row:
 
 
 def parameters(result: Identification, nominal: NominalJoint) -> list[Row]:
-    """Return a row for each parameter that a stage has fitted: value and interval in each."""
+    """Return a row for each parameter that a stage fitted: value and interval in each stage."""
     names: dict[str, None] = {}
     for stage in result.stages:
         names.update(dict.fromkeys(stage.parameters))
@@ -124,7 +124,7 @@ def _estimate(estimate: Estimate | None) -> dict[str, Any]:
 
 
 def recordings(content: Table) -> list[Row]:
-    """Return a row for each recording: how it was sampled, what it covers."""
+    """Return a row for each recording: its sampling and its ranges."""
     found = []
     for one in content['data']['recordings']:
         period = 1.0 / one['rate']
@@ -160,7 +160,7 @@ def _range(name: str, low: float, high: float, unit: str) -> str:
 
 
 def configuration(source: Provenance) -> list[tuple[str, str]]:
-    """Return name and value, with its unit, of all that was declared."""
+    """Return name and value, with its unit, of everything that was configured."""
     found = []
     for name, value in source.configuration.items():
         unit = source.nominal.unit(name)

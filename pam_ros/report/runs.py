@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The segments of a result for the report: measured, three times simulated, inputs."""
+"""The segments of a result for the report: measured, simulated by three models, and inputs."""
 
 from dataclasses import dataclass, replace
 
@@ -16,19 +16,20 @@ from pam_ros.rig.joint import Joint
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 STAGES = ('declared', 'retuned', 'augmented')
-FAR = 1e6  # m, rad or N: where a simulation that diverges is cut, so that it can be drawn
+FAR = 1e6  # m, rad or N: limit at which a diverging simulation is clipped for drawing
 
 
 @dataclass(frozen=True, eq=False)
 class Run:
     """One gapless segment, every array (n,).
 
-    t in s on its recording's clock; target measured, simulated by the three models in the order
-    of ``STAGES``, in SI; held marks what no fit has seen. pressures (n, muscles) in Pa are the
-    commands, or as measured of a held muscle. position and velocity (m or rad, and per s) are
-    those of a free load's last model, without the measurement's noise, and as measured of a held
-    one. drive (n,) in Pa is the input as one signal, see :func:`drive_of`. since is the moment in
-    s from which on effects act, None where they do from the start.
+    t is in s on the clock of its recording. target is measured, simulated is by the three models
+    in the order of ``STAGES``, both in SI. held marks samples that were not fitted. pressures (n,
+    muscles) in Pa are the input of a free load (the commands if they were recorded), or the
+    measured pressures at a prescribed length. position and velocity (m or rad, and per s) are
+    those of the last model for a free load, without the noise of the measurement, or measured
+    ones at a prescribed length. drive (n,) in Pa is the input as one signal, see
+    :func:`drive_of`. since is the time in s from which effects act, None if from the start.
     """
 
     name: str
@@ -100,8 +101,8 @@ def _run(
 def drive_of(joint: Joint) -> Array:
     """Return the weights (muscles,) of the pressures in the one signal that drives *joint*.
 
-    Of muscles against each other it is the difference of the pressures, positive where they move
-    it to positive positions; of muscles that pull the same way their mean.
+    For antagonistic muscles the signal is the difference of the pressures, positive if they move
+    the joint to positive positions. For muscles that pull in the same direction it is their mean.
     """
     if joint.is_driven:
         return np.ones(1)
@@ -111,7 +112,7 @@ def drive_of(joint: Joint) -> Array:
 
 
 def sizes(runs: list[Run], stage: int) -> tuple[Size, Size]:
-    """Return how large the errors of a stage are: over what was fitted, and over the rest."""
+    """Return the sizes of the errors of a stage: over the fitted samples, and over the others."""
     fit, held = (
         size_of([r.residual(stage)[m] for r, m in picked], [r.target[m] for r, m in picked])
         for picked in ([(r, ~r.held) for r in runs], [(r, r.held) for r in runs])

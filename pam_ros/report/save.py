@@ -16,11 +16,11 @@ def save_report(identification: Identification, folder: str | Path) -> None:
     """Write the report of an identification into *folder*, as ``pam_identify`` does.
 
     The folder has ``report.html`` to read, ``report.json``, ``residual.csv`` and
-    ``identified.yaml``; the last is left out where no parameter file can describe the joint. It
+    ``identified.yaml``; the last is left out if no parameter file can describe the joint. It
     is written completely or not at all, and replaces a previous report. Its provenance is the
     command line of this program.
 
-    Raises PamError where *folder* is a file, contains something else or cannot be written.
+    Raises PamError if *folder* is a file, contains something else or cannot be written.
     """
     result = _checked(identification)
     path = as_path('folder', folder, 'the path of a folder')
@@ -34,7 +34,7 @@ def save_parameters(identification: Identification, file: str | Path) -> None:
     :func:`pam_ros.load_joint` read it. It is written completely or not at all, and replaces a
     file of this name.
 
-    Raises PamError where *file* is a folder or cannot be written, and ParameterError where no
+    Raises PamError if *file* is a folder or cannot be written, and ParameterError if no
     parameter file can describe the joint: a custom transmission, load or effect.
     """
     result = _checked(identification)

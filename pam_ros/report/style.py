@@ -25,7 +25,7 @@ Array = NDArray[np.float64]
 
 INK, FAINT, GRID = '#1f2328', '#59636e', '#e4e7eb'
 MEASURED = '#9aa4af'
-# Told apart by every kind of colour vision, and by their lightness in print (Okabe and Ito).
+# Distinct for every kind of colour vision, and by their lightness in print (Okabe and Ito).
 COLOURS = ('#c8500a', '#b8860b', '#0b62a8')
 DASHES: tuple[Any, ...] = ((0, (4, 1.5)), (0, (1.5, 1)), 'solid')
 NOISE = '#7a4fa3'
@@ -71,7 +71,7 @@ _RC: Any = {
 
 @contextmanager
 def styled() -> Iterator[None]:
-    """Let figures look as the page does."""
+    """Draw figures in the style of the page within this context."""
     with mpl.rc_context(_RC):
         yield
 
@@ -109,7 +109,7 @@ def panel(height: int = 190) -> tuple[Figure, Axes]:
 
 
 def plain_tick(value: float, _: int) -> str:
-    """Return the label of a tick: no more digits than it has, never an offset."""
+    """Return the label of a tick: no more digits than needed, never an offset."""
     text = f'{value:.10g}'
     if 'e' in text:
         return number(value, 2)
@@ -129,10 +129,10 @@ def log_axis(axis: Any) -> None:
 
 
 def svg(figure: Figure, name: str, text: str) -> str:
-    """Return *figure* as an SVG element to stand in a page.
+    """Return *figure* as an SVG element for use in a page.
 
-    Its ids are led by *name*, which no other figure of the page may have; *text* says what is to
-    be seen to those who cannot.
+    Its ids begin with *name*, which must be unique in the page; *text* describes the figure for
+    readers who cannot see it.
     """
     stream = io.StringIO()
     figure.savefig(
@@ -154,9 +154,9 @@ def svg(figure: Figure, name: str, text: str) -> str:
 
 
 def envelope(t: Array, values: Array, columns: int) -> tuple[Array, Array]:
-    """Return a curve thinned to its least and greatest value in each of *columns* of time.
+    """Return a curve thinned to its least and greatest value in each of *columns* parts.
 
-    Drawn over as many pixels it looks as the whole curve does.
+    If it is drawn over as many pixels, it looks like the whole curve.
     """
     if t.size <= 4 * columns:
         return t, values
@@ -164,7 +164,7 @@ def envelope(t: Array, values: Array, columns: int) -> tuple[Array, Array]:
     order = np.minimum.reduceat, np.maximum.reduceat
     low, high = (pick(values, edges[:-1]) for pick in order)
     middle = 0.5 * (t[edges[:-1]] + t[edges[1:] - 1])
-    # Low first where the curve rises, high first where it falls: no saw teeth.
+    # Low first if the curve rises, high first if it falls: this avoids a sawtooth.
     rises = values[edges[1:] - 1] >= values[edges[:-1]]
     first, second = np.where(rises, low, high), np.where(rises, high, low)
     quarter = 0.25 * (t[edges[1:] - 1] - t[edges[:-1]])

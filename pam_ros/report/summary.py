@@ -9,7 +9,7 @@ from pam_ros.report.wording import listed, number, scale_for
 
 
 def last_line(result: Identification) -> str:
-    """Return the verdict, and the error on held-out data before and after."""
+    """Return the verdict, and the error of each model on held-out data."""
     declared, retuned, augmented = (stage.held_error for stage in result.stages)
     scale = scale_for(result.unit, augmented)
     names = [spelled(finding.name) for finding in result.effects]
@@ -30,7 +30,8 @@ def last_line(result: Identification) -> str:
 def added(result: Identification) -> list[str]:
     """Return the names of the places of the effects that were added to the last model.
 
-    Of an effect in all muscles alike each muscle has a start of its own, which is no other place.
+    If an effect is alike in all muscles, each muscle still has its own initial value of the
+    effect. These are not counted as further places.
     """
     found = dict.fromkeys(place_of(name) for name in result.stages[-1].parameters)
     return [name for name in found if name and not (muscle_of(name) and effect_of(name) in found)]

@@ -28,8 +28,9 @@ def header(quantity: str, unit: str) -> list[str]:
 def residual_csv(runs: list[Run], quantity: str, unit: str) -> str:
     """Return the text of ``residual.csv``.
 
-    One row a sample: recording, number of the gapless segment (from 0), fit or held_out, stamp on
-    the recording's clock, measured, simulated by each model, residuals measured - simulated.
+    One row for each sample: recording, number of the gapless segment (from 0), fit or held_out,
+    stamp on the recording's clock, measured, simulated by each model, residuals measured -
+    simulated.
     """
     lines = [','.join(header(quantity, unit))]
     for k, run in enumerate(runs):

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Plots over time: measured against simulated with the residual beneath, and the errors."""
+"""Plots over time: measured and simulated with the residual below, and the errors."""
 
 from dataclasses import dataclass
 from itertools import pairwise
@@ -24,20 +24,20 @@ BETWEEN = 0.01  # share of the whole time that separates two runs in the overvie
 
 @dataclass(frozen=True)
 class Curve:
-    """A model to be drawn: its stage, what it is called, and how it looks."""
+    """A model to be drawn: its stage, its name, and its line style."""
 
     stage: int
     label: str
 
     @property
     def look(self) -> dict[str, Any]:
-        """Return colour and line as matplotlib wants them."""
+        """Return colour and line style as arguments of matplotlib."""
         return {'color': style.COLOURS[self.stage], 'linestyle': style.DASHES[self.stage]}
 
 
 @dataclass(frozen=True)
 class Stretch:
-    """A part of a run: samples start..stop-1, drawn *shift* s later than its own clock says."""
+    """A part of a run: samples start..stop-1, drawn *shift* s later than its own stamps."""
 
     run: Run
     start: int
@@ -46,7 +46,7 @@ class Stretch:
 
     @property
     def begins_at(self) -> float | None:
-        """Where in the drawing effects begin to act, None where that is not in this part."""
+        """The time in the drawing at which effects begin to act, None if not in this part."""
         t, since = self.run.t[self.start : self.stop], self.run.since
         return since + self.shift if since is not None and t[0] <= since <= t[-1] else None
 
@@ -62,7 +62,7 @@ def whole(runs: list[Run]) -> list[Stretch]:
 
 
 def close_up(runs: list[Run], before: int, after: int) -> Stretch:
-    """Return the few seconds, mostly held out, that tell two stages apart most."""
+    """Return the few seconds, preferably held out, with the greatest gain between two stages."""
     best, most = Stretch(runs[0], 0, runs[0].t.size), (False, -np.inf)
     for run in runs:
         span = min(CLOSE_UP, float(run.t[-1] - run.t[0]))
@@ -83,11 +83,12 @@ def measured_and_simulated(
     stretches: list[Stretch], curves: list[Curve], scale: Scale, quantity: str, noise: float,
     width: int,
 ) -> Figure:  # fmt: skip
-    """Return what was measured and simulated over time, with the residuals beneath.
+    """Return the measured and simulated signals over time, with the residuals below.
 
-    The last model's stands once more by itself, since those before it may be far larger. What no
-    fit has seen stands on a tinted ground; the band is two standard deviations of the *noise* to
-    each side. A line is drawn at the moment from which on effects act, where there is one.
+    The residual of the last model is drawn once more alone, since those of the models before it
+    may be far larger. Samples that were not fitted have a tinted background. The band is two
+    standard deviations of the *noise* on each side. If effects begin to act at some time, a line
+    is drawn there.
     """
     heights = (220, 100, 90) if width > 600 else (180, 100, 90)
     figure, (above, below, alone) = style.stacked(width, heights)
@@ -128,7 +129,7 @@ _BAND: dict[str, Any] = {'color': style.NOISE, 'alpha': 0.16, 'linewidth': 0.0}
 
 def _tint(ax: Axes, t: Array, held: NDArray[np.bool_]) -> None:
     if held.all():
-        return  # nothing to tell apart within this stretch
+        return  # all samples of this stretch are held out
     edges = np.flatnonzero(np.diff(np.concatenate([[0], held.astype(int), [0]])))
     for start, stop in edges.reshape(-1, 2):
         ax.axvspan(t[start], t[stop - 1], color=style.KEPT_BACK, linewidth=0.0, zorder=0)

@@ -33,7 +33,7 @@ def scale_for(unit: str, size: float) -> Scale:
 
 
 def number(value: float | None, digits: int = 3) -> str:
-    """Return *value* with that many significant digits; a dash where there is none."""
+    """Return *value* with that many significant digits; a dash if there is no value."""
     if value is None or math.isnan(value):
         return ABSENT
     if math.isinf(value):
@@ -50,7 +50,7 @@ def number(value: float | None, digits: int = 3) -> str:
 
 
 def interval(low: float, high: float, digits: int = 3) -> str:
-    """Return an interval, both ends with the digits that tell them apart."""
+    """Return an interval, both ends with enough digits to distinguish them."""
     width = abs(high - low)
     largest = max(abs(low), abs(high))
     if 0.0 < width < largest < math.inf:
@@ -59,12 +59,12 @@ def interval(low: float, high: float, digits: int = 3) -> str:
 
 
 def probability(p: float) -> str:
-    """Return a p value; below 0.0001 only that."""
+    """Return a p value as text; all below 0.0001 give the same text."""
     return '< 0.0001' if p < 1e-4 else number(p, 2)
 
 
 def percent(share: float, digits: int = 2) -> str:
-    """Return a share in percent with its sign."""
+    """Return a share in percent, with the percent sign."""
     if math.isnan(share):
         return ABSENT
     text = number(100.0 * share, digits)
@@ -72,9 +72,9 @@ def percent(share: float, digits: int = 2) -> str:
 
 
 def name_in_words(name: str) -> str:
-    """Return a name as a reader sees it: ``pressure_lag`` as "pressure lag".
+    """Return a name as it is shown to a reader: ``pressure_lag`` as "pressure lag".
 
-    That of an effect in one of several muscles is "pressure lag of agonist".
+    The name of an effect in one of several muscles is "pressure lag of agonist".
     """
     muscle, _, rest = name.rpartition('.')
     words = rest.replace('_', ' ')
@@ -82,7 +82,7 @@ def name_in_words(name: str) -> str:
 
 
 def spoken(text: str, names: list[str]) -> str:
-    """Return *text* with those of *names* that stand in it as a reader sees them."""
+    """Return *text* with each of *names* in it replaced by :func:`name_in_words`."""
     for name in names:
         text = text.replace(name, name_in_words(name))
     return text

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""A report as a folder that is there whole or not at all."""
+"""Write a report as a folder that exists completely or not at all."""
 
 import ctypes
 import fcntl
@@ -27,7 +27,7 @@ _HERE = -100  # AT_FDCWD
 
 
 def check_folder(folder: Path) -> None:
-    """Raise PamError where *folder* cannot become a report: it is something else already."""
+    """Raise PamError if *folder* cannot become a report: it contains something else."""
     try:
         found = sorted(path.name for path in folder.iterdir())
     except FileNotFoundError:
@@ -50,7 +50,7 @@ def check_folder(folder: Path) -> None:
 
 
 def check_parent(path: Path) -> None:
-    """Raise PamError where *path*, of a folder or a file, is not below a folder to write in."""
+    """Raise PamError if *path*, of a folder or a file, is not below a writable folder."""
     parent = path.resolve().parent
     while not parent.exists():
         parent = parent.parent
@@ -69,11 +69,11 @@ def _is_report(folder: Path) -> bool:
 def write_report(folder: Path, result: Identification, source: Provenance) -> None:
     """Write all files of the report into *folder*, in place of a former report.
 
-    A joint that no parameter file can describe has no ``identified.yaml``; the page says why.
-    Until the last moment nothing is to be seen but a hidden sibling, which goes when anything
-    fails. Raises PamError where *folder* holds something else or cannot be written.
+    A joint that no parameter file can describe has no ``identified.yaml``; the page gives the
+    reason. Until the end only a hidden sibling exists, which is removed if anything fails. Raises
+    PamError if *folder* contains something else or cannot be written.
     """
-    from pam_ros.report.page import page  # brings matplotlib, which nothing else needs
+    from pam_ros.report.page import page  # imports matplotlib, which nothing else needs
 
     check_folder(folder)
     no_file = ''
@@ -97,14 +97,14 @@ def write_report(folder: Path, result: Identification, source: Provenance) -> No
 
 @contextmanager
 def replaced(folder: Path) -> Iterator[Path]:
-    """Give an empty folder that takes the place of *folder* at the end, at one stroke.
+    """Give an empty folder that replaces *folder* at the end.
 
-    Where the body raises, *folder* stays as it was. Raises PamError where the disk refuses.
+    If the body raises, *folder* is unchanged. Raises PamError if writing to the disk fails.
     """
     target = folder.resolve()
     try:
         target.parent.mkdir(parents=True, exist_ok=True)
-        with suppress(OSError):  # of a folder that cannot be listed, or went meanwhile
+        with suppress(OSError):  # if a folder cannot be listed, or was removed meanwhile
             _clear_abandoned(target)
         new = Path(tempfile.mkdtemp(dir=target.parent, prefix=f'.{target.name}.{os.getpid()}.'))
     except OSError as error:
@@ -120,17 +120,17 @@ def replaced(folder: Path) -> Iterator[Path]:
     except OSError as error:
         raise PamError(f'{folder} cannot be written: {error.strerror}') from error
     finally:
-        # What was there before, or what is not to be there.
+        # This is the former report now, or an incomplete new one.
         shutil.rmtree(new, ignore_errors=True)
         if lock is not None:
             os.close(lock)
 
 
 def _clear_abandoned(target: Path) -> None:
-    """Remove the hidden siblings of *target* that programs left which were killed.
+    """Remove the hidden siblings of *target* that killed programs have left.
 
-    A program is known to have ended by its process id, and as nobody holds the lock: in
-    containers one id is of several programs.
+    A program has ended if no process has its id, and no process holds the lock. The id alone is
+    not sufficient: in containers, several programs can have the same id.
     """
     hidden = re.compile(rf'\.{re.escape(target.name)}\.(\d+)\.[a-z0-9_]{{8}}')
     for path in target.parent.iterdir():
@@ -157,9 +157,9 @@ def _runs(process: int) -> bool:
 
 
 def _locked(folder: Path) -> int | None:
-    """Lock *folder* and return the descriptor that holds the lock; None where it is held.
+    """Lock *folder* and return the descriptor that holds the lock; None if it is locked already.
 
-    None as well where the file system has no locks.
+    None, too, if it cannot be opened or the file system has no locks.
     """
     try:
         number = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
@@ -174,7 +174,7 @@ def _locked(folder: Path) -> int | None:
 
 
 def _exchange(new: Path, old: Path) -> None:
-    """Swap two folders: in one step where the file system can, else in two."""
+    """Swap two folders: in one step if the file system can, else by renaming."""
     libc = ctypes.CDLL(None, use_errno=True)
     swap = getattr(libc, 'renameat2', None)
     if swap is not None and not swap(_HERE, os.fsencode(new), _HERE, os.fsencode(old), _EXCHANGE):
