@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Start a closed loop: ``ros2 launch pam_ros closed_loop.launch.py mass:=10.0``.
 
-With ``joint:=antagonistic`` two muscles turn a pulley against each other.
+With ``joint:=antagonistic`` two antagonistic muscles turn a pulley.
 """
 
 import sys

@@ -21,7 +21,7 @@ NAMES = ('model', 'rviz', 'use_sim_time', 'namespace')
 
 
 def refuse_missing(package: str, hint: str = '') -> None:
-    """Raise PamError where *package* is not installed."""
+    """Raise PamError if *package* is not installed."""
     try:
         get_package_prefix(package)
     except PackageNotFoundError:

@@ -1,9 +1,9 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The parameters ``braid.*``: a self-made McKibben muscle declared by its geometry.
+"""The parameters ``braid.*``: a self-made McKibben muscle described by its geometry.
 
-They act as a preset does: they give a1..a6, their units, the rated force and the source. What is
-given as a parameter beside them comes before.
+They act like a preset: they determine a1..a6, their units, the inside diameter, the rated force
+and the source. A parameter that is given in addition to them overrides their value.
 """
 
 from dataclasses import fields, replace
@@ -24,7 +24,7 @@ FOLLOWING = (*CONSTANTS, *UNITS, 'inside_diameter', 'force_max', 'source')  # fr
 
 
 def _table() -> Table:
-    """Return the table of the braid, without one by default."""
+    """Return the table of the braid; by default its angle is 0, which means no braid."""
     kind, _, about = described(Braid)['angle']
     text = f'{about.text}; 0: a1 to a6 are given, not the geometry'
     return {**table_of(Braid, PREFIX), ANGLE: (kind, 0.0, replace(about, text=text, low=0.0))}
@@ -36,12 +36,13 @@ BRAID = _table()
 def with_braid(
     preset: Values, given: Values, table: Table, common: Values | None = None
 ) -> dict[str, Any]:
-    """Return *preset* with what follows from a braid that it or *given* describes.
+    """Return *preset* with the values of the braid that *preset* or *given* describes.
 
-    *given* are flat parameters, which come before what follows from the braid, and so do those of
-    a preset that describes the braid itself. *common* are the values in force where neither says
-    anything; without it they are the defaults of *table*. Raises ParameterError for a geometry
-    that is not allowed, and where it has no effect.
+    *given* are flat parameters. They override the values of the braid, and so do the parameters
+    of a preset that describes the braid itself. *common* are the values that apply if neither
+    *given* nor *preset* has a value; without *common* the defaults of *table* apply. Raises
+    ParameterError for a geometry that is not allowed, and if the braid has no effect because all
+    of a1 to a6 are given with other values.
     """
     if not (is_given(preset) or is_given(given)):
         return {**preset}
@@ -56,14 +57,15 @@ def with_braid(
 
 
 def is_given(values: Values) -> bool:
-    """Say whether *values* have a parameter of a braid."""
+    """Return whether *values* contain a parameter of a braid."""
     return any(name in values for name in NAMES)
 
 
 def without_constants(values: Values, overrides: Values) -> dict[str, Any]:
-    """Return *values* of a file without what follows from the braids that *overrides* describe.
+    """Return *values* of a file without those that the braids in *overrides* determine.
 
-    A braid of one muscle, with its name before a dot, replaces the constants of this muscle alone.
+    The parameters of a braid of one muscle have its name before a dot. Such a braid replaces only
+    the values of this muscle.
     """
     left_out: set[str] = set()
     for muscle in {
@@ -76,15 +78,16 @@ def without_constants(values: Values, overrides: Values) -> dict[str, Any]:
 
 
 def _is(name: str, own: str) -> bool:
-    """Say whether *name* is the parameter *own*, the common one or that of one muscle."""
+    """Return whether *name* is the parameter *own*, the common one or that of one muscle."""
     return name == own or name.endswith(f'.{own}')
 
 
 def _of_braid(values: Values, table: Table) -> dict[str, Any]:
-    """Return what follows from the braid among flat *values*, by the names of Muscle's fields.
+    """Return the values of the braid among flat *values*, by the names of Muscle's fields.
 
-    Nothing where its angle is 0. What is not among *values* has its default in *table*. Constants
-    are in the units that *values* name; without them for Pa and contraction as a fraction.
+    The result is empty if the angle is 0. Missing *values* have their defaults in *table*. The
+    constants are in the units that *values* name; if they name none, the constants are for Pa and
+    a contraction as a fraction.
     """
     read = {
         name: about.check(name, values.get(name, default), kind)

@@ -1,8 +1,9 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What is declared to ``pam_control``: rig, law with its gains, rates and time-outs.
+"""The parameters of ``pam_control``: the rig, the control law with its gains, rates, timeouts.
 
-Muscles, joints and their effects are declared as to ``pam_sim``, so that one file is for both.
+Muscles, joints and their effects have the same parameters as in ``pam_sim``, so that one
+file can be used for both programs.
 """
 
 from collections.abc import Callable, Sequence
@@ -33,11 +34,11 @@ from pam_ros.settings.rig import RigParameters
 from pam_ros.settings.sim import SimSettings, Start
 from pam_ros.settings.tables import Table, Values, build, table_of
 
-MEASURED = 'use_measured_velocity'  # a gain that velocity_source stands for
-TRIALS = 3  # commands of a law that must be finite
-LEAST_PERIODS = 3  # of rate that the rig must go on with the last command
-LONGEST_SILENCE = 1.0  # s after which a controller starts again if its rig holds the last command
-NAMES = ('muscles', 'joint_names', 'muscle_topics')  # which pam_sim has, too
+MEASURED = 'use_measured_velocity'  # the gain that velocity_source sets
+TRIALS = 3  # updates of a law, after which its command must be finite
+LEAST_PERIODS = 3  # of rate for which the rig must at least keep the last command
+LONGEST_SILENCE = 1.0  # s of silence after which control starts again if command_timeout is 0
+NAMES = ('muscles', 'joint_names', 'muscle_topics')  # parameters that pam_sim has, too
 
 
 @dataclass(frozen=True)
@@ -66,7 +67,7 @@ class ControlSettings:
         100.0, 'messages per second on ~/state; 0: none', 'Hz', low=0.0, high=2000.0
     )
     state_timeout: float = parameter_field(
-        0.5,  # a loaded machine holds messages up for 0.1 s now and then
+        0.5,  # a loaded machine sometimes delays messages by 0.1 s
         'silence of joint_states after which on_timeout acts; before that, control goes on by '
         'the model',
         's',
@@ -123,7 +124,7 @@ class ControlSettings:
     joint_name: str = parameter_field('pam', 'name of the joint in joint_states', live=False)
 
     def __post_init__(self) -> None:
-        """Check every field."""
+        """Check every field, then command_timeout against rate."""
         check_all(self)
         if 0.0 < self.command_timeout * self.rate < LEAST_PERIODS:
             raise ParameterError(
@@ -133,12 +134,12 @@ class ControlSettings:
 
     @property
     def longest_silence(self) -> float:
-        """Silence of its own in s after which the controller starts again."""
+        """Duration in s of its own silence after which the controller starts again."""
         return self.command_timeout or LONGEST_SILENCE
 
     @property
     def silence_limit(self) -> str:
-        """That silence in words; 0 as the time-out means that the rig has none."""
+        """This limit in words; command_timeout 0 means that the rig has no timeout."""
         name = 'command_timeout' if self.command_timeout else 'permitted with command_timeout 0'
         return f'{name} ({self.longest_silence:g} s)'
 
@@ -150,7 +151,7 @@ class ControlParameters(RigParameters):
 
     @property
     def common(self) -> Table:
-        """The table of the common parameters beside the rig, in the units of this joint."""
+        """The table of the common parameters in addition to the rig, in the units of the joint."""
         turning = self.kind.transmission.equations.revolute
         gains, names = table_of(Gains, 'gains.', turning=turning), table_of(SimSettings)
         del gains[f'gains.{MEASURED}']
@@ -170,7 +171,7 @@ class ControlParameters(RigParameters):
         }
 
     def build(self, values: Values) -> 'ControlSetup':
-        """Make of flat *values* what the node works with; PamError where they do not fit."""
+        """Create the setup of the node from flat *values*; raises PamError if they are invalid."""
         settings = build(ControlSettings, values)
         has_topics = bool(values['muscle_topics'])
         k = self._controlled(settings.joint_name, has_topics=has_topics)
@@ -216,7 +217,7 @@ class ControlParameters(RigParameters):
         return setup
 
     def _controlled(self, name: str, *, has_topics: bool) -> int | None:
-        """Return which of the joints is controlled; None for a muscle that only has a name."""
+        """Return the index of the controlled joint; None for a muscle with common values only."""
         if len(self.joints) == 1 and (self.kind is not LOAD or name in self.joints):
             return 0
         if name in self.joints:
@@ -231,10 +232,10 @@ class ControlParameters(RigParameters):
 
 @dataclass(frozen=True)
 class ControlSetup:
-    """All that is declared to the node, checked against each other.
+    """All settings of the node, checked against each other.
 
-    ``reach`` are the coordinates at which the load can be held, ``can_stiffen`` says whether a
-    stiffness can be chosen beside the position.
+    ``reach`` is the range of the coordinate in which the load can be held. ``can_stiffen`` is
+    whether the stiffness can be chosen in addition to the position.
     """
 
     joint: Joint
@@ -256,9 +257,9 @@ class ControlSetup:
 
     @property
     def has_arrays(self) -> bool:
-        """Whether commands and pressures of all muscles are arrays, as ``pam_sim`` has them.
+        """Whether commands and pressures of all muscles are arrays, as in ``pam_sim``.
 
-        Else each has a topic of its own.
+        Otherwise each muscle has its own topics.
         """
         return self.settings.joint != LOAD.name and not self.muscle_topics
 
@@ -280,15 +281,15 @@ class ControlSetup:
         return (one,)
 
     def make_law(self) -> PositionLaw:
-        """Return a new law, that has to be started."""
+        """Return a new law, which must be started before use."""
         if self.settings.controller == 'pid':
             return Pid(self.joint, self.pid, self.limits, self.co_contraction)
         return SlidingMode(self.joint, self.gains, self.limits, self.co_contraction)
 
     def check_law(self) -> None:
-        """Raise ParameterError where the law cannot be made, or where its numbers overflow.
+        """Raise ParameterError if the law cannot be created, or if its command is not finite.
 
-        Each parameter alone is in its range; what they give together is not finite.
+        Each parameter can be within its range while the combination of them overflows.
         """
         low, high = self.reach
         middle = 0.5 * (low + high) if isfinite(low) and isfinite(high) else 0.0
@@ -307,11 +308,11 @@ class ControlSetup:
             )
 
     def make_course(self) -> Course:
-        """Return a new course, that has to be started."""
+        """Return a new reference generator, which must be started before use."""
         return Course(self.shape, self.reach, self.unit)
 
     def command_at(self, chambers: Sequence[float]) -> Pressures:
-        """Return the commands in Pa under which chambers rest at gauge pressures in Pa."""
+        """Return the commands in Pa at which the chambers stay at these gauge pressures in Pa."""
         return tuple(
             path.command_at_rest(chamber)
             for path, chamber in zip(self._paths, chambers, strict=True)
@@ -322,7 +323,7 @@ class ControlSetup:
         return tuple(PressurePath(self.joint, i, 1.0) for i in range(len(self.muscles)))
 
     def take_over(self, law: PositionLaw, before: 'ControlSetup') -> None:
-        """Let *law*, which was made by *before*, go on with other gains and stiffness."""
+        """Let *law*, created by *before*, continue with the gains and stiffness of this setup."""
         if not isinstance(law, SlidingMode):
             return
         if self.gains != before.gains:
@@ -331,7 +332,7 @@ class ControlSetup:
             law.set_co_contraction(self.co_contraction)
 
     def needs_new_law(self, before: 'ControlSetup') -> bool:
-        """Say whether more than what a law can take while it runs differs from *before*."""
+        """Return whether the changes since *before* cannot be applied to a running law."""
         is_pid = self.settings.controller == 'pid'
         return (self.settings.controller, self.joint, self.pid, self.limits) != (
             *(before.settings.controller, before.joint, before.pid, before.limits),
@@ -341,7 +342,7 @@ class ControlSetup:
 def settings_of(given: Values) -> tuple[Table, Callable[[dict[str, Any]], ControlSetup]]:
     """Return the table of all parameters of a controller that is started with *given*.
 
-    And what makes of their values what it works with.
+    The second value is the function that creates the setup of the node from their values.
     """
     parameters = ControlParameters(given)
     return parameters.table(), parameters.build

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What is declared to ``pam_excite``: the rig, limits, and the programme that they make."""
+"""The parameters of ``pam_excite``: the rig, the limits, and the resulting programme."""
 
 from dataclasses import dataclass, replace
 from types import MappingProxyType
@@ -19,7 +19,7 @@ from pam_ros.settings.tables import Table, Values, build, rig_table, table_of, w
 
 @dataclass(frozen=True)
 class Experiment:
-    """All that is declared to the node, and the programme that it makes."""
+    """All settings of the node, and the resulting programme."""
 
     model: Joint
     settings: Excitation
@@ -32,7 +32,7 @@ class Experiment:
         return self.settings.contraction_min * l0, self.settings.contraction_max * l0
 
     def plan(self) -> str:
-        """Return what the user should read before it starts."""
+        """Return the text that the user should read before the programme starts."""
         low, high = (1e3 * x for x in self.window)
         commands = self.programme
         path = simulate(self.model, commands.t, commands.t, commands.pressure).position
@@ -49,9 +49,9 @@ class Experiment:
 
 
 def table(given: Values = MappingProxyType({})) -> Table:
-    """Return the table of all parameters; the muscle or braid among those *given* has defaults.
+    """Return the table of all parameters; the muscle or braid in *given* sets their defaults.
 
-    None of them can change while the programme is played.
+    None of the parameters can change while the programme is played.
     """
     live = {**MUSCLE, **BRAID, **rig_table(), **table_of(Excitation)}
     plain: Table = {
@@ -64,7 +64,7 @@ def table(given: Values = MappingProxyType({})) -> Table:
 
 
 def experiment(values: dict[str, Any]) -> Experiment:
-    """Make an experiment from flat values; raises ParameterError where they make none."""
+    """Create an experiment from flat values; raises ParameterError if they are not valid."""
     (model,) = RigParameters({}).build_joints(values)
     settings = build(Excitation, values).within(model.muscle)
     return Experiment(model, settings, programme(settings))

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Read and write ROS parameter files without ROS, and find those that come with the package.
 
-A file holds a table for each node name, ``/**`` for all of them, with dotted or nested names::
+A file contains a table for each node name, ``/**`` for all nodes, with dotted or nested names::
 
     /**:
       ros__parameters:
@@ -32,7 +32,7 @@ PRESETS = ('muscles', 'rigs')
 
 
 class _Dumper(yaml.SafeDumper):
-    """YAML in which a text is a text for every parser: quoted."""
+    """YAML with quoted texts, so that every parser reads them as texts."""
 
 
 class _Text(str):
@@ -45,7 +45,7 @@ _Dumper.add_representer(
 
 
 def share() -> Path:
-    """Return the folder that holds ``config/``: the checkout, or the package's share folder."""
+    """Return the folder that contains ``config/``: the checkout or the package's share folder."""
     here = Path(__file__)
     checkout = here.resolve().parents[2]
     prefixes = [*here.parents, *(Path(p) for p in _ament_prefixes())]
@@ -60,10 +60,10 @@ def _ament_prefixes() -> list[str]:
 
 
 def find(name: str) -> Path:
-    """Return the file that *name* means: a path, or one of the package's muscles or rigs.
+    """Return the file of *name*: a path, or the name of a muscle or rig of the package.
 
-    ``dmsp_20_400n`` stands for ``config/muscles/dmsp_20_400n.yaml``. Raises ParameterError with
-    the names that there are.
+    ``dmsp_20_400n`` stands for ``config/muscles/dmsp_20_400n.yaml``. Raises ParameterError, with a
+    list of the names of the package, if there is no such file.
     """
     path = Path(name)
     try:
@@ -85,10 +85,10 @@ def find(name: str) -> Path:
 
 
 def read(path: Path, node: str = 'pam_sim') -> dict[str, Value]:
-    """Return the parameters that *path* has for a node of this name, in dotted names.
+    """Return the parameters in *path* for a node of this name, by dotted names.
 
-    Tables of other nodes are passed over. Raises ParameterError where the file cannot be read or
-    has nothing for this node.
+    Tables of other nodes are ignored. Raises ParameterError if the file cannot be read or has no
+    table for this node.
     """
     if not any(_is_for(name, node) for name, _ in _tables(read_yaml(path))):
         raise ParameterError(
@@ -99,9 +99,9 @@ def read(path: Path, node: str = 'pam_sim') -> dict[str, Value]:
 
 
 def read_any(path: Path, node: str) -> dict[str, Value]:
-    """Return the parameters that *path* has for a node of this name, none where it has no table.
+    """Return the parameters in *path* for a node of this name; none if it has no table for it.
 
-    Raises ParameterError where the file cannot be read.
+    Raises ParameterError if the file cannot be read.
     """
     tables = [table for name, table in _tables(read_yaml(path)) if _is_for(name, node)]
     values: dict[str, Value] = {}
@@ -154,7 +154,7 @@ def _flat(table: Any, prefix: str = '') -> Iterator[tuple[str, Any]]:
 def read_known(name: str, table: Table) -> dict[str, Value]:
     """Return the values of a file or muscle *name*.
 
-    Raises ParameterError for a mistyped name of *table*, and for an effect that there is not.
+    Raises ParameterError for a mistyped name of *table*, and for an effect that does not exist.
     """
     path = find(name)
     values = read(path)
@@ -174,7 +174,7 @@ def read_known(name: str, table: Table) -> dict[str, Value]:
 def write(path: Path, values: Mapping[str, Value], about: str = '', node: str = '/**') -> None:
     """Write flat *values* as a ROS parameter file for *node*, with *about* as its comment.
 
-    The file appears whole or not at all.
+    The file is written completely or not at all.
     """
     nested: dict[str, Any] = {}
     for name, value in values.items():

@@ -1,8 +1,9 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The arguments of the launch files, which mean the same in each, and what programs get of them.
+"""The common arguments of the launch files, and the parameters that result for the programs.
 
-Nothing here needs ROS: a launch file declares those arguments that it uses.
+An argument has the same meaning in each launch file. Nothing here needs ROS: a launch file
+declares those arguments that it uses.
 """
 
 from collections.abc import Iterable, Mapping
@@ -26,7 +27,7 @@ TRUE_OR_FALSE = ('true', 'false')
 
 
 class Argument(NamedTuple):
-    """What ``--show-args`` prints of an argument."""
+    """The description of an argument, which ``--show-args`` prints."""
 
     text: str
     default: str = ''
@@ -76,8 +77,8 @@ ARGUMENTS = {
 def refuse_unknown(file: str, known: Iterable[str], words: Iterable[str]) -> None:
     """Raise ParameterError for an argument that the launch file *file* does not have.
 
-    *words* are those of the command line. Where they start another launch file, which includes
-    this one, its arguments are its own.
+    *words* are those of the command line. If they start another launch file, which includes this
+    one, they may be arguments of that file and are not checked.
     """
     words, known = list(words), list(known)
     name = Path(file).name
@@ -92,7 +93,7 @@ def refuse_unknown(file: str, known: Iterable[str], words: Iterable[str]) -> Non
 
 
 def simulator(given: Mapping[str, str]) -> list[Any]:
-    """Return the parameters of ``pam_sim``: files, then what is given beside them."""
+    """Return the parameters of ``pam_sim``: files, then the given values, which override them."""
     values = _common(given)
     values |= _of(given, SIM, 'publish_rate', 'time_mode')
     if given['use_sim_time'] and given['time_mode'] not in OWN_TIME:
@@ -101,7 +102,7 @@ def simulator(given: Mapping[str, str]) -> list[Any]:
 
 
 def controller(given: Mapping[str, str]) -> list[Any]:
-    """Return the parameters of ``pam_control``: files, then what is given beside them."""
+    """Return the parameters of ``pam_control``: files, then given values, which override them."""
     values = {**_common(given), **_of(given, CONTROL, 'rate')}
     follows = given['use_sim_time'] or ('true' if given['time_mode'] in OWN_TIME else '')
     if follows:
@@ -110,7 +111,7 @@ def controller(given: Mapping[str, str]) -> list[Any]:
 
 
 def _common(given: Mapping[str, str]) -> dict[str, Any]:
-    """Return what both programs get, checked."""
+    """Return the common parameters of both programs, checked."""
     muscle = given['muscle'] or ('' if given['params'] else MUSCLE)
     if muscle:
         find(muscle)
@@ -122,7 +123,7 @@ def _common(given: Mapping[str, str]) -> dict[str, Any]:
 
 
 def _joint_table(given: Mapping[str, str]) -> Table:
-    """Return the table of the joint; where a file may say which it is, with any mass of any."""
+    """Return the table of the joint, or only a mass for any joint if a file may name the joint."""
     if given['joint'] or not given['params']:
         return joint_table(KINDS[given['joint'] or LOAD.name])
     kind, default, about = joint_table(LOAD)['mass']
@@ -130,12 +131,12 @@ def _joint_table(given: Mapping[str, str]) -> Table:
 
 
 def _of(given: Mapping[str, str], table: Table, *names: str) -> dict[str, Any]:
-    """Return those of *names* that are given, checked as the parameters of *table* are."""
+    """Return the values given for *names*, checked like the parameters of *table*."""
     return dict(override(f'{name}={given[name]}', table) for name in names if given[name])
 
 
 def _files(given: Mapping[str, str]) -> list[str]:
-    """Return the parameter files; ParameterError for one that there is not."""
+    """Return the parameter files; raises ParameterError if one does not exist."""
     files = [file.strip() for file in given['params'].split(',') if file.strip()]
     for file in files:
         if not Path(file).is_file():

@@ -25,7 +25,7 @@ from pam_ros.settings.tables import (
     rig_table,
 )
 
-# Of the simulator's own parameters those that say which joint it is; the others are no joint's.
+# Parameters of the simulator itself that select the joint; the others do not describe one.
 ABOUT_JOINTS = frozenset({'joint', 'muscles', 'joint_name', 'joint_names'})
 
 
@@ -35,11 +35,11 @@ def load_joint(
     """Return the joint that a parameter file, or a muscle or rig of this package, describes.
 
     *name* is a path, such as that of an ``identified.yaml``, or the name of a preset, such as
-    ``'dmsp_20_400n'``. *parameters* and *values* replace those of the file, by the names and in
-    the SI units that ``pam_sim`` has: ``mass=10``, ``joint='antagonistic'``; names with dots are
-    keys of *values*: ``{'effects.slack.share': 1.0}``. The joint is the one that ``pam_sim``
-    simulates with this file and these parameters. Where ``joint`` is given here and not in the
-    file, the file describes a muscle: its load does not count.
+    ``'dmsp_20_400n'``. *parameters* and *values* replace those of the file. They have the names
+    and SI units of the parameters of ``pam_sim``: ``mass=10``, ``joint='antagonistic'``. Names
+    with dots are keys of *values*: ``{'effects.slack.share': 1.0}``. The result is the joint that
+    ``pam_sim`` simulates with this file and these parameters. If ``joint`` is given here and not
+    in the file, the file describes a muscle, and its load is not used.
 
     Raises ParameterError for a file that cannot be read, a name that is not a parameter, a value
     that is not allowed, and a file with more than one joint.
@@ -51,8 +51,8 @@ def load_joint(
 def load_muscle(name: str | Path, /) -> Muscle:
     """Return the muscle of a preset of this package, such as ``'dmsp_10'``, or of a file.
 
-    *name* is that of the preset, or a path. Raises ParameterError for a file that cannot be read,
-    a value that is not allowed, and a file with muscles that differ.
+    *name* is the name of the preset, or a path. Raises ParameterError for a file that cannot be
+    read, a value that is not allowed, and a file with muscles that differ.
     """
     scene, known = read_scene(name, {})
     made = [build(Muscle, scene.of_muscle(known, i)) for i in range(len(scene.muscles))]
@@ -65,9 +65,9 @@ def load_muscle(name: str | Path, /) -> Muscle:
 
 
 def only_joint(name: str | Path, scene: Scene, values: Values) -> Joint:
-    """Return the one joint of the file *name*, of which these are the scene and the values.
+    """Return the only joint of the file *name* with this scene and these values.
 
-    Raises ParameterError for a file with several.
+    Raises ParameterError for a file with several joints.
     """
     joints = scene.build_joints(values)
     if len(joints) > 1:
@@ -90,7 +90,7 @@ def read_scene(
 ) -> tuple[Scene, dict[str, Any]]:
     """Return the scene of a file with *overrides*, and all of its flat values, checked.
 
-    Where the overrides are texts, *typed* gives their values by the table of parameters.
+    If the overrides are texts, *typed* converts them to values with the table of parameters.
     """
     text = str(as_path('name', name, 'a path, or the name of a muscle or rig of this package'))
     path = find(text)
@@ -114,7 +114,7 @@ def read_scene(
 
 
 def _refuse_mistyped(path: Path, values: Values, scene: Scene, table: Table) -> None:
-    """Raise ParameterError for a mistyped name of a file; the scene has checked own names."""
+    """Raise ParameterError for a mistyped name in a file; the scene has checked own names."""
     own = {*scene.muscles, *scene.joints}
     try:
         refuse_mistyped([flat for flat in values if flat.partition('.')[0] not in own], table)
@@ -139,7 +139,7 @@ def _refuse_others(overrides: Values, scene: Scene, table: Table) -> None:
 
 
 def _without_absent_effects(values: Values, scene: Scene) -> dict[str, Any]:
-    """Return *values* without the effects that nobody gave, which a joint does not list."""
+    """Return *values* without effects that have only default values, as joints omit them."""
     plain = rig_table(scene.kind)
     absent = effects_of({flat: default for flat, (_, default, _) in plain.items()})
     left_out = tuple(

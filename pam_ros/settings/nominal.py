@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The joint that a parameter file describes, with the names of its muscles, and back to a file."""
+"""The joint that a parameter file describes, and the parameters that describe a joint."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -23,7 +23,7 @@ from pam_ros.settings.tables import Table, flat, listed, mountings, override, ri
 
 @dataclass(frozen=True)
 class NominalJoint:
-    """A joint as a file describes it, which the search for missing effects begins with.
+    """The joint of a parameter file, with which the search for missing effects begins.
 
     ``kind`` is the arrangement that the file names, ``muscles`` are the names of its muscles and
     ``name`` is that of the joint.
@@ -36,21 +36,21 @@ class NominalJoint:
 
     @property
     def recorded_muscles(self) -> tuple[str, ...]:
-        """The names of the muscles as recordings have them; none for one muscle on a mass."""
+        """The names of the muscles in recordings; empty for one muscle on a mass."""
         return () if self.kind is LOAD else self.muscles
 
     @property
     def reach(self) -> tuple[float, float] | None:
-        """The positions in m or rad at which all muscles have a length; None for one on a mass."""
+        """The positions, m or rad, that all muscles allow; None for one muscle on a mass."""
         return None if self.kind is LOAD else reach_of(self.joint)
 
     def text(self, name: str) -> str:
-        """Return what the parameter of a flat *name* is, empty where there is no such one."""
+        """Return the description of the parameter with a flat *name*; empty if it is unknown."""
         about = self._about(name)
         return about.text if about else ''
 
     def unit(self, name: str) -> str:
-        """Return the unit of the parameter of a flat *name*, empty where it has none."""
+        """Return the unit of the parameter with a flat *name*, empty if it has none."""
         about = self._about(name)
         return about.unit if about else ''
 
@@ -66,8 +66,8 @@ class NominalJoint:
     def flat(self, joint: Joint | None = None) -> dict[str, Any]:
         """Return the flat parameters of the nominal joint, or of another *joint* of its kind.
 
-        Values that all muscles share stand once; those in which they differ stand for each, behind
-        its name. Effects are those that the joint was given.
+        A value that all muscles share appears once. Values that differ appear for each muscle,
+        after its name. Effects are those that the joint was given.
         """
         joint = self.joint if joint is None else joint
         each = [
@@ -95,10 +95,10 @@ class NominalJoint:
 
 
 def nominal_of(joint: Joint, muscles: tuple[str, ...] = ()) -> NominalJoint:
-    """Return a *joint* that a program made as the one that a parameter file would describe.
+    """Return the NominalJoint of a *joint* that a program created, as if from a file.
 
-    *muscles* are the names that recordings give to several muscles. All other names are the
-    defaults of a file. A joint that no file can describe has an arrangement of its own.
+    *muscles* are the names of several muscles in recordings. All other names are the defaults of
+    a file. A joint that no file can describe has the arrangement ``custom``.
     """
     kind = next((kind for kind in ARRANGEMENTS if _is_of(joint, kind)), None)
     names = RigParameters({'joint': LOAD.name if kind is None else kind.name})
@@ -120,9 +120,10 @@ def _is_of(joint: Joint, kind: Arrangement) -> bool:
 def nominal_joint(name: str | Path, overrides: Iterable[str] = ()) -> NominalJoint:
     """Return the joint that a file or preset *name* describes.
 
-    *overrides* are ``name=value`` texts that come last. Names that are not known here are passed
-    over, for they may be another program's; those that look mistyped are refused. Raises
-    ParameterError, also for a file with several joints.
+    *overrides* are texts ``name=value`` that replace values of the file. Unknown names in the
+    file are ignored, since they may belong to another program, but mistyped ones are refused, and
+    so are unknown names of *overrides*. Raises ParameterError, also for a file with several
+    joints.
     """
     texts = sequence('overrides', overrides, str, "a text such as 'mass=10'")
 
@@ -132,7 +133,7 @@ def nominal_joint(name: str | Path, overrides: Iterable[str] = ()) -> NominalJoi
     raw: dict[str, Any] = {}
     for text in texts:
         key, _, value = (part.strip() for part in text.partition('='))
-        # The names of muscles and joints say which parameters there are.
+        # The names of muscles and joints determine which parameters exist.
         raw[key] = listed(value) if key in ('muscles', 'joint_names') else _number_or(value)
     if raw.get('joint', LOAD.name) not in KINDS:
         refuse('joint', raw['joint'], f'one of {", ".join(KINDS)}')
@@ -142,7 +143,7 @@ def nominal_joint(name: str | Path, overrides: Iterable[str] = ()) -> NominalJoi
 
 
 def _number_or(text: str) -> float | str:
-    """Return the number that a text is, or the text: the braid is needed before types are."""
+    """Return a text as a number if it is one: the braid is needed before the types are known."""
     try:
         return float(text)
     except ValueError:

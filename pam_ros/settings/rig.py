@@ -1,12 +1,13 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Which muscles and joints there are, which parameters each of them has, and what they make.
+"""The muscles and joints of a rig: their names, their parameters, and joints built from these.
 
-All joints that a file or a program declares are made of flat values here.
+All joints that a file or a program describes are created here from flat values.
 
-A parameter without a name before it is common to all; ``<name>.<parameter>`` is that of one
-muscle or joint alone. A name has those of its own that it was given at the start, itself or by a
-preset ``<name>.muscle``; in all else it follows the common parameters.
+A parameter without a name before it is common to all muscles and joints;
+``<name>.<parameter>`` belongs to one muscle or joint only. A muscle or joint has its own values
+of those parameters that were given for it at the start, directly or by a preset
+``<name>.muscle``; for all other parameters it has the common values.
 """
 
 import re
@@ -47,12 +48,13 @@ def _lists(value: Any) -> tuple[str, ...]:
 
 
 class RigParameters:
-    """The names of muscles and joints, and which parameters each of them can have.
+    """The names of muscles and joints, and the parameters that each of them can have.
 
-    *given* are the parameters that the node was started with. Of ``start`` each muscle has what
-    begins with its pressure, and each joint the rest. ``elsewhere`` are names that another
-    program knows. Raises ParameterError where the names do not go together, or a parameter given
-    to one of them is none of its own.
+    *given* are the parameters that the node was started with. ``start`` is the table of the
+    initial state: the pressure belongs to each muscle, the rest to each joint. ``elsewhere`` are
+    parameters of another program, which are ignored. Raises ParameterError if a name is not
+    valid, if the number of names does not fit the kind of joint, or if a parameter given for one
+    of them does not exist.
     """
 
     start: ClassVar[Table] = {}
@@ -60,11 +62,11 @@ class RigParameters:
 
     @property
     def common(self) -> Table:
-        """The table of the parameters that are common to all beside the rig."""
+        """The table of the common parameters in addition to those of the rig."""
         return {}
 
     def __init__(self, given: Values) -> None:
-        """Look at what is given; the values are checked later."""
+        """Read the names among the *given* parameters; the values are checked later."""
         refuse_unknown_effects(given)
         self.kind = KINDS.get(str(given.get('joint', LOAD.name)), LOAD)
         self._given = given
@@ -77,7 +79,7 @@ class RigParameters:
                 f'{per_joint} for each joint'
             )
         count = len(self.muscles) // per_joint
-        # A muscle that has its joint for itself gives it its name.
+        # If only the muscles are named, a joint with one muscle has the name of this muscle.
         is_own = per_joint == 1 and bool(given.get('muscles'))
         self.joints = _lists(given.get('joint_names')) or (
             self.muscles if is_own else self._names(alone, count)
@@ -98,7 +100,7 @@ class RigParameters:
             for i, name in enumerate(names):
                 if name in names[:i]:
                     raise ParameterError(f'{kind}: {name} is named twice')
-                # Names that are not given are made here, and need no check.
+                # Names that are not given are generated here and need no check.
                 if not self._given.get(kind):
                     continue
                 if not NAME.fullmatch(name) or '__' in name or name.endswith('_'):
@@ -112,19 +114,19 @@ class RigParameters:
 
     @cached_property
     def _of_muscle(self) -> Table:
-        """The table of all that a muscle can have of its own."""
+        """The table of the parameters that a muscle can have of its own."""
         start = {flat: about for flat, about in self.start.items() if flat.endswith('.pressure')}
         return {**MUSCLE, **BRAID, **muscle_table(), **start}
 
     @cached_property
     def _of_joint(self) -> Table:
-        """The table of all that a joint can have of its own beside its muscles."""
+        """The table of the parameters that a joint, without its muscles, can have of its own."""
         start = {k: about for k, about in self.start.items() if k not in self._of_muscle}
         return {**joint_table(self.kind), **start}
 
     def _own(self, name: str) -> Table:
-        """Return the table of all that the muscle or joint *name* can have of its own."""
-        is_both = self.kind.muscles == 1  # a muscle and its joint go by either name
+        """Return the table of the parameters that a muscle or joint *name* can have of its own."""
+        is_both = self.kind.muscles == 1  # each name means both the muscle and its joint
         return {
             **(self._of_muscle if is_both or name in self.muscles else {}),
             **(self._of_joint if is_both or name in self.joints else {}),
@@ -144,7 +146,7 @@ class RigParameters:
         return with_defaults(plain, with_braid(preset, self._given, plain))
 
     def _preset(self, given: Values, known: Table) -> dict[str, Any]:
-        """Return what a preset says: of the load, only for one muscle on a mass, as it has."""
+        """Return the values of a preset; those of the load only for one muscle on a mass."""
         if not given.get('muscle'):
             return {}
         values = read_known(str(given['muscle']), known)
@@ -152,7 +154,7 @@ class RigParameters:
         return {name: value for name, value in values.items() if name in here}
 
     def table(self) -> Table:
-        """Return the table of the common parameters and of each name's own."""
+        """Return the table of the common parameters and of the own parameters of each name."""
         names = dict.fromkeys(chain(self.muscles, self.joints))
         own: dict[str, dict[str, Any]] = {}
         for flat, value in self._given.items():
@@ -182,19 +184,19 @@ class RigParameters:
         return _found(values, self._of_muscle, names)
 
     def of_joint(self, values: Values, k: int) -> dict[str, Any]:
-        """Return those given for joint number k beside its muscles: its own, or the common."""
+        """Return the values given for joint number k without its muscles: own or common ones."""
         names = [self.joints[k]]
         if self.kind.muscles == 1:
             names.append(self.muscles[k])
         return _found(values, self._of_joint, names)
 
     def build_joints(self, values: Values) -> tuple[Joint, ...]:
-        """Make the joints of flat *values*; ParameterError where they make none.
+        """Create the joints from flat *values*; raises ParameterError if they are not valid.
 
-        What is not given has its default.
+        A parameter that is not given has its default.
         """
         n = self.kind.muscles
-        # Joints with the same values are the same: most of many are.
+        # Joints with the same values are one object: in a large rig most joints are equal.
         made: dict[tuple[Any, ...], Joint] = {}
         found = []
         for k in range(len(self.joints)):
@@ -207,14 +209,14 @@ class RigParameters:
         return tuple(found)
 
     def build_common(self, values: Values) -> Joint:
-        """Make a joint of those of flat *values* that are common to all."""
+        """Create a joint from those flat *values* that are common to all joints."""
         return self._build([values] * self.kind.muscles, values)
 
     def _build(self, muscles: Sequence[Values], joint: Values) -> Joint:
-        """Make a joint of the values of each muscle, and of those of the joint itself.
+        """Create a joint from the values of each muscle, and from those of the joint itself.
 
-        Names that belong to something else are passed over: of effects, too, each takes those
-        that act in it.
+        Names that belong to something else are ignored. The same applies to effects: each muscle
+        and the joint use only those that act in them.
         """
         kind = self.kind
         contractions: list[Any] = [joint.get(n, kind.contraction) for n in mountings(kind)]
@@ -231,7 +233,10 @@ class RigParameters:
 
 
 def _found(values: Values, table: Table, names: Iterable[str]) -> dict[str, Any]:
-    """Return the values given for *table*: of the first of *names* that has its own, or common."""
+    """Return the values for *table*.
+
+    For each parameter it is the value of the first of *names* with its own, else the common one.
+    """
     found = {}
     for rest in table:
         for flat in (*(f'{name}.{rest}' for name in names), rest):

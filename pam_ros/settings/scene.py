@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What ``pam_sim`` simulates: its muscles and joints, put together from flat parameters."""
+"""The muscles and joints that ``pam_sim`` simulates, built from flat parameters."""
 
 from dataclasses import dataclass
 from functools import cached_property
@@ -23,11 +23,14 @@ from pam_ros.settings.tables import Table, Values, build, table_of
 
 Array = NDArray[np.float64]
 
-START = (-0.2, 0.95)  # contractions at which a simulation may start
+START = (-0.2, 0.95)  # range of contractions in which a simulation may start
 
 
 def reach_of(joint: Joint) -> tuple[float, float]:
-    """Return the least and the greatest position, m or rad, at which all muscles have a length."""
+    """Return the least and the greatest position, m or rad, at which a simulation may start.
+
+    Between them the contractions of all muscles are within ``START``.
+    """
     ends = [
         sorted(statics.coordinate(joint, i, kappa) for kappa in START)
         for i in range(len(joint.muscles))
@@ -41,7 +44,7 @@ class Scene(RigParameters):
     start: ClassVar[Table] = table_of(Start, 'initial.')
 
     def __init__(self, given: Values) -> None:
-        """Look at what is given; a start of something that has none is refused."""
+        """Read the names among the *given* parameters; refuse an unknown one of ``initial.*``."""
         super().__init__(given)
         for name in given:
             if name.startswith('initial.') and name not in self.start:
@@ -52,11 +55,11 @@ class Scene(RigParameters):
 
     @property
     def common(self) -> Table:
-        """The table of the parameters that are common to all beside the rig."""
+        """The table of the common parameters in addition to those of the rig."""
         return {**table_of(Sensors, 'sensor.'), **table_of(SimSettings)}
 
     def build(self, values: Values) -> 'SimulationSetup':
-        """Make what is simulated of checked flat *values*; ParameterError where they make none."""
+        """Create the setup from checked flat *values*; ParameterError if they are not valid."""
         starts = [
             build(Start, self.of_joint(values, k), 'initial.') for k in range(len(self.joints))
         ]
@@ -77,7 +80,7 @@ class Scene(RigParameters):
 
 @dataclass(frozen=True)
 class SimulationSetup:
-    """All that is declared to the node, checked together.
+    """All settings of the node, checked together.
 
     ``starts`` are those of the joints, ``pressures`` (Pa) those of the muscles.
     """
@@ -91,7 +94,7 @@ class SimulationSetup:
     pressures: tuple[float, ...]
 
     def __post_init__(self) -> None:
-        """Refuse a step that is too long, and a start that the muscles cannot have."""
+        """Refuse a step that is too long, and an initial state that the muscles cannot have."""
         for joint in {id(joint): joint for joint in self.joints}.values():
             check_step(joint, 1.0 / self.settings.physics_rate)
         for muscle, pressure, name in zip(
@@ -134,17 +137,17 @@ class SimulationSetup:
 
     @property
     def is_one(self) -> bool:
-        """Whether there is one muscle on a mass alone."""
+        """Whether the rig is a single muscle on a mass."""
         return len(self.muscles) == 1 and self.are_direct
 
     @cached_property
     def reach(self) -> Array:
-        """Contraction at which each muscle would have no length left; inf where there is none."""
+        """Contraction at which the length of each muscle is 0; inf for a plain force source."""
         return np.array([np.inf if m.is_load_only else 1.0 for m in self.muscles])
 
     @cached_property
     def rated(self) -> Array:
-        """Largest permitted contraction of each muscle; inf where there is none."""
+        """Largest permitted contraction of each muscle; inf for a plain force source."""
         return np.array([np.inf if m.is_load_only else m.kappa_max for m in self.muscles])
 
     @cached_property

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What is declared to ``pam_sim`` beside the rig itself: time, rates, time-out, start, names."""
+"""The parameters of ``pam_sim`` in addition to the rig: time, rates, timeout, start, names."""
 
 from dataclasses import dataclass
 
@@ -9,7 +9,7 @@ from pam_ros.parameters import Parameter, check_all, parameter_field
 from pam_ros.rig.arrangements import ARRANGEMENTS
 from pam_ros.settings.tables import Table
 
-SLOWEST = 0.1  # least speed_factor but 0
+SLOWEST = 0.1  # smallest speed_factor apart from 0
 MUSCLE: Table = {
     'muscle': (
         str,
@@ -70,7 +70,7 @@ class SimSettings:
         choices=('vent', 'hold'),
     )
     vent_time: float = parameter_field(
-        2.0,  # no load of a preset falls faster than 0.15 m/s or 2.5 rad/s then
+        2.0,  # so that no load of a preset falls faster than 0.15 m/s or 2.5 rad/s
         'how long the valve takes to 0 Pa when it vents, whatever the pressure before; 0: at once',
         's',
         low=0.0,
@@ -119,13 +119,13 @@ class SimSettings:
 
     @property
     def has_own_time(self) -> bool:
-        """Whether the node makes ROS time, and publishes it on ``/clock``."""
+        """Whether the node generates ROS time and publishes it on ``/clock``."""
         return self.time_mode != 'real_time'
 
 
 @dataclass(frozen=True)
 class Start:
-    """The state at the start and after each reset, long at rest there as far as memories go."""
+    """The state at the start and after each reset; effects start as after a long rest."""
 
     pressure: float = parameter_field(
         0.0, 'gauge pressure at the start', 'Pa', low=-101325.0, high=5e6

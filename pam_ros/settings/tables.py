@@ -1,10 +1,10 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Flat parameter names: of described dataclasses and effects, and their values in a model.
+"""Flat names of parameters, from described dataclasses and from effects, and their values.
 
-A name is what a ROS node declares: ``mass``, ``sensor.latency``, ``effects.creep.gain``. A table
-maps each to its type, default and description. Nodes, parameter files and command lines
-share these tables, so that no list of parameters exists twice.
+These are the names that a ROS node declares: ``mass``, ``sensor.latency``,
+``effects.creep.gain``. A table maps each name to its type, default and description. Nodes,
+parameter files and command lines share these tables, so that no list of parameters exists twice.
 """
 
 from collections.abc import Iterable, Mapping
@@ -27,13 +27,13 @@ Table = dict[str, tuple[type, Any, Parameter]]
 T = TypeVar('T')
 
 ORDINALS = ('first', 'second', 'third', 'fourth', 'fifth', 'sixth')
-ALIKE = 0.8  # likeness from which an unknown name is taken for a mistyped one
+ALIKE = 0.8  # similarity from which an unknown name is assumed to be mistyped
 
 
 def table_of(cls: type, prefix: str = '', *, turning: bool = False) -> Table:
-    """Return the table of a described dataclass, each name after *prefix*.
+    """Return the table of a described dataclass, with *prefix* before each name.
 
-    With *turning* it is that of a joint that turns.
+    With *turning* it is the table for a revolute joint.
     """
     return {prefix + name: entry for name, entry in described(cls, turning=turning).items()}
 
@@ -41,7 +41,7 @@ def table_of(cls: type, prefix: str = '', *, turning: bool = False) -> Table:
 def effects_table(library: tuple[type[Effect], ...] = EFFECTS, *, turning: bool = False) -> Table:
     """Return the table of all effects: ``effects.<name>.<parameter>``.
 
-    With *turning* it is that of effects on a joint that turns.
+    With *turning* it is the table of effects on a revolute joint.
     """
     return {
         EffectName(effect.name, p.name).flat: (float, p.default, p)
@@ -51,7 +51,7 @@ def effects_table(library: tuple[type[Effect], ...] = EFFECTS, *, turning: bool 
 
 
 def muscle_table() -> Table:
-    """Return the table of a muscle with the effects in it."""
+    """Return the table of a muscle and of the effects in it."""
     return {
         **table_of(Muscle),
         **effects_table(tuple(effect for effect in EFFECTS if not effect.acts_on_joint())),
@@ -59,7 +59,7 @@ def muscle_table() -> Table:
 
 
 def joint_table(kind: Arrangement) -> Table:
-    """Return the table of a joint beside its muscles, with the effects on it."""
+    """Return the table of a joint without its muscles, with the effects on it."""
     library = tuple(effect for effect in EFFECTS if effect.acts_on_joint())
     is_revolute = kind.transmission.equations.revolute
     return {
@@ -71,12 +71,12 @@ def joint_table(kind: Arrangement) -> Table:
 
 
 def rig_table(kind: Arrangement = LOAD) -> Table:
-    """Return the table of everything that a joint of this kind is made of."""
+    """Return the table of all parameters of a joint of this kind, muscles included."""
     return {**muscle_table(), **joint_table(kind)}
 
 
 def mountings(kind: Arrangement) -> list[str]:
-    """Return the names of the parameters that say how the muscles are mounted."""
+    """Return the names of the parameters that describe the mounting of the muscles."""
     return [f'contraction_{i + 1}' for i in range(kind.muscles)] if kind.has_mounting else []
 
 
@@ -90,8 +90,8 @@ def _contraction(kind: Arrangement, i: int) -> tuple[type, Any, Parameter]:
 def checked(table: Table, given: Values) -> dict[str, Any]:
     """Return a value for every name of *table*: the given one, checked, or its default.
 
-    Whole numbers become floats where a float is wanted. Raises ParameterError naming the first
-    value that is not allowed. Given names that the table does not have are left out.
+    Whole numbers become floats if the parameter is a float. Raises a ParameterError that names the
+    first value that is not allowed. Given names that the table does not have are left out.
     """
     return {
         name: about.check(name, given[name], kind) if name in given else default
@@ -100,7 +100,7 @@ def checked(table: Table, given: Values) -> dict[str, Any]:
 
 
 def build(cls: type[T], values: Values, prefix: str = '', **more: Any) -> T:
-    """Make a described dataclass from those flat *values* that are its own, and *more* fields."""
+    """Create a described dataclass from the flat *values* of its fields, and *more* fields."""
     own = {item.name: prefix + item.name for item in fields(cls)}  # type: ignore[arg-type]
     return cls(**{name: values[flat] for name, flat in own.items() if flat in values}, **more)
 
@@ -117,7 +117,7 @@ def flat(instance: Any, prefix: str = '') -> dict[str, Any]:
 
 
 def with_defaults(table: Table, values: Values) -> Table:
-    """Return *table* with those of *values* that it has as its defaults, checked."""
+    """Return *table* with *values* as defaults, checked; names that it lacks are ignored."""
     return {
         name: (kind, about.check(name, values[name], kind) if name in values else default, about)
         for name, (kind, default, about) in table.items()
@@ -127,7 +127,7 @@ def with_defaults(table: Table, values: Values) -> Table:
 def refuse_mistyped(names: Iterable[str], known: Iterable[str]) -> list[str]:
     """Return those *names* that are not *known*, as they may belong to another program.
 
-    Raises ParameterError for one that is so like a known name that it must be a slip.
+    Raises ParameterError for a name so similar to a known name that it must be mistyped.
     """
     known = set(known)
     strangers = [name for name in names if name not in known]
@@ -139,10 +139,10 @@ def refuse_mistyped(names: Iterable[str], known: Iterable[str]) -> list[str]:
 
 
 def refuse_unknown_effects(values: Values) -> None:
-    """Raise ParameterError where *values* name an effect, or a parameter of one, that is unknown.
+    """Raise ParameterError if *values* name an unknown effect, or an unknown parameter of one.
 
-    No other program has effects, so that a name of one can be no other program's. The values of
-    known names are checked where they are used.
+    No other program has effects, so that their names cannot belong to another program. The values
+    of known names are checked when they are used.
     """
     known = effects_table()
     strange = {name: value for name, value in values.items() if name not in known}
@@ -156,9 +156,9 @@ def refuse_unknown_effects(values: Values) -> None:
 
 
 def override(text: str, table: Table) -> tuple[str, Any]:
-    """Return name and checked value of a command line's ``name=value``.
+    """Return the name and the checked value of ``name=value`` on a command line.
 
-    Raises ParameterError where there is no such name, or the value is not allowed.
+    Raises ParameterError if the name does not exist, or if the value is not allowed.
     """
     name, equals, given = (part.strip() for part in text.partition('='))
     if not equals or not given:

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The steps of a simulation at which something is due at a rate of its own."""
+"""The steps of a simulation at which samples of a given rate are due."""
 
 import math
 import sys
@@ -9,21 +9,21 @@ import sys
 class Grid:
     """Samples of one rate, each at the first step that is not before it.
 
-    They are counted from a step, never summed. ``next`` is the step of the next one.
+    They are counted from a step, never summed. ``next`` is the step of the next sample.
     """
 
     def __init__(self, steps: float) -> None:
-        """Make it for so many *steps* per simulated second; nothing is due yet."""
+        """Create it for this number of *steps* per simulated second; nothing is due yet."""
         self._steps = steps
         self.begin(0.0)
 
     def begin(self, rate: float, first: int = 0, sample: int = 0) -> None:
-        """Count at *rate* in Hz from the step *first* on, where *sample* is next; 0: never."""
+        """Count at *rate* in Hz from step *first* on; *sample* is the next one. Rate 0: never."""
         self._rate, self._first = rate, first
         self._aim(sample)
 
     def advance(self) -> None:
-        """Go on to the sample after the next one."""
+        """Continue with the sample after the next one."""
         self._aim(self._sample + 1)
 
     def _aim(self, sample: int) -> None:

@@ -4,20 +4,20 @@
 
 SECOND = 1_000_000_000
 CATCH_UP = SECOND // 2  # longest lateness that is made up for, ns
-JUMP = SECOND // 10  # difference of ROS time and steady time that no slewing explains, ns
+JUMP = SECOND // 10  # ns by which slewing may move ROS time against steady time; more is a jump
 
 
 class Pace:
-    """Lets simulated steps follow ROS time, one step a period of the physics rate.
+    """Lets simulated steps follow ROS time, one step per period of the physics rate.
 
-    Step k is stamped ``origin + k / rate``, so stamps are exactly as far apart as the states that
-    they belong to. The origin moves only when the simulation must not follow: while it is
-    paused, when the clock jumps (found by comparing it with the steady clock), and when more than
-    CATCH_UP has been missed. All times are ns.
+    Step k has the stamp ``origin + k / rate``, so that stamps are exactly as far apart as the
+    states that they belong to. The origin moves only if the simulation must not follow: while it
+    is paused, when the clock jumps (which is found by comparison with the steady clock), and when
+    more than CATCH_UP has been missed. All times are ns.
     """
 
     def __init__(self, rate: float, ros: int, steady: int) -> None:
-        """Begin at step 0 now, with *rate* in Hz."""
+        """Start at step 0 at the times *ros* and *steady*, with *rate* in Hz."""
         self.rate = rate
         self.jumps = 0
         self.lost = 0.0  # simulated seconds that were never made up for
@@ -33,17 +33,18 @@ class Pace:
         return self._steady + self.stamp(step) - self._ros
 
     def align(self, step: int, ros: int, steady: int) -> None:
-        """Let *step* be now, whatever has passed."""
+        """Let *step* be due now, regardless of the time that has passed."""
         self.origin = ros - round(step * SECOND / self.rate)
         self._ros, self._steady = ros, steady
 
     def due(self, step: int, ros: int, steady: int, is_simulated: bool, ahead: float = 0.0) -> int:
-        """Return the step that is due now, when the simulation stands at *step*.
+        """Return the step that is due now, if the simulation is at *step*.
 
-        What is due within the next *ahead* steps counts as due, too: 0.5 gives the nearest step.
+        Steps that are due within the next *ahead* steps count as due, too: 0.5 gives the nearest
+        step.
 
-        *is_simulated* says that ROS time comes from ``/clock``: then it may run at any speed, and
-        only going backwards or leaping ahead is a jump.
+        *is_simulated* means that ROS time comes from ``/clock``. Then it may run at any speed, and
+        a jump is only a step backwards, or one forwards by more than 2 CATCH_UP.
         """
         leap = passed = ros - self._ros
         if is_simulated:

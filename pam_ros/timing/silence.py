@@ -1,25 +1,25 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""How long a process was silent without knowing it, and which messages are older than that.
+"""Find silences that a process cannot notice itself, and messages from before their end.
 
-A process that is stopped, or whose machine sleeps, sees nothing of it but a clock that has gone
-on. What was measured meanwhile is delivered when it wakes, and looks as if it were of now.
+A process that is stopped, or whose machine sleeps, only notices that the clock has advanced.
+Messages from the time of this silence are delivered after its end, and look like new ones.
 """
 
 import time
 
 from pam_ros.timing.pace import SECOND
 
-SETTLE = SECOND // 5  # ns of running after waking in which what was queued arrives
-PATIENCE = 2 * SECOND  # ns of running after which stamps that never become new are not believed
-TURN = SECOND // 10  # longest ns of one turn that count as running: else it was held up again
-DRIFT = 1000  # ns in which the clocks of two machines part by less than 1 ns
+SETTLE = SECOND // 5  # ns of running after a silence within which queued messages arrive
+PATIENCE = 2 * SECOND  # ns of running after a silence after which old stamps no longer count
+TURN = SECOND // 10  # most ns of running between two marks: if longer, it was delayed again
+DRIFT = 1000  # ns in which the clocks of two machines drift apart by less than 1 ns
 
 
 def steady_ns() -> int:
     """Return ns of a clock that never jumps, and that also counts while the machine sleeps.
 
-    Linux stops CLOCK_MONOTONIC during a suspension; other systems have no CLOCK_BOOTTIME.
+    On Linux CLOCK_MONOTONIC stops during a suspension; other systems have no CLOCK_BOOTTIME.
     """
     if hasattr(time, 'CLOCK_BOOTTIME'):
         return time.clock_gettime_ns(time.CLOCK_BOOTTIME)
@@ -27,29 +27,29 @@ def steady_ns() -> int:
 
 
 class Silence:
-    """Finds silences of this process, and tells messages from before its waking from new ones.
+    """Finds silences of this process, and separates messages from before their end from new ones.
 
-    All times are ns of one clock that counts during silences, but for stamps, which are of the
-    clock of whoever measured.
+    All times are ns of one clock that also counts during silences. Only stamps are times of the
+    clock of the machine that measured.
     """
 
     def __init__(self, now: int) -> None:
-        """Begin now, with nothing that is old."""
+        """Start at the time *now*, without a silence."""
         self._alive = self._woke = now
-        self._ran = PATIENCE  # since it woke
-        self._shortest: dict[str, tuple[int, int]] = {}  # delay of each source, and when noted
+        self._ran = PATIENCE  # since the last silence
+        self._shortest: dict[str, tuple[int, int]] = {}  # shortest delay of each, and its time
 
     def mark(self, now: int) -> None:
-        """Note that its work of *now* is done: it has commanded, or has nothing to command.
+        """Note that the work that began at *now* is done, with a command or without one.
 
-        *now* is when that work began. If it was stopped in between, a silence found since counts.
+        If the process was stopped since then and a silence was found, this call has no effect.
         """
         if now > self._alive:
             self._ran += min(now - self._alive, TURN)
             self._alive = now
 
     def find(self, now: int, longest: int) -> int:
-        """Return how long it has been silent if that is more than *longest*, else 0."""
+        """Return the length of the silence until *now* if it is more than *longest*, else 0."""
         silent = now - self._alive
         if silent <= longest:
             return 0
@@ -59,15 +59,16 @@ class Silence:
 
     @property
     def is_settling(self) -> bool:
-        """Whether what was queued in a silence may still arrive."""
+        """Whether messages that were queued during a silence may still arrive."""
         return self._ran < SETTLE
 
     def is_old(self, source: str, stamp: int, now: int) -> bool:
-        """Say whether a message of *source* that is received now may be from before the waking.
+        """Return whether a message of *source* may have been sent before the last silence ended.
 
-        Until all that was queued has arrived, every message may be. After that its *stamp* tells,
-        0 where there is none: added to the shortest delay of this source, which includes the
-        difference of the two clocks, it is the time at which it was measured.
+        *now* is its time of receipt. Until all queued messages have arrived, every message may be
+        old. Later its *stamp* decides; a message without a stamp (0) is then new. The sum of the
+        stamp and the shortest delay of this source, which includes the difference of the two
+        clocks, is the time of the measurement.
         """
         if self.is_settling:
             return True

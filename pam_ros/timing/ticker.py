@@ -21,19 +21,19 @@ class Punctuality:
 
 
 class Ticker:
-    """Says when the next tick is due; due times are counted from a start, never summed.
+    """Computes when the next tick is due; due times are counted from a start, never summed.
 
     Times are nanoseconds of a steady clock. A tick that comes a whole period late or more is an
-    overrun; the ticks missed with it are not made up for.
+    overrun; the ticks that are missed with it are not made up for.
     """
 
     def __init__(self, rate: float) -> None:
-        """Make it for a *rate* in Hz; :meth:`start` sets it going."""
+        """Create it for a *rate* in Hz; :meth:`start` starts the ticks."""
         self.overruns = 0
         self.start(rate, 0)
 
     def start(self, rate: float, now: int) -> None:
-        """Tick at *rate* from *now* on, the first time at once."""
+        """Tick at *rate* from *now* on; the first tick is due at once."""
         self.rate = rate
         self._period = 1e9 / rate
         self._start, self._due, self._n = now, now, 0
@@ -44,7 +44,7 @@ class Ticker:
         return (self._due - now) * 1e-9
 
     def aim(self, due: int) -> None:
-        """Move all ticks to come, so that the next one is due then."""
+        """Move all future ticks, so that the next one is due at *due*."""
         self._start += due - self._due
         self._due = due
 

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Say once a second on ``/diagnostics`` how a node is doing."""
+"""Publish the health of a node on ``/diagnostics`` once a second."""
 
 from collections.abc import Callable, Mapping
 from typing import Any
@@ -29,9 +29,9 @@ class Diagnostics:
         parts: Mapping[str, Callable[[], Health]],
         now: Callable[[], Time] | None = None,
     ) -> None:
-        """Ask each of *parts* for its health once a second, by the steady clock.
+        """Publish the health of *parts* once a second, by the steady clock.
 
-        *now* says the time for the stamp, where it is not that of the node's clock.
+        *now* returns the time for the stamp, if it is not the time of the node's clock.
         """
         self._parts = parts
         self._now = now or node.get_clock().now
@@ -61,7 +61,7 @@ class Diagnostics:
 
 
 def text(value: Any) -> str:
-    """Return a value as a diagnostic shows it; None is nothing, a tuple each of its values."""
+    """Return the text of a value in a diagnostic; '' for None, a list for a tuple."""
     if value is None:
         return ''
     if isinstance(value, tuple):

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The quality of service of our topics, which a user may override."""
+"""The quality of service of the package's topics, which a user may override."""
 
 from math import ceil
 
@@ -8,13 +8,14 @@ from rclpy.qos_overriding_options import QoSOverridingOptions
 
 DEPTH = 10
 # s of states that a simulator can send again. After a delay it publishes up to half a second of
-# states at once: more than the shared memory of the middleware holds until a recorder that is
-# held up by that takes them. To send them again takes up to another second (benchmarks.soak).
+# states at once. This is more than the shared memory of the middleware holds until a recorder,
+# which is delayed by this, takes them. To send them again takes up to another second
+# (benchmarks.soak).
 KEPT = 2.0
 
 
 def states_depth(rate: float) -> int:
-    """Return how many states a publisher keeps that publishes *rate* of them a second."""
+    """Return how many states a publisher keeps that publishes them at *rate* in Hz."""
     return max(DEPTH, ceil(KEPT * rate))
 
 

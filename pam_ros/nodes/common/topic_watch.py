@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Looks once a second at who publishes and who subscribes to a node's topics."""
+"""Checks once a second which nodes publish and subscribe to a node's topics."""
 
 from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
@@ -12,42 +12,42 @@ from pam_ros.health.health import Health
 from pam_ros.health.topics import Senders, TopicHealth, names_one_of
 from pam_ros.nodes.common.sampler import Sampler
 
-# Topics of a node that are sampled at a time: to begin takes some 7 ms, then a sample below 1 ms.
-# Nodes that share more topics than these share these, too.
+# Topics of a node that are sampled at a time: the start takes some 7 ms, then a sample below 1 ms.
+# Nodes that share more topics than these also share these.
 SAMPLED = 4
-UNKNOWN = '_NODE_NAME'  # how rmw begins the name of a node that it does not know, or not yet
+UNKNOWN = '_NODE_NAME'  # start of the name that rmw gives to a node it does not know yet
 
 
 class Watched(NamedTuple):
-    """A topic that one node alone may publish."""
+    """A topic that only one node may publish."""
 
     kind: type
     name: str
-    joints: tuple[str, ...] = ()  # of joint states: other nodes may publish other joints there
-    is_command: bool = False  # that a node of the rig must subscribe to
+    joints: tuple[str, ...] = ()  # for joint states: other nodes may publish other joints
+    is_command: bool = False  # to which a node of the rig must subscribe
 
 
 def never() -> bool:
-    """Say that no command is published."""
+    """Return False: no command is published."""
     return False
 
 
 class TopicWatch:
-    """Looks at topics in :meth:`health`, which is to be called once a second.
+    """Checks topics in :meth:`health`, which must be called once a second.
 
-    Messages are sampled only while a topic has more than one publisher: their sequence numbers say
-    whether more than one of them sends.
+    Messages are sampled only while a topic has more than one publisher: their sequence numbers
+    show whether more than one of them sends.
     """
 
     def __init__(
         self, node: Node, watched: Sequence[Watched], is_commanding: Callable[[], bool] = never
     ) -> None:
-        """Look at the topics of *node*; *is_commanding* says whether it publishes commands."""
+        """Check the topics of *node*; *is_commanding* returns whether it publishes commands."""
         self._node, self._is_commanding = node, is_commanding
         self._each = [_Topic(node, one) for one in watched]
 
     def health(self) -> Health:
-        """Look now; return the health of all topics. What begins is written to the log."""
+        """Check now; return the health of all topics. Faults are logged when they begin."""
         is_commanding, left = self._is_commanding(), SAMPLED
         for topic in self._each:
             topic.count()
@@ -60,7 +60,7 @@ class TopicWatch:
         )
 
     def close(self) -> None:
-        """Release what samples the topics: to be called before the node is destroyed."""
+        """Release the samplers of the topics: must be called before the node is destroyed."""
         for topic in self._each:
             topic.stop_sampling()
 
@@ -78,14 +78,14 @@ class _Topic:
         self.publishers = self._node.count_publishers(self.health.topic)
 
     def look(self, *, is_commanding: bool, is_sampled: bool) -> list[str]:
-        """Note how the topic is now; return what is to be written to the log."""
+        """Note the present state of the topic; return the sentences for the log."""
         nodes = self._publishing_nodes() if is_sampled else []
         has_several = self._has_several_senders(is_sampled=is_sampled)
         is_unheard = self._watched.is_command and is_commanding and not self._has_subscriber()
         return self.health.look(nodes, is_unheard, has_several)
 
     def stop_sampling(self) -> None:
-        """Release the subscription that takes samples, where there is one."""
+        """Release the subscription that takes samples, if there is one."""
         if self._sampler:
             self._sampler.close()
             self._sampler = None
@@ -95,7 +95,7 @@ class _Topic:
         return [_name_of(info) for info in infos]
 
     def _has_subscriber(self) -> bool:
-        """Say whether a node subscribes that is not hidden, as samplers and tools are."""
+        """Return whether a node subscribes that is not hidden; samplers and tools are hidden."""
         infos = self._node.get_subscriptions_info_by_topic(self.health.topic)
         return any(
             info.node_name.startswith(UNKNOWN) or not info.node_name.startswith('_')
@@ -103,7 +103,7 @@ class _Topic:
         )
 
     def _has_several_senders(self, *, is_sampled: bool) -> bool:
-        """Say whether more than one publisher sends, from a sample of the newest messages."""
+        """Return whether more than one publisher sends, from a sample of the newest messages."""
         if not is_sampled:
             self.stop_sampling()
             return False
@@ -117,7 +117,7 @@ class _Topic:
 
 
 def _name_of(info: Any) -> str:
-    """Return the full name of a node, '' where it is not known yet."""
+    """Return the full name of a node, '' if it is not known yet."""
     if info.node_name.startswith(UNKNOWN):
         return ''
     return f'{info.node_namespace.rstrip("/")}/{info.node_name}'

@@ -1,8 +1,8 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What pressure there is in the muscles before control begins, where the rig publishes it.
+"""The pressures in the muscles before control begins, if the rig publishes them.
 
-A controller that begins at the pressure that holds the load moves nothing, whatever the load is.
+A controller that begins at the pressure that holds the load does not move it, for any load.
 """
 
 from collections.abc import Callable
@@ -19,8 +19,8 @@ from pam_ros.settings.control import ControlSetup
 from pam_ros.timing.pace import SECOND
 from pam_ros.timing.silence import steady_ns
 
-FRESH = SECOND  # ns that a pressure may be older than the state that control begins at
-LONGEST = SECOND // 10  # ns of one turn that count as waiting: else this process was held up
+FRESH = SECOND  # ns by which a pressure may be older than the state at which control begins
+LONGEST = SECOND // 10  # most ns of waiting between two calls: if longer, this process was delayed
 
 Subscribe = Callable[[type, str, Callable[..., None]], None]
 
@@ -37,11 +37,11 @@ class ChamberInput:
     ) -> None:
         """Use *subscribe*(type, topic, callback); *on_pressure* is called after each pressure.
 
-        *on_fault* is called with what is said of a pressure that cannot be true.
+        *on_fault* is called with a sentence on a pressure that cannot be true.
         """
         self._on_pressure, self._on_fault = on_pressure, on_fault
         self._found: list[tuple[int, int, float] | None] = [None] * len(setup.muscles)
-        self._is_published = False  # on all topics, at some time
+        self._is_published = False  # whether all pressures have been received before
         self._waited = 0
         self._looked = steady_ns()
         if not setup.settings.pressure_wait:
@@ -67,7 +67,7 @@ class ChamberInput:
         self._is_published = self._is_published or all(self._found)
 
     def forget(self) -> None:
-        """Wait anew for what there is."""
+        """Forget all pressures, and wait for them again."""
         self._found = [None] * len(self._found)
         self._waited = 0
 
@@ -78,11 +78,12 @@ class ChamberInput:
         setup: ControlSetup,
         is_seen: Callable[[], bool],
     ) -> None:
-        """Say at which pressure *loop* is to begin at a state of *stamp* ns, or that it must wait.
+        """Set the pressure at which *loop* begins at a state of *stamp* ns, or let the loop wait.
 
-        Pressures count by their stamps, where both have one, else by when they came. The loop
-        waits the first time, and again if they were published before, while joint states come:
-        *is_seen*().
+        The age of a pressure follows from the stamps if both messages have one, else from the
+        time of its receipt. The loop waits at its first start, and at each later start if the
+        pressures were published before, for at most the parameter pressure_wait. This time runs
+        while joint states arrive, *is_seen*(), and starts again at 0 after they have stopped.
         """
         if stamp is None or loop.state not in (WAITING, BLIND):
             self._waited = 0

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What a controller reads from joint states: the state of its joint."""
+"""The state of the controlled joint, read from joint states."""
 
 from math import isfinite
 from typing import NamedTuple
@@ -12,7 +12,7 @@ from pam_ros.nodes.common.stamps import stamp_of
 
 
 class Sight(NamedTuple):
-    """A measured state: ns (0 where there is no stamp), m, m/s where it is measured."""
+    """A measured state: ns (0 without a stamp), m or rad, m/s or rad/s (None if not used)."""
 
     stamp: int
     position: float
@@ -20,7 +20,7 @@ class Sight(NamedTuple):
 
 
 def sight_of(message: JointState, joint: str, needs_velocity: bool) -> Sight:
-    """Return the state of *joint*; raises RangeError where the message has none that is usable."""
+    """Return the state of *joint*; raises RangeError if the message has no usable state of it."""
     try:
         i = message.name.index(joint)
     except ValueError:

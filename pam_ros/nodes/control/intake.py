@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The subscriptions of a controller, which tell what was sent before it woke from what is new."""
+"""The subscriptions of a controller, which separate new messages from those of a silence."""
 
 from collections.abc import Callable
 from functools import partial
@@ -14,13 +14,13 @@ from pam_ros.nodes.common.stamps import stamp_of
 from pam_ros.timing.pace import SECOND
 from pam_ros.timing.silence import Silence, steady_ns
 
-# ns of silence after which, where states make the time, only the newest state is answered: a
-# scaled simulation has gone on meanwhile, one in lockstep has waited and loses nothing.
+# ns of silence after which only the newest state is answered, if time follows the states: a
+# scaled simulation has continued meanwhile, one in lockstep has waited and loses nothing.
 HELD_UP = SECOND // 2
 
 
 class Intake:
-    """Subscribes to topics, and looks for silences of this process before each message."""
+    """Subscribes to topics, and checks for silences of this process before each message."""
 
     def __init__(
         self,
@@ -29,29 +29,32 @@ class Intake:
         longest: Callable[[], float],
         on_silence: Callable[[int], None],
     ) -> None:
-        """Subscribe with *node*; *is_followed* says that states make the time.
+        """Subscribe with *node*; *is_followed* means that time follows the states.
 
-        Where they do not, *on_silence*(ns) is called after a silence of more than *longest*() s.
+        If it does not, *on_silence*(ns) is called after a silence of more than *longest*() s.
         """
         self._node, self._is_followed = node, is_followed
         self._longest, self._on_silence = longest, on_silence
         self._silence = Silence(steady_ns())
-        self.silent = 0  # ns that the last silence was long
+        self.silent = 0  # length of the last silence, ns
         self._newest: dict[str, Callable[[], None]] = {}
 
     def look(self) -> bool:
-        """Say whether this process was silent for longer than the rig goes on by itself."""
+        """Return whether this process was silent for longer than the rig continues by itself."""
         longest = HELD_UP if self._is_followed else round(self._longest() * SECOND)
         silent = self._silence.find(steady_ns(), longest)
         if self._is_followed:
-            return False  # the simulated time that passes from one state to the next one tells
+            return False  # the simulated time between two states shows a silence
         if silent:
             self.silent = silent
             self._on_silence(silent)
         return bool(silent)
 
     def mark(self, now: int) -> None:
-        """Note that the work of *now* ns is done, and take what was kept until the queue came."""
+        """Note that the work of *now* ns is done.
+
+        When all queued messages have arrived, pass on those that were kept until then.
+        """
         self._silence.mark(now)
         if self._newest and not self._silence.is_settling:
             newest, self._newest = self._newest, {}
@@ -67,7 +70,7 @@ class Intake:
         *,
         raw: bool = False,
     ) -> None:
-        """Call *callback* with each message of *topic*; with its bytes where *raw*."""
+        """Call *callback* with each message of *topic*, or with its bytes if *raw*."""
 
         def receive(message: Any) -> None:
             self.look()
@@ -79,7 +82,10 @@ class Intake:
         )
 
     def measure(self, kind: type, topic: str, callback: Callable[[Any], None]) -> None:
-        """Call *callback* with each measurement on *topic* that is not of before the waking."""
+        """Call *callback* with each measurement on *topic*, except old ones from a silence.
+
+        If time follows the states, the newest of the queued measurements is used, too.
+        """
 
         def receive(message: Any) -> None:
             stamp = stamp_of(message) if hasattr(message, 'header') else 0
@@ -88,7 +94,7 @@ class Intake:
             elif self._is_followed or not self._silence.is_old(topic, stamp, steady_ns()):
                 callback(message)
 
-        # Where states make the time, one that is lost is one that is waited for. A rig in real
-        # time publishes the next one soon, reliably or not: best effort receives from both.
+        # If time follows the states, it would stop at a lost state. A rig in real time publishes
+        # the next one soon, reliably or not: best effort receives from both kinds of publishers.
         reliable, best_effort = ReliabilityPolicy.RELIABLE, ReliabilityPolicy.BEST_EFFORT
         self.subscribe(kind, topic, receive, reliable if self._is_followed else best_effort)

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The node of ``pam_control``: its topics and services are listed there."""
+"""The node of ``pam_control``: the help of this program lists its topics and services."""
 
 from math import isfinite
 from time import monotonic_ns
@@ -35,21 +35,21 @@ from pam_ros.timing.pace import SECOND
 from pam_ros.timing.silence import steady_ns
 from pam_ros.timing.ticker import Ticker
 
-# s; after a step that is later than this, what came meanwhile is received first.
+# s; if a step is later than this, messages that arrived meanwhile are received first.
 HELD_UP = 0.05
-WATCH_RATE = 20.0  # Hz at which time-outs are looked for where states make the time
-REPEAT = SECOND // 20  # ns after which a state that comes again asks for its answer again
+WATCH_RATE = 20.0  # Hz at which timeouts are checked if time follows the states
+REPEAT = SECOND // 20  # ns after a command, after which it is sent again for a repeated state
 
 
 class PamControl(TickingNode):
     """A position law in a loop that is closed over topics.
 
-    As ROS time goes by the system's clock, it commands at its own rate. With use_sim_time, time
-    passes as the stamps of the joint states say: each new one is answered with one command.
+    If ROS time is the system's clock, the node commands at its own rate. With use_sim_time, time
+    follows the stamps of the joint states: each new state is answered with one command.
     """
 
     def __init__(self) -> None:
-        """Make the controller that the parameters describe."""
+        """Create the controller that the parameters describe."""
         super().__init__('pam_control')
         self._given: NodeParameters[ControlSetup] = NodeParameters(
             self, *settings_of(given(self)), self._change
@@ -59,8 +59,8 @@ class PamControl(TickingNode):
         self._is_followed = bool(self.get_parameter('use_sim_time').value)
         self.keeps_wall_time = not self._is_followed
         self._seen = steady_ns()  # steady time of the newest usable state, ns
-        self._stamp: int | None = None  # and its stamp
-        self._last: Reading | None = None  # and what it was
+        self._stamp: int | None = None  # its stamp, ns
+        self._last: Reading | None = None  # its values
         self._ticked = self._seen  # steady time of the last tick, ns
         self._has_waited = False
         self._answered = 0  # steady time of the last command, ns
@@ -96,7 +96,7 @@ class PamControl(TickingNode):
         intake = self._intake
         intake.measure(JointState, 'joint_states', self._see)
         intake.subscribe(Float64, 'position_reference', self._take_reference)
-        # As objects of Python its points would take longer than the commands may wait.
+        # Raw: to convert its points to Python objects takes longer than commands may be delayed.
         intake.subscribe(JointTrajectory, 'joint_trajectory', self._take_trajectory, raw=True)
         self._chambers = ChamberInput(
             self._setup, intake.measure, self._begin, self._reports.leave_out
@@ -114,7 +114,7 @@ class PamControl(TickingNode):
         return WATCH_RATE if self._is_followed else self._setup.settings.rate
 
     def start(self) -> None:
-        """Begin to count time: making the node was no silence."""
+        """Start to count time: the creation of the node does not count as a silence."""
         line = start_line.of_controller(
             self._setup,
             self._given.values,
@@ -126,7 +126,7 @@ class PamControl(TickingNode):
         self._intake.mark(steady_ns())
 
     def tick(self) -> None:
-        """Command; where the states make the time, only see whether they stop."""
+        """Send a command; if time follows the states, only check whether the states stop."""
         now = steady_ns()
         self._intake.look()
         self._prepare()
@@ -138,12 +138,12 @@ class PamControl(TickingNode):
         longest = max(min(0.5 * settings.state_timeout, HELD_UP), 3.0 / settings.rate) * SECOND
         was_held_up = now - self._ticked > longest and not self._has_waited
         self._ticked, self._has_waited = now, was_held_up
-        if not was_held_up:  # else what came meanwhile is to be received first
+        if not was_held_up:  # else messages that arrived meanwhile are received first
             self._step(now / SECOND, self.get_clock().now().nanoseconds)
             self._intake.mark(now)
 
     def _begin_anew(self, silent: int) -> None:
-        """Forget what was before *silent* ns: neither the load nor the pressure is there now."""
+        """Start again after a silence of *silent* ns: load and pressure may have changed."""
         self._loop.forget()
         self._loop.pressures = None
         self._chambers.forget()
@@ -161,36 +161,36 @@ class PamControl(TickingNode):
             self._step(now / SECOND, now)
 
     def _is_seen(self) -> bool:
-        """Say whether the newest state is not older than the time-out."""
+        """Return whether the newest state is not older than the timeout."""
         age = steady_ns() - self._seen
         if self._is_followed and self._stamp is not None:
-            # By both clocks: /clock may arrive before the states that belong to it.
+            # The lesser of two ages: /clock may arrive before the states that belong to it.
             age = min(age, self.get_clock().now().nanoseconds - self._stamp)
         return age <= self._setup.settings.state_timeout * SECOND
 
     def _prepare(self) -> None:
-        """Look for the pressure at which to begin."""
+        """Determine the pressure at which control begins."""
         self._chambers.prepare(self._loop, self._stamp, self._setup, self._is_seen)
 
     def _begin(self) -> None:
-        """Where states make the time, answer the one that control has waited at."""
+        """If time follows the states, answer the state at which control has waited."""
         waits = self._loop.state in (WAITING, BLIND)
         if self._is_followed and waits and self._stamp is not None and self._is_seen():
             self._prepare()
             self._step(self._stamp / SECOND, self._stamp)
 
     def _step(self, time: float, stamp: int) -> None:
-        """Command at *time* in s, by the clock of the loop; *stamp* is ROS time in ns."""
+        """Send a command at *time* in s, by the clock of the loop; *stamp* is ROS time in ns."""
         loop, before = self._loop, self._loop.state
         try:
             pressures = loop.tick(time)
         except ArithmeticError:
             pressures = (float('nan'),)
         self._tracking.see(loop)
-        if pressures is None or self._intake.look():  # it may be stopped here as well as anywhere
+        if pressures is None or self._intake.look():  # the process can be stopped here, too
             return
         if not all(map(isfinite, pressures)):
-            loop.enable(False)  # the valve lets the load down after its time-out
+            loop.enable(False)  # the valve lowers the load after its timeout
             loop.pressures = None
             self._fault = 'the law gave no number: disabled'
             self.get_logger().error(self._fault)
@@ -202,14 +202,15 @@ class PamControl(TickingNode):
             return
         self._publish(pressures)
         if self._intake.look():
-            # Stopped while it published: the rig may have received the old command just now. One
-            # that vents meanwhile must not obey it; one that holds for ever still had it.
+            # It was stopped while it published: the rig may have received the old command only
+            # now. A rig that vents meanwhile must not obey it; one that holds for ever still had
+            # this command.
             timeout = self._setup.settings.command_timeout
             if timeout:
                 self._publish(loop.vented(pressures, self._intake.silent / SECOND - timeout))
             return
         rate = self._setup.settings.state_rate
-        # A little early is on time: stamps of a grid are rounded.
+        # Slightly early counts as due, since the stamps of samples are rounded.
         is_due = bool(rate) and not 0 <= stamp - self._shown < 0.99 * SECOND / rate
         if loop.state == RUNNING and is_due:
             self._shown = stamp
@@ -220,7 +221,7 @@ class PamControl(TickingNode):
         self._answered = steady_ns()
         self._commanded += 1
 
-    # In ------------------------------------------------------------------------------------
+    # Inputs --------------------------------------------------------------------------------
 
     def _see(self, message: JointState) -> None:
         settings = self._setup.settings
@@ -240,7 +241,7 @@ class PamControl(TickingNode):
             self._take_in(sight, steady_ns())
             return
         if passed < 0:
-            self._loop.forget()  # simulated time begins anew, and so does what happens in it
+            self._loop.forget()  # simulated time starts again, and so does control
             self._chambers.forget()
         elif self._loop.state == RUNNING and passed > settings.longest_silence * SECOND:
             self._begin_anew(passed)
@@ -250,7 +251,7 @@ class PamControl(TickingNode):
         self._step(sight.stamp / SECOND, sight.stamp)
 
     def _take_in(self, sight: Sight, time: int) -> None:
-        """Give the loop a state of *time* in ns by its clock, unless it cannot be true."""
+        """Give the loop a state of *time* in ns by its clock, unless the state cannot be true."""
         stamp = sight.stamp / SECOND if sight.stamp else None
         reading = Reading(time / SECOND, sight.position, sight.velocity, stamp)
         fault = self._loop.see(reading)
@@ -291,7 +292,7 @@ class PamControl(TickingNode):
             self._reports.refuse(str(error))
 
     def _wait_for(self, begin: int) -> float:
-        """Return how long after the loop's last step in s the ROS time *begin* in ns is."""
+        """Return the time in s from the last step of the loop to the ROS time *begin* in ns."""
         if self._is_followed and self._stamp is not None:
             return (begin - self._stamp) / SECOND
         since = steady_ns() / SECOND - self._loop.time
@@ -308,7 +309,7 @@ class PamControl(TickingNode):
         if request.data:
             self._fault = ''
             if self._is_followed and self._last:
-                self._loop.see(self._last)  # which may wait for an answer: no other would come
+                self._loop.see(self._last)  # the simulator may wait for the answer to it
         else:
             self._loop.pressures = None  # another node may command from now on
         response.success = True
@@ -316,7 +317,7 @@ class PamControl(TickingNode):
         return response
 
     def _change(self, now: ControlSetup) -> None:
-        """Go on with other parameters."""
+        """Continue with other parameters."""
         before, self._setup = self._setup, now
         loop, settings = self._loop, now.settings
         _protect(loop, now)
@@ -333,18 +334,18 @@ class PamControl(TickingNode):
             self.ticker.start(self._tick_rate, monotonic_ns())
 
     def finish(self) -> None:
-        """Release what looks at the topics."""
+        """Release the samplers of the topics."""
         self._topics.close()
 
     # Health --------------------------------------------------------------------------------
 
     def _trouble(self) -> str:
-        """Say why it does not control, '' where it does."""
+        """Return why the node does not control, '' if it does."""
         did = self._setup.settings.on_timeout
         return control_health.trouble(self._loop, did, self._blindness, self._fault)
 
     def _look_for_states(self) -> None:
-        """Write to the log what control waits for, and when it goes on: each once."""
+        """Log once what control waits for, and once when it continues."""
         loop, now, why = self._loop, steady_ns() / SECOND, self._trouble()
         if loop.state in (WAITING, RUNNING):
             self._reports.wait(why, now)
@@ -365,7 +366,7 @@ class PamControl(TickingNode):
 
 
 def _protect(loop: Loop, setup: ControlSetup) -> None:
-    """Let *loop* do what the settings say where joint states stop."""
+    """Give *loop* the settings for the case that joint states stop."""
     settings = setup.settings
     loop.timeout, loop.safe = settings.state_timeout, settings.on_timeout
     loop.vent_time = settings.vent_time

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What a controller publishes its pressures on: an array, or a topic of each muscle."""
+"""The topics of a controller's commands: one array, or one topic per muscle."""
 
 from array import array
 from collections.abc import Sequence
@@ -40,7 +40,7 @@ class ArrayCommand:
 
 
 class EachCommand:
-    """The pressure of each muscle on a topic of its own."""
+    """The pressure of each muscle on its own topic."""
 
     def __init__(self, node: Node, topics: Sequence[str]) -> None:
         """Create the publishers on *node*."""
@@ -55,7 +55,7 @@ class EachCommand:
 
 
 def commands_of(node: Node, setup: ControlSetup) -> ArrayCommand | EachCommand:
-    """Create the publishers that *setup* asks for on *node*."""
+    """Create the publishers of *setup* on *node*."""
     if setup.has_arrays:
         return ArrayCommand(node, setup.command_topics[0], setup.muscles)
     return EachCommand(node, setup.command_topics)

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Whether a rig that is vented has ended, and another one has come in its place."""
+"""Detect whether a rig that is vented has ended, and another one has replaced it."""
 
 from collections.abc import Sequence
 
@@ -9,11 +9,11 @@ from rclpy.publisher import Publisher
 
 
 class RigWatch:
-    """Sees that a rig has started, before a command can reach it that was not meant for it.
+    """Detects that a new rig has started, before it can receive a command for the old one.
 
-    The node of a simulator is known some time before it subscribes. A subscriber that is new to
-    us is too late where a simulator was killed: the new one has its port, and receives what is
-    still sent to the one before. It is enough for a rig that ended as it should.
+    The node of a simulator is known some time before it subscribes. If a simulator was killed, a
+    check for new subscribers is too late: the new simulator uses the port of the old one, and
+    receives the messages that are still sent to it. If a rig ended properly, this check is enough.
     """
 
     def __init__(self, node: Node, states: str, publishers: Sequence[Publisher]) -> None:
@@ -24,10 +24,10 @@ class RigWatch:
         self._since: float | None = None
 
     def is_new(self, since: float) -> bool:
-        """Say whether another rig has come since the time *since* in s, when venting began.
+        """Return whether another rig has started since the time *since* in s, when venting began.
 
-        That is so where there are more nodes or subscribers than the fewest since then. The rig
-        that is there when a new time is given is the one that is vented.
+        This is so if there are more nodes or subscribers than the smallest number since then. The
+        rig that exists when a new time is given is the one that is vented.
         """
         if since != self._since:
             found = self._node.get_publishers_info_by_topic(self._states)

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The topics of a controller that one node alone may publish, or that must have a subscriber."""
+"""The topics of a controller that only one node may publish, or that need a subscriber."""
 
 from rclpy.node import Node
 from sensor_msgs.msg import FluidPressure, JointState
@@ -12,12 +12,12 @@ from pam_ros.settings.control import ControlSetup
 
 
 def watch_topics(node: Node, setup: ControlSetup, loop: Loop) -> TopicWatch:
-    """Return what looks at the topics of *node*, *loop* being what commands."""
+    """Return the watch of the topics of *node*; *loop* shows whether commands are sent."""
     return TopicWatch(node, watched_topics(setup), lambda: loop.state in (RUNNING, BLIND))
 
 
 def watched_topics(setup: ControlSetup) -> list[Watched]:
-    """Return them: the state of the joint, commands, and pressures where they are measured."""
+    """Return these topics: joint states, commands, and the pressures if control waits for them."""
     command, pressure = (
         (Float64MultiArray, Float64MultiArray) if setup.has_arrays else (Float64, FluidPressure)
     )

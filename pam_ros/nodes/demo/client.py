@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""A node that uses other nodes step by step: waits for messages, calls services, sets values."""
+"""A node that uses other nodes step by step: awaits messages, calls services, sets values."""
 
 import itertools
 import os
@@ -21,18 +21,18 @@ from std_srvs.srv import Trigger
 from pam_ros.errors import PamError
 from pam_ros.processes.interrupts import held_back
 
-DEPTH = 20_000  # messages that may wait for their turn: none is dropped
+DEPTH = 20_000  # messages that may wait: none is dropped
 AGAIN = 10.0  # s without an answer after which a service is called again
-TURN = 0.05  # s in which a condition is looked at again when nothing comes in
+TURN = 0.05  # s after which a condition is checked again if no message arrives
 _numbers = itertools.count()
 T = TypeVar('T')
 
 
 class Client:
-    """A node in a context of its own that works only while it waits for something."""
+    """A node in its own context that handles messages only while it waits for something."""
 
     def __init__(self, namespace: str = '', patience: float = 60.0) -> None:
-        """Make the node; what it waits for longer than *patience* s is given up."""
+        """Create the node; a wait of more than *patience* s raises PamError."""
         self.context = rclpy.Context()
         rclpy.init(context=self.context)
         name = f'pam_client_{os.getpid()}_{next(_numbers)}'
@@ -58,9 +58,9 @@ class Client:
         rclpy.shutdown(context=self.context)
 
     def until(self, condition: Callable[[], T], what: str) -> T:
-        """Work until *condition* gives something true, and return that.
+        """Handle messages until *condition* returns a true value, and return this value.
 
-        Raises PamError, naming *what* was waited for, after the client's patience.
+        Raises PamError, which names *what* is missing, after the client's patience.
         """
         end = monotonic() + self._patience
         while not (result := condition()):
@@ -70,7 +70,7 @@ class Client:
         return result
 
     def work(self, seconds: float) -> None:
-        """Take in what comes for a while."""
+        """Handle messages for this number of seconds."""
         end = monotonic() + seconds
         while (rest := end - monotonic()) > 0.0:
             self._turn(min(rest, TURN))
@@ -80,30 +80,30 @@ class Client:
             self._executor.spin_once(timeout_sec=seconds)
 
     def collect(self, kind: type, topic: str) -> list[Any]:
-        """Subscribe, and return the list that the messages will come into."""
+        """Subscribe, and return the list to which each message will be appended."""
         messages: list[Any] = []
         self.node.create_subscription(kind, topic, messages.append, QoSProfile(depth=DEPTH))
         return messages
 
     def more(self, messages: list[Any], count: int = 1) -> None:
-        """Wait for *count* messages more than there are now."""
+        """Wait until *messages* has *count* more messages than now."""
         wanted = len(messages) + count
         self.until(lambda: len(messages) >= wanted, f'{count} messages more')
 
     def publish(self, message: Any, topic: str) -> None:
-        """Publish; the first time, wait for a subscriber of *topic* before."""
+        """Publish; before the first message, wait for a subscriber of *topic*."""
         if topic not in self._publishers:
             self._publishers[topic] = self.node.create_publisher(type(message), topic, 10)
             self.until(self._publishers[topic].get_subscription_count, f'a subscriber of {topic}')
         self._publishers[topic].publish(message)
 
     def delivered(self, topic: str, patience: Duration) -> None:
-        """Wait until all that was published on *topic* has arrived."""
+        """Wait until all messages that were published on *topic* have arrived."""
         if not self._publishers[topic].wait_for_all_acked(patience):
             raise PamError(f'what was published on {topic} has not arrived')
 
     def call(self, kind: Any, service: str, **request: Any) -> Any:
-        """Call a service and return its response; a Trigger, which may act twice, once only."""
+        """Call a service and return its response; call a Trigger only once: it could act twice."""
         client = self.node.create_client(kind, service)
         self.until(client.service_is_ready, f'the service {service}')
         asked = kind.Request(**request)
@@ -114,8 +114,8 @@ class Client:
     def answer(self, ask: Callable[[], Any], service: str, may_repeat: bool = True) -> Any:
         """Return the result of the first future of *ask* that is done.
 
-        The middleware drops the answer of a server that has not yet discovered this client: where
-        it *may_repeat*, *ask* is called again when no answer comes.
+        The middleware drops the answer of a server that has not yet discovered this client. If
+        *may_repeat*, *ask* is therefore called again when no answer arrives.
         """
         futures: list[Any] = []
         asked = 0.0

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """An antagonistic joint over topics: ``pam_control`` controls angle and stiffness.
 
-The joint is simulated by ``pam_sim``, and its arm carries more than is declared to the controller.
+``pam_sim`` simulates the joint, whose arm carries more than the nominal mass of the controller.
 The angle follows a sine on ``joint_trajectory``; the stiffness is set on
 ``co_contraction_reference``, during the sine and at rest.
 """
@@ -33,7 +33,7 @@ SPACING = 0.02  # s between the points of the trajectory
 
 
 def play(stage: Stage) -> None:
-    """Control the joint, and leave a plot and a table."""
+    """Control the joint, and write a plot and a table."""
     stage.say(
         f'An antagonistic joint over ROS topics: two {MUSCLE}, an arm declared with '
         f'{DECLARED:g} kg, in truth with {TRUE:g} kg'
@@ -57,7 +57,7 @@ def play(stage: Stage) -> None:
 
 
 def record(stage: Stage) -> JointCourse:
-    """Return what happened."""
+    """Return the recorded run."""
     both = {'joint': 'antagonistic', 'muscle': MUSCLE, 'radius': RADIUS}
     rig = {**both, 'mass': TRUE, 'initial.pressure': 250e3, 'sensor.position_noise': NOISE}
     controller = {**both, 'mass': DECLARED, 'co_contraction': SOFT}
@@ -83,7 +83,10 @@ def record(stage: Stage) -> JointCourse:
 
 
 def sine() -> JointTrajectory:
-    """Return the sine as a trajectory around 0; it grows over a cycle and decays over the last."""
+    """Return the sine around 0 as a trajectory.
+
+    Its amplitude grows in the first cycle and decays in the last.
+    """
     turn, end = 2.0 * math.pi * FREQUENCY, CYCLES / FREQUENCY
     message = JointTrajectory(joint_names=['pam'])
     for k in range(1, round(end / SPACING) + 1):
@@ -99,9 +102,10 @@ def sine() -> JointTrajectory:
 def put_together(
     states: list[JointState], terms: list[JointState], arrays: list[Float64MultiArray]
 ) -> JointCourse:
-    """Return angle and stiffness of the rig beside the terms of the same stamp.
+    """Return angle and stiffness of the rig together with the terms of the same stamp.
 
-    An array has no stamp: one comes with each state, and the last ones belong together.
+    An array has no stamp. One array arrives with each state, so that they match if
+    they are counted from the end.
     """
     count = min(len(states), len(arrays))
     at = {}

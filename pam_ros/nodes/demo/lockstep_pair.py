@@ -1,10 +1,10 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""``pam_sim`` and ``pam_control`` in lockstep, each a process, and a client between them.
+"""``pam_sim`` and ``pam_control`` in lockstep, each a process, with a client between them.
 
-The client receives each state and passes each command on. So simulated time waits for the client,
-too, and stands still while the client holds a command back: the load of the machine changes
-nothing in the result.
+The client receives each state and forwards each command. Therefore simulated time waits for the
+client, too, and stands still while the client keeps a command. The result does not depend on
+the load of the machine.
 """
 
 import math
@@ -23,7 +23,7 @@ from pam_ros.processes.children import Program
 
 STILL = 1e-6  # change of a term up to which it counts as at rest
 HISTORY = 30_000  # messages kept for a late subscriber: a minute at 500 Hz
-PATIENCE = 600.0  # s that a busy machine may take for one of the moves
+PATIENCE = 600.0  # s that a busy machine may need for one of the motions
 
 
 class LockstepPair:
@@ -37,9 +37,9 @@ class LockstepPair:
         command: tuple[type, str],
         topics: tuple[str, ...] = (),
     ) -> None:
-        """Make them with parameters of their own, *command* being type and topic of commands.
+        """Prepare both with their own parameters; *command* is the type and topic of commands.
 
-        Of *rig* no message on *topics* is lost.
+        No message of *rig* on *topics* is lost.
         """
         self._space, self._command = stage.namespace, command
         self._rig = {**rig, 'time_mode': 'lockstep'}
@@ -50,11 +50,11 @@ class LockstepPair:
             HISTORY
         )
         self._stack = ExitStack()
-        self._end = 0.0  # simulated time in s from which on time stands still
-        self._held: Any = None  # the command that is not passed on meanwhile
+        self._end = 0.0  # simulated time in s at which time stands still
+        self._held: Any = None  # the command that is not forwarded meanwhile
 
     def __enter__(self) -> 'LockstepPair':
-        """Start them."""
+        """Start both programs."""
         # Their /clock is in their namespace: no other node follows it.
         space, (kind, topic) = self._space, self._command
         where = ('-r', f'__ns:={space}', '-r', f'/clock:={space}/clock')
@@ -75,7 +75,7 @@ class LockstepPair:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
-        """Stop them."""
+        """Stop both programs."""
         self._stack.close()
 
     def _pass_on(self, command: Any) -> None:
@@ -85,7 +85,7 @@ class LockstepPair:
             self._commands.publish(command)
 
     def _until(self, condition: Any, what: str) -> None:
-        """Wait for *condition*; raise PamError where a program has ended."""
+        """Wait for *condition*; raise PamError if a program has ended."""
 
         def is_so() -> bool:
             for program in self._programs:
@@ -96,19 +96,19 @@ class LockstepPair:
         self.client.until(is_so, what)
 
     def begin(self, *received: list[Any]) -> None:
-        """Wait until it is controlled, and something has come into each of *received*."""
-        # Not the terms: they come once with the first command, which may be too early for us.
+        """Wait for the first command, and for a message in each of the lists *received*."""
+        # Not for terms: they arrive once with the first command, which may be before we subscribe.
         lists = (self.states, *received)
         self._until(lambda: self._held is not None and all(lists), 'the first command')
 
     def stop_after(self, duration: float) -> float:
-        """Let so many seconds pass from now on, then let time stand still; return when."""
+        """Let simulated time pass for *duration* s, then let it stand still; return when, in s."""
         self._go_on(seconds(self.states[-1]) + duration)
         self._until(lambda: self._held is not None, f'{duration:g} s to pass')
         return seconds(self.states[-1])
 
     def publish(self, message: Any, topic: str, term: str = 'reference') -> None:
-        """Publish what sets *term* in motion, and let time go on until it moves."""
+        """Publish a message that changes *term*, and let time continue until *term* changes."""
         k = list(self.terms[-1].name).index(term)
         rest = self.terms[-1].position[k]
         self.client.publish(message, topic)
@@ -117,7 +117,7 @@ class LockstepPair:
         self._until(lambda: abs(self.terms[-1].position[k] - rest) > STILL, f'{term} to change')
 
     def _go_on(self, end: float) -> None:
-        """Let time go on until *end* s."""
+        """Let time continue until *end* s."""
         self._end, held, self._held = end, self._held, None
         if held is not None:
             self._commands.publish(held)

@@ -1,12 +1,13 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The loop closed over topics: a rig is excited, recorded and identified, then simulated better.
+"""The whole procedure over topics: excite, record and identify a rig, then simulate it better.
 
-``pam_sim`` stands in for the rig, with effects that are declared to no program. ``pam_excite``
-plays its programme, ``pam_record`` writes a rosbag2, ``pam_identify`` finds what the declared
+``pam_sim`` represents the rig, with effects that no other program is given. ``pam_excite`` plays
+its programme, ``pam_record`` writes a rosbag2, ``pam_identify`` finds the effects that the nominal
 model lacks.
-Then the rig runs once more with commands that the fit has not seen, beside it a simulator as
-declared and one that was started with ``identified.yaml``; all three receive the same commands.
+Then the rig runs once more with commands that were not used for the fit. Two simulators run next
+to it, one with the nominal model and one with ``identified.yaml``; all three receive the same
+commands.
 """
 
 import json
@@ -46,7 +47,7 @@ TOO_BUSY = 'this machine is too busy for real time'
 
 
 def play(stage: Stage) -> None:
-    """Excite, record, identify, replay; leave the bags, the report, a plot and a table."""
+    """Excite, record, identify, replay; write the bags, the report, a plot and a table."""
     folder = stage.folder / 'loop'
     folder.mkdir(parents=True, exist_ok=True)
     stage.say(f'Closing the loop: what does a rig have that {loop.MUSCLE} has not?')
@@ -72,10 +73,10 @@ def play(stage: Stage) -> None:
 def record_in_time(
     stage: Stage, bag: Path, rigs: Mapping[str, Mapping[str, Any]], excitation: Mapping[str, Any]
 ) -> None:
-    """Record as :func:`record` does, once more where the machine was too busy for real time.
+    """Record as :func:`record` does, a second time if the machine was too busy for real time.
 
-    A rig that takes its commands late is another rig than the one that was recorded. The better
-    of the two recordings is kept.
+    If a simulator is late, a command acts later than the recording shows. The better of the two
+    recordings is kept.
     """
     shutil.rmtree(bag, ignore_errors=True)
     late = record(stage, bag, rigs, excitation)
@@ -98,11 +99,11 @@ def record_in_time(
 def record(
     stage: Stage, bag: Path, rigs: Mapping[str, Mapping[str, Any]], excitation: Mapping[str, Any]
 ) -> float:
-    """Record simulated *rigs* (name -> parameters), the first of them excited, to *bag*.
+    """Record the simulated *rigs* (name -> parameters) to *bag*; the first of them is excited.
 
     All receive the same commands, those of pam_excite with the parameters *excitation*. Return
-    the time in s by which one of them was late at worst.
-    Raises PamError where the excitation stopped early.
+    the worst lateness of the rigs in s.
+    Raises PamError if the excitation stopped early.
     """
     space = stage.namespace
     states = [f'{space}/{name}/joint_states' for name in rigs]
@@ -116,7 +117,7 @@ def record(
             programs.enter_context(running[-1])
         recorder = Program('pam_record', '-r', f'__ns:={space}', '--', *states, '-o', str(bag))
         running.append(programs.enter_context(recorder))
-        # The recorder listens to what is published: without a first command it would come late.
+        # The recorder subscribes to topics with a publisher: without this one it would be late.
         publisher = client.node.create_publisher(Float64, 'pressure_command', 1)
 
         def is_ready() -> bool:
@@ -153,7 +154,7 @@ def worst_lateness(reports: list[DiagnosticArray], space: str) -> float:
 
 
 def show(client: Client, excite: Program, duration: float) -> None:
-    """Show how far the excitation is, until it ends."""
+    """Show the progress of the excitation until it ends."""
     pause = 0.1 if sys.stderr.isatty() else 5.0
     form = '  {desc:<20} {bar:30} {n:4.1f} of {total:g} s'
     with tqdm(total=duration, desc='exciting', bar_format=form, mininterval=pause) as bar:

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The paper's experiment over topics: 600 kPa, 20 kg, released; then pressure steps."""
+"""The experiment of the paper over topics: 20 kg released at 600 kPa, then pressure steps."""
 
 from itertools import pairwise
 
@@ -21,7 +21,7 @@ STEP = 2.0  # s
 
 
 def play(stage: Stage) -> None:
-    """Run the experiment, and leave figures 5 and 6, the steps and the table."""
+    """Run the experiment, and write figures 5 and 6, the steps and the table."""
     stage.say(f'The experiment of the paper: {MUSCLE}, 600 kPa, 20 kg, over ROS topics')
     released, steps = record(stage)
     model = load_joint(MUSCLE, mass=paper.MASS)
@@ -40,7 +40,7 @@ def play(stage: Stage) -> None:
 
 
 def record(stage: Stage) -> tuple[PublishedRun, list[PublishedRun]]:
-    """Return the released load's run, and one for each pressure step."""
+    """Return the run of the released load, and one run for each pressure step."""
     remap = ('-r', f'__ns:={stage.namespace}')
     given = {
         'muscle': MUSCLE,

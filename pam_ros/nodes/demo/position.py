@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Position control over topics: ``pam_control`` moves the load of ``pam_sim``.
 
-The load is heavier than is declared to the controller. Set-points come on
-``position_reference``, a sine as ``joint_trajectory``. Both programs run in lockstep, so that a
-busy machine changes nothing.
+The load is heavier than the nominal load of the controller. Set-points are sent on
+``position_reference``, a sine on ``joint_trajectory``. Both programs run in lockstep, so that the
+result does not depend on the load of the machine.
 """
 
 import math
@@ -26,12 +26,12 @@ MUSCLE = 'dmsp_20_400n'
 DECLARED, TRUE = 20.0, 25.0  # kg
 GOALS = (0.070, 0.050, 0.060)  # m
 HOLD = 2.5  # s for each of them
-SWING, FREQUENCY, CYCLES = 0.010, 0.5, 5  # m, Hz: the sine, from the last of the goals
+SWING, FREQUENCY, CYCLES = 0.010, 0.5, 5  # m, Hz: the sine, around the last of the goals
 SPACING = 0.05  # s between the points of its trajectory
 
 
 def play(stage: Stage) -> None:
-    """Move the load, and leave a plot and a table."""
+    """Move the load, and write a plot and a table."""
     stage.say(
         f'Position control over ROS topics: {MUSCLE}, declared with {DECLARED:g} kg, '
         f'in truth with {TRUE:g} kg'
@@ -43,7 +43,7 @@ def play(stage: Stage) -> None:
     ]
     whole = course.between(
         marks[-1] + 1.0 / FREQUENCY, marks[-1] + (CYCLES - 1) / FREQUENCY
-    )  # where it has its full swing
+    )  # the part with the full amplitude
     from pam_ros.demo import figures
 
     path = stage.folder / 'position_control.png'
@@ -54,7 +54,7 @@ def play(stage: Stage) -> None:
 
 
 def record(stage: Stage) -> tuple[Course, list[float]]:
-    """Return what happened, and the times in s at which it set out to each goal and the sine."""
+    """Return the recorded run, and the times in s at which the goals and the sine start."""
     rig = {'muscle': MUSCLE, 'mass': TRUE, 'initial.pressure': 300e3}
     controller = {'muscle': MUSCLE, 'mass': DECLARED}
     with LockstepPair(stage, rig, controller, (Float64, 'pressure_command')) as pair:
@@ -90,7 +90,7 @@ def sine(middle: float) -> JointTrajectory:
 
 
 def put_together(states: list[JointState], terms: list[JointState]) -> Course:
-    """Return the positions of the rig beside the terms of the same stamp."""
+    """Return the positions of the rig together with the terms of the same stamp."""
     at = {(m.header.stamp.sec, m.header.stamp.nanosec): m.position[0] for m in states}
     rows = []
     for message in terms:

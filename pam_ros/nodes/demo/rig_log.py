@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Collect all that a simulated muscle publishes, and match it by time."""
+"""Collect all messages of a simulated muscle, and match them by time."""
 
 import numpy as np
 from sensor_msgs.msg import FluidPressure, JointState
@@ -12,7 +12,7 @@ from pam_ros.nodes.demo.client import Client
 
 TOPICS = ('joint_states', 'pressure', 'force', 'stiffness', 'damping')
 HISTORY = 5000  # messages that the simulator keeps for a late subscriber: 10 s at 500 Hz
-QUIET = 0.3  # s without a message after which none is under way any more
+QUIET = 0.3  # s without a message after which all messages have arrived
 
 
 def seconds(message: JointState) -> float:
@@ -41,10 +41,10 @@ class RigLog:
         return seconds(self.states[-1])
 
     def put_in_step(self) -> PublishedRun:
-        """Return all that came, after letting the simulator all but fall silent.
+        """Reduce the simulator's publish_rate to 1 Hz, and return all messages that arrived.
 
-        Floats carry no stamp, but the simulator publishes all topics in one go: with none under
-        way they are in step, counted from their ends. Raises PamError where one was lost.
+        Floats carry no stamp, but the simulator publishes all topics together. When all messages
+        have arrived, they match if they are counted from the end. Raises PamError if one was lost.
         """
         self._client.set_together('pam_sim', publish_rate=1.0)
         before = None

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What every chapter of the demonstration is given."""
+"""The folder, the namespace and the output that each chapter of the demonstration uses."""
 
 import os
 import sys
@@ -19,10 +19,10 @@ class Stage:
     """A folder for the files of a chapter, a namespace for its nodes, and its printed text."""
 
     def __init__(self, folder: Path) -> None:
-        """Make *folder*."""
+        """Create *folder*."""
         self.folder = folder
         self.folder.mkdir(parents=True, exist_ok=True)
-        # So that neither another demonstration nor the user's own rig is disturbed.
+        # A name of its own, so that no other demonstration and no rig of the user is disturbed.
         self.namespace = f'/pam_demo_{os.getpid()}'
 
     def say(self, text: str) -> None:
@@ -30,11 +30,11 @@ class Stage:
         print(text, flush=True)
 
     def wrote(self, path: Path) -> None:
-        """Say that a file is there now."""
+        """Print that a file was written."""
         self.say(f'  wrote {path}')
 
     def text(self, name: str, content: str) -> None:
-        """Print *content* and leave it as a file of this name."""
+        """Print *content*, and write it to a file of this name."""
         self.say(content)
         path = self.folder / name
         path.write_text(content + '\n', encoding='utf-8')
@@ -46,11 +46,11 @@ def hold_pressure(
 ) -> None:
     """Command *pressure* in Pa for some seconds of simulated time, with a progress bar.
 
-    *now* returns the time; commands go on, so that no time-out vents the muscle.
+    *now* returns the time. The command is repeated, so that no timeout vents the muscle.
     """
     begin = passed = now()
     form = '  {desc:<20} {bar:30} {n:4.1f} of {total:g} s'
-    # A bar that moves on a terminal, a line now and then in a log.
+    # A bar that moves on a terminal, or at most one line a second in a log.
     pause = 0.1 if sys.stderr.isatty() else 1.0
     with tqdm(total=seconds, desc=what, bar_format=form, mininterval=pause) as bar:
         while passed < begin + seconds:

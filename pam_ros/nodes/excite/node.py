@@ -25,21 +25,21 @@ from pam_ros.timing.pace import SECOND
 from pam_ros.timing.ticker import Ticker
 
 STOPPED = 1  # exit code
-UNNAMED = '_NODE_NAME_UNKNOWN_'  # what a node is called until it is discovered whole
-LONGEST = 0.1  # s without a command for which the pressure may change at once
-LAST = 0.2  # s for which 0 Pa is commanded after an emergency
-REPEAT = 0.05  # s after which a state that comes again asks for its answer again
+UNNAMED = '_NODE_NAME_UNKNOWN_'  # name of a node until it is completely discovered
+LONGEST = 0.1  # s: longest pause between commands that counts for the pressure rate
+LAST = 0.2  # s for which 0 Pa is commanded after an emergency stop
+REPEAT = 0.05  # s after a command, after which it is sent again for a repeated state
 
 
 class PamExcite(TickingNode):
     """Plays a programme: waits, counts down, plays, vents.
 
-    As ROS time goes by the system's clock, it commands at its own rate. With use_sim_time, time
-    passes as the stamps of the joint states say: each new one is answered with one command.
+    If ROS time is the system's clock, the node commands at its own rate. With use_sim_time, time
+    follows the stamps of the joint states: each new state is answered with one command.
     """
 
     def __init__(self, csv: Path | None, is_dry: bool) -> None:
-        """Make the programme that the parameters describe."""
+        """Create the programme that the parameters describe."""
         super().__init__('pam_excite')
         parameters = NodeParameters(self, table(given(self)), experiment, _nothing_live)
         self._now = parameters.built
@@ -48,7 +48,7 @@ class PamExcite(TickingNode):
             write_csv(self._now.programme, csv)
         self._is_dry = is_dry
         self._pressure = 0.0  # last command
-        self._rest = round(LAST * self._now.settings.rate)  # commands of 0 Pa still to come
+        self._rest = round(LAST * self._now.settings.rate)  # remaining commands of 0 Pa
         self._is_followed = bool(self.get_parameter('use_sim_time').value)
         self.keeps_wall_time = not self._is_followed
         self._stamp = 0.0  # ROS time of the newest joint state, s
@@ -61,7 +61,7 @@ class PamExcite(TickingNode):
 
     @classmethod
     def add_arguments(cls, parser: argparse.ArgumentParser) -> None:
-        """Add the choices of a plan without a rig, and of a file."""
+        """Add the options for a plan without a rig, and for a file."""
         parser.add_argument(
             '--dry-run', action='store_true', help='print the plan and play nothing'
         )
@@ -74,7 +74,7 @@ class PamExcite(TickingNode):
 
     @classmethod
     def of_arguments(cls, arguments: argparse.Namespace) -> 'PamExcite':
-        """Make the node that the command line asks for."""
+        """Create the node with the options of the command line."""
         return cls(arguments.csv, arguments.dry_run)
 
     def start(self) -> None:
@@ -87,7 +87,7 @@ class PamExcite(TickingNode):
         self._tell_plan()
         self._begun = time.monotonic()
         self._received = self._begun  # steady time of the newest joint state, s
-        self._seen = self._ros_time()  # and its time by the clock of the programme, s
+        self._seen = self._ros_time()  # its time by the clock of the programme, s
         self._guard = Guard(*self._now.window, self._now.settings.silence, self._seen)
         self._misread = ''
         self._publisher = self.create_publisher(
@@ -96,7 +96,7 @@ class PamExcite(TickingNode):
             QoSProfile(depth=DEPTH),
             qos_overriding_options=open_qos(),
         )
-        # Where states make the time, one that is lost is one that is waited for.
+        # If time follows the states, it would stop at a lost state: they are received reliably.
         followed, free = ReliabilityPolicy.RELIABLE, ReliabilityPolicy.BEST_EFFORT
         self.create_subscription(
             JointState,
@@ -117,7 +117,7 @@ class PamExcite(TickingNode):
         )
 
     def tick(self) -> None:
-        """Do what is next."""
+        """Run the current phase of the programme."""
         if self.exit_code is None:
             self._do()
 
@@ -140,7 +140,7 @@ class PamExcite(TickingNode):
                 self._answer(now, is_again=bool(before) and self._stamp == before)
 
     def _answer(self, now: float, *, is_again: bool) -> None:
-        """Command at *now* s; one that comes again asks for its answer again."""
+        """Command at *now* s; a state that is received again gets the last command again."""
         if not is_again:
             self._play_at(now)
         elif time.monotonic() - self._answered > REPEAT:
@@ -149,7 +149,7 @@ class PamExcite(TickingNode):
     # Before --------------------------------------------------------------------------------
 
     def _wait(self) -> None:
-        """Wait until the rig is there and alone."""
+        """Wait until the rig is found and no other node commands it."""
         if self._misread:
             self._refuse(self._misread)
             return
@@ -195,16 +195,16 @@ class PamExcite(TickingNode):
                 disable=not sys.stderr.isatty(),
             )
             self._do = self._play
-            self._play_at(self._origin)  # also the state that waits for an answer
+            self._play_at(self._origin)  # also answers the state that waits for a command
 
     def _problem(self) -> str:
-        """Return why to stop, or ''."""
+        """Return the reason to stop, or ''."""
         now = self._ros_time()
         if self._is_followed:
             silent = time.monotonic() - self._received
             if silent > self._now.settings.patience:
                 return f'joint_states has been silent for {silent:.1f} s, whatever /clock says'
-            # By both clocks: time may stand still, and /clock may arrive before its states.
+            # The lesser of two times: time may stop, and /clock may arrive before its states.
             now = min(now, self._seen + silent)
         return self._misread or self._guard.problem(now)
 
@@ -220,7 +220,7 @@ class PamExcite(TickingNode):
         return time.monotonic()
 
     def _play(self) -> None:
-        """Play on; where states make the time, only see whether they stop."""
+        """Continue to play; if time follows the states, only check whether the states stop."""
         if not self._is_followed or self._problem():
             self._play_at(self._ros_time())
 
@@ -244,7 +244,7 @@ class PamExcite(TickingNode):
             print(f'played {self._now.programme.duration:.1f} s, vented', flush=True)
             self.exit_code = 0
             return
-        # Behind a pause of this process the programme is caught up with, not jumped to.
+        # After a pause of this process the pressure approaches the programme without a jump.
         step = self._now.settings.pressure_rate * min(since, LONGEST)
         wanted = self._now.programme.at(elapsed)
         self._command(min(max(wanted, self._pressure - step), self._pressure + step))
@@ -267,7 +267,7 @@ class PamExcite(TickingNode):
     # The end -------------------------------------------------------------------------------
 
     def _vent(self) -> None:
-        """Let the pressure out as fast as is allowed, one command."""
+        """Send one command that lowers the pressure as fast as is allowed."""
         self._command(self._let_out())
         if self._pressure == 0.0:
             self._rest -= 1
@@ -279,12 +279,12 @@ class PamExcite(TickingNode):
         return max(self._pressure - settings.pressure_rate / settings.rate, 0.0)
 
     def finish(self) -> None:
-        """Vent where something is left to vent: the node was asked to stop."""
+        """Vent if there is pressure left, since the node was requested to stop."""
         if self._pressure > 0.0:
             try:
                 self._bar.close()
                 print('pam_excite: asked to stop, venting', file=sys.stderr, flush=True)
-            finally:  # also where nobody reads any more what is printed
+            finally:  # also if the output can no longer be printed
                 self._let_all_out()
 
     def _let_all_out(self) -> None:
@@ -295,4 +295,4 @@ class PamExcite(TickingNode):
 
 
 def _nothing_live(built: Experiment) -> None:
-    """Take changes: there are none, as every parameter is read-only while it plays."""
+    """Do nothing: every parameter is read-only while the programme is played."""

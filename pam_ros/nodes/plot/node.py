@@ -31,22 +31,22 @@ KINDS = {
     FLUID_PRESSURE: FluidPressure,
     JOINT_STATE: JointState,
 }
-LOOK = 5.0  # Hz, for what is missing
-SILENCE = 3.0  # s without a message that the user is told of
-KEPT = 100  # messages of a topic while this program is busy: what is lost is not drawn
-BACK = 1.0  # s that time goes back by where it begins again; less is messages out of order
+LOOK = 5.0  # Hz, of the checks for missing messages
+SILENCE = 3.0  # s without a message after which the user is informed
+KEPT = 100  # messages of a topic while this program is busy: lost ones are not drawn
+BACK = 1.0  # s; if time goes back by more, it has started again; else messages are late
 
 
 class PamPlot(TickingNode):
-    """The node; its name is hidden, so that no program takes it for a part of the rig."""
+    """The node; its name is hidden, so that other programs do not count it as part of the rig."""
 
     def __init__(self, options: Options) -> None:
-        """Subscribe, and listen on the page's port if there is to be one."""
+        """Subscribe, and listen on the port of the page unless a PNG file is requested."""
         super().__init__('_pam_plot')
         self._options = options
         self._history = History(options.seconds)
         self._is_simulated = bool(self.get_parameter('use_sim_time').value)
-        self._lock = Lock()  # of the following, which the page asks for from other threads
+        self._lock = Lock()  # of the following, which the page reads in other threads
         self._origin: int | None = None  # ns, of the first message
         self._latest = 0  # ns
         self._note = ''
@@ -67,11 +67,11 @@ class PamPlot(TickingNode):
 
     @classmethod
     def of_arguments(cls, arguments: argparse.Namespace) -> 'PamPlot':
-        """Make the node that the command line asks for."""
+        """Create the node with the options of the command line."""
         return cls(checked(arguments))
 
     def start(self) -> None:
-        """Serve the page, and say where it is."""
+        """Serve the page, and print its address."""
         super().start()
         self._begun = self._heard = monotonic_ns()
         if self._server:
@@ -85,7 +85,7 @@ class PamPlot(TickingNode):
         self._heard = monotonic_ns()
         now = self.get_clock().now().nanoseconds
         if now == 0:
-            return  # simulated time, of which nothing is known yet
+            return  # simulated time that is not known yet
         with self._lock:
             if self._origin is None or now < self._latest - BACK * SECOND:
                 self._history.clear()
@@ -97,7 +97,7 @@ class PamPlot(TickingNode):
             self._history.add(key, t, value)
 
     def tick(self) -> None:
-        """Look for what is missing; end where a PNG is complete, or nothing was received."""
+        """Check for missing messages; end if a PNG is complete or nothing was received in time."""
         now = monotonic_ns()
         has_time = not self._is_simulated or self.get_clock().now().nanoseconds > 0
         is_silent = self._heard == self._begun or now - self._heard > SILENCE * SECOND
@@ -116,7 +116,7 @@ class PamPlot(TickingNode):
             self._draw(0.0, options.seconds)
 
     def _missing(self) -> str:
-        """Return the sentence on what keeps this program from drawing."""
+        """Return a sentence on the reason why nothing can be drawn."""
         if self._is_simulated and self.get_clock().now().nanoseconds == 0:
             return 'use_sim_time is set, and nothing is published on /clock'
         other = []
@@ -148,7 +148,7 @@ class PamPlot(TickingNode):
             return (now - self._origin) / SECOND
 
     def _look(self) -> dict[str, Any]:
-        """Return what the page draws now."""
+        """Return the data that the page draws now."""
         now, span = self._end(), self._options.seconds
         drawn = panels(self._history.curves(now), self._options.unit, now)
         with self._lock:
@@ -158,7 +158,7 @@ class PamPlot(TickingNode):
 
     def _draw(self, start: float, end: float) -> None:
         """Write the PNG file, and end."""
-        # Later than the node's start: it takes half a second.
+        # Not at the start of the node, since the import takes half a second.
         from pam_ros.plot.figure import figure, save
 
         png = self._options.png
@@ -181,7 +181,7 @@ class PamPlot(TickingNode):
         print(f'pam_plot: {shown(sentence)}', file=sys.stderr)
 
     def finish(self) -> None:
-        """Close the page, or draw what was received until a signal asked for the end."""
+        """Close the page, or draw the messages received until a signal requested the end."""
         if self._server:
             self._server.close()
         elif self.exit_code is None:

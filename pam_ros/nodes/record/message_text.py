@@ -16,9 +16,9 @@ _PRIMITIVES = frozenset(
 
 
 def message_text(kind: str) -> str:
-    """Return the .msg of *kind* (``package/msg/Name``) and of all types that it is made of.
+    """Return the .msg of *kind* (``package/msg/Name``) and of all types that it contains.
 
-    '' where a part of it is not installed as .msg.
+    The result is '' if one of them is not installed as .msg.
     """
     texts: dict[str, str] = {}
     waiting = [kind]
@@ -47,7 +47,7 @@ def _share(package: str) -> Path:
 
 
 def _parts(text: str, package: str) -> list[str]:
-    """Return the full names of the types that the fields of *text* have."""
+    """Return the full names of the message types that the fields of *text* have."""
     plain = re.sub(r'#.*', '', text)
     names = []
     for name in _FIELD.findall(plain):

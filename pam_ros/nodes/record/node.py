@@ -29,7 +29,7 @@ from pam_ros.recording.simulated_time import SimulatedTime
 from pam_ros.timing.pace import SECOND
 from pam_ros.timing.ticker import Ticker
 
-# What a muscle with its own load publishes, and a rig of joints.
+# The topics of a muscle with its own load, and of a rig with joints.
 OF_MUSCLE = ('joint_states', 'pressure_command', 'force', 'stiffness', 'damping', 'pressure')
 OF_JOINTS = (
     'joint_states',
@@ -41,8 +41,8 @@ OF_JOINTS = (
 )
 LOOK = 5.0  # Hz, for new topics
 TAKE = 0.01  # s between two rounds of taking messages
-CLOCK_WAIT = SECOND // 2  # ns that a message waits for /clock to go on beyond it
-SEAL = 0.5  # s between two seals: what a kill can lose
+CLOCK_WAIT = SECOND // 2  # ns that a message waits for a later time on /clock
+SEAL = 0.5  # s between two seals: a killed recorder can lose the messages of this time
 REPORT, REPORT_LOGGED = 1.0, 10.0  # s between lines of progress, on a terminal and in a log
 
 
@@ -51,8 +51,9 @@ def missing_topics(
 ) -> list[str]:
     """Return those of the *wanted* topics that are not among those *found*.
 
-    *wanted* says of each whether the user asked for it. Others are missed only if they belong to
-    the rig: they are those of a muscle until one of joints alone is found.
+    *wanted* is true for a topic that the user requested. Other topics are missing only if they
+    belong to the rig. These are the topics of a muscle, until a topic is found that only a rig
+    with joints has; then they are the topics of joints.
     """
     has_joints = any(topic in found for topic in of_joints - of_muscle)
     own = of_joints if has_joints else of_muscle
@@ -63,7 +64,7 @@ class PamRecord(TickingNode):
     """The recorder node."""
 
     def __init__(self, directory: Path, topics: Sequence[str]) -> None:
-        """Make the bag in *directory*; record our topics and *topics*."""
+        """Create the bag in *directory*; record the topics of a rig and *topics*."""
         super().__init__('pam_record')
         self._directory = directory
         names = dict.fromkeys((*OF_MUSCLE, *OF_JOINTS, *topics))
@@ -77,7 +78,7 @@ class PamRecord(TickingNode):
         self._time = SimulatedTime()
         self._is_simulated = bool(self.get_parameter('use_sim_time').value)
         self._clock_subscription: Subscription | None = None
-        self._lock = threading.Lock()  # of the writer and of what is recorded
+        self._lock = threading.Lock()  # of the writer and of the recorded topics
         self._is_closing = threading.Event()
         self._problem: Exception | None = None
         self._absence = Absence(self.get_logger(), 'the first topic is found')
@@ -101,15 +102,15 @@ class PamRecord(TickingNode):
 
     @classmethod
     def of_arguments(cls, arguments: argparse.Namespace) -> 'PamRecord':
-        """Make the recorder that the command line asks for."""
+        """Create the recorder with the options of the command line."""
         return cls(arguments.output, arguments.topics)
 
     def make_executor(self) -> Executor:
-        """Return an executor that heeds callback groups."""
+        """Return an executor that obeys callback groups."""
         return SingleThreadedExecutor()
 
     def start(self) -> None:
-        """Begin to record."""
+        """Start to record."""
         super().start()
         self._thread.start()
         self.get_logger().info(
@@ -125,7 +126,7 @@ class PamRecord(TickingNode):
     # Finding topics ------------------------------------------------------------------------
 
     def tick(self) -> None:
-        """Look for topics that are published now, and say how it is going."""
+        """Look for published topics, and print the progress."""
         if self._problem:
             self._fail(self._problem)
             return
@@ -190,7 +191,7 @@ class PamRecord(TickingNode):
     # Taking and writing --------------------------------------------------------------------
 
     def _work(self) -> None:
-        """Take and write messages until the node closes; a problem ends it."""
+        """Take and write messages until the node closes or an error occurs."""
         sealed = monotonic_ns()
         try:
             while not self._is_closing.is_set():
@@ -200,14 +201,14 @@ class PamRecord(TickingNode):
                     if monotonic_ns() - sealed > SEAL * 1e9:
                         self._writer.seal()
                         sealed = monotonic_ns()
-        except Exception as error:  # whatever it is, nothing is recorded any more: say so
+        except Exception as error:  # any error ends the recording and is reported
             self._problem = error
 
     def _take(self, *, is_last: bool = False) -> None:
-        """Take all messages that have come, and write those whose time is known: *is_last*, all.
+        """Take all messages that have arrived; write those with a known time, or all if *is_last*.
 
-        Simulated time is that of sending, as ``/clock`` had it then: not that of taking, which is
-        late, and the later the faster time is simulated.
+        The simulated time of a message is the time on ``/clock`` when it was sent. The time when
+        it is taken is later; the faster time is simulated, the greater is this delay.
         """
         for topic, recorded in self._recorded.items():
             for data, info in all_of(recorded.subscription):
@@ -228,7 +229,7 @@ class PamRecord(TickingNode):
             self._write_waiting(recorded, is_last)
 
     def _write_waiting(self, recorded: Recorded, is_last: bool) -> None:
-        """Write the messages of a topic until one whose time is not yet known."""
+        """Write the messages of a topic before the first one whose time is not known yet."""
         now, waiting = monotonic_ns(), recorded.waiting
         while waiting:
             data, sent, taken = waiting[0]
@@ -240,7 +241,7 @@ class PamRecord(TickingNode):
             self._writer.write(recorded.channel, time, time, data)
             waiting.popleft()
 
-    # Saying how it is ----------------------------------------------------------------------
+    # Progress reports ----------------------------------------------------------------------
 
     def _report(self) -> None:
         elapsed = (monotonic_ns() - self._begun) * 1e-9
@@ -255,7 +256,7 @@ class PamRecord(TickingNode):
             print(line, flush=True)
 
     def finish(self) -> None:
-        """Close the bag and say what is in it."""
+        """Close the bag and print a summary of it."""
         if self._thread.is_alive():
             self._is_closing.set()
             self._thread.join()
@@ -267,11 +268,11 @@ class PamRecord(TickingNode):
             self._writer.close()
         except RecordingError as error:
             self._fail(error)
-        if self._directory.is_dir():  # a bag that was deleted has no messages any more
+        if self._directory.is_dir():  # a bag that was deleted contains no messages
             self._summarise()
 
     def _fail(self, error: Exception) -> None:
-        """Print once why nothing more is recorded, and end with the exit code of the reason."""
+        """Print once why the recording ends, and set the exit code for this reason."""
         if self.exit_code is None:
             print(f'pam_record: {str(error) or type(error).__name__}', file=sys.stderr)
             self.exit_code = BAD_INPUT if isinstance(error, RecordingError) else 1

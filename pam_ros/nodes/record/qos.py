@@ -22,7 +22,7 @@ def matching(offered: list[QoSProfile]) -> QoSProfile:
 
 
 def metadata(profile: QoSProfile) -> dict[str, Any]:
-    """Return a publisher's profile as rosbag2's metadata has it."""
+    """Return a publisher's profile in the format of rosbag2's metadata."""
     return {
         'history': profile.history.name.lower(),
         'depth': profile.depth,

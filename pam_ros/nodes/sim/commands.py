@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The topics on which the simulator receives commands: of one muscle, of all, of each."""
+"""The topics of the simulator's commands: of a single muscle, of all, and of each muscle."""
 
 from collections.abc import Callable
 from functools import partial
@@ -21,9 +21,9 @@ def subscribe_commands(
     take: Callable[[int, Float64], None],
     take_all: Callable[[Float64MultiArray], None],
 ) -> None:
-    """Let *take* have the commands of each muscle, and *take_all* those of all.
+    """Pass the commands of each muscle to *take*, and arrays for all muscles to *take_all*.
 
-    *turns* watches who commands.
+    *turns* watches which nodes send commands.
     """
 
     def subscribe(kind: type, topic: str, callback: Callable[..., None]) -> None:

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The part of the diagnostics that says which muscles contract further than they permit."""
+"""The part of the diagnostics on muscles that contract beyond their permitted contraction."""
 
 from rclpy.node import Node
 
@@ -13,7 +13,7 @@ class ContractionReport:
     """Reports contractions beyond ``kappa_max``, each event once in the log."""
 
     def __init__(self, node: Node, plant: Plant) -> None:
-        """Report those of *plant* in the log of *node*."""
+        """Report the contractions of *plant* in the log of *node*."""
         self._node, self._plant = node, plant
 
     def health(self) -> Health:

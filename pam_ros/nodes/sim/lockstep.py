@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Whose turn it is in lockstep: the simulator's when all muscles were commanded."""
+"""The turns in lockstep: the simulator continues when all muscles were commanded."""
 
 from time import monotonic_ns
 
@@ -12,28 +12,30 @@ from pam_ros.timing.pace import SECOND
 # ns after which the state is published again for a controller that has not answered
 REPEAT = SECOND // 2
 PATIENCE = SECOND  # ns of waiting after which the diagnostics report it
-SETTLE = SECOND // 4  # ns in which answers to a state that was published more than once come in
+SETTLE = SECOND // 4  # ns within which all answers to a repeated state arrive
 
 
 class Turns:
-    """Counts the muscles that were commanded in this period, and watches who commands.
+    """Counts the muscles that were commanded in this period, and watches which nodes command.
 
-    A controller that comes late, or takes the place of one that died, has not received the
-    state that waits for an answer: it is to be published again, until an answer comes. For a
-    controller that has answered it is never published twice, however long it computes.
+    A controller that starts late, or replaces one that ended, has not received the state that
+    waits for an answer. This state must be published again until an answer arrives. For a
+    controller that has answered, it is never published twice, however long the controller
+    computes.
 
-    Where a controller may have more than one command under way (it was just found, time goes on
-    after a pause, the rig was reset) all that comes within SETTLE is one answer: the last counts.
+    A controller may have sent more than one command if it was just found, if time continues after
+    a pause, or if the rig was reset. Then all commands within SETTLE are one answer, and the last
+    one counts.
     """
 
     def __init__(self, node: Node, muscles: int) -> None:
-        """Begin with all muscles waited for."""
+        """Start without a command for any muscle."""
         self._node, self._muscles = node, muscles
         self._topics: list[str] = []
         self._answered: set[int] = set()
         self._known: frozenset[bytes] = frozenset()
         self._has_answered = False
-        self._settled = 0  # steady time until which answers are gathered
+        self._settled = 0  # steady time until which answers are collected, ns
         self.begin()
 
     def watch(self, subscription: Subscription) -> None:
@@ -46,7 +48,7 @@ class Turns:
         self._since = self._simulation = monotonic_ns()
 
     def take(self, muscle: int | None) -> None:
-        """Note the command of one muscle, or of all."""
+        """Note the command of one muscle, or of all muscles (None)."""
         if not self._has_answered:
             self.settle()
         self._has_answered = True
@@ -56,12 +58,12 @@ class Turns:
             self._answered.add(muscle)
 
     def settle(self) -> None:
-        """Gather for a while what may be under way."""
+        """Collect commands for SETTLE ns, since more than one may arrive."""
         self._settled = monotonic_ns() + SETTLE
 
     @property
     def is_complete(self) -> bool:
-        """Whether all muscles were commanded, and no command to the same state is under way."""
+        """Whether all muscles were commanded, and no other command for this state is expected."""
         return len(self._answered) == self._muscles and monotonic_ns() >= self._settled
 
     @property
@@ -71,7 +73,7 @@ class Turns:
 
     @property
     def complaint(self) -> str:
-        """Return what there is to say of a long wait, '' for nothing."""
+        """A sentence on a long wait, '' if the wait is not long."""
         if monotonic_ns() - self._since < PATIENCE:
             return ''
         if not self._known:
@@ -80,7 +82,7 @@ class Turns:
         return f'waits for commands since {self.waited:.1f} s: {left} of {self._muscles} missing'
 
     def must_repeat(self) -> bool:
-        """Say whether the state is to be published again now; called a few times a second."""
+        """Return whether to publish the state again now; to be called a few times per second."""
         known = frozenset(
             bytes(info.endpoint_gid)
             for topic in self._topics

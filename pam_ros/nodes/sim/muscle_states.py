@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""One message with a stamp for what the muscles do: force, stiffness, damping and pressure."""
+"""One message with a stamp for the force, stiffness, damping and pressure of the muscles."""
 
 from array import array
 from collections.abc import Sequence
@@ -20,8 +20,8 @@ QUANTITIES = ('force', 'stiffness', 'damping', 'pressure')
 class MuscleStates:
     """Publishes ``muscle_states``: numbers named ``<muscle>/<quantity>``, as positions.
 
-    N, N/m, N s/m and absolute Pa, of all muscles in order. The values are those of the topics
-    without a stamp, and the stamp is that of ``joint_states``.
+    The units are N, N/m, N s/m and absolute Pa; the muscles are in order. The values are those of
+    the topics without a stamp, and the stamp is that of ``joint_states``.
     """
 
     def __init__(self, node: Node, depth: int, muscles: Sequence[str]) -> None:
@@ -29,7 +29,7 @@ class MuscleStates:
         names = [f'{muscle}/{quantity}' for muscle in muscles for quantity in QUANTITIES]
         self._message = JointState(name=names, position=array('d', bytes(8 * len(names))))
         self._values = self._message.position
-        # The message's own memory, one row for each muscle.
+        # A view of the message's memory, one row for each muscle.
         self._rows = np.frombuffer(self._values).reshape(len(muscles), len(QUANTITIES))
         self._publisher = node.create_publisher(
             JointState, 'muscle_states', QoSProfile(depth=depth), qos_overriding_options=open_qos()

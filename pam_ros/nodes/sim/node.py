@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The node of ``pam_sim``: its topics and services are listed there."""
+"""The node of ``pam_sim``: the help of this program lists its topics and services."""
 
 import math
 from time import monotonic_ns
@@ -33,18 +33,18 @@ from pam_ros.timing.pace import CATCH_UP, SECOND
 from pam_ros.timing.silence import Silence, steady_ns
 from pam_ros.timing.ticker import Ticker
 
-SLICE = 5_000_000  # ns of simulating after which commands and services get their turn
-GAP = 200_000  # ns that they get where everything is due at once
+SLICE = 5_000_000  # ns of simulation after which commands and services are handled
+GAP = 200_000  # ns for them if simulated time is as fast as possible
 IDLE_RATE = 10.0  # Hz at which a simulator whose time stands still publishes its state
 FASTEST_TICK = 1000.0  # Hz
-LONG = 2.0  # s: longer than it takes to load kernels that have been compiled before
+LONG = 2.0  # s: longer than the loading of kernels that were compiled before
 
 
 class PamSim(TickingNode):
-    """A rig that is simulated in the declared time; it takes commands and publishes its state."""
+    """A rig simulated in the configured time mode; it takes commands and publishes its state."""
 
     def __init__(self) -> None:
-        """Make the rig that the parameters describe, at its initial state."""
+        """Create the rig that the parameters describe, in its initial state."""
         super().__init__('pam_sim')
         scene = Scene(given(self))
         self._given = NodeParameters(self, scene.table(), scene.build, self._change)
@@ -98,7 +98,7 @@ class PamSim(TickingNode):
         )
 
     def start(self) -> None:
-        """Let simulated time begin now."""
+        """Start simulated time now."""
         line = start_line.of_simulator(
             self._simulation,
             self._given.values,
@@ -114,14 +114,14 @@ class PamSim(TickingNode):
             self._run_to(0)
 
     def _begin_again(self) -> None:
-        """Go to the initial state, one period later."""
+        """Set the initial state again; the simulator's own time continues one period later."""
         self._time.restart(
             self._plant.step, round(SECOND / self._simulation.settings.publish_rate)
         )
         self._begin()
 
     def _begin(self) -> None:
-        """Go to the initial state."""
+        """Set the initial state."""
         self._plant.begin()
         self._fault = ''
         self._samples.begin(self._simulation.settings.publish_rate)
@@ -132,7 +132,7 @@ class PamSim(TickingNode):
 
     @property
     def _factor(self) -> float:
-        """How fast simulated time is to pass: in lockstep as fast as its turns are."""
+        """The desired speed of simulated time; 0 in lockstep, where commands set the pace."""
         return 0.0 if self._is_lockstep else self._simulation.settings.speed_factor
 
     @property
@@ -150,7 +150,7 @@ class PamSim(TickingNode):
         return min(rate, FASTEST_TICK) if rate else FASTEST_TICK
 
     def tick(self) -> None:
-        """Simulate what is due and publish it; where time stands still, repeat the last state."""
+        """Simulate and publish all samples that are due; if time stops, repeat the last state."""
         self._look_for_stop()
         self._silence.mark(steady_ns())
         if self._is_paused:
@@ -163,7 +163,7 @@ class PamSim(TickingNode):
         else:
             self._run_to_now()
             if not self._time.follows_clock:
-                # Wake up when the next sample is due: its grid moves with ROS time and resets.
+                # Wake up when the next sample is due; resets and jumps of ROS time move it.
                 next_one = self._time.steady_time(min(self._samples.next, self._clock_ticks.next))
                 self.ticker.aim(next_one if self._time_is_paced else monotonic_ns() + GAP)
 
@@ -172,10 +172,10 @@ class PamSim(TickingNode):
         return self._is_followed or self._factor > 0.0
 
     def _publish_again(self) -> None:
-        """Publish the state that there is.
+        """Publish the present state again.
 
-        Where time stands still, too, it is what the sensors said: they are not asked again, so
-        that their noise does not depend on how long that takes.
+        If the simulator makes its own time, the last reading is repeated. The sensors are not read
+        again, so that their noise does not depend on the length of the pause.
         """
         if self._is_followed:
             self._publish_here(self._time.now())
@@ -184,22 +184,22 @@ class PamSim(TickingNode):
             self._say(*self._said)
 
     def _run_to_now(self, ahead: float = 0.0) -> None:
-        """Simulate what is due in *ahead* steps, and publish each sample on the way."""
+        """Simulate the steps that are due within *ahead* steps, and publish each sample."""
         if not (self._is_paused or self._is_lockstep):
             self._run_to(self._time.due(self._plant.step, ahead), monotonic_ns() + SLICE)
 
     def _run_to_command(self) -> None:
         """Simulate up to the step that is nearest to the arrival of a command.
 
-        It acts from there on: half a step early or late at most, and on average neither.
+        The command acts from this step on: at most half a step early or late, on average neither.
         """
         if self._time_is_paced:
             self._run_to_now(ahead=0.5)
 
     def _run_to(self, due: int, end: float = math.inf) -> None:
-        """Simulate until the step *due*, or until the steady time *end* at a sample."""
+        """Simulate to the step *due*, or to the first sample after the steady time *end* in ns."""
         plant, samples, clock = self._plant, self._samples, self._clock_ticks
-        # The time that others make is followed at once: what is due there is bounded.
+        # ROS time is followed without an interruption: the number of due steps is bounded.
         end = math.inf if self._is_followed else end
         try:
             while (step := min(samples.next, clock.next)) <= due:
@@ -214,21 +214,21 @@ class PamSim(TickingNode):
                 if end < math.inf and monotonic_ns() > end:
                     return
             plant.advance(due)
-        except (ArithmeticError, ValueError) as error:  # the kernel's own as plain Python
+        except (ArithmeticError, ValueError) as error:  # errors of the kernel as plain Python
             self._stop_at_fault(error)
 
     def _sample_from_here(self) -> None:
-        """Let the next sample come one period from now."""
+        """Let the next sample be due one period from now."""
         self._samples.begin(self._simulation.settings.publish_rate, self._plant.step, 1)
 
-    # Out -----------------------------------------------------------------------------------
+    # Outputs -------------------------------------------------------------------------------
 
     def _publish(self, stamp: int) -> None:
         self._said = stamp, self._plant.read_one() if self._one else self._plant.read()
         self._say(*self._said)
 
     def _publish_here(self, stamp: int) -> None:
-        """Publish where time stands still; a change of parameters can have lost the load there."""
+        """Publish while time stands still; pause if new parameters made the state invalid."""
         try:
             self._publish(stamp)
         except ArithmeticError as error:
@@ -239,20 +239,20 @@ class PamSim(TickingNode):
         self._published += 1
 
     def _stop_at_fault(self, error: Exception) -> None:
-        """Stand still at the initial state: what the model says now is no motion."""
+        """Reset and pause, because the state of the model is no longer valid."""
         time = self._plant.time
         self._begin_again()
         self._set_paused(True)
         self._fault = f'the load is lost {time:.3f} s after the start, {error}: reset and paused'
         self.get_logger().error(self._fault)
 
-    # In ------------------------------------------------------------------------------------
+    # Inputs --------------------------------------------------------------------------------
 
     def _look_for_stop(self) -> bool:
-        """Say whether commands that arrive now may have been sent while this process was stopped.
+        """Return whether commands that arrive now may have been sent while this node was stopped.
 
-        They belong to a time that is never simulated, and may be the vent of a controller that
-        saw nothing: the command from before holds.
+        They belong to a time that is never simulated, and a controller without joint states may
+        have sent them to vent. They are ignored: the last command before them remains active.
         """
         longest = max(CATCH_UP, round(3 * SECOND / self._tick_rate))
         self._silence.find(steady_ns(), longest)
@@ -281,7 +281,7 @@ class PamSim(TickingNode):
         if bad is None:
             return
         self._bad = bad.muscle
-        if bad.is_refused:  # each kind of warning is held back for itself
+        if bad.is_refused:  # each kind of warning has its own limit of rate
             self.get_logger().warning(bad.reason, throttle_duration_sec=1.0)
         else:
             self.get_logger().warning(bad.reason, throttle_duration_sec=1.0)
@@ -294,7 +294,7 @@ class PamSim(TickingNode):
                 self._run_to(self._samples.next)
 
     def _change(self, now: SimulationSetup) -> None:
-        """Go on with other parameters."""
+        """Continue with other parameters."""
         self._run_to_now()
         before, self._simulation = self._simulation.settings, now
         self._plant.change(now)
@@ -310,7 +310,7 @@ class PamSim(TickingNode):
             self._clock_ticks.begin(self._clock_rate, sample=passed + 1)
         if self._tick_rate != self.ticker.rate:
             self.ticker.start(self._tick_rate, monotonic_ns())
-        self._silence.mark(steady_ns())  # compiling took its time: nobody has stopped it
+        self._silence.mark(steady_ns())  # compiling takes time: the process was not stopped
 
     def _reset(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         self._begin_again()
@@ -328,7 +328,7 @@ class PamSim(TickingNode):
             self._turns.settle()
             self._fault = ''
         if request.data and not (self._is_paused or self._is_followed or self._is_lockstep):
-            self._publish_here(self._time.stamp(self._plant.step))  # it stands, to be repeated
+            self._publish_here(self._time.stamp(self._plant.step))  # to be repeated
         self._set_paused(request.data)
         response.success, response.message = True, 'paused' if request.data else 'running'
         return response
@@ -339,16 +339,16 @@ class PamSim(TickingNode):
             self.ticker.start(self._tick_rate, monotonic_ns())
 
     def _step(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
-        """Simulate some periods, each published, with the commands in force."""
+        """Simulate ``step_periods`` periods with the present commands, and publish each."""
         if not self._is_paused:
             response.message = 'time goes on: pause first'
             return response
         response.success, response.message = self._step_periods()
-        self._silence.mark(steady_ns())  # it was busy: nobody has stopped it
+        self._silence.mark(steady_ns())  # it was busy, not stopped
         return response
 
     def _step_periods(self) -> tuple[bool, str]:
-        """Simulate the periods of a step; return whether all of them were, and what to say."""
+        """Simulate the periods of a step; return whether all are done, and the response's text."""
         periods = self._simulation.settings.step_periods
         self._sample_from_here()
         for done in range(periods):
@@ -356,7 +356,7 @@ class PamSim(TickingNode):
                 self.has_answered_at_end = True
                 return False, f'asked to stop: simulated {done} of {periods} periods'
             if self._is_followed:
-                # Each is stamped with the time at which it is published.
+                # The stamp of each sample is the time at which it is published.
                 self._time.align(self._samples.next)
             self._run_to(self._samples.next)
             if self._fault:
@@ -364,7 +364,7 @@ class PamSim(TickingNode):
         return True, f'simulated {periods} periods, until {self._plant.time:.9g} s'
 
     def finish(self) -> None:
-        """Release what looks at the topics."""
+        """Release the samplers of the topics."""
         self._topics.close()
 
     # Health --------------------------------------------------------------------------------

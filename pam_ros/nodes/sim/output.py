@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""All that the simulator publishes of its rig and of its time."""
+"""All topics that the simulator publishes on its rig and on its time."""
 
 from typing import Any
 
@@ -17,7 +17,7 @@ from pam_ros.timing.pace import SECOND
 
 
 class Output:
-    """The topics of one muscle or of several, and ``/clock`` where the time is the simulator's."""
+    """The topics of one muscle or of several, and ``/clock`` if the simulator makes the time."""
 
     def __init__(self, node: Node, setup: SimulationSetup) -> None:
         """Create the publishers on *node*."""
@@ -26,7 +26,7 @@ class Output:
             self._clock = Clock()
             self._clock_publisher = node.create_publisher(Clock, '/clock', DEPTH)
         depth = states_depth(settings.publish_rate)
-        # Each takes what the plant reads: of one muscle alone, or of several.
+        # Each takes a reading of the plant: of a single muscle, or of several.
         self._telemetry: list[Any]
         if setup.is_one:
             self._telemetry = [Telemetry(node, depth, setup.joint_names[0])]

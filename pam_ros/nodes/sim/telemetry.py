@@ -13,7 +13,7 @@ from pam_ros.timing.pace import SECOND
 
 
 class Telemetry:
-    """Publishes the state of one muscle; each message is made once and filled anew."""
+    """Publishes the state of one muscle; each message is created once and filled again."""
 
     def __init__(
         self,
@@ -24,9 +24,9 @@ class Telemetry:
         *,
         has_joint: bool = True,
     ) -> None:
-        """Create the publishers on *node*; *joint* names the joint, where there is one.
+        """Create the publishers on *node*; *joint* is the name of the joint, if there is one.
 
-        *below* is the prefix of the names of the topics, each keeps *depth* messages.
+        *below* is the prefix of the names of the topics; each publisher keeps *depth* messages.
         """
         self._joint = JointState(name=[joint], position=[0.0], velocity=[0.0], effort=[0.0])
         self._fluid = FluidPressure(header=self._joint.header)

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The topics on which several muscles publish their state: arrays, and each muscle's own."""
+"""The topics on which several muscles publish their state: arrays, and topics of each muscle."""
 
 from array import array
 from collections.abc import Sequence
@@ -18,7 +18,7 @@ from pam_ros.timing.pace import SECOND
 
 
 class ArrayTelemetry:
-    """Publishes all joints in one JointState, and one array a quantity, muscles in order."""
+    """Publishes all joints in one JointState, and one array per quantity, muscles in order."""
 
     def __init__(
         self, node: Node, depth: int, joints: Sequence[str], muscles: Sequence[str]
@@ -27,7 +27,7 @@ class ArrayTelemetry:
         self._joint = JointState(name=list(joints))
         for name in ('position', 'velocity', 'effort'):
             setattr(self._joint, name, array('d', bytes(8 * len(joints))))
-        # The messages' own memory, to be filled without a turn over Python's numbers.
+        # Views of the messages' memory, which are filled without a loop over Python numbers.
         states = self._joint.position, self._joint.velocity, self._joint.effort
         self._states = [np.frombuffer(each) for each in states]
 
@@ -66,15 +66,15 @@ class ArrayTelemetry:
 
 
 class MuscleTelemetry:
-    """Publishes each muscle below its name, as a muscle alone does.
+    """Publishes for each muscle the topics of a single muscle, below its name.
 
-    A muscle with a load of its own has ``joint_states`` there, too.
+    For a muscle with a load of its own this includes ``joint_states``.
     """
 
     def __init__(
         self, node: Node, depth: int, muscles: Sequence[str], *, have_loads: bool
     ) -> None:
-        """Create the publishers on *node*; a load has its muscle's name."""
+        """Create the publishers on *node*; the joint of a load has the name of its muscle."""
         self._each = [
             Telemetry(node, depth, name, f'{name}/', has_joint=have_loads) for name in muscles
         ]

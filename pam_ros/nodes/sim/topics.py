@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The topics of a simulated rig that one node alone may publish."""
+"""The topics of a simulated rig that only one node may publish."""
 
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import FluidPressure, JointState
@@ -11,9 +11,9 @@ from pam_ros.settings.scene import SimulationSetup
 
 
 def watched_topics(setup: SimulationSetup) -> list[Watched]:
-    """Return them: commands, states and pressures, and the clock where it is the simulator's.
+    """Return these topics: commands, states, pressures, and ``/clock`` if the simulator makes it.
 
-    Two simulators share their other topics where they share these.
+    Two simulators that share one of their other topics also share one of these.
     """
     settings = setup.settings
     found = [Watched(JointState, 'joint_states', tuple(setup.joint_names))]
