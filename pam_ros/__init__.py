@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Pneumatic artificial muscles: simulate, control, identify.
 
-What is named here is for users; ``docs/python.md`` shows it. All other names of the package are
-its own and may change. A name is imported when it is first used, so that programs which need a
-part of the package do not wait for the rest.
+The names listed here are the public interface, which ``docs/python.md`` describes. All other names
+of the package are internal and may change. A name is imported when it is first used, so that
+programs that need only a part of the package do not wait for the rest.
 """
 
 from importlib import import_module

@@ -1,10 +1,10 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Check what users of the Python interface give: numbers, arrays and objects.
+"""Check the inputs of users of the Python interface: numbers, arrays and objects.
 
-Each function returns what was given in the form that the package works with, or raises
-ParameterError with the name, the value or the shape, and what is allowed. Public functions and
-constructors use them; the functions that these call trust their inputs.
+Each function returns its input in the form that the package works with, or raises ParameterError
+with the name, the value or the shape, and the allowed values. Public functions and constructors
+use these checks; the functions that they call trust their inputs.
 """
 
 import math
@@ -19,11 +19,11 @@ from numpy.typing import NDArray
 from pam_ros.errors import ParameterError
 
 Array = NDArray[np.float64]
-LONGEST = 60  # characters of a value that a sentence shows
+LONGEST = 60  # characters of a value that an error message shows
 
 
 def refuse(name: str, value: Any, allowed: str) -> NoReturn:
-    """Raise ParameterError: *name* has a *value* that is not among what is *allowed*."""
+    """Raise ParameterError: the *value* of *name* is not one of the *allowed* ones."""
     text = ' '.join(repr(value).split())
     shown = text if len(text) <= LONGEST else f'{text[: LONGEST - 3]}...'
     raise ParameterError(f'{name} = {shown} is not allowed: give {allowed}')
@@ -33,7 +33,7 @@ def refuse(name: str, value: Any, allowed: str) -> NoReturn:
 
 
 def instance(name: str, value: Any, kind: type[Any], allowed: str) -> Any:
-    """Return *value*, which must be of this *kind*; *allowed* says it in words."""
+    """Return *value*, which must be of this *kind*; *allowed* is its description."""
     if not isinstance(value, kind):
         refuse(name, value, allowed)
     return value
@@ -47,7 +47,7 @@ def sequence(name: str, values: Any, kind: type[Any], allowed: str) -> tuple[Any
 
 
 def as_path(name: str, value: Any, allowed: str) -> Path:
-    """Return *value*, a text or a Path, as a Path; *allowed* says in words what it leads to."""
+    """Return *value*, a text or a Path, as a Path; *allowed* describes the target."""
     if not isinstance(value, str | Path):
         refuse(name, value, allowed)
     return Path(value)
@@ -109,7 +109,7 @@ def stamps(name: str, value: Any, *, strict: bool = False) -> Array:
 
 
 def along(name: str, value: Any, clock: str, count: int) -> Array:
-    """Return *value* as an array (count,): a number for each stamp of what is called *clock*."""
+    """Return *value* as an array (count,): one number for each stamp of the series *clock*."""
     found = array(name, value)
     if found.shape != (count,):
         refuse_shape(name, found, f'{(count,)}, one number for each stamp of {clock}')
@@ -140,5 +140,5 @@ def alike(**values: Any) -> list[Array]:
 
 
 def refuse_shape(name: str, given: Array, allowed: str) -> NoReturn:
-    """Raise ParameterError: *name* has a shape that is not among what is *allowed*."""
+    """Raise ParameterError: the shape of *name* is not one of the *allowed* ones."""
     raise ParameterError(f'{name} has the shape {given.shape}: give {allowed}')

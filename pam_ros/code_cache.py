@@ -1,9 +1,9 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""numba's cache of machine code on disk, of which no failure is an error of the program.
+"""numba's cache of machine code on disk, whose failures are not errors of the program.
 
-A folder without write permission, a full disk or a damaged file would otherwise end a program
-that can as well compile into memory.
+Without this module, a folder without write permission, a full disk or a damaged file would end a
+program that can also compile into memory.
 """
 
 import hashlib
@@ -20,46 +20,46 @@ class CodeCache:
     """The cache of one function, with the methods that numba calls.
 
     It is opened when the function is first compiled, not when it is imported. A damaged file is
-    removed, and written again. Where nothing can be kept, :func:`warn` says so.
+    removed and written again. If the machine code cannot be stored, :func:`warn` logs this.
     """
 
     def __init__(self, function: Callable[..., Any]) -> None:
-        """Keep the machine code of *function*, a plain Python function, when it is compiled."""
+        """Store the machine code of *function*, a plain Python function, when it is compiled."""
         self._function = function
         self._is_open = False
         self._cache: Any = None
 
     @property
     def cache_path(self) -> str | None:
-        """The folder of the files; None where there is no cache."""
+        """The folder of the files; None if there is no cache."""
         cache = self._opened()
         return None if cache is None else str(cache.cache_path)
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
-        """Return the compiled function for the signature *sig*; None where it is not cached."""
+        """Return the compiled function for the signature *sig*; None if it is not cached."""
         cache = self._opened()
         if cache is None:
             return None
         try:
             return cache.load_overload(sig, target_context)
-        except Exception:  # what pickle raises for a damaged file can be anything
+        except Exception:  # for a damaged file pickle can raise any exception
             self._remove_index()
             return None
 
     def save_overload(self, sig: Any, data: Any) -> None:
-        """Keep the compiled function *data* for the signature *sig*, if the disk takes it."""
+        """Store the compiled function *data* for the signature *sig*, if the disk allows it."""
         cache = self._opened()
         if cache is None:
             return
         try:
             cache.save_overload(sig, data)
         except OSError as error:
-            # The index is written first, and may name a file that was not written or is old.
+            # The index is written first, so it may name a file that was not written or is old.
             self._remove_index()
             self._give_up(error)
 
     def flush(self) -> None:
-        """Forget what is on disk."""
+        """Discard the stored machine code."""
         self._remove_index()
 
     def _opened(self) -> Any:
@@ -72,7 +72,7 @@ class CodeCache:
         return self._cache
 
     def _remove_index(self) -> None:
-        """Remove the index: numba takes the other files for absent without it."""
+        """Remove the index: without it numba ignores the other files."""
         if self._cache is None:
             return
         try:
@@ -87,15 +87,15 @@ class CodeCache:
 
 
 class _Warned:
-    """The reason of the warning; there is one a process."""
+    """The reason of the warning, which is logged once per process."""
 
     reason = ''
 
 
 def warn(reason: str) -> None:
-    """Log, once in this process, that machine code is not kept on disk and why.
+    """Log, once in this process, that machine code is not stored on disk, and the reason.
 
-    Without a handler of its own, Python's ``logging`` prints the sentence on stderr.
+    If no handler is set, Python's ``logging`` prints the message on stderr.
     """
     if reason and not _Warned.reason:
         _Warned.reason = reason
@@ -108,7 +108,7 @@ def warn(reason: str) -> None:
 
 
 def warned() -> str:
-    """Return the reason that was logged in this process; '' where there was none."""
+    """Return the reason that was logged in this process; '' if there was none."""
     return _Warned.reason
 
 
@@ -122,13 +122,13 @@ def _reason(error: Exception, folder: str) -> str:
 
 @lru_cache(maxsize=1)
 def _checked_cache() -> Any:
-    """Return numba's class of caches, with a checksum: it runs the bytes of a file unseen."""
+    """Return numba's cache class with a checksum: numba runs the bytes of a file unchecked."""
     caching: Any = import_module('numba.core.caching')
     dumps = import_module('numba.core.serialize').dumps
 
     class Checked(caching.CompileResultCacheImpl):  # type: ignore[misc]
         def get_filename_base(self, fullname: str, abiflags: str) -> str:
-            # Files of their own: numba's class would take those with a checksum for code.
+            # Separate files: numba's class would treat files with a checksum as plain code.
             return f'{super().get_filename_base(fullname, abiflags)}-checked'
 
         def reduce(self, cres: Any) -> tuple[bytes, bytes]:

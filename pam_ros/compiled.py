@@ -1,8 +1,8 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Compile plain scalar functions with numba where it is installed, else leave them as they are.
+"""Compile plain scalar functions with numba if it is installed, else leave them unchanged.
 
-The same source runs both ways: packages write scalar Python with ``math`` and decorate it.
+The same source is used in both cases: packages write scalar Python with ``math`` and decorate it.
 """
 
 from collections.abc import Callable
@@ -21,8 +21,8 @@ except ImportError:  # rosdep has numba on Debian and Ubuntu only
     numba = None
 
 HAVE_NUMBA = numba is not None
-# Nothing here allocates, so that arrays need no reference counts: counting them at every call
-# of every effect would take ten times as long as the physics.
+# No allocation here, so that arrays need no reference counts: counting at every call of every
+# effect would take ten times as long as the physics.
 _OPTIONS: dict[str, Any] = {'nogil': True, 'error_model': 'numpy', '_nrt': False}
 _ON_ARRAYS = {
     'exp': np.exp,
@@ -37,29 +37,29 @@ F = TypeVar('F', bound=Callable[..., Any])
 def scalar(function: F) -> F:
     """Return *function* compiled for float64 scalars and arrays passed by reference.
 
-    Callers that pass it on to another compiled function pay nothing: it is inlined.
+    A call from another compiled function costs nothing: the function is inlined.
     """
     return _inlined(function)
 
 
 def inner(function: F) -> F:
-    """As :func:`scalar`, for what only compiled functions call: it cannot be called from Python.
+    """As :func:`scalar`, for functions that only compiled functions call, and not Python.
 
-    Nothing that Python needs for a call is compiled.
+    It cannot be called from Python, since the wrappers for such calls are not compiled.
     """
     return _inlined(function, no_cpython_wrapper=True, no_cfunc_wrapper=True)
 
 
 def cached(function: F) -> F:
-    """As :func:`scalar`, with the machine code kept on disk between runs, where that is possible.
+    """As :func:`scalar`, with the machine code stored on disk between runs, if that is possible.
 
-    numba's cache sees changes of the function's own file only. A caller that binds other
+    numba's cache detects only changes of the function's own file. A caller that binds other
     functions into it must give it a name that changes with them (see ``rig/bind.py``).
     """
     if numba is None:
         return function
     compiled: Any = _compiled(function)
-    # As its enable_caching() does, with a cache of which no failure is an error.
+    # As enable_caching() of numba does, with a cache whose failures are not errors.
     compiled._cache = CodeCache(function)
     kept: F = compiled
     return kept
@@ -77,11 +77,11 @@ def _compiled(function: F, **more: bool) -> F:
 
 
 def _of_this_module(function: F) -> F:
-    """Return a copy of *function* whose module is this one, by name.
+    """Return a copy of *function* whose module is, by name, this one.
 
-    With a cached function numba keeps the name of the module of each function that was compiled
-    into it, and imports these modules when it loads the machine code, which needs none of them.
-    The file of a user may have another name or place by then; this module is always there.
+    With a cached function numba stores the name of the module of each function that was compiled
+    into it, and imports these modules when it loads the machine code, although the code does not
+    need them. A user's file may have another name or place by then; this module always exists.
     """
     source = plain(function)
     copy: Any = FunctionType(
@@ -99,9 +99,9 @@ def _of_this_module(function: F) -> F:
 
 
 def plain(function: F) -> F:
-    """Return the Python source of a :func:`scalar` that calls no other.
+    """Return the Python source of a :func:`scalar` function that calls no other function.
 
-    For callers that stay in Python: they would wait for the compiler and gain nothing by it.
+    For callers that run in Python: compiling would cost them time without any gain.
     """
     source: F = getattr(function, 'py_func', function)
     return source
@@ -110,9 +110,9 @@ def plain(function: F) -> F:
 def broadcast(function: Callable[..., float]) -> Callable[..., Any]:
     """Return a scalar function as one that broadcasts over numpy arrays (and numpy scalars).
 
-    The source stays one: it is run with numpy's ``exp``, ``sqrt``, ``max``, ``sin`` and ``cos``
-    under the names of the scalar ones, and so are the functions that it calls. Unlike a compiled
-    ufunc this costs nothing at import, and needs no numba.
+    There is only one source: it runs with numpy's ``exp``, ``sqrt``, ``max``, ``sin`` and ``cos``
+    under the names of the scalar functions. The same is done for the functions that it calls.
+    Unlike a compiled ufunc this costs nothing at import and does not need numba.
     """
     plain = getattr(function, 'py_func', function)
     names = {**plain.__globals__, **_ON_ARRAYS}

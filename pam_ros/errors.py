@@ -1,30 +1,30 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The errors that a user sees: one family, each carrying the whole sentence."""
+"""The errors that a user sees: one base class, with the whole message as the text."""
 
 import re
 from contextlib import suppress
 
-LONGEST_WORD = 200  # characters that a terminal gets: a path may have as many
+LONGEST_WORD = 200  # characters of a word that is shown whole: a path may be this long
 LONGEST = 2000
 _CUT = ' [...] '
 
 
 def printable(text: str) -> str:
-    """Return *text* whole in one line, with escapes for what cannot be printed or encoded.
+    """Return the whole *text* in one line; what cannot be printed or encoded is escaped.
 
-    Names of files that are not UTF-8, and in the locale C all that are not ASCII, come from the
-    system with a surrogate for each byte. Where these bytes are UTF-8, they are its letters.
+    In file names that are not UTF-8, or not ASCII in the locale C, Python replaces each such byte
+    by a surrogate. Bytes that are valid UTF-8 are decoded to their characters.
     """
-    with suppress(UnicodeEncodeError):  # surrogates that stand for no byte
+    with suppress(UnicodeEncodeError):  # surrogates that do not represent a byte
         text = text.encode('utf-8', 'surrogateescape').decode('utf-8', 'surrogateescape')
     return ''.join(c if c.isprintable() else ascii(c)[1:-1] for c in text)
 
 
 def shown(text: str) -> str:
-    """Return *text* as a log or a terminal may have it: one line, printable, not too long.
+    """Return *text* in a form for a log or a terminal: one line, printable, not too long.
 
-    Names in files can hold line breaks, escape sequences and a million letters.
+    Names in files can contain line breaks, escape sequences and a million characters.
     """
     plain = re.sub(
         rf'\S{{{LONGEST_WORD + 1},}}',
@@ -37,18 +37,18 @@ def shown(text: str) -> str:
 
 
 class PamError(Exception):
-    """A mistake in what the user gave; the text is the sentence to show, exit code 2."""
+    """An invalid input of the user; the text is the message to show, the exit code 2."""
 
     def __init__(self, sentence: str) -> None:
         super().__init__(shown(sentence))
 
 
 class ParameterError(PamError):
-    """A parameter or a set of parameters that makes no model."""
+    """A parameter that is not valid, or a combination of parameters that is not."""
 
 
 class RangeError(PamError):
-    """A wanted force, position or pressure that the model cannot reach."""
+    """A desired force, position or pressure that the model cannot reach."""
 
 
 class RecordingError(PamError):

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Declarative parameters: a dataclass field that carries unit, range and text.
 
-One table per package serves everything: checks here, ROS parameters in ``nodes/``, the
+One table per package is the source for the checks here, the ROS parameters in ``nodes/``, the
 documentation, and the YAML files.
 """
 
@@ -18,7 +18,7 @@ _KEY = 'parameter'
 
 
 class OnTurning(NamedTuple):
-    """Default and highest value that a parameter has on a joint that turns."""
+    """Default and highest value of a parameter for a revolute joint."""
 
     default: Any
     high: float | None
@@ -26,12 +26,12 @@ class OnTurning(NamedTuple):
 
 @dataclass(frozen=True)
 class Parameter:
-    """What is known of one parameter beside its value.
+    """Description of one parameter, without its value.
 
     ``low`` and ``high`` are inclusive and in ``unit``; ``None`` means unbounded.
-    ``choices`` lists the allowed values of a string. ``live`` says whether a running node
-    may change it. ``above_low`` makes the lower bound exclusive. ``turning`` is what a joint that
-    turns has instead, where that is not the same number.
+    ``choices`` lists the allowed values of a string. ``live`` is true if the parameter can be
+    changed while a node runs. ``above_low`` makes the lower bound exclusive. ``turning`` gives the
+    default and the highest value for a revolute joint, if they are different numbers.
     """
 
     text: str
@@ -44,12 +44,12 @@ class Parameter:
     turning: OnTurning | None = None
 
     def turned(self, name: str) -> 'Parameter':
-        """Return what is known of the parameter *name* on a joint that turns."""
+        """Return the description of the parameter *name* for a revolute joint."""
         high = self.high if self.turning is None else self.turning.high
         return replace(self, unit=turned_unit(self.unit, name), high=high, turning=None)
 
     def allowed(self, kind: type = float) -> str:
-        """Say in words what is allowed of a *kind*, for the sentence of an error."""
+        """Return a text about the allowed values of type *kind*, for an error message."""
         if self.choices:
             return 'one of ' + ', '.join(self.choices)
         if kind in (bool, str, tuple):
@@ -69,7 +69,7 @@ class Parameter:
         return f'{whole}, {bounds}' if whole else bounds
 
     def check(self, name: str, value: Any, kind: type) -> Any:
-        """Return *value* as *kind*, or raise ParameterError naming it and what is allowed."""
+        """Return *value* as *kind*, or raise ParameterError with the name and allowed values."""
         if not self._fits(value, kind):
             refuse(name, value, self.allowed(kind))
         return kind(value)
@@ -84,7 +84,7 @@ class Parameter:
             return self._is_text(value, kind)
         if kind is bool or isinstance(value, bool):
             return kind is bool and isinstance(value, bool)
-        if not isinstance(value, numbers.Real):  # numpy's are among them
+        if not isinstance(value, numbers.Real):  # includes those of numpy
             return False
         try:
             number = float(value)
@@ -103,14 +103,14 @@ def parameter_field(default: Any, text: str, unit: str = '', **kwargs: Any) -> A
 
 
 def field_about(default: Any, about: Parameter, *, kw_only: bool = False) -> Any:
-    """Return a dataclass field with *default* that carries what is known *about* it."""
+    """Return a dataclass field with *default* that carries its description *about*."""
     return field(default=default, metadata={_KEY: about}, kw_only=kw_only)
 
 
 def described(cls: type, *, turning: bool = False) -> dict[str, tuple[type, Any, Parameter]]:
     """Return name -> (type, default, Parameter) of the described fields of a dataclass.
 
-    With *turning* they are those of a joint that turns.
+    With *turning* they are those of a revolute joint.
     """
     table = {}
     for item in fields(cls):
@@ -126,13 +126,13 @@ def described(cls: type, *, turning: bool = False) -> dict[str, tuple[type, Any,
 def check_all(instance: Any, *, turning: bool = False) -> None:
     """Check and normalise every described field of a (frozen) dataclass instance.
 
-    With *turning* it is that of a joint that turns.
+    With *turning* the instance is for a revolute joint.
     """
     for name, (kind, _, about) in described(type(instance), turning=turning).items():
         object.__setattr__(instance, name, about.check(name, getattr(instance, name), kind))
 
 
 def turning_defaults(cls: type) -> dict[str, Any]:
-    """Return the described fields of a dataclass with the defaults of a joint that turns."""
+    """Return the described fields of a dataclass with their defaults for a revolute joint."""
     table = described(cls, turning=True)
     return {name: default for name, (_, default, _) in table.items()}

@@ -1,10 +1,9 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Read a YAML file that a user gives: plain data alone, within limits of size and nesting.
+"""Read a YAML file of a user: only plain data, within limits of size and nesting.
 
 All YAML files of users are read here. Plain data are mappings, lists, texts, numbers, true, false
-and null. Aliases are refused as ROS refuses them: a short file of them can stand for data without
-end.
+and null. Aliases are refused, as in ROS: with aliases a short file can describe data without end.
 """
 
 import re
@@ -16,13 +15,13 @@ import yaml
 from pam_ros.errors import ParameterError, printable
 
 MOST_BYTES = 4_000_000  # the metadata of a bag of ten thousand files have about 3 MB
-DEEPEST = 32  # mappings and lists within each other
-# A number for ROS; for YAML 1.1 only with a point and a signed exponent, and else a text.
+DEEPEST = 32  # levels of nested mappings and lists
+# ROS reads this as a number; YAML 1.1 only if it has a point and a signed exponent, else as text.
 EXPONENTIAL = re.compile(r'^[-+]?([0-9]+(\.[0-9]*)?|\.[0-9]+)[eE][-+]?[0-9]+$')
 _TAG = 'tag:yaml.org,2002:'
 _KINDS = {'str': 'a text', 'int': 'a whole number', 'float': 'a number', 'bool': 'true or false'}
 _PLAIN_TAGS = {_TAG + kind for kind in (*_KINDS, 'null', 'seq', 'map')}
-_Base: Any = getattr(yaml, 'CSafeLoader', yaml.SafeLoader)  # the fast one where it was built
+_Base: Any = getattr(yaml, 'CSafeLoader', yaml.SafeLoader)  # the fast one, if available
 
 
 class _Loader(_Base):  # type: ignore[misc]
@@ -41,13 +40,13 @@ _Loader.add_implicit_resolver(
 
 
 def _scalar(kind: str) -> Any:
-    """Return the constructor of a *kind* of scalar, with a YAMLError for a text that is none."""
+    """Return the constructor of a *kind* of scalar, with a YAMLError for an invalid text."""
     construct = _Base.yaml_constructors[_TAG + kind]
 
     def checked(loader: Any, node: yaml.Node) -> Any:
         try:
             return construct(loader, node)
-        except (ValueError, LookupError):  # what the constructors of numbers and booleans raise
+        except (ValueError, LookupError):  # from constructors of numbers and booleans
             what = f'{node.value!r} is not {_KINDS[kind]}'
             raise yaml.MarkedYAMLError(problem=what, problem_mark=node.start_mark) from None
 
@@ -59,10 +58,10 @@ for _kind in _KINDS:
 
 
 def read_yaml(path: Path) -> Any:
-    """Return the plain data in the YAML file at *path*; ParameterError where there are none."""
+    """Return the plain data in the YAML file at *path*; raises ParameterError if not valid."""
     try:
         if path.exists() and not path.is_file():
-            # A device may have no end, and a pipe nobody who writes.
+            # A device may have no end, and a pipe may have no writer.
             raise ParameterError(f'{path} cannot be read: it is not a file')
         with path.open('rb') as file:
             data = file.read(MOST_BYTES + 1)
@@ -71,7 +70,7 @@ def read_yaml(path: Path) -> Any:
         text = data.decode('utf-8-sig')
     except OSError as error:
         raise ParameterError(f'{path} cannot be read: {error.strerror}') from error
-    except ValueError as error:  # neither a path nor UTF-8 may hold all bytes
+    except ValueError as error:  # bytes that are not allowed in a path or in UTF-8
         raise ParameterError(f'{path} cannot be read: {error}') from error
     try:
         _refuse_other_than_plain(text)
@@ -81,17 +80,18 @@ def read_yaml(path: Path) -> Any:
 
 
 def plain_text(text: str) -> str:
-    """Return *text* in one line that YAML reads as itself: no word ends with a colon or is a #.
+    """Return *text* in one line that YAML reads as the same text.
 
-    ``ros2 param load`` takes what it read in a file for YAML once more. The first word must be no
-    mark of YAML.
+    Trailing colons and leading # are removed from each word: ``ros2 param load`` parses a value
+    that it has read from a file as YAML a second time. The caller ensures that the first word is
+    not an indicator of YAML.
     """
     words = (word.rstrip(':').lstrip('#') for word in printable(text).split())
     return ' '.join(filter(None, words))
 
 
 def _refuse_other_than_plain(text: str) -> None:
-    """Raise a YAMLError for tags, anchors and deep nesting, before any data are made."""
+    """Raise a YAMLError for tags, anchors and deep nesting, before any data are constructed."""
     depth = 0
     for event in yaml.parse(text, _Base):
         problem, tag = None, getattr(event, 'tag', None)
@@ -111,7 +111,7 @@ def _refuse_other_than_plain(text: str) -> None:
 
 
 def _reason(error: yaml.YAMLError) -> str:
-    """Return in one line what is wrong, and where."""
+    """Return the problem and its position in one line."""
     mark = getattr(error, 'problem_mark', None)
     if mark is None:
         return ' '.join(str(error).split())

@@ -1,8 +1,8 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What the units of a load that slides are on a joint that turns.
+"""The units of a revolute joint that correspond to those of a prismatic joint.
 
-A force is a torque there, and a length along the motion an angle.
+A force becomes a torque, and a length along the motion becomes an angle.
 """
 
 from pam_ros.errors import ParameterError
@@ -22,9 +22,9 @@ TURNED = {
     'Pa/m': 'Pa/rad',
     'Pa/(m s)': 'Pa/(rad s)',
     'Pa s/m': 'Pa s/rad',
-    # A contraction stands for a place: it becomes the angle itself.
+    # A contraction describes a position: it becomes the angle itself.
     'fraction': 'rad',
-    # These have nothing to do with the coordinate.
+    # These units do not depend on the coordinate.
     '': '',
     'kg': 'kg',
     's': 's',
@@ -34,7 +34,7 @@ TURNED = {
     'Pa': 'Pa',
 }
 
-# The power of the arm in m by which a value in this unit changes with it; all others keep theirs.
+# A value in this unit is multiplied by this power of the arm in m; other units have the power 0.
 ARM_POWER = {
     'm': -1,
     'm/s': -1,
@@ -54,9 +54,9 @@ ARM_POWER = {
 
 
 def turned_unit(unit: str, whose: str) -> str:
-    """Return what *unit* is on a joint that turns; raises ParameterError where it is not known.
+    """Return *unit* as it is for a revolute joint; raises ParameterError if it is not known.
 
-    *whose* names the parameter that has it.
+    *whose* is the name of the parameter that has the unit.
     """
     if unit not in TURNED:
         raise ParameterError(

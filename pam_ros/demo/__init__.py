@@ -1,3 +1,3 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What the demonstration makes of recorded runs: numbers beside the paper's, and figures."""
+"""Evaluation of the demonstration's recorded runs: numbers next to the paper's, and figures."""

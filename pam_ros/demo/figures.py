@@ -20,7 +20,7 @@ MODEL, MEASURED = COLOURS[2], COLOURS[0]
 
 
 def save(figure: Figure, path: Path) -> None:
-    """Write a figure as PNG, twice as fine as the screen's pixels."""
+    """Write a figure as PNG, with twice the resolution of a screen."""
     with styled():
         figure.savefig(path, format='png', dpi=144, facecolor='white')
 
@@ -28,8 +28,8 @@ def save(figure: Figure, path: Path) -> None:
 def figure_5(run: PublishedRun, model: Joint) -> Figure:
     """Draw stiffness, damping ratio and damping coefficient over contraction.
 
-    Lines are equations (2) and (4) over the working range, dots what was published while the
-    released load of *run* swung.
+    Lines are equations (2) and (4) over the working range. Dots are the values that were published
+    while the released load of *run* oscillated.
     """
     muscle, load = model.muscle, model.load
     p = float(run.pressure[-1])
@@ -142,6 +142,6 @@ def figure_steps(runs: Sequence[PublishedRun], model: Joint) -> Figure:
 
 
 def _headline(figure: Figure, text: str) -> None:
-    """Put *text* above the first plot, to the right, where its title leaves room."""
+    """Put *text* above the first plot, to the right, next to its title."""
     ax = figure.axes[0]
     ax.set_title(text, loc='right', color=INK, fontweight='bold')

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What the demonstration's antagonistic joint has shown: series, table, figure."""
+"""Results of the demonstration's antagonistic joint: series, table, figure."""
 
 from dataclasses import dataclass, fields
 
@@ -12,15 +12,15 @@ from pam_ros.report.style import COLOURS, FAINT, INK, stacked, styled
 
 Array = NDArray[np.float64]
 WIDTH = 760
-STILL = 1e-6  # rad that a reference at rest moves less than
-LAST = 0.2  # s at the end of a set-point over which the stiffness is judged
+STILL = 1e-6  # rad; a reference at rest moves less than this
+LAST = 0.2  # s at the end of a set-point over which the stiffness is evaluated
 
 
 @dataclass(frozen=True)
 class JointCourse:
-    """One sample a row of time, all (n,) and SI: s, rad, rad, Pa, Pa, N m/rad, N m/rad.
+    """Series (n,), one sample per stamp, all in SI: s, rad, rad, Pa, Pa, N m/rad, N m/rad.
 
-    ``angle`` is measured; ``stiffness`` is that of the rig, ``co_contraction`` what was set.
+    ``angle`` is measured; ``stiffness`` is that of the rig, ``co_contraction`` is its set-point.
     """
 
     t: Array
@@ -38,11 +38,11 @@ class JointCourse:
 
     @property
     def departure(self) -> float:
-        """When the reference leaves where it was at first, s."""
+        """The time in s at which the reference leaves its first value."""
         return float(self.t[np.argmax(np.abs(self.reference - self.reference[0]) > STILL)])
 
     def with_stiffness(self, wanted: float) -> 'JointCourse':
-        """Return the part in which *wanted* N m/rad was set and reached."""
+        """Return the part in which the present set-point of the stiffness is *wanted* N m/rad."""
         return self._where(np.abs(self.co_contraction - wanted) < 1e-6 * wanted)
 
     def _where(self, inside: NDArray[np.bool_]) -> 'JointCourse':
@@ -54,7 +54,7 @@ class JointCourse:
 
 
 def table(parts: list[tuple[str, JointCourse]]) -> str:
-    """Return error and stiffness in each of the *parts*, by their names."""
+    """Return a table of error and stiffness in each of the *parts*, by their names."""
     lines = [f'{"":<26}{"swing":>10}{"error RMS":>13}{"largest":>12}{"N m/rad":>12}{"set":>8}']
     for name, part in parts:
         error = np.degrees(part.error)

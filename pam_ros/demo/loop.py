@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The closed loop in numbers: a rig beside two simulators that heard the same commands."""
+"""The closed loop in numbers: a rig and two simulators that received the same commands."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -22,8 +22,8 @@ from pam_ros.report.wording import Scale, interval, number
 Array = NDArray[np.float64]
 
 MUSCLE = 'dmsp_20_400n'
-# What the rig has and is not declared to the finder: friction of its guide, a valve that takes its
-# time, a specimen that is not quite the maker's, and a sensor that is not perfect.
+# Properties of the rig that the nominal model lacks: friction of the guide, a slow valve, a
+# specimen that differs from the maker's data, and noise of the sensor.
 HIDDEN: dict[str, Any] = {
     'muscle': MUSCLE,
     'a2': 290.0,
@@ -50,7 +50,7 @@ class Replay:
 
     @property
     def run(self) -> Run:
-        """The replay as the plots of a report take it; there was no re-tuned model."""
+        """The replay in the form for the plots of a report, without a re-tuned model."""
         nothing = np.zeros_like(self.t)
         return Run(
             'replay',
@@ -73,8 +73,8 @@ class Replay:
 def read_replay(bag: Path, command: str, rig: str, declared: str, identified: str) -> Replay:
     """Return the positions that three rigs of a bag published, named by their namespaces.
 
-    *command* is the topic that all of them heard: time counts from its first message. At the
-    stamps of *rig*; the others are linear between theirs.
+    *command* is the topic that all of them received: time starts at its first message. The stamps
+    are those of *rig*; the positions of the others are interpolated linearly.
     """
     mapping = read_mapping([f'{command}=pressure_command_Pa'])
     stamps, values = [], []
@@ -89,7 +89,7 @@ def read_replay(bag: Path, command: str, rig: str, declared: str, identified: st
 
 
 def figure(replay: Replay) -> Figure:
-    """Return measured and simulated over the whole replay, with the residuals beneath."""
+    """Return measured and simulated over the whole replay, with the residuals below."""
     with style.styled():
         drawn = time_plots.measured_and_simulated(
             time_plots.whole([replay.run]), list(CURVES), MM, 'position', NOISE, style.WIDE
@@ -101,7 +101,7 @@ def figure(replay: Replay) -> Figure:
 
 
 def table(replay: Replay, report: Mapping[str, Any]) -> str:
-    """Return the errors before and after, and what was found beside what is hidden."""
+    """Return the errors before and after the identification, and true and found parameters."""
     lines = [f'{"commands not used to fit":<26}{"RMSE, mm":>10}{"max, mm":>10}{"fit, %":>10}']
     sizes = [(curve.label, replay.size(curve.stage)) for curve in CURVES]
     for label, size in sizes:

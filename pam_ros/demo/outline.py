@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What the demonstration says at its beginning and at its end."""
+"""The texts at the beginning and at the end of the demonstration."""
 
 import shlex
 import sys
@@ -11,14 +11,14 @@ from pathlib import Path
 
 @dataclass(frozen=True)
 class Chapter:
-    """A part of the demonstration: what it shows, and about how many seconds it takes."""
+    """A part of the demonstration: its content, and its approximate duration in s."""
 
     about: str
     seconds: int
 
 
-# Each is a module of pam_ros.nodes.demo with a function play(stage). The times are those of two
-# cores in 2026, with all kernels compiled.
+# Each is a module of pam_ros.nodes.demo with a function play(stage). The times were measured on
+# two cores in 2026, with all kernels compiled.
 CHAPTERS = {
     'paper': Chapter('the experiment of the paper: a load is released, then pressure steps', 15),
     'position': Chapter('position control of a load that is heavier than configured', 20),
@@ -38,14 +38,14 @@ def plan(names: Sequence[str], folder: Path) -> str:
 
 
 def duration(seconds: int) -> str:
-    """Return a time in words: seconds below 90 s, else minutes to the half."""
+    """Return a time in words: in seconds below 90 s, else in minutes, rounded to one half."""
     if seconds < 90:
         return f'{ROUNDED * round(seconds / ROUNDED)} s'
     return f'{round(seconds / 30) / 2:g} minutes'
 
 
 def next_steps(folder: Path) -> str:
-    """Return commands to be tried next, with the files of *folder* that are there."""
+    """Return commands to try next, with the files that exist in *folder*."""
     report = folder / 'loop' / 'report'
     commands = [
         (
@@ -74,6 +74,6 @@ def next_steps(folder: Path) -> str:
 
 
 def program(name: str) -> str:
-    """Return how a program of this package is started: it stands where this one does."""
+    """Return the command that starts a program of this package, next to this one if possible."""
     beside = Path(sys.argv[0]).with_name(name)
     return shlex.quote(str(beside)) if beside.is_file() else f'python3 -m pam_ros.cli.{name}'

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The paper's experiment in numbers: its printed values beside those of a recorded run.
+"""The paper's experiment in numbers: its printed values next to those of a recorded run.
 
 Sárosi (2015): a DMSP-20-400N at 600 kPa, loaded with 20 kg, released from its length at rest.
 """
@@ -16,14 +16,14 @@ from pam_ros.rig.joint import Joint
 
 PRESSURE = 600e3  # Pa gauge
 MASS = 20.0  # kg
-SPRING_FORCE = 198.0  # N, section 3: what the paper's simulation gives
+SPRING_FORCE = 198.0  # N, section 3: the result of the paper's simulation
 STATIC_FORCE = 196.2  # N: m g with the paper's 9.81 m/s^2
 SETTLED = 0.25  # s at the end of a run over which its resting values are averaged
 
 
 @dataclass(frozen=True)
 class Row:
-    """One quantity: the value it should have, where that is from, and ours."""
+    """One quantity: the expected value, the source of that value, and our value."""
 
     quantity: str
     unit: str
@@ -34,7 +34,7 @@ class Row:
 
     @property
     def difference(self) -> float:
-        """Ours less the one that it should be, in the row's unit."""
+        """Our value minus the expected one, in the row's unit."""
         return self.ours - self.wanted
 
     def cells(self) -> tuple[str, ...]:
@@ -53,18 +53,18 @@ HEAD = ('quantity', 'paper', 'where', 'ours', 'difference', 'relative')
 
 
 def signed(value: float, digits: int) -> str:
-    """Return a number with its sign, nothing as 0."""
+    """Return a number with its sign; a number that is rounded to 0 has no sign."""
     text = f'{value:+.{digits}f}'
     return text if float(text) else f'{0.0:.{digits}f}'
 
 
 def resting(run: PublishedRun) -> PublishedRun:
-    """Return the end of a run, where it has come to rest."""
+    """Return the last part of a run, in which the load is at rest."""
     return run.between(float(run.t[-1]) - SETTLED, np.inf)
 
 
 def compare(released: PublishedRun, model: Joint) -> list[Row]:
-    """Return the paper's values beside those of the released load."""
+    """Return the paper's values next to those of the released load."""
     end = resting(released)
     l0 = model.muscle.l0
     kappa = model.muscle.equilibrium(PRESSURE, STATIC_FORCE)
@@ -100,9 +100,9 @@ def compare(released: PublishedRun, model: Joint) -> list[Row]:
 
 
 def frequency(run: PublishedRun) -> float:
-    """Return the frequency in Hz of the last swings of a decaying run that can be resolved.
+    """Return the frequency in Hz of the last oscillations of a decaying run that can be resolved.
 
-    From the times at which the velocity changes its sign, interpolated linearly.
+    It follows from the times at which the velocity changes its sign, interpolated linearly.
     """
     v, t = run.velocity, run.t
     turns = np.flatnonzero(v[:-1] * v[1:] < 0.0)
@@ -113,7 +113,7 @@ def frequency(run: PublishedRun) -> float:
 
 
 def steps(runs: Sequence[PublishedRun], model: Joint) -> list[Row]:
-    """Return the contraction to which each pressure step led, beside that of equation (1)."""
+    """Return the contraction at rest after each pressure step, next to that of equation (1)."""
     rows = []
     for run in runs:
         end = resting(run)
@@ -132,7 +132,7 @@ def steps(runs: Sequence[PublishedRun], model: Joint) -> list[Row]:
 
 
 def table(rows: Sequence[Row]) -> str:
-    """Return rows as a table in plain text, numbers to the right."""
+    """Return rows as a table in plain text, with numbers aligned to the right."""
     lines = [HEAD, *(row.cells() for row in rows)]
     widths = [max(len(line[i]) for line in lines) for i in range(len(HEAD))]
     left = (0, 2)

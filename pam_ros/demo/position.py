@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What the demonstration's position control has shown: series, table, figure."""
+"""Results of the demonstration's position control: series, table, figure."""
 
 from dataclasses import dataclass, fields
 
@@ -14,12 +14,12 @@ from pam_ros.report.style import COLOURS, FAINT, INK, stacked, styled
 Array = NDArray[np.float64]
 WIDTH = 760
 SETTLED = 0.1e-3  # m within which a step counts as settled
-LAST = 0.5  # s at the end of a step over which the error is judged
+LAST = 0.5  # s at the end of a step over which the error is evaluated
 
 
 @dataclass(frozen=True)
 class Course:
-    """One sample a row of time, all (n,) and SI: s, m, m, m/s, Pa."""
+    """Series (n,), one sample per stamp, all in SI: s, m, m, m/s, Pa."""
 
     t: Array
     reference: Array
@@ -38,9 +38,9 @@ class Course:
         return Course(*(getattr(self, item.name)[inside] for item in fields(self)))
 
     def departure(self, begin: float, least: float) -> float:
-        """Return the time in s at which the reference is *least* m from where it was at *begin*.
+        """Return the time in s at which the reference is *least* m away from its value at *begin*.
 
-        Raises PamError where it stays, and where samples are missing.
+        Raises PamError if it stays there, and if samples are missing.
         """
         gaps = np.diff(self.t)
         if np.any(gaps > 1.5 * np.median(gaps)):
@@ -63,7 +63,7 @@ def settling(step: Course, goal: float) -> float:
 
 
 def table(steps: list[tuple[float, Course]], sine: Course) -> str:
-    """Return what was reached: *steps* are each a goal in m and what came of it."""
+    """Return a table of the results: each of the *steps* is a goal in m and its course."""
     lines = [f'{"set-point":<24}{"settles in":>12}{"error at rest":>16}{"pressure moves":>17}']
     for goal, step in steps:
         rest = step.between(step.t[-1] - LAST, np.inf)

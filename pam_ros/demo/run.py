@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""A run of the simulated rig as it was published, in arrays."""
+"""The published series of a run of the simulated rig, in arrays."""
 
 from dataclasses import dataclass, fields
 
@@ -15,9 +15,9 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class PublishedRun:
-    """One sample a row of time, all (n,) and SI; contraction positive.
+    """Series (n,), one sample per stamp, all in SI; contraction positive.
 
-    t s, position m, velocity m/s, pressure Pa gauge, force N (the muscle's pull, without its
+    t s, position m, velocity m/s, pressure Pa gauge, force N (of the muscle, without its
     damping), stiffness N/m, damping N s/m.
     """
 
@@ -35,7 +35,7 @@ class PublishedRun:
         return PublishedRun(*(getattr(self, item.name)[inside] for item in fields(self)))
 
     def acceleration(self, joint: Joint) -> Array:
-        """Return y'' in m/s^2 by equation (3) from what was published."""
+        """Return y'' in m/s^2 by equation (3) from the published values."""
         pull = self.force - self.damping * self.velocity
         weight = float(statics.weight(joint, 0.0))
         return np.asarray((pull - weight) / joint.inertia)

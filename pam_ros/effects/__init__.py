@@ -25,7 +25,7 @@ from pam_ros.effects.pressure_dependent_damping import (
     PressureDependentDamping as PressureDependentDamping,
 )
 
-# The load and what it meets.
+# The load and its surroundings.
 from pam_ros.effects.periodic_disturbance import PeriodicDisturbance as PeriodicDisturbance
 from pam_ros.effects.payload import Payload as Payload
 from pam_ros.effects.viscous_friction import ViscousFriction as ViscousFriction
@@ -33,7 +33,7 @@ from pam_ros.effects.coulomb_friction import CoulombFriction as CoulombFriction
 from pam_ros.effects.end_stop import EndStop as EndStop
 # isort: on
 
-# Those imported above, in their order.
+# The effects imported above, in their order.
 EFFECTS: tuple[type[Effect], ...] = tuple(
     found
     for found in list(vars().values())

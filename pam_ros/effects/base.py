@@ -1,43 +1,43 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What an effect is: parameters, hidden states, and equations at the places where it acts.
+"""The interface of an effect: parameters, hidden states, and equations at the places of action.
 
 An effect is one file with one dataclass, an :class:`Effect`; ``effects/__init__.py`` lists it. Its
 fields are its parameters. Its equations are plain scalar functions, compiled into the stepping
-kernel when numba is there. An effect acts either in a muscle (and its pressure path) or on the
-joint that the muscles move; in which units a joint that turns has it, says
-:mod:`pam_ros.effects.parameter`.
+kernel if numba is installed. An effect acts either in a muscle (and its pressure path) or on the
+joint that the muscles move. :mod:`pam_ros.effects.parameter` defines its units on a revolute
+joint.
 
-Places, in the order in which the kernel visits them, with the function each expects:
+Places, in the order in which the kernel visits them, with the function that each expects:
 
 ``delay(q, j) -> s``
     Time by which pressure commands act late.
 ``pressure(p, t, h, x, i, xn, q, j) -> Pa``
-    Pressure path from command to chamber; p is what comes from upstream and is constant over
-    the interval of length h that ends at t; returns what goes downstream at its end.
+    Pressure path from command to chamber. p is the upstream pressure and constant over the
+    interval of length h that ends at t. Returns the downstream pressure at its end.
 ``contraction(kappa, q, j) -> fraction``
-    What the muscle feels as its contraction.
+    Effective contraction of the muscle.
 ``mass(m, q, j) -> kg``
     The moved mass. It acts on the joint.
 ``force(f, p, kappa, v, t, h, x, i, xn, q, j) -> N``
-    The muscle's pull, after the force law and the effects listed before this one.
+    The muscle's force, after the force law and the effects listed before this one.
 ``damping(c, p, kappa, v, q, j) -> N s/m``
     The muscle's damping coefficient.
 ``outside(f, p, y, v, t, h, x, i, xn, q, j) -> N, or N m``
     Force on the joint from outside the muscles, along its coordinate y; p is the mean pressure
     of the muscles. It acts on the joint.
 ``drag(f, p, y, v, t, h, x, i, xn, q, j) -> N``
-    The same of an effect that is friction between the two ends of the actuator, where a machine
-    moves them along a prescribed position: it measures the friction with the force. No load swings
-    there, so that nothing has to be kept stable.
+    The same for an effect that is friction between the two ends of the actuator, when a machine
+    moves them along a prescribed position: the measured force includes the friction. No load
+    oscillates there, so that the function need not ensure stability.
 
-Hidden states live in a row shared by all effects of a muscle, or of a joint: this effect's are
-x[i], x[i + 1], ... as they were at the start of the step, and the function writes to xn[i],
-xn[i + 1], ... what they have become after h seconds with the present arguments. The kernel calls
-it at every stage of the step (with h from 0 to the step) and keeps xn of the last call. Written
-so, an update can be exact or implicit, and a stiff law stays stable. Parameters are q[j],
-q[j + 1], ... in SI, in the order of the fields, for which each file has names; the muscle's or
-joint's own are at the indices of :mod:`pam_ros.effects.rows`.
+Hidden states are in a row that all effects of a muscle, or of a joint, share. Those of this effect
+are x[i], x[i + 1], ... with their values at the start of the step. The function writes to xn[i],
+xn[i + 1], ... their values after h seconds with the present arguments. The kernel calls it at
+every stage of the step (with h from 0 to the step) and keeps xn of the last call. In this form an
+update can be exact or implicit, and a stiff law stays stable. Parameters are q[j], q[j + 1], ...
+in SI, in the order of the fields; each file has names for these indices. The parameters of the
+muscle or joint itself are at the indices of :mod:`pam_ros.effects.rows`.
 """
 
 from abc import ABC, abstractmethod
@@ -58,19 +58,19 @@ from pam_ros.parameters import described, field_about
 Array = NDArray[np.float64]
 Starts = tuple[dict[str, float], ...]
 Bounds = tuple[float, float]
-# A row of float64: numpy's array, or numba's; both are indexed like this.
+# A row of float64: an array of numpy or of numba, with the same indexing.
 Row = MutableSequence[float]
 ON_JOINT = ('mass', 'outside', 'drag')
 PLACES = ('delay', 'pressure', 'contraction', 'mass', 'force', 'damping', 'outside', 'drag')
 
 
 class Compensation(Enum):
-    """What a controller does about an effect that is declared to it.
+    """How a controller compensates an effect that is configured in it.
 
-    ``PATH``: it inverts the way of the pressure. ``MODEL``: the effect has no memory and is part
-    of the model that the law inverts. ``FEED_FORWARD``: the effect's own equations run along the
-    reference, and what they take is added to what is commanded. ``FEEDBACK``: nothing is done
-    ahead; the feedback deals with it.
+    ``PATH``: it inverts the pressure path. ``MODEL``: the effect has no memory and is part of the
+    model that the law inverts. ``FEED_FORWARD``: the effect's own equations are evaluated along
+    the reference, and the result is added to the command. ``FEEDBACK``: there is no feed-forward;
+    the feedback compensates the effect.
     """
 
     PATH = 'pressure path inverted'
@@ -79,7 +79,7 @@ class Compensation(Enum):
     FEEDBACK = 'left to the feedback'
 
 
-WITHOUT_MEMORY = (Compensation.PATH, Compensation.MODEL)  # what is inverted, but for a lag
+WITHOUT_MEMORY = (Compensation.PATH, Compensation.MODEL)  # inverted; only a lag has a state
 
 
 ONSET = EffectParameter(
@@ -96,8 +96,8 @@ ONSET = EffectParameter(
 class HiddenState:
     """One hidden state of an effect, in SI.
 
-    ``spread`` says how far it may be, when a recording or a run begins, from where it is after a
-    long rest: a standard deviation. 0 means that it is always known, such as the last position.
+    ``spread`` is a standard deviation: of its value when a recording or a run begins, relative to
+    the value after a long rest. 0 means that it is always known, such as the last position.
     """
 
     name: str
@@ -107,16 +107,16 @@ class HiddenState:
 
 @dataclass(frozen=True, eq=False)
 class EffectEquations:
-    """The functions of an effect, one for each place where it acts; None where it does not.
+    """The functions of an effect, one for each place where it acts; None for all other places.
 
-    ``start(q, j, p, kappa, y)`` gives its hidden states for a rig that has long been at rest
-    there. Where a controller inverts a lag of the pressure, ``lag(q, j)`` gives the time constants
-    of filling and venting in s.
+    ``start(q, j, p, kappa, y)`` returns its hidden states after a long rest at these values. If a
+    controller inverts a lag of the pressure, ``lag(q, j)`` returns the time constants of filling
+    and venting in s.
 
-    What constants cannot foresee, a frequency or the place of a stop, comes from ``guess(t, p,
-    kappa, residual)``: sets of values, from a recording, from which a fit begins as well. Its
-    arguments are arrays (n,) in SI, the contraction kappa as measured and NaN where it is not
-    known, the residual being measured less simulated position or force.
+    ``guess(t, p, kappa, residual)`` returns additional sets of starting values for a fit. They
+    depend on the recording, such as a frequency or the position of a stop, so that constants
+    cannot replace them. The arguments are arrays (n,) in SI: kappa is the measured contraction,
+    NaN if it is not known, and the residual is the measured minus the simulated position or force.
     """
 
     delay: Callable[..., float] | None = None
@@ -132,7 +132,7 @@ class EffectEquations:
     guess: Callable[[Array, Array, Array, Array], Starts] | None = None
 
     def __post_init__(self) -> None:
-        """Refuse what is no function, such as a parameter of the same name."""
+        """Raise ParameterError for a non-function, such as a parameter of the same name."""
         for item in fields(self):
             given = getattr(self, item.name)
             if given is not None and not callable(given):
@@ -143,25 +143,25 @@ class EffectEquations:
 
     @property
     def places(self) -> tuple[str, ...]:
-        """The places at which it acts."""
+        """The places where it acts."""
         return tuple(place for place in PLACES if getattr(self, place))
 
-    # What a controller asks of an effect without memory. Its parameters are q[j], q[j + 1], ...
+    # For controllers, of effects without memory. The parameters are q[j], q[j + 1], ...
 
     def resting_pressure(self, p: float, q: Any, j: int) -> float:
-        """Return the pressure in Pa that goes downstream for ever if *p* Pa comes in."""
+        """Return the steady downstream pressure in Pa for a constant upstream pressure *p*."""
         if self.pressure is None:
             return p
         return float(self.pressure(p, 0.0, 0.0, (), 0, (), q, j))
 
     def resting_force(self, f: float, p: float, kappa: float, q: Any, j: int) -> float:
-        """Return the pull in N of a muscle at rest, which has *f* N without the effect."""
+        """Return the force in N of a muscle at rest, which has *f* N without the effect."""
         if self.force is None:
             return f
         return float(self.force(f, p, kappa, 0.0, 0.0, 0.0, (), 0, (), q, j))
 
     def viscous_drag(self, q: Any, j: int) -> float:
-        """Return the damping in N s/m or N m s/rad of the joint: its slope over -1 to 1."""
+        """Return the damping in N s/m or N m s/rad of the joint, from forces at v = -1 and 1."""
         if self.outside is None:
             return 0.0
         up, down = (self.outside(0.0, 0.0, 0.0, v, 0.0, 0.0, (), 0, (), q, j) for v in (1.0, -1.0))
@@ -172,14 +172,15 @@ class EffectEquations:
 class Effect(ABC):
     """A physical effect that the paper's model lacks, with the values of its parameters.
 
-    As with loads, an effect is a dataclass of its parameters and equations that are compiled into
+    As for loads, an effect is a dataclass of its parameters and equations that are compiled into
     the stepping kernel. ``q[j]``, ``q[j + 1]``, ... are its own parameters in the order of its
-    fields. ``states`` are its hidden states. ``compensation`` says what a controller does about
-    it. With ``moves_by_itself`` its example never lets a load rest. ``signature`` says in words
-    what the residual looks like, ``experiment`` what to record to distinguish it from its nearest
-    ``rivals``. ``contains`` names those that it becomes as one of its parameters vanishes, with
-    the parameters of theirs that others of its own then are. ``needs_muscle`` says that a load
-    moved by some other force cannot have it: it has no braid, no bladder, no chamber.
+    fields. ``states`` are its hidden states. ``compensation`` is how a controller compensates it.
+    With ``moves_by_itself`` a load never comes to rest in its example. ``signature`` describes its
+    residual, ``experiment`` describes what to record to distinguish it from its nearest
+    ``rivals``. ``contains`` names the effects that it becomes if one of its parameters vanishes.
+    For each of them it maps the parameters of that effect to those of its own that replace them.
+    ``needs_muscle`` means that a load moved by another force cannot have it, since there is no
+    braid, no bladder and no chamber.
 
     Raises ParameterError for a value out of range.
     """
@@ -197,7 +198,7 @@ class Effect(ABC):
     needs_muscle: ClassVar[bool] = False
     moves_by_itself: ClassVar[bool] = False
 
-    # No law reads it: simulations do.
+    # Simulations use it, the equations do not.
     onset: float = field_about(0.0, ONSET, kw_only=True)
 
     @classmethod
@@ -205,19 +206,19 @@ class Effect(ABC):
     def fit_starts(cls) -> Starts:
         """Return sets of parameter values from which a fit begins.
 
-        Each makes the effect clearly present and names what a fit from there may change.
+        With each set the effect is clearly present. A fit from it may change the named parameters.
         """
 
     @classmethod
     @abstractmethod
     def example(cls) -> 'Effect':
-        """Return it clearly present, on a muscle of 20 mm and 400 mm with a load of some 10 kg.
+        """Return it clearly present, for a muscle of 20 mm and 400 mm and a load of some 10 kg.
 
-        That load comes to rest.
+        This load comes to rest, except with ``moves_by_itself``.
         """
 
     def __init_subclass__(cls) -> None:
-        """Refuse equations that act nowhere or in two rows, or that cannot be inverted."""
+        """Raise ParameterError for equations without a place, in two rows, or not invertible."""
         cls.__repr__ = Effect.__repr__  # type: ignore[method-assign]  # the dataclass keeps it
         acts = cls.equations.places
         if not acts:
@@ -238,12 +239,12 @@ class Effect(ABC):
             )
 
     def __repr__(self) -> str:
-        """Return the call that makes it, without what has its default."""
+        """Return the constructor call, without parameters that have their default."""
         given = ', '.join(f'{name}={value!r}' for name, value in self.given.items())
         return f'{type(self).__name__}({given})'
 
     def __post_init__(self) -> None:
-        """Check every value; the joint checks those that have another range there."""
+        """Check every value; the joint checks ranges that depend on the kind of joint."""
         for p in (*self.parameters(), ONSET):
             about = p.on_any_joint() if self.acts_on_joint() else p
             flat = EffectName(self.name, p.name).flat
@@ -254,8 +255,8 @@ class Effect(ABC):
     def parameters(cls, *, turning: bool = False) -> tuple[EffectParameter, ...]:
         """Return its own parameters in order, without the onset that every effect has.
 
-        With *turning* they have the units and ranges of a joint that turns; raises ParameterError
-        for a unit of which is not known what it is there.
+        With *turning* they have the units and ranges of a revolute joint; raises ParameterError
+        for a unit that has no counterpart there.
         """
         found = tuple(
             replace(about, name=name, default=default)
@@ -270,13 +271,13 @@ class Effect(ABC):
 
     @classmethod
     def acts_on_joint(cls) -> bool:
-        """Say whether it acts on the joint, and not in a muscle or its pressure path."""
+        """Return whether it acts on the joint, and not in a muscle or its pressure path."""
         return any(place in ON_JOINT for place in cls.equations.places)
 
     def check(self, *, mass: float, turning: bool) -> None:
         """Raise ParameterError for a value that is out of range on a joint.
 
-        *mass* in kg is what it moves without effects, and *turning* says that it is revolute.
+        *mass* in kg is the moved mass without effects, and *turning* is true for a revolute joint.
         """
         for p in self.parameters(turning=turning):
             p.check(EffectName(self.name, p.name).flat, getattr(self, p.name), float)
@@ -285,17 +286,17 @@ class Effect(ABC):
     def fit_bounds(
         cls, near: Mapping[str, float], fitted: Collection[str], mass: float
     ) -> dict[str, Bounds]:
-        """Return the bounds of its parameters in a fit, where they are narrower than their ranges.
+        """Return those bounds of its parameters in a fit that are narrower than their ranges.
 
         *near* are the values of all its parameters from which the fit begins, *fitted* the names
         of those that it changes, and *mass* in kg is what the joint moves without effects. A fit
-        within them ends with a joint that may be declared.
+        within these bounds ends with a valid joint.
         """
         return {}
 
     @property
     def row(self) -> tuple[float, ...]:
-        """Its own parameters in order, as q has them."""
+        """Its own parameters in order, as in q."""
         return tuple(getattr(self, p.name) for p in self.parameters())
 
     @property
@@ -305,12 +306,12 @@ class Effect(ABC):
 
     @property
     def values(self) -> dict[str, float]:
-        """Its own parameters by name, and the onset where it has one."""
+        """Its own parameters by name, and the onset if it is not 0."""
         own = {p.name: float(getattr(self, p.name)) for p in self.parameters()}
         return own if self.onset == 0.0 else {**own, ONSET.name: self.onset}
 
     @property
     def given(self) -> dict[str, float]:
-        """Those of its values that differ from their defaults, by name."""
+        """Its values that differ from their defaults, by name."""
         default = {p.name: p.default for p in (*self.parameters(), ONSET)}
         return {name: value for name, value in self.values.items() if value != default[name]}

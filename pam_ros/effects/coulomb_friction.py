@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Coulomb and Stribeck friction of the guide, with a load that truly sticks."""
+"""Coulomb and Stribeck friction of the guide, with true sticking of the load."""
 
 from dataclasses import dataclass
 from math import exp, hypot, sqrt
@@ -30,8 +30,8 @@ def outside(
 ) -> float:
     """Return f less the friction, which opposes motion and holds a load at rest.
 
-    The contact has a damper. For a step of length h that cannot resolve its spring, it is
-    longer, so that its frequency on the load stays below 1/h.
+    The contact has a damper. If a step of length h cannot resolve the contact's spring, the spring
+    is made longer, so that its natural frequency with the load stays below 1/h.
     """
     if q[j + LEVEL] == 0.0 and q[j + BREAKAWAY] == 0.0 and q[j + PER_PRESSURE] == 0.0:
         return f
@@ -52,7 +52,7 @@ def drag(
     q: Row,
     j: int,
 ) -> float:
-    """Return f less the friction along a prescribed motion: nothing swings on the contact."""
+    """Return f less the friction along a prescribed motion, where no load oscillates."""
     if q[j + LEVEL] == 0.0 and q[j + BREAKAWAY] == 0.0 and q[j + PER_PRESSURE] == 0.0:
         return f
     return f - resistance(p, y, v, 0.0, 0.0, x, i, xn, q, j)
@@ -71,13 +71,14 @@ def resistance(
     q: Row,
     j: int,
 ) -> float:
-    """Return the friction in N against an upward motion, and keep the state of the contact.
+    """Return the friction in N against an upward motion, and store the state of the contact.
 
     Level: g = C + (S - C) exp(-(v / w)^2) + B p, with C the level, S the breakaway, but not below
     C, w the stribeck_speed and B per_pressure; (1 + A) g upwards and (1 - A) g downwards, A the
-    asymmetry. Below it the contact is a spring of the length presliding, lengthened for a *step*
-    in s, with *damping* times that of an aperiodic load; both together never exceed g (Prandtl's
-    element: no drift under loads that change).
+    asymmetry. Below this level the contact is a spring that slips at the length presliding; for a
+    *step* in s that cannot resolve it, this length is larger. A damper of *damping* sqrt(k m) acts
+    with it; k is the stiffness of the spring and m the inertia. The sum of both never exceeds
+    the level (Prandtl's element: no drift under loads that change).
     """
     level = q[j + LEVEL] + q[j + PER_PRESSURE] * max(p, 0.0)
     if q[j + BREAKAWAY] > q[j + LEVEL]:
@@ -92,7 +93,7 @@ def resistance(
 
 
 def start(q: Row, j: int, p: float, kappa: float, y: float) -> tuple[float, ...]:
-    """Return a contact without load."""
+    """Return the states of a contact without force."""
     return (0.0, y, 1e-3)
 
 
@@ -156,5 +157,5 @@ class CoulombFriction(Effect):
 
     @classmethod
     def example(cls) -> Effect:
-        """Return it clearly present."""
+        """Return the effect clearly present."""
         return cls(level=4.0, breakaway=5.0)

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Creep and stress relaxation: parts of the muscle's elasticity follow slowly."""
+"""Creep and stress relaxation: parts of the muscle's elasticity act with a slow delay."""
 
 from dataclasses import dataclass
 from math import expm1
@@ -19,11 +19,11 @@ FAST, SLOW, LAST = range(3)  # hidden states of each of the three followers
 
 @scalar
 def late(now: float, h: float, x: Row, i: int, xn: Row, q: Row, j: int) -> float:
-    """Return what *now* has over its slow follower, exact for a way linear over h.
+    """Return *now* minus its slow follower, exact if *now* changes linearly over h.
 
     The follower is the mean, with weights 1 - b and b, of two first-order lags of times T/r and
     T r: T is the time, r the spread, b the balance. x[i + FAST] and x[i + SLOW] are the lags,
-    x[i + LAST] what they follow.
+    x[i + LAST] is their input at the start of the step.
     """
     way = now - x[i + LAST]
     xn[i + LAST] = now
@@ -49,11 +49,11 @@ def relaxing(
     q: Row,
     j: int,
 ) -> float:
-    """Return f less what comes late: s (f - f'), K (kappa - kappa') and u (dF/dp) (p - p').
+    """Return f less its delayed parts s (f - f'), K (kappa - kappa') and u (dF/dp) (p - p').
 
     A prime marks the slow follower of each, see :func:`late`; s is the share force, K the
-    stiffness and u the share pressure. The muscle under load creeps by K and u, at its held
-    length by s and u.
+    stiffness and u the share pressure. K and u describe the creep of a muscle under a load, s and
+    u that of the force at a prescribed length.
     """
     if q[j + FORCE] == 0.0 and q[j + STIFFNESS] == 0.0 and q[j + PRESSURE] == 0.0:
         return f
@@ -69,14 +69,14 @@ def relaxing(
 
 
 def start(q: Row, j: int, p: float, kappa: float, y: float) -> tuple[float, ...]:
-    """Return everything relaxed."""
+    """Return the fully relaxed states."""
     f = float(law.force_v(p, kappa, q[A1], q[A2], q[A3], q[A4], q[A5], q[A6]))
     return (f, f, f, kappa, kappa, kappa, p, p, p)
 
 
 @dataclass(frozen=True)
 class Creep(Effect):
-    """Force, stiffness and pressure of which a part acts late."""
+    """Delayed parts of force, stiffness and pressure."""
 
     force: float = strength(
         'share of a change of force that comes late; negative: surplus that relaxes',
@@ -134,5 +134,5 @@ class Creep(Effect):
 
     @classmethod
     def example(cls) -> Effect:
-        """Return it clearly present."""
+        """Return the effect clearly present."""
         return cls(force=-0.03, stiffness=600.0, time=0.8, spread=2.0)

@@ -1,9 +1,9 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Dead band: below a threshold of the pressure, bladder or valve do nothing.
+"""Dead band: below a threshold of the pressure, the bladder or the valve does nothing.
 
-What a muscle with this effect has as its pressure is what acts on its braid, which a sensor in the
-chamber does not see where the bladder has the threshold.
+With this effect the pressure of a muscle is the one that acts on its braid. If the bladder has
+the threshold, a sensor in the chamber does not measure this pressure.
 """
 
 from dataclasses import dataclass
@@ -18,7 +18,7 @@ BAND, WIDTH = range(2)
 
 @scalar
 def beyond(p: float, band: float, width: float) -> float:
-    """Return max(p - band, 0), the corner rounded by a parabola over *width* to either side."""
+    """Return max(p - band, 0), with a corner rounded by a parabola over +-*width*."""
     above = p - band
     if above >= width:
         return above
@@ -28,9 +28,9 @@ def beyond(p: float, band: float, width: float) -> float:
 
 
 def pressure(p: float, t: float, h: float, x: Row, i: int, xn: Row, q: Row, j: int) -> float:
-    """Return what of the pressure p in Pa is beyond the band.
+    """Return the part of the pressure p in Pa that exceeds the band.
 
-    The corner has its width, but no wider than the band: no pressure stays none.
+    The corner is rounded over the width, but at most over the band: 0 Pa stays 0 Pa.
     """
     if q[j + BAND] == 0.0:
         return p
@@ -72,5 +72,5 @@ class DeadBand(Effect):
 
     @classmethod
     def example(cls) -> Effect:
-        """Return it clearly present."""
+        """Return the effect clearly present."""
         return cls(band=2e4, width=4e3)

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Dead time: the pressure answers a command only after a while."""
+"""Dead time: the pressure responds to a command only after a delay."""
 
 from dataclasses import dataclass
 from typing import ClassVar
@@ -46,5 +46,5 @@ class DeadTime(Effect):
 
     @classmethod
     def example(cls) -> Effect:
-        """Return it clearly present."""
+        """Return the effect clearly present."""
         return cls(delay=0.0153)

@@ -25,7 +25,7 @@ from pam_ros.errors import ParameterError
 
 UPPER, STIFFNESS, LOWER, LOWER_STIFFNESS, DAMPING = range(5)
 
-LEAST_TRAVEL = 1e-6  # contraction, or rad, that a fit leaves between two pads
+LEAST_TRAVEL = 1e-6  # contraction, or rad, that a fit keeps at least between two pads
 
 
 def outside(
@@ -41,12 +41,12 @@ def outside(
     q: Row,
     j: int,
 ) -> float:
-    """Return f with the push of the pads: k d (1 + b d') for d > 0 deep in one, never a pull.
+    """Return f with the force of the pads: k d (1 + b d') at a depth d > 0 in a pad, never a pull.
 
     The upper pad begins at the contraction upper and has k = stiffness, the lower one at lower
-    and has lower_stiffness; b is the damping. Hunt and Crossley's law: no jump at contact. What a
-    step of length h cannot resolve, stiffness near m/h^2 and damping beyond m/4h, is softened:
-    between two pads even a moved mass of a fifth of the declared m stays stable.
+    and has lower_stiffness; b is the damping. Hunt and Crossley's law: no jump at contact. A step
+    of length h cannot resolve a stiffness near m/h^2 or a damping beyond m/4h, so that such values
+    are reduced: between two pads even a moved mass of a fifth of the nominal m stays stable.
     """
     if q[j + STIFFNESS] == 0.0 and q[j + LOWER_STIFFNESS] == 0.0:
         return f
@@ -69,12 +69,12 @@ def outside(
 
 
 def start(q: Row, j: int, p: float, kappa: float, y: float) -> tuple[float, ...]:
-    """Return the usual step."""
+    """Return the usual step in s."""
     return (1e-3,)
 
 
 def guess(t: Array, p: Array, kappa: Array, residual: Array) -> Starts:
-    """Return starts with a pad just within the travel that was recorded, at either end."""
+    """Return starts with a pad just within the recorded travel, at either end."""
     low, high = (float(end) for end in np.nanquantile(kappa, [0.02, 0.98]))
     inside = 0.02 * (high - low)
     return (
@@ -120,7 +120,7 @@ class EndStop(Effect):
     equations: ClassVar = EffectEquations(outside=outside, start=start, guess=guess)
 
     def __post_init__(self) -> None:
-        """Check the values, and that two pads leave a travel between them."""
+        """Check the values, and that two pads leave some travel between them."""
         super().__post_init__()
         if self.stiffness > 0.0 and self.lower_stiffness > 0.0 and self.lower >= self.upper:
             raise ParameterError(
@@ -132,7 +132,7 @@ class EndStop(Effect):
     def fit_bounds(
         cls, near: Mapping[str, float], fitted: Collection[str], mass: float
     ) -> dict[str, Bounds]:
-        """Return bounds that keep two pads on either side of the middle between them."""
+        """Return bounds that keep the two pads on their sides of the middle between them."""
         if not all(near[pad] > 0.0 or pad in fitted for pad in ('stiffness', 'lower_stiffness')):
             return {}
         middle = 0.5 * (near['lower'] + near['upper'])
@@ -149,5 +149,5 @@ class EndStop(Effect):
 
     @classmethod
     def example(cls) -> Effect:
-        """Return it clearly present."""
+        """Return the effect clearly present."""
         return cls(upper=0.2, stiffness=3e4)

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Leak: the chamber loses pressure in proportion to it, and the valve gives it back, or not."""
+"""Leak: the loss is proportional to the pressure, and the valve may refill the chamber."""
 
 from dataclasses import dataclass
 from math import exp, expm1, log, log1p
@@ -12,19 +12,19 @@ from pam_ros.effects.parameter import effect_parameter, start_from, strength
 RATE, REFILL, REOPENING, SUPPLY, VENT, LOST = range(6)
 CHAMBER, UPSTREAM = range(2)  # hidden states: the pressures in the chamber and of p_in
 
-SHORTEST = 1e-6  # s; a faster refill than any rig's is as good as immediate
-LEAST = 1e-12  # 1/s; a leak that takes thousands of years is none
+SHORTEST = 1e-6  # s; faster than the refill of any rig: treated as immediate
+LEAST = 1e-12  # 1/s; a leak that takes thousands of years is ignored
 
 
 def pressure(p: float, t: float, h: float, x: Row, i: int, xn: Row, q: Row, j: int) -> float:
     """Return the pressure of a leaking chamber, exact for p_in constant over h.
 
     With the rate r and a refill time T > 0 the valve stays open. Below p_in
-    dp/dt = (p_in - p) / T - r p, the first term at most the supply, what the valve lets through
-    when it is fully open; above it dp/dt = (p_in - p) / V - r p with V = vent, or at once with
-    V = 0, since an exhaust needs no supply. With T = 0 the valve is closed between changes of
-    p_in: the chamber follows p_in less what it has lost, dp/dt = -r p, and every change of p_in
-    by reopening gives back all but 1/e of the loss.
+    dp/dt = (p_in - p) / T - r p. Its first term is at most the supply, which is the flow through
+    the fully open valve. Above p_in dp/dt = (p_in - p) / V - r p with V = vent; with V = 0 the
+    chamber vents at once, since an exhaust needs no supply. With T = 0 the valve is closed between
+    changes of p_in: the chamber follows p_in less its loss, dp/dt = -r p, and every change of p_in
+    by reopening restores all but 1/e of the loss.
     """
     r = q[j + RATE]
     if r < LEAST:
@@ -32,7 +32,7 @@ def pressure(p: float, t: float, h: float, x: Row, i: int, xn: Row, q: Row, j: i
     if q[j + REFILL] > 0.0:
         now, left = x[i + CHAMBER], h
         if now > p:
-            # It vents until it meets p_in, or for all of h.
+            # It vents until it reaches p_in, or for the whole step h.
             if q[j + VENT] > SHORTEST:
                 out = 1.0 / q[j + VENT] + r
                 rest = p / q[j + VENT] / out
@@ -43,7 +43,7 @@ def pressure(p: float, t: float, h: float, x: Row, i: int, xn: Row, q: Row, j: i
                 now = p
         fill = 1.0 / max(q[j + REFILL], SHORTEST)
         if left > 0.0 and (p - now) * fill > q[j + SUPPLY]:
-            # Fully open until the valve begins to close, or for all of the rest.
+            # The valve is fully open until it begins to close, or for the rest of the step.
             slope = q[j + SUPPLY] - r * now
             closing = p - q[j + SUPPLY] / fill - now
             is_reached = slope > r * closing
@@ -62,7 +62,7 @@ def pressure(p: float, t: float, h: float, x: Row, i: int, xn: Row, q: Row, j: i
 
 
 def start(q: Row, j: int, p: float, kappa: float, y: float) -> tuple[float, ...]:
-    """Return the balance of leak and refill, or of a valve that closes what is not lost yet."""
+    """Return the balance of leak and refill, less the share that is lost at the start."""
     return ((1.0 - q[j + LOST]) * p / (1.0 + q[j + RATE] * q[j + REFILL]), p)
 
 
@@ -144,5 +144,5 @@ class Leak(Effect):
 
     @classmethod
     def example(cls) -> Effect:
-        """Return it clearly present."""
+        """Return the effect clearly present."""
         return cls(rate=0.1, refill=0.2)

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Length offset: the muscle's rest length is not the declared one."""
+"""Length offset: the muscle's rest length is not the nominal one."""
 
 from dataclasses import dataclass
 from typing import ClassVar
@@ -18,7 +18,7 @@ def contraction(kappa: float, q: Row, j: int) -> float:
 
 @dataclass(frozen=True)
 class LengthOffset(Effect):
-    """Contraction that the muscle feels beside the one that is measured."""
+    """Difference between the effective contraction of the muscle and the measured one."""
 
     offset: float = strength(
         'contraction at which the declared rest length really is',
@@ -52,5 +52,5 @@ class LengthOffset(Effect):
 
     @classmethod
     def example(cls) -> Effect:
-        """Return it clearly present."""
+        """Return the effect clearly present."""
         return cls(offset=0.015)

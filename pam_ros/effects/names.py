@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The flat names of effects' parameters, as ROS, YAML and reports have them: made and read here.
+"""The flat names of the parameters of effects in ROS, YAML and reports, and their parsing.
 
 ``effects.creep.stiffness`` is the parameter stiffness of the effect creep.
 """
@@ -25,14 +25,14 @@ class EffectName(NamedTuple):
 
 
 def parsed(flat: str) -> EffectName | None:
-    """Return which effect and parameter a flat name means, None where it is no effect's."""
+    """Return the effect and the parameter of a flat name, None if it is not one of an effect."""
     group, _, rest = flat.partition('.')
     effect, _, parameter = rest.partition('.')
     return EffectName(effect, parameter) if group == GROUP and parameter else None
 
 
 def by_effect(values: Mapping[str, T]) -> dict[str, dict[str, T]]:
-    """Return those of flat *values* that are effects' as effect -> parameter -> value."""
+    """Return the values of effects in the flat *values*, as effect -> parameter -> value."""
     found: dict[str, dict[str, T]] = {}
     for flat, value in values.items():
         name = parsed(flat)

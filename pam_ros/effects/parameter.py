@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""A parameter of an effect: a field of its dataclass, with what a fit needs to know of it."""
+"""A parameter of an effect: a field of its dataclass, with the data that a fit needs."""
 
 import math
 from collections.abc import Callable
@@ -15,7 +15,7 @@ P = ParamSpec('P')
 
 @dataclass(frozen=True, kw_only=True)
 class EffectParameter(Parameter):
-    """What is known of a parameter of an effect, in SI.
+    """Description of a parameter of an effect, in SI.
 
     ``strength`` marks a parameter whose 0 means that the effect is absent. ``scale`` is a typical
     size (fits are scaled by it), and ``sign`` the physical sign that a fitted strength must have
@@ -31,9 +31,9 @@ class EffectParameter(Parameter):
     sign: int = 0
 
     def turned(self, name: str) -> 'EffectParameter':
-        """Return what is known of it on a joint that turns, where a contraction is an angle.
+        """Return its description for a revolute joint, where a contraction becomes an angle.
 
-        *name* is the one in an error: ParameterError where its unit has no meaning there.
+        *name* is for the ParameterError that is raised if its unit has no counterpart there.
         """
         unit = turned_unit(self.unit, name)
         if self.unit == 'fraction':
@@ -41,7 +41,7 @@ class EffectParameter(Parameter):
         return replace(self, unit=unit)
 
     def on_any_joint(self) -> 'EffectParameter':
-        """Return it with the range that it has on one kind of joint or the other."""
+        """Return it with a range that contains those of both kinds of joint."""
         if self.unit != 'fraction':
             return self
         low, high = min(self.low, -math.pi), max(self.high, math.pi)
@@ -51,7 +51,7 @@ class EffectParameter(Parameter):
 def effect_parameter(
     default: float, text: str, unit: str = '', *, low: float, high: float, scale: float
 ) -> float:
-    """Return a field of an effect's dataclass, with its *default* and what is known of it."""
+    """Return a field of an effect's dataclass, with its *default* and its description."""
     about = EffectParameter(text=text, unit=unit, low=low, high=high, scale=scale)
     return _float_field(default, about)
 
@@ -67,7 +67,7 @@ def strength(
 ) -> float:
     """Return a field whose default, 0, means that the effect is absent.
 
-    Of a range that begins at 0 the *sign* is 1, unless another one is given; of all others 0.
+    The default of *sign* is 1 for a range that begins at 0, and 0 for all other ranges.
     """
     known = int(low == 0.0) if sign is None else sign
     about = EffectParameter(
@@ -86,7 +86,7 @@ def start_from(
 ) -> dict[str, float]:
     """Return the *values* of parameters of an *effect* from which a fit begins.
 
-    They are checked as those of the effect are; the fit may change those that are named.
+    The constructor of the effect checks them. The fit may change the named parameters.
     """
     effect(*positional, **values)
     named: dict[str, Any] = values

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Payload: the moved mass is not the declared one."""
+"""Payload: the moved mass is not the nominal one."""
 
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
@@ -14,18 +14,18 @@ from pam_ros.errors import ParameterError
 
 MASS = 0
 
-# A load can be overestimated, but never be nothing: other effects rely on the declared mass.
+# The nominal mass can be too large, but some mass remains: other effects rely on it.
 LEAST_SHARE = 0.2
 
 
 def moved(m: float, q: Row, j: int) -> float:
-    """Return the mass m and what comes on top, at least a fifth of m."""
+    """Return the mass m plus the additional mass, at least a fifth of m."""
     return max(m + q[j + MASS], LEAST_SHARE * m)
 
 
 @dataclass(frozen=True)
 class Payload(Effect):
-    """Mass of the load beside the declared one."""
+    """Mass of the load in addition to the nominal one."""
 
     mass: float = strength(
         'mass that comes on top, negative when the load is lighter',
@@ -47,9 +47,9 @@ class Payload(Effect):
     equations: ClassVar = EffectEquations(mass=moved)
 
     def check(self, *, mass: float, turning: bool) -> None:
-        """Raise ParameterError where it leaves the joint less than a fifth of its *mass* in kg.
+        """Raise ParameterError if it leaves the joint less than a fifth of its *mass* in kg.
 
-        The equations keep a fifth whatever the payload is, for fits that change the mass as well.
+        The equations keep a fifth for any payload, since fits may change the mass as well.
         """
         super().check(mass=mass, turning=turning)
         least = (LEAST_SHARE - 1.0) * mass
@@ -63,7 +63,7 @@ class Payload(Effect):
     def fit_bounds(
         cls, near: Mapping[str, float], fitted: Collection[str], mass: float
     ) -> dict[str, Bounds]:
-        """Return the bounds of its mass that leave the joint a fifth of the declared one."""
+        """Return the bounds of its mass that leave the joint a fifth of the nominal one."""
         return {'mass': ((LEAST_SHARE - 1.0) * mass, np.inf)}
 
     @classmethod
@@ -76,5 +76,5 @@ class Payload(Effect):
 
     @classmethod
     def example(cls) -> Effect:
-        """Return it clearly present."""
+        """Return the effect clearly present."""
         return cls(mass=1.5)

@@ -45,8 +45,8 @@ def pressure(p: float, t: float, h: float, x: Row, i: int, xn: Row, q: Row, j: i
 def tallest_lines(t: Array, residual: Array) -> list[float]:
     """Return the frequencies in Hz of the two tallest lines in the residual's spectrum.
 
-    Each is the best of a zero-padded Hann periodogram, refined by the parabola through its
-    logarithm, so that a fit begins well within 1/duration of it.
+    Each is a maximum of a zero-padded periodogram with a Hann window, refined by the parabola
+    through its logarithm. So a fit begins with an error well below 1/duration.
     """
     n = t.size
     even = np.linspace(t[0], t[-1], n)
@@ -55,7 +55,7 @@ def tallest_lines(t: Array, residual: Array) -> list[float]:
     size = 8 * n
     power = np.abs(np.fft.rfft((values - trend(even)) * np.hanning(n), size)) ** 2
     step = (n - 1) / (size * (t[-1] - t[0]))
-    least = 8 * 3  # a line slower than three periods in the record is a drift
+    least = 8 * 3  # fewer than three periods in the record are a drift
     power[:least] = 0.0
     found = []
     for _ in range(2):
@@ -121,5 +121,5 @@ class PeriodicDisturbance(Effect):
 
     @classmethod
     def example(cls) -> Effect:
-        """Return it clearly present."""
+        """Return the effect clearly present."""
         return cls(force_sin=3.0, pressure_cos=2e3, frequency=2.3)

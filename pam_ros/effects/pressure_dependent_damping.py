@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Damping that grows with pressure, inflating and deflating apart."""
+"""Damping that grows with pressure, separately for inflating and deflating."""
 
 from dataclasses import dataclass
 from typing import ClassVar
@@ -12,9 +12,9 @@ INFLATING, DEFLATING = range(2)
 
 
 def damping(c: float, p: float, kappa: float, v: float, q: Row, j: int) -> float:
-    """Return c + b p, b being inflating while the muscle shortens, deflating while it lengthens.
+    """Return c + b p, with b = inflating while the muscle shortens, and deflating otherwise.
 
-    c jumps at v = 0, where the force c v is 0 and stays continuous.
+    c jumps at v = 0, but the force c v is 0 there and stays continuous.
     """
     if q[j + INFLATING] == 0.0 and q[j + DEFLATING] == 0.0:
         return c
@@ -23,7 +23,7 @@ def damping(c: float, p: float, kappa: float, v: float, q: Row, j: int) -> float
 
 @dataclass(frozen=True)
 class PressureDependentDamping(Effect):
-    """Damping proportional to pressure, inflating and deflating apart."""
+    """Damping proportional to pressure, separately for inflating and deflating."""
 
     inflating: float = strength(
         'damping per pressure while the muscle shortens', 'N s/(m Pa)', high=0.1, scale=3e-4
@@ -52,5 +52,5 @@ class PressureDependentDamping(Effect):
 
     @classmethod
     def example(cls) -> Effect:
-        """Return it clearly present."""
+        """Return the effect clearly present."""
         return cls(inflating=3e-4, deflating=1e-4)

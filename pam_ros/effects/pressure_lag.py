@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Pressure lag: valve, tube and chamber fill and vent with time constants of their own."""
+"""Pressure lag: valve, tube and chamber fill and vent with separate time constants."""
 
 from dataclasses import dataclass
 from math import exp, sqrt
@@ -12,15 +12,15 @@ from pam_ros.effects.parameter import effect_parameter, start_from, strength
 
 FILL, VENT, FASTEST, FASTEST_VENT, CHOKING, SUPPLY = range(6)
 
-SHORTEST = 1e-6  # s; a faster chamber than any rig's is immediate
+SHORTEST = 1e-6  # s; faster than the chamber of any rig: treated as immediate
 ATMOSPHERE = 1.013e5  # Pa
 CRITICAL = 0.35  # pressure ratio below which a flow is choked; valves have 0.2 to 0.5
-P_REFERENCE = 3e5  # Pa, where the times are as given, however much is choked
+P_REFERENCE = 3e5  # Pa, at which the time constants hold for any choking
 
 
 @scalar
 def conductance(upstream: float, downstream: float) -> float:
-    """Return the flow from *upstream* to *downstream* (Pa, absolute) relative to a choked one.
+    """Return the flow from *upstream* to *downstream* (Pa, absolute); a choked one is *upstream*.
 
     ISO 6358: an ellipse between the critical ratio and equal pressures.
     """
@@ -34,7 +34,7 @@ def conductance(upstream: float, downstream: float) -> float:
 
 @scalar
 def pace(p_in: float, x: float, supply: float, choking: float) -> float:
-    """Return how much faster than at 300 kPa a chamber of pressure x fills or vents."""
+    """Return the rate at which a chamber of pressure x fills or vents, relative to 300 kPa."""
     now, reference = max(x, 0.0) + ATMOSPHERE, P_REFERENCE + ATMOSPHERE
     if p_in > x:
         source = max(supply, P_REFERENCE + 1.0) + ATMOSPHERE
@@ -46,7 +46,10 @@ def pace(p_in: float, x: float, supply: float, choking: float) -> float:
 
 @scalar
 def approached(p_in: float, x: float, h: float, tau: float, fastest: float) -> float:
-    """Return the pressure that x becomes in h: at most so fast, in the end with tau."""
+    """Return the pressure after h, from x, for a constant p_in.
+
+    The rate is at most *fastest*; below this limit the pressure follows a lag of tau.
+    """
     left = abs(p_in - x)
     choked = min(h, max(left - fastest * tau, 0.0) / fastest)
     left -= choked * fastest
@@ -61,10 +64,10 @@ def pressure(p: float, t: float, h: float, x: Row, i: int, xn: Row, q: Row, j: i
     """Return the chamber pressure of dp/dt = g (p_in - p)/tau, for p_in constant over h.
 
     tau is fill while the chamber fills and vent while it vents; x[i] is its pressure. It never
-    crosses p_in, so that tau is one or the other for all of h. Neither is faster than fastest and
-    fastest_vent times g: a valve that is fully open lets no more through. g is 1 with no choking,
-    and the result exact; with 1 the flow is that of ISO 6358 from the supply and into the
-    atmosphere, relative to that at 300 kPa, g being taken at mid way.
+    crosses p_in, so that tau is constant over h. The rates of filling and venting are at most g
+    times fastest and fastest_vent, the limits of a fully open valve. Without choking g is 1, and
+    the result is exact. With choking = 1 the flow is that of ISO 6358 from the supply and into the
+    atmosphere, relative to that at 300 kPa; g is evaluated at half the step.
     """
     if q[j + FILL] == 0.0 and q[j + VENT] == 0.0:
         return p
@@ -79,7 +82,7 @@ def pressure(p: float, t: float, h: float, x: Row, i: int, xn: Row, q: Row, j: i
 
 
 def start(q: Row, j: int, p: float, kappa: float, y: float) -> tuple[float, ...]:
-    """Return the pressure that came in long enough."""
+    """Return the upstream pressure, which the chamber has reached."""
     return (p,)
 
 
@@ -90,7 +93,7 @@ def lag(q: Row, j: int) -> tuple[float, float]:
 
 @dataclass(frozen=True)
 class PressureLag(Effect):
-    """First-order lag of the chamber behind the command, filling and venting apart."""
+    """First-order lag of the chamber behind the command, separately for filling and venting."""
 
     fill: float = strength('time constant of filling', 's', high=10.0, scale=0.05)
     vent: float = strength('time constant of venting', 's', high=10.0, scale=0.05)
@@ -144,5 +147,5 @@ class PressureLag(Effect):
 
     @classmethod
     def example(cls) -> Effect:
-        """Return it clearly present."""
+        """Return the effect clearly present."""
         return cls(fill=0.05, vent=0.09)

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Pressure offset: regulator or sensor reads wrong by an offset and a gain."""
+"""Pressure offset: the regulator or sensor has an offset and a gain error."""
 
 from dataclasses import dataclass
 from typing import ClassVar
@@ -47,5 +47,5 @@ class PressureOffset(Effect):
 
     @classmethod
     def example(cls) -> Effect:
-        """Return it clearly present."""
+        """Return the effect clearly present."""
         return cls(offset=6e3, gain=-0.03)

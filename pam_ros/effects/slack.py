@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Slack: a muscle pulls, but cannot push, or only until it buckles."""
+"""Slack: a muscle pulls, but it cannot push, or only until it buckles."""
 
 from dataclasses import dataclass
 from typing import ClassVar
@@ -16,7 +16,7 @@ SHARE, TOE, PUSH = range(3)
 
 @scalar
 def tendon(f: float, w: float, b: float) -> float:
-    """Return max(f, -b), the corner rounded off by a parabola over w to either side, in N."""
+    """Return max(f, -b), with a corner rounded by a parabola over +-w, in N."""
     above = f + b
     if above >= w:
         return f
@@ -27,7 +27,7 @@ def tendon(f: float, w: float, b: float) -> float:
 
 @scalar
 def engagement(f: float, w: float, b: float) -> float:
-    """Return the slope of :func:`tendon` over f: 1 where it pulls, 0 where it is slack."""
+    """Return the slope of :func:`tendon` over f: 1 if the muscle pulls, 0 if it is slack."""
     above = f + b
     if above >= w:
         return 1.0
@@ -49,9 +49,9 @@ def force(
     q: Row,
     j: int,
 ) -> float:
-    """Return f + s (tendon(f) - f): of what pushes, the share s is missing.
+    """Return f + s (tendon(f) - f): the share s of a pushing force is missing.
 
-    The toe rounds the corner; at the push the muscle buckles.
+    The corner is rounded over the toe; at the force push the muscle buckles.
     """
     if q[j + SHARE] == 0.0:
         return f
@@ -59,7 +59,7 @@ def force(
 
 
 def damping(c: float, p: float, kappa: float, v: float, q: Row, j: int) -> float:
-    """Return c where the muscle pulls; what is slack damps no more than it pulls."""
+    """Return c if the muscle pulls; if it is slack, the share s of the damping is missing."""
     if q[j + SHARE] == 0.0:
         return c
     f = law_force(p, kappa, q[A1], q[A2], q[A3], q[A4], q[A5], q[A6])
@@ -112,5 +112,5 @@ class Slack(Effect):
 
     @classmethod
     def example(cls) -> Effect:
-        """Return it clearly present."""
+        """Return the effect clearly present."""
         return cls(share=1.0, toe=20.0)

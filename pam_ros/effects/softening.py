@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Softening: the muscle pulls less and less as it is cycled or warms up."""
+"""Softening: the force of the muscle falls with cycles or with warming."""
 
 from dataclasses import dataclass
 from math import exp
@@ -10,10 +10,10 @@ from pam_ros.effects.base import Compensation, Effect, EffectEquations, HiddenSt
 from pam_ros.effects.parameter import effect_parameter, start_from, strength
 
 LIMIT, PER_PRESSURE, PER_CONTRACTION, PER_SECOND = range(4)
-# Hidden states; pressure and contraction with a play that swallows noise.
+# Hidden states; pressure and contraction with a play that suppresses noise.
 DAMAGE, PRESSURE, CONTRACTION = range(3)
 
-# Moves within these bands, either way, are noise of a sensor and no part of a cycle.
+# Changes within +- these bands are noise of a sensor and not part of a cycle.
 BAND = 5e3  # Pa
 BAND_KAPPA = 2e-3
 
@@ -31,10 +31,10 @@ def force(
     q: Row,
     j: int,
 ) -> float:
-    """Return f (1 - L (1 - exp(-d))): the limit L is lost when the damage d has grown large.
+    """Return f (1 - L (1 - exp(-d))): the share L, the limit, is lost for a large damage d.
 
-    d grows with the way that pressure and contraction go, up or down, by per_pressure and
-    per_contraction, and by per_second with time. What both go within ±BAND is noise.
+    d grows with the changes of pressure and contraction, up or down, by per_pressure and
+    per_contraction, and with time by per_second. Changes within +-BAND and +-BAND_KAPPA are noise.
     """
     if q[j + LIMIT] == 0.0:
         return f
@@ -48,13 +48,13 @@ def force(
 
 
 def start(q: Row, j: int, p: float, kappa: float, y: float) -> tuple[float, ...]:
-    """Return a rested muscle."""
+    """Return the states of a muscle after a rest."""
     return (0.0, p, kappa)
 
 
 @dataclass(frozen=True)
 class Softening(Effect):
-    """Pull that falls with cycles or with time and saturates."""
+    """Force that falls with cycles or with time and saturates."""
 
     limit: float = strength(
         'share of the pull that is lost in the end', low=-0.5, high=0.9, scale=0.05, sign=1
@@ -107,5 +107,5 @@ class Softening(Effect):
 
     @classmethod
     def example(cls) -> Effect:
-        """Return it clearly present."""
+        """Return the effect clearly present."""
         return cls(limit=0.06, per_pressure=5e-7)

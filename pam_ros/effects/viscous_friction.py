@@ -52,5 +52,5 @@ class ViscousFriction(Effect):
 
     @classmethod
     def example(cls) -> Effect:
-        """Return it clearly present."""
+        """Return the effect clearly present."""
         return cls(coefficient=30.0)

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""How wrong is the nominal model, which effects does it lack, how wrong is it with them."""
+"""The error of the nominal model, the effects that it lacks, and the error with these effects."""
 
 import os
 from collections.abc import Mapping, Sequence
@@ -46,8 +46,8 @@ from pam_ros.rig.changes import refuse_onsets
 from pam_ros.rig.joint import Joint
 
 Array = NDArray[np.float64]
-# Simulations run side by side; the rest of a fit, a third of its time, does not: more threads
-# would wait for each other.
+# Simulations run in parallel; the rest of a fit, a third of its time, does not: more threads would
+# wait for each other.
 THREADS = 4
 
 
@@ -61,16 +61,16 @@ def identify(
 ) -> Identification:
     """Identify the effects of the model's library that *recordings* show beyond *model*.
 
-    Errors are judged on *test*, or without it on the part of each recording that nothing saw
-    before, see :mod:`pam_ros.identification.data.parts`. progress(share, text) is called with the
-    share of the work that is done and what is done next.
+    Errors are evaluated on *test*. Without it, they are evaluated on the part of each recording
+    that was not used before, see :mod:`pam_ros.identification.data.parts`. progress(share, text)
+    is called with the share of the work that is done and a text about the next step.
 
     *uncertain* are standard deviations of nominal values by the names of parameters, such as
-    ``{'inertia': '50%', 'mass': 0.2}``, see :mod:`pam_ros.identification.fit.uncertain`. Without
-    one the numbers of load, transmission and mounting are taken as they are.
+    ``{'inertia': '50%', 'mass': 0.2}``, see :mod:`pam_ros.identification.fit.uncertain`. Numbers
+    of load, transmission and mounting that are not in it keep their nominal values.
 
-    Raises RecordingError when there are no recordings, when two are the same, when they do not fit
-    together, carry no output or are too short for any fit, and ParameterError for objects of
+    Raises RecordingError if there are no recordings, if two are the same, if they do not fit
+    together, have no output or are too short for any fit. Raises ParameterError for objects of
     another type, for a model with an onset and for an uncertain parameter that the model does not
     have.
     """
@@ -84,10 +84,10 @@ def identify(
     require_joint([*recordings, *test], model)
     refuse_copies([*recordings, *test])
     uncertain = {} if uncertain is None else uncertain
-    spread_unknowns(model, recordings[0].muscles, uncertain)  # refused before a fit takes its time
+    spread_unknowns(model, recordings[0].muscles, uncertain)  # raises errors before the long fit
     refuse_idle(recordings)
     tests = segments_of(test)
-    # With test recordings none of the others has to judge.
+    # With test recordings, no part of the others is needed to judge.
     shares = (CRITERIA.fit / CRITERIA.choose, 1.0) if test else (CRITERIA.fit, CRITERIA.choose)
     parts = parts_of(recordings, *shares)
     if not any(part.is_fitted for part in parts):
@@ -140,7 +140,7 @@ def _answer(
     recordings: Sequence[Recording],
     test: Sequence[Recording],
 ) -> Identification:
-    """Return the numbers of an identification, with nothing said about them yet."""
+    """Return the numbers of an identification, without its verdict and its texts."""
     three = stages(ends, found, tests)
     noise = _least(three, ends.parts)
     quantity = ends.parts[0].segment.quantity
@@ -166,7 +166,7 @@ def _answer(
 
 
 def _since(verdict: str, found: Search, ends: Final, since: Moment | None) -> Estimate | None:
-    """Return the moment in s from which on the effects act, or the re-tuned model fails."""
+    """Return the time in s from which the effects act, or the re-tuned model fails."""
     if verdict == 'effect_found':
         return onset_of(ends.augmented) if found.setting.onset is not None else None
     if verdict != 'unexplained_structure' or since is None:
@@ -175,10 +175,10 @@ def _since(verdict: str, found: Search, ends: Final, since: Moment | None) -> Es
 
 
 def _least(three: Sequence[Stage], parts: Sequence[Part]) -> Noise:
-    """Return the smallest noise seen: in the signal, and in what each model leaves of it.
+    """Return the smallest noise estimate: of the signal, and of the residual of each model.
 
-    A model that follows the motion leaves a smoother signal than the raw one, whose fast
-    parts a polynomial cannot follow.
+    If a model follows the motion, its residual is smoother than the raw signal, whose fast parts a
+    polynomial cannot follow.
     """
     signals = [[(part.segment.t, part.segment.target) for part in parts]]
     for stage in three:
@@ -188,7 +188,7 @@ def _least(three: Sequence[Stage], parts: Sequence[Part]) -> Noise:
 
 
 def _structure(ends: Final, found: Search, floor: float) -> Structure:
-    """Return the structure of what the last model leaves of the longest run."""
+    """Return the structure of the residual of the last model in the longest run."""
     segments = [part.segment for part in ends.parts]
     longest = max(range(len(segments)), key=lambda k: segments[k].t.size)
     known: Solution = ends.augmented

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What an identification finds: the numbers behind the report."""
+"""The result of an identification: the numbers of the report."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -27,7 +27,7 @@ VERDICTS = (
 
 @dataclass(frozen=True)
 class Estimate:
-    """A parameter with its 95 % interval, in ``unit``; low = high = value where not fitted."""
+    """A parameter with its 95 % interval, in ``unit``; low = high = value if not fitted."""
 
     value: float
     low: float
@@ -38,11 +38,11 @@ class Estimate:
 
 @dataclass(frozen=True, eq=False)
 class Stage:
-    """One model on the way: declared, re-tuned or augmented.
+    """One of the three models: nominal (named declared), re-tuned or augmented.
 
-    Errors are RMSE in the unit of the target: over the samples fitted, and over those that were
-    held out or the test recordings. ``simulated`` and ``tested`` are its free runs over the
-    segments of the identification, in their order.
+    Errors are RMSE in the unit of the target: over the fitted samples, and over those that were
+    held out or the test recordings. ``simulated`` and ``tested`` are its free runs over
+    ``segments`` and ``test`` of the identification, in their order.
     """
 
     name: str
@@ -56,16 +56,16 @@ class Stage:
 
 @dataclass(frozen=True)
 class Candidate:
-    """An effect as it was tried on top of ``parents``.
+    """An effect that was tried in addition to ``parents``.
 
     ``fit_error`` and ``choose_error`` are RMSE over the samples that were fitted and over those
-    that decide between models, in m or N. ``score_fall`` is by how much the effect lowers the
-    score, -2 ln(evidence): 10 is very strong evidence. ``gain`` is the relative fall of
-    ``choose_error``. ``p`` is that of the likelihood-ratio test (Wilks 1938), times the number of
-    effects that were tried there (Bonferroni). ``interval_clear`` says that the 95 % intervals of
-    its strengths exclude 0. ``decision`` is chosen, ambiguous, rejected or untestable: the
-    recordings could not have shown it, and p is NaN. ``reason`` says why, and of an untestable
-    effect what to record.
+    that decide between models, in m or N. ``score_fall`` is the decrease of the score,
+    -2 ln(evidence), by the effect: 10 is very strong evidence. ``gain`` is the relative decrease
+    of ``choose_error``. ``p`` is that of the likelihood-ratio test (Wilks 1938), times the number
+    of effects that were tried there (Bonferroni). ``interval_clear`` is true if the 95 % intervals
+    of its strengths exclude 0. ``decision`` is chosen, ambiguous, rejected or untestable.
+    Untestable means that the recordings could not have shown the effect; then p is NaN. ``reason``
+    is the reason for the decision, and for an untestable effect what to record.
     """
 
     effect: str
@@ -83,7 +83,7 @@ class Candidate:
 
 @dataclass(frozen=True)
 class Finding:
-    """An effect that the declared model lacks, and what could stand in its place."""
+    """An effect that the nominal model lacks, and the effects that could replace it."""
 
     name: str
     parameters: dict[str, Estimate]
@@ -93,13 +93,13 @@ class Finding:
 
 @dataclass(frozen=True, eq=False)
 class Identification:
-    """The whole answer; ``stages`` are declared, re-tuned and augmented, in this order.
+    """The whole result; ``stages`` are the nominal, re-tuned and augmented model, in this order.
 
     ``recordings`` were fitted, ``test_recordings`` were not; ``segments`` and ``test`` are their
     gapless stretches. Without test recordings a part of each recording was held out instead.
-    ``since`` is the moment in s, on the clock of the recording, at which the effects begin to act,
-    or from which on the re-tuned model fails; None where that is the case from the start.
-    ``uncertain`` are the standard deviations of nominal values that were given, by parameter.
+    ``since`` is the time in s, on the clock of the recording, at which the effects begin to act,
+    or from which the re-tuned model fails; None if this is the case from the start.
+    ``uncertain`` are the given standard deviations of nominal values, by parameter.
     :func:`pam_ros.save_report` and :func:`pam_ros.save_parameters` write it to files.
     """
 
@@ -123,7 +123,7 @@ class Identification:
 
     @property
     def own_warnings(self) -> tuple[str, ...]:
-        """The warnings that none of the recordings had before."""
+        """The warnings that do not come from the recordings."""
         recordings = (*self.recordings, *self.test_recordings)
         before = {warning for recording in recordings for warning in recording.warnings}
         return tuple(warning for warning in self.warnings if warning not in before)

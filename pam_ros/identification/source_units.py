@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""From a fit's numbers back to a declared model: constants in their source's units, effects."""
+"""Convert the result of a fit to a model: constants in the units of their source, and effects."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
@@ -80,11 +80,11 @@ def with_row(
 ) -> Joint:
     """Return *model* with the parameter row q: constants in the units in which it gives them.
 
-    *added* are the places of the effects that a fit to *segments* added to the declared ones, and
-    *numbers* what it found of load, transmission and mounting.
-    Constants that were fitted where the rig went may make no muscle beyond: then the contractions
-    of the model are limited to where it went, and in the last resort its constants are taken back
-    towards those declared until they make muscles.
+    *added* are the places of the effects that a fit to *segments* added to the configured ones,
+    and *numbers* are its results for load, transmission and mounting.
+    Constants that were fitted in the recorded range may not give a valid muscle outside it. Then
+    the contractions of the model are limited to the recorded range. If that is not enough, the
+    constants and numbers are moved back towards the nominal ones until the joint is valid.
     """
     kinds = [{type(e): e for e in actuator.effects} for actuator in model.actuators]
     kinds_on_joint = {type(e): e for e in model.effects}
@@ -125,7 +125,7 @@ def with_row(
 
 
 def _limits(model: Joint, i: int, went: Array) -> dict[str, float]:
-    """Return the limits of contraction that muscle i reaches at the positions *went* to."""
+    """Return the limits of the contraction of muscle i at the recorded positions *went*."""
     contraction = statics.contraction(model, i, went)
     return {
         'kappa_min': min(0.0, float(contraction.min())),
@@ -134,7 +134,7 @@ def _limits(model: Joint, i: int, went: Array) -> dict[str, float]:
 
 
 def _muscle(model: Joint, q: Array, i: int, changes: dict[str, float]) -> Muscle:
-    """Return muscle number i with its constants of the row q."""
+    """Return muscle number i with its constants from the row q."""
     muscle, constant = model.muscles[i], model.layout.constant
     a1, a2, a3, a4, a5, a6 = (float(q[constant(a, i)]) for a in range(at.A1, at.A6 + 1))
     source = from_si((a1, a2, a3, a4, a5, a6), muscle.pressure_unit, muscle.contraction_unit)

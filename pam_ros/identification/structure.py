@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Is a residual structured? What a generic regressor can predict of it, and where it sits."""
+"""The structure of a residual: how much of it a generic regressor can predict."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -21,9 +21,9 @@ class Structure:
     """How much of a residual is predictable.
 
     ``ceiling``: cross-validated R^2 of a generic regressor on lagged p, y, v, their products and
-    time; near 0 when nothing is missing. ``whiteness``: p of Ljung and Box's test, reported
-    only: it rejects almost everything at 100 Hz and more. ``share``: the part of the residual's
-    variance that is above the noise floor.
+    time; near 0 if nothing is missing. ``whiteness``: p value of the test of Ljung and Box. It is
+    only reported, since it rejects almost everything at 100 Hz and more. ``share``: the part of
+    the residual's variance that is above the noise floor.
     """
 
     ceiling: float
@@ -35,7 +35,7 @@ def structure_of(t: Array, residual: Array, inputs: Sequence[Array], floor: floa
     """Return the structure of *residual* (n,) at stamps t (n,), gapless.
 
     *inputs* are the pressure of each muscle, then position and velocity (n,) of the model, without
-    the noise of the measurement: a regressor on measured signals would predict their noise by
+    the noise of the measurement: a regressor on measured signals would predict their noise from
     itself. *floor* is the standard deviation of the noise.
     """
     period = float(np.median(np.diff(t)))

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""From numbers to a sentence: which of five verdicts, and what to record next."""
+"""The verdict, which is one of five, its sentence, and what to record next."""
 
 from collections.abc import Mapping, Sequence
 from math import sqrt
@@ -15,11 +15,11 @@ from pam_ros.identification.search.criteria import Criteria
 from pam_ros.identification.search.search import Search
 from pam_ros.recording.quantities import ATMOSPHERE
 
-WEATHER = 6e3  # Pa by which the pressure of the air differs by weather and up to 500 m
+WEATHER = 6e3  # Pa; change of the air pressure by weather and up to 500 m of altitude
 
 
 def too_little(segments: Sequence[Segment], noise: float, criteria: Criteria) -> str:
-    """Return the sentence why the data cannot support a verdict, empty when they can.
+    """Return the reason why the data cannot support a verdict, '' if they can.
 
     *noise* is its standard deviation in m, rad or N.
     """
@@ -37,19 +37,19 @@ def too_little(segments: Sequence[Segment], noise: float, criteria: Criteria) ->
 
 
 def explains(found: Search) -> bool:
-    """Say whether the best model of a search leaves little enough of what re-tuning left.
+    """Return whether the best model of a search explains enough of the error after re-tuning.
 
-    On *fit*, and on *fit* and *choose* by the geometric mean: where a load sticks, a little less
-    friction than fitted lets it stick elsewhere, so that a right model that leaves hardly anything
-    of *fit* may be further off on *choose*. Without effects: whether re-tuning itself leaves no
-    more than noise.
+    The errors are compared on *fit*, and on *fit* and *choose* by the geometric mean. If a load
+    sticks, it sticks elsewhere with slightly less friction than fitted. So a right model with
+    hardly any error on *fit* may have a larger one on *choose*. Without effects: return whether
+    the error above the noise after re-tuning is at most the noise, on *fit* or on *choose*.
     """
     setting, errors, before = found.setting, found.best.errors, found.retuned.errors
     now = [setting.above(e) for e in (errors.fit, errors.choose)]
     if not found.best.effects:
         return min(now) <= setting.noise
     whole = [setting.above(e) for e in (before.fit, before.choose)]
-    # What is no more than the noise cannot be seen, and counts as little enough.
+    # A remaining error up to the noise cannot be detected, and counts as small enough.
     fit, choose = (
         b / max(a, setting.noise / setting.criteria.left) for b, a in zip(now, whole, strict=True)
     )
@@ -59,11 +59,11 @@ def explains(found: Search) -> bool:
 def verdict(found: Search, declared: float, retuned: float) -> str:
     """Return the verdict on data that support one.
 
-    *declared* and *retuned* are the errors of these models over what judges, in m, rad or N.
+    *declared* and *retuned* are the errors of these models over the judging data, in m, rad or N.
     """
     if found.best.effects:
         return 'effect_found' if explains(found) else 'unexplained_structure'
-    # Nothing is missing only where what no fit has seen is explained as well as the rest.
+    # Nothing is missing only if data that no fit has used are explained as well as the rest.
     level = max(found.setting.noise, found.best.errors.fit, found.best.errors.choose)
     if not explains(found) or retuned**2 - level**2 > level**2:
         return 'unexplained_structure'
@@ -113,7 +113,7 @@ def sentence(answer: Identification, lacking: str) -> str:
 
 
 def of_absolute_pressures(parameters: Mapping[str, Estimate], signal: str) -> list[str]:
-    """Return a warning of each pressure offset that is the pressure of the air.
+    """Return a warning for each pressure offset that equals the negative pressure of the air.
 
     *signal* is the pressure that drives the recordings: ``pressure_command`` or ``pressure``.
     """
@@ -127,7 +127,7 @@ def of_absolute_pressures(parameters: Mapping[str, Estimate], signal: str) -> li
 
 
 def next_experiment(answer: Identification, library: tuple[type[Effect], ...]) -> str:
-    """Return which recording would settle what *answer* leaves open."""
+    """Return which recording would resolve the open question of *answer*."""
     known = {e.name: e.experiment for e in library}
     if answer.verdict == 'insufficient_data':
         return 'Record a minute or more with pam_excite over the whole range of pressure.'
@@ -151,7 +151,7 @@ def next_experiment(answer: Identification, library: tuple[type[Effect], ...]) -
 
 
 def time_of(since: Estimate) -> str:
-    """Return a moment with its 95 % interval, as exact as that is."""
+    """Return a time with its 95 % interval, rounded according to its width."""
     width = since.high - since.low
     places = int(np.clip(np.ceil(1.0 - np.log10(max(width, 1e-9))), 0, 3))
     value, low, high = (f'{x:.{places}f}' for x in (since.value, since.low, since.high))

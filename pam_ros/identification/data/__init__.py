@@ -1,3 +1,3 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Recordings made ready for fits: gapless segments, their noise, thinned copies of them."""
+"""Recordings prepared for fits: gapless segments, their noise, thinned copies of them."""

@@ -13,7 +13,7 @@ from scipy.optimize import brentq
 Array = NDArray[np.float64]
 
 WINDOWS = (0.25, 0.1)  # s: shorter than one period of a muscle's own oscillation
-QUICK = 0.15  # ratio of what the windows show from which the motion is quick
+QUICK = 0.15  # ratio of the two noises below which the motion is too fast for long windows
 SAMPLES = (12, 200)  # fewest and most samples in a window
 DEGREE = 4  # of the polynomial that follows the motion within a window
 
@@ -34,18 +34,18 @@ class Noise:
 def noise_of(signals: Sequence[tuple[Array, Array]]) -> Noise:
     """Return the noise of signals (t, values), each gapless and about evenly sampled.
 
-    Quartics are fitted to short windows; the quietest quarter tells what the rest of the noise
-    looks like where the motion is smooth, and windows within 1.8 times its variance count.
-    What a quartic takes away of AR(1) noise is known exactly, so its two moments are corrected
-    for it. Slow drifts (beyond the window) are taken for motion, not for noise. Where shorter
-    windows show far less, it is the motion that was too quick for the longer ones.
+    Polynomials of degree 4 are fitted to short windows. The quietest quarter of them shows the
+    variance where the motion is smooth; windows with at most 1.8 times this variance are used. The
+    part of AR(1) noise that a quartic removes is known exactly, and both moments of the residual
+    are corrected for it. Slow drifts (slower than the window) count as motion, not as noise. If
+    shorter windows give far less noise, the motion was too fast for the longer ones.
     """
     long, short = (_in_windows(signals, window) for window in WINDOWS)
     return short if short.sigma < QUICK * long.sigma else long
 
 
 def _in_windows(signals: Sequence[tuple[Array, Array]], window: float) -> Noise:
-    """Return the noise that windows of *window* s show."""
+    """Return the noise estimated from windows of *window* s."""
     zero: list[Array] = []
     one: list[Array] = []
     size = 0
@@ -81,9 +81,9 @@ def _in_windows(signals: Sequence[tuple[Array, Array]], window: float) -> Noise:
 def _of_window_size(
     signals: Sequence[tuple[Array, Array]], window: float
 ) -> list[tuple[Array, int]]:
-    """Return the values of signals with the number of samples in a window of theirs.
+    """Return the values of signals, each with the number of samples in one of its windows.
 
-    Signals that are shorter than a window count only where all of them are.
+    Signals that are shorter than a window are used only if all of them are.
     """
     found = []
     for t, values in signals:
@@ -109,8 +109,8 @@ def _moments(size: int, rho: float) -> tuple[float, float]:
 def independent_share(residual: Array, longest: int) -> float:
     """Return the independent samples per sample of a residual, from its autocorrelation.
 
-    One over the integrated autocorrelation time, summed up to its first negative value or
-    *longest* samples: what a residual with structure is worth in a test.
+    It is one over the integrated autocorrelation time, which is summed up to its first negative
+    value or *longest* samples. This is the weight of a residual with structure in a test.
     """
     e = residual - np.mean(residual)
     n = e.size

@@ -1,13 +1,14 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Three parts of every recording: what fits see, what choices see, and what judges at the end.
+"""Three parts of every recording: for fits, for choices between models, and for the judgement.
 
-Where a load moves freely they are the first, the next and the last of the time: what a model is
-worth is how far it carries on by itself. Where there are enough recordings, whole ones decide:
-each may have a single step up and a single step back at its end, which no fit would see otherwise.
+If a load moves freely, they are the first, the next and the last part of the time, since a model
+is judged by how well its free run continues. If there are enough recordings, whole ones decide:
+each may have a single step up, and a single step back at its end, which otherwise no fit would
+use.
 A muscle at a prescribed length has no motion of its own, and such a recording often has a single
-rise and a single fall of the pressure. There the parts are blocks of time in turn, so that each of
-them sees all that was done.
+rise and a single fall of the pressure. Then the parts are interleaved blocks of time, so that each
+part contains all of the excitation.
 """
 
 from collections.abc import Sequence
@@ -26,19 +27,19 @@ from pam_ros.recording.recording import Recording
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
-FEWEST = 16  # samples with which a run can be fitted
+FEWEST = 16  # smallest number of samples of a run that can be fitted
 BLOCKS = 20  # of a recording at a prescribed length: 3 s of a minute
-GOLDEN = 0.6180339887  # multiples of it, without their whole parts, fill 0 to 1 in no rhythm
+GOLDEN = 0.6180339887  # the fractional parts of its multiples fill 0 to 1 without a period
 FIT, CHOOSE, JUDGE = range(3)
 
 
 @dataclass(frozen=True, eq=False)
 class Part:
-    """A gapless stretch of a recording, and what each of its blocks is for.
+    """A gapless stretch of a recording, and the role of each of its blocks.
 
-    ``ends`` (m,) are the times in s, ascending, at which a block ends, and ``roles`` (m + 1,) say
-    of each block whether it is fitted, decides between models, or judges: that, nothing sees
-    before a verdict.
+    ``ends`` (m,) are the times in s, ascending, at which a block ends. ``roles`` (m + 1,) are the
+    roles of the blocks: a block is fitted, decides between models, or judges. A judging block is
+    not used before the verdict.
     """
 
     segment: Segment
@@ -66,12 +67,12 @@ class Part:
 
     @property
     def known(self) -> Mask:
-        """Marks the samples that a verdict may rest on (n,): all that do not judge."""
+        """Marks the samples that a verdict may be based on (n,): all that do not judge."""
         return ~self.judge
 
     @property
     def is_fitted(self) -> bool:
-        """Whether enough of it may be fitted to be a run of a fit."""
+        """Whether enough of its samples may be fitted for a run of a fit."""
         return int(np.count_nonzero(self.fit)) >= FEWEST
 
     @property
@@ -81,18 +82,19 @@ class Part:
 
     @property
     def known_stretches(self) -> list[Segment]:
-        """The gapless stretches of samples that a verdict may rest on."""
+        """The gapless stretches of samples that a verdict may be based on."""
         edges = np.flatnonzero(np.diff(self.known)) + 1
         rows = np.split(np.arange(self.known.size), edges)
         return [_only(self.segment, some) for some in rows if self.known[some[0]]]
 
 
 def parts_of(recordings: Sequence[Recording], fit: float, choose: float) -> list[Part]:
-    """Return the gapless stretches of *recordings*, those with enough to be fitted first.
+    """Return the gapless stretches of *recordings*, first those with enough samples to fit.
 
-    *fit* is the share of the time that is fitted, *choose* the share that is fitted or decides:
-    of each recording, or, but for what judges, of the recordings where whole ones can decide.
-    Raises RecordingError when kinds are mixed.
+    *fit* is the share of the time that is fitted, *choose* the share that is fitted or decides.
+    They are shares of each recording. If whole recordings can decide, only the judging part is a
+    share of each recording, and the other two are shares of the total duration of the recordings.
+    Raises RecordingError if kinds are mixed.
     """
     require_one_kind(recordings)
     deciding = _deciding(recordings, 1.0 - fit / choose)
@@ -110,7 +112,7 @@ def parts_of(recordings: Sequence[Recording], fit: float, choose: float) -> list
             draws = np.array([fit if k in deciding else 0.0, choose])
         else:
             places, draws = np.array([fit, choose]), np.array([0.0, fit, choose])
-        # The last sample belongs to the last part that there is.
+        # The last sample belongs to the last part that is not empty.
         ends = np.where(places < 1.0, start + places * (end - start), np.inf)
         roles = np.searchsorted([fit, choose], draws, side='right')
         found += [Part(segment, ends, roles) for segment in segments]
@@ -118,9 +120,9 @@ def parts_of(recordings: Sequence[Recording], fit: float, choose: float) -> list
 
 
 def _deciding(recordings: Sequence[Recording], share: float) -> set[int]:
-    """Return the numbers of the free recordings that decide as a whole: none where they are few.
+    """Return the indices of the free recordings that decide as a whole; none if there are few.
 
-    They have at most this *share* of the time of all.
+    Their duration is at most this *share* of the total duration.
     """
     if recordings[0].kind == 'held':
         return set()
@@ -133,21 +135,21 @@ def _deciding(recordings: Sequence[Recording], share: float) -> set[int]:
 
 
 def _draws(count: int) -> Array:
-    """Return numbers (count,) between 0 and 1, in no rhythm."""
+    """Return numbers (count,) between 0 and 1, without a period."""
     return np.asarray(np.arange(1, count + 1) * GOLDEN % 1.0, dtype=float)
 
 
 def run_of(segment: Segment, fit: Mask) -> Segment:
     """Return *segment* as a run of a fit to the samples that *fit* (n,) marks.
 
-    It is cut off after the last of them; those before are simulated, and are not compared.
+    It ends after the last of them. Other samples before are simulated, but not compared.
     """
     rows = np.arange(int(np.flatnonzero(fit)[-1]) + 1)
     return _only(replace(segment, fit=fit), rows)
 
 
 def _only(segment: Segment, rows: NDArray[np.int_]) -> Segment:
-    """Return *rows* of the samples of *segment*; commands stay as they are."""
+    """Return *rows* of the samples of *segment*; its commands do not change."""
     names = ['t', 'target', 'fit']
     if isinstance(segment, HeldSegment):
         names += ['pressure', 'position', 'velocity']

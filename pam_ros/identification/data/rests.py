@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Recordings without the middle of their rests, in which commands and output are constant.
 
-A rig that rests says the same at every sample: that it rests where it rests. Searches that cannot
-look at everything look at the motions, and at the beginning and the end of each rest.
+All samples of a rig at rest contain the same information. A search that cannot use all samples
+uses the motions, and the beginning and the end of each rest.
 """
 
 from dataclasses import replace
@@ -17,16 +17,16 @@ from pam_ros.identification.data.segment import FreeSegment
 
 Array = NDArray[np.float64]
 BLOCK = 1.0  # s, of which means are compared
-KEPT = 2.0  # s that are left at the beginning of a rest, and at its end
-REST = 2.0  # noises of a sample within which these means stay in a rest: noise moves them less
+KEPT = 2.0  # s that are kept at the beginning of a rest, and at its end
+REST = 2.0  # times the noise of a sample; in a rest, noise moves these means less
 
 
 def without_rests(part: Part, noise: float) -> Part:
-    """Return a *part* of a free recording whose rests are short: what follows comes earlier.
+    """Return a *part* of a free recording with short rests; later samples move to earlier times.
 
-    A rest lasts to the next change of a command, or to the end, and begins where the output has
-    settled: from there on means of 1 s stay within 2 of the standard deviation *noise* in m or
-    rad. So what creeps is none.
+    A rest begins when the output has settled, and lasts to the next change of a command or to the
+    end. From its beginning, means over 1 s stay within 2 times the standard deviation *noise* in m
+    or rad. So a creeping output is not at rest.
     """
     segment = part.segment
     if not isinstance(segment, FreeSegment):
@@ -40,7 +40,7 @@ def without_rests(part: Part, noise: float) -> Part:
         return np.asarray(~((t[:, None] >= begins) & (t[:, None] < ends)).any(axis=1))
 
     def earlier(t: Array) -> Array:
-        # What is left out takes place at its end: exactly at the first sample that is kept again.
+        # Times in a removed stretch become its end: exactly the next sample that is kept.
         at = np.where(moves(t), t, ends[np.searchsorted(ends, t, side='right') % ends.size])
         return np.asarray(at - np.clip(at[:, None] - begins, 0.0, ends - begins).sum(axis=1))
 
@@ -60,7 +60,7 @@ def without_rests(part: Part, noise: float) -> Part:
 
 
 def _rests(segment: FreeSegment, noise: float) -> list[tuple[int, int]]:
-    """Return the first sample of the middle of each rest, and the first after it."""
+    """Return the first sample of the middle of each rest, and the first one after it."""
     t = segment.t
     changes = 1 + np.flatnonzero(np.any(np.diff(segment.drive, axis=0) != 0.0, axis=1))
     edges = np.unique([0, *np.searchsorted(t, segment.drive_t[changes]), t.size])
@@ -75,7 +75,7 @@ def _rests(segment: FreeSegment, noise: float) -> list[tuple[int, int]]:
 
 
 def _settled(t: Array, y: Array, noise: float) -> float:
-    """Return the time in s from which on y (n,) stays where it is at the last of the times t."""
+    """Return the time in s from which y (n,) stays at its value at the last of the times t."""
     block = np.floor((t[-1] - t) / BLOCK).astype(int)
     means = np.bincount(block, y) / np.maximum(np.bincount(block), 1)
     highest, lowest = np.maximum.accumulate(means), np.minimum.accumulate(means)

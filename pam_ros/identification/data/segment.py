@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""A gapless stretch of a recording, made ready to be simulated again and again."""
+"""A gapless stretch of a recording, prepared for many simulations."""
 
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
@@ -19,21 +19,21 @@ from pam_ros.rig.joint import Joint
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
-# Noises of a pressure that smoothing may take away, of which its slow changes are 1 to 1.3, and
-# those that a constant may leave: a tenth above what noise alone is.
+# In standard deviations of the noise of a pressure: what smoothing may remove at most (slow
+# changes give 1 to 1.3), and what a constant may leave at most, a tenth more than noise alone.
 NOISES, CONSTANT = 2.0, 1.1
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Segment(ABC):
-    """A run of the simulator, compared with what was measured.
+    """A run of the simulator, compared with the measurement.
 
-    t (n,) s; target (n,) what the simulation must give, in ``unit``; fit (n,) marks the samples
-    that may be used for fitting, the others are held out. y0, v0: first guess of the state at
-    t[0].
+    t (n,) s; target (n,) the measured values of the simulated output, in ``unit``; fit (n,) marks
+    the samples that may be used for fitting, the others are held out. y0, v0: first guess of the
+    state at t[0].
     """
 
-    kind: ClassVar[str]  # as a recording has it
+    kind: ClassVar[str]  # that of the recording
     quantity: ClassVar[str]  # name of the target
 
     name: str
@@ -47,15 +47,15 @@ class Segment(ABC):
     @property
     @abstractmethod
     def first_pressures(self) -> Array:
-        """Pressure in Pa of each muscle, commanded or measured, under which the run begins."""
+        """Pressure in Pa of each muscle, commanded or measured, at the start of the run."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class FreeSegment(Segment):
-    """A run of a rig whose load moves: commands in, position in m or rad out.
+    """A run of a rig whose load moves: commands are the input, position in m or rad is the output.
 
-    drive_t (m,), drive (m, muscles): stamps in s and values in Pa of the commands, which may have
-    acted earlier or later by a constant of the standard deviation drive_spread in s.
+    drive_t (m,), drive (m, muscles): stamps in s and values in Pa of the commands. They may have
+    acted earlier or later by a constant time, whose standard deviation is drive_spread in s.
     """
 
     kind: ClassVar[str] = 'free'
@@ -67,14 +67,17 @@ class FreeSegment(Segment):
 
     @property
     def first_pressures(self) -> Array:
-        """Commanded pressure in Pa of each muscle under which the run begins."""
+        """Commanded pressure in Pa of each muscle at the start of the run."""
         before = int(np.searchsorted(self.drive_t, self.t[0], side='right')) - 1
         return np.asarray(self.drive[max(before, 0)])
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class HeldSegment(Segment):
-    """A run at a prescribed length: measured pressure in Pa, position and velocity in, N out."""
+    """A run at a prescribed length.
+
+    The inputs are the measured pressure in Pa, position and velocity; the output is in N.
+    """
 
     kind: ClassVar[str] = 'held'
     quantity: ClassVar[str] = 'force'
@@ -85,12 +88,12 @@ class HeldSegment(Segment):
 
     @property
     def first_pressures(self) -> Array:
-        """Measured pressure in Pa under which the run begins."""
+        """Measured pressure in Pa at the start of the run."""
         return self.pressure[:1]
 
 
 def require_one_kind(recordings: Sequence[Recording]) -> None:
-    """Raise RecordingError when kinds are mixed, since one error cannot be in m and in N."""
+    """Raise RecordingError if kinds are mixed, since one error cannot be in m and in N."""
     kinds = {r.kind for r in recordings}
     if len(kinds) > 1:
         names = ', '.join(f'{r.name} is {r.kind}' for r in recordings)
@@ -98,7 +101,7 @@ def require_one_kind(recordings: Sequence[Recording]) -> None:
 
 
 def require_joint(recordings: Sequence[Recording], joint: Joint) -> None:
-    """Raise RecordingError where one of *recordings* cannot be one of *joint*."""
+    """Raise RecordingError if one of *recordings* cannot be a recording of *joint*."""
     first = recordings[0]
     for recording in recordings:
         _require_joint(recording, joint)
@@ -128,9 +131,9 @@ def _require_joint(recording: Recording, joint: Joint) -> None:
 
 
 def segments_of(recordings: Sequence[Recording]) -> list[Segment]:
-    """Return the gapless stretches of *recordings*, ready to be simulated, with all samples fit.
+    """Return the gapless stretches of *recordings*, ready for simulation, with all samples to fit.
 
-    Raises RecordingError for recordings of several kinds, and where what is needed is missing.
+    Raises RecordingError for recordings of several kinds, and if required data are missing.
     """
     require_one_kind(recordings)
     return [
@@ -188,8 +191,8 @@ def _segment(part: Recording) -> Segment:
 def windows(segment: Segment, length: float) -> list[Segment]:
     """Return a free run cut into runs of *length* s, each starting from its own measurement.
 
-    A load without a spring integrates every error for ever, so that a long run of a wrong model
-    says nothing any more; short ones stay near what was measured.
+    A load without a spring integrates every error without limit, so that a long run of a wrong
+    model contains no information any more; short runs stay near the measurement.
     """
     span = segment.t[-1] - segment.t[0]
     edges = np.linspace(segment.t[0], segment.t[-1], max(1, round(span / length)) + 1)
@@ -204,14 +207,17 @@ def windows(segment: Segment, length: float) -> list[Segment]:
 
 
 def start_of(t: Array, y: Array, degree: int = 2) -> tuple[float, float]:
-    """Fit a polynomial to the first 30 ms, at least 6 samples: position and velocity at t[0]."""
+    """Return position and velocity at t[0], from a polynomial through the first 30 ms.
+
+    It is fitted to at least 6 samples.
+    """
     n = min(t.size, max(6, int(np.searchsorted(t, t[0] + 0.03))))
     curve = np.polynomial.Polynomial.fit(t[:n] - t[0], y[:n], min(degree, n - 1))
     return float(curve(0.0)), float(curve.deriv()(0.0))
 
 
 def _motion(t: Array, y: Array) -> tuple[Array, Array]:
-    """Return the position without its fast noise, which friction would turn round at, and rate."""
+    """Return the position without fast noise, at which friction would reverse, and its rate."""
     if np.ptp(y) == 0.0:
         return y, np.zeros_like(y)
     smooth = _smooth(t, y)
@@ -219,10 +225,10 @@ def _motion(t: Array, y: Array) -> tuple[Array, Array]:
 
 
 def _without_noise(t: Array, p: Array) -> Array:
-    """Return the pressure, constant or smoothed where that takes hardly more than its noise away.
+    """Return the pressure, constant or smoothed if that removes hardly more than its noise.
 
-    Noise of what goes in becomes noise of the force, which a lag of the pressure takes away: the
-    finder would name one. A pressure that jumps stays as it is.
+    Noise of the input becomes noise of the simulated force. A lag of the pressure would reduce it,
+    so that the search would find a lag. A pressure that jumps is not changed.
     """
     noise = noise_of([(t, p)]).sigma
     if float(np.std(p)) <= CONSTANT * noise:
@@ -232,6 +238,6 @@ def _without_noise(t: Array, p: Array) -> Array:
 
 
 def _smooth(t: Array, y: Array) -> Array:
-    """Return parabolas through the 0.1 s about each sample."""
+    """Return the values of parabolas fitted to the 0.1 s around each sample."""
     n = min(t.size, max(5, int(0.1 / np.median(np.diff(t))))) | 1
     return np.asarray(savgol_filter(y, n if n <= t.size else n - 2, 2), dtype=float)

@@ -3,8 +3,8 @@
 """A thinned copy of the runs, on which many models are compared before a few are fitted in full.
 
 Samples are thinned to the stride that the rig's own frequency allows. Commands that vary a
-little within a stride are replaced by their mean, which acts on the load like them; a jump
-keeps its stamp, because half a stride of delay would show above the noise.
+little within a stride are replaced by their mean, which has the same effect on the load; a jump
+keeps its stamp, because a delay of half a stride would be visible above the noise.
 """
 
 from dataclasses import replace
@@ -22,13 +22,13 @@ Array = NDArray[np.float64]
 
 PHASE = 0.5  # rad of the rig's fastest oscillation in one step
 STEPS = (1e-3, 10e-3)  # s, shortest and longest step
-JUMP = 0.01  # share of the command's range within a stride that makes a jump
-ROOM = 0.1  # share by which a period may be longer than asked: stamps jitter
-HELD_STEP = 0.02  # s; a held run has no dynamics of its own to resolve, only memories
+JUMP = 0.01  # change of a command that is a jump, as a share of its range
+ROOM = 0.1  # share by which a period may be longer than desired, since stamps jitter
+HELD_STEP = 0.02  # s; at a prescribed length there are no dynamics to resolve, only memories
 
 
 def coarse_step(model: Joint) -> float:
-    """Return a step in s that resolves the oscillation of the rig at rest, stiffest 20-fold."""
+    """Return a step in s of PHASE rad of the oscillation about the stiffest rest position."""
     if model.is_driven:
         return STEPS[1]
     if len(model.muscles) > 1 or model.is_revolute:
@@ -40,7 +40,7 @@ def coarse_step(model: Joint) -> float:
 
 
 def _stiffest(joint: Joint) -> float:
-    """Return the largest stiffness in N/m or N m/rad where the joint rests with full pressures."""
+    """Return the largest stiffness in N/m or N m/rad at rest, with 0 or p_max in each muscle."""
     found = []
     for p in product(*((0.0, muscle.p_max) for muscle in joint.muscles)):
         s = statics.equilibrium(joint, p)
@@ -49,7 +49,10 @@ def _stiffest(joint: Joint) -> float:
 
 
 def thinned(segment: Segment, step: float) -> Segment:
-    """Return *segment* with every n-th sample, so that the period is about *step* at most."""
+    """Return *segment* with every n-th sample.
+
+    The period is at most about *step* in s, and at a prescribed length at most about HELD_STEP.
+    """
     period = float(np.median(np.diff(segment.t)))
     if isinstance(segment, HeldSegment):
         stride = max(1, int(HELD_STEP / period + ROOM))
@@ -76,14 +79,14 @@ def thinned(segment: Segment, step: float) -> Segment:
 
 
 def _merged(at: Array, u: Array, t: Array) -> tuple[Array, Array]:
-    """Return commands with one mean a sample interval where they vary little within it.
+    """Return commands with one mean per sample interval if they vary little within it.
 
     at (m,), u (m, muscles), t (n,) are the stamps and values of commands, and the samples' stamps.
     """
     if at.size < 2 or at.size <= t.size:
         return at, u
-    # Time-weighted mean of the held command over each interval, by its integral, and its moment
-    # about the interval's middle.
+    # Time-weighted mean over each interval of the command with a zero-order hold, by its integral,
+    # and its moment about the interval's middle.
     i = np.clip(np.searchsorted(at, t, side='right') - 1, 0, at.size - 1)
     integral, first = _sums(u, np.diff(at)), _sums(u, np.diff(0.5 * (at - t[0]) ** 2))
     impulse = np.diff(integral[i] + u[i] * _column(t - at[i]), axis=0)
@@ -97,13 +100,13 @@ def _merged(at: Array, u: Array, t: Array) -> tuple[Array, Array]:
     leaps = (np.abs(np.diff(u, axis=0)) > JUMP * np.ptp(u, axis=0)).any(axis=1)
     large = np.flatnonzero(leaps) + 1
     jump[cell[large][inside[large]]] = True
-    # A mean that is held has no moment: its neighbours are given it, as a pair that pushes and
-    # pulls, or quick waves would come out too small.
+    # A constant mean has no moment. The moment is given to the neighbouring intervals, with
+    # opposite signs, since otherwise fast waves would be too small.
     moment[jump] = 0.0
     mean[1:] += 0.5 * moment[:-1] / span[1:] ** 2
     mean[:-1] -= 0.5 * moment[1:] / span[:-1] ** 2
     keep = ~inside | jump[np.clip(cell, 0, len(mean) - 1)]
-    # A cell that keeps its own commands starts with the one that holds at its first stamp.
+    # An interval that keeps its own commands starts with the command at its first stamp.
     cells = np.flatnonzero(~jump)
     firsts = t[:-1][jump]
     held = u[np.clip(np.searchsorted(at, firsts, side='right') - 1, 0, None)]
@@ -116,11 +119,11 @@ def _merged(at: Array, u: Array, t: Array) -> tuple[Array, Array]:
 
 
 def _sums(u: Array, widths: Array) -> Array:
-    """Return the sums of held commands u (m, muscles) over these widths (m - 1,), from 0 on."""
+    """Return the cumulative sums, from 0, of commands u (m, muscles) times widths (m - 1,)."""
     steps = np.cumsum(u[:-1] * _column(widths), axis=0)
     return np.concatenate([np.zeros((1, u.shape[1])), steps])
 
 
 def _column(values: Array) -> Array:
-    """Return *values* (n,) as a column (n, 1), to be multiplied with those of each muscle."""
+    """Return *values* (n,) as a column (n, 1), to be multiplied by the values of each muscle."""
     return values[:, None]

@@ -1,3 +1,3 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Fit a model to recordings: what its residuals are made of, and what the data say of it."""
+"""Fit a model to recordings: the model of its residuals, and the information in the data."""

@@ -1,15 +1,16 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What a residual is made of: white noise of the sensor, and a slow error of the model.
+"""The model of a residual: white noise of the sensor, and a slow error of the model.
 
-No model has exactly nature's form, and what its form misses is correlated in time: a thousand
-samples of a slow error say hardly more than one. So the residual y of a run is taken as
+No model has exactly the form of the real system, and the resulting error is correlated in time: a
+thousand samples of a slow error contain hardly more information than one. So the residual y of a
+run is modelled as
 
     y_i = w_i + d_i,  w_i ~ N(0, sigma^2),  cov(d_i, d_j) = (size sigma)^2 exp(-|t_i - t_j|/time),
 
-independent samples of the noise w, and a first-order Gauss-Markov (Ornstein-Uhlenbeck) process d,
-the discrepancy of Kennedy and O'Hagan (2001). At stamps of one distance it is an ARMA(1,1).
-A Kalman filter with the one state d turns y into innovations that are independent (Durbin and
+with independent samples of the noise w, and a first-order Gauss-Markov (Ornstein-Uhlenbeck)
+process d, the discrepancy of Kennedy and O'Hagan (2001). At equidistant stamps y is an ARMA(1,1).
+A Kalman filter with the single state d turns y into innovations that are independent (Durbin and
 Koopman, Time Series Analysis by State Space Methods, 2012, section 4.3). Divided by their
 standard deviations, in units of sigma, they are the whitened residual. This is a linear map W with
 W C W' = 1, where sigma^2 C is the covariance of y. So the sum of squares of W y is y' C^-1 y, and
@@ -32,9 +33,9 @@ Array = NDArray[np.float64]
 class Whitening:
     """The map W of one run with n samples.
 
-    ``decay`` (n,) is how much of d is left at the next sample, ``gain`` (n,) that of the Kalman
-    filter, ``scale`` (n,) one over the standard deviation of the innovation in units of sigma.
-    ``log_det`` is ln det C.
+    ``decay`` (n,) is the factor by which d decays to the next sample, ``gain`` (n,) that of the
+    Kalman filter, ``scale`` (n,) one over the standard deviation of the innovation in units of
+    sigma. ``log_det`` is ln det C.
     """
 
     decay: Array
@@ -53,19 +54,19 @@ class Whitening:
 
 @dataclass(frozen=True)
 class Discrepancy:
-    """The slow error of a model beside white noise.
+    """The slow error of a model, in addition to white noise.
 
-    ``size`` is its standard deviation over that of the noise, 0 where there is none; ``time`` its
-    correlation time in s.
+    ``size`` is its standard deviation over that of the noise, 0 without such an error; ``time`` is
+    its correlation time in s.
     """
 
     size: float = 0.0
     time: float = 1.0
 
     def whitening(self, t: Array) -> Whitening:
-        """Return the map that whitens what was sampled at the stamps t (n,), ascending, in s.
+        """Return the map that whitens values at the stamps t (n,), ascending, in s.
 
-        Each run has its own: what was before its first sample is not known.
+        Each run has its own map, since nothing is known before its first sample.
         """
         decay = np.append(np.exp(-np.diff(t) / self.time), 0.0)
         gain, scale = np.empty(t.size), np.empty(t.size)
@@ -84,9 +85,9 @@ WHITE = Discrepancy()
 
 
 def deviance(whitened: Sequence[Array], whitenings: Sequence[Whitening]) -> float:
-    """Return -2 ln(likelihood) of runs at the most likely sigma, but for n (1 + ln 2 pi).
+    """Return -2 ln(likelihood) of runs at the most likely sigma, without n (1 + ln 2 pi).
 
-    *whitened* are the residuals W y of the runs (n,), *whitenings* the maps that they are of.
+    *whitened* are the residuals W y of the runs (n,), *whitenings* are their maps.
     """
     n = sum(e.size for e in whitened)
     square = sum(float(e @ e) for e in whitened)
@@ -96,8 +97,8 @@ def deviance(whitened: Sequence[Array], whitenings: Sequence[Whitening]) -> floa
 @cached
 def _gains(variance: float, decay: Array, gain: Array, scale: Array) -> float:
     """Fill *gain* and *scale* of the Kalman filter; return ln det C. Variances over sigma^2."""
-    # p: variance of d before its sample, given those before. A product of few innovations cannot
-    # overflow, and spares logarithms.
+    # p: variance of d at a sample, given the samples before. A product of few innovations cannot
+    # overflow, and needs fewer logarithms.
     log_det, product, p = 0.0, 1.0, variance
     for i in range(decay.size):
         innovation = p + 1.0
@@ -115,8 +116,8 @@ def _gains(variance: float, decay: Array, gain: Array, scale: Array) -> float:
 @cached
 def _innovations(decay: Array, gain: Array, scale: Array, values: Array, found: Array) -> None:
     """Fill *found* (n, k) with the innovations of the columns of *values* (n, k) times *scale*."""
-    # The filter's state d is kept in the next row of what is found, which all columns pass side by
-    # side: a recursion cannot be vectorised along time.
+    # The filter's state d is stored in the next row of *found*. All columns are filtered in one
+    # pass, since a recursion cannot be vectorised along time.
     n, columns = values.shape
     found[0, :] = 0.0
     for i in range(n):
@@ -130,7 +131,7 @@ def _innovations(decay: Array, gain: Array, scale: Array, values: Array, found: 
 
 @cached
 def _correlated(variance: float, decay: Array, values: Array, found: Array) -> None:
-    """Add to *found* (n, k) what neighbours give: the covariance of d times *values* (n, k)."""
+    """Add to *found* (n, k) the product of the covariance of d and *values* (n, k)."""
     n, columns = values.shape
     for k in range(columns):
         before, after = 0.0, 0.0

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Problems with one effect more or less, or with more or less of an effect."""
+"""Problems with one effect more or less, or with more or fewer of its parameters."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
@@ -28,11 +28,11 @@ Array = NDArray[np.float64]
 def with_effect(
     problem: Problem, joint: Joint, place: Place, start: Mapping[str, float]
 ) -> tuple[Problem, Array]:
-    """Return the problem with those parameters of an effect that *start* names, and their u there.
+    """Return the problem with the effect's parameters in *start* unknown, and their u there.
 
-    Of an effect that the problem lacks at *place* the others keep their defaults, and where its
-    memory stands at the start of each run becomes unknown, too; of one that it has they stay as
-    they are.
+    If the problem lacks the effect at *place*, its other parameters have their defaults, and its
+    memory at the start of each run becomes unknown, too. If the problem has the effect, the other
+    parameters do not change.
     """
     added = [proper(one) for one in effect_unknowns(joint, place, start)]
     is_new = not parameters_of(problem.unknowns, place.name)
@@ -54,7 +54,7 @@ def with_effect(
 def bounded(problem: Problem, u: Array, joint: Joint, place: Place) -> Problem:
     """Return the problem, whose fit begins at u, with the bounds that the effect at *place* gives.
 
-    Within them *joint* may have it.
+    With values within these bounds *joint* can have the effect.
     """
     fitted = parameters_of(problem.unknowns, place.name)
     near = _values(problem.row_at(u), joint, place)
@@ -79,9 +79,9 @@ def _values(row: Array, joint: Joint, place: Place) -> dict[str, float]:
 
 
 def memories(problem: Problem, place: Place) -> list[Unknown]:
-    """Return where the memory of the effect at *place* may stand at the start of each run.
+    """Return the memory of the effect at *place* at the start of each run, as unknowns.
 
-    What begins later has none there.
+    An effect that begins later has no memory there.
     """
     if any(isinstance(k.of, OnsetTime) for k in problem.unknowns):
         return []
@@ -91,10 +91,11 @@ def memories(problem: Problem, place: Place) -> list[Unknown]:
 def finer_starts(
     unknowns: Sequence[Unknown], row: Array, joint: Joint, place: Place
 ) -> list[dict[str, float]]:
-    """Return values from which to free the parameters at *place* that are not among *unknowns*.
+    """Return starting values for the parameters at *place* that are not among *unknowns*.
 
-    All of them from where they are in the parameter *row*, or some from where a start has them;
-    strengths in the proportion to one that is fitted already in which that start has both.
+    Either all of them with their values in the parameter *row*, or some with the values of a start
+    of the effect. If that start has a strength that is already fitted, other strengths in the same
+    unit keep their ratio to it.
     """
     there = parameters_of(unknowns, place.name)
     values = _values(row, joint, place)
@@ -113,7 +114,7 @@ def finer_starts(
 
 
 def without_effect(problem: Problem, joint: Joint, place: Place) -> tuple[Problem, list[int]]:
-    """Return the problem without the effect at *place*, and which of the unknowns are left."""
+    """Return the problem without the effect at *place*, and indices of the remaining unknowns."""
     row = problem.row.copy()
     for k, p in enumerate(place.parameters):
         row[place.indices(joint.layout, k)] = p.default
@@ -123,7 +124,7 @@ def without_effect(problem: Problem, joint: Joint, place: Place) -> tuple[Proble
 
 
 def plainer_sets(unknowns: Sequence[Unknown], place: Place) -> list[set[str]]:
-    """Return the smaller sets of parameters at *place* with which a fit may begin as well."""
+    """Return the smaller sets of parameters at *place* with which a fit may also begin."""
     there = parameters_of(unknowns, place.name)
     found: list[set[str]] = []
     for start in place.fit_starts:
@@ -135,9 +136,9 @@ def plainer_sets(unknowns: Sequence[Unknown], place: Place) -> list[set[str]]:
 def with_parameters(
     problem: Problem, joint: Joint, place: Place, names: set[str]
 ) -> tuple[Problem, list[int]]:
-    """Return the problem with *names* alone of the parameters at *place* unknown.
+    """Return the problem in which, of the parameters at *place*, only *names* are unknown.
 
-    The others are at their defaults. Also returns which of the unknowns are left.
+    The others have their defaults. Also returns the indices of the remaining unknowns.
     """
     row = problem.row.copy()
     for k, p in enumerate(place.parameters):
@@ -155,5 +156,5 @@ def with_parameters(
 
 
 def belongs(unknown: Unknown, place: str) -> bool:
-    """Say whether an unknown is a parameter or a memory of the effect at the *place* so called."""
+    """Return whether an unknown is a parameter or a memory of the effect at the named *place*."""
     return isinstance(unknown.of, OfEffect | MemoryStart) and unknown.of.place == place

@@ -1,17 +1,17 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""How far the unknowns of a fit may be off, where its errors are correlated.
+"""The covariance of the unknowns of a fit, if its errors are correlated.
 
-Of all estimates the least squares of the residuals as they are bring the simulation nearest to the
-measurement, and that is what a simulator is for; the most probable ones under a discrepancy leave
-slow errors where they are, for these cost little. But where errors are correlated, n samples say
-less than n independent ones. With residuals of the covariance sigma^2 C, see
-:mod:`pam_ros.identification.fit.discrepancy`, the mean square s^2 that a fit leaves of n of them,
+The least-squares estimates from residuals without whitening bring the simulation nearest to the
+measurement, which is the purpose of a simulator. The most probable estimates under a
+discrepancy keep slow errors, since these cost little. But if errors are correlated, n samples
+contain less information than n independent ones. With the covariance sigma^2 C of the residuals,
+see :mod:`pam_ros.identification.fit.discrepancy`, the mean square s^2 of the n residuals of a fit,
 their Jacobian J and the standard deviations P of the priors,
 
     cov(u) = A (sigma^2/s^4 J'C J + P^-2) A,   A = (J'J/s^2 + P^-2)^-1
 
-(White 1980; Newey and West 1987). Where errors are white, or were whitened before, C is 1, and
+(White 1980; Newey and West 1987). If errors are white, or were whitened before, C is 1, and
 cov(u) is A.
 """
 
@@ -27,14 +27,14 @@ Array = NDArray[np.float64]
 def covariance(known: Solution, process: Discrepancy) -> Array:
     """Return the covariance of the unknowns u (k, k) of a fit.
 
-    *process* is what its residuals are made of beside white noise. The fit was made by least
-    squares, or under this very process. The process' own uncertainty, which counts where a run is
-    not many correlation times long, is not in it.
+    *process* is the correlated part of its residuals, in addition to white noise. The fit was made
+    by least squares, or with this process. The uncertainty of the process itself is not included;
+    it matters if a run is not many correlation times long.
     """
     problem = known.problem
     prior = problem.prior
     one = np.eye(prior.size)
-    # Scaled by the priors no number is so large or small that the inverse loses digits.
+    # After scaling by the priors no number is so large or small that the inverse loses digits.
     slope = problem.whitened(known.jacobian * prior, known.whitenings)
     square = float(np.mean(known.whitened**2))
     inverse = np.linalg.inv(slope.T @ slope / square + one)

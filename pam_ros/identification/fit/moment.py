@@ -1,10 +1,10 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The moment at which effects begin, as an unknown whose slope can be 0.
+"""The time at which effects begin (onset), as an unknown whose derivative can be 0.
 
-A lag that begins while the command is held shows from the next command on: all moments of the
-hold are equally good, and the next hold is worse by a step. So the moment is found, and its
-interval is computed, from the cost itself with the other unknowns where they are.
+A lag that begins while the command is constant is visible only from the next command on. All
+onsets in this interval are equally good, and those in the next interval are worse by a step. So
+the onset is found, and its interval is computed, from the cost with the other unknowns fixed.
 """
 
 from dataclasses import replace
@@ -17,21 +17,21 @@ from pam_ros.identification.fit.solve import Solution
 from pam_ros.identification.fit.unknowns import OnsetTime
 
 Array = NDArray[np.float64]
-# What is looked at about a moment, in s: what has begun shows up to 1 s later.
+# Range around an onset that is searched, and step, in s: an effect is visible up to 1 s later.
 EARLIER, LATER, APART = 1.0, 0.5, 0.02
-# Fall of the likelihood, -2 ln, at the ends of a 95 % interval of one number (Wilks 1938).
+# Change of -2 ln(likelihood) at the ends of a 95 % interval of one number (Wilks 1938).
 WILKS = 3.84
-FINEST, HALVINGS = 1e-4, 8  # s, first step to the side, and of the search for an end
+FINEST, HALVINGS = 1e-4, 8  # s, first step to the side, and bisections to find an end
 
 
 def index_of_onset(known: Solution) -> int | None:
-    """Return which unknown of a fit is the moment at which effects begin, None where none is."""
+    """Return the index of the onset among the unknowns of a fit, None if there is none."""
     unknowns = known.problem.unknowns
     return next((k for k, one in enumerate(unknowns) if isinstance(one.of, OnsetTime)), None)
 
 
 def moved(known: Solution) -> Solution:
-    """Return *known* at the best moment near its own, with the other unknowns where they are."""
+    """Return *known* at the best onset near its own, with the other unknowns fixed."""
     k = index_of_onset(known)
     if k is None:
         return known
@@ -44,17 +44,17 @@ def moved(known: Solution) -> Solution:
 
 
 def at_moment(known: Solution, k: int, u: float) -> Solution:
-    """Return *known* with unknown number *k* at u and the Jacobian as it was."""
+    """Return *known* with unknown number *k* at u and an unchanged Jacobian."""
     there = known.u.copy()
     there[k] = u
     return replace(known, u=there, r=known.problem.residuals(there), is_fresh=False)
 
 
 def interval(known: Solution) -> tuple[float, float, float]:
-    """Return the moment in s of a fit with the ends of its 95 % interval.
+    """Return the onset in s of a fit with the ends of its 95 % interval.
 
-    To each side as far as the cost allows with the other unknowns where they are, times how much
-    more the moment may move when they move with it.
+    The cost with the other unknowns fixed gives the distance of each end. It is multiplied by the
+    ratio of the onset's standard deviations with free and with fixed other unknowns.
     """
     k = index_of_onset(known)
     assert k is not None

@@ -33,7 +33,7 @@ class OfRig:
 
 
 def numbers_of(joint: Joint) -> dict[OfRig, tuple[float, Parameter]]:
-    """Return all such numbers of *joint* with their values and what is allowed of them."""
+    """Return all these numbers of *joint*, with their values and descriptions."""
     found: dict[OfRig, tuple[float, Parameter]] = {}
     for name, part in ((LOAD, joint.load), (TRANSMISSION, joint.transmission)):
         fields = described(type(part)) if is_dataclass(part) else {}
@@ -48,7 +48,7 @@ def numbers_of(joint: Joint) -> dict[OfRig, tuple[float, Parameter]]:
 
 
 def fill(q: Array, joint: Joint, values: Mapping[OfRig, float]) -> None:
-    """Write *joint* with other *values* into the matrix q of its parameters, effects as there."""
+    """Write *joint* with other *values* into its parameter matrix q, without changing effects."""
     fill_load(
         q[at.JOINT],
         joint.layout,
@@ -61,7 +61,7 @@ def fill(q: Array, joint: Joint, values: Mapping[OfRig, float]) -> None:
 
 
 def changed(joint: Joint, values: Mapping[OfRig, float]) -> Joint:
-    """Return *joint* with other *values*; raises ParameterError where they make no joint."""
+    """Return *joint* with other *values*; raises ParameterError if the joint is not valid."""
     actuators = list(joint.actuators)
     for of, value in values.items():
         if of.part == MOUNTING:
@@ -75,6 +75,6 @@ def changed(joint: Joint, values: Mapping[OfRig, float]) -> Joint:
 
 
 def _part(part: Any, name: str, values: Mapping[OfRig, float]) -> Any:
-    """Return a load or a transmission, the *part* so called, with its own of the *values*."""
+    """Return a load or a transmission, the *part* of this *name*, with those *values* for it."""
     own = {of.name: value for of, value in values.items() if of.part == name}
     return replace(part, **own) if own else part

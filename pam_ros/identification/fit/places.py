@@ -1,10 +1,10 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Where an effect can be added to a joint: in all muscles alike, in one of them, on the joint.
+"""The places where an effect can be added to a joint: in all muscles, in one, or on the joint.
 
-The typical sizes of an effect, and the values from which a fit begins, are those of a load that
-slides. On a joint that turns they are scaled by the arm of its muscles, so that they do to the
-joint what they do to such a load.
+The typical sizes of an effect, and the starting values of a fit, are those for a prismatic joint.
+On a revolute joint they are scaled by the arm of its muscles, so that they have the same influence
+on the joint.
 """
 
 from collections.abc import Mapping, Sequence
@@ -24,25 +24,25 @@ from pam_ros.rig.layout import Layout
 from pam_ros.units import ARM_POWER
 
 Array = NDArray[np.float64]
-INITIAL = 'initial'  # the parameter that says where an effect's memory stands at the start
+INITIAL = 'initial'  # the parameter for the memory of an effect at the start
 
 
 @dataclass(frozen=True)
 class Turned:
-    """A joint that turns: the mean arm of its muscles, and their mean length, both in m."""
+    """A revolute joint: the mean arm of its muscles, and their mean length, both in m."""
 
     arm: float
     length: float
 
     def contraction(self, angle: Array) -> Array:
-        """Return the contraction of a muscle that an *angle* in rad is."""
+        """Return the contraction of a muscle that corresponds to an *angle* in rad."""
         return angle * self.arm / self.length
 
     def factor(self, unit: str) -> float:
-        """Return the size there of 1 *unit* on a load that slides.
+        """Return the size on this joint of 1 *unit* on a prismatic joint.
 
-        A force at the arm is a torque, a length along the motion is an angle; a contraction is one
-        of a muscle of this length.
+        A force at the arm is a torque. A length along the motion is an angle, and so is a
+        contraction of a muscle of this length.
         """
         if unit == 'fraction':
             return self.length / self.arm
@@ -54,8 +54,8 @@ class Place:
     """An effect at a place of a joint.
 
     ``muscles`` are the numbers of the muscles in which it acts, with the same parameters; none for
-    an effect on the joint. ``names`` are the names of these muscles where the joint has several.
-    Of an effect on a joint that turns, ``turned`` gives the sizes.
+    an effect on the joint. ``names`` are the names of these muscles if the joint has several. For
+    an effect on a revolute joint, ``turned`` gives the sizes.
     """
 
     effect: type[Effect]
@@ -65,7 +65,7 @@ class Place:
 
     @cached_property
     def parameters(self) -> tuple[EffectParameter, ...]:
-        """The parameters of the effect, with the units and sizes that they have there."""
+        """The parameters of the effect, with their units and sizes at this place."""
         if self.turned is None:
             return self.effect.parameters()
         return tuple(
@@ -95,9 +95,9 @@ class Place:
         )
 
     def guess(self, t: Array, p: Array, position: Array, residual: Array) -> Starts:
-        """Return the values that the effect reads from a recording, as its equations describe.
+        """Return the starting values that the effect derives from a recording, see its equations.
 
-        *position* is the contraction of the one muscle in line with a load, else the angle.
+        *position* is the contraction of a single muscle in line with a load, else the angle.
         """
         if self.effect.equations.guess is None:
             return ()
@@ -112,12 +112,12 @@ class Place:
 
     @property
     def muscle(self) -> str:
-        """The name of the one muscle of several in which it acts, empty in all other cases."""
+        """The name of the muscle if it acts in one of several, otherwise empty."""
         return self.names[0] if len(self.names) == 1 else ''
 
     @property
     def name(self) -> str:
-        """Its name: that of the effect, behind the name of a muscle where it is in one alone."""
+        """Its name: that of the effect, after that of the muscle if it acts in one of several."""
         return f'{self.muscle}.{self.effect.name}' if self.muscle else self.effect.name
 
     @property
@@ -126,19 +126,19 @@ class Place:
         return tuple(at.MUSCLE + i for i in self.muscles) or (at.JOINT,)
 
     def flat(self, parameter: str) -> str:
-        """Return the name that a parameter of it has in a file of parameters."""
+        """Return the name of one of its parameters in a file of parameters."""
         flat = EffectName(self.effect.name, parameter).flat
         return f'{self.muscle}.{flat}' if self.muscle else flat
 
     def indices(self, layout: Layout, parameter: int) -> list[int]:
-        """Return where parameter number *parameter* stands in q, counted through all rows."""
+        """Return the indices of parameter number *parameter* in q, counted through all rows."""
         return [layout.index(self.effect, parameter, i) for i in self.muscles or (0,)]
 
     def split(self, layout: Layout, parameter: int) -> list[tuple[str, tuple[int, ...]]]:
-        """Return the names and the places in q of what a fit may change of a parameter.
+        """Return names and indices in q of the numbers that a fit may change for a parameter.
 
-        That is one number for all muscles alike, but where a memory stands at the start is each
-        muscle's own: of two against each other one was shortened while the other was lengthened.
+        This is one number for all muscles. Only the initial memory is separate for each muscle: of
+        two antagonistic muscles one was shortened while the other was lengthened.
         """
         name = self.parameters[parameter].name
         indices = self.indices(layout, parameter)
@@ -149,7 +149,7 @@ class Place:
         return [(f'{muscle}.{flat}', (index,)) for muscle, index in pairs]
 
     def overlaps(self, other: 'Place') -> bool:
-        """Say whether both are the same effect in the same row."""
+        """Return whether both are the same effect in the same row."""
         is_same = self.effect.name == other.effect.name
         return is_same and bool({*self.rows} & {*other.rows})
 
@@ -160,12 +160,12 @@ def effect_of(name: str) -> str:
 
 
 def muscle_of(name: str) -> str:
-    """Return the name of the one muscle of a place called *name*, empty where there is none."""
+    """Return the name of the muscle in the *name* of a place, empty if there is none."""
     return name.rpartition('.')[0]
 
 
 def place_of(flat: str) -> str:
-    """Return the name of the place of a parameter by its *flat* name; empty for no effect's."""
+    """Return the name of the place of a parameter by its *flat* name; empty if of no effect."""
     name = parsed(flat)
     if name is not None:
         return name.effect
@@ -175,21 +175,21 @@ def place_of(flat: str) -> str:
 
 
 def spelled(name: str) -> str:
-    """Return a place's *name* as a sentence has it: ``pressure_lag of agonist``."""
+    """Return a place's *name* as in a sentence: ``pressure_lag of agonist``."""
     muscle = muscle_of(name)
     return f'{effect_of(name)} of {muscle}' if muscle else name
 
 
 def names_of_muscles(joint: Joint, given: Sequence[str] = ()) -> tuple[str, ...]:
-    """Return the names of the muscles of *joint*: those *given*, or made of their numbers."""
+    """Return the names of the muscles of *joint*: those *given*, or made from their numbers."""
     return tuple(given) or tuple(f'muscle_{i + 1}' for i in range(len(joint.muscles)))
 
 
 def places_of(joint: Joint, muscles: Sequence[str] = ()) -> dict[str, Place]:
     """Return by name every place at which an effect of the joint's library can act.
 
-    *muscles* are the names of its muscles. What acts in muscles can be in all of several alike or
-    in each alone.
+    *muscles* are the names of its muscles. An effect in muscles can act in all of several muscles,
+    or in each of them alone.
     """
     every = tuple(range(len(joint.muscles)))
     found = []
@@ -205,7 +205,7 @@ def places_of(joint: Joint, muscles: Sequence[str] = ()) -> dict[str, Place]:
 
 
 def turned_of(joint: Joint) -> Turned | None:
-    """Return the sizes of a *joint* that turns, None for a load that slides."""
+    """Return the sizes for a revolute *joint*, None for a prismatic one."""
     if not joint.is_revolute:
         return None
     arm = float(np.mean(np.abs(statics.middle_arms(joint))))

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """A model with unknowns, and recordings that it must explain: free runs against measurements.
 
-Residuals and their derivatives are in the unit of what was measured; how much they count is said
-by the discrepancy, see :mod:`pam_ros.identification.fit.discrepancy`. So one Jacobian, which costs
-a simulation a column, serves for every discrepancy.
+Residuals and their derivatives are in the unit of the measurement; the discrepancy gives their
+weights, see :mod:`pam_ros.identification.fit.discrepancy`. So one Jacobian, which costs one
+simulation per column, can be used for every discrepancy.
 """
 
 from collections.abc import Callable, Sequence
@@ -40,18 +40,18 @@ from pam_ros.rig.start import fill_chambers, start_state
 
 Array = NDArray[np.float64]
 DIFFERENCE = 1e-3  # step of u for a derivative; a thousandth of a parameter's typical size
-DIVERGED = 1e6  # m or N: what a simulation without a finite result is taken for
+DIVERGED = 1e6  # m or N: the residual of a simulation without a finite result
 
 
 @dataclass(frozen=True, eq=False)
 class Problem:
-    """Runs to be explained by parameters, starts and memories of which some are unknown.
+    """Runs to be explained by parameters, starts and memories, some of which are unknown.
 
-    ``row`` holds the values of what is not unknown, all rows of the kernel's q one after the
-    other; ``active`` are the effects that the kernel steps, and ``step`` is the longest step in s.
-    Numbers of a load can only be unknown where ``joint`` says which load it is. Unknowns need
-    finite priors. Residuals are those of the samples that the segments mark as to be fitted, n in
-    all, of the runs one after the other.
+    ``row`` holds the values that are not unknown, all rows of the kernel's q one after the other.
+    ``active`` are the effects that the kernel computes, and ``step`` is the longest step in s.
+    Numbers of a load can be unknown only if ``joint``, which has the load, is given. Unknowns need
+    finite priors. Residuals are those of the samples that the segments mark for fitting, n in all,
+    of the runs one after the other.
     """
 
     segments: tuple[Segment, ...]
@@ -93,8 +93,8 @@ class Problem:
     def runs(self, u: Array, only: int | None = None) -> list[Array]:
         """Return the free run of every segment, or of segment *only*, at u.
 
-        Each is (n, 2 + 2 muscles): position and velocity (m or rad), then of each muscle the
-        chamber pressure Pa, and for held segments the force N.
+        Each is (n, 2 + 2 muscles): position and velocity (m or rad), then for each muscle the
+        chamber pressure in Pa and, in runs at a prescribed length, the force in N.
         """
         q = self.row_at(u).reshape(self.layout.rows, self.layout.parameters)
         kernel, layout = bind(self.layout, self.active), self.layout
@@ -121,7 +121,7 @@ class Problem:
     def _change(self, q: Array, u: Array) -> Change | None:
         """Return the change to the parameters q (rows, parameters) when unknown effects begin.
 
-        None where they act from the start.
+        None if they act from the start.
         """
         pairs = zip(self.unknowns, u, strict=True)
         time = next((k.value(value) for k, value in pairs if isinstance(k.of, OnsetTime)), None)
@@ -141,7 +141,7 @@ class Problem:
         return before
 
     def _start(self, run: int, q: Array, u: Array) -> Array:
-        """Return the state in which a run begins."""
+        """Return the state at the start of a run."""
         s = self.segments[run]
         y0, v0 = s.y0, s.v0
         memories = []
@@ -164,7 +164,7 @@ class Problem:
     def predict(self, u: Array, only: int | None = None) -> list[Array]:
         """Return the simulated target of every segment, or of segment *only*, at u.
 
-        Where commands acted earlier than their stamps say, so did the motion: s(t + d) = s + v d.
+        If commands acted earlier by d than their stamps, the motion did, too: s(t + d) = s + v d.
         """
         column = at.RUN_S if self.segments[0].kind == 'free' else at.RUN_F
         levels = {
@@ -202,11 +202,11 @@ class Problem:
     def jacobian(
         self, u: Array, r: Array, pool: Executor | None = None, only: Sequence[int] | None = None
     ) -> Array:
-        """Return dr/du (n, columns) by differences, one column a simulation.
+        """Return dr/du (n, columns) by differences, with one simulation per column.
 
-        *r* are the residuals at u; *only* restricts the columns; *pool* runs them side by side.
-        A column steps to the side that its bounds leave open; what belongs to one run is found
-        from that run alone.
+        *r* are the residuals at u; *only* restricts the columns; *pool* computes them in parallel.
+        The step is to a side that the bounds allow. The column of an unknown of one run needs only
+        a simulation of this run.
         """
         columns = range(len(u)) if only is None else only
         starts = [0, *self._ends]
@@ -230,7 +230,7 @@ class Problem:
 
     @cached_property
     def _present(self) -> tuple[type[Effect], ...]:
-        """The effects that may be there, in the order of the library."""
+        """The effects that may be present, in the order of the library."""
         free = {effect_of(k.of.place) for k in self.unknowns if isinstance(k.of, OfEffect)}
         index, muscles = self.layout.index, range(self.layout.muscles)
 
@@ -242,7 +242,7 @@ class Problem:
 
     @cached_property
     def _strengths(self) -> list[tuple[type[Effect], int]]:
-        """The effects of unknown strength, and where the strengths stand in the parameter row."""
+        """The effects of unknown strength, each with the index of one in the parameter row."""
         library = {effect.name: effect for effect in self.layout.library}
         unknown = [k.of for k in self.unknowns if isinstance(k.of, OfEffect)]
         found = [(library[effect_of(of.place)], of) for of in unknown]
@@ -253,19 +253,19 @@ class Problem:
             for index in of.indices
         ]
 
-    # What residuals are worth ------------------------------------------------------------------
+    # Weights of the residuals ------------------------------------------------------------------
 
     def stamps(self) -> list[Array]:
-        """Return the stamps in s of what is fitted of each run."""
+        """Return the stamps in s of the fitted samples of each run."""
         return [s.t[s.fit] for s in self.segments]
 
     @cached_property
     def _ends(self) -> NDArray[np.int_]:
-        """Where the residuals of each run end, for every fit asks for it at each step."""
+        """The end index of the residuals of each run; cached, since fits need it at each step."""
         return np.cumsum([np.count_nonzero(s.fit) for s in self.segments])
 
     def by_run(self, values: Array) -> list[Array]:
-        """Return *values* (n,) or (n, k) cut into those of each run."""
+        """Return *values* (n,) or (n, k) split into those of each run."""
         return np.split(values, self._ends[:-1])
 
     def whitenings(self, discrepancy: Discrepancy) -> list[Whitening]:

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Levels between recordings of a muscle at one prescribed length, as unknowns."""
+"""Levels (offsets of the force) between recordings at one prescribed length, as unknowns."""
 
 from collections.abc import Sequence
 
@@ -11,13 +11,13 @@ from pam_ros.identification.fit.unknowns import RunLevel, Unknown
 from pam_ros.rig.joint import Joint
 
 # Standard deviation of the level between recordings of a muscle at one length, as a share of the
-# range of the force: repeats of the measured muscle are 0.2 to 2 % of it apart.
+# range of the force: repeated recordings of the measured muscle differ by 0.2 to 2 % of it.
 LEVEL = 0.01
 SAME = 1e-3  # share of the muscle's length by which recordings of one length may differ
 
 
 def repeats(segments: Sequence[Segment], l0: float) -> list[list[int]]:
-    """Return the numbers of the runs at each prescribed length, which does not change in a run.
+    """Return the indices of the runs at each prescribed length that is constant in a run.
 
     *l0* is the muscle's length in m.
     """
@@ -31,10 +31,10 @@ def repeats(segments: Sequence[Segment], l0: float) -> list[list[int]]:
 
 
 def level_unknowns(segments: Sequence[Segment], joint: Joint) -> list[Unknown]:
-    """Return the levels of all runs at a prescribed length but the last at each.
+    """Return the levels of all runs at a constant length except the last one at each length.
 
-    Runs are in the order in which they were recorded, of the one muscle of *joint*. A run whose
-    length changes has none.
+    The runs are in the order of their recording, of the single muscle of *joint*. A run whose
+    length changes has no level.
     """
     if segments[0].kind == 'free':
         return []

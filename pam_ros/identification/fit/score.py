@@ -1,30 +1,30 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""One score for any two models of the same recordings: their evidence, after Laplace.
+"""One score for any two models of the same recordings: their evidence, by Laplace's method.
 
-The evidence of a model is the probability of the data under it, whatever its unknowns are:
+The evidence of a model is the probability of the data under it, integrated over its unknowns:
 
     p(y) = integral p(y | z) p(z) dz
 
 with the residual y, white after the map W of :mod:`pam_ros.identification.fit.discrepancy`, and
 unknowns u = P z, where P holds the standard deviations of their priors and z ~ N(0, 1). Laplace's
-method takes the posterior as normal around its maximum (MacKay, Information Theory, Inference and
-Learning Algorithms, 2003, chapter 27). With the Jacobian J of W y there,
+method approximates the posterior by a normal distribution around its maximum (MacKay, Information
+Theory, Inference and Learning Algorithms, 2003, chapter 27). With the Jacobian J of W y there,
 
     -2 ln p(y) = |W y|^2 / sigma^2 + n ln(2 pi sigma^2) + ln det C
                  + z'z + ln det(1 + P J'J P / sigma^2)
 
-which is exact where y is linear in u. The last term is what the unknowns cost: it grows with how
-much more the data say of them than was known before, so that no count of parameters is needed
-beside it. At the most likely sigma^2 = |W y|^2 / n the first two terms are n ln sigma^2 and
-n (1 + ln 2 pi), which is the same for all models and is left out.
+This is exact if y is linear in u. The last term is the cost of the unknowns: it grows with the
+information that the data add to the priors, so that no additional count of parameters is needed.
+At the most likely sigma^2 = |W y|^2 / n the first two terms are n ln sigma^2 and n (1 + ln 2 pi);
+the latter is the same for all models and is left out.
 
 A difference of 10 between two models is very strong evidence (Kass and Raftery 1995).
 
 The size and the time of the discrepancy are those of the best score. The likelihood alone would
-take for granted the unknowns that were fitted to the very same residuals, and so find the slow
-part of the error too small and their intervals too short: the last term is the correction of a
-restricted likelihood (Patterson and Thompson 1971).
+treat the unknowns as known, although they were fitted to the same residuals. Then the slow part of
+the error would be too small, and the intervals of the unknowns too short. The last term is the
+correction of a restricted likelihood (Patterson and Thompson 1971).
 """
 
 from collections.abc import Sequence
@@ -38,21 +38,21 @@ from pam_ros.identification.fit.discrepancy import WHITE, Discrepancy, deviance
 
 Array = NDArray[np.float64]
 
-# Of the search for the discrepancy: times and sizes of its grid are so far apart, as factors.
+# Search for the discrepancy: factors between the times and between the sizes of its grid.
 FACTOR_TIME, FACTOR_SIZE = 8.0, 20.0
-LEAST_SIZE, GREATEST_SIZE = 1e-2, 1e3  # beyond it nothing is left of the process, or of the noise
-# What two more numbers must lower the score by: Akaike's (1974) price of a parameter, 2 each.
+LEAST_SIZE, GREATEST_SIZE = 1e-2, 1e3  # beyond it the process, or the noise, is negligible
+# Least fall of the score for two more numbers: Akaike's (1974) price of a parameter, 2 each.
 PRICE = 4.0
-# Share of the longest run that the correlation time may be. An error that keeps its value for all
-# of a run would be an offset that costs nothing, and the level of what is measured would count for
-# nothing; and less than ten correlation times say little of a process.
+# Largest correlation time, as a share of the longest run. An error that is constant over a whole
+# run would be an offset without cost, so that the level of the measurement would have no
+# influence. And less than ten correlation times contain little information on a process.
 LONGEST = 0.1
-CLOSE = 0.05  # how near to its best the score is found: nothing beside a margin of 10
-STEP = 1e-2  # of the logarithms, for the slopes of the score, which is smooth in them
+CLOSE = 0.05  # accuracy of the best score: small compared with a margin of 10
+STEP = 1e-2  # of the logarithms, for derivatives of the score, which is smooth in them
 
 
 def score(whitened: Array, jacobian: Array, z: Array, prior: Array, log_det: float) -> float:
-    """Return -2 ln(evidence) but for a constant of the data: the lower, the better the model.
+    """Return -2 ln(evidence) without a constant of the data: the lower, the better the model.
 
     *whitened* (n,) is the residual W y at the most probable unknowns, of all runs one after the
     other, *jacobian* (n, k) its derivatives to the unknowns u, *z* (k,) the unknowns in standard
@@ -77,12 +77,12 @@ def most_likely(
     """Return the discrepancy with which a model has its best score.
 
     *t* are the stamps of the runs in s; *residuals* (n,), of all runs one after the other, and
-    *jacobian* (n, k) are not whitened, *z* and *prior* as in :func:`score`. WHITE unless it lowers
-    the score by more than its two numbers are worth. Correlation times are sought from the
-    sampling period to a tenth of the longest run.
+    *jacobian* (n, k) are not whitened, *z* and *prior* as in :func:`score`. The result is
+    WHITE unless another one lowers the score by more than the price of its two numbers.
+    Correlation times are searched from the sampling period to a tenth of the longest run.
     """
     edges = np.cumsum([stamps.size for stamps in t])[:-1]
-    # Side by side they pass the filter at once.
+    # Side by side they are filtered in one pass.
     parts = np.split(np.column_stack([residuals, jacobian]), edges)
 
     def cost(z_of: Array) -> float:
@@ -106,7 +106,7 @@ def most_likely(
         for size in _steps(low[0], high[0], log(FACTOR_SIZE))
         for time in _steps(low[1], high[1], log(FACTOR_TIME))
     ]
-    # Where to begin, the likelihood of the residuals alone shows as well, and at little cost.
+    # For the starting point the likelihood of the residuals alone is sufficient, and cheap.
     start = min(grid, key=lambda z_of: _likely(Discrepancy(*np.exp(z_of)), t, residuals, edges))
     found = minimize(
         cost,
@@ -122,7 +122,7 @@ def most_likely(
 
 
 def _likely(discrepancy: Discrepancy, t: Sequence[Array], residuals: Array, edges: Array) -> float:
-    """Return -2 ln(likelihood) of residuals (n,), cut at *edges*, but for a constant."""
+    """Return -2 ln(likelihood) of residuals (n,), cut at *edges*, without a constant."""
     maps = [discrepancy.whitening(stamps) for stamps in t]
     parts = np.split(residuals, edges)
     return deviance([w(part) for w, part in zip(maps, parts, strict=True)], maps)

@@ -1,10 +1,10 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""How exactly the nominal values are known: the priors of what re-tuning may change.
+"""How exactly the nominal values are known: the priors of the unknowns of re-tuning.
 
 The constants of a muscle differ between specimens of its type, and always have a prior. Masses and
-lengths are measured, and are taken as they are, unless a user says with which standard deviation
-they are known.
+lengths are measured, and are treated as exact, unless a user gives the standard deviation with
+which they are known.
 """
 
 from collections.abc import Mapping, Sequence
@@ -25,20 +25,20 @@ from pam_ros.rig.joint import Joint
 Spreads = Mapping[str, float | str]
 ALLOWED = "a standard deviation above 0: in the parameter's unit, or as a share such as 50%"
 
-# Share of its prior standard deviation from which on a number counts as not determined: then the
-# recordings have halved its variance at most.
+# Standard deviation, as a share of the prior one, above which a number counts as not determined:
+# then the recordings have at most halved its variance.
 UNTOLD = 0.7
 
 
 def spread_unknowns(joint: Joint, muscles: Sequence[str], spreads: Spreads) -> list[Unknown]:
-    """Return what re-tuning may change: the constants of muscles, and what *spreads* names.
+    """Return the unknowns of re-tuning: the constants of muscles, and those in *spreads*.
 
     *spreads* are standard deviations by the names of parameters, ``inertia`` or ``agonist.a3``: a
     number in the parameter's unit, or a share of the nominal value as a text, ``'50%'``. A
-    constant's name without a muscle is that of all muscles. What cannot be negative has a normal
-    prior of its logarithm.
+    constant's name without a muscle applies to all muscles. A parameter that cannot be negative
+    has a normal prior of its logarithm.
 
-    Raises ParameterError for a name that is no such parameter, for a standard deviation that is
+    Raises ParameterError for a name that is not such a parameter, for a standard deviation that is
     not above 0, and for a share of 0.
     """
     instance('uncertain', spreads, Mapping, "standard deviations by name, {'inertia': '50%'}")
@@ -87,7 +87,7 @@ def _deviation(
 ) -> float:
     """Return the standard deviation that is *given*, in the unit of *value*.
 
-    With *is_share* only a share can be given: the unit of a constant depends on its source.
+    With *is_share* only a share is allowed, since the unit of a constant depends on its source.
     """
     what = f'uncertain {name}'
     text = given.strip() if isinstance(given, str) else given
@@ -114,8 +114,8 @@ def _deviation(
 def untold(known: Solution) -> tuple[str, ...]:
     """Return a sentence on each number of the rig that the fitted recordings do not determine.
 
-    Of two that act alike, such as an inertia and the scale of a torque, neither is determined, and
-    both stay near their nominal values.
+    If two numbers have the same influence, such as an inertia and the scale of a torque, neither
+    is determined, and both stay near their nominal values.
     """
     error = np.sqrt(np.diag(covariance(known, known.most_likely())))
     return tuple(

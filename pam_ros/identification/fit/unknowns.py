@@ -1,9 +1,10 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What a fit may change: entries of the parameter row, and the state at the start of a run.
+"""The unknowns of a fit: entries of the parameter row, and the state at the start of a run.
 
-Every unknown has a prior, a normal distribution of its coordinate u around 0. Those of constants
-and of starts say what is known; those of an effect's parameters are wide, see :func:`proper`.
+Every unknown has a prior, a normal distribution of its coordinate u around 0. The priors of
+constants and of starts are prior knowledge; those of an effect's parameters are wide, see
+:func:`proper`.
 """
 
 from collections.abc import Mapping, Sequence
@@ -23,18 +24,18 @@ from pam_ros.rig.layout import Layout
 
 Array = NDArray[np.float64]
 
-# How far a specimen's constants are expected from those declared for its type, relative. The
-# small a1 is a correction to a5 and published values differ by more than its size: a share of
-# a5 comes on top. The damping ratio is a guess more than a constant.
+# Expected relative difference of a specimen's constants from the nominal ones of its type. The
+# small a1 is a correction to a5, and published values differ by more than its size: a share of
+# a5 is added. The damping ratio is a guess rather than a constant.
 SPECIMEN = 0.03
 A1_OF_A5 = 0.01
 DAMPING = 0.5
-# Standard deviations of the state at a run's start, in those of the noise: 1 and 1/s. A
-# parabola through 30 ms knows the velocity to some 100 noises a second.
+# Standard deviations of the state at a run's start, relative to that of the noise: 1 and 1/s. A
+# parabola through 30 ms gives the velocity with an error of some 100 times the noise per second.
 START_Y_SPREAD, START_V_SPREAD = 2.0, 200.0
-# Standard deviations of the prior of an effect's parameters. A strength is told by its typical
-# size, which is meant as an order of magnitude: three of them. What is positive is expected
-# within a factor e^1.5 = 4.5 of where a fit begins, and starts are a factor of 5 to 10 apart.
+# Standard deviations of the prior of an effect's parameters. That of a strength is three times its
+# typical size, which is an order of magnitude. A positive parameter is expected within a factor
+# e^1.5 = 4.5 of its starting value, and starting values are a factor of 5 to 10 apart.
 STRENGTH, FACTOR = 3.0, 1.5
 
 
@@ -42,7 +43,7 @@ STRENGTH, FACTOR = 3.0, 1.5
 class Constant:
     """A constant of a muscle; *indices* are its places among the parameters.
 
-    *which* is that of the kernel's row: A1 to A6, or ZETA. *muscle* is the muscle's number.
+    *which* is its index in the kernel's row: A1 to A6, or ZETA. *muscle* is the muscle's number.
     """
 
     name: str
@@ -55,8 +56,8 @@ class Constant:
 class OfEffect:
     """A parameter of an effect; *indices* are its places among the parameters.
 
-    *place* is the name of the effect's place, *parameter* that of its parameter, and *name* that
-    which it has in a file of parameters.
+    *place* is the name of the effect's place, *parameter* that of its parameter, and *name* is its
+    name in a file of parameters.
     """
 
     place: str
@@ -67,7 +68,7 @@ class OfEffect:
 
 @dataclass(frozen=True)
 class OnsetTime:
-    """The moment in s, on the clock of the recording, at which all unknown effects begin."""
+    """The time in s, on the clock of the recording, at which all unknown effects begin."""
 
     name: str = 'onset'
 
@@ -87,10 +88,10 @@ class RunStart:
 
 @dataclass(frozen=True)
 class MemoryStart:
-    """A hidden state of an effect at the start of a run, as its distance from a long rest.
+    """A hidden state of an effect at the start of a run, relative to its value after a long rest.
 
     ``row`` and ``column`` are its place in the state x, and ``place`` is the name of the effect's
-    place. Rigs that are already moving, or have moved a minute ago, begin away from rest.
+    place. Rigs that are already moving, or moved a minute ago, do not start from such a rest.
     """
 
     run: int
@@ -108,11 +109,12 @@ class MemoryStart:
 
 @dataclass(frozen=True)
 class RunLevel:
-    """How far the force of a run lies off that of the last run at the same length, in N.
+    """The offset of the force of a run from that of the last run at the same length, in N.
 
-    A muscle that was brought to another length settles there for many minutes, and a force cell's
-    zero wanders. What wanders is best foretold by its last value (the local level model; Durbin
-    and Koopman 2012, section 2.2): the law is that of the last runs, and has no level there.
+    A muscle that was brought to another length settles there for many minutes, and the zero of a
+    force cell drifts. The best prediction of a drifting value is its last value (the local level
+    model; Durbin and Koopman 2012, section 2.2). So the force law is that of the last runs, which
+    have no level.
     """
 
     run: int
@@ -125,25 +127,25 @@ class RunLevel:
 
 @dataclass(frozen=True)
 class CommandTime:
-    """By how many s commands acted before the stamps of their receipt, in all runs alike.
+    """The time in s by which commands acted before their stamps of receipt, equal in all runs.
 
-    It is unknown where the clock of the commands is not that of the outputs. A lag or a dead time
-    is known no better than this time.
+    It is unknown if the clock of the commands is not that of the outputs. A lag or a dead time is
+    known no more accurately than this time.
     """
 
     name: str = 'command time'
 
 
 OF_RUNS = (RunStart, MemoryStart, RunLevel)
-DECLARED = (Constant, OfRig)  # what re-tuning may change
+DECLARED = (Constant, OfRig)  # unknowns of re-tuning
 
 
 @dataclass(frozen=True)
 class Unknown:
     """One number to be fitted, without unit: value = base + scale u, or base exp(scale u).
 
-    ``of`` says what it is. ``prior`` is the standard deviation of u around 0 that is expected
-    beforehand, infinite where nothing is known. ``low``, ``high`` bound the value.
+    ``of`` is the quantity that it describes. ``prior`` is the prior standard deviation of u around
+    0, infinite if nothing is known. ``low``, ``high`` bound the value.
     """
 
     of: Constant | OfRig | OfEffect | OnsetTime | CommandTime | RunStart | MemoryStart | RunLevel
@@ -165,13 +167,13 @@ class Unknown:
         return isinstance(self.of, Constant | OfRig | OfEffect)
 
     def value(self, u: float) -> float:
-        """Return the physical value at u, which rounding does not carry past its bounds."""
+        """Return the physical value at u, limited to its bounds in spite of rounding."""
         move = self.scale * u
         value = self.base * exp(move) if self.logarithmic else self.base + move
         return min(max(value, self.low), self.high)
 
     def coordinate(self, value: float) -> float:
-        """Return u at a physical value; infinite beyond what a logarithm can say."""
+        """Return u at a physical value; infinite if its logarithm is not finite."""
         if self.logarithmic:
             if value <= 0.0:
                 return -np.inf
@@ -185,11 +187,11 @@ class Unknown:
 
 
 def declared_unknowns(model: Joint, muscles: Sequence[str] = ()) -> list[Unknown]:
-    """Return the declared parameters that re-tuning may change: a1..a6 and zeta where not 0.
+    """Return the nominal parameters that re-tuning may change: a1..a6 and zeta if not 0.
 
-    Each muscle has its own, for they are specimens; *muscles* are the names of several. The mass,
-    the length and the limits are measured with a scale and a rule: a residual that they explain
-    is an effect (payload, length offset).
+    Each muscle has its own, since muscles are specimens; *muscles* are the names of several. The
+    mass, the length and the limits are measured with a scale and a ruler: a residual that they
+    explain is an effect (payload, length offset).
     """
     names = names_of_muscles(model, muscles)
     several = len(names) > 1
@@ -220,12 +222,12 @@ def _constants(model: Joint, i: int, whose: str) -> list[Unknown]:
 
 
 def run_unknowns(segments: Sequence[Segment], sigma: float) -> list[Unknown]:
-    """Return position and velocity at the start of each free run that is fitted at all.
+    """Return position and velocity at the start of each free run with samples to fit.
 
-    *sigma* is the noise of the position in m. A start that is free to move would hide an error
-    of the model, above all where no spring brings the load back: it stays as near to the
-    measurement as its noise and the curvature of the first samples allow. With an infinite
-    *sigma*, for thinned runs, it is free.
+    *sigma* is the noise of the position in m. A start without a prior would hide an error of the
+    model, above all if no spring returns the load. So it stays as near to the measurement as its
+    noise and the curvature of the first samples allow. With an infinite *sigma*, for short runs of
+    a load without a spring, it is free.
     """
     found = []
     for k, s in enumerate(segments):
@@ -242,15 +244,15 @@ def run_unknowns(segments: Sequence[Segment], sigma: float) -> list[Unknown]:
 
 
 def time_unknowns(segments: Sequence[Segment]) -> list[Unknown]:
-    """Return the time between the stamps and the effect of commands, where it is unknown."""
+    """Return the time between the stamps and the effect of commands, if it is unknown."""
     spread = max((s.drive_spread for s in segments if isinstance(s, FreeSegment)), default=0.0)
     return [Unknown(CommandTime(), 0.0, spread, prior=1.0)] if spread else []
 
 
 def onset_unknown(segments: Sequence[Segment], near: float) -> Unknown:
-    """Return the moment in s at which effects begin, *near* which it is looked for.
+    """Return the time in s at which effects begin, as an unknown that is searched *near* a time.
 
-    Nothing else is known of it beforehand than that it lies within the recording.
+    The only prior knowledge is that it lies within the recording.
     """
     first, last = segments[0].t[0], max(s.t[-1] for s in segments)
     spread = (last - first) / sqrt(12.0)  # of a uniform distribution
@@ -260,9 +262,9 @@ def onset_unknown(segments: Sequence[Segment], near: float) -> Unknown:
 def effect_unknowns(model: Joint, place: Place, start: Mapping[str, float]) -> list[Unknown]:
     """Return the parameters of the effect at *place* that a fit from *start* changes.
 
-    Those named in *start*; a parameter that it leaves at its default stays there. Strengths
-    move linearly, so that they can reach 0; the others by their logarithm where they must be
-    positive.
+    These are the ones named in *start*; a parameter that is not named keeps its default. Strengths
+    are linear in u, so that they can reach 0; other parameters are exponential in u if they must
+    be positive.
     """
     found = []
     for k, p in enumerate(place.parameters):
@@ -281,7 +283,7 @@ def effect_unknowns(model: Joint, place: Place, start: Mapping[str, float]) -> l
 
 
 def proper(unknown: Unknown) -> Unknown:
-    """Return *unknown* with a wide prior where it has none: an evidence needs a proper one."""
+    """Return *unknown* with a wide prior if it has none, since an evidence needs a proper one."""
     if np.isfinite(unknown.prior):
         return unknown
     return replace(unknown, prior=FACTOR if unknown.logarithmic else STRENGTH)
@@ -290,9 +292,8 @@ def proper(unknown: Unknown) -> Unknown:
 def memory_unknowns(layout: Layout, place: Place, runs: int) -> list[Unknown]:
     """Return the hidden states of the effect at *place* at the start of each of *runs* runs.
 
-    Those that may be away from rest there, with the spread that the effect declares, in each
-    muscle its own; none where a parameter of the effect, ``initial``, says already where its
-    memory begins.
+    These are the states with a spread above 0, which the effect defines; each muscle has its own.
+    There are none if a parameter of the effect, ``initial``, already gives its initial memory.
     """
     if any(p.name == INITIAL for p in place.parameters):
         return []

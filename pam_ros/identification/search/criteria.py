@@ -1,46 +1,48 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The numbers that decide in a search, each with its reason, and those that limit computing."""
+"""The numbers for the decisions of a search, each with its reason, and limits of computing."""
 
 from dataclasses import dataclass
 
 
 @dataclass(frozen=True)
 class Criteria:
-    """What decides.
+    """The numbers for decisions.
 
-    ``margin``: of two models, how much lower the score of the better one must be. The score is
+    ``margin``: least difference between the scores of two models for a decision. The score is
     -2 ln(evidence), and 10 is "very strong" (Kass and Raftery 1995).
-    ``fit``, ``choose``: shares of each recording at which the part that fits see ends, and the
-    part that choices see. The rest judges. Half of the data fix parameters, and a quarter each is
-    long enough to show what a model carries on to by itself.
+    ``fit``, ``choose``: shares of each recording at which the fitted part ends, and at which the
+    part for choices ends. The rest judges. Half of the data determine parameters, and a quarter
+    each is long enough to show how well the free run of a model continues.
     ``worse``: factor by which a move may raise the product of the errors of the free run over
     *fit* and *choose*. The score weighs whitened residuals, in which a slow drift costs little; a
     free run shows it.
-    ``gain``: share by which a first effect must lower the error, on *fit* and on *choose*.
-    Jittered stamps, and constants two deviations of their priors away, are worth scores of 10 to
-    20 to any effect, and 0.5 % of the error.
-    ``strain``: or by how much it must lower the prior chi-square of the declared constants, which
-    re-tuning has moved to make up for it, and what may be left of that. Of seven constants within
-    their priors one specimen of 180 has more than 20.
-    ``form``: share of what re-tuning leaves that a further effect must explain, or of what the
-    others have lowered the score by. No law of the library has nature's form: those of another
-    plant left 5 to 15 % of what the right effect explained, and that rest invites other effects.
-    ``most``: or the share, of what the model before it leaves above the noise.
-    ``complete``: errors in noise floors within which a model explains everything.
-    ``left``: share of what re-tuning leaves above the noise that a claim may leave, if that is
-    more than the noise: on *fit*, and on *fit* and *choose* by the geometric mean. Of some 80
-    recordings the right effects left at most 0.30, most of them below 0.1. Of what the library
-    does not have, wrong effects left 0.62 to 0.96 of a backlash and a second mode, 0.30 to 0.97 of
-    a coupling, a saturation and a random walk, and 0.22 to 0.59 of a drift with the temperature,
-    whose form is much like that of softening. The same share says since when a re-tuned model
-    fails: before the moment it leaves no more than that of what it leaves after, and at most the
-    noise over that share. Of 36 recordings in which something began it left 0.4 to 2.1 noise
-    floors before and 2.5 to 1500 after; where it had lacked an effect all along, 6 and more
-    before.
-    ``duration``: s of recording at least, and ``range``: in noise floors, what the target must
-    change by at least, for a verdict. They are what excites a rig's slowest mode (some 0.5 Hz) a
-    few times, and what leaves an error of a tenth of the motion above the noise.
+    ``gain``: share by which a first effect must lower the error, on *fit* and on *choose*. With
+    jittered stamps, or with constants two standard deviations of their priors away, any effect can
+    lower the score by 10 to 20 and the error by 0.5 %.
+    ``strain``: alternatively, the least decrease of the prior chi-square of the nominal constants,
+    which re-tuning has moved to compensate for the missing effect, and the largest value that may
+    remain. With seven constants within their priors one specimen of 180 has more than 20.
+    ``form``: share of the error after re-tuning that a further effect must explain, or share of
+    the decrease of the score by the other effects. No law of the library has exactly the form of
+    the real system: the laws of another plant left 5 to 15 % of what the right effect explained,
+    and other effects can explain this rest.
+    ``most``: alternatively, the share that it must explain of the error above the noise of the
+    model before it.
+    ``complete``: largest error, in noise floors, of a model that explains everything.
+    ``left``: largest share of the error above the noise after re-tuning that may remain with the
+    claimed effects, if it is more than the noise: on *fit*, and on *fit* and *choose* by the
+    geometric mean. In some 80 recordings the right effects left at most 0.30, most of them below
+    0.1. For phenomena that the library does not have, wrong effects left 0.62 to 0.96 of a
+    backlash and a second mode, 0.30 to 0.97 of a coupling, a saturation and a random walk, and
+    0.22 to 0.59 of a drift with the temperature, whose form is similar to that of softening. The
+    same share determines since when a re-tuned model fails: before this time its error is at most
+    this share of its error after it, and at most the noise over this share. In 36 recordings in
+    which something began, it was 0.4 to 2.1 noise floors before and 2.5 to 1500 after; if an
+    effect was missing from the start, it was 6 and more before.
+    ``duration``: least s of recording, and ``range``: least change of the target, in noise floors,
+    for a verdict. The duration excites a rig's slowest mode (some 0.5 Hz) a few times. With this
+    range an error of a tenth of the motion is above the noise.
     """
 
     margin: float = 10.0
@@ -59,16 +61,17 @@ class Criteria:
 
 @dataclass(frozen=True)
 class Budget:
-    """What limits computing.
+    """Limits of computing.
 
     ``effects``: most effects of a model. ``rounds``: most steps from model to better model.
     ``looks``: iterations of a first fit from each start. ``fits``: starts of an effect from which
-    a fit goes on. ``rivals``: candidates of a round that are fitted closer, by ``closer``
-    iterations, as the last fits are from where long steps have led. ``iterations``: those of a fit
-    to its end. ``finer``: steps of the last fit for one of the others. ``nearer``: iterations from
-    the place of the best score towards the nearest free run. ``window``: length in s of the runs
-    of a load without a spring. ``samples``: most thinned samples that a search fits; of what is
-    longer, rests are shortened, and recordings left out but for one.
+    a fit continues. ``rivals``: candidates of a round that are fitted further, by ``closer``
+    iterations; the last fits use as many, from the results with long steps. ``iterations``:
+    those of a complete fit. ``finer``: number of steps of the confirming fit in one step of the
+    others. ``nearer``: iterations from the result of the best score towards the nearest free run.
+    ``window``: length in s of the runs of a load without a spring. ``samples``: most thinned
+    samples that a search fits; if there are more, rests are shortened, and recordings are left
+    out, but never all.
     """
 
     effects: int = 3

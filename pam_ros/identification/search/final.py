@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The models of a search, fitted by short steps to all samples that a verdict may rest on."""
+"""The models of a search, fitted with short steps to all samples that a verdict may use."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -23,10 +23,11 @@ STEP = 1e-3  # s, longest step of the simulations
 
 @dataclass(frozen=True, eq=False)
 class Final:
-    """The declared, the re-tuned and the augmented model, fitted to *fit* and *choose*.
+    """The nominal, the re-tuned and the augmented model, fitted to *fit* and *choose*.
 
-    Of the declared model only the starts and the levels of runs are fitted. ``parts`` are those of
-    the setting, in the order of the runs; what has too few samples to be one comes last.
+    In the nominal model only unknowns that are not parameters are fitted, such as the starts and
+    the levels of runs. ``parts`` are those of the setting, in the order of the runs; parts with
+    too few samples for a run come last.
     """
 
     parts: tuple[Part, ...]
@@ -36,7 +37,7 @@ class Final:
 
 
 def final(found: Search) -> Final:
-    """Return the models of a search, fitted in full: by least squares, nearest in free run."""
+    """Return the models of a search, fitted completely: by least squares of the free run."""
     setting = found.setting
     parts = tuple(sorted(setting.parts, key=lambda part: not _is_run(part)))
     runs = [run_of(part.segment, part.known) for part in parts if _is_run(part)]
@@ -54,9 +55,10 @@ def _is_run(part: Part) -> bool:
 
 
 def _nearer(found: Search, whole: Problem) -> tuple[Problem, Array]:
-    """Return where to begin with the chosen effects: the nearer end of short and of long steps.
+    """Return the start of the chosen model's fit: the better result of short and long steps.
 
-    Where a load sticks or hits, a fit that is right with one step may lie far off with another.
+    If a load sticks or hits something, a fit that is right with one step may be wrong with
+    another.
     """
     best, setting = found.best, found.setting
     same = [m for m in found.looked_at if {*m.effects} == {*best.effects}]
@@ -67,10 +69,10 @@ def _nearer(found: Search, whole: Problem) -> tuple[Problem, Array]:
 
 
 def _nearest(problem: Problem, u: Array, setting: Setting) -> Solution:
-    """Return the least squares of a problem, from u on.
+    """Return the least-squares fit of a problem, from u.
 
-    A fit to thinned samples by the longest steps that resolve the rig comes first: it costs a
-    tenth, and leads nearly there, but for a load that hits something.
+    First a fit to thinned samples is made with the longest steps that resolve the rig. It costs a
+    tenth, and its result is nearly the final one, except for a load that hits something.
     """
     budget, pool = setting.budget, setting.pool
     segments = tuple(thinned(s, setting.step) for s in problem.segments)
@@ -82,7 +84,7 @@ def _nearest(problem: Problem, u: Array, setting: Setting) -> Solution:
 
 
 def _begun(model: Model, whole: Problem, setting: Setting) -> tuple[Problem, Array]:
-    """Return the problem of *model* on the runs of *whole*, and its unknowns there."""
+    """Return the problem of *model* on the runs of *whole*, and its unknowns at the start."""
     known = model.solution.problem
     own = [k for k, unknown in enumerate(known.unknowns) if unknown.is_parameter]
     starts = [unknown for unknown in whole.unknowns if not unknown.is_parameter]
@@ -94,17 +96,17 @@ def _begun(model: Model, whole: Problem, setting: Setting) -> tuple[Problem, Arr
         active=known.active,
         unknowns=(*(known.unknowns[k] for k in own), *starts),
     )
-    # The short runs of a load without a spring are others than those of the search, and a search
-    # of many recordings has seen some of them only.
+    # The short runs of a load without a spring differ from those of the search, and a search of
+    # many recordings has used only some of them.
     is_same = not setting.drifts and len(setting.searched) == len(setting.parts)
     there = _starts_of(model) if is_same else {}
     moved = [one.coordinate(there[one.name]) if one.name in there else 0.0 for one in starts]
-    # Thinned samples say less of a start than all of them.
+    # Thinned samples determine a start less accurately than all samples.
     return problem, np.concatenate([model.nearest[own], np.clip(moved, -2.0, 2.0)])
 
 
 def _starts_of(model: Model) -> dict[str, float]:
-    """Return where runs and memories of a fit begin, by name."""
+    """Return the values of the unknowns of a fit that are not parameters, by name."""
     pairs = zip(model.solution.problem.unknowns, model.nearest, strict=True)
     return {k.name: k.value(u) for k, u in pairs if not k.is_parameter}
 
@@ -112,16 +114,16 @@ def _starts_of(model: Model) -> dict[str, float]:
 def simulated(known: Solution, parts: Sequence[Part], setting: Setting) -> list[Array]:
     """Return the free run of a final fit through each of its *parts*, from its start.
 
-    A load without a spring begins as it was measured: the starts of its short runs are others.
+    For a load without a spring this is the measured start: the starts of short runs are different.
     """
     segments = [part.segment for part in parts]
     return carried(known, segments, setting.left_out)
 
 
 def errors_of(runs: Sequence[Array], parts: Sequence[Part]) -> tuple[float, float]:
-    """Return the RMSE in m or N of free runs through *parts* before *judge*, and over it.
+    """Return the RMSE in m or N of free runs through *parts*, without *judge*, and over it.
 
-    NaN where there is nothing to judge by. It is for reports: a search that asks for it judges
+    NaN if there are no judging samples. It is only for reports: a search that used it would judge
     itself.
     """
     left = [run - part.segment.target for run, part in zip(runs, parts, strict=True)]

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What a report says of isometric recordings at one length whose force lies apart."""
+"""Warnings for isometric recordings at one length whose forces differ."""
 
 import numpy as np
 
@@ -14,7 +14,7 @@ from pam_ros.rig import layout as at
 def apart(known: Solution, noise: float) -> tuple[str, ...]:
     """Return a sentence for each length whose recordings differ by more than the *noise* in N.
 
-    The differences are the levels that were fitted, those of the last recording being 0.
+    The differences are those of the fitted levels; that of the last recording is 0.
     """
     problem = known.problem
     l0 = float(problem.row[problem.layout.constant(at.L0)])

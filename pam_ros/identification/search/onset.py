@@ -1,10 +1,11 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Since when does a model fail: the moment up to which it explains a recording.
+"""The time from which a model fails: up to this time it explains a recording.
 
-The constants of the nominal model are fitted to the beginning of a recording, and the model is run
-on. As long as it carries on as well as it was fitted, more of the recording is taken in. Where the
-next block of it is off by far more, and stays so although it is fitted, too, something has begun.
+The constants of the nominal model are fitted to the beginning of a recording, and the simulation
+continues. As long as the continuation is as good as the fit, more of the recording is fitted. If
+the error of the next block is much larger, and stays so even if this block is fitted, too, an
+effect has begun.
 """
 
 from collections.abc import Sequence
@@ -27,9 +28,9 @@ from pam_ros.identification.search.setting import Model, Setting, rms
 from pam_ros.identification.search.starts import without_idle
 
 Array = NDArray[np.float64]
-BLOCKS, WITHIN = 20, 10  # of a recording, 3 s of a minute, and of a block
-FIRST = 3  # of them that are fitted first: a seventh of the data fixes seven constants roughly
-ITERATIONS = 8  # of these fits, each of which begins where the one before has ended
+BLOCKS, WITHIN = 20, 10  # blocks of a recording (3 s of a minute), and of a block
+FIRST = 3  # blocks that are fitted first: a seventh of the data roughly fixes seven constants
+ITERATIONS = 8  # of these fits; each begins at the result of the one before
 
 
 @dataclass(frozen=True)
@@ -42,10 +43,10 @@ class Moment:
 
 
 def moment(setting: Setting) -> Moment | None:
-    """Return the moment from which on the re-tuned model fails, None where there is none.
+    """Return the time from which the re-tuned model fails, None if there is none.
 
-    That is asked of one recording of a load that moves and has a spring: only there is what comes
-    next a question that a model has to answer.
+    It is evaluated only for a single recording of a load that moves and has a spring: only there
+    the continuation tests the model.
     """
     runs = _runs(setting)
     if not runs or setting.drifts or runs[0].kind != 'free':
@@ -68,12 +69,12 @@ def moment(setting: Setting) -> Moment | None:
     located = _located(t[near], left[near])
     if rms(left[t < located.time]) > setting.noise / setting.criteria.left:
         return None
-    # What begins takes a while to show.
+    # An effect becomes visible only some time after it begins.
     return replace(located, low=min(located.low, float(edges[first])))
 
 
 def _runs(setting: Setting) -> list[Segment]:
-    """Return the stretches of the one recording in their order, thinned; none of several."""
+    """Return the stretches of a single recording in their order, thinned; none of several."""
     segments = sorted((part.segment for part in setting.parts), key=lambda s: float(s.t[0]))
     names = {s.name for s in segments}
     if len(names) > 1 or any(a.t[-1] >= b.t[0] for a, b in pairwise(segments)):
@@ -87,13 +88,13 @@ def shares_after(
 ) -> tuple[float, float] | None:
     """Return the shares of a recording that are fitted, and that are fitted or decide.
 
-    Those are the *shares* of what comes after the moment *since*, for only that shows what has
-    begun. None where less than *least* s of it would be fitted.
+    They are the *shares* of the time after *since*, since only this time shows what has begun.
+    None if less than *least* s of it would be fitted.
     """
     t = [t for part in parts for t in (part.segment.t[0], part.segment.t[-1])]
     first, last = min(t), max(t)
     gone = (since.time - first) / (last - first)
-    # All of it is exactly all of the recording.
+    # A share of 1 remains exactly 1.
     fit, choose = (1.0 - (1.0 - share) * (1.0 - gone) for share in shares)
     return (fit, choose) if (fit - gone) * (last - first) >= least else None
 
@@ -101,10 +102,10 @@ def shares_after(
 def search_since(setting: Setting, late: Setting, tell: Progress) -> Search:
     """Find the effects that begin late, or else those that act from the start.
 
-    *late* is the setting in which all effects begin at one moment, and *setting* that in which
-    they are there from the start. An effect from the start can explain a model that fails in the
-    middle, too: a load that meets an end stop there for the first time. Where the effects explain
-    as much from the start, nothing has begun.
+    *late* is the setting in which all effects begin at one time, and *setting* is that in which
+    they act from the start. An effect that acts from the start can also explain a model that fails
+    in the middle, such as a load that meets an end stop there for the first time. If the effects
+    explain as much from the start, nothing has begun.
     """
     found = search(late, tell)
     best = found.best
@@ -114,7 +115,7 @@ def search_since(setting: Setting, late: Setting, tell: Progress) -> Search:
 
 
 def _from_start(late: Model, setting: Setting) -> Model:
-    """Return the model with the same effects, from the start of the recording on."""
+    """Return the model with the same effects, acting from the start of the recording."""
     known = late.solution
     k = index_of_onset(known)
     assert k is not None
@@ -130,9 +131,10 @@ def _from_start(late: Model, setting: Setting) -> Model:
 def _failing(
     whole: Problem, t: Array, edges: Array, known: Array, setting: Setting
 ) -> tuple[int, Array] | None:
-    """Return the first block between *edges* in s that the model does not explain, with a fit.
+    """Return the first block between *edges* in s that the model does not explain, and a fit.
 
-    The fit is to what lies before it; *known* is that to what lies before the first edge.
+    The fit is to the samples before this block; *known* is the fit to those before the first edge.
+    None if the model explains all blocks.
     """
     for k, (end, next_end) in enumerate(pairwise(edges)):
         before, block = t <= end, (t > end) & (t <= next_end)
@@ -150,8 +152,8 @@ def _failing(
 
 
 def _fitted(whole: Problem, end: float, u: Array, setting: Setting) -> Array:
-    """Return the unknowns of *whole*, fitted to what lies before *end* s, from u on."""
-    # Stretches are in their order, so that those left out are the last ones.
+    """Return the unknowns of *whole*, fitted to the samples up to *end* s, from u."""
+    # Stretches are in order, so that the last ones are left out.
     runs = [s for s in whole.segments if _count(s, end) >= FEWEST]
     keep = [
         n
@@ -174,9 +176,9 @@ def _count(segment: Segment, end: float) -> int:
 
 
 def _located(t: Array, left: Array) -> Moment:
-    """Return the most likely moment at which the variance of *left* (n,) grows, at stamps t.
+    """Return the most likely time at which the variance of *left* (n,) changes, at stamps t.
 
-    Both variances are those of the most likely moment.
+    For each time, the variances before and after it have their most likely values.
     """
     power = left**2
     n = np.arange(1, t.size)

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Which effects the recordings could have shown at all: the power of a test for each."""
+"""The effects that the recordings could have shown: the power of a test for each."""
 
 from collections.abc import Iterable, Mapping
 
@@ -19,7 +19,8 @@ Array = NDArray[np.float64]
 def hidden(model: Model, names: Iterable[str], setting: Setting) -> dict[str, str]:
     """Return those of the effects *names* that the recordings could not show, each with a reason.
 
-    Clearly present beside *model*, the best one, they would not lower the score by the margin.
+    If they were clearly present in addition to *model*, the best one, they would lower the score
+    by less than the margin.
     """
     places = [setting.places[name] for name in names]
     powers = setting.pool.map(lambda place: power(model, place, setting), places)
@@ -34,9 +35,10 @@ def hidden(model: Model, names: Iterable[str], setting: Setting) -> dict[str, st
 def power(model: Model, place: Place, setting: Setting) -> float:
     """Return the most by which the effect at *place*, clearly present, would lower the score.
 
-    That is the square of what it changes in the whitened run, over the variance of the noise: the
-    noncentrality of the likelihood-ratio test (Wald 1943). What the unknowns of *model* can make
-    up for is taken off. The effect is present as in its example, and as at each start of a fit.
+    This is the squared change of the whitened run by the effect, over the variance of the noise:
+    the noncentrality of the likelihood-ratio test (Wald 1943). The part of the change that the
+    unknowns of *model* can compensate is removed. The effect is as in its example, and as at each
+    start of a fit.
     """
     known = model.solution
     starts = (place.example, *place.fit_starts, *guessed(model, place))

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""One loop over moves from model to model, until none pays."""
+"""A loop over moves from model to model, until no move is accepted."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
@@ -12,12 +12,12 @@ from pam_ros.identification.fit.solve import settled, solved
 from pam_ros.identification.search.moves import dropped, fixed, freed, swapped, with_each
 from pam_ros.identification.search.setting import Model, Setting
 
-Progress = Callable[[float, str], None]  # share of the work that is done, and what is done next
+Progress = Callable[[float, str], None]  # share of the work that is done, and the next step
 
 
 @dataclass(eq=False)
 class Search:
-    """How a search went: every model that it looked at, and those that it ended with."""
+    """The course of a search: every model that it evaluated, and its final models."""
 
     setting: Setting
     retuned: Model
@@ -26,7 +26,7 @@ class Search:
 
 
 def search(setting: Setting, tell: Progress = lambda share, text: None) -> Search:
-    """Find the effects that the declared model lacks; *tell* is called with the progress."""
+    """Find the effects that the nominal model lacks; *tell* is called with the progress."""
     tell(0.0, 're-tuning the parameters')
     problem = setting.problem
     u = np.zeros(len(problem.unknowns))
@@ -47,11 +47,11 @@ def search(setting: Setting, tell: Progress = lambda share, text: None) -> Searc
 
 
 def _better(found: Search) -> Model | None:
-    """Return the model that the best round of moves leads to, if it pays."""
+    """Return the model after the best round of moves, if it is accepted."""
     setting, best = found.setting, found.best
     tried = with_each(best, absent(best, setting), setting)
     found.looked_at += tried
-    # What lowers the score alone may do so by a slow error that hardly shows in the free run.
+    # An effect that lowers only the score may describe a slow error that is small in the free run.
     for able in leading(tried, best, setting):
         if pays(able, best, setting) and matters(able, best, found.retuned, setting):
             now = _reduced(_freed(_plainer(able, found), found), found)
@@ -63,9 +63,10 @@ def _better(found: Search) -> Model | None:
 def leading(tried: list[Model], best: Model, setting: Setting) -> list[Model]:
     """Return *tried* models in the order in which they may become the best one: by their scores.
 
-    Where recordings choose that no fit has seen, those that were fitted closely and pay come
-    first, by their free runs: at other operating points these say more than any score. What
-    comes next in the same recording is carried on by any broader effect as well.
+    If choices use only recordings that are not fitted, the models that were fitted closely and are
+    accepted come first, in the order of the errors of their free runs. At other operating points
+    free runs contain more information than any score. In contrast, any broader effect can explain
+    the continuation of the same recording as well.
     """
     if not setting.is_crossed:
         return tried
@@ -75,9 +76,9 @@ def leading(tried: list[Model], best: Model, setting: Setting) -> list[Model]:
 
 
 def exchanged(found: Search) -> Model | None:
-    """Return the model with a rival in the place of one of the effects, if it pays.
+    """Return the model with a rival instead of one of the effects, if it is accepted.
 
-    An effect that was chosen first was chosen without those that came after it.
+    The first effect was chosen without those that were added later.
     """
     setting, best = found.setting, found.best
     tried: list[Model] = []
@@ -93,9 +94,9 @@ def exchanged(found: Search) -> Model | None:
 
 
 def confirmed(found: Search) -> Model:
-    """Return the best model, fitted with finer steps, without what the coarse ones asked for.
+    """Return the best model, fitted with finer steps, without what only coarse steps need.
 
-    A coarse step is a wrong model, too: a dead time can make up for it where a load meets a stop.
+    A coarse step is a model error, too: a dead time can compensate it if a load meets a stop.
     """
     setting, best = found.setting, found.best
     if not best.effects:
@@ -122,23 +123,24 @@ def absent(model: Model, setting: Setting) -> list[str]:
 
 
 def pays(now: Model, than: Model, setting: Setting) -> bool:
-    """Say whether a larger model's score is lower by the margin and its free run no worse."""
+    """Return whether a larger model's score is lower by the margin and its free run no worse."""
     return now.score < than.score - setting.criteria.margin and no_worse(now, than, setting)
 
 
 def no_worse(now: Model, than: Model, setting: Setting) -> bool:
-    """Say whether what a model carries on to by itself is no worse than what it gains in the fit.
+    """Return whether a model's free run over *choose* loses no more than it gains over *fit*.
 
-    Constants that half of the data fix are worth some percent of an error to the other half.
+    The product of both errors may grow by the factor ``worse``: constants that are fitted to half
+    of the data cause some percent of an error in the other half.
     """
     a, b = than.errors, now.errors
     return b.carried * b.fit <= setting.criteria.worse * a.carried * a.fit
 
 
 def joined(now: Model, found: Search) -> Model:
-    """Return *now* with an effect alike in all muscles that have it each, if hardly more is left.
+    """Return *now* with one effect for all muscles instead of one each, if it is nearly as good.
 
-    That has fewer parameters, and muscles of one type have the same effects.
+    This has fewer parameters, and muscles of one type have the same effects.
     """
     setting = found.setting
     for effect in dict.fromkeys(effect_of(name) for name in now.effects if muscle_of(name)):
@@ -159,15 +161,15 @@ def joined(now: Model, found: Search) -> Model:
 
 
 def _hardly_more(now: Model, than: Model, setting: Setting) -> bool:
-    """Say whether what a simpler model leaves is hardly more, on *fit* and on *choose*."""
+    """Return whether the error of a simpler model is hardly larger, on *fit* and on *choose*."""
     room, a, b = 1.0 + setting.criteria.gain, than.errors, now.errors
     return b.fit <= room * a.fit and b.choose <= room * a.choose
 
 
 def _plainer(now: Model, found: Search) -> Model:
-    """Return *now* with effects in the place of those that contain them, if hardly more is left.
+    """Return *now* with simpler effects instead of those that contain them, if nearly as good.
 
-    A leak of which the refill alone shows is a lag. What is broader can always be fitted as well.
+    A leak of which only the refill is visible is a lag. A broader effect always fits as well.
     """
     setting = found.setting
     now = joined(now, found)
@@ -186,7 +188,7 @@ def _plainer(now: Model, found: Search) -> Model:
 
 
 def _freed(now: Model, found: Search) -> Model:
-    """Return *now* with those finer parameters of its effects that pay."""
+    """Return *now* with those additional parameters of its effects that are accepted."""
     setting = found.setting
     while not is_complete(now, setting):
         wider = freed(now, setting)
@@ -201,8 +203,9 @@ def _freed(now: Model, found: Search) -> Model:
 def _reduced(now: Model, found: Search) -> Model:
     """Return *now* without those of its effects that it does not need, or that matter too little.
 
-    Each is left out where the others now are: where something sticks or hits, fits stop early, and
-    any effect more can shake them into their optimum. It must not keep the credit for that.
+    Each is removed while the other unknowns begin at their present values. If something sticks or
+    hits, fits stop early, and any additional effect can move them to their optimum. This
+    improvement must not count for the effect.
     """
     setting = found.setting
     while now.effects:
@@ -224,7 +227,7 @@ def _reduced(now: Model, found: Search) -> Model:
 def _fixed(now: Model, found: Search) -> Model:
     """Return *now* without those parameters of its effects that it does not need.
 
-    They were freed before the effects were there that came after.
+    They became unknown before later effects were added.
     """
     setting = found.setting
     while True:
@@ -238,13 +241,13 @@ def _fixed(now: Model, found: Search) -> Model:
 
 
 def best_with(effects: set[str], step: float, found: Search) -> Model:
-    """Return the best model with just these effects, and this step, of those looked at."""
+    """Return the best evaluated model with exactly these effects and this step."""
     same = [m for m in found.looked_at if {*m.effects} == effects]
     return min((m for m in same if m.solution.problem.step == step), key=lambda m: m.score)
 
 
 def is_complete(model: Model, setting: Setting) -> bool:
-    """Say whether a model with effects leaves no more than noise, with constants as expected."""
+    """Return whether a model with effects leaves only noise, with constants as expected."""
     if not model.effects or model.strain > setting.criteria.strain:
         return False
     most = setting.criteria.complete * setting.noise
@@ -252,9 +255,10 @@ def is_complete(model: Model, setting: Setting) -> bool:
 
 
 def matters(now: Model, before: Model, retuned: Model, setting: Setting) -> bool:
-    """Say whether a new effect explains more than the form of the others could miss.
+    """Return whether a new effect explains more than an error in the form of the others could.
 
-    None does with which the free run carries on worse than without any.
+    It does not if the error of the free run over *choose* is larger than that of the re-tuned
+    model by more than the factor ``worse``.
     """
     criteria = setting.criteria
     if now.errors.carried > criteria.worse * retuned.errors.carried:
@@ -280,7 +284,7 @@ def matters(now: Model, before: Model, retuned: Model, setting: Setting) -> bool
 
 
 def alternatives(found: Search, name: str) -> tuple[str, ...]:
-    """Return the effects that could stand in the place of *name*: by the margin no worse."""
+    """Return the effects that could replace *name*, with scores not worse by the margin."""
     best = found.best
     rest = set(best.effects) - {name}
     near = [m for m in found.looked_at if m.score < best.score + found.setting.criteria.margin]

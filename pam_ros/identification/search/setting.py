@@ -1,11 +1,11 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What a search is given, and models that it looks at, with their errors.
+"""The setting of a search, and the models that it evaluates, with their errors.
 
-Models are compared by their score, under the discrepancy; what they leave is measured where the
-free run is nearest to the measurement, by least squares from there. Under a discrepancy slow
-errors cost little, and the free run of a model that lacks something drifts: constants that lead
-to the best score can be far from those of the nearest free run.
+Models are compared by their score, with the discrepancy. Their errors are evaluated where the free
+run is nearest to the measurement, by least squares from the result of the fit. With a discrepancy
+slow errors cost little, and the free run of a model that lacks an effect drifts: the constants of
+the best score can be far from those of the nearest free run.
 """
 
 from collections.abc import Iterable, Sequence
@@ -44,12 +44,12 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Errors:
-    """RMSE in m, rad or N over the part that was fitted, and over the one that choices see.
+    """RMSE in m, rad or N over the part that was fitted, and over the part for choices.
 
-    ``carried`` is that of the free run over *choose*. The others are the same run's too, but for a
-    load without a spring, for which they are those of short runs. At prescribed lengths the parts
-    lie between each other, and a memory that begins where it suits the fit suits *choose*, too:
-    what choices see there begins with memories at rest, as another recording does.
+    ``carried`` is that of the free run over *choose*. The others are those of the same run, except
+    for a load without a spring, for which they are those of short runs. At prescribed lengths the
+    parts are interleaved, so that initial memories that suit the fit suit *choose*, too. Therefore
+    the run for *choose* begins there with memories at rest, as in another recording.
     """
 
     fit: float
@@ -59,10 +59,10 @@ class Errors:
 
 @dataclass(frozen=True, eq=False)
 class Model:
-    """A model that was fitted: the effects in it, and where the fit ended.
+    """A fitted model: its effects, and the result of the fit.
 
-    Its errors are found when they are asked for: most models are refused by their scores alone.
-    ``without`` keeps what it becomes without one of its effects, which several moves ask for.
+    Its errors are computed on demand, since most models are rejected by their scores alone.
+    ``without`` stores the models without one of its effects, which several moves need.
     """
 
     effects: tuple[str, ...]  # names of their places
@@ -73,7 +73,7 @@ class Model:
 
     @property
     def score(self) -> float:
-        """-2 ln(evidence) but for a constant of the data: the lower, the better."""
+        """-2 ln(evidence) without a constant of the data: the lower, the better."""
         return self.solution.score
 
     @cached_property
@@ -89,9 +89,9 @@ class Model:
     def nearest(self) -> Array:
         """The unknowns (k,) with which its free run is nearest to the measurement.
 
-        By least squares from where the fit ended, and, where it has moved the constants further
-        than specimens differ, from there with nominal ones: the nearer end of both. Those of a
-        cheap look are as cheap.
+        They result from least squares that begin at the result of the fit. If the fit has moved
+        the constants further than specimens differ, least squares also begin with nominal ones,
+        and the nearer result is used. For a cheap fit the computation is as cheap.
         """
         return self._near.u
 
@@ -102,7 +102,7 @@ class Model:
 
     @property
     def strain(self) -> float:
-        """Prior chi-square of the declared constants: how far re-tuning has moved them."""
+        """Prior chi-square of the nominal constants, a measure of how far re-tuning moved them."""
         solution = self.solution
         pairs = zip(solution.problem.unknowns, solution.z, strict=True)
         return float(sum(z * z for unknown, z in pairs if isinstance(unknown.of, DECLARED)))
@@ -110,7 +110,7 @@ class Model:
 
 @dataclass(frozen=True, eq=False)
 class Setting:
-    """The declared model, the parts of the recordings, what decides and what limits computing."""
+    """The nominal model, the parts of the recordings, the criteria and the limits of computing."""
 
     joint: Joint
     parts: Sequence[Part]
@@ -119,11 +119,11 @@ class Setting:
     pool: Executor
     muscles: tuple[str, ...] = ()  # names of the muscles of a joint that has several
     uncertain: Spreads = field(default_factory=dict)  # standard deviations of nominal values
-    onset: float | None = None  # s, near which the effects begin; None: with the recording
+    onset: float | None = None  # s, near which effects begin; None: at the start
 
     @cached_property
     def noise(self) -> float:
-        """Standard deviation in m, rad or N of the noise, found without any model."""
+        """Standard deviation in m, rad or N of the noise, estimated without any model."""
         known = [stretch for part in self.parts for stretch in part.known_stretches]
         return noise_of([(s.t, s.target) for s in known]).sigma
 
@@ -134,7 +134,7 @@ class Setting:
 
     @property
     def is_crossed(self) -> bool:
-        """Whether recordings that are not fitted choose, as in a cross-validation."""
+        """Whether choices use only recordings that are not fitted, as in a cross-validation."""
         fitted = {part.segment.name for part in self.parts if part.fit.any()}
         return fitted.isdisjoint(part.segment.name for part in self.parts if part.choose.any())
 
@@ -145,15 +145,16 @@ class Setting:
 
     @cached_property
     def searched(self) -> Sequence[Part]:
-        """The parts that a search looks at: all, or what the budget has room for.
+        """The parts that a search uses: all, or as many as the budget allows.
 
-        What is too long is searched without the middle of its rests, of the fitted recordings the
-        shortest first: each is another experiment, and a longer one says little more of which
-        effects there are. The last fits are to all. What is not fitted costs little.
+        If there are too many samples, the middle of the rests is left out, and fitted recordings
+        are used from the shortest on: each is another experiment, and a longer one contains little
+        more information on the effects. The last fits use all. Parts that are not fitted cost
+        little.
         """
         if self._size(self.parts) <= self.budget.samples:
             return self.parts
-        # A moment on the clock of the recording must stay there.
+        # An onset is a time on the clock of the recording, which must not change.
         brief = self.parts
         if self.onset is None:
             brief = [without_rests(part, self.noise) for part in self.parts]
@@ -169,7 +170,7 @@ class Setting:
 
     @cached_property
     def problem(self) -> Problem:
-        """The problem of re-tuning the declared model to what may be fitted."""
+        """The problem of re-tuning the nominal model to the samples that may be fitted."""
         runs: list[Segment] = [
             thin.to_fit
             for part, thin in zip(self.searched, self.thin, strict=True)
@@ -179,13 +180,13 @@ class Setting:
 
     @property
     def drifts(self) -> bool:
-        """Whether loads without a spring move freely: their runs are cut into short ones."""
+        """Whether a load without a spring moves freely: then its runs are cut into short ones."""
         return self.joint.is_driven and self.parts[0].segment.kind == 'free'
 
     def problem_of(self, runs: Sequence[Segment], step: float) -> Problem:
-        """Return the problem of re-tuning the declared model to *runs*, by steps of *step* s.
+        """Return the problem of re-tuning the nominal model to *runs*, with steps of *step* s.
 
-        Those of a load without a spring are cut into short ones.
+        The runs of a load without a spring are cut into short ones.
         """
         if self.drifts:
             runs = [w for run in runs for w in windows(run, self.budget.window)]
@@ -207,9 +208,9 @@ class Setting:
 
     @property
     def left_out(self) -> tuple[type, ...]:
-        """What of the fitted runs is not known of whole parts.
+        """The types of unknowns of the fitted runs that do not apply to whole parts.
 
-        The runs of a load without a spring are short ones, which begin somewhere else.
+        The runs of a load without a spring are short ones, which have other starts.
         """
         return OF_RUNS if self.drifts else ()
 
@@ -222,11 +223,11 @@ class Setting:
         ]
 
     def model(self, effects: tuple[str, ...], solution: Solution, is_look: bool = False) -> Model:
-        """Return the model of a solution; *is_look* says that it comes from a cheap look."""
+        """Return the model of a solution; *is_look* is true for a cheap fit."""
         return Model(effects, solution, self, is_look)
 
     def errors(self, solution: Solution) -> Errors:
-        """Return the errors of a solution as it is."""
+        """Return the errors of a solution without a further fit."""
         known = [part for part in self.thin if part.known.any()]
         whole = [part.segment for part in known]
         if self.drifts:
@@ -247,21 +248,21 @@ class Setting:
     def related(self, name: str, effects: Iterable[str]) -> list[str]:
         """Return the places of *effects* that belong to the place called *name*.
 
-        They are in the same muscle, or in all muscles where that one is, or on the joint.
+        They are in the same muscle if that place is in one, else in all muscles; or on the joint.
         """
         muscle = muscle_of(name)
         pairs = ((f'{muscle}.{effect}' if muscle else effect, effect) for effect in effects)
         return [same if same in self.places else other for same, other in pairs]
 
     def above(self, error: float) -> float:
-        """Return what is left of an error above the noise, in its unit."""
+        """Return the part of an error that is above the noise, in its unit."""
         return float(np.sqrt(max(error**2 - self.noise**2, 0.0)))
 
 
 def carried(
     solution: Solution, segments: Sequence[Segment], without: tuple[type, ...] = ()
 ) -> list[Array]:
-    """Return what the model of *solution* simulates over other segments, see :func:`elsewhere`."""
+    """Return a simulation of other segments by the model of *solution*, see :func:`elsewhere`."""
     problem, u = elsewhere(solution, segments, without)
     return problem.predict(u)
 
@@ -271,8 +272,8 @@ def elsewhere(
 ) -> tuple[Problem, Array]:
     """Return the model of *solution* over other segments, and its unknowns.
 
-    They begin as the fitted runs do, whose continuations they are; what is of the types *without*
-    is as in any recording: positions and velocities as measured, memories at rest, levels 0.
+    They begin like the fitted runs, which they continue. Unknowns of the types *without* are as in
+    any recording: positions and velocities as measured, memories at rest, levels 0.
     """
     problem = solution.problem
     keep = [k for k, unknown in enumerate(problem.unknowns) if not isinstance(unknown.of, without)]
@@ -281,7 +282,7 @@ def elsewhere(
 
 
 def _rms_of(parts: Sequence[Part], runs: Sequence[Array]) -> tuple[float, float]:
-    """Return the RMSE over what is fitted and over what choices see."""
+    """Return the RMSE over the fitted samples and over those for choices."""
     left = [run - part.segment.target for part, run in zip(parts, runs, strict=True)]
     fit = np.concatenate([e[part.fit] for part, e in zip(parts, left, strict=True)])
     choose = np.concatenate([e[part.choose] for part, e in zip(parts, left, strict=True)])
@@ -289,5 +290,5 @@ def _rms_of(parts: Sequence[Part], runs: Sequence[Array]) -> tuple[float, float]
 
 
 def rms(e: Array) -> float:
-    """Return the root of the mean square of e (n,), NaN where there is none."""
+    """Return the root of the mean square of e (n,), NaN if there is none."""
     return float(np.sqrt(np.mean(e**2))) if e.size else float('nan')

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The final fits as a report shows them: models, parameters with intervals, errors, free runs."""
+"""The final fits in a form for reports: models, parameters with intervals, errors, free runs."""
 
 from collections.abc import Mapping, Sequence
 
@@ -23,14 +23,14 @@ from pam_ros.rig.joint import Joint
 
 Array = NDArray[np.float64]
 INTERVAL = 1.96  # standard errors to each side
-NEAR = 1e-6  # distance of u from its bound that is none
+NEAR = 1e-6  # distance of u from its bound that counts as 0
 
 
 def stages(ends: Final, found: Search, test: Sequence[Segment]) -> tuple[Stage, Stage, Stage]:
-    """Return the declared, the re-tuned and the augmented model of a search that was fitted.
+    """Return the nominal, the re-tuned and the augmented model of a search, after the final fits.
 
-    Errors on held-out data are those over *test*, free runs from their own measured start, or
-    without it over the part that judges.
+    Errors on held-out data are those of free runs over *test* from their measured start, or
+    without *test* those over the judging part.
     """
     joint = found.setting.joint
     problem = found.setting.problem
@@ -46,7 +46,7 @@ def stages(ends: Final, found: Search, test: Sequence[Segment]) -> tuple[Stage, 
     ) -> Stage:
         runs = simulated(fit, ends.parts, found.setting)
         error, held = errors_of(runs, ends.parts)
-        # What began in one recording is there in others from their start.
+        # Effects that began in one recording act in others from the start.
         tested = carried(fit, test, without=(*OF_RUNS, OnsetTime)) if test else []
         if tested:
             off = [run - s.target for run, s in zip(tested, test, strict=True)]
@@ -65,15 +65,15 @@ def stages(ends: Final, found: Search, test: Sequence[Segment]) -> tuple[Stage, 
 
 
 def at_place(estimates: Mapping[str, Estimate], place: Place) -> dict[str, Estimate]:
-    """Return those of named *estimates* that are parameters at *place*, by the parameter."""
+    """Return those named *estimates* that are parameters at *place*, by the parameter."""
     names = [p.name for p in place.parameters]
     return {name: estimates[place.flat(name)] for name in names if place.flat(name) in estimates}
 
 
 def estimates(known: Solution, process: Discrepancy, joint: Joint) -> dict[str, Estimate]:
-    """Return the parameters of a fit with their 95 % intervals, where its errors are a *process*.
+    """Return the parameters of a fit with their 95 % intervals, for errors with a *process*.
 
-    Each in the unit in which *joint* gives it. Starts of runs and memories are none.
+    Each is in the unit in which *joint* gives it. Starts of runs and memories are not included.
     """
     error = np.sqrt(np.diag(covariance(known, process)))
     return {
@@ -86,7 +86,7 @@ def estimates(known: Solution, process: Discrepancy, joint: Joint) -> dict[str, 
 
 
 def onset_of(known: Solution) -> Estimate:
-    """Return the moment in s at which the effects of a fit begin, with its 95 % interval."""
+    """Return the time in s at which the effects of a fit begin, with its 95 % interval."""
     return Estimate(*interval(known), 's')
 
 

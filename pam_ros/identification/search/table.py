@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Every model that a search looked at: on top of what, how good, and why it was not chosen."""
+"""Every model that a search evaluated: its parent, its errors, and why it was not chosen."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -19,9 +19,10 @@ Set = frozenset[str]
 
 
 def candidates(found: Search) -> tuple[Candidate, ...]:
-    """Return the candidates of a search, those on top of fewer effects first.
+    """Return the candidates of a search, first those whose parents have fewer effects.
 
-    Of several models with the same effects that long steps led to, the one of the best score.
+    Of several models with the same effects from fits with long steps, the one of the best score is
+    used.
     """
     parents: dict[Set, Model] = {}
     children: dict[tuple[Set, str], Model] = {}
@@ -31,7 +32,7 @@ def candidates(found: Search) -> tuple[Candidate, ...]:
             if model.effects:
                 *before, name = model.effects
                 children.setdefault((frozenset(before), name), model)
-    # Errors are found once; side by side from Python 3.12 on, where cached properties of several
+    # Errors are computed once; in parallel from Python 3.12 on, where cached properties of several
     # objects do not share a lock.
     list(found.setting.pool.map(lambda m: m.errors, {*parents.values(), *children.values()}))
     made = []
@@ -44,7 +45,7 @@ def candidates(found: Search) -> tuple[Candidate, ...]:
 def _without_power(made: Sequence[Candidate], found: Search) -> tuple[Candidate, ...]:
     """Return the candidates, those that the recordings could not show marked as untestable.
 
-    A row that lowers the score by the margin keeps its reason, whatever became of it.
+    A row that lowers the score by the margin keeps its reason in any case.
     """
     margin = found.setting.criteria.margin
     able = [c for c in made if c.decision == 'rejected' and c.score_fall < margin]
@@ -91,7 +92,7 @@ def _gain(model: Model, parent: Model) -> float:
 
 
 def _decision(model: Model, parent: Model, tried: list[Model], found: Search) -> tuple[str, str]:
-    """Return what became of a model, and why."""
+    """Return the decision on a model, and its reason."""
     best = found.best
     if model.effects == best.effects[: len(model.effects)]:
         return 'chosen', _why(model, parent, found)
@@ -130,7 +131,7 @@ def _changed(ratio: float) -> str:
 
 
 def reason_for(found: Search, name: str) -> str:
-    """Return why an effect of the best model is in it: beside the best model without it."""
+    """Return why an effect is in the best model, compared with the best model without it."""
     best = found.best
     step = best.solution.problem.step
     return _why(best, best_with({*best.effects} - {name}, step, found), found)
