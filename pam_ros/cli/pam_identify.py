@@ -134,6 +134,7 @@ def run(given: argparse.Namespace, command: str) -> str:
     from pam_ros.recording.inputs import refuse_copies, refuse_idle
     from pam_ros.recording.mapping import read_mapping
     from pam_ros.recording.read import read_recording
+    from pam_ros.recording.warning_list import warning_list
     from pam_ros.report.provenance import provenance
     from pam_ros.report.summary import last_line
     from pam_ros.report.write import check_folder, write_report
@@ -167,9 +168,8 @@ def run(given: argparse.Namespace, command: str) -> str:
     require_joint([*recordings, *test], model)
     refuse_idle(recordings)  # here already, so that no warning is printed before the error
     refuse_copies([*recordings, *test])
-    for recording in (*recordings, *test):
-        for warning in recording.warnings:
-            print(shown(f'{recording.name}: {warning}'), file=sys.stderr)
+    for names, warning in warning_list([*recordings, *test]):
+        print(shown(f'{names}: {warning}'), file=sys.stderr)
     if not HAVE_NUMBA:
         print('numba is not installed: this takes some hundred times as long', file=sys.stderr)
     source = provenance(nominal, given.params, given.set, recordings, test, command)

@@ -8,6 +8,7 @@ import jinja2
 import numpy as np
 
 from pam_ros.identification.result import Identification
+from pam_ros.recording.warning_list import warning_list
 from pam_ros.report import plots, rows, style
 from pam_ros.report.numbers import Table
 from pam_ros.report.provenance import Provenance
@@ -102,11 +103,9 @@ def curves_of(result: Identification, runs: list[Run]) -> list[Curve]:
 
 
 def warnings_of(result: Identification, source: Provenance) -> list[tuple[str, str]]:
-    """Return (recording, its warnings), and with an empty name those on the whole result."""
-    found = [('', warning) for warning in result.own_warnings]
-    all_of_them = (*source.recordings, *source.test)
-    found += [(one.name, '; '.join(one.warnings)) for one in all_of_them if one.warnings]
-    return found
+    """Return (names of recordings, warning), with an empty name for those on the whole result."""
+    whole = [('', warning) for warning in result.own_warnings]
+    return [*whole, *warning_list([*source.recordings, *source.test])]
 
 
 def not_excluded(result: Identification, scale: Scale) -> list[str]:
