@@ -71,8 +71,10 @@ _RC: Any = {
 
 @contextmanager
 def styled() -> Iterator[None]:
-    """Draw figures in the style of the page within this context."""
-    with mpl.rc_context(_RC):
+    """Draw figures in the style of the page within this context, whatever the user has set."""
+    with mpl.rc_context():
+        mpl.rcdefaults()
+        mpl.rcParams.update(_RC)
         yield
 
 

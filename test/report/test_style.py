@@ -5,6 +5,7 @@
 import re
 import xml.etree.ElementTree as ET
 
+import matplotlib as mpl
 import numpy as np
 import pytest
 
@@ -55,6 +56,20 @@ def test_svg_is_one_element_with_ids_of_its_own():
         assert used
         assert used <= ids[-1]
     assert not ids[0] & ids[1]
+
+
+def test_figures_do_not_depend_on_what_the_user_has_set():
+    plain = drawn('a')
+    own = {
+        'figure.constrained_layout.use': True,
+        'axes.facecolor': '#123456',
+        'lines.marker': 'o',
+        'text.usetex': True,
+        'axes.xmargin': 0.3,
+    }
+    with mpl.rc_context(own):
+        assert drawn('a') == plain
+        assert mpl.rcParams['lines.marker'] == 'o'
 
 
 def test_svg_is_the_same_each_time_and_has_its_text_as_text():
