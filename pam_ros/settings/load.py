@@ -104,13 +104,25 @@ def read_scene(
         from_file = {'muscle': text}
     from_file = without_constants(from_file, overrides)
     given = {**from_file, **overrides}
-    scene = Scene(given)
-    table = scene.table()
+    scene, table = _scene(path, from_file, given)
     _refuse_mistyped(path, from_file, scene, table)
     _refuse_others(overrides, scene, table)
     if typed is not None:
         given |= typed(table)
     return scene, _without_absent_effects(checked(table, given), scene)
+
+
+def _scene(path: Path, from_file: Values, given: Values) -> tuple[Scene, Table]:
+    """Return the scene of *given* and its table; an error of the file alone names the file."""
+    try:
+        scene = Scene(given)
+        return scene, scene.table()
+    except ParameterError:
+        try:
+            Scene(from_file).table()
+        except ParameterError as error:
+            raise ParameterError(f'{path}: {error}') from error
+        raise
 
 
 def _refuse_mistyped(path: Path, values: Values, scene: Scene, table: Table) -> None:

@@ -115,6 +115,24 @@ def test_a_mistyped_name_is_refused_with_its_file(file):
         load_joint(file('effects.magic.gain: 1'))
 
 
+@pytest.mark.parametrize(
+    ('values', 'sentence'),
+    [
+        ('initial.nosuch: 1.0', 'initial.nosuch'),
+        ('joint: antagonistic, muscles: [only]', 'muscles'),
+    ],
+)
+def test_an_error_in_the_names_of_a_file_names_the_file(file, values, sentence):
+    with pytest.raises(ParameterError, match=rf'^.*given\.yaml: .*{sentence}'):
+        load_joint(file(values))
+
+
+def test_an_error_in_the_names_of_overrides_does_not_name_the_file(file):
+    path = file('joint: antagonistic')
+    with pytest.raises(ParameterError, match=r'^muscles'):
+        load_joint(path, muscles=('only',))
+
+
 # Muscles ----------------------------------------------------------------------------------------
 
 
