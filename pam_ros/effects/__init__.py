@@ -20,6 +20,7 @@ from pam_ros.effects.length_offset import LengthOffset as LengthOffset
 from pam_ros.effects.softening import Softening as Softening
 from pam_ros.effects.creep import Creep as Creep
 from pam_ros.effects.hysteresis import Hysteresis as Hysteresis
+from pam_ros.effects.pressure_hysteresis import PressureHysteresis as PressureHysteresis
 from pam_ros.effects.slack import Slack as Slack
 from pam_ros.effects.pressure_dependent_damping import (
     PressureDependentDamping as PressureDependentDamping,

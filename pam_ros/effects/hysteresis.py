@@ -1,12 +1,10 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Rate-independent hysteresis of braid and bladder: a force that depends on the way come from.
+"""Rate-independent hysteresis of braid and bladder over contraction.
 
-Three operators stand side by side, since measured loops are of more than one family; each may
-be absent. Over contraction, Bouc and Wen's, whose minor loops drift until the major one closes
-them, and Maxwell's slip elements, which close every minor loop and remember all turning points.
-Over pressure, Maxwell's slip once more: braid and bladder rub when the muscle is filled or
-vented, whether its ends move or not, and the loop is so many Pa wide (Hunt et al. 2017).
+Two operators stand side by side, since measured loops are of more than one family; each may be
+absent: Bouc and Wen's, whose minor loops drift until the major one closes them, and Maxwell's
+slip elements, which close every minor loop and remember all turning points.
 """
 
 from dataclasses import dataclass
@@ -16,8 +14,6 @@ from typing import ClassVar
 from pam_ros.effects.base import Compensation, Effect, EffectEquations, HiddenState, Row, Starts
 from pam_ros.effects.maxwell_slip import ELEMENTS, EVEN, MOST, slipped, strains
 from pam_ros.effects.parameter import effect_parameter, start_from, strength
-from pam_ros.effects.rows import A1, A3, A4, A5
-from pam_ros.muscle.law import gain
 
 (
     AMPLITUDE,
@@ -26,17 +22,13 @@ from pam_ros.muscle.law import gain
     SLIP,
     SLIP_WIDTH,
     SLIP_ONSET,
-    PRESSURE_GROWTH,
-    PRESSURE,
-    PRESSURE_WIDTH,
-    PRESSURE_ONSET,
-    INITIAL,
     SLIP_RATIO,
-    PRESSURE_RATIO,
-) = range(13)
+    PRESSURE_GROWTH,
+    INITIAL,
+) = range(9)
 
-# Hidden states; the strains of the elements follow, over contraction and over pressure.
-LOOP, LAST_KAPPA, LAST_P, STRAINS = range(4)
+# Hidden states; the strains of the elements follow.
+LOOP, LAST_KAPPA, STRAINS = range(3)
 P_REFERENCE = 3e5  # Pa, where the amplitude is as given, whatever its growth
 
 
@@ -53,20 +45,17 @@ def force(
     q: Row,
     j: int,
 ) -> float:
-    """Return f - g(p) (A z + B m) - P (dF/dp) n, with z, m, n in -1..1 and exact.
+    """Return f - g(p) (A z + B m), with z and m in -1..1 and exact.
 
     Bouc-Wen (n = 1) over l = |kappa|/W, u = z sign(dkappa): du/dl = 1 - u on loading, u > 0,
     and 1 - a u on unloading, u < 0. A is the amplitude, W the width, a unloading: 1 is Dahl's
-    law, 0 has elastic unloading. m is Maxwell slip over contraction, of height B = slip, n over
-    pressure, of height P = pressure. g = 1 + G (p / 300 kPa - 1), G = pressure_growth, not
-    negative.
+    law, 0 has elastic unloading. m is Maxwell slip, of height B = slip. g = 1 + G (p / 300 kPa -
+    1), G = pressure_growth, not negative.
     """
-    if q[j + AMPLITUDE] == 0.0 and q[j + SLIP] == 0.0 and q[j + PRESSURE] == 0.0:
+    if q[j + AMPLITUDE] == 0.0 and q[j + SLIP] == 0.0:
         return f
     ds = kappa - x[i + LAST_KAPPA]
-    dp = p - x[i + LAST_P]
     xn[i + LAST_KAPPA] = kappa
-    xn[i + LAST_P] = p
     rub = 0.0
     if q[j + AMPLITUDE] != 0.0:
         side = 1.0 if ds > 0.0 else -1.0
@@ -85,32 +74,19 @@ def force(
         rub += q[j + SLIP] * slipped(
             ds, q[j + SLIP_WIDTH], q[j + SLIP_ONSET], q[j + SLIP_RATIO], x, i + STRAINS, xn
         )
-    f -= max(1.0 + q[j + PRESSURE_GROWTH] * (p / P_REFERENCE - 1.0), 0.0) * rub
-    if q[j + PRESSURE] != 0.0:
-        late = q[j + PRESSURE] * slipped(
-            dp,
-            q[j + PRESSURE_WIDTH],
-            q[j + PRESSURE_ONSET],
-            q[j + PRESSURE_RATIO],
-            x,
-            i + STRAINS + ELEMENTS,
-            xn,
-        )
-        f -= late * gain(kappa, q[A1], q[A3], q[A4], q[A5])
-    return f
+    return f - max(1.0 + q[j + PRESSURE_GROWTH] * (p / P_REFERENCE - 1.0), 0.0) * rub
 
 
 def start(q: Row, j: int, p: float, kappa: float, y: float) -> tuple[float, ...]:
     """Return all loops at the share initial of their height: from -1 to 1, 0 in the middle."""
     initial = q[j + INITIAL]
     slip = strains(initial, q[j + SLIP_WIDTH], q[j + SLIP_ONSET], q[j + SLIP_RATIO])
-    over_p = strains(initial, q[j + PRESSURE_WIDTH], q[j + PRESSURE_ONSET], q[j + PRESSURE_RATIO])
-    return (initial, kappa, p, *slip, *over_p)
+    return (initial, kappa, *slip)
 
 
 @dataclass(frozen=True)
 class Hysteresis(Effect):
-    """Rate-independent hysteresis of braid and bladder."""
+    """Rate-independent hysteresis of braid and bladder over contraction."""
 
     amplitude: float = strength('half height of the loop, Bouc-Wen', 'N', high=1e3, scale=10.0)
     width: float = effect_parameter(
@@ -144,30 +120,19 @@ class Hysteresis(Effect):
         high=1.0,
         scale=0.3,
     )
+    slip_ratio: float = effect_parameter(
+        EVEN,
+        'growth of the gaps between their thresholds; 1: equal gaps, 1/slip_onset: geometric',
+        low=EVEN,
+        high=MOST,
+        scale=10.0,
+    )
     pressure_growth: float = effect_parameter(
         0.0,
         'growth of the loop with pressure around 300 kPa; 1: in proportion',
         low=-1.0,
         high=1.0,
         scale=0.5,
-    )
-    pressure: float = strength(
-        'half width of the loop over pressure, Maxwell slip', 'Pa', high=1e5, scale=5e3
-    )
-    pressure_width: float = effect_parameter(
-        3e4,
-        'pressure over which the last of its elements slips',
-        'Pa',
-        low=10.0,
-        high=1e6,
-        scale=3e4,
-    )
-    pressure_onset: float = effect_parameter(
-        0.0,
-        'share of it at which the first one slips; 1: all at once',
-        low=0.0,
-        high=1.0,
-        scale=0.3,
     )
     initial: float = effect_parameter(
         0.0,
@@ -176,39 +141,19 @@ class Hysteresis(Effect):
         high=1.0,
         scale=0.5,
     )
-    slip_ratio: float = effect_parameter(
-        EVEN,
-        'growth of the gaps between thresholds; 1: equal gaps, 1/slip_onset: geometric',
-        low=EVEN,
-        high=MOST,
-        scale=10.0,
-    )
-    pressure_ratio: float = effect_parameter(
-        EVEN,
-        'growth of the gaps between thresholds; 1: equal gaps, 1/pressure_onset: geometric',
-        low=EVEN,
-        high=MOST,
-        scale=10.0,
-    )
 
     name: ClassVar = 'hysteresis'
-    text: ClassVar = 'rate-independent hysteresis of braid and bladder'
-    source: ClassVar = (
-        'Dahl 1968; Wen 1976; Minh et al. 2011 (Maxwell slip); Hunt et al. 2017 (by pressure)'
-    )
-    signature: ClassVar = (
-        'loops over contraction or pressure whose area does not depend on the speed'
-    )
+    text: ClassVar = 'rate-independent hysteresis of braid and bladder over contraction'
+    source: ClassVar = 'Dahl 1968; Wen 1976; Minh et al. 2011 (Maxwell slip)'
+    signature: ClassVar = 'loops over contraction whose area does not depend on the speed'
     experiment: ClassVar = 'slow triangles at two rates with minor loops'
     compensation: ClassVar = Compensation.FEED_FORWARD
     states: ClassVar = (
         HiddenState('loop', '', 0.5),
         HiddenState('contraction', 'fraction'),
-        HiddenState('pressure', 'Pa'),
         *(HiddenState(f'strain {n + 1}', 'fraction', 5e-3) for n in range(ELEMENTS)),
-        *(HiddenState(f'strain over pressure {n + 1}', 'Pa', 1e4) for n in range(ELEMENTS)),
     )
-    rivals: ClassVar = ('coulomb_friction', 'creep')
+    rivals: ClassVar = ('coulomb_friction', 'pressure_hysteresis', 'creep')
     contains: ClassVar = {'coulomb_friction': {'level': 'amplitude'}}
     needs_muscle: ClassVar = True
     equations: ClassVar = EffectEquations(force=force, start=start)
@@ -224,19 +169,9 @@ class Hysteresis(Effect):
             start_from(
                 cls, slip=8.0, slip_width=0.03, slip_onset=0.05, slip_ratio=20.0, initial=0.0
             ),
-            start_from(cls, pressure=3e3, pressure_width=1e4, initial=0.0),
-            start_from(cls, pressure=1e4, pressure_width=5e4, initial=0.0),
-            start_from(
-                cls,
-                pressure=6e3,
-                pressure_width=5e4,
-                pressure_onset=0.05,
-                pressure_ratio=20.0,
-                initial=0.0,
-            ),
         )
 
     @classmethod
     def example(cls) -> Effect:
         """Return it clearly present."""
-        return cls(amplitude=9.0, slip=5.0, pressure=4e3)
+        return cls(amplitude=9.0, slip=5.0)

@@ -3,7 +3,7 @@
 """Maxwell slip: elastic elements in parallel, each of which slips at its own threshold.
 
 They are the complement of the play operators of Prandtl and Ishlinskii. They close every minor
-loop and remember all turning points.
+loop and remember all turning points. Two effects have them: over contraction, and over pressure.
 """
 
 from math import expm1, log

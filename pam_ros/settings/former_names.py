@@ -2,19 +2,26 @@
 # SPDX-License-Identifier: Apache-2.0
 """Names that parameters had in former versions: files that have them still load.
 
-Version 0.1.0 described the thresholds of Maxwell slip by how they crowd near 0.
+Version 0.1.0 had the hysteresis over pressure in the effect ``hysteresis``, and described the
+thresholds of Maxwell slip by how they crowd near 0.
 """
 
 from collections.abc import Mapping
 from typing import Any
 
 from pam_ros.arguments import refuse
+from pam_ros.effects.names import GROUP, EffectName, parsed
 
-# By the ends of their names: a muscle's own have its name in front.
-CROWDING = {
-    f'effects.hysteresis.{part}_crowding': f'effects.hysteresis.{part}_ratio'
-    for part in ('slip', 'pressure')
+FORMER, NOW = 'hysteresis', 'pressure_hysteresis'
+MOVED = {
+    'pressure': 'slip',
+    'pressure_width': 'slip_width',
+    'pressure_onset': 'slip_onset',
+    'pressure_crowding': 'slip_ratio',
+    'pressure_ratio': 'slip_ratio',
 }
+SHARED = ('initial', 'onset')  # parameters that both parts have
+CROWDING = {'slip_crowding': 'slip_ratio', 'pressure_crowding': 'slip_ratio'}
 MOST_CROWDING = 0.98
 
 
@@ -26,23 +33,43 @@ def renamed(values: Mapping[str, Any]) -> tuple[dict[str, Any], str]:
     """
     found: dict[str, Any] = {}
     changes = []
+    is_split = False
     for name, value in values.items():
-        new = _of_today(name)
+        new, now = _of_today(name, value)
         if new == name:
             found[name] = value
             continue
-        ratio = _ratio(name, value)
-        changes.append(f'{name} is {new} = {ratio:g}')
-        if new not in values:
-            found[new] = ratio
+        is_split |= f'{GROUP}.{NOW}.' in new
+        if new in values:
+            changes.append(f'{name} is ignored, since {new} is given')
+            continue
+        found[new] = now
+        changes.append(f'{name} is {new}' + ('' if now == value else f' = {now:g}'))
+    for name, value in values.items() if is_split else ():
+        of = _split(name)
+        if of is not None and of[1].effect == FORMER and of[1].parameter in SHARED:
+            found.setdefault(of[0] + EffectName(NOW, of[1].parameter).flat, value)
     return found, f'former names of parameters: {", ".join(changes)}' if changes else ''
 
 
-def _of_today(name: str) -> str:
-    for former, now in CROWDING.items():
-        if name == former or name.endswith(f'.{former}'):
-            return name.removesuffix(former) + now
-    return name
+def _split(name: str) -> tuple[str, EffectName] | None:
+    """Return the muscle of a flat name with its dot, '' without one, and the effect's own name."""
+    head, dot, rest = ('', '', name) if name.startswith(f'{GROUP}.') else name.partition('.')
+    own = parsed(rest)
+    return None if own is None else (head + dot, own)
+
+
+def _of_today(name: str, value: Any) -> tuple[str, Any]:
+    """Return today's name and value of a parameter of any version."""
+    of = _split(name)
+    if of is None or of[1].effect != FORMER:
+        return name, value
+    muscle, (_, parameter) = of
+    if parameter in CROWDING:
+        value = _ratio(name, value)
+    if parameter in MOVED:
+        return muscle + EffectName(NOW, MOVED[parameter]).flat, value
+    return muscle + EffectName(FORMER, CROWDING.get(parameter, parameter)).flat, value
 
 
 def _ratio(name: str, crowding: Any) -> float:

@@ -12,8 +12,8 @@ from pam_ros.control.gains import Gains
 from pam_ros.control.sliding_mode import SlidingMode
 from pam_ros.effects import EFFECTS, DeadBand, Payload, ViscousFriction
 from pam_ros.rig import co_contraction
-from pam_ros.rig.effect_values import effects_from
 from recorded.cases import MUSCLE_EFFECTS, TURNED_EFFECTS
+from recorded.former import effects_of_0_1_0
 from support.closed_loop import LAG, shared
 from support.joint_loop import JOINTS, close_joint
 from support.kinds import EACH_KIND, ONE, PAIR, at_end, rms
@@ -28,8 +28,8 @@ NOISES = {True: 0.02 * DEGREE, False: 20e-6}  # of an angle, of a position
 AT_REST = {True: 0.03 * DEGREE, False: 30e-6}
 QUIET = {'noise': 0.0}
 # Those of the recorded runs, and what the package has had since.
-IN_MUSCLES = (*effects_from(MUSCLE_EFFECTS), DeadBand(band=2e4, width=4e3))
-ON_JOINT = effects_from(TURNED_EFFECTS)
+IN_MUSCLES = (*effects_of_0_1_0(MUSCLE_EFFECTS), DeadBand(band=2e4, width=4e3))
+ON_JOINT = effects_of_0_1_0(TURNED_EFFECTS)
 NAMES = [effect.name for effect in (*IN_MUSCLES, *ON_JOINT)]
 
 

@@ -183,14 +183,16 @@ def test_the_same_recording_gives_the_same_numbers():
 
 
 @pytest.mark.parametrize(
-    'there',
-    [effect('slack', 'toe'), effect('hysteresis', 'pressure', hyst_pa=10e3)],
-    ids=lambda one: one.kind,
+    ('name', 'there'),
+    [
+        ('slack', effect('slack', 'toe')),
+        ('pressure_hysteresis', effect('hysteresis', 'pressure', hyst_pa=10e3)),
+    ],
 )
-def test_an_isometric_muscle(there):
+def test_an_isometric_muscle(name, there):
     found = identify(bench_truth.declared(off=OFF), [bench_truth.held(there, seed=1)])
     assert found.verdict == 'effect_found'
-    assert names(found) == [there.kind]
+    assert names(found) == [name]
     assert (found.quantity, found.unit) == ('force', 'N')
     assert found.noise.sigma == pytest.approx(2.0, rel=0.15)
     assert found.stages[2].held_error < 1.2 * 2.0 < 0.2 * found.stages[1].held_error

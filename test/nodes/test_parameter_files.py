@@ -80,16 +80,18 @@ def test_former_names_of_parameters_start_a_node_that_says_so(peer, tmp_path, pr
     file = tmp_path / 'of_0_1_0.yaml'
     file.write_text(
         '/**:\n  ros__parameters:\n    joint_name: joint_1\n'
-        '    effects: {hysteresis: {pressure: 4000.0, pressure_crowding: 0.8}}\n'
+        '    effects: {hysteresis: {pressure: 4000.0, initial: 0.2}}\n'
         '    joint_1:\n      effects.hysteresis.slip_crowding: 0.5\n'
     )
-    now = 'effects.hysteresis.pressure_ratio'
-    with Program(program, '--params-file', str(file)) as node:
+    now = 'effects.pressure_hysteresis.slip'
+    names = (now, 'effects.pressure_hysteresis.initial', 'joint_1.effects.hysteresis.slip_ratio')
+    with Program(
+        program, '--params-file', str(file), parameters={'joint_name': 'joint_1'}
+    ) as node:
         wait_for(peer, node)
-        found = peer.get(f'/{program}', now, 'joint_1.effects.hysteresis.slip_ratio')
-        assert found == pytest.approx([25.0, 4.0])
+        assert peer.get(f'/{program}', *names) == [4000.0, 0.2, 4.0]
         assert node.stop() == 0
-        assert node.output.count(f'effects.hysteresis.pressure_crowding is {now} = 25') == 1
+        assert node.output.count(f'effects.hysteresis.pressure is {now}') == 1
         assert 'not known' not in node.output
 
 

@@ -45,7 +45,7 @@ def test_parameters_are_as_they_were(table):
     for name, recorded in RECORDED[table].items():
         kind, default, unit, low, high, choices, live, above_low = recorded
         ((now_name, default),) = renamed({name: default})[0].items()
-        if now_name.endswith('_ratio'):  # its values have another meaning
+        if now_name.rpartition('.')[2] == 'slip_ratio':  # its values have another meaning
             low, high = 1.0, 2.5e3
         now_kind, now_default, about = NOW[table][now_name]
         assert now_kind.__name__ == kind, name

@@ -16,7 +16,6 @@ from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig import statics
 from pam_ros.rig.acting import acting_commands, delays_of
 from pam_ros.rig.bind import bind
-from pam_ros.rig.effect_values import effects_from
 from pam_ros.rig.equilibrium import equilibrium
 from pam_ros.rig.joint import Actuator, Joint
 from pam_ros.rig.loads import Arm, Mass
@@ -27,6 +26,7 @@ from pam_ros.rig.start import start_state
 from pam_ros.rig.step_limit import longest_step
 from pam_ros.rig.transmissions import Pulley, Straight
 from recorded import cases
+from recorded.former import effects_of_0_1_0
 from recorded.platform import compare
 
 # Plain Python is compared with what is compiled elsewhere.
@@ -38,7 +38,7 @@ BY_RIG = pytest.mark.parametrize('name', RIGS)
 def model(name):
     rig = RIGS[name]
     return single_muscle_joint(
-        Muscle(**rig['muscle']), Mass(**rig['load']), effects_from(rig['effects'])
+        Muscle(**rig['muscle']), Mass(**rig['load']), effects_of_0_1_0(rig['effects'])
     )
 
 
@@ -137,14 +137,14 @@ def test_rest_step_and_weight_of_one_muscle_are_as_ever(name):
 
 
 def pair(in_muscles, on_joint):
-    actuator = Actuator(Muscle(), effects_from(in_muscles), 0.1)
-    return Joint((actuator, actuator), Arm(), Pulley(), effects_from(on_joint))
+    actuator = Actuator(Muscle(), effects_of_0_1_0(in_muscles), 0.1)
+    return Joint((actuator, actuator), Arm(), Pulley(), effects_of_0_1_0(on_joint))
 
 
 def parallel(in_muscles, on_joint):
-    effects = effects_from(in_muscles)
+    effects = effects_of_0_1_0(in_muscles)
     actuators = (Actuator(Muscle(), effects, 0.05), Actuator(Muscle(l0=0.38), effects))
-    return Joint(actuators, Mass(mass=40.0), Straight(), effects_from(on_joint))
+    return Joint(actuators, Mass(mass=40.0), Straight(), effects_of_0_1_0(on_joint))
 
 
 JOINTS = {

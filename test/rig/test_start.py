@@ -10,6 +10,7 @@ from pam_ros.effects import (
     CoulombFriction,
     Creep,
     Hysteresis,
+    PressureHysteresis,
     PressureLag,
     PressureOffset,
     ViscousFriction,
@@ -67,12 +68,15 @@ def test_one_effect_can_be_started_alone():
     np.testing.assert_array_equal(x, before)
 
 
+MEMORIES = [Hysteresis(slip=3.0), PressureHysteresis(slip=3e3)]
+
+
 @pytest.mark.parametrize(
     ('joint', 'ends'),
     [
-        (pair(effects=((), [Hysteresis(slip=3.0)])), joints.ends(0.3, UNEQUAL)),
+        (pair(effects=((), MEMORIES)), joints.ends(0.3, UNEQUAL)),
         (
-            lever(effects=((), [Hysteresis(slip=3.0)])),
+            lever(effects=((), MEMORIES)),
             [
                 kappa * strand.l0 + joints.drawn(0.3, i)
                 for i, (kappa, strand) in enumerate(
@@ -84,12 +88,13 @@ def test_one_effect_can_be_started_alone():
     ids=['pair', 'lever'],
 )
 def test_each_muscle_starts_at_its_own_place_and_pressure(joint, ends):
-    """Hysteresis remembers the contraction and the pressure that it was left at."""
+    """Hysteresis remembers the contraction, or the pressure, that it was left at."""
     layout = joint.layout
     x = start_state(layout, joint.parameters(), [2e5, 3e5], 0.3, 0.0)
-    k = layout.state_at['hysteresis']
-    expected = [[y / strand.l0, p] for y, strand, p in zip(ends, UNEQUAL, (2e5, 3e5), strict=True)]
-    np.testing.assert_allclose(x[at.MUSCLE :, k + 1 : k + 3], expected, rtol=1e-13)
+    over_kappa, over_p = (layout.state_at[effect.name] for effect in MEMORIES)
+    expected = [y / strand.l0 for y, strand in zip(ends, UNEQUAL, strict=True)]
+    np.testing.assert_allclose(x[at.MUSCLE :, over_kappa + 1], expected, rtol=1e-13)
+    np.testing.assert_array_equal(x[at.MUSCLE :, over_p], [2e5, 3e5])
 
 
 # Away from rest -------------------------------------------------------------------------------

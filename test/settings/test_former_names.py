@@ -7,7 +7,7 @@ import logging
 import numpy as np
 import pytest
 
-from pam_ros.effects import Hysteresis
+from pam_ros.effects import Hysteresis, PressureHysteresis
 from pam_ros.effects.maxwell_slip import ELEMENTS
 from pam_ros.errors import ParameterError
 from pam_ros.rig.standard_joints import single_muscle_joint
@@ -15,7 +15,13 @@ from pam_ros.settings.files import read
 from pam_ros.settings.former_names import renamed
 from pam_ros.settings.load import load_joint
 
-FORMER, NOW = 'effects.hysteresis.slip_crowding', 'effects.hysteresis.slip_ratio'
+OLD = {
+    'effects.hysteresis.slip': 5.0,
+    'effects.hysteresis.pressure': 4e3,
+    'effects.hysteresis.pressure_width': 2e4,
+    'effects.hysteresis.pressure_onset': 0.2,
+    'effects.hysteresis.initial': 0.1,
+}
 
 
 def test_names_of_today_stay_and_need_no_sentence():
@@ -23,23 +29,56 @@ def test_names_of_today_stay_and_need_no_sentence():
     assert renamed(values) == (values, '')
 
 
-@pytest.mark.parametrize('muscle', ['', 'flexor.'])
-@pytest.mark.parametrize('part', ['slip', 'pressure'])
-def test_both_parts_and_the_names_of_one_muscle_are_treated_alike(muscle, part):
-    former = f'{muscle}effects.hysteresis.{part}_crowding'
-    now = f'{muscle}effects.hysteresis.{part}_ratio'
-    found, sentence = renamed({'mass': 3.0, former: 0.5})
-    assert found == {'mass': 3.0, now: 4.0}
-    assert sentence == f'former names of parameters: {former} is {now} = 4'
+def test_hysteresis_over_pressure_is_an_effect_of_its_own():
+    found, sentence = renamed(OLD)
+    assert found == {
+        'effects.hysteresis.slip': 5.0,
+        'effects.pressure_hysteresis.slip': 4e3,
+        'effects.pressure_hysteresis.slip_width': 2e4,
+        'effects.pressure_hysteresis.slip_onset': 0.2,
+        'effects.hysteresis.initial': 0.1,
+        'effects.pressure_hysteresis.initial': 0.1,
+    }
+    assert sentence == (
+        'former names of parameters: '
+        'effects.hysteresis.pressure is effects.pressure_hysteresis.slip, '
+        'effects.hysteresis.pressure_width is effects.pressure_hysteresis.slip_width, '
+        'effects.hysteresis.pressure_onset is effects.pressure_hysteresis.slip_onset'
+    )
+
+
+def test_the_names_of_one_muscle_are_treated_alike():
+    found, _ = renamed({f'flexor.{name}': value for name, value in OLD.items()})
+    assert found['flexor.effects.pressure_hysteresis.slip'] == 4e3
+    assert found['flexor.effects.pressure_hysteresis.initial'] == 0.1
+    assert not any('hysteresis.pressure' in name for name in found)
+
+
+def test_a_moment_at_which_it_begins_holds_for_both_parts():
+    found, _ = renamed({**OLD, 'effects.hysteresis.onset': 3.0})
+    assert found['effects.pressure_hysteresis.onset'] == 3.0
+    assert found['effects.hysteresis.onset'] == 3.0
 
 
 def test_a_name_of_today_is_taken_before_a_former_one():
-    assert renamed({FORMER: 0.5, NOW: 20.0})[0] == {NOW: 20.0}
+    now = 'effects.pressure_hysteresis.slip'
+    found, sentence = renamed({**OLD, now: 1e3})
+    assert found[now] == 1e3
+    assert f'effects.hysteresis.pressure is ignored, since {now} is given' in sentence
+
+
+def test_a_ratio_of_the_thresholds_over_pressure_moves_as_it_is():
+    found, _ = renamed({'effects.hysteresis.pressure_ratio': 20.0})
+    assert found == {'effects.pressure_hysteresis.slip_ratio': 20.0}
 
 
 @pytest.mark.parametrize('crowding', [0.0, 0.2, 0.5, 0.8])
 def test_crowded_thresholds_become_the_nearest_with_a_ratio(crowding):
-    ratio = renamed({FORMER: crowding})[0][NOW]
+    name = 'effects.hysteresis.slip_crowding'
+    found, sentence = renamed({name: crowding})
+    ((now, ratio),) = found.items()
+    assert now == 'effects.hysteresis.slip_ratio'
+    assert sentence.endswith(f'{name} is {now} = {ratio:g}')
     s = (np.arange(ELEMENTS) + 0.5) / ELEMENTS
     before = s * (1.0 - crowding) / (1.0 - crowding * s)
     after = s if ratio == 1.0 else (ratio**s - 1.0) / (ratio - 1.0)
@@ -52,7 +91,7 @@ def test_crowded_thresholds_become_the_nearest_with_a_ratio(crowding):
 @pytest.mark.parametrize('value', [-0.1, 0.99, 'many', None])
 def test_a_crowding_out_of_range_is_refused_by_its_former_name(value):
     with pytest.raises(ParameterError, match=r'slip_crowding = .*: give 0 to 0\.98'):
-        renamed({FORMER: value})
+        renamed({'effects.hysteresis.slip_crowding': value})
 
 
 @pytest.fixture
@@ -66,17 +105,19 @@ def file(tmp_path):
     return made
 
 
-def test_a_file_makes_the_joint_of_today_and_says_so_once(file, caplog):
-    path = file({'effects.hysteresis.slip': 5.0, FORMER: 0.5})
+def test_a_file_makes_the_joint_of_both_effects_and_says_so_once(file, caplog):
+    path = file(OLD)
     with caplog.at_level(logging.WARNING, 'pam_ros'):
         joints = [load_joint(path) for _ in range(2)]
-    expected = single_muscle_joint(effects=[Hysteresis(slip=5.0, slip_ratio=4.0)])
+    over_p = PressureHysteresis(slip=4e3, slip_width=2e4, slip_onset=0.2, initial=0.1)
+    expected = single_muscle_joint(effects=[Hysteresis(slip=5.0, initial=0.1), over_p])
     assert joints[0].actuators[0].effects == expected.actuators[0].effects
     assert joints[1] == joints[0]
-    assert caplog.messages == [f'{path}: former names of parameters: {FORMER} is {NOW} = 4']
+    (message,) = caplog.messages
+    assert message.startswith(f'{path}: former names of parameters: effects.hysteresis.pressure')
 
 
 def test_a_file_with_a_former_value_out_of_range_is_refused_with_its_name(file):
-    path = file({FORMER: 1.5})
-    with pytest.raises(ParameterError, match=f'{path}: {FORMER} = 1.5 is not allowed'):
+    path = file({'effects.hysteresis.pressure_crowding': 1.5})
+    with pytest.raises(ParameterError, match=f'{path}: .*pressure_crowding = 1.5 is not allowed'):
         read(path)

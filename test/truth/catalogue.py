@@ -44,6 +44,12 @@ class Form:
     held: bool = False  # seen at held length, too
     free: bool = True  # seen with a free load
     brings: tuple[str, ...] = ()  # other kinds that these equations are as well
+    called: str = ''  # the package's effect, where it has another one for each form of a kind
+
+    @property
+    def names(self) -> frozenset[str]:
+        """The effects of the package by which it may be named: its equations can be two."""
+        return frozenset((self.called or self.kind, *self.brings))
 
 
 R = Range
@@ -61,6 +67,7 @@ _FORMS = (
         'pressure',
         {'hyst_pa': R(10e3, 2e3, 20e3), 'hyst_reach_pa': R(60e3, 30e3, 120e3)},
         held=True,
+        called='pressure_hysteresis',
     ),
     Form(
         'coulomb_friction',  # LuGre

@@ -77,10 +77,8 @@ class PairTrial:
 
     @property
     def accepted(self) -> frozenset[str]:
-        """The kinds by which the effect may be named: its equations can be two."""
-        return frozenset(
-            name for e in self.effects for name in (e.kind, *FORMS[(e.kind, e.form)].brings)
-        )
+        """The names by which the effect may be called."""
+        return frozenset(name for e in self.effects for name in FORMS[(e.kind, e.form)].names)
 
     @property
     def in_library(self) -> bool:

@@ -85,10 +85,8 @@ class Trial:
 
     @property
     def accepted(self) -> tuple[frozenset[str], ...]:
-        """For each effect the kinds by which it may be named: its equations can be two."""
-        return tuple(
-            frozenset((one.kind, *FORMS[(one.kind, one.form)].brings)) for one in self.effects
-        )
+        """For each effect the names by which it may be called."""
+        return tuple(FORMS[(one.kind, one.form)].names for one in self.effects)
 
     @property
     def in_library(self) -> bool:

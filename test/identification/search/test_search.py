@@ -94,7 +94,7 @@ def test_hysteresis_is_found_where_every_recording_falls_at_its_end_only():
     there = effect('hysteresis', 'pressure')
     recordings = [bench_truth.step_and_back(there, seed=k) for k in range(6)]
     found = searched(recordings, shares=(CRITERIA.fit / CRITERIA.choose, 1.0))
-    assert found.best.effects == ('hysteresis',)
+    assert found.best.effects == ('pressure_hysteresis',)
     assert explains(found)
 
 
