@@ -90,7 +90,7 @@ def compare() -> None:
     n = int(np.searchsorted(s.t, SCIPY_SECONDS))
     t, target = s.t[:n], s.target[:n]
     began = time.perf_counter()
-    theirs = plain_fit(model, t, target, s.drive_t, s.drive, (s.y0, s.v0))
+    theirs = plain_fit(model, t, target, s.drive_t, s.drive[:, 0], (s.y0, s.v0))
     slow = (time.perf_counter() - began) * s.t.size / n
     print(
         f'one candidate, 80 s at 200 Hz: {fast:.2f} s, plain scipy {slow:.0f} s '

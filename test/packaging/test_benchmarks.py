@@ -11,6 +11,8 @@ from pathlib import Path
 
 import pytest
 
+from benchmarks import identify_speed
+
 FOLDER = Path(__file__).parents[2] / 'benchmarks'
 BENCHMARKS = sorted(p for p in FOLDER.glob('*.py') if not p.stem.startswith('_'))
 
@@ -42,6 +44,19 @@ def test_each_benchmark_states_its_claim_and_has_a_main(path):
     tree = ast.parse(path.read_text(encoding='utf-8'))
     assert ast.get_docstring(tree)
     assert 'main' in {node.name for node in tree.body if isinstance(node, ast.FunctionDef)}
+
+
+@pytest.mark.slow
+@pytest.mark.needs_numba
+def test_the_fit_of_plain_scipy_runs_on_the_recording_of_the_packages_fit(monkeypatch, capsys):
+    monkeypatch.setattr(identify_speed, 'SCIPY_SECONDS', 1.0)
+    identify_speed.compare()
+    times, fits = capsys.readouterr().out.splitlines()
+    pattern = r': ([\d.]+) s, plain scipy (\d+) s .*: (\d+) times faster'
+    ours, theirs, ratio = map(float, re.search(pattern, times).groups())
+    assert ratio == pytest.approx(theirs / ours, rel=0.2)
+    lags = [float(lag) for lag in re.findall(r'\d\.\d{4}', fits)[:4]]
+    assert all(0.0 <= lag < 0.05 for lag in lags)
 
 
 def test_the_help_of_make_names_a_benchmark():
