@@ -50,6 +50,7 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from pam_ros.cached_property import cached_property
 from pam_ros.effects.names import EffectName
 from pam_ros.effects.parameter import EffectParameter
 from pam_ros.errors import ParameterError
@@ -141,9 +142,9 @@ class EffectEquations:
                     'has its name, give the function another one'
                 )
 
-    @property
+    @cached_property
     def places(self) -> tuple[str, ...]:
-        """The places where it acts."""
+        """The places where it acts; cached, since each start of a simulation asks for them."""
         return tuple(place for place in PLACES if getattr(self, place))
 
     # For controllers, of effects without memory. The parameters are q[j], q[j + 1], ...

@@ -13,7 +13,6 @@ permitted one.
 """
 
 from dataclasses import dataclass
-from functools import cached_property
 from math import pi, radians, sin, sqrt, tan
 from typing import Any
 
@@ -21,6 +20,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pam_ros.arguments import alike
+from pam_ros.cached_property import cached_property
 from pam_ros.errors import ParameterError
 from pam_ros.muscle.constants import CONSTANTS, Constants
 from pam_ros.muscle.muscle import Muscle

@@ -3,13 +3,13 @@
 """A muscle: its constants, length, damping ratio and limits, checked when it is created."""
 
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pam_ros.arguments import alike, array, number
+from pam_ros.cached_property import cached_property
 from pam_ros.errors import ParameterError, RangeError
 from pam_ros.muscle import law
 from pam_ros.muscle.constants import CONTRACTION_UNITS, PRESSURE_UNITS, Constants, to_si

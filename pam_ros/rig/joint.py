@@ -5,12 +5,12 @@
 import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pam_ros.arguments import instance, number, refuse, sequence
+from pam_ros.cached_property import cached_property
 from pam_ros.effects import EFFECTS
 from pam_ros.effects.base import Effect
 from pam_ros.errors import ParameterError, RangeError

@@ -8,12 +8,12 @@ file can be used for both programs.
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
 from math import isfinite, nan
 from typing import Any, ClassVar
 
 import numpy as np
 
+from pam_ros.cached_property import cached_property
 from pam_ros.control.co_contraction import CoContraction
 from pam_ros.control.gains import Gains
 from pam_ros.control.limits import Limits

@@ -4,11 +4,11 @@
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from pathlib import Path
 from typing import Any
 
 from pam_ros.arguments import refuse, sequence
+from pam_ros.cached_property import cached_property
 from pam_ros.effects.base import Effect
 from pam_ros.effects.names import EffectName
 from pam_ros.parameters import Parameter

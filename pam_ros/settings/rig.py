@@ -12,10 +12,10 @@ of those parameters that were given for it at the start, directly or by a preset
 
 import re
 from collections.abc import Iterable, Sequence
-from functools import cached_property
 from itertools import chain
 from typing import Any, ClassVar
 
+from pam_ros.cached_property import cached_property
 from pam_ros.effects.base import Effect
 from pam_ros.errors import ParameterError
 from pam_ros.muscle.muscle import Muscle

@@ -3,13 +3,13 @@
 """The muscles and joints that ``pam_sim`` simulates, built from flat parameters."""
 
 from dataclasses import dataclass
-from functools import cached_property
 from itertools import chain
 from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from pam_ros.cached_property import cached_property
 from pam_ros.errors import ParameterError
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig import statics

@@ -19,7 +19,10 @@ PACKAGE = ROOT / 'pam_ros'
 FILES = sorted(path.relative_to(ROOT) for path in PACKAGE.rglob('*.py'))
 # From bottom to top. A room is a folder or a module; it imports from itself and lower floors.
 FLOORS = (
-    ('pam_ros.code_cache', 'pam_ros.errors', 'pam_ros.processes', 'pam_ros.timing'),
+    (
+        *('pam_ros.cached_property', 'pam_ros.code_cache', 'pam_ros.errors'),
+        *('pam_ros.processes', 'pam_ros.timing'),
+    ),
     ('pam_ros.compiled',),
     ('pam_ros.arguments', 'pam_ros.plain_yaml'),
     ('pam_ros.recording', 'pam_ros.units', 'pam_ros.version'),

@@ -9,11 +9,11 @@ on the joint.
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
+from pam_ros.cached_property import cached_property
 from pam_ros.effects.base import Effect, HiddenState, Starts
 from pam_ros.effects.names import EffectName, parsed
 from pam_ros.effects.parameter import EffectParameter

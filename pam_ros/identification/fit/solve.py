@@ -15,12 +15,12 @@ computed, and bounds are kept by projection with the active ones held.
 from collections.abc import Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
-from functools import cached_property
 from math import log
 
 import numpy as np
 from numpy.typing import NDArray
 
+from pam_ros.cached_property import cached_property
 from pam_ros.identification.fit import score as evidence
 from pam_ros.identification.fit.discrepancy import WHITE, Discrepancy, Whitening, deviance
 from pam_ros.identification.fit.problem import Problem
