@@ -160,19 +160,30 @@ def disturb(
             x[rows, layout.state_at[name] + names.index(which)] += number(
                 f'hidden.{name}.{which}', change
             )
-    fill_chambers(layout, q, x, pressures)
+    fill_chambers(layout, q, x, pressures, present)
 
 
-def fill_chambers(layout: Layout, q: Array, x: Array, pressures: Sequence[float] | Array) -> None:
-    """Set the chambers to the pressures that result from *pressures* Pa and the hidden states."""
+def fill_chambers(
+    layout: Layout,
+    q: Array,
+    x: Array,
+    pressures: Sequence[float] | Array,
+    present: Sequence[type[Effect]],
+) -> None:
+    """Set the chambers to the pressures that result from *pressures* Pa and the hidden states.
+
+    The other effects than those that are *present* must be absent in the parameters q.
+    """
     for i, pressure in enumerate(pressures):
-        x[at.MUSCLE + i, at.P] = _in_chamber(layout, q, x, i, float(pressure))
+        x[at.MUSCLE + i, at.P] = _in_chamber(layout, q, x, i, float(pressure), present)
 
 
-def _in_chamber(layout: Layout, q: Array, x: Array, i: int, pressure: float) -> float:
+def _in_chamber(
+    layout: Layout, q: Array, x: Array, i: int, pressure: float, effects: Sequence[type[Effect]]
+) -> float:
     """Return the present pressure in the chamber of muscle i, with *pressure* Pa at its inlet."""
     row, own = at.MUSCLE + i, q[at.MUSCLE + i]
-    for effect in layout.library:
+    for effect in effects:
         k, j = layout.state_at[effect.name], layout.parameter_at[effect.name]
         pressure = _behind(effect, pressure, x[row], k, own, j)
     return pressure

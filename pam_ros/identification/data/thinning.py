@@ -20,15 +20,15 @@ from pam_ros.rig.joint import Joint
 
 Array = NDArray[np.float64]
 
-PHASE = 0.5  # rad of the rig's fastest oscillation in one step
-STEPS = (1e-3, 10e-3)  # s, shortest and longest step
+PHASE = 0.5  # rad of the rig's fastest oscillation in one period
+STEPS = (1e-3, 10e-3)  # s, shortest and longest period
 JUMP = 0.01  # change of a command that is a jump, as a share of its range
 ROOM = 0.1  # share by which a period may be longer than desired, since stamps jitter
 HELD_STEP = 0.02  # s; at a prescribed length there are no dynamics to resolve, only memories
 
 
-def coarse_step(model: Joint) -> float:
-    """Return a step in s of PHASE rad of the oscillation about the stiffest rest position."""
+def coarse_period(model: Joint) -> float:
+    """Return a period in s of PHASE rad of the oscillation about the stiffest rest position."""
     if model.is_driven:
         return STEPS[1]
     if len(model.muscles) > 1 or model.is_revolute:
@@ -48,10 +48,18 @@ def _stiffest(joint: Joint) -> float:
     return float(max(found))
 
 
-def thinned(segment: Segment, step: float) -> Segment:
+def longest_step(period: float) -> float:
+    """Return the longest step in s of simulations of segments that are thinned to *period* s.
+
+    A period that is longer than desired remains one step: two would cost twice as much.
+    """
+    return (1.0 + ROOM) * period
+
+
+def thinned(segment: Segment, longest: float) -> Segment:
     """Return *segment* with every n-th sample.
 
-    The period is at most about *step* in s, and at a prescribed length at most about HELD_STEP.
+    The period is at most about *longest* in s, and at a prescribed length at most about HELD_STEP.
     """
     period = float(np.median(np.diff(segment.t)))
     if isinstance(segment, HeldSegment):
@@ -65,7 +73,7 @@ def thinned(segment: Segment, step: float) -> Segment:
             },
         )
     assert isinstance(segment, FreeSegment)
-    stride = max(1, int(step / period + ROOM))
+    stride = max(1, int(longest / period + ROOM))
     t = segment.t[::stride]
     drive_t, drive = _merged(segment.drive_t, segment.drive, t)
     return replace(

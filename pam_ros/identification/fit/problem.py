@@ -10,11 +10,12 @@ simulation per column, can be used for every discrepancy.
 from collections.abc import Callable, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass
-from functools import cached_property
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from pam_ros.cached_property import cached_property
 from pam_ros.effects.base import Effect
 from pam_ros.identification.data.segment import FreeSegment, HeldSegment, Segment
 from pam_ros.identification.data.thinning import HELD_STEP
@@ -39,6 +40,7 @@ from pam_ros.rig.layout import Layout
 from pam_ros.rig.start import fill_chambers, start_state
 
 Array = NDArray[np.float64]
+T = TypeVar('T')
 DIFFERENCE = 1e-3  # step of u for a derivative; a thousandth of a parameter's typical size
 DIVERGED = 1e6  # m or N: the residual of a simulation without a finite result
 
@@ -76,9 +78,8 @@ class Problem:
     def row_at(self, u: Array) -> Array:
         """Return the parameter row at the unknowns u."""
         q: Array = self.row.copy()
-        for unknown, value in zip(self.unknowns, u, strict=True):
-            if isinstance(unknown.of, Constant | OfEffect):
-                q[list(unknown.of.indices)] = unknown.value(value)
+        for indices, unknown, k in self._in_row:
+            q[indices] = unknown.value(u[k])
         numbers = self.numbers_at(u)
         if numbers:
             assert self.joint is not None
@@ -87,8 +88,7 @@ class Problem:
 
     def numbers_at(self, u: Array) -> dict[OfRig, float]:
         """Return the unknown numbers of load, transmission and mounting at the unknowns u."""
-        pairs = zip(self.unknowns, u, strict=True)
-        return {one.of: one.value(value) for one, value in pairs if isinstance(one.of, OfRig)}
+        return {of: unknown.value(u[k]) for of, unknown, k in self._of(OfRig)}
 
     def runs(self, u: Array, only: int | None = None) -> list[Array]:
         """Return the free run of every segment, or of segment *only*, at u.
@@ -123,10 +123,10 @@ class Problem:
 
         None if they act from the start.
         """
-        pairs = zip(self.unknowns, u, strict=True)
-        time = next((k.value(value) for k, value in pairs if isinstance(k.of, OnsetTime)), None)
-        if time is None:
+        if not self._of(OnsetTime):
             return None
+        _, unknown, n = self._of(OnsetTime)[0]
+        time = unknown.value(u[n])
         rows = {(k // self.layout.parameters, e.name) for e, k in self._strengths}
         begun = [
             [effect for effect in self.layout.library if (row, effect.name) in rows]
@@ -144,21 +144,18 @@ class Problem:
         """Return the state at the start of a run."""
         s = self.segments[run]
         y0, v0 = s.y0, s.v0
-        memories = []
-        for unknown, value in zip(self.unknowns, u, strict=True):
-            of = unknown.of
-            if isinstance(of, RunStart) and of.run == run:
-                if of.is_velocity:
-                    v0 = unknown.value(value)
-                else:
-                    y0 = unknown.value(value)
-            elif isinstance(of, MemoryStart) and of.run == run:
-                memories.append((of, unknown.value(value)))
-        x = start_state(self.layout, q, s.first_pressures, y0, v0, self._present)
+        for of, unknown, k in self._of(RunStart):
+            if of.run == run and of.is_velocity:
+                v0 = unknown.value(u[k])
+            elif of.run == run:
+                y0 = unknown.value(u[k])
+        pressures = s.first_pressures
+        x = start_state(self.layout, q, pressures, y0, v0, self._present)
+        memories = [one for one in self._of(MemoryStart) if one[0].run == run]
         if memories:
-            for of, away in memories:
-                x[of.row, of.column] += away
-            fill_chambers(self.layout, q, x, s.first_pressures)
+            for memory, unknown, k in memories:
+                x[memory.row, memory.column] += unknown.value(u[k])
+            fill_chambers(self.layout, q, x, pressures, self._present)
         return x
 
     def predict(self, u: Array, only: int | None = None) -> list[Array]:
@@ -167,21 +164,13 @@ class Problem:
         If commands acted earlier by d than their stamps, the motion did, too: s(t + d) = s + v d.
         """
         column = at.RUN_S if self.segments[0].kind == 'free' else at.RUN_F
-        levels = {
-            unknown.of.run: unknown.value(value)
-            for unknown, value in zip(self.unknowns, u, strict=True)
-            if isinstance(unknown.of, RunLevel)
-        }
-        early = sum(
-            unknown.value(value)
-            for unknown, value in zip(self.unknowns, u, strict=True)
-            if isinstance(unknown.of, CommandTime)
-        )
+        levels = {of.run: unknown.value(u[k]) for of, unknown, k in self._of(RunLevel)}
+        early = sum(unknown.value(u[k]) for _, unknown, k in self._of(CommandTime))
         which = range(len(self.segments)) if only is None else (only,)
         found = []
         for run, out in zip(which, self.runs(u, only), strict=True):
             s = self.segments[run]
-            simulated = out[:, column] + levels.get(run, 0.0)
+            simulated: Array = out[:, column] + levels.get(run, 0.0)
             if early and isinstance(s, FreeSegment) and s.drive_spread:
                 simulated += early * out[:, at.RUN_V]
             found.append(simulated)
@@ -192,11 +181,14 @@ class Problem:
 
         A simulation that diverges gives large finite residuals, so that a fit steps back.
         """
-        return np.concatenate([self._left(k, p) for k, p in enumerate(self.predict(u))])
+        left = [self._left(k, simulated) for k, simulated in enumerate(self.predict(u))]
+        return left[0] if len(left) == 1 else np.concatenate(left)
 
     def _left(self, run: int, simulated: Array) -> Array:
         s = self.segments[run]
-        e = (simulated - s.target)[s.fit]
+        e: Array = (simulated - s.target)[s.fit]
+        if np.max(np.abs(e), initial=0.0) <= DIVERGED:  # false also for NaN
+            return e
         return np.clip(np.nan_to_num(e, nan=DIVERGED), -DIVERGED, DIVERGED)
 
     def jacobian(
@@ -227,6 +219,27 @@ class Problem:
         run: Callable[..., object] = map if pool is None else pool.map
         found = list(run(column, columns))  # type: ignore[call-overload]
         return np.stack(found, axis=1) if found else np.empty((r.size, 0))
+
+    # Cached, since each of many simulations needs them -----------------------------------------
+
+    def _of(self, kind: type[T]) -> list[tuple[T, Unknown, int]]:
+        """Return what is unknown of one *kind*, each with its unknown and the index of its u."""
+        found: list[tuple[T, Unknown, int]] = self._by_kind.get(kind, [])
+        return found
+
+    @cached_property
+    def _by_kind(self) -> dict[type, list[Any]]:
+        """What is unknown, by its type: see :meth:`_of`."""
+        found: dict[type, list[Any]] = {}
+        for k, unknown in enumerate(self.unknowns):
+            found.setdefault(type(unknown.of), []).append((unknown.of, unknown, k))
+        return found
+
+    @cached_property
+    def _in_row(self) -> list[tuple[list[int], Unknown, int]]:
+        """The indices in the parameter row of each unknown that has some, see :meth:`_of`."""
+        constants = [(list(of.indices), one, k) for of, one, k in self._of(Constant)]
+        return constants + [(list(of.indices), one, k) for of, one, k in self._of(OfEffect)]
 
     @cached_property
     def _present(self) -> tuple[type[Effect], ...]:
@@ -261,7 +274,7 @@ class Problem:
 
     @cached_property
     def _ends(self) -> NDArray[np.int_]:
-        """The end index of the residuals of each run; cached, since fits need it at each step."""
+        """The end index of the residuals of each run."""
         return np.cumsum([np.count_nonzero(s.fit) for s in self.segments])
 
     def by_run(self, values: Array) -> list[Array]:
@@ -274,5 +287,7 @@ class Problem:
 
     def whitened(self, values: Array, whitenings: Sequence[Whitening]) -> Array:
         """Return residuals (n,), or the columns of a Jacobian (n, k), after these maps."""
+        if len(whitenings) == 1:
+            return whitenings[0](values)
         parts = zip(whitenings, self.by_run(values), strict=True)
         return np.concatenate([whitening(part) for whitening, part in parts])

@@ -75,7 +75,7 @@ def _nearest(problem: Problem, u: Array, setting: Setting) -> Solution:
     tenth, and its result is nearly the final one, except for a load that hits something.
     """
     budget, pool = setting.budget, setting.pool
-    segments = tuple(thinned(s, setting.step) for s in problem.segments)
+    segments = tuple(thinned(s, setting.period) for s in problem.segments)
     coarse = replace(problem, segments=segments, step=setting.step)
     there = least_squares(begun(coarse, u, pool=pool), budget.iterations, pool).u
     nearer = min((u, there), key=lambda one: float(np.linalg.norm(problem.residuals(one))))

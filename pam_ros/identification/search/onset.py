@@ -79,7 +79,7 @@ def _runs(setting: Setting) -> list[Segment]:
     names = {s.name for s in segments}
     if len(names) > 1 or any(a.t[-1] >= b.t[0] for a, b in pairwise(segments)):
         return []
-    runs = [thinned(s, setting.step) for s in segments]
+    runs = [thinned(s, setting.period) for s in segments]
     return [s for s in runs if s.t.size >= FEWEST]
 
 

@@ -2,16 +2,18 @@
 # SPDX-License-Identifier: Apache-2.0
 """A loop over moves from model to model, until no move is accepted."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from pam_ros.identification.fit.places import effect_of, muscle_of
-from pam_ros.identification.fit.solve import settled, solved
+from pam_ros.identification.fit.solve import Solution, settled, solved
 from pam_ros.identification.search.moves import dropped, fixed, freed, swapped, with_each
 from pam_ros.identification.search.setting import Model, Setting
 
+Array = NDArray[np.float64]
 Progress = Callable[[float, str], None]  # share of the work that is done, and the next step
 
 
@@ -96,16 +98,30 @@ def exchanged(found: Search) -> Model | None:
 def confirmed(found: Search) -> Model:
     """Return the best model, fitted with finer steps, without what only coarse steps need.
 
-    A coarse step is a model error, too: a dead time can compensate it if a load meets a stop.
+    A coarse step is a model error, too: a dead time can compensate it if a load meets a stop. If
+    finer steps hardly change the residuals, the fit with coarse steps remains.
     """
     setting, best = found.setting, found.best
     if not best.effects:
         return best
     known = best.solution
     problem = replace(known.problem, step=known.problem.step / setting.budget.finer)
-    fine = replace(known, problem=problem, r=problem.residuals(known.u), is_fresh=False)
-    now = setting.model(best.effects, settled(fine, setting.budget.iterations, setting.pool))
-    return _fixed(_reduced(now, found), found)
+    r = problem.residuals(known.u)
+    if _are_different(known, r, setting):
+        fine = replace(known, problem=problem, r=r, is_fresh=False)
+        end = settled(fine, setting.budget.iterations, setting.pool)
+        best = setting.model(best.effects, end)
+    return _fixed(_reduced(best, found), found)
+
+
+def _are_different(known: Solution, r: Array, setting: Setting) -> bool:
+    """Return whether a model that explains the change of the residuals to r (n,) could be chosen.
+
+    It could if the squared change, in units of the noise, is larger than the margin: the score
+    falls by at most so much. With a discrepancy, which the free run does not have, it falls less.
+    """
+    change = r - known.r
+    return float(change @ change) > setting.criteria.margin * setting.noise**2
 
 
 def absent(model: Model, setting: Setting) -> list[str]:
@@ -283,15 +299,18 @@ def matters(now: Model, before: Model, retuned: Model, setting: Setting) -> bool
     return all(does(*pair) for pair in pairs)
 
 
+def with_errors(models: Iterable[Model], setting: Setting) -> None:
+    """Compute the errors of *models* in parallel; they are stored."""
+    list(setting.pool.map(lambda model: model.errors, models))
+
+
 def alternatives(found: Search, name: str) -> tuple[str, ...]:
     """Return the effects that could replace *name*, with scores not worse by the margin."""
     best = found.best
     rest = set(best.effects) - {name}
-    near = [m for m in found.looked_at if m.score < best.score + found.setting.criteria.margin]
-    found_instead = [
-        {*m.effects} - rest
-        for m in near
-        if rest < {*m.effects} and no_worse(m, best, found.setting)
-    ]
+    most = best.score + found.setting.criteria.margin
+    near = [m for m in found.looked_at if m.score < most and rest < {*m.effects}]
+    with_errors(near, found.setting)
+    found_instead = [{*m.effects} - rest for m in near if no_worse(m, best, found.setting)]
     names = dict.fromkeys(one for some in found_instead if len(some) == 1 for one in some)
     return tuple(one for one in names if one != name)

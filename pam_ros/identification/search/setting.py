@@ -11,16 +11,16 @@ the best score can be far from those of the nearest free run.
 from collections.abc import Iterable, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, field, replace
-from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
+from pam_ros.cached_property import cached_property
 from pam_ros.identification.data.noise import noise_of
 from pam_ros.identification.data.parts import Part
 from pam_ros.identification.data.rests import without_rests
 from pam_ros.identification.data.segment import Segment, windows
-from pam_ros.identification.data.thinning import coarse_step, thinned
+from pam_ros.identification.data.thinning import coarse_period, longest_step, thinned
 from pam_ros.identification.fit.discrepancy import WHITE
 from pam_ros.identification.fit.places import Place, muscle_of, places_of
 from pam_ros.identification.fit.problem import Problem
@@ -79,8 +79,10 @@ class Model:
     @cached_property
     def _near(self) -> Solution:
         setting, plain = self.setting, replace(self.solution, discrepancy=WHITE)
-        near = improved(plain, setting.budget.nearer, renew=not self.is_look)
-        if self.is_look or self.strain <= setting.criteria.strain:
+        if self.is_look:
+            return improved(plain, setting.budget.looks, renew=False)
+        near = improved(plain, setting.budget.nearer)
+        if self.strain <= setting.criteria.strain:
             return near
         again = (improved(one, setting.budget.nearer) for one in with_nominal_constants(plain))
         return min((near, *again), key=lambda one: one.cost)
@@ -91,7 +93,7 @@ class Model:
 
         They result from least squares that begin at the result of the fit. If the fit has moved
         the constants further than specimens differ, least squares also begin with nominal ones,
-        and the nearer result is used. For a cheap fit the computation is as cheap.
+        and the nearer result is used. For a cheap fit a few cheap steps are made.
         """
         return self._near.u
 
@@ -128,9 +130,14 @@ class Setting:
         return noise_of([(s.t, s.target) for s in known]).sigma
 
     @cached_property
+    def period(self) -> float:
+        """Sampling period in s to which runs are thinned."""
+        return coarse_period(self.joint)
+
+    @property
     def step(self) -> float:
-        """Longest step in s of simulations."""
-        return coarse_step(self.joint)
+        """Longest step in s of simulations of thinned runs."""
+        return longest_step(self.period)
 
     @property
     def is_crossed(self) -> bool:
@@ -141,7 +148,7 @@ class Setting:
     @cached_property
     def thin(self) -> list[Part]:
         """The parts that are searched, thinned."""
-        return [replace(p, segment=thinned(p.segment, self.step)) for p in self.searched]
+        return [replace(p, segment=thinned(p.segment, self.period)) for p in self.searched]
 
     @cached_property
     def searched(self) -> Sequence[Part]:
@@ -166,7 +173,7 @@ class Setting:
 
     def _size(self, parts: Sequence[Part]) -> int:
         """Return how many thinned samples of *parts* are fitted."""
-        return sum(thinned(p.segment, self.step).t.size for p in parts if p.is_fitted)
+        return sum(thinned(p.segment, self.period).t.size for p in parts if p.is_fitted)
 
     @cached_property
     def problem(self) -> Problem:

@@ -11,7 +11,14 @@ from scipy.stats import chi2
 from pam_ros.identification.fit.places import spelled
 from pam_ros.identification.result import Candidate
 from pam_ros.identification.search.power import hidden
-from pam_ros.identification.search.search import Search, alternatives, best_with, matters, no_worse
+from pam_ros.identification.search.search import (
+    Search,
+    alternatives,
+    best_with,
+    matters,
+    no_worse,
+    with_errors,
+)
 from pam_ros.identification.search.setting import Model
 from pam_ros.identification.search.stages import at_place, estimates
 
@@ -32,9 +39,7 @@ def candidates(found: Search) -> tuple[Candidate, ...]:
             if model.effects:
                 *before, name = model.effects
                 children.setdefault((frozenset(before), name), model)
-    # Errors are computed once; in parallel from Python 3.12 on, where cached properties of several
-    # objects do not share a lock.
-    list(found.setting.pool.map(lambda m: m.errors, {*parents.values(), *children.values()}))
+    with_errors({*parents.values(), *children.values()}, found.setting)
     made = []
     for effects in sorted(parents, key=len):
         tried = [child for (before, _), child in children.items() if before == effects]

@@ -8,7 +8,14 @@ import numpy as np
 import pytest
 
 from pam_ros.identification.data.segment import segments_of
-from pam_ros.identification.data.thinning import HELD_STEP, PHASE, STEPS, coarse_step, thinned
+from pam_ros.identification.data.thinning import (
+    HELD_STEP,
+    PHASE,
+    STEPS,
+    coarse_period,
+    longest_step,
+    thinned,
+)
 from pam_ros.identification.fit.problem import Problem
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.recording.recording import Recording
@@ -104,6 +111,15 @@ def test_samples_are_every_nth_and_commands_fewer():
     assert (thin.y0, thin.v0) == (segment.y0, segment.v0)
 
 
+@pytest.mark.parametrize('period', [9.97e-3, 1e-2, 6.04e-3])
+def test_a_period_is_one_step_though_it_is_slightly_longer_than_desired(period):
+    t = np.arange(6000) * 1e-3
+    thin = thinned(recorded(t, t, wave(t)), period)
+    assert np.ptp(np.diff(thin.t)) < 1e-9
+    assert thin.t[1] - thin.t[0] == pytest.approx(round(period, 3))
+    assert thin.t[1] - thin.t[0] < longest_step(period) < 1.2 * period
+
+
 def test_a_jump_keeps_its_stamp():
     t = np.arange(4000) * 1e-3
     jumps = (0.5004, 1.2337, 2.0)
@@ -144,14 +160,16 @@ def test_the_step_turns_the_rigs_fastest_swing_by_a_set_angle():
         k.append(-100.0 * slope / 0.4)
     expected = PHASE / np.sqrt(max(k) / 10.0)
     assert STEPS[0] < expected < STEPS[1]
-    assert coarse_step(model) == pytest.approx(expected, rel=1e-9)
+    assert coarse_period(model) == pytest.approx(expected, rel=1e-9)
 
 
 def test_the_step_stays_between_its_limits():
     heavy = single_muscle_joint(Muscle(), Mass(mass=40.0, mount='horizontal'))
-    assert STEPS[0] <= coarse_step(heavy) <= STEPS[1]
+    assert STEPS[0] <= coarse_period(heavy) <= STEPS[1]
     source = Muscle(a1=0.0, a2=0.0, a4=0.0, zeta=0.0)
-    assert coarse_step(single_muscle_joint(source, Mass(mass=5.0, mount='horizontal'))) == STEPS[1]
+    assert (
+        coarse_period(single_muscle_joint(source, Mass(mass=5.0, mount='horizontal'))) == STEPS[1]
+    )
 
 
 @pytest.mark.slow
@@ -162,7 +180,7 @@ def test_a_thinned_run_moves_like_the_full_one():
     t = np.arange(20_000) * 1e-3
     command = wave(t) + 1e4 * np.sin(2 * np.pi * 4.0 * t) + 4e4 * (uneven(rng, t.size) // 1.7 % 2)
     segment = recorded(t, t, command, np.full(t.size, equilibrium(model, command[0])))
-    thin = thinned(segment, coarse_step(model))
+    thin = thinned(segment, coarse_period(model))
     stride = round(thin.t[1] / t[1])
     assert stride >= 5
 
@@ -172,11 +190,11 @@ def test_a_thinned_run_moves_like_the_full_one():
 
     full = run(segment, 1e-3)[::stride]
     assert np.ptp(full) > 5e-3
-    coarse = run(thin, coarse_step(model))
+    coarse = run(thin, coarse_period(model))
     # Below the quietest sensor's noise; every tenth command alone comes half a stride late.
     error = np.sqrt(np.mean((coarse - full) ** 2))
     late = replace(thin, drive_t=t[::stride], drive=command[::stride, None])
-    plain = run(late, coarse_step(model))
+    plain = run(late, coarse_period(model))
     assert error < 5e-6
     assert error < 0.05 * np.sqrt(np.mean((plain - full) ** 2))
 

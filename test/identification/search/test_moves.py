@@ -160,7 +160,24 @@ def test_an_effect_that_was_chosen_before_a_better_one_is_exchanged(tried, retun
 def test_what_is_not_needed_beside_the_right_effect_goes_with_finer_steps(tried, retuned, setting):
     (both,) = with_each(tried[0], ['viscous_friction'], setting)
     found = Search(setting, retuned, both, [retuned, *tried, both])
-    best = confirmed(found)
-    assert best.effects == ('pressure_lag',)
-    assert best.solution.problem.step == setting.step / BUDGET.finer
+    assert confirmed(found).effects == ('pressure_lag',)
     assert confirmed(Search(setting, retuned, retuned, [retuned])) is retuned
+
+
+@pytest.mark.parametrize(('noises', 'is_fine'), [(0.01, False), (10.0, True)])
+def test_finer_steps_are_fitted_only_if_they_change_the_residuals(
+    tried, retuned, setting, monkeypatch, noises, is_fine
+):
+    """The steps of a load that hits something are a model error; those of this load are none."""
+    known = tried[0].solution
+    residuals = type(known.problem).residuals
+
+    def off(problem, u):
+        is_coarse = problem.step == setting.step
+        return residuals(problem, u) + (0.0 if is_coarse else noises * known.noise)
+
+    monkeypatch.setattr(type(known.problem), 'residuals', off)
+    best = confirmed(Search(setting, retuned, tried[0], [retuned, *tried]))
+    assert best.effects == ('pressure_lag',)
+    finest = setting.step / BUDGET.finer if is_fine else setting.step
+    assert best.solution.problem.step == finest
