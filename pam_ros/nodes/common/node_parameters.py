@@ -15,6 +15,7 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter as RosParameter
 
 from pam_ros.errors import PamError, shown
+from pam_ros.nodes.common.rclpy_internals import declare_texts, overrides_of
 from pam_ros.parameters import Parameter
 from pam_ros.plain_yaml import EXPONENTIAL
 from pam_ros.settings.former_names import renamed
@@ -44,7 +45,7 @@ class NodeParameters(Generic[T]):
     ) -> None:
         """Declare all of *table* on *node* with the values that it was started with."""
         self._node, self._table = node, table
-        sentence = renamed(_overrides(node))[1]
+        sentence = renamed(overrides_of(node))[1]
         if sentence:
             node.get_logger().warning(shown(sentence))
         self._build, self._apply = build, apply
@@ -54,12 +55,7 @@ class NodeParameters(Generic[T]):
         for name, (kind, _, about) in table.items():
             descriptor, value = describe(about, kind), self.values[name]
             if kind is tuple:
-                # rclpy finds no type in an empty list: there is no public way to declare one.
-                texts = RosParameter.Type.STRING_ARRAY
-                descriptor.type = texts.value
-                node._declare_parameter_common(
-                    [RosParameter(name, texts, list(value))], {name: descriptor}
-                )
+                declare_texts(node, name, value, descriptor)
             else:
                 node.declare_parameter(name, value, descriptor, ignore_override=True)
         node.add_pre_set_parameters_callback(self._to_float)
@@ -123,17 +119,7 @@ def _is_number(parameter: RosParameter) -> bool:
 
 def given(node: Node) -> dict[str, Any]:
     """Return the values that *node* was started with, declared or not, by the names of today."""
-    return renamed(_overrides(node))[0]
-
-
-def _overrides(node: Node) -> dict[str, Any]:
-    """Return the values that *node* was started with by the names that were given.
-
-    An empty list has no type in YAML and arrives as not set, which nothing else can be here.
-    """
-    # rclpy has no public way to look at them before they are declared.
-    overrides = node._parameter_overrides.items()
-    return {name: [] if p.value is None else p.value for name, p in overrides}
+    return renamed(overrides_of(node))[0]
 
 
 def describe(about: Parameter, kind: type) -> ParameterDescriptor:

@@ -2,10 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Takes the newest messages of a topic now and then, without a callback for each of them."""
 
+from itertools import islice
 from typing import NamedTuple
 
 from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
+
+from pam_ros.nodes.common.rclpy_internals import messages_of
 
 # Messages that are kept between two samples: a second of 250 Hz. To take as many costs a node
 # about a millisecond.
@@ -46,14 +49,10 @@ class Sampler:
 
     def take(self) -> list[Sample]:
         """Return the newest messages since the last call, in the order of their arrival."""
-        found: list[Sample] = []
-        while len(found) < KEPT:
-            taken = self._subscription.handle.take_message(self._subscription.msg_type, True)
-            if taken is None:
-                break
-            message, info = taken
-            found.append(Sample(message, info['publication_sequence_number']))
-        return found
+        return [
+            Sample(message, info['publication_sequence_number'])
+            for message, info in islice(messages_of(self._subscription), KEPT)
+        ]
 
     def close(self) -> None:
         """Release the subscription and its node."""

@@ -18,7 +18,7 @@ from typing import Any
 
 import rclpy
 from rclpy.exceptions import NameValidationException, ParameterException
-from rclpy.executors import Executor, SingleThreadedExecutor
+from rclpy.executors import Executor
 from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
 from rclpy.subscription import Subscription
@@ -26,16 +26,12 @@ from rclpy.utilities import remove_ros_args
 from rosgraph_msgs.msg import Clock
 
 from pam_ros.errors import PamError, shown
+from pam_ros.nodes.common.rclpy_internals import EventsExecutor
 from pam_ros.processes.ends import end_within
 from pam_ros.processes.priority import NORMAL, prefer_real_time
 from pam_ros.processes.stop import StopRequest
 from pam_ros.timing.ticker import Ticker
 from pam_ros.version import VERSION_HELP, VERSION_LINE
-
-try:
-    from rclpy.experimental import EventsExecutor
-except ImportError:  # Jazzy before its patch release of 2025
-    EventsExecutor = SingleThreadedExecutor
 
 BAD_INPUT = 2
 # s in which the answer of a service that was told to stop is read. One that is lost among the

@@ -19,10 +19,11 @@ from rosgraph_msgs.msg import Clock
 
 from pam_ros.errors import RecordingError, shown
 from pam_ros.health.absence import Absence
+from pam_ros.nodes.common.rclpy_internals import messages_of
 from pam_ros.nodes.common.spin import BAD_INPUT, TickingNode
 from pam_ros.nodes.record.message_text import message_text
 from pam_ros.nodes.record.qos import matching, metadata
-from pam_ros.nodes.record.taking import Recorded, Taken, all_of, never
+from pam_ros.nodes.record.taking import Recorded, Taken, never
 from pam_ros.recording.bag_metadata import BagTopic
 from pam_ros.recording.bag_writer import BagWriter
 from pam_ros.recording.simulated_time import SimulatedTime
@@ -211,7 +212,7 @@ class PamRecord(TickingNode):
         it is taken is later; the faster time is simulated, the greater is this delay.
         """
         for topic, recorded in self._recorded.items():
-            for data, info in all_of(recorded.subscription):
+            for data, info in messages_of(recorded.subscription):
                 received, sent = info['received_timestamp'], info['source_timestamp']
                 if self._is_simulated and sent:
                     recorded.waiting.append((data, sent, monotonic_ns()))
@@ -221,7 +222,7 @@ class PamRecord(TickingNode):
                     self._writer.write(recorded.channel, received, sent, data)
                 recorded.count_lost(info['publication_sequence_number'], topic in self._sole)
         if self._clock_subscription:
-            for message, info in all_of(self._clock_subscription):
+            for message, info in messages_of(self._clock_subscription):
                 if not self.refuses_time(message):
                     now = message.clock.sec * SECOND + message.clock.nanosec
                     self._time.tell(info['source_timestamp'], now)

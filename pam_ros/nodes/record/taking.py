@@ -3,7 +3,6 @@
 """Subscriptions whose messages are taken from the middleware, not called back with."""
 
 from collections import deque
-from collections.abc import Iterator
 from typing import Any
 
 from rclpy.callback_groups import CallbackGroup
@@ -45,14 +44,6 @@ class Recorded:
         if is_sole and self.last_number is not None and number > self.last_number:
             self.lost += number - self.last_number - 1
         self.last_number = number
-
-
-def all_of(subscription: Subscription) -> Iterator[tuple[Any, dict[str, Any]]]:
-    """Yield all messages that have come, and what the middleware knows of each."""
-    handle = subscription.handle
-    with handle:
-        while taken := handle.take_message(subscription.msg_type, subscription.raw):
-            yield taken
 
 
 def never(message: bytes) -> None:
