@@ -21,7 +21,7 @@ from pam_ros.rig.joint import Joint
 Array = NDArray[np.float64]
 
 PHASE = 0.5  # rad of the rig's fastest oscillation in one period
-STEPS = (1e-3, 10e-3)  # s, shortest and longest period
+PERIODS = (1e-3, 10e-3)  # s, shortest and longest period
 JUMP = 0.01  # change of a command that is a jump, as a share of its range
 ROOM = 0.1  # share by which a period may be longer than desired, since stamps jitter
 HELD_STEP = 0.02  # s; at a prescribed length there are no dynamics to resolve, only memories
@@ -30,13 +30,13 @@ HELD_STEP = 0.02  # s; at a prescribed length there are no dynamics to resolve, 
 def coarse_period(model: Joint) -> float:
     """Return a period in s of PHASE rad of the oscillation about the stiffest rest position."""
     if model.is_driven:
-        return STEPS[1]
+        return PERIODS[1]
     if len(model.muscles) > 1 or model.is_revolute:
-        return float(np.clip(PHASE / np.sqrt(_stiffest(model) / model.inertia), *STEPS))
+        return float(np.clip(PHASE / np.sqrt(_stiffest(model) / model.inertia), *PERIODS))
     muscle = model.muscle
     ends = (0.0, muscle.p_max)
     k = max(float(muscle.stiffness(p, equilibrium(model, p) / muscle.l0)) for p in ends)
-    return float(np.clip(PHASE / np.sqrt(k / model.load.mass), *STEPS))
+    return float(np.clip(PHASE / np.sqrt(k / model.load.mass), *PERIODS))
 
 
 def _stiffest(joint: Joint) -> float:

@@ -9,7 +9,9 @@ Minimised is -2 ln(posterior) with the variance of the noise at its most likely 
 where W whitens the residuals r and z are the unknowns in standard deviations of their priors.
 scipy's ``least_squares`` recomputes every column at every step. Here a column is a simulation and
 most hardly change, so Broyden's rule keeps them up to date between the places where they are
-computed, and bounds are kept by projection with the active ones held.
+computed. An unknown at a bound that its gradient points out of is held there; the others approach
+their bounds by a share of the distance in each step, as interior-point methods do ("fraction to
+the boundary": Nocedal and Wright 2006, Numerical Optimization, eq. 19.9).
 """
 
 from collections.abc import Sequence
@@ -36,6 +38,11 @@ TRIALS = 6  # dampings that are tried along a Jacobian of its place; half along 
 # where it is wrong the second estimate differs little from the first.
 ALTERNATIONS = 3
 AGREED = 0.05  # change of the logarithms of size and time that is none
+# A step goes at most this share of the distance to a bound. The step was computed for all unknowns
+# together: were one cut at its bound, the others would take a step that suits a value that this
+# one does not have, and an effect that is put out of action at its bound has no gradient back.
+SHARE_TO_BOUND = 0.9
+AT_BOUND = 1e-3  # distance, in units of u, from which a step may end on the bound
 
 
 @dataclass(frozen=True, eq=False)
@@ -195,7 +202,7 @@ def improved(
         free = ~(((u <= low) & (gradient > 0.0)) | ((u >= high) & (gradient < 0.0)))
         gain, hoped = 0.0, np.inf
         for _ in range(TRIALS // 2 if stale and renew else TRIALS):
-            trial = np.clip(u + _step(normal, gradient, free, damping), low, high)
+            trial = _within(u, _step(normal, gradient, free, damping), low, high)
             r_trial = problem.residuals(trial)
             white_trial = problem.whitened(r_trial, maps)
             lower = cost - cost_of(trial, white_trial)
@@ -228,6 +235,14 @@ def _agree(a: Discrepancy, b: Discrepancy) -> bool:
 def _broyden(j: Array, du: Array, dr: Array) -> Array:
     """Return j with the least change that makes it give dr for the step du just taken."""
     return np.asarray(j + np.outer(dr - j @ du, du) / max(float(du @ du), 1e-300))
+
+
+def _within(u: Array, step: Array, low: Array, high: Array) -> Array:
+    """Return where *step* leads from u, at most SHARE_TO_BOUND of the way to each bound."""
+    down, up = low - u, high - u
+    down = np.where(down < -AT_BOUND, SHARE_TO_BOUND * down, down)
+    up = np.where(up > AT_BOUND, SHARE_TO_BOUND * up, up)
+    return np.clip(u + np.clip(step, down, up), low, high)
 
 
 def _step(normal: Array, gradient: Array, free: NDArray[np.bool_], damping: float) -> Array:

@@ -64,11 +64,12 @@ class Budget:
     """Limits of computing.
 
     ``effects``: most effects of a model. ``rounds``: most steps from model to better model.
-    ``looks``: iterations of a first fit from each start. ``fits``: starts of an effect from which
-    a fit continues. ``rivals``: candidates of a round that are fitted further, by ``closer``
-    iterations; the last fits use as many, from the results with long steps. ``iterations``:
-    those of a complete fit. ``finer``: number of steps of the confirming fit in one step of the
-    others. ``nearer``: iterations from the result of the best score towards the nearest free run.
+    ``looks``: iterations of a first fit from each start, and of those from its result towards the
+    nearest free run. ``fits``: starts of an effect from which a fit continues. ``rivals``:
+    candidates of a round that are fitted further, by ``closer`` iterations; the last fits use as
+    many, from the results with long steps. ``iterations``: those of a complete fit. ``finer``:
+    number of steps of the confirming fit in one step of the others. ``nearer``: iterations from
+    the result of a closer fit towards the nearest free run.
     ``window``: length in s of the runs of a load without a spring. ``samples``: most thinned
     samples that a search fits; if there are more, rests are shortened, and recordings are left
     out, but never all.

@@ -118,6 +118,30 @@ def test_never_ends_higher_than_it_began(seed, rugged, slow):
     assert np.all((solution.u >= -1.0) & (solution.u <= 1.5))
 
 
+@pytest.mark.parametrize('start', [(4.46, 0.23, 0.15), (1.36, 0.2, 2.01), (5.83, 0.23, 0.35)])
+def test_a_step_across_a_bound_does_not_end_the_fit_there(start):
+    """From these starts the first step makes the amplitude negative, where none may be.
+
+    An amplitude of 0 gives its rate no gradient, and with the rate that the same step led to, a
+    positive amplitude is worse than none: a fit that is cut at the bound never leaves it.
+    """
+    problem = decaying(a=(0.0, np.inf, 10.0), b=(0.0, np.inf, 10.0))
+    solution = improved(start_at(problem, start), 60)
+    expected = by_scipy(problem, solution)
+    assert solution.cost == pytest.approx(start_at(problem, expected).cost, abs=CLOSE)
+
+
+def test_an_optimum_on_a_bound_is_reached_exactly():
+    problem = decaying(b=(0.0, 0.6, 10.0))
+    assert improved(start_at(problem, (1.0, 0.3, 0.0)), 60).u[1] == 0.6
+
+
+def test_a_start_on_a_bound_leaves_it_where_the_cost_falls_inwards():
+    problem = decaying(b=(0.3, 4.0, 10.0))
+    solution = improved(start_at(problem, (1.0, 0.3, 0.0)), 60)
+    assert solution.cost == pytest.approx(improved(start_at(problem, TRUTH), 60).cost, abs=CLOSE)
+
+
 def test_a_start_outside_its_bounds_is_brought_in():
     problem = decaying(b=(0.5, 1.0, 10.0))
     assert 0.5 <= solved(problem, np.array([1.0, 7.0, 0.0])).u[1] <= 1.0
