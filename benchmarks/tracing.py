@@ -24,7 +24,7 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / 'test'))
 
-from benchmarks import _trials
+from benchmarks import _intervals, _trials
 from pam_ros.identification.identify import identify
 from pam_ros.identification.result import Identification
 from pam_ros.muscle.muscle import Muscle
@@ -41,6 +41,8 @@ TARGETS = {
     'pairs: one found and no wrong one': (0.95, 'min'),
     'out of library: called unexplained_structure': (0.85, 'min'),
     'single: median error after / noise floor': (1.2, 'max'),
+    'right effects alone: their 95 % intervals that hold the truth': (0.90, 'min'),
+    'right effects alone: those of a1 to a6 and zeta that do': (0.90, 'min'),
 }
 
 
@@ -79,7 +81,8 @@ def run_trial(job: Job) -> dict[str, Any]:
     """Run one trial and return a row of what was there and what was found."""
     trial = DRAWS[job.draws](job.kind, job.seed)
     began = time.perf_counter()
-    found = answer(identify(declared_model(trial), [recording_of(trial)]))
+    result = identify(declared_model(trial), [recording_of(trial)])
+    found = answer(result)
     return {
         'kind': job.kind,
         'seed': job.seed,
@@ -87,6 +90,9 @@ def run_trial(job: Job) -> dict[str, Any]:
         'accepted': [sorted(names) for names in trial.accepted],
         'in_library': trial.in_library,
         **found,
+        'intervals': _intervals.intervals(
+            _intervals.truth_of(trial), result.stages[-1].parameters
+        ),
         'noise': trial.noise,
         'samples': int(trial.recording.t_s.size),
         'seconds': time.perf_counter() - began,
@@ -132,6 +138,17 @@ def pair_hits(row: dict[str, Any]) -> tuple[int, int]:
     return len(row['accepted']) - len(left), wrong
 
 
+def is_exact(row: dict[str, Any]) -> bool:
+    """Say whether the named effects are those that are there, and no others."""
+    left = [set(names) for names in row['accepted']]
+    for name in row['found']:
+        hit = next((truth for truth in left if name in truth), None)
+        if hit is None:
+            return False
+        left.remove(hit)
+    return bool(row['accepted']) and not left
+
+
 def scores(rows: list[dict[str, Any]]) -> dict[str, float]:
     """Return the figures that the targets are about."""
     single = [r for r in rows if len(r['accepted']) == 1 and r['in_library']]
@@ -139,6 +156,8 @@ def scores(rows: list[dict[str, Any]]) -> dict[str, float]:
     pairs = [r for r in rows if len(r['accepted']) == 2]
     strange = [r for r in rows if not r['in_library']]
     hits = [pair_hits(r) for r in pairs]
+    exact = [r for r in rows if is_exact(r)]
+    inside = [_intervals.are_inside(exact, of_effects) for of_effects in (True, False)]
     values = [
         np.mean([is_right(r) for r in single]) if single else np.nan,
         np.mean([bool(r['found']) for r in noise]) if noise else np.nan,
@@ -146,6 +165,7 @@ def scores(rows: list[dict[str, Any]]) -> dict[str, float]:
         np.mean([h >= 1 and wrong == 0 for h, wrong in hits]) if hits else np.nan,
         np.mean([r['verdict'] == 'unexplained_structure' for r in strange]) if strange else np.nan,
         np.median([r['augmented'] / r['noise'] for r in single]) if single else np.nan,
+        *(np.mean(one) if one else np.nan for one in inside),
     ]
     return dict(zip(TARGETS, map(float, values), strict=True))
 

@@ -5,16 +5,20 @@
 import numpy as np
 import pytest
 
+from benchmarks._intervals import SAME, intervals, truth_of
 from benchmarks.tracing import (
     TARGETS,
     declared_model,
+    is_exact,
     is_right,
     pair_hits,
     recording_of,
     report,
     scores,
 )
-from truth import blind_trial
+from pam_ros.effects import EFFECTS
+from pam_ros.identification.result import Estimate
+from truth import FORMS, blind_trial, effect
 
 
 def row(kind, found=(), alternatives=None, **changes):
@@ -31,6 +35,7 @@ def row(kind, found=(), alternatives=None, **changes):
         'augmented': 1.1e-5,
         'noise': 1e-5,
         'seconds': 1.0,
+        'intervals': {},
     }
     return given | changes
 
@@ -75,15 +80,58 @@ def test_a_pair(found, alternatives, hits, wrong):
     assert pair_hits(row('creep+leak', found, alternatives)) == (hits, wrong)
 
 
+@pytest.mark.parametrize(
+    ('kind', 'found', 'exact'),
+    [
+        ('creep', ['creep'], True),
+        ('creep', ['creep', 'leak'], False),
+        ('creep', [], False),
+        ('creep+leak', ['leak', 'creep'], True),
+        ('creep+leak', ['creep'], False),
+        ('noise_only', [], False),
+    ],
+)
+def test_the_right_effects_alone(kind, found, exact):
+    assert is_exact(row(kind, found)) is exact
+
+
+@pytest.mark.parametrize(('kind', 'form'), SAME)
+def test_parameters_of_the_same_meaning_exist_on_both_sides(kind, form):
+    there = effect(kind, form)
+    (name,) = FORMS[(kind, form)].names
+    (kind_of,) = [one for one in EFFECTS if one.name == name]
+    declared = {f'effects.{name}.{one.name}' for one in kind_of.parameters()}
+    assert set(SAME[kind, form]) <= declared
+    for value in SAME[kind, form].values():
+        assert np.isfinite(value(there.values))
+
+
+def test_what_was_not_fitted_or_has_no_truth_has_no_interval():
+    trial = blind_trial('payload', 0, rate=100.0, duration=10.0)
+    truth = truth_of(trial)
+    assert truth['effects.payload.mass'] == trial.effects[0].values['payload_kg']
+    assert truth['a3'] == trial.constants_si[2]
+    estimates = {
+        'a1': Estimate(1.0, 0.9, 1.1, ''),
+        'a2': Estimate(1.0, 1.0, 1.0, ''),
+        'effects.payload.mass': Estimate(2.0, 1.0, 3.0, 'kg'),
+        'effects.creep.time_1': Estimate(2.0, 1.0, 3.0, 's'),
+    }
+    assert intervals(truth, estimates) == {
+        'a1': [truth['a1'], 0.9, 1.1],
+        'effects.payload.mass': [truth['effects.payload.mass'], 1.0, 3.0],
+    }
+
+
 ROWS = [
-    row('creep', ['creep']),
-    row('creep', ['leak'], augmented=3e-5),
+    row('creep', ['creep'], intervals={'a1': [1.0, 0.9, 1.2], 'zeta': [0.1, 0.2, 0.3]}),
+    row('creep', ['leak'], augmented=3e-5, intervals={'a1': [9.0, 0.0, 1.0]}),
     row('leak', ['leak'], augmented=1.0e-5),
     row('noise_only'),
     row('noise_only', ['slack']),
-    row('creep+leak', ['creep', 'leak']),
-    row('creep+leak', ['creep']),
-    row('creep+leak', ['creep', 'slack']),
+    row('creep+leak', ['creep', 'leak'], intervals={'effects.leak.rate': [1.0, 0.9, 1.2]}),
+    row('creep+leak', ['creep'], intervals={'effects.creep.share_1': [9.0, 0.0, 1.0]}),
+    row('creep+leak', ['creep', 'slack'], intervals={'effects.slack.share': [9.0, 0.0, 1.0]}),
     row('creep+leak'),
     row('cogging', verdict='unexplained_structure', in_library=False),
     row('cogging', ['creep'], in_library=False),
@@ -92,14 +140,14 @@ ROWS = [
 
 def test_scores_by_hand():
     values = list(scores(ROWS).values())
-    assert values == pytest.approx([2 / 3, 1 / 2, 1 / 4, 2 / 4, 1 / 2, 1.1])
+    assert values == pytest.approx([2 / 3, 1 / 2, 1 / 4, 2 / 4, 1 / 2, 1.1, 1.0, 1 / 2])
     assert list(scores(ROWS)) == list(TARGETS)
 
 
 def test_what_was_not_tried_has_no_score():
     values = list(scores([row('noise_only')]).values())
     assert values[1] == 0.0
-    assert np.isnan([values[k] for k in (0, 2, 3, 4, 5)]).all()
+    assert np.isnan([values[k] for k in (0, 2, 3, 4, 5, 6, 7)]).all()
 
 
 def test_the_report_says_what_is_reached_and_what_is_confused(capsys):
@@ -107,7 +155,7 @@ def test_the_report_says_what_is_reached_and_what_is_confused(capsys):
     lines = capsys.readouterr().out.splitlines()
     for name in TARGETS:
         (line,) = [text for text in lines if name in text]
-        assert line.endswith('reached' if 'median' in name else 'SHORT')
+        assert line.endswith('reached' if 'median' in name or 'intervals' in name else 'SHORT')
     (line,) = [text for text in lines if text.startswith('  creep ')]
     assert '1 x creep' in line
     assert '1 x leak' in line

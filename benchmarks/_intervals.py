@@ -1,0 +1,80 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""How often a 95 % interval contains the true value, for parameters of the same meaning.
+
+Most effects of the truth plant have other equations than those of the package, and so no common
+parameters. The table lists those that have: both equations are then the same, or the same in the
+limit in which the parameter is defined.
+"""
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from pam_ros.identification.result import Estimate
+from truth import Trial
+
+Values = Mapping[str, float]
+SAME: dict[tuple[str, str], dict[str, Callable[[Values], float]]] = {
+    ('viscous_friction', 'linear'): {
+        'effects.viscous_friction.coefficient': lambda v: v['viscous_ns_m'],
+    },
+    ('coulomb_friction', 'lugre'): {  # of steady sliding
+        'effects.coulomb_friction.level': lambda v: v['coulomb_n'],
+    },
+    ('pressure_lag', 'two_times'): {
+        'effects.pressure_lag.fill': lambda v: v['fill_s'],
+        'effects.pressure_lag.vent': lambda v: v['vent_s'],
+    },
+    ('dead_time', 'transport'): {
+        'effects.dead_time.delay': lambda v: v['dead_time_s'],
+    },
+    ('pressure_offset', 'affine'): {
+        'effects.pressure_offset.offset': lambda v: v['regulator_pa'],
+        'effects.pressure_offset.gain': lambda v: v['regulator_gain'] - 1.0,
+    },
+    ('payload', 'mass'): {
+        'effects.payload.mass': lambda v: v['payload_kg'],
+    },
+    ('pressure_dependent_damping', 'two_ways'): {
+        'effects.pressure_dependent_damping.inflating': lambda v: v['damping_up_ns_m_bar'] / 1e5,
+        'effects.pressure_dependent_damping.deflating': lambda v: v['damping_down_ns_m_bar'] / 1e5,
+    },
+    ('periodic_disturbance', 'force'): {
+        'effects.periodic_disturbance.frequency': lambda v: v['ripple_hz'],
+    },
+    ('periodic_disturbance', 'supply'): {
+        'effects.periodic_disturbance.frequency': lambda v: v['ripple_hz'],
+    },
+    ('length_offset', 'rest'): {
+        'effects.length_offset.offset': lambda v: v['kappa_offset'],
+    },
+}
+
+
+def truth_of(trial: Trial) -> dict[str, float]:
+    """Return the true values of the trial by the package's names, constants in SI units."""
+    truth = {f'a{k}': a for k, a in enumerate(trial.constants_si, 1)}
+    truth['zeta'] = trial.zeta
+    for one in trial.effects:
+        for name, value in SAME.get((one.kind, one.form), {}).items():
+            truth[name] = value(one.values)
+    return truth
+
+
+def intervals(truth: Values, estimates: Mapping[str, Estimate]) -> dict[str, list[float]]:
+    """Return true value, low and high end of each fitted parameter whose truth is known."""
+    return {
+        name: [value, estimates[name].low, estimates[name].high]
+        for name, value in truth.items()
+        if name in estimates and estimates[name].low < estimates[name].high
+    }
+
+
+def are_inside(rows: list[dict[str, Any]], of_effects: bool) -> list[bool]:
+    """Return whether each interval of the rows contains the truth, of effects or of muscles."""
+    return [
+        low <= value <= high
+        for row in rows
+        for name, (value, low, high) in row['intervals'].items()
+        if name.startswith('effects.') == of_effects
+    ]
