@@ -56,7 +56,7 @@ def _better(found: Search) -> Model | None:
     # An effect that lowers only the score may describe a slow error that is small in the free run.
     for able in leading(tried, best, setting):
         if pays(able, best, setting) and matters(able, best, found.retuned, setting):
-            now = _reduced(_freed(_plainer(able, found), found), found)
+            now = _reduced(plainer(with_more(joined(able, found), found), found), found)
             if pays(now, best, setting):
                 return now
     return None
@@ -92,7 +92,7 @@ def exchanged(found: Search) -> Model | None:
             found.looked_at += [less, *others]
             tried += others
     able = [m for m in tried if pays(m, best, setting)]
-    return _freed(min(able, key=lambda m: m.score), found) if able else None
+    return with_more(min(able, key=lambda m: m.score), found) if able else None
 
 
 def confirmed(found: Search) -> Model:
@@ -182,13 +182,13 @@ def _hardly_more(now: Model, than: Model, setting: Setting) -> bool:
     return b.fit <= room * a.fit and b.choose <= room * a.choose
 
 
-def _plainer(now: Model, found: Search) -> Model:
+def plainer(now: Model, found: Search) -> Model:
     """Return *now* with simpler effects instead of those that contain them, if nearly as good.
 
-    A leak of which only the refill is visible is a lag. A broader effect always fits as well.
+    A leak of which only the refill is visible is a lag. A broader effect always fits as well, but
+    only until the simpler one has all of its own parameters: *now* has those of its effects.
     """
     setting = found.setting
-    now = joined(now, found)
     for name in now.effects:
         named = setting.related(name, setting.places[name].effect.contains)
         contained = [one for one in named if one in absent(now, setting)]
@@ -196,14 +196,16 @@ def _plainer(now: Model, found: Search) -> Model:
             continue
         less, others = swapped(now, name, contained, setting)
         found.looked_at += [less, *others]
-        for other in others:
-            if _hardly_more(other, now, setting):
+        for simple in others:
+            other = with_more(simple, found)
+            is_better = other.score < now.score and no_worse(other, now, setting)
+            if is_better or _hardly_more(other, now, setting):
                 now = other
                 break
     return now
 
 
-def _freed(now: Model, found: Search) -> Model:
+def with_more(now: Model, found: Search) -> Model:
     """Return *now* with those additional parameters of its effects that are accepted."""
     setting = found.setting
     while not is_complete(now, setting):

@@ -12,10 +12,19 @@ from pam_ros.effects import ViscousFriction
 from pam_ros.identification.data.parts import parts_of
 from pam_ros.identification.fit.solve import begun
 from pam_ros.identification.search.criteria import BUDGET, CRITERIA
-from pam_ros.identification.search.search import absent, leading, matters, no_worse, search
+from pam_ros.identification.search.search import (
+    absent,
+    leading,
+    matters,
+    no_worse,
+    plainer,
+    search,
+    with_more,
+)
 from pam_ros.identification.search.setting import Errors, Setting
 from pam_ros.identification.verdict import explains
 from support import bench_truth
+from support.searches import found_in
 from truth import effect
 
 pytestmark = [pytest.mark.slow, pytest.mark.needs_numba]
@@ -49,6 +58,30 @@ def test_the_effect_that_is_there_is_found_and_no_other(there):
     before, after = found.retuned.errors, found.best.errors
     assert after.fit < 0.5 * before.fit
     assert after.choose < 0.5 * before.choose
+
+
+def valve(**values):
+    """Return a lag by the flow through a valve, which depends on the pressures beside it."""
+    return effect('pressure_lag', 'iso_6358', **values)
+
+
+@pytest.mark.parametrize(
+    ('there', 'name'),
+    [
+        (valve(conductance_fill=2.0, conductance_vent=2.0, volume_l=0.1), 'pressure_lag'),
+        (valve(conductance_fill=1.5, conductance_vent=0.6, volume_l=0.2), 'pressure_lag'),
+        (effect('leak', 'closed_valve'), 'leak'),
+        (effect('leak', 'refill'), 'leak'),  # its refill alone is explained by a freed lag
+    ],
+    ids=['fast_valve', 'slow_vent', 'closed_valve', 'refill'],
+)
+def test_a_broader_effect_and_the_simpler_one_are_compared_with_all_their_parameters(
+    pool, there, name
+):
+    """The two time constants of a lag describe a valve worse than a leak with its refill does."""
+    found = found_in([bench_truth.free(there, seed=21)], pool, name='leak')
+    leak = with_more(found.best, found)
+    assert plainer(leak, found).effects == (name,)
 
 
 @pytest.mark.parametrize('rho', [0.0, 0.95], ids=['white', 'coloured'])
