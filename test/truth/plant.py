@@ -21,6 +21,8 @@ from .sensor import Sensor
 
 OUTPUTS = ('y', 'v', 'force', 'pressure', 'linked')
 
+SUBSTEP = 5e-5  # s
+
 
 class TruthPlant:
     """A muscle that lifts a mass, stepped from pressure commands.
@@ -47,7 +49,7 @@ class TruthPlant:
         l0: float = 0.4,
         mount: str = 'vertical',
         effects: Sequence[Effect] = (),
-        dt: float = 5e-5,
+        dt: float = SUBSTEP,
         sensor: Sensor | None = None,
         seed: int = 0,
         p0: float = 300e3,
