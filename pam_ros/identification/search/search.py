@@ -80,7 +80,8 @@ def leading(tried: list[Model], best: Model, setting: Setting) -> list[Model]:
 def exchanged(found: Search) -> Model | None:
     """Return the model with a rival instead of one of the effects, if it is accepted.
 
-    The first effect was chosen without those that were added later.
+    The first effect was chosen without those that were added later. A rival that contains it must
+    be better than with the simpler effect, as when an effect is added.
     """
     setting, best = found.setting, found.best
     tried: list[Model] = []
@@ -92,7 +93,10 @@ def exchanged(found: Search) -> Model | None:
             found.looked_at += [less, *others]
             tried += others
     able = [m for m in tried if pays(m, best, setting)]
-    return with_more(min(able, key=lambda m: m.score), found) if able else None
+    if not able:
+        return None
+    now = plainer(with_more(min(able, key=lambda m: m.score), found), found)
+    return now if pays(now, best, setting) else None
 
 
 def confirmed(found: Search) -> Model:

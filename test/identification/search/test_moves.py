@@ -157,6 +157,21 @@ def test_an_effect_that_was_chosen_before_a_better_one_is_exchanged(tried, retun
     assert exchanged(Search(setting, retuned, wrong, [])) is None  # that is a round of its own
 
 
+def test_a_broader_effect_does_not_replace_one_that_is_as_good_once_fitted(
+    tried, retuned, setting
+):
+    """A lag that was left where it began is worse than a leak, whose refill is this lag."""
+    place = setting.places['viscous_friction']
+    begun = extended(tried[0].solution, place, {'coefficient': 30.0}, setting)
+    u = begun.u + 2.0 * np.array([k.name.endswith('fill') for k in begun.problem.unknowns])
+    left = replace(begun, u=u, r=begun.problem.residuals(u), is_fresh=False)
+    poor = setting.model(('pressure_lag', 'viscous_friction'), left)
+    found = Search(setting, retuned, poor, [retuned, *tried, poor])
+    better = exchanged(found)
+    assert set(better.effects) == {'viscous_friction', 'pressure_lag'}
+    assert better.score < poor.score - 1000.0
+
+
 def test_what_is_not_needed_beside_the_right_effect_goes_with_finer_steps(tried, retuned, setting):
     (both,) = with_each(tried[0], ['viscous_friction'], setting)
     found = Search(setting, retuned, both, [retuned, *tried, both])
