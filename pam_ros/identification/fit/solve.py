@@ -9,9 +9,9 @@ Minimised is -2 ln(posterior) with the variance of the noise at its most likely 
 where W whitens the residuals r and z are the unknowns in standard deviations of their priors.
 scipy's ``least_squares`` recomputes every column at every step. Here a column is a simulation and
 most hardly change, so Broyden's rule keeps them up to date between the places where they are
-computed. An unknown at a bound that its gradient points out of is held there; the others approach
-their bounds by a share of the distance in each step, as interior-point methods do ("fraction to
-the boundary": Nocedal and Wright 2006, Numerical Optimization, eq. 19.9).
+computed. An unknown at a bound that its gradient points out of is held there. The others approach
+their bounds by a share of the distance in each step, like the "fraction to the boundary" of
+interior-point methods (Nocedal and Wright 2006, Numerical Optimization, eq. 19.9), but each alone.
 """
 
 from collections.abc import Sequence
@@ -38,9 +38,9 @@ TRIALS = 6  # dampings that are tried along a Jacobian of its place; half along 
 # where it is wrong the second estimate differs little from the first.
 ALTERNATIONS = 3
 AGREED = 0.05  # change of the logarithms of size and time that is none
-# A step goes at most this share of the distance to a bound. The step was computed for all unknowns
-# together: were one cut at its bound, the others would take a step that suits a value that this
-# one does not have, and an effect that is put out of action at its bound has no gradient back.
+# A step of an unknown goes at most this share of the distance to its bound. On the bound it would
+# be held, and the gradient there may not lead back: an effect that has no influence at its bound
+# gives its other parameters no gradient, and with these where they are, more of it may be worse.
 SHARE_TO_BOUND = 0.9
 AT_BOUND = 1e-3  # distance, in units of u, from which a step may end on the bound
 
