@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from pam_ros.identification.fit.problem import Problem
+from pam_ros.identification.fit.slopes import Slopes
 from support.equations import LAYOUT, unknown
 
 T = np.linspace(0.0, 5.0, 400)
@@ -28,6 +29,9 @@ class Equation(Problem):
 
     def by_run(self, values):
         return [values]
+
+    def slopes(self, jacobian):
+        return Slopes.of([jacobian], [np.arange(jacobian.shape[1])])
 
 
 def equation(function, unknowns):

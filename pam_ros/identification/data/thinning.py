@@ -21,22 +21,27 @@ from pam_ros.rig.joint import Joint
 Array = NDArray[np.float64]
 
 PHASE = 0.5  # rad of the rig's fastest oscillation in one period
-PERIODS = (1e-3, 10e-3)  # s, shortest and longest period
+PERIODS = (1e-3, 10e-3)  # s, shortest period, and the longest one unless there are many samples
+LONGEST = 50e-3  # s, longest period: commands that change keep their own stamps
 JUMP = 0.01  # change of a command that is a jump, as a share of its range
 ROOM = 0.1  # share by which a period may be longer than desired, since stamps jitter
 HELD_STEP = 0.02  # s; at a prescribed length there are no dynamics to resolve, only memories
 
 
-def coarse_period(model: Joint) -> float:
-    """Return a period in s of PHASE rad of the oscillation about the stiffest rest position."""
+def coarse_period(model: Joint, longest: float = PERIODS[1]) -> float:
+    """Return a period in s of PHASE rad of the oscillation about the stiffest rest position.
+
+    It is at most *longest* s. A load without a spring has no such oscillation.
+    """
+    periods = PERIODS[0], longest
     if model.is_driven:
         return PERIODS[1]
     if len(model.muscles) > 1 or model.is_revolute:
-        return float(np.clip(PHASE / np.sqrt(_stiffest(model) / model.inertia), *PERIODS))
+        return float(np.clip(PHASE / np.sqrt(_stiffest(model) / model.inertia), *periods))
     muscle = model.muscle
     ends = (0.0, muscle.p_max)
     k = max(float(muscle.stiffness(p, equilibrium(model, p) / muscle.l0)) for p in ends)
-    return float(np.clip(PHASE / np.sqrt(k / model.load.mass), *PERIODS))
+    return float(np.clip(PHASE / np.sqrt(k / model.load.mass), *periods))
 
 
 def _stiffest(joint: Joint) -> float:

@@ -22,6 +22,7 @@ from pam_ros.identification.data.thinning import HELD_STEP
 from pam_ros.identification.fit.discrepancy import Discrepancy, Whitening
 from pam_ros.identification.fit.of_rig import OfRig, fill
 from pam_ros.identification.fit.places import effect_of
+from pam_ros.identification.fit.slopes import Indices, Slopes
 from pam_ros.identification.fit.unknowns import (
     CommandTime,
     Constant,
@@ -204,13 +205,12 @@ class Problem:
         starts = [0, *self._ends]
 
         def column(k: int) -> Array:
-            unknown = self.unknowns[k]
+            unknown, run = self.unknowns[k], self._run_of[k]
             h = DIFFERENCE if u[k] + DIFFERENCE <= unknown.bounds[1] else -DIFFERENCE
             moved = u.copy()
             moved[k] += h
-            if isinstance(unknown.of, Constant | OfRig | OfEffect | OnsetTime | CommandTime):
+            if run is None:
                 return (self.residuals(moved) - r) / h
-            run = unknown.of.run
             own = slice(starts[run], starts[run + 1])
             out = np.zeros_like(r)
             out[own] = (self._left(run, self.predict(moved, run)[0]) - r[own]) / h
@@ -220,7 +220,25 @@ class Problem:
         found = list(run(column, columns))  # type: ignore[call-overload]
         return np.stack(found, axis=1) if found else np.empty((r.size, 0))
 
+    def slopes(self, jacobian: Array) -> Slopes:
+        """Return dr/du (n, k) as one block for each run, of the unknowns that act in it."""
+        return Slopes.of(self.by_run(jacobian), self._acting)
+
     # Cached, since each of many simulations needs them -----------------------------------------
+
+    @cached_property
+    def _run_of(self) -> list[int | None]:
+        """The run in which each unknown acts, None if it acts in all."""
+        everywhere = Constant | OfRig | OfEffect | OnsetTime | CommandTime
+        return [None if isinstance(k.of, everywhere) else k.of.run for k in self.unknowns]
+
+    @cached_property
+    def _acting(self) -> list[Indices]:
+        """The indices of the unknowns that act in each run."""
+        return [
+            np.array([k for k, own in enumerate(self._run_of) if own in (None, run)], dtype=int)
+            for run in range(len(self.segments))
+        ]
 
     def _of(self, kind: type[T]) -> list[tuple[T, Unknown, int]]:
         """Return what is unknown of one *kind*, each with its unknown and the index of its u."""

@@ -35,6 +35,7 @@ from numpy.typing import NDArray
 from scipy.optimize import minimize
 
 from pam_ros.identification.fit.discrepancy import WHITE, Discrepancy, deviance
+from pam_ros.identification.fit.slopes import Slopes
 
 Array = NDArray[np.float64]
 
@@ -51,16 +52,16 @@ CLOSE = 0.05  # accuracy of the best score: small compared with a margin of 10
 STEP = 1e-2  # of the logarithms, for derivatives of the score, which is smooth in them
 
 
-def score(whitened: Array, jacobian: Array, z: Array, prior: Array, log_det: float) -> float:
+def score(whitened: Array, slopes: Slopes, z: Array, prior: Array, log_det: float) -> float:
     """Return -2 ln(evidence) without a constant of the data: the lower, the better the model.
 
     *whitened* (n,) is the residual W y at the most probable unknowns, of all runs one after the
-    other, *jacobian* (n, k) its derivatives to the unknowns u, *z* (k,) the unknowns in standard
+    other, *slopes* (n, k) are its derivatives by the unknowns u, *z* (k,) the unknowns in standard
     deviations of their priors *prior* (k,), all finite, and *log_det* the sum of ln det C of the
     runs.
     """
-    square, normal = float(whitened @ whitened), jacobian.T @ jacobian
-    return _score(whitened.size, square, normal, z, prior) + log_det
+    square = float(whitened @ whitened)
+    return _score(whitened.size, square, slopes.normal(), z, prior) + log_det
 
 
 def _score(n: int, square: float, normal: Array, z: Array, prior: Array) -> float:
@@ -72,18 +73,20 @@ def _score(n: int, square: float, normal: Array, z: Array, prior: Array) -> floa
 
 
 def most_likely(
-    t: Sequence[Array], residuals: Array, jacobian: Array, z: Array, prior: Array
+    t: Sequence[Array], residuals: Array, slopes: Slopes, z: Array, prior: Array
 ) -> Discrepancy:
     """Return the discrepancy with which a model has its best score.
 
     *t* are the stamps of the runs in s; *residuals* (n,), of all runs one after the other, and
-    *jacobian* (n, k) are not whitened, *z* and *prior* as in :func:`score`. The result is
+    *slopes* (n, k) are not whitened, *z* and *prior* as in :func:`score`. The result is
     WHITE unless another one lowers the score by more than the price of its two numbers.
     Correlation times are searched from the sampling period to a tenth of the longest run.
     """
     edges = np.cumsum([stamps.size for stamps in t])[:-1]
     # Side by side they are filtered in one pass.
-    parts = np.split(np.column_stack([residuals, jacobian]), edges)
+    apart = np.split(residuals, edges)
+    parts = [np.column_stack(both) for both in zip(apart, slopes.blocks, strict=True)]
+    places = [np.append(0, 1 + own) for own in slopes.columns]
 
     def cost(z_of: Array) -> float:
         return score_of(Discrepancy(*np.exp(z_of)))
@@ -91,9 +94,9 @@ def most_likely(
     def score_of(discrepancy: Discrepancy) -> float:
         maps = [discrepancy.whitening(stamps) for stamps in t]
         gram = np.zeros((1 + z.size, 1 + z.size))
-        for whitening, part in zip(maps, parts, strict=True):
+        for whitening, part, place in zip(maps, parts, places, strict=True):
             white = whitening(part)
-            gram += white.T @ white
+            gram[np.ix_(place, place)] += white.T @ white
         log_det = sum(w.log_det for w in maps)
         return _score(residuals.size, gram[0, 0], gram[1:, 1:], z, prior) + log_det
 
@@ -107,7 +110,7 @@ def most_likely(
         for time in _steps(low[1], high[1], log(FACTOR_TIME))
     ]
     # For the starting point the likelihood of the residuals alone is sufficient, and cheap.
-    start = min(grid, key=lambda z_of: _likely(Discrepancy(*np.exp(z_of)), t, residuals, edges))
+    start = min(grid, key=lambda z_of: _likely(Discrepancy(*np.exp(z_of)), t, apart))
     found = minimize(
         cost,
         start,
@@ -121,11 +124,10 @@ def most_likely(
     return Discrepancy(size, time)
 
 
-def _likely(discrepancy: Discrepancy, t: Sequence[Array], residuals: Array, edges: Array) -> float:
-    """Return -2 ln(likelihood) of residuals (n,), cut at *edges*, without a constant."""
+def _likely(discrepancy: Discrepancy, t: Sequence[Array], residuals: Sequence[Array]) -> float:
+    """Return -2 ln(likelihood) of the *residuals* (n,) of the runs, without a constant."""
     maps = [discrepancy.whitening(stamps) for stamps in t]
-    parts = np.split(residuals, edges)
-    return deviance([w(part) for w, part in zip(maps, parts, strict=True)], maps)
+    return deviance([w(part) for w, part in zip(maps, residuals, strict=True)], maps)
 
 
 def _steps(low: float, high: float, step: float) -> Array:

@@ -9,9 +9,10 @@ Minimised is -2 ln(posterior) with the variance of the noise at its most likely 
 where W whitens the residuals r and z are the unknowns in standard deviations of their priors.
 scipy's ``least_squares`` recomputes every column at every step. Here a column is a simulation and
 most hardly change, so Broyden's rule keeps them up to date between the places where they are
-computed. An unknown at a bound that its gradient points out of is held there. The others approach
-their bounds by a share of the distance in each step, like the "fraction to the boundary" of
-interior-point methods (Nocedal and Wright 2006, Numerical Optimization, eq. 19.9), but each alone.
+computed (:mod:`.slopes`). An unknown at a bound that its gradient points out of is held there. The
+others approach their bounds by a share of the distance in each step, like the "fraction to the
+boundary" of interior-point methods (Nocedal and Wright 2006, Numerical Optimization, eq. 19.9),
+but each alone.
 """
 
 from collections.abc import Sequence
@@ -26,6 +27,7 @@ from pam_ros.cached_property import cached_property
 from pam_ros.identification.fit import score as evidence
 from pam_ros.identification.fit.discrepancy import WHITE, Discrepancy, Whitening, deviance
 from pam_ros.identification.fit.problem import Problem
+from pam_ros.identification.fit.slopes import Slopes
 from pam_ros.identification.fit.unknowns import DECLARED
 
 Array = NDArray[np.float64]
@@ -71,6 +73,11 @@ class Solution:
         return self.problem.whitened(self.r, self.whitenings)
 
     @property
+    def slopes(self) -> Slopes:
+        """The Jacobian, as one block for each run."""
+        return self.problem.slopes(self.jacobian)
+
+    @property
     def z(self) -> Array:
         """The unknowns in standard deviations of their priors (k,)."""
         return self.u / self.problem.prior
@@ -91,7 +98,7 @@ class Solution:
         """-2 ln(evidence) but for a constant of the data: the lower, the better the model."""
         return evidence.score(
             self.whitened,
-            self.problem.whitened(self.jacobian, self.whitenings),
+            self.slopes.whitened(self.whitenings),
             self.z,
             self.problem.prior,
             sum(w.log_det for w in self.whitenings),
@@ -100,7 +107,7 @@ class Solution:
     def most_likely(self) -> Discrepancy:
         """Return the discrepancy of the best score for the residuals as they are."""
         problem = self.problem
-        return evidence.most_likely(problem.stamps(), self.r, self.jacobian, self.z, problem.prior)
+        return evidence.most_likely(problem.stamps(), self.r, self.slopes, self.z, problem.prior)
 
     def value(self, name: str) -> float:
         """Return the physical value of an unknown."""
@@ -182,7 +189,7 @@ def improved(
     rule; it is computed anew when steps stop to lower the cost by what they promise or at all. Not
     to *renew* it makes a cheap look of a fit: it ends there.
     """
-    problem, u, r, j = known.problem, known.u, known.r, known.jacobian.copy()
+    problem, u, r, j = known.problem, known.u, known.r, known.slopes
     stale = not known.is_fresh
     low, high = problem.bounds
     prior, maps = problem.prior, known.whitenings
@@ -195,10 +202,10 @@ def improved(
     white = problem.whitened(r, maps)
     cost, damping = cost_of(u, white), LEAST_DAMPING
     for _ in range(iterations):
-        slope = problem.whitened(j, maps)
+        slope = j.whitened(maps)
         weight = n / max(float(white @ white), 1e-300)
-        normal = weight * (slope.T @ slope) + np.diag(prior**-2.0)
-        gradient = weight * (slope.T @ white) + u / prior**2.0
+        normal = weight * slope.normal() + np.diag(prior**-2.0)
+        gradient = weight * slope.onto(problem.by_run(white)) + u / prior**2.0
         free = ~(((u <= low) & (gradient > 0.0)) | ((u >= high) & (gradient < 0.0)))
         gain, hoped = 0.0, np.inf
         for _ in range(TRIALS // 2 if stale and renew else TRIALS):
@@ -207,9 +214,9 @@ def improved(
             white_trial = problem.whitened(r_trial, maps)
             lower = cost - cost_of(trial, white_trial)
             if lower > 0.0:
-                hoped = cost - cost_of(trial, white + slope @ (trial - u))
+                hoped = cost - cost_of(trial, white + slope.along(trial - u))
                 gain, cost = lower, cost - lower
-                j = _broyden(j, trial - u, r_trial - r)
+                j = j.updated(trial - u, problem.by_run(r_trial - r))
                 u, r, white = trial, r_trial, white_trial
                 damping = LESS * damping if LESS * damping > DAMPING else LEAST_DAMPING
                 break
@@ -222,19 +229,15 @@ def improved(
         if not renew:
             continue
         # Steps along an old Jacobian may have failed by its own fault: begin undamped.
-        j, stale, damping = problem.jacobian(u, r, pool), False, LEAST_DAMPING
-    return Solution(problem, u, r, j, known.discrepancy, is_fresh=not stale)
+        j = problem.slopes(problem.jacobian(u, r, pool))
+        stale, damping = False, LEAST_DAMPING
+    return Solution(problem, u, r, j.dense, known.discrepancy, is_fresh=not stale)
 
 
 def _agree(a: Discrepancy, b: Discrepancy) -> bool:
     if a.size == 0.0 or b.size == 0.0:
         return a.size == b.size
     return abs(log(a.size / b.size)) < AGREED and abs(log(a.time / b.time)) < AGREED
-
-
-def _broyden(j: Array, du: Array, dr: Array) -> Array:
-    """Return j with the least change that makes it give dr for the step du just taken."""
-    return np.asarray(j + np.outer(dr - j @ du, du) / max(float(du @ du), 1e-300))
 
 
 def _within(u: Array, step: Array, low: Array, high: Array) -> Array:

@@ -9,16 +9,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pam_ros.identification.data.parts import FEWEST, Part, run_of
-from pam_ros.identification.data.thinning import thinned
+from pam_ros.identification.data.thinning import LONGEST, coarse_period, thinned
 from pam_ros.identification.fit.extend import memories
 from pam_ros.identification.fit.problem import Problem
 from pam_ros.identification.fit.solve import Solution, begun, least_squares
 from pam_ros.identification.search.search import Search
 from pam_ros.identification.search.setting import Model, Setting, carried, rms
 from pam_ros.identification.search.starts import without_idle
+from pam_ros.rig.joint import Joint
 
 Array = NDArray[np.float64]
-STEP = 1e-3  # s, longest step of the simulations
+STEP = 1e-3  # s, longest step of the simulations of a rig that is not slow
+STEPS = 20  # of a slow rig, in the longest period that its fastest oscillation allows
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,13 +43,18 @@ def final(found: Search) -> Final:
     setting = found.setting
     parts = tuple(sorted(setting.parts, key=lambda part: not _is_run(part)))
     runs = [run_of(part.segment, part.known) for part in parts if _is_run(part)]
-    whole = setting.problem_of(runs, STEP)
+    whole = setting.problem_of(runs, short_step(setting.joint))
     starts = tuple(k for k in whole.unknowns if not k.is_parameter)
     declared = _nearest(replace(whole, unknowns=starts), np.zeros(len(starts)), setting)
     retuned = _nearest(*_begun(found.retuned, whole, setting), setting)
     if not found.best.effects:
         return Final(parts, declared, retuned, retuned)
     return Final(parts, declared, retuned, _nearest(*_nearer(found, whole), setting))
+
+
+def short_step(joint: Joint) -> float:
+    """Return the longest step in s of the simulations of the last fits."""
+    return max(STEP, coarse_period(joint, LONGEST) / STEPS)
 
 
 def _is_run(part: Part) -> bool:

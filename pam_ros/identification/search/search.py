@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """A loop over moves from model to model, until no move is accepted."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field, replace
+from itertools import islice
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +15,7 @@ from pam_ros.identification.search.moves import dropped, fixed, freed, swapped, 
 from pam_ros.identification.search.setting import Model, Setting
 
 Array = NDArray[np.float64]
+AT_ONCE = 2  # models whose errors are computed at once
 Progress = Callable[[float, str], None]  # share of the work that is done, and the next step
 
 
@@ -54,9 +56,10 @@ def _better(found: Search) -> Model | None:
     tried = with_each(best, absent(best, setting), setting)
     found.looked_at += tried
     # An effect that lowers only the score may describe a slow error that is small in the free run.
-    for able in leading(tried, best, setting):
-        if pays(able, best, setting) and matters(able, best, found.retuned, setting):
-            now = _reduced(plainer(with_more(joined(able, found), found), found), found)
+    for able in accepted(leading(tried, best, setting), best, setting):
+        if matters(able, best, found.retuned, setting):
+            more = with_more(joined(able, found), found)
+            now = _reduced(plainer(more, more.effects, found), found)
             if pays(now, best, setting):
                 return now
     return None
@@ -72,7 +75,7 @@ def leading(tried: list[Model], best: Model, setting: Setting) -> list[Model]:
     """
     if not setting.is_crossed:
         return tried
-    close = [model for model in tried if not model.is_look and pays(model, best, setting)]
+    close = [*accepted([model for model in tried if not model.is_look], best, setting)]
     close.sort(key=lambda model: model.errors.carried * model.errors.fit)
     return [*close, *(model for model in tried if model not in close)]
 
@@ -92,10 +95,12 @@ def exchanged(found: Search) -> Model | None:
             less, others = swapped(best, name, rivals, setting)
             found.looked_at += [less, *others]
             tried += others
-    able = [m for m in tried if pays(m, best, setting)]
+    able = [*accepted(tried, best, setting)]
     if not able:
         return None
-    now = plainer(with_more(min(able, key=lambda m: m.score), found), found)
+    now = with_more(min(able, key=lambda m: m.score), found)
+    # The other effects were compared with the simpler ones when they were added.
+    now = plainer(now, [name for name in now.effects if name not in best.effects], found)
     return now if pays(now, best, setting) else None
 
 
@@ -147,6 +152,18 @@ def pays(now: Model, than: Model, setting: Setting) -> bool:
     return now.score < than.score - setting.criteria.margin and no_worse(now, than, setting)
 
 
+def accepted(models: Iterable[Model], than: Model, setting: Setting) -> Iterator[Model]:
+    """Return those of *models*, in their order, that are accepted instead of a smaller one.
+
+    The errors of a few are computed in parallel, so that a caller who needs only the first one
+    does not wait for all.
+    """
+    lower = (m for m in models if m.score < than.score - setting.criteria.margin)
+    while some := [*islice(lower, AT_ONCE)]:
+        with_errors(some, setting)
+        yield from (m for m in some if pays(m, than, setting))
+
+
 def no_worse(now: Model, than: Model, setting: Setting) -> bool:
     """Return whether a model's free run over *choose* loses no more than it gains over *fit*.
 
@@ -186,14 +203,16 @@ def _hardly_more(now: Model, than: Model, setting: Setting) -> bool:
     return b.fit <= room * a.fit and b.choose <= room * a.choose
 
 
-def plainer(now: Model, found: Search) -> Model:
-    """Return *now* with simpler effects instead of those that contain them, if nearly as good.
+def plainer(now: Model, names: Iterable[str], found: Search) -> Model:
+    """Return *now* with simpler effects instead of those of *names* that contain them.
+
+    They must be nearly as good.
 
     A leak of which only the refill is visible is a lag. A broader effect always fits as well, but
     only until the simpler one has all of its own parameters: *now* has those of its effects.
     """
     setting = found.setting
-    for name in now.effects:
+    for name in names:
         named = setting.related(name, setting.places[name].effect.contains)
         contained = [one for one in named if one in absent(now, setting)]
         if not contained:
@@ -215,7 +234,7 @@ def with_more(now: Model, found: Search) -> Model:
     while not is_complete(now, setting):
         wider = freed(now, setting)
         found.looked_at += wider
-        able = [m for m in wider if pays(m, now, setting)]
+        able = [*accepted(wider, now, setting)]
         if not able:
             break
         now = min(able, key=lambda m: m.score)
@@ -234,6 +253,7 @@ def _reduced(now: Model, found: Search) -> Model:
         found.looked_at += [dropped(now, name, setting) for name in now.effects]
         step = now.solution.problem.step
         less = [best_with({*now.effects} - {name}, step, found) for name in now.effects]
+        with_errors([now, *less], setting)
         able = [
             m
             for m in less
@@ -256,7 +276,9 @@ def _fixed(now: Model, found: Search) -> Model:
         less = fixed(now, setting)
         found.looked_at += less
         most = now.score + setting.criteria.margin
-        able = [m for m in less if m.score <= most and no_worse(m, now, setting)]
+        near = [m for m in less if m.score <= most]
+        with_errors(near, setting)
+        able = [m for m in near if no_worse(m, now, setting)]
         if not able:
             return now
         now = min(able, key=lambda m: m.score)

@@ -11,6 +11,7 @@ the best score can be far from those of the nearest free run.
 from collections.abc import Iterable, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, field, replace
+from math import ceil
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,7 +21,12 @@ from pam_ros.identification.data.noise import noise_of
 from pam_ros.identification.data.parts import Part
 from pam_ros.identification.data.rests import without_rests
 from pam_ros.identification.data.segment import Segment, windows
-from pam_ros.identification.data.thinning import coarse_period, longest_step, thinned
+from pam_ros.identification.data.thinning import (
+    LONGEST,
+    coarse_period,
+    longest_step,
+    thinned,
+)
 from pam_ros.identification.fit.discrepancy import WHITE
 from pam_ros.identification.fit.places import Place, muscle_of, places_of
 from pam_ros.identification.fit.problem import Problem
@@ -131,8 +137,14 @@ class Setting:
 
     @cached_property
     def period(self) -> float:
-        """Sampling period in s to which runs are thinned."""
-        return coarse_period(self.joint)
+        """Sampling period in s to which runs are thinned.
+
+        If there are more samples than a search needs, it is a multiple of the usual period, as far
+        as the rig's own frequency allows.
+        """
+        usual, longest = coarse_period(self.joint), coarse_period(self.joint, LONGEST)
+        times = ceil(self._size(self._brief, usual) / self.budget.samples)
+        return max(usual, min(times * usual, longest))
 
     @property
     def step(self) -> float:
@@ -154,26 +166,29 @@ class Setting:
     def searched(self) -> Sequence[Part]:
         """The parts that a search uses: all, or as many as the budget allows.
 
-        If there are too many samples, the middle of the rests is left out, and fitted recordings
-        are used from the shortest on: each is another experiment, and a longer one contains little
-        more information on the effects. The last fits use all. Parts that are not fitted cost
-        little.
+        If there are too many samples, fitted recordings are used from the shortest on: each is
+        another experiment, and a longer one contains little more information on the effects. The
+        last fits use all. Parts that are not fitted cost little.
         """
-        if self._size(self.parts) <= self.budget.samples:
-            return self.parts
-        # An onset is a time on the clock of the recording, which must not change.
-        brief = self.parts
-        if self.onset is None:
-            brief = [without_rests(part, self.noise) for part in self.parts]
-        fitted = sorted((part for part in brief if part.is_fitted), key=lambda p: self._size([p]))
-        sizes = np.cumsum([self._size([part]) for part in fitted])
-        room = max(1, int(np.count_nonzero(sizes <= self.budget.samples)))
+        fitted = [part for part in self._brief if part.is_fitted]
+        fitted.sort(key=lambda part: self._size([part], self.period))
+        sizes = np.cumsum([self._size([part], self.period) for part in fitted])
+        room = max(1, int(np.count_nonzero(sizes <= self.budget.most)))
         left_out = fitted[room:]
-        return [part for part in brief if part not in left_out]
+        return [part for part in self._brief if part not in left_out]
 
-    def _size(self, parts: Sequence[Part]) -> int:
-        """Return how many thinned samples of *parts* are fitted."""
-        return sum(thinned(p.segment, self.period).t.size for p in parts if p.is_fitted)
+    @cached_property
+    def _brief(self) -> Sequence[Part]:
+        """The parts, without the middle of the rests if there are more samples than needed."""
+        # An onset is a time on the clock of the recording, which must not change.
+        enough = self._size(self.parts, coarse_period(self.joint)) <= self.budget.samples
+        if enough or self.onset is not None:
+            return self.parts
+        return [without_rests(part, self.noise) for part in self.parts]
+
+    def _size(self, parts: Sequence[Part], period: float) -> int:
+        """Return how many samples of *parts* are fitted, thinned to *period* s."""
+        return sum(thinned(p.segment, period).t.size for p in parts if p.is_fitted)
 
     @cached_property
     def problem(self) -> Problem:

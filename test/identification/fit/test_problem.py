@@ -127,6 +127,15 @@ def test_jacobian_of_parabolas_in_closed_form(two_runs):
     np.testing.assert_allclose(found, expected, atol=1e-8)
 
 
+def test_each_run_has_the_slopes_of_the_unknowns_that_act_in_it(two_runs):
+    u = np.array([0.3, 0.2, -0.1, 0.4, 0.0])
+    jacobian = two_runs.jacobian(u, two_runs.residuals(u))
+    slopes = two_runs.slopes(jacobian)
+    assert [own.tolist() for own in slopes.columns] == [[0, 1, 2], [0, 3, 4]]
+    assert [block.shape for block in slopes.blocks] == [(200, 3), (100, 3)]
+    np.testing.assert_array_equal(slopes.dense, jacobian)
+
+
 def test_jacobian_of_the_force_law_in_closed_form():
     problem = problem_of(MUSCLE, [held(0.05, 1), held(0.15, 2)])
     u = np.zeros(len(problem.unknowns))

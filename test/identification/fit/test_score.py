@@ -9,11 +9,17 @@ from scipy.stats import multivariate_normal
 
 from pam_ros.identification.fit.discrepancy import WHITE, Discrepancy, deviance
 from pam_ros.identification.fit.score import most_likely, score
+from pam_ros.identification.fit.slopes import Slopes
 
 T = np.sort(np.random.default_rng(11).uniform(0.0, 3.0, 120))
 NOISE = np.random.default_rng(5).normal(0.0, 0.3, T.size)
 COLUMNS = np.stack([np.ones(T.size), T, np.sin(2.0 * T)], axis=1)
 PRIOR = np.array([2.0, 0.5, 3.0])
+
+
+def one_run(jacobian):
+    """Return the slopes of a single run."""
+    return Slopes.of([jacobian], [np.arange(jacobian.shape[1])])
 
 
 def most_probable(y, columns, prior, whitening):
@@ -36,7 +42,7 @@ def test_it_is_the_evidence_of_a_linear_model(process, size):
     y = COLUMNS @ np.array([1.0, -0.4, 0.7]) + NOISE
     whitening = process.whitening(T)
     z, left, jacobian, variance = most_probable(y, columns, prior, whitening)
-    found = score(left, -jacobian, z, prior, whitening.log_det)
+    found = score(left, one_run(-jacobian), z, prior, whitening.log_det)
     distance = np.abs(T[:, None] - T[None, :])
     noise = np.eye(T.size) + process.size**2 * np.exp(-distance / process.time)
     spread = columns * prior
@@ -51,7 +57,7 @@ def scores(y, sizes=(2, 3)):
     for size in sizes:
         columns, prior = COLUMNS[:, :size], PRIOR[:size]
         z, left, jacobian, _ = most_probable(y, columns, prior, WHITE.whitening(T))
-        found.append(score(left, -jacobian, z, prior, 0.0))
+        found.append(score(left, one_run(-jacobian), z, prior, 0.0))
     return found
 
 
@@ -69,7 +75,7 @@ def test_a_parameter_of_which_more_was_known_costs_less():
     for known in (0.1, 1.0, 10.0):
         prior = np.array([2.0, 0.5, known])
         z, left, jacobian, _ = most_probable(y, COLUMNS, prior, WHITE.whitening(T))
-        found.append(score(left, -jacobian, z, prior, 0.0))
+        found.append(score(left, one_run(-jacobian), z, prior, 0.0))
     assert found[0] < found[1] < found[2]
 
 
@@ -77,15 +83,15 @@ def test_other_units_of_the_unknowns_change_nothing():
     y = COLUMNS[:, 1] + NOISE
     z, left, jacobian, _ = most_probable(y, COLUMNS, PRIOR, WHITE.whitening(T))
     units = np.array([1e3, 1e-2, 7.0])
-    one = score(left, -jacobian, z, PRIOR, 0.0)
-    other = score(left, -jacobian / units, z, PRIOR * units, 0.0)
+    one = score(left, one_run(-jacobian), z, PRIOR, 0.0)
+    other = score(left, one_run(-jacobian / units), z, PRIOR * units, 0.0)
     assert other == pytest.approx(one, rel=1e-12)
 
 
 def of_residuals(t, runs):
     """Return the most likely discrepancy of residuals of a model without unknowns."""
-    r = np.concatenate(runs)
-    return most_likely(t, r, np.empty((r.size, 0)), np.empty(0), np.empty(0))
+    r, columns = np.concatenate(runs), [np.empty((run.size, 0)) for run in runs]
+    return most_likely(t, r, Slopes.of(columns, [np.empty(0, int)] * len(t)), *[np.empty(0)] * 2)
 
 
 def drawn(process, t, random):
@@ -139,7 +145,7 @@ def test_unknowns_that_were_fitted_do_not_hide_the_slow_part():
         y = drawn(process, t, random)
         z, _, _, _ = most_probable(y, waves, prior, process.whitening(t))
         left = y - waves @ (prior * z)
-        with_it = most_likely([t], left, -waves, z, prior)
+        with_it = most_likely([t], left, one_run(-waves), z, prior)
         spreads['with'].append(with_it.size**2 * with_it.time)
         alone = of_residuals([t], [left])
         spreads['without'].append(alone.size**2 * alone.time)

@@ -8,14 +8,26 @@ import numpy as np
 import pytest
 
 from pam_ros.identification.data.segment import segments_of
+from pam_ros.identification.data.thinning import LONGEST, coarse_period
 from pam_ros.identification.fit.intervals import covariance
 from pam_ros.identification.fit.unknowns import OF_RUNS
 from pam_ros.identification.search.criteria import BUDGET, CRITERIA
-from pam_ros.identification.search.final import STEP, errors_of, final, simulated
+from pam_ros.identification.search.final import (
+    STEP,
+    STEPS,
+    errors_of,
+    final,
+    short_step,
+    simulated,
+)
 from pam_ros.identification.search.setting import carried
 from pam_ros.identification.search.starts import guessed
+from pam_ros.muscle.muscle import Muscle
 from pam_ros.recording.recording import Recording
+from pam_ros.rig.equilibrium import equilibrium
+from pam_ros.rig.loads import Mass
 from pam_ros.rig.run import simulate
+from pam_ros.rig.standard_joints import single_muscle_joint
 from support import bench_truth
 from support.searches import FILL, found_in
 from truth import effect
@@ -147,15 +159,26 @@ def test_of_many_recordings_some_are_searched_and_all_are_fitted(pool):
         (2.5, (0, 1, 2)),
         (0.5, (0, 2)),
     ):
-        setting = replace(whole.setting, budget=replace(BUDGET, samples=int(room * size)))
+        setting = replace(whole.setting, budget=replace(BUDGET, most=int(room * size)))
         names = [part.segment.name for part in setting.searched]
         assert names == [f'{k}.csv' for k in chosen], room
-    found = found_in(runs, pool, budget=replace(BUDGET, samples=int(2.5 * size)))
+    found = found_in(runs, pool, budget=replace(BUDGET, most=int(2.5 * size)))
     assert len(found.setting.problem.segments) == 2
     known = final(found).augmented
     assert len(known.problem.segments) == 5
     assert known.value('effects.pressure_lag.fill') == pytest.approx(FILL, rel=0.02)
     assert known.noise == pytest.approx(NOISE, rel=0.1)
+
+
+def test_a_slow_rig_is_simulated_with_longer_steps():
+    slow = single_muscle_joint(Muscle(), Mass(mass=80.0, mount='horizontal'))
+    fast = single_muscle_joint(Muscle(), Mass(mass=5.0))
+    assert short_step(fast) == STEP < short_step(slow) == coarse_period(slow, LONGEST) / STEPS
+    t = np.arange(0.0, 10.0, 0.01)
+    command = 2e5 + 1e5 * (np.sin(2.0 * t) > 0.0)
+    at = t, t, command, float(equilibrium(slow, 2e5)), 0.0
+    run, exact = (simulate(slow, *at, step).position for step in (short_step(slow), 1e-4))
+    assert np.max(np.abs(run - exact)) < 1e-7 * np.ptp(exact)
 
 
 def test_without_an_effect_the_last_model_is_the_retuned_one(found):

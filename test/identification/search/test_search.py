@@ -81,7 +81,7 @@ def test_a_broader_effect_and_the_simpler_one_are_compared_with_all_their_parame
     """The two time constants of a lag describe a valve worse than a leak with its refill does."""
     found = found_in([bench_truth.free(there, seed=21)], pool, name='leak')
     leak = with_more(found.best, found)
-    assert plainer(leak, found).effects == (name,)
+    assert plainer(leak, leak.effects, found).effects == (name,)
 
 
 @pytest.mark.parametrize('rho', [0.0, 0.95], ids=['white', 'coloured'])
@@ -223,14 +223,13 @@ def test_what_lowers_the_score_alone_gives_way_to_what_shows_in_the_free_run():
 
 
 @pytest.mark.parametrize(('count', 'first'), [(1, 'softening'), (4, 'creep')])
-def test_where_other_recordings_choose_the_nearest_free_run_leads(count, first):
+def test_where_other_recordings_choose_the_nearest_free_run_leads(count, first, pool):
     """Scores and errors are given; a look leads to neither, and what does not pay comes last."""
     recordings = [bench_truth.free(seed=k, name=f'{k}.csv') for k in range(count)]
     parts = parts_of(recordings, CRITERIA.fit, CRITERIA.choose)
-    with ThreadPoolExecutor() as pool:
-        setting = Setting(bench_truth.declared(), parts, CRITERIA, BUDGET, pool)
-        problem = setting.problem
-        place = begun(problem, np.zeros(len(problem.unknowns)))
+    setting = Setting(bench_truth.declared(), parts, CRITERIA, BUDGET, pool)
+    problem = setting.problem
+    place = begun(problem, np.zeros(len(problem.unknowns)))
 
     def model(name, score, error, is_look=False):
         found = setting.model((name,), replace(place), is_look)

@@ -10,6 +10,7 @@ import pytest
 
 from pam_ros.effects import Creep
 from pam_ros.identification.data.parts import parts_of
+from pam_ros.identification.data.thinning import LONGEST, PERIODS, coarse_period
 from pam_ros.identification.fit.extend import with_effect
 from pam_ros.identification.fit.solve import (
     begun,
@@ -21,6 +22,7 @@ from pam_ros.identification.search.criteria import BUDGET, CRITERIA
 from pam_ros.identification.search.setting import Setting
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.recording.recording import Recording
+from pam_ros.rig.equilibrium import equilibrium
 from pam_ros.rig.loads import Mass
 from pam_ros.rig.run import simulate, simulate_held
 from pam_ros.rig.standard_joints import single_muscle_joint
@@ -144,6 +146,41 @@ SOURCE = {'a1': 0.0, 'a2': 0.0, 'a3': 0.0, 'a4': 0.0, 'a6': 0.0, 'zeta': 0.0, 'l
 UNITS = {'pressure_unit': 'Pa', 'contraction_unit': 'fraction'}
 RAIL = Mass(mass=5.0, mount='horizontal')
 DECLARED = single_muscle_joint(Muscle(a5=0.0102, **SOURCE, **UNITS), RAIL)
+
+
+def test_of_more_samples_than_a_search_needs_fewer_are_used_as_the_rig_allows(pool):
+    slow = single_muscle_joint(Muscle(), Mass(mass=80.0, mount='horizontal'))
+    t = np.arange(2000) * 5e-3
+    command = 2e5 + 1e5 * np.sin(3.0 * t)
+    y = simulate(slow, t, t, command, 0.03).position
+    parts = parts_of(
+        [Recording('slow', t, t, command, y, None, None, None, 'free')], CRITERIA.fit, 0.75
+    )
+    plain = Setting(slow, parts, CRITERIA, BUDGET, pool)
+    size = plain.thin[0].segment.t.size
+    assert plain.period == PERIODS[1]
+    for share, times in ((1.01, 1.0), (0.51, 2.0), (0.34, 3.0)):
+        setting = replace(plain, budget=replace(BUDGET, samples=int(share * size)))
+        assert setting.period == pytest.approx(times * PERIODS[1])
+        assert setting.thin[0].segment.t.size == pytest.approx(size / times, rel=0.02)
+        assert setting.step > setting.period
+    # Not longer than the rig's own frequency allows, here 3.04 times as long.
+    fewest = replace(plain, budget=replace(BUDGET, samples=int(0.1 * size)))
+    assert fewest.period == coarse_period(slow, LONGEST) < 4.0 * PERIODS[1]
+
+
+def test_the_rests_of_too_many_samples_are_shortened_first(pool):
+    slow = single_muscle_joint(Muscle(), Mass(mass=80.0, mount='horizontal'))
+    t = np.arange(6000) * 1e-2
+    command = np.where(t < 30.0, 2e5, 3e5)
+    run = simulate(slow, t, t, command, float(equilibrium(slow, 2e5)))
+    y = run.position + NOISE * np.random.default_rng(0).standard_normal(t.size)
+    parts = parts_of([Recording('rests', t, t, command, y, None, None, None, 'free')], 0.9, 0.95)
+    plain = Setting(slow, parts, CRITERIA, BUDGET, pool)
+    short = replace(plain, budget=replace(BUDGET, samples=4000))
+    size = [setting.thin[0].segment.t.size for setting in (plain, short)]
+    assert plain.period == short.period
+    assert size[1] < 0.5 * size[0]
 
 
 def on_a_rail(begin=0.0, gain=0.0100):
