@@ -126,7 +126,8 @@ def plain_fit(model, t, target, drive_t, drive, start):  # type: ignore[no-untyp
         run = solve_ivp(
             rhs, (t[0], t[-1]), (x[7], x[8], drive[0]), t_eval=t, rtol=1e-6, max_step=0.01
         )
-        return run.y[0]
+        # A run that diverges ends early; its last position is far enough from the target.
+        return np.pad(run.y[0], (0, t.size - run.t.size), mode='edge')
 
     first = np.array([1.0] * 7 + [*start, START['fill'], START['vent']])
     scale = np.array([0.05] * 6 + [0.5, 1e-3, 1e-2, 0.02, 0.02])
