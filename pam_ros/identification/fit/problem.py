@@ -24,6 +24,7 @@ from pam_ros.identification.fit.of_rig import OfRig, fill
 from pam_ros.identification.fit.places import effect_of
 from pam_ros.identification.fit.slopes import Indices, Slopes
 from pam_ros.identification.fit.unknowns import (
+    OF_RUNS,
     CommandTime,
     Constant,
     MemoryStart,
@@ -229,8 +230,7 @@ class Problem:
     @cached_property
     def _run_of(self) -> list[int | None]:
         """The run in which each unknown acts, None if it acts in all."""
-        everywhere = Constant | OfRig | OfEffect | OnsetTime | CommandTime
-        return [None if isinstance(k.of, everywhere) else k.of.run for k in self.unknowns]
+        return [k.of.run if isinstance(k.of, OF_RUNS) else None for k in self.unknowns]
 
     @cached_property
     def _acting(self) -> list[Indices]:
