@@ -24,6 +24,7 @@ PHASE = 0.5  # rad of the rig's fastest oscillation in one period
 PERIODS = (1e-3, 10e-3)  # s, shortest period, and the longest one unless there are many samples
 LONGEST = 50e-3  # s, longest period: commands that change keep their own stamps
 JUMP = 0.01  # change of a command that is a jump, as a share of its range
+ROUNDING = 1e-9  # largest change that is none, as a share of its range: that of means
 ROOM = 0.1  # share by which a period may be longer than desired, since stamps jitter
 HELD_STEP = 0.02  # s; at a prescribed length there are no dynamics to resolve, only memories
 
@@ -80,7 +81,7 @@ def thinned(segment: Segment, longest: float) -> Segment:
     assert isinstance(segment, FreeSegment)
     stride = max(1, int(longest / period + ROOM))
     t = segment.t[::stride]
-    drive_t, drive = _merged(segment.drive_t, segment.drive, t)
+    drive_t, drive = _changed(*_merged(segment.drive_t, segment.drive, t))
     return replace(
         segment,
         t=t,
@@ -129,6 +130,17 @@ def _merged(at: Array, u: Array, t: Array) -> tuple[Array, Array]:
     stamps, values = stamps[order], values[order]
     once = np.concatenate([stamps[1:] > stamps[:-1], [True]])
     return stamps[once], values[once]
+
+
+def _changed(at: Array, u: Array) -> tuple[Array, Array]:
+    """Return the commands u (m, muscles) with the stamps at (m,) that differ from the one before.
+
+    The others have no influence, but a simulation ends a step at each command: with a dead time,
+    their stamps are between the samples, and there would be twice as many steps.
+    """
+    changes = np.abs(np.diff(u, axis=0)) > ROUNDING * np.ptp(u, axis=0)
+    kept = np.append(0, 1 + np.flatnonzero(changes.any(axis=1)))
+    return at[kept], u[kept]
 
 
 def _sums(u: Array, widths: Array) -> Array:

@@ -109,12 +109,12 @@ def _begun(model: Model, whole: Problem, setting: Setting) -> tuple[Problem, Arr
     there = _starts_of(model) if is_same else {}
     moved = [one.coordinate(there[one.name]) if one.name in there else 0.0 for one in starts]
     # Thinned samples determine a start less accurately than all samples.
-    return problem, np.concatenate([model.nearest[own], np.clip(moved, -2.0, 2.0)])
+    return problem, np.concatenate([model.nearest.u[own], np.clip(moved, -2.0, 2.0)])
 
 
 def _starts_of(model: Model) -> dict[str, float]:
     """Return the values of the unknowns of a fit that are not parameters, by name."""
-    pairs = zip(model.solution.problem.unknowns, model.nearest, strict=True)
+    pairs = zip(model.solution.problem.unknowns, model.nearest.u, strict=True)
     return {k.name: k.value(u) for k, u in pairs if not k.is_parameter}
 
 

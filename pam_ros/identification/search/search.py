@@ -56,7 +56,7 @@ def _better(found: Search) -> Model | None:
     tried = with_each(best, absent(best, setting), setting)
     found.looked_at += tried
     # An effect that lowers only the score may describe a slow error that is small in the free run.
-    for able in accepted(leading(tried, best, setting), best, setting):
+    for able in accepted(leading(tried, found), best, found):
         if matters(able, best, found.retuned, setting):
             more = with_more(joined(able, found), found)
             now = _reduced(plainer(more, more.effects, found), found)
@@ -65,7 +65,7 @@ def _better(found: Search) -> Model | None:
     return None
 
 
-def leading(tried: list[Model], best: Model, setting: Setting) -> list[Model]:
+def leading(tried: list[Model], found: Search) -> list[Model]:
     """Return *tried* models in the order in which they may become the best one: by their scores.
 
     If choices use only recordings that are not fitted, the models that were fitted closely and are
@@ -73,9 +73,9 @@ def leading(tried: list[Model], best: Model, setting: Setting) -> list[Model]:
     free runs contain more information than any score. In contrast, any broader effect can explain
     the continuation of the same recording as well.
     """
-    if not setting.is_crossed:
+    if not found.setting.is_crossed:
         return tried
-    close = [*accepted([model for model in tried if not model.is_look], best, setting)]
+    close = [*accepted([model for model in tried if not model.is_look], found.best, found)]
     close.sort(key=lambda model: model.errors.carried * model.errors.fit)
     return [*close, *(model for model in tried if model not in close)]
 
@@ -95,7 +95,7 @@ def exchanged(found: Search) -> Model | None:
             less, others = swapped(best, name, rivals, setting)
             found.looked_at += [less, *others]
             tried += others
-    able = [*accepted(tried, best, setting)]
+    able = [*accepted(tried, best, found)]
     if not able:
         return None
     now = with_more(min(able, key=lambda m: m.score), found)
@@ -152,16 +152,32 @@ def pays(now: Model, than: Model, setting: Setting) -> bool:
     return now.score < than.score - setting.criteria.margin and no_worse(now, than, setting)
 
 
-def accepted(models: Iterable[Model], than: Model, setting: Setting) -> Iterator[Model]:
+def accepted(models: Iterable[Model], than: Model, found: Search) -> Iterator[Model]:
     """Return those of *models*, in their order, that are accepted instead of a smaller one.
 
-    The errors of a few are computed in parallel, so that a caller who needs only the first one
-    does not wait for all.
+    Each is fitted again if that makes it better. The errors of a few are computed in parallel, so
+    that a caller who needs only the first one does not wait for all.
     """
+    setting = found.setting
     lower = (m for m in models if m.score < than.score - setting.criteria.margin)
     while some := [*islice(lower, AT_ONCE)]:
-        with_errors(some, setting)
-        yield from (m for m in some if pays(m, than, setting))
+        again = [*setting.pool.map(lambda model: refitted(model, setting), some)]
+        with_errors(again, setting)
+        found.looked_at += [model for model in again if model not in some]
+        yield from (m for m in again if pays(m, than, setting))
+
+
+def refitted(model: Model, setting: Setting) -> Model:
+    """Return *model*, fitted again from its nearest free run if its score is lower there.
+
+    A fit may stop at a place where a slow discrepancy describes what the effects themselves can.
+    Least squares have no discrepancy, and find another place from there.
+    """
+    near = model.nearest
+    there = replace(near, discrepancy=near.most_likely())
+    if there.score >= model.score:
+        return model
+    return setting.model(model.effects, settled(there, setting.budget.iterations))
 
 
 def no_worse(now: Model, than: Model, setting: Setting) -> bool:
@@ -234,7 +250,7 @@ def with_more(now: Model, found: Search) -> Model:
     while not is_complete(now, setting):
         wider = freed(now, setting)
         found.looked_at += wider
-        able = [*accepted(wider, now, setting)]
+        able = [*accepted(wider, now, found)]
         if not able:
             break
         now = min(able, key=lambda m: m.score)

@@ -83,7 +83,13 @@ class Model:
         return self.solution.score
 
     @cached_property
-    def _near(self) -> Solution:
+    def nearest(self) -> Solution:
+        """The solution whose free run is nearest to the measurement.
+
+        It results from least squares that begin at the result of the fit. If the fit has moved
+        the constants further than specimens differ, least squares also begin with nominal ones,
+        and the nearer result is used. For a cheap fit a few cheap steps are made.
+        """
         setting, plain = self.setting, replace(self.solution, discrepancy=WHITE)
         if self.is_look:
             return improved(plain, setting.budget.looks, renew=False)
@@ -93,20 +99,10 @@ class Model:
         again = (improved(one, setting.budget.nearer) for one in with_nominal_constants(plain))
         return min((near, *again), key=lambda one: one.cost)
 
-    @property
-    def nearest(self) -> Array:
-        """The unknowns (k,) with which its free run is nearest to the measurement.
-
-        They result from least squares that begin at the result of the fit. If the fit has moved
-        the constants further than specimens differ, least squares also begin with nominal ones,
-        and the nearer result is used. For a cheap fit a few cheap steps are made.
-        """
-        return self._near.u
-
     @cached_property
     def errors(self) -> Errors:
         """The errors of the nearest free run."""
-        return self.setting.errors(self._near)
+        return self.setting.errors(self.nearest)
 
     @property
     def strain(self) -> float:

@@ -218,3 +218,23 @@ def test_an_isometric_run_is_thinned_to_the_step_of_its_simulation():
     for name in ('t', 'target', 'fit', 'pressure', 'position', 'velocity'):
         np.testing.assert_array_equal(getattr(thin, name), getattr(segment, name)[::10])
     assert np.median(np.diff(thin.t)) == pytest.approx(HELD_STEP)
+
+
+@pytest.mark.parametrize('rate', [1000, 100])
+def test_a_command_that_repeats_the_one_before_is_left_out(rate):
+    """A simulation would end a step at it, for nothing."""
+    t = np.arange(4 * rate) / rate
+    at = np.arange(0.0, 4.0, 0.25)
+    command = 1e5 + 4e4 * (np.searchsorted(at, t + 1e-9) % 3)
+    thin = thinned(recorded(t, t, command), 1e-2)
+    np.testing.assert_allclose(thin.drive_t, at, atol=1e-12)
+    np.testing.assert_allclose(thin.drive[:, 0], command[:: rate // 4], rtol=1e-9)
+
+
+def test_of_two_muscles_a_command_is_kept_if_it_changes_in_one():
+    t = np.arange(100) * 1e-2
+    command = np.column_stack([np.where(t < 0.3, 1e5, 2e5), np.where(t < 0.6, 2e5, 1e5)])
+    of_joint = replace(recorded(t, t, command[:, 0]), drive=command)
+    thin = thinned(of_joint, 1e-2)
+    np.testing.assert_allclose(thin.drive_t, [0.0, 0.3, 0.6], atol=1e-12)
+    np.testing.assert_array_equal(thin.drive, [[1e5, 2e5], [2e5, 2e5], [2e5, 1e5]])

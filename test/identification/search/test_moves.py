@@ -7,12 +7,18 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pam_ros.identification.fit.solve import settled
+from pam_ros.identification.fit.solve import begun, settled
 from pam_ros.identification.fit.unknowns import MemoryStart
 from pam_ros.identification.search import moves
 from pam_ros.identification.search.criteria import BUDGET, CRITERIA
 from pam_ros.identification.search.moves import dropped, fixed, freed, swapped, with_each
-from pam_ros.identification.search.search import Search, alternatives, confirmed, exchanged
+from pam_ros.identification.search.search import (
+    Search,
+    accepted,
+    alternatives,
+    confirmed,
+    exchanged,
+)
 from pam_ros.identification.search.starts import extended, guessed, looks
 
 pytestmark = [pytest.mark.slow, pytest.mark.needs_numba]
@@ -68,6 +74,26 @@ def test_errors_are_found_when_they_are_asked_for(tried):
     assert 'errors' not in vars(model)
     assert model.errors.fit > tried[0].errors.fit
     assert 'errors' in vars(model)
+
+
+def test_a_fit_that_stopped_beside_a_slow_discrepancy_continues_from_the_nearest_run(
+    tried, retuned, setting
+):
+    """Its score is lower there, and the model of the better fit takes its place."""
+    best = tried[0]
+    problem, u = best.solution.problem, best.solution.u.copy()
+    names = [one.name for one in problem.unknowns]
+    u[names.index('effects.pressure_lag.fill')] += 0.5
+    slow = retuned.solution.discrepancy
+    stopped = setting.model(best.effects, replace(begun(problem, u), discrepancy=slow))
+    assert best.score + 100.0 < stopped.score < retuned.score - setting.criteria.margin
+    found = Search(setting, retuned, retuned, [retuned, stopped])
+    (again,) = accepted([stopped], retuned, found)
+    assert again.score == pytest.approx(best.score, abs=0.1)
+    assert found.looked_at == [retuned, stopped, again]
+    # A model whose score is no higher than there is returned as it is.
+    assert [*accepted([best], retuned, found)] == [best]
+    assert found.looked_at == [retuned, stopped, again]
 
 
 def test_another_effect_in_its_place(tried, setting):

@@ -40,7 +40,7 @@ def test_errors_are_those_of_one_free_run_through_all_parts(setting, retuned):
     (part,) = setting.thin
     s = part.segment
     unknowns = solution.problem.unknowns
-    u = {k.name: k.value(x) for k, x in zip(unknowns, retuned.nearest, strict=True)}
+    u = {k.name: k.value(x) for k, x in zip(unknowns, retuned.nearest.u, strict=True)}
     muscle = replace(
         setting.joint.muscle, **{f'a{k}': u[f'a{k}'] for k in range(1, 7)}, zeta=u['zeta']
     )
@@ -70,7 +70,7 @@ def far_off(setting, retuned, by):
     problem = setting.problem
     constants = np.array([one.is_parameter for one in problem.unknowns])
     signs = np.where(np.arange(constants.size) % 2, -1.0, 1.0)
-    u = np.where(constants, by * signs * problem.prior, retuned.nearest)
+    u = np.where(constants, by * signs * problem.prior, retuned.nearest.u)
     return begun(problem, u), constants
 
 
