@@ -11,6 +11,16 @@ from numpy.typing import NDArray
 
 from pam_ros.identification.fit.places import effect_of, muscle_of
 from pam_ros.identification.fit.solve import Solution, settled, solved
+from pam_ros.identification.search.compare import (
+    hardly_more,
+    is_complete,
+    is_near,
+    matters,
+    no_worse,
+    pays,
+    suffices,
+    with_errors,
+)
 from pam_ros.identification.search.moves import dropped, fixed, freed, swapped, with_each
 from pam_ros.identification.search.setting import Model, Setting
 
@@ -147,11 +157,6 @@ def absent(model: Model, setting: Setting) -> list[str]:
     ]
 
 
-def pays(now: Model, than: Model, setting: Setting) -> bool:
-    """Return whether a larger model's score is lower by the margin and its free run no worse."""
-    return now.score < than.score - setting.criteria.margin and no_worse(now, than, setting)
-
-
 def accepted(models: Iterable[Model], than: Model, found: Search) -> Iterator[Model]:
     """Return those of *models*, in their order, that are accepted instead of a smaller one.
 
@@ -180,16 +185,6 @@ def refitted(model: Model, setting: Setting) -> Model:
     return setting.model(model.effects, settled(there, setting.budget.iterations))
 
 
-def no_worse(now: Model, than: Model, setting: Setting) -> bool:
-    """Return whether a model's free run over *choose* loses no more than it gains over *fit*.
-
-    The product of both errors may grow by the factor ``worse``: constants that are fitted to half
-    of the data cause some percent of an error in the other half.
-    """
-    a, b = than.errors, now.errors
-    return b.carried * b.fit <= setting.criteria.worse * a.carried * a.fit
-
-
 def joined(now: Model, found: Search) -> Model:
     """Return *now* with one effect for all muscles instead of one each, if it is nearly as good.
 
@@ -207,16 +202,9 @@ def joined(now: Model, found: Search) -> Model:
         others = with_each(less, [effect], setting)
         found.looked_at += others
         for other in others:
-            is_good = other.score <= now.score + setting.criteria.margin
-            if _hardly_more(other, now, setting) or (is_good and no_worse(other, now, setting)):
+            if hardly_more(other, now, setting) or suffices(other, now, setting):
                 now = other
     return now
-
-
-def _hardly_more(now: Model, than: Model, setting: Setting) -> bool:
-    """Return whether the error of a simpler model is hardly larger, on *fit* and on *choose*."""
-    room, a, b = 1.0 + setting.criteria.gain, than.errors, now.errors
-    return b.fit <= room * a.fit and b.choose <= room * a.choose
 
 
 def plainer(now: Model, names: Iterable[str], found: Search) -> Model:
@@ -238,7 +226,7 @@ def plainer(now: Model, names: Iterable[str], found: Search) -> Model:
         for simple in others:
             other = with_more(simple, found)
             is_better = other.score < now.score and no_worse(other, now, setting)
-            if is_better or _hardly_more(other, now, setting):
+            if is_better or hardly_more(other, now, setting):
                 now = other
                 break
     return now
@@ -273,8 +261,7 @@ def _reduced(now: Model, found: Search) -> Model:
         able = [
             m
             for m in less
-            if not matters(now, m, found.retuned, setting)
-            or (m.score <= now.score + setting.criteria.margin and no_worse(m, now, setting))
+            if not matters(now, m, found.retuned, setting) or suffices(m, now, setting)
         ]
         if not able:
             break
@@ -291,10 +278,8 @@ def _fixed(now: Model, found: Search) -> Model:
     while True:
         less = fixed(now, setting)
         found.looked_at += less
-        most = now.score + setting.criteria.margin
-        near = [m for m in less if m.score <= most]
-        with_errors(near, setting)
-        able = [m for m in near if no_worse(m, now, setting)]
+        with_errors([m for m in less if is_near(m, now, setting)], setting)
+        able = [m for m in less if suffices(m, now, setting)]
         if not able:
             return now
         now = min(able, key=lambda m: m.score)
@@ -304,48 +289,6 @@ def best_with(effects: set[str], step: float, found: Search) -> Model:
     """Return the best evaluated model with exactly these effects and this step."""
     same = [m for m in found.looked_at if {*m.effects} == effects]
     return min((m for m in same if m.solution.problem.step == step), key=lambda m: m.score)
-
-
-def is_complete(model: Model, setting: Setting) -> bool:
-    """Return whether a model with effects leaves only noise, with constants as expected."""
-    if not model.effects or model.strain > setting.criteria.strain:
-        return False
-    most = setting.criteria.complete * setting.noise
-    return max(model.errors.fit, model.errors.choose) <= most
-
-
-def matters(now: Model, before: Model, retuned: Model, setting: Setting) -> bool:
-    """Return whether a new effect explains more than an error in the form of the others could.
-
-    It does not if the error of the free run over *choose* is larger than that of the re-tuned
-    model by more than the factor ``worse``.
-    """
-    criteria = setting.criteria
-    if now.errors.carried > criteria.worse * retuned.errors.carried:
-        return False
-    if before.strain - now.strain >= criteria.strain >= now.strain:
-        return True
-    pairs = [
-        (now.errors.fit, before.errors.fit, retuned.errors.fit),
-        (now.errors.choose, before.errors.choose, retuned.errors.choose),
-    ]
-    if not before.effects:
-        return all(b <= (1.0 - criteria.gain) * a for b, a, _ in pairs)
-    if before.score - now.score >= criteria.form * (retuned.score - before.score):
-        return True
-
-    def does(b: float, a: float, whole: float) -> bool:
-        explained = float(np.sqrt(max(a * a - b * b, 0.0)))
-        return explained >= criteria.form * setting.above(whole) or setting.above(b) <= (
-            1.0 - criteria.most
-        ) * setting.above(a)
-
-    return all(does(*pair) for pair in pairs)
-
-
-def with_errors(models: Iterable[Model], setting: Setting) -> None:
-    """Compute the errors of *models* in parallel; they are stored."""
-    list(setting.pool.map(lambda model: model.errors, models))
 
 
 def alternatives(found: Search, name: str) -> tuple[str, ...]:

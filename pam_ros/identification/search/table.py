@@ -10,15 +10,9 @@ from scipy.stats import chi2
 
 from pam_ros.identification.fit.places import spelled
 from pam_ros.identification.result import Candidate
+from pam_ros.identification.search.compare import matters, no_worse, with_errors
 from pam_ros.identification.search.power import hidden
-from pam_ros.identification.search.search import (
-    Search,
-    alternatives,
-    best_with,
-    matters,
-    no_worse,
-    with_errors,
-)
+from pam_ros.identification.search.search import Search, alternatives, best_with
 from pam_ros.identification.search.setting import Model
 from pam_ros.identification.search.stages import at_place, estimates
 

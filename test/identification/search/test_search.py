@@ -3,7 +3,7 @@
 """A search on recordings of the truth plant, which shares nothing with the package."""
 
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -16,8 +16,6 @@ from pam_ros.identification.search.search import (
     Search,
     absent,
     leading,
-    matters,
-    no_worse,
     plainer,
     search,
     with_more,
@@ -157,63 +155,6 @@ def test_an_effect_that_is_declared_is_not_tried():
 def test_what_is_not_in_the_library_gets_no_name():
     found = searched([bench_truth.free(effect('random_walk'), seed=8, duration=40.0)])
     assert not explains(found)
-
-
-def strained(model, chi_square):
-    """Return *model* with constants at this prior chi-square, and the errors that it has."""
-    problem = model.solution.problem
-    u = np.zeros(model.solution.u.size)
-    u[0] = np.sqrt(chi_square) * problem.prior[0]
-    return replace(model, solution=replace(model.solution, u=u))
-
-
-def test_the_strain_counts_where_the_constants_end_as_expected(setting, retuned):
-    """A specimen that is no such muscle at all stays one, whatever takes over a part of it."""
-    limit = CRITERIA.strain
-    far = strained(retuned, 10.0 * limit)
-    for left, does in ((0.9 * limit, True), (5.0 * limit, False)):
-        assert matters(strained(retuned, left), far, retuned, setting) == does
-    near = strained(retuned, 1.5 * limit)
-    assert not matters(strained(retuned, 0.9 * limit), near, retuned, setting)
-
-
-@dataclass(frozen=True)
-class Judged:
-    """A model as decisions see it."""
-
-    effects: tuple
-    score: float
-    errors: Errors
-    strain: float = 0.0
-
-
-def judged(effects, score, fit, choose):
-    return Judged(effects, score, Errors(fit, choose, choose))
-
-
-def test_a_further_effect_counts_by_what_it_lowers_of_the_score_or_of_the_error(setting):
-    """With the noise out of the way: errors are some thousand noise floors."""
-    unit = 1e3 * setting.noise
-    retuned = judged((), 0.0, 100.0 * unit, 100.0 * unit)
-    before = judged(('creep',), -4000.0, 6.0 * unit, 6.0 * unit)
-    for score, fit, choose, does in (
-        (-4500.0, 5.5, 5.5, False),
-        (-4599.0, 5.5, 5.5, False),
-        (-4601.0, 5.5, 5.5, True),  # 15 % of 4000
-        (-4100.0, 2.5, 2.5, False),
-        (-4100.0, 2.3, 2.5, False),
-        (-4100.0, 2.3, 2.3, True),  # 60 % of what was left
-        (-4700.0, 0.5, 104.0, True),
-        (-4700.0, 0.5, 106.0, False),  # than re-tuning alone carries on
-    ):
-        now = judged(('creep', 'slack'), score, fit * unit, choose * unit)
-        assert matters(now, before, retuned, setting) == does, (score, fit, choose)
-
-
-def test_a_free_run_may_lose_in_one_part_what_it_gains_in_the_other(setting):
-    before = judged(('hysteresis',), 0.0, 6.7, 8.5)
-    for fit, choose, does in ((3.6, 9.3, True), (6.7, 9.0, False), (5.0, 12.0, False)):
-        assert no_worse(judged((), 0.0, fit, choose), before, setting) == does
 
 
 def test_what_lowers_the_score_alone_gives_way_to_what_shows_in_the_free_run():

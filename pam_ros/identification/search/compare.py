@@ -1,0 +1,82 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""How models are compared: by their scores, by the errors of their free runs, by what matters."""
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from pam_ros.identification.search.setting import Model, Setting
+
+
+def pays(now: Model, than: Model, setting: Setting) -> bool:
+    """Return whether a larger model's score is lower by the margin and its free run no worse."""
+    return now.score < than.score - setting.criteria.margin and no_worse(now, than, setting)
+
+
+def suffices(less: Model, than: Model, setting: Setting) -> bool:
+    """Return whether a smaller model is as good: score in the margin, free run no worse."""
+    return is_near(less, than, setting) and no_worse(less, than, setting)
+
+
+def is_near(less: Model, than: Model, setting: Setting) -> bool:
+    """Return whether the score of a smaller model is higher by at most the margin."""
+    return less.score <= than.score + setting.criteria.margin
+
+
+def no_worse(now: Model, than: Model, setting: Setting) -> bool:
+    """Return whether a model's free run over *choose* loses no more than it gains over *fit*.
+
+    The product of both errors may grow by the factor ``worse``: constants that are fitted to half
+    of the data cause some percent of an error in the other half.
+    """
+    a, b = than.errors, now.errors
+    return b.carried * b.fit <= setting.criteria.worse * a.carried * a.fit
+
+
+def hardly_more(now: Model, than: Model, setting: Setting) -> bool:
+    """Return whether the error of a simpler model is hardly larger, on *fit* and on *choose*."""
+    room, a, b = 1.0 + setting.criteria.gain, than.errors, now.errors
+    return b.fit <= room * a.fit and b.choose <= room * a.choose
+
+
+def is_complete(model: Model, setting: Setting) -> bool:
+    """Return whether a model with effects leaves only noise, with constants as expected."""
+    if not model.effects or model.strain > setting.criteria.strain:
+        return False
+    most = setting.criteria.complete * setting.noise
+    return max(model.errors.fit, model.errors.choose) <= most
+
+
+def matters(now: Model, before: Model, retuned: Model, setting: Setting) -> bool:
+    """Return whether a new effect explains more than an error in the form of the others could.
+
+    It does not if the error of the free run over *choose* is larger than that of the re-tuned
+    model by more than the factor ``worse``.
+    """
+    criteria = setting.criteria
+    if now.errors.carried > criteria.worse * retuned.errors.carried:
+        return False
+    if before.strain - now.strain >= criteria.strain >= now.strain:
+        return True
+    pairs = [
+        (now.errors.fit, before.errors.fit, retuned.errors.fit),
+        (now.errors.choose, before.errors.choose, retuned.errors.choose),
+    ]
+    if not before.effects:
+        return all(b <= (1.0 - criteria.gain) * a for b, a, _ in pairs)
+    if before.score - now.score >= criteria.form * (retuned.score - before.score):
+        return True
+
+    def does(b: float, a: float, whole: float) -> bool:
+        explained = float(np.sqrt(max(a * a - b * b, 0.0)))
+        return explained >= criteria.form * setting.above(whole) or setting.above(b) <= (
+            1.0 - criteria.most
+        ) * setting.above(a)
+
+    return all(does(*pair) for pair in pairs)
+
+
+def with_errors(models: Iterable[Model], setting: Setting) -> None:
+    """Compute the errors of *models* in parallel; they are stored."""
+    list(setting.pool.map(lambda model: model.errors, models))
