@@ -7,12 +7,12 @@ Minimised is -2 ln(posterior) with the variance of the noise at its most likely 
     n ln(|W r|^2 / n) + ln det C + |z|^2,
 
 where W whitens the residuals r and z are the unknowns in standard deviations of their priors.
-scipy's ``least_squares`` recomputes every column at every step. Here a column is a simulation and
-most hardly change, so Broyden's rule keeps them up to date between the places where they are
-computed (:mod:`.slopes`). An unknown at a bound that its gradient points out of is held there. The
-others approach their bounds by a share of the distance in each step, like the "fraction to the
-boundary" of interior-point methods (Nocedal and Wright 2006, Numerical Optimization, eq. 19.9),
-but each alone.
+scipy's ``least_squares`` computes the whole Jacobian at every step. Here each of its columns costs
+a simulation, and most hardly change. So Broyden's rule updates them, and they are computed only
+when steps become worse than predicted (:mod:`.slopes`). An unknown at a bound that its gradient
+points out of is held there. The others approach their bounds by a share of the distance in each
+step, like the "fraction to the boundary" of interior-point methods (Nocedal and Wright 2006,
+Numerical Optimization, eq. 19.9), but each alone.
 """
 
 from collections.abc import Sequence
@@ -36,10 +36,10 @@ DAMPING = 1e-3  # of a first step that failed undamped, relative to the normal m
 MORE, LESS = 30.0, 0.03  # factors of the damping after a step that failed, and one that did not
 LITTLE = 0.1  # fall of the cost, a -2 log likelihood, below which a step has not been worth it
 TRIALS = 6  # dampings that are tried along a Jacobian of its place; half along an old one
-# Residual and discrepancy depend on each other; where a model is right they agree at once, and
-# where it is wrong the second estimate differs little from the first.
+# Residual and discrepancy depend on each other. With a correct model they agree at once; with a
+# wrong model the second estimate differs little from the first.
 ALTERNATIONS = 3
-AGREED = 0.05  # change of the logarithms of size and time that is none
+AGREED = 0.05  # largest change of the logarithms of size and time that counts as none
 # A step of an unknown goes at most this share of the distance to its bound. On the bound it would
 # be held, and the gradient there may not lead back: an effect that has no influence at its bound
 # gives its other parameters no gradient, and with these where they are, more of it may be worse.
@@ -49,10 +49,10 @@ AT_BOUND = 1e-3  # distance, in units of u, from which a step may end on the bou
 
 @dataclass(frozen=True, eq=False)
 class Solution:
-    """Where a fit ended: u (k,), the residuals (n,) there in m or N, and dr/du (n, k).
+    """The result of a fit: u (k,), residuals r (n,) in m, rad or N, and dr/du (n, k) there.
 
-    ``discrepancy`` says how much the residuals count. ``is_fresh`` says that the Jacobian was
-    computed there, or so near that steps along it lower the cost by nothing any more.
+    ``discrepancy`` is the process that whitens the residuals. ``is_fresh`` is true if the Jacobian
+    was computed at u, or so near that steps along it do not lower the cost any more.
     """
 
     problem: Problem
@@ -69,7 +69,7 @@ class Solution:
 
     @cached_property
     def whitened(self) -> Array:
-        """The residuals after that (n,), independent with the variance of the noise."""
+        """Whitened residuals (n,), which are independent and have the variance of the noise."""
         return self.problem.whitened(self.r, self.whitenings)
 
     @property
@@ -89,13 +89,13 @@ class Solution:
 
     @property
     def cost(self) -> float:
-        """-2 ln(posterior) but for a constant of the data."""
+        """-2 ln(posterior) without a constant of the data."""
         parts = self.problem.by_run(self.whitened)
         return deviance(parts, self.whitenings) + float(self.z @ self.z)
 
     @cached_property
     def score(self) -> float:
-        """-2 ln(evidence) but for a constant of the data: the lower, the better the model."""
+        """-2 ln(evidence) without a constant of the data: the lower, the better the model."""
         return evidence.score(
             self.whitened,
             self.slopes.whitened(self.whitenings),
@@ -105,7 +105,7 @@ class Solution:
         )
 
     def most_likely(self) -> Discrepancy:
-        """Return the discrepancy of the best score for the residuals as they are."""
+        """Return the discrepancy with the best score for the present residuals."""
         problem = self.problem
         return evidence.most_likely(problem.stamps(), self.r, self.slopes, self.z, problem.prior)
 
@@ -124,21 +124,21 @@ def solved(
     iterations: int = 20,
     pool: Executor | None = None,
 ) -> Solution:
-    """Return the most probable unknowns and the discrepancy of the best score, from u on."""
+    """Return the most probable unknowns and the discrepancy with the best score, from u on."""
     return settled(begun(problem, u, discrepancy, pool), iterations, pool)
 
 
 def begun(
     problem: Problem, u: Array, discrepancy: Discrepancy = WHITE, pool: Executor | None = None
 ) -> Solution:
-    """Return the place u, brought within its bounds, with the Jacobian there."""
+    """Return the solution at u, clipped to its bounds, with the Jacobian there."""
     u = np.clip(u, *problem.bounds)
     r = problem.residuals(u)
     return Solution(problem, u, r, problem.jacobian(u, r, pool), discrepancy, is_fresh=True)
 
 
 def settled(known: Solution, iterations: int = 20, pool: Executor | None = None) -> Solution:
-    """Improve unknowns and discrepancy in turn until they agree; the Jacobian is fresh then."""
+    """Improve unknowns and discrepancy alternately until they agree; the Jacobian is fresh."""
     known = improved(known, iterations, pool)
     for _ in range(ALTERNATIONS):
         found = known.most_likely()
@@ -149,10 +149,11 @@ def settled(known: Solution, iterations: int = 20, pool: Executor | None = None)
 
 
 def with_nominal_constants(known: Solution) -> list[Solution]:
-    """Return *known* with the constants of muscles and rig at their nominal values, to fit anew.
+    """Return *known* with the constants of muscles and rig at their nominal values, to fit again.
 
-    Nothing where none lies further from there than a deviation of its prior. Constants that a fit
-    has moved far may have made up for what was missing, and no fit finds the way back from there.
+    The list is empty if no constant is further from there than a standard deviation of its prior.
+    Constants that a fit has moved far may have compensated for a missing effect, and a fit that
+    begins there does not return.
     """
     constants = [isinstance(unknown.of, DECLARED) for unknown in known.problem.unknowns]
     if np.max(np.abs(known.z[constants]), initial=0.0) <= 1.0:
@@ -162,15 +163,15 @@ def with_nominal_constants(known: Solution) -> list[Solution]:
 
 
 def least_squares(known: Solution, iterations: int = 20, pool: Executor | None = None) -> Solution:
-    """Minimise the residuals of *known* from there, however they are correlated.
+    """Minimise the residuals of *known* from there, without a discrepancy.
 
-    The Jacobian is fresh then.
+    The Jacobian of the result is fresh.
     """
     return fresh(improved(replace(known, discrepancy=WHITE), iterations, pool), pool)
 
 
 def fresh(known: Solution, pool: Executor | None = None) -> Solution:
-    """Return *known* with a Jacobian that is fresh."""
+    """Return *known* with a fresh Jacobian."""
     if known.is_fresh:
         return known
     jacobian = known.problem.jacobian(known.u, known.r, pool)
@@ -183,11 +184,11 @@ def improved(
     pool: Executor | None = None,
     renew: bool = True,
 ) -> Solution:
-    """Minimise the cost of *known* from there, its discrepancy kept; never ends higher.
+    """Minimise the cost of *known* from there with the same discrepancy; it never increases.
 
-    A Jacobian that is not fresh is used as it is and, like any other, kept up to date by Broyden's
-    rule; it is computed anew when steps stop to lower the cost by what they promise or at all. Not
-    to *renew* it makes a cheap look of a fit: it ends there.
+    A Jacobian that is not fresh is used, too, and updated by Broyden's rule. It is computed again
+    when steps do not lower the cost, or by much less than predicted. Without *renew* the fit ends
+    there, which is cheap.
     """
     problem, u, r, j = known.problem, known.u, known.r, known.slopes
     stale = not known.is_fresh
@@ -228,7 +229,7 @@ def improved(
             break
         if not renew:
             continue
-        # Steps along an old Jacobian may have failed by its own fault: begin undamped.
+        # Steps along an old Jacobian may have failed because it was inaccurate: begin undamped.
         j = problem.slopes(problem.jacobian(u, r, pool))
         stale, damping = False, LEAST_DAMPING
     return Solution(problem, u, r, j.dense, known.discrepancy, is_fresh=not stale)
@@ -241,7 +242,7 @@ def _agree(a: Discrepancy, b: Discrepancy) -> bool:
 
 
 def _within(u: Array, step: Array, low: Array, high: Array) -> Array:
-    """Return where *step* leads from u, at most SHARE_TO_BOUND of the way to each bound."""
+    """Return u after *step*, which goes at most SHARE_TO_BOUND of the distance to each bound."""
     down, up = low - u, high - u
     down = np.where(down < -AT_BOUND, SHARE_TO_BOUND * down, down)
     up = np.where(up > AT_BOUND, SHARE_TO_BOUND * up, up)

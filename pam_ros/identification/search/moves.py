@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The moves of a search: an effect more or less, more or less of an effect."""
+"""The moves of a search: one effect more or less, or more or fewer of its parameters."""
 
 from pam_ros.identification.fit.extend import (
     finer_starts,
@@ -19,8 +19,8 @@ from pam_ros.identification.search.starts import extended, looks
 def with_each(parent: Model, names: list[str], setting: Setting) -> list[Model]:
     """Return *parent* with one more effect, for each of *names*; the best score first.
 
-    Those that look promising are fitted closer, the others as far as a look goes, and the best is
-    fitted to its end then, also from what looked nearly as good.
+    Each effect is fitted by a few cheap iterations. The most promising ones are fitted more
+    closely, and the best of them until it converges, also from its next best starts.
     """
     budget = setting.budget
 
@@ -31,8 +31,8 @@ def with_each(parent: Model, names: list[str], setting: Setting) -> list[Model]:
     def closer(model: Model) -> Model:
         return setting.model(model.effects, settled(moved(model.solution), budget.closer))
 
-    # An effect may have no start here: a frequency that nothing is read of.
-    # Those with most starts begin first, so that no thread is left with a long one at the end.
+    # An effect has no start here if its starts are read from the residual, and nothing is found.
+    # The effects with most starts come first, so that no thread has a long task at the end.
     longest = sorted(names, key=lambda name: -len(setting.places[name].fit_starts))
     some = [found for found in setting.pool.map(look, longest) if found]
     if not some:
@@ -53,10 +53,10 @@ def _score(model: Model) -> float:
 
 
 def freed(model: Model, setting: Setting) -> list[Model]:
-    """Return *model* with more parameters of each of its effects, each fitted to its end.
+    """Return *model* with more parameters of each of its effects, each fitted until it converges.
 
-    An effect that is missed beside them makes these fits slow, and the choice of a few iterations
-    then leads away from it.
+    If another effect is still missing, these fits converge slowly, and a choice after a few
+    iterations would be wrong.
     """
     known = model.solution
     row = known.problem.row_at(known.u)
@@ -74,9 +74,9 @@ def freed(model: Model, setting: Setting) -> list[Model]:
 
 
 def fixed(model: Model, setting: Setting) -> list[Model]:
-    """Return *model* with fewer parameters of each of its effects, each begun where it is.
+    """Return *model* with fewer parameters of each of its effects, fitted from its present values.
 
-    Those that are left suffice for a fit of this effect alone; the others are at their defaults.
+    The remaining ones suffice for a fit of this effect alone; the others have their defaults.
     """
     known = model.solution
     options = [
@@ -94,9 +94,9 @@ def fixed(model: Model, setting: Setting) -> list[Model]:
 
 
 def dropped(model: Model, name: str, setting: Setting) -> Model:
-    """Return *model* without an effect, begun where the others now are.
+    """Return *model* without an effect, fitted from the present values of the other unknowns.
 
-    So no effect keeps the credit for where its start has led the rest.
+    So an effect is not accepted only because its start led the others to better values.
     """
     if name not in model.without:
         model.without[name] = _dropped(model, name, setting)
@@ -116,7 +116,7 @@ def _less(
     keep: list[int],
     setting: Setting,
 ) -> Model:
-    """Return the fit of a *problem* with the unknowns *keep* of *known*, from where they are."""
+    """Return the fit of a *problem* with the unknowns *keep* of *known*, from their values."""
     u = known.u[keep]
     slopes = known.jacobian[:, keep]
     less = Solution(problem, u, problem.residuals(u), slopes, known.discrepancy)
@@ -126,6 +126,6 @@ def _less(
 def swapped(
     model: Model, name: str, others: list[str], setting: Setting
 ) -> tuple[Model, list[Model]]:
-    """Return *model* without an effect, and with each of *others* in its place, the best first."""
+    """Return *model* without an effect, and with each of *others* instead, the best first."""
     less = dropped(model, name, setting)
     return less, with_each(less, others, setting)

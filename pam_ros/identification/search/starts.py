@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Fits with one more effect: a cheap look from every starting value."""
+"""Fits with one more effect: a few cheap iterations from each of its starts."""
 
 from dataclasses import replace
 
@@ -16,17 +16,18 @@ from pam_ros.identification.search.setting import Model, Setting
 from pam_ros.rig import layout as at
 
 Array = NDArray[np.float64]
-# What a hidden start must be able to move, in standard deviations of the noise, to be unknown:
-# below it neither the fit nor the score would notice, for ln(1 + 0.3^2) = 0.09.
+# The memory at the start of a run is unknown if it can change the run by so many standard
+# deviations of the noise. A smaller influence is not visible in a score: ln(1 + 0.3^2) = 0.09.
 MOVES = 0.3
 
 
 def looks(parent: Model, place: Place, setting: Setting) -> list[Solution]:
     """Return cheap fits of the effect at *place* on top of *parent*, the best score first.
 
-    From all of its starts; from the parent's unknowns and from the declared constants, to which
-    re-tuning has given values that make up for what is missing; with the parent's discrepancy and
-    with none, because a slow discrepancy hides what is slow from a fit that begins without it.
+    They begin with each start of the effect, with the parent's unknowns and with the nominal
+    constants (re-tuned constants may compensate for the missing effect), with the parent's
+    discrepancy and with none (a slow discrepancy describes slow errors, and a fit that begins with
+    it may not find an effect that causes them).
     """
     starts = (*place.fit_starts, *guessed(parent, place))
     found = []
@@ -44,7 +45,7 @@ def _look(begun: Solution, setting: Setting) -> Solution:
 
 
 def _grounds(known: Solution) -> list[tuple[Solution, list[Discrepancy]]]:
-    """Return places from which an effect is added, each with the discrepancies to begin with."""
+    """Return solutions to which an effect is added, each with the discrepancies to begin with."""
     own = [known.discrepancy] if known.discrepancy != WHITE else []
     return [(known, [*own, WHITE]), *((one, [WHITE]) for one in with_nominal_constants(known))]
 
@@ -54,9 +55,9 @@ def _with_own_discrepancy(known: Solution) -> Solution:
 
 
 def extended(known: Solution, place: Place, start: dict[str, float], setting: Setting) -> Solution:
-    """Return *known* with the effect at *place*, begun at *start*.
+    """Return *known* with the effect at *place*, with its parameters at *start*.
 
-    Its own columns are computed, the others kept.
+    The columns of the Jacobian that belong to the effect are computed; the others are kept.
     """
     problem, added = with_effect(known.problem, setting.joint, place, start)
     begin = np.concatenate([known.u, added])
@@ -69,7 +70,7 @@ def extended(known: Solution, place: Place, start: dict[str, float], setting: Se
 
 
 def without_idle(known: Solution, noise: float) -> Solution:
-    """Return *known* without hidden starts that move nothing."""
+    """Return *known* without those unknown memories that have no influence on their run."""
     problem = known.problem
     moved = np.linalg.norm(known.jacobian, axis=0) * problem.prior
     keep = [
@@ -87,7 +88,7 @@ def without_idle(known: Solution, noise: float) -> Solution:
 
 
 def guessed(parent: Model, place: Place) -> tuple[dict[str, float], ...]:
-    """Return the starts that an effect reads from what *parent* leaves of the longest run."""
+    """Return the starts that an effect reads from the residual of *parent* in the longest run."""
     if place.effect.equations.guess is None:
         return ()
     problem = parent.solution.problem
@@ -96,10 +97,10 @@ def guessed(parent: Model, place: Place) -> tuple[dict[str, float], ...]:
     out = problem.runs(parent.solution.u, longest)[0]
     is_free = s.kind == 'free'
     left = s.target - out[:, at.RUN_S if is_free else at.RUN_F]
-    # What is not fitted is not seen: effects read there what lies between.
+    # Samples that are not fitted are not used: the residual is interpolated there.
     residual = np.interp(s.t, s.t[s.fit], left[s.fit])
     position = s.target if is_free else out[:, at.RUN_S]
-    # A contraction of one muscle in line with the load, else the angle itself.
+    # The contraction of one muscle in line with the load; of other joints the angle itself.
     length = problem.row[at.LENGTH]
     pressure = out[:, at.RUN_P :: 2].mean(axis=1)
     return place.guess(s.t, pressure, position / length, residual)
