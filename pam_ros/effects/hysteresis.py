@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Rate-independent hysteresis of braid and bladder over contraction.
 
-Two operators stand side by side, since measured loops are of more than one family; each may be
-absent: Bouc and Wen's, whose minor loops drift until the major one closes them, and Maxwell's
-slip elements, which close every minor loop and remember all turning points.
+There are two operators, since measured loops have different shapes, and each of them may be
+absent. Minor loops of the operator of Bouc and Wen drift until they reach the major loop. With
+Maxwell's slip elements every minor loop is closed, and all turning points are stored.
 """
 
 from dataclasses import dataclass
@@ -29,7 +29,7 @@ from pam_ros.effects.parameter import effect_parameter, start_from, strength
 
 # Hidden states; the strains of the elements follow.
 LOOP, LAST_KAPPA, STRAINS = range(3)
-P_REFERENCE = 3e5  # Pa, where the amplitude is as given, whatever its growth
+P_REFERENCE = 3e5  # Pa, at which the growth with pressure has no influence
 
 
 def force(
@@ -45,7 +45,7 @@ def force(
     q: Row,
     j: int,
 ) -> float:
-    """Return f - g(p) (A z + B m), with z and m in -1..1 and exact.
+    """Return f - g(p) (A z + B m), with z and m in -1..1, integrated exactly.
 
     Bouc-Wen (n = 1) over l = |kappa|/W, u = z sign(dkappa): du/dl = 1 - u on loading, u > 0,
     and 1 - a u on unloading, u < 0. A is the amplitude, W the width, a unloading: 1 is Dahl's
@@ -78,7 +78,7 @@ def force(
 
 
 def start(q: Row, j: int, p: float, kappa: float, y: float) -> tuple[float, ...]:
-    """Return all loops at the share initial of their height: from -1 to 1, 0 in the middle."""
+    """Return the state in which all loops are at the share *initial*, -1 to 1, of their height."""
     initial = q[j + INITIAL]
     slip = strains(initial, q[j + SLIP_WIDTH], q[j + SLIP_ONSET], q[j + SLIP_RATIO])
     return (initial, kappa, *slip)
@@ -173,5 +173,5 @@ class Hysteresis(Effect):
 
     @classmethod
     def example(cls) -> Effect:
-        """Return it clearly present."""
+        """Return a hysteresis that is clearly visible."""
         return cls(amplitude=9.0, slip=5.0)

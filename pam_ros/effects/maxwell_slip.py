@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Maxwell slip: elastic elements in parallel, each of which slips at its own threshold.
 
-They are the complement of the play operators of Prandtl and Ishlinskii. They close every minor
-loop and remember all turning points. Two effects have them: over contraction, and over pressure.
+Each element is a stop operator, the complement of a play operator of Prandtl and Ishlinskii. With
+them every minor loop is closed, and all turning points are stored. Two effects use them: one over
+contraction, and one over pressure.
 """
 
 from math import expm1, log
@@ -12,16 +13,16 @@ from pam_ros.compiled import plain, scalar
 from pam_ros.effects.base import Row
 
 ELEMENTS = 10
-EVEN = 1.0  # the ratio with which the gaps between thresholds are equal
-MOST = 2.5e3  # the greatest ratio
+EVEN = 1.0  # ratio for equal gaps between the thresholds
+MOST = 2.5e3  # largest ratio
 
 
 @scalar
 def threshold(n: int, onset: float, ratio: float) -> float:
-    """Return the threshold of element n as a share of the greatest one, from *onset* to 1.
+    """Return the threshold of element n as a share of the largest one, from *onset* to 1.
 
-    The gaps between thresholds grow geometrically, from 0 to 1 by *ratio*. With 1 they are equal;
-    with 1/onset the thresholds themselves are a geometric series.
+    The gaps between thresholds grow geometrically, by the factor *ratio* from the first to the
+    last. With 1 they are equal; with 1/onset the thresholds are a geometric series.
     """
     s = (n + 0.5) / ELEMENTS
     if ratio != EVEN:
@@ -31,16 +32,17 @@ def threshold(n: int, onset: float, ratio: float) -> float:
 
 @scalar
 def slipped(ds: float, width: float, onset: float, ratio: float, x: Row, i: int, xn: Row) -> float:
-    """Return the mean of the elements after a displacement ds, in -1..1; x[i] and on are strains.
+    """Return the mean of the elements' forces, in -1..1, after a displacement ds.
 
-    Each sticks up to its threshold, *width* times :func:`threshold`, and slips there.
+    x[i] is the strain of the first element, the others follow. Each element sticks up to its
+    threshold, which is *width* times :func:`threshold`, and slips there.
     """
-    # Computed each by itself, as threshold() does, the powers of the ratio would be three quarters
-    # of the cost of a simulation. power is ratio^s - 1.
+    # power is ratio^s - 1. It is computed from that of the element before: with one power for each
+    # element, as in threshold(), these would be three quarters of the cost of a simulation.
     power, per_power = 0.0, 0.0
     if ratio != EVEN:
         power, per_power = expm1(log(ratio) * (0.5 / ELEMENTS)), 1.0 / (ratio - 1.0)
-    growth = power * (power + 2.0)  # the power from one element to the next, less 1
+    growth = power * (power + 2.0)  # ratio^(1 / ELEMENTS) - 1, from one element to the next
     mean = 0.0
     for n in range(ELEMENTS):
         s = (n + 0.5) / ELEMENTS
@@ -55,6 +57,6 @@ def slipped(ds: float, width: float, onset: float, ratio: float, x: Row, i: int,
 
 
 def strains(share: float, width: float, onset: float, ratio: float) -> tuple[float, ...]:
-    """Return the strains of all elements at a *share* of their thresholds, from -1 to 1."""
+    """Return the strains of all elements if each is at a *share*, -1 to 1, of its threshold."""
     of = plain(threshold)
     return tuple(share * width * of(n, onset, ratio) for n in range(ELEMENTS))

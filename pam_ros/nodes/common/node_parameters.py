@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Turn tables of described values into ROS parameters: declared, ranged, checked as a whole."""
+"""ROS parameters from tables of values with descriptions and ranges, checked as a whole."""
 
 from collections.abc import Callable
 from typing import Any, Generic, TypeVar
@@ -25,15 +25,16 @@ T = TypeVar('T')
 
 
 class NodeParameters(Generic[T]):
-    """The parameters of a node, and what they make.
+    """The parameters of a node, and the object that is built from them.
 
-    *table* names them (see :mod:`pam_ros.settings.tables`), *build* makes of a complete set of
-    values what the node works with, or raises PamError, and has no side effects. A set of changes
-    is taken whole or refused whole, with the sentence of that error; then *apply* gets what was
-    made. A whole number is taken for a float, and so is a text such as 1e-05, as which the command
-    line sends that number. ``values`` and ``built`` are the ones in force.
+    *table* has their names and descriptions (see :mod:`pam_ros.settings.tables`). *build* returns
+    the object that the node uses, for a complete set of values; it raises PamError for values that
+    do not fit together, and has no side effects. A set of changes is accepted or rejected as a
+    whole, with the message of that error; *apply* is called with the new object. A whole number is
+    accepted as a float, and so is a text such as 1e-05, as which the command line sends that
+    number. ``values`` and ``built`` are the current ones.
 
-    Raises PamError when the node was started with values that are not allowed.
+    Raises PamError if the node was started with values that are not allowed.
     """
 
     def __init__(
@@ -51,7 +52,7 @@ class NodeParameters(Generic[T]):
         self._build, self._apply = build, apply
         self.values = checked(table, given(node))
         self.built = build(self.values)
-        self._last = self.values, self.built  # that were checked
+        self._last = self.values, self.built  # the last ones that were checked
         for name, (kind, _, about) in table.items():
             descriptor, value = describe(about, kind), self.values[name]
             if kind is tuple:
@@ -63,10 +64,10 @@ class NodeParameters(Generic[T]):
         node.add_post_set_parameters_callback(self._take)
 
     def refuse_mistyped(self) -> None:
-        """Raise PamError for a given parameter that is nearly the name of a declared one.
+        """Raise PamError for a given parameter whose name is similar to that of a declared one.
 
-        Others that are not declared are warned of: they may be meant for another node. To be
-        called when everything is declared, publishers and subscriptions included.
+        For other names that are not declared there is a warning: they may belong to another node.
+        Call this after everything is declared, also publishers and subscriptions.
         """
         known = [name for name in given(self._node) if self._node.has_parameter(name)]
         for name in refuse_mistyped(given(self._node), [*known, *self._table]):
@@ -103,7 +104,7 @@ class NodeParameters(Generic[T]):
             self._apply(self.built)
 
     def _make(self, parameters: list[RosParameter]) -> tuple[dict[str, Any], T]:
-        """Return the values after a change and what they make: once, to check and to take it."""
+        """Return the values after a change and their object, built once to check and to apply."""
         values = checked(self._table, self._changed(parameters))
         if values != self._last[0]:
             self._last = values, self._build(values)
@@ -111,19 +112,19 @@ class NodeParameters(Generic[T]):
 
 
 def _is_number(parameter: RosParameter) -> bool:
-    """Say whether a whole number is given, or a text that ROS reads as a number in files."""
+    """Return whether a whole number is given, or a text that ROS reads as a number in files."""
     if parameter.type_ == RosParameter.Type.STRING:
         return EXPONENTIAL.fullmatch(parameter.value) is not None
     return parameter.type_ == RosParameter.Type.INTEGER
 
 
 def given(node: Node) -> dict[str, Any]:
-    """Return the values that *node* was started with, declared or not, by the names of today."""
+    """Return the values that *node* was started with, declared or not, by their present names."""
     return renamed(overrides_of(node))[0]
 
 
 def describe(about: Parameter, kind: type) -> ParameterDescriptor:
-    """Return the ROS description: text, unit, what is allowed, a range for sliders."""
+    """Return the ROS description: text, unit, allowed values, and a range for sliders."""
     unit = f' [{about.unit}]' if about.unit else ''
     descriptor = ParameterDescriptor(description=about.text + unit, read_only=not about.live)
     bounded = about.low is not None or about.high is not None

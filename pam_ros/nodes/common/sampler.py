@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Takes the newest messages of a topic now and then, without a callback for each of them."""
+"""Takes the newest messages of a topic from time to time, without a callback for each."""
 
 from itertools import islice
 from typing import NamedTuple
@@ -10,8 +10,8 @@ from rclpy.qos import QoSProfile, ReliabilityPolicy
 
 from pam_ros.nodes.common.rclpy_internals import messages_of
 
-# Messages that are kept between two samples: a second of 250 Hz. To take as many costs a node
-# about a millisecond.
+# Messages that are stored between two samples: those of a second at 250 Hz. To take so many costs
+# a node about 1 ms.
 KEPT = 250
 
 
@@ -28,12 +28,12 @@ class Sample(NamedTuple):
 class Sampler:
     """A subscription of a hidden node that no executor serves.
 
-    The executor of this package's nodes cannot give a callback the number of a message, and a
-    callback would cost a control loop time with each message.
+    The executor of this package's nodes does not pass the number of a message to a callback, and a
+    callback for each message would cost a control loop too much time.
     """
 
     def __init__(self, node: Node, kind: type, topic: str) -> None:
-        """Subscribe to *topic*, a full name, beside *node*."""
+        """Subscribe to *topic*, a full name, with a hidden node next to *node*."""
         self._node = Node(
             f'_{node.get_name()}_sampler',
             context=node.context,

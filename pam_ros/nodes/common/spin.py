@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Run a node at a fixed rate until it is asked to stop, and leave cleanly.
+"""Run a node at a fixed rate until a stop is requested, and end it cleanly.
 
 The loop waits in the executor for the time until the next tick and ticks itself: a timer of
 rclpy skips the ticks that it is late for, and costs more (``benchmarks/node_rate.py``).
@@ -34,40 +34,40 @@ from pam_ros.timing.ticker import Ticker
 from pam_ros.version import VERSION_HELP, VERSION_LINE
 
 BAD_INPUT = 2
-# s in which the answer of a service that was told to stop is read. One that is lost among the
-# states is sent again after the heartbeat of the middleware: 3 s, WriterTimes of Fast DDS.
+# s in which the client reads the response of a service that was stopped. A lost response is sent
+# again after the heartbeat period of the middleware: 3 s, WriterTimes of Fast DDS.
 LAST_ANSWER = 4.0
-# s in which the middleware must be left, which takes some 0.1 s: it may hang, at any end.
+# s in which the middleware must shut down. It usually takes 0.1 s, but it may hang.
 LEAVING = 20.0
-LONGEST_WAIT = 0.1  # s in the executor, so that a stop is heeded whatever the rate
+LONGEST_WAIT = 0.1  # s in the executor, so that the node stops soon at any rate
 
-# What rclpy raises for a command line that makes no node; RuntimeError is what rcl's own errors
-# and unknown policies in overrides of QoS come as.
+# What rclpy raises for an invalid command line. RuntimeError is raised for errors of rcl and for
+# unknown policies in overrides of QoS.
 REFUSALS = (PamError, NameValidationException, ParameterException, RuntimeError)
 
 
 class TickingNode(Node, ABC):
     """A node that does its work in :meth:`tick`, at the rate of its ``ticker``.
 
-    A node whose work comes to an end sets ``exit_code``; the others run until they are stopped.
-    One that ``keeps_wall_time`` runs before other programs where the system permits it. One that
-    ``has_answered_at_end`` was told to stop while a service worked, whose client reads the answer.
+    A node whose work is finished sets ``exit_code``; the others run until they are stopped. With
+    ``keeps_wall_time`` a node has a higher priority than other programs if the system permits it.
+    With ``has_answered_at_end`` it was stopped during a service, whose client reads the response.
     """
 
     ticker: Ticker
     exit_code: int | None = None
     keeps_wall_time = False
     has_answered_at_end = False
-    stop: StopRequest  # what takes long asks it meanwhile
+    stop: StopRequest  # long tasks check it meanwhile
     scheduling = NORMAL
 
     @classmethod
     def add_arguments(cls, parser: argparse.ArgumentParser) -> None:
-        """Add the arguments of the command line beside those for ROS to *parser*: none."""
+        """Add arguments of the command line that are not for ROS to *parser*: none."""
 
     @classmethod
     def of_arguments(cls, arguments: argparse.Namespace) -> 'TickingNode':
-        """Make the node of the parsed *arguments*."""
+        """Return the node for the parsed *arguments*."""
         return cls()
 
     def create_subscription(
@@ -78,10 +78,10 @@ class TickingNode(Node, ABC):
         *more: Any,
         **options: Any,
     ) -> Subscription:
-        """Subscribe as any node does, but leave out times of ``/clock`` below 0.
+        """Subscribe as any node does, but ignore times of ``/clock`` below 0.
 
-        rclpy's own subscription to ``/clock`` is made here as well, and would end the program: a
-        Time of rclpy cannot be negative.
+        rclpy's own subscription to ``/clock`` is created here, too. Such a message would end the
+        program, because a Time of rclpy cannot be negative.
         """
         if msg_type is not Clock:
             return super().create_subscription(msg_type, topic, callback, *more, **options)
@@ -93,7 +93,7 @@ class TickingNode(Node, ABC):
         return super().create_subscription(msg_type, topic, not_negative, *more, **options)
 
     def refuses_time(self, message: Clock) -> bool:
-        """Return whether a message of ``/clock`` is below 0; the first is warned of."""
+        """Return whether a time of ``/clock`` is below 0, with a warning the first time."""
         is_negative = bool(message.clock.sec < 0)
         if is_negative:
             self.get_logger().warning(
@@ -104,15 +104,15 @@ class TickingNode(Node, ABC):
         return is_negative
 
     def make_executor(self) -> Executor:
-        """Return the executor that serves the node: the lightest there is."""
+        """Return the executor that serves the node: the one with the least overhead."""
         return EventsExecutor()
 
     def start(self) -> None:
-        """Begin to count time: all is there and the loop starts."""
+        """Start the ticker: everything is ready, and the loop begins."""
         self.ticker.start(self.ticker.rate, monotonic_ns())
 
     def finish(self) -> None:
-        """Do what is left to do before the node is destroyed: nothing."""
+        """Do what is necessary before the node is destroyed: nothing."""
 
     @abstractmethod
     def tick(self) -> None:
@@ -120,10 +120,10 @@ class TickingNode(Node, ABC):
 
 
 def run(kind: type[TickingNode], stop: StopRequest, about: str) -> int:
-    """Make a node of *kind* and run it until *stop* or its end; return the exit code.
+    """Create a node of *kind* and run it until *stop* or its end; return the exit code.
 
-    0 after a stop, the node's own at its end; 2, with the sentence on stderr, when the arguments
-    (``--ros-args ...``) or the parameters make no node.
+    It is 0 after a stop, the node's own at its end, and 2, with a message on stderr, if the
+    arguments (``--ros-args ...``) or the parameters are invalid.
     """
     node = None
     try:
@@ -147,7 +147,7 @@ def run(kind: type[TickingNode], stop: StopRequest, about: str) -> int:
             return BAD_INPUT
         executor = node.make_executor()
         executor.add_node(node)
-        # What is there now stays: a collection over it would cost the loop some 20 ms.
+        # Present objects are kept: a collection that checks them would take some 20 ms.
         gc.freeze()
         gc.enable()
         if node.keeps_wall_time:
@@ -155,7 +155,7 @@ def run(kind: type[TickingNode], stop: StopRequest, about: str) -> int:
         node.start()
         spin(node, executor, stop)
         if node.has_answered_at_end:
-            sleep(LAST_ANSWER)  # an answer is lost with the server that sent it
+            sleep(LAST_ANSWER)  # a response is lost if its server ends before it is read
     finally:
         try:
             if node is not None:
@@ -169,7 +169,7 @@ def run(kind: type[TickingNode], stop: StopRequest, about: str) -> int:
 
 
 def spin(node: TickingNode, executor: Executor, stop: StopRequest) -> None:
-    """Tick the node and let the executor work in between, until *stop* or the node's end."""
+    """Call the node's tick, and the executor in between, until *stop* or the node's end."""
     ticker = node.ticker
     while not stop.is_made and node.exit_code is None:
         now = monotonic_ns()
@@ -177,13 +177,13 @@ def spin(node: TickingNode, executor: Executor, stop: StopRequest) -> None:
         if wait <= 0.0:
             ticker.tick(now)
             node.tick()
-            # However late the ticks are, commands and services get their turn.
+            # Commands and services are served even if ticks are late.
             wait = max(ticker.remaining(monotonic_ns()), 0.0)
         executor.spin_once(timeout_sec=min(wait, LONGEST_WAIT))
 
 
 def sentence(error: Exception) -> str:
-    """Return the text of an error in one line, without rcl's places in its sources."""
+    """Return the text of an error in one line, without the positions in rcl's sources."""
     text = re.sub(r', at \S+\.c(pp)?:\d+', '', str(error))
     text = re.sub(
         r"^\['([^-].*:=.*)'\]$",
