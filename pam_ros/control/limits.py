@@ -51,6 +51,11 @@ class Limits:
         return low, high
 
 
+def clamp(value: float, low: float, high: float) -> float:
+    """Return the number nearest to *value* in the range from *low* to *high*."""
+    return low if value < low else high if value > high else value
+
+
 class Limiter:
     """Keeps commands within a range and a rate."""
 
@@ -65,9 +70,8 @@ class Limiter:
 
     def limit(self, wanted: float, dt: float) -> float:
         """Return the pressure in Pa nearest to *wanted* that is allowed *dt* s after the last."""
-        step = self.rate * dt
-        within = min(max(wanted, self.last - step), self.last + step)
-        self.last = min(max(within, self.low), self.high)
+        last, step = self.last, self.rate * dt
+        self.last = clamp(clamp(wanted, last - step, last + step), self.low, self.high)
         return self.last
 
 

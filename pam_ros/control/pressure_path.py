@@ -94,16 +94,18 @@ class PressurePath:
         time constant around the lag.
         """
         chamber = self.chamber
-        lag = min(0.5 * (chamber.fill + chamber.vent), self.quickest)
+        fill, vent, quickest = chamber.fill, chamber.vent, self.quickest
+        lag = min(0.5 * (fill + vent), quickest)
         ahead = pressure + (self.delay + lag) * rate
-        tau = chamber.fill if ahead > chamber.pressure else chamber.vent
-        drive = max(tau / self.quickest - 1.0, 0.0)
+        tau = fill if ahead > chamber.pressure else vent
+        drive = max(tau / quickest - 1.0, 0.0)
         return self.command_at_rest(ahead + drive * (ahead - chamber.pressure))
 
     def follow(self, command: float, dt: float) -> float:
         """Apply a *command* in Pa for *dt* s; return the mean pressure in the chamber."""
-        self._queue.append((self._time + self.delay, command))
-        while self._queue and self._queue[0][0] <= self._time + 0.5 * dt:
-            self.inflow = self.reached(self._queue.popleft()[1])
-        self._time += dt
+        queue, now = self._queue, self._time
+        queue.append((now + self.delay, command))
+        while queue and queue[0][0] <= now + 0.5 * dt:
+            self.inflow = self.reached(queue.popleft()[1])
+        self._time = now + dt
         return self.chamber.follow(self.inflow, dt)

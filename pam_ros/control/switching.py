@@ -4,10 +4,12 @@
 
 from math import sqrt
 
+from pam_ros.control.limits import clamp
+
 
 def boundary_layer(s: float, bandwidth: float, gain: float) -> float:
     """Return gain sat(s / Phi), Phi = gain / bandwidth, in m/s^2 (Slotine & Li 1991, 7.2)."""
-    return min(max(bandwidth * s, -gain), gain)
+    return clamp(bandwidth * s, -gain, gain)
 
 
 class SuperTwisting:

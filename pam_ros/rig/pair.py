@@ -50,8 +50,11 @@ def piece(one: Line, two: Line, effort: float, within: tuple[Limits, Limits]) ->
 
     *within* are the limits of both. If the least is above the greatest, there is no such pressure.
     """
-    ends = sorted((effort - one.a - two.a - two.b * p) / one.b for p in within[1])
-    return max(within[0][0], ends[0]), min(within[0][1], ends[1])
+    rest, (low, high), (least, most) = effort - one.a - two.a, within[0], within[1]
+    first, second = (rest - two.b * least) / one.b, (rest - two.b * most) / one.b
+    if second < first:
+        first, second = second, first
+    return max(low, first), min(high, second)
 
 
 def stiffness_at(one: Line, two: Line, effort: float, p: float) -> float:

@@ -11,6 +11,7 @@ minutes to load it. So the apparent stiffness of the load is measured here.
 from dataclasses import dataclass
 from math import exp
 
+from pam_ros.control.limits import clamp
 from pam_ros.control.signals import Reference
 from pam_ros.control.tuning import number
 
@@ -82,9 +83,9 @@ class Standstill:
         self._since = 0.0 if moves else self._since + dt
         self._error += (1.0 - exp(-dt / self._tuning.window)) * (error - self._error)
         size = abs(self._error) / self.tolerance
-        wanted = (
-            1.0 if self.is_moving else min(max((size - 1.0) / (self._tuning.full - 1.0), 0.0), 1.0)
-        )
+        wanted = 1.0
+        if not self.is_moving:
+            wanted = clamp((size - 1.0) / (self._tuning.full - 1.0), 0.0, 1.0)
         if wanted > self.factor:
             self.factor = wanted
         else:
@@ -114,4 +115,4 @@ class Standstill:
         doubt = tuning.doubt * tuning.doubt
         k = max(stiffness, 1.0)
         compliance = (self._product + doubt / k) / (self._power + doubt)
-        self.stiffness = min(max(1.0 / (k * max(compliance, 1e-12)), 1.0), tuning.stiffest)
+        self.stiffness = clamp(1.0 / (k * max(compliance, 1e-12)), 1.0, tuning.stiffest)
