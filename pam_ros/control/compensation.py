@@ -70,15 +70,14 @@ class Losses:
         lost = 0.0
         for i, effects in enumerate(in_muscles):
             if effects:
-                muscle = self._model.muscles[i]
-                arm, y = muscle.arm(s), muscle.position(s)
-                pull = muscle.force(pressures[i], y)
+                muscle = self._model.at(s).muscles[i]
+                arm, pull = muscle.arm, muscle.force(pressures[i])
                 f = pull
                 for effect, k, j in effects:
                     if effect.equations.force is not None:
                         row = at.MUSCLE + i
                         f = effect.equations.force(
-                            f, pressures[i], y / muscle.l0, arm * v, 0.0, dt,
+                            f, pressures[i], muscle.contraction, arm * v, 0.0, dt,
                             self._x[row], k, self._xn[row], self._q[row], j,
                         )  # fmt: skip
                 lost += arm * (pull - f)

@@ -13,6 +13,23 @@ from pam_ros.rig.loads import Mass
 Pressures = Sequence[float]
 
 
+class JointPlace:
+    """The muscles of a joint at its coordinate s.
+
+    ``arm_slopes`` are the derivatives of their arms over s, ``gains`` the efforts per pressure of
+    the muscles, arm dF/dp with its sign.
+    """
+
+    __slots__ = ('arm_slopes', 'gains', 'muscles', 's')
+
+    def __init__(self, muscles: Sequence[MuscleModel], s: float) -> None:
+        """Evaluate the *muscles* at s."""
+        self.s = s
+        self.muscles = [muscle.at(s) for muscle in muscles]
+        self.arm_slopes = [muscle.arm_slope(s) for muscle in muscles]
+        self.gains = tuple([place.arm * place.gain for place in self.muscles])
+
+
 class ControlModel:
     """The nominal joint without memory: what holds at one instant.
 
@@ -31,6 +48,7 @@ class ControlModel:
         self._swings = not isinstance(joint.load, Mass)
         self.weight = 0.0 if self._swings else self.gravity(0.0)
         self._viscous = _drag(joint)
+        self._place = JointPlace(self.muscles, 0.0)
 
     @property
     def arms(self) -> float:
@@ -52,32 +70,43 @@ class ControlModel:
             s, self.moved_mass, self.inertia, self._numbers, 0
         )
 
+    def at(self, s: float) -> JointPlace:
+        """Return the muscles at the coordinate s.
+
+        Those of the last call are kept, since a step asks for its reference several times: they
+        depend on nothing but s.
+        """
+        if s != self._place.s:
+            self._place = JointPlace(self.muscles, s)
+        return self._place
+
     def effort(self, p: Pressures, s: float) -> float:
         """Return the effort of the muscles on the joint at rest."""
         total = 0.0
-        for muscle, pressure in zip(self.muscles, p, strict=True):
-            total += muscle.arm(s) * muscle.force(pressure, muscle.position(s))
+        for muscle, pressure in zip(self.at(s).muscles, p, strict=True):
+            total += muscle.arm * muscle.force(pressure)
         return total
 
     def stiffness(self, p: Pressures, s: float) -> float:
         """Return the stiffness that the muscles give the joint."""
-        total = 0.0
-        for muscle, pressure in zip(self.muscles, p, strict=True):
-            total += muscle.stiffness_on_joint(pressure, s)
+        total, place = 0.0, self.at(s)
+        for muscle, pressure, slope in zip(place.muscles, p, place.arm_slopes, strict=True):
+            total += muscle.stiffness_on_joint(pressure, slope)
         return total
 
     def damping(self, p: Pressures, s: float, v: float) -> float:
         """Return the joint's damping: equation (4) and the configured effects of damping."""
         total = 0.0
-        for muscle, pressure in zip(self.muscles, p, strict=True):
-            total += muscle.pull(pressure, s, v, self.inertia)[1]
+        for muscle, pressure in zip(self.at(s).muscles, p, strict=True):
+            total += muscle.damping_on_joint(pressure, v, self.inertia)
         return total + self._viscous
 
     def pull(self, p: Pressures, s: float, v: float) -> float:
         """Return the effort on the load: muscles, damping, and variable part of gravity."""
         total = damping = 0.0
-        for muscle, pressure in zip(self.muscles, p, strict=True):
-            effort, c = muscle.pull(pressure, s, v, self.inertia)
+        inertia = self.inertia
+        for i, muscle in enumerate(self.muscles):
+            effort, c = muscle.pull(p[i], s, v, inertia)
             total += effort
             damping += c
         total -= (damping + self._viscous) * v

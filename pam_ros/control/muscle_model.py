@@ -1,9 +1,13 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""A muscle of a joint for a position law: force, stiffness, damping and their inverse."""
+"""A muscle of a joint for a position law: force, stiffness, damping and their inverse.
+
+A step of a law asks for several of them at the same coordinate. So a :class:`MusclePlace` has what
+depends on the coordinate alone, above all the exponential of the force law, computed once.
+"""
 
 from collections.abc import Callable
-from math import exp, inf
+from math import exp, inf, sqrt
 
 from pam_ros.compiled import plain
 from pam_ros.effects.base import Compensation, EffectEquations
@@ -12,17 +16,15 @@ from pam_ros.rig import layout as at
 from pam_ros.rig.joint import Joint
 
 # The Python source of the force law: the steps of a controller must not wait for a compiler.
-_force_at, _slope_at, _gain = plain(law.force_at), plain(law.slope_at), plain(law.gain)
-_damping, _pressure_for_force = plain(law.damping), plain(law.pressure_for_force)
+_force_at, _slope_at, _damping = plain(law.force_at), plain(law.slope_at), plain(law.damping)
 PUSH = 1e6  # N: more than any muscle pushes; what slack leaves of it is the force of a slack one
 
 
 class MuscleModel:
     """One muscle of the nominal joint without memory: what holds at one instant.
 
-    s is the joint's coordinate, y the muscle's contraction in m, p gauge Pa in its chamber, v
-    and w the velocities of s and y. It includes the effects without memory: length offset, slack,
-    damping that depends on pressure.
+    s is the joint's coordinate. It includes the effects without memory: length offset, slack,
+    damping that depends on pressure. Its numbers do not change.
     """
 
     def __init__(self, joint: Joint, i: int) -> None:
@@ -30,116 +32,147 @@ class MuscleModel:
         muscle = joint.muscles[i]
         self.a = muscle.si
         self.l0, self.zeta = muscle.l0, muscle.zeta
-        self._row = joint.parameters()[at.MUSCLE + i].tolist()
+        self.row = joint.parameters()[at.MUSCLE + i].tolist()
+        self.muscles = len(joint.muscles)
         self._i, self._at_zero = i, joint.at_zero[i]
-        self._geometry, self._numbers = joint.transmission.equations, joint.transmission.numbers
-        self._muscles = len(joint.muscles)
+        self._constants = (*muscle.si, muscle.l0, muscle.zeta, joint.at_zero[i])
+        geometry, self._numbers = joint.transmission.equations, joint.transmission.numbers
+        self._travel, self._arm = geometry.travel, geometry.arm
+        self._arm_slope = geometry.arm_slope
         present = joint.present[at.MUSCLE + i]
         offsets = joint.layout.parameter_at
-        self._contraction: list[tuple[Callable[..., float], int]] = []
-        self._dampings: list[tuple[Callable[..., float], int]] = []
-        self._forces: list[tuple[EffectEquations, int]] = []
+        self.contractions: list[tuple[Callable[..., float], int]] = []
+        self.dampings: list[tuple[Callable[..., float], int]] = []
+        self.forces: list[tuple[EffectEquations, int]] = []
         for effect in present:
             j = offsets[effect.name]
             if effect.equations.contraction is not None:
-                self._contraction.append((effect.equations.contraction, j))
+                self.contractions.append((effect.equations.contraction, j))
             if effect.equations.damping is not None:
-                self._dampings.append((effect.equations.damping, j))
+                self.dampings.append((effect.equations.damping, j))
             if effect.equations.force is not None and effect.compensation is Compensation.MODEL:
-                self._forces.append((effect.equations, j))
+                self.forces.append((effect.equations, j))
 
     @property
     def may_be_slack(self) -> bool:
         """Whether an effect is configured that changes the force law, such as slack."""
-        return bool(self._forces)
-
-    # Where it is -----------------------------------------------------------------------------
-
-    def position(self, s: float) -> float:
-        """Return the muscle's contraction in m at the coordinate s."""
-        return self._at_zero + self._geometry.travel(s, self._i, self._numbers, 0)
+        return bool(self.forces)
 
     def arm(self, s: float) -> float:
         """Return the moment arm: the change of the contraction with the coordinate."""
-        return self._geometry.arm(s, self._i, self._numbers, 0)
+        return self._arm(s, self._i, self._numbers, 0)
 
     def arm_slope(self, s: float) -> float:
         """Return the derivative of the arm over the coordinate."""
-        return self._geometry.arm_slope(s, self._i, self._numbers, 0)
+        return self._arm_slope(s, self._i, self._numbers, 0)
 
-    def contraction(self, y: float) -> float:
-        """Return the effective contraction, with the length offset, a fraction."""
-        kappa = y / self.l0
-        for function, j in self._contraction:
-            kappa = function(kappa, self._row, j)
-        return kappa
+    def at(self, s: float) -> 'MusclePlace':
+        """Return the muscle at the coordinate s."""
+        i, numbers = self._i, self._numbers
+        y = self._at_zero + self._travel(s, i, numbers, 0)
+        return MusclePlace(self, self._arm(s, i, numbers, 0), y)
+
+    def pull(self, p: float, s: float, v: float, inertia: float) -> tuple[float, float]:
+        """Return the effort and the damping that it gives the joint, with *inertia*, at s and v.
+
+        These are ``arm force`` and ``damping_on_joint`` of the place at s, in the same order of
+        operations. An observer asks for both at new coordinates several times a step; so the law
+        is written out here, where calls would take longer than the sums.
+        """
+        i, numbers = self._i, self._numbers
+        a1, a2, a3, a4, a5, a6, l0, zeta, at_zero = self._constants
+        arm = self._arm(s, i, numbers, 0)
+        contraction = kappa = (at_zero + self._travel(s, i, numbers, 0)) / l0
+        for function, j in self.contractions:
+            kappa = function(kappa, self.row, j)
+        e = exp(a3 * kappa)
+        spring = a1 * p + a2
+        f = spring * e + a4 * kappa * p + a5 * p + a6
+        for equations, j in self.forces:
+            f = equations.resting_force(f, p, kappa, self.row, j)
+        k = -(spring * a3 * e + a4 * p) / l0
+        mass = inertia / (self.muscles * arm * arm)
+        c = 2.0 * zeta * sqrt(mass * k) if k > 0.0 else 0.0
+        for function, j in self.dampings:
+            c = function(c, p, contraction, arm * v, self.row, j)
+        return arm * f, arm * arm * c
+
+
+class MusclePlace:
+    """A muscle at one coordinate of the joint; p is the gauge pressure in its chamber in Pa.
+
+    arm
+        moment arm: the change of the contraction with the coordinate
+    contraction, kappa
+        contraction as a fraction; effective contraction, with the length offset
+    gain
+        dF/dp in N/Pa
+    """
+
+    __slots__ = ('_e', '_muscle', 'arm', 'contraction', 'gain', 'kappa')
+
+    def __init__(self, muscle: MuscleModel, arm: float, y: float) -> None:
+        """Take a *muscle* with this moment *arm*, contracted by *y* m."""
+        a1, _, a3, a4, a5, _ = muscle.a
+        self.contraction = kappa = y / muscle.l0
+        for function, j in muscle.contractions:
+            kappa = function(kappa, muscle.row, j)
+        self._muscle, self.arm, self.kappa = muscle, arm, kappa
+        self._e = e = exp(a3 * kappa)
+        self.gain = a1 * e + a4 * kappa + a5
 
     # Along its own line ------------------------------------------------------------------------
 
-    def force_law(self, p: float, y: float) -> float:
+    def force_law(self, p: float) -> float:
         """Return equation (1) in N, which is affine in the pressure, even if it is negative."""
-        a1, a2, a3, a4, a5, a6 = self.a
-        kappa = self.contraction(y)
-        return _force_at(exp(a3 * kappa), p, kappa, a1, a2, a4, a5, a6)
+        a1, a2, _, a4, a5, a6 = self._muscle.a
+        return _force_at(self._e, p, self.kappa, a1, a2, a4, a5, a6)
 
-    def force(self, p: float, y: float) -> float:
+    def force(self, p: float) -> float:
         """Return the static force in N: equation (1), with slack if that is configured."""
-        return self._slack(self.force_law(p, y), p, self.contraction(y))
+        return self._slack(self.force_law(p), p)
 
-    def _slack(self, f: float, p: float, kappa: float) -> float:
-        for equations, j in self._forces:
-            f = equations.resting_force(f, p, kappa, self._row, j)
+    def _slack(self, f: float, p: float) -> float:
+        muscle = self._muscle
+        for equations, j in muscle.forces:
+            f = equations.resting_force(f, p, self.kappa, muscle.row, j)
         return f
 
-    def slack_pressure(self, y: float) -> float:
+    def slack_pressure(self) -> float:
         """Return the pressure in Pa below which the muscle is slack; -inf if it never is."""
-        if not self._forces:
+        if not self._muscle.forces:
             return -inf
-        return self.pressure_for(self._slack(-PUSH, 0.0, self.contraction(y)), y)
+        return self.pressure_for(self._slack(-PUSH, 0.0))
 
-    def gain(self, y: float) -> float:
-        """Return dF/dp in N/Pa."""
-        a1, _, a3, a4, a5, _ = self.a
-        return _gain(self.contraction(y), a1, a3, a4, a5)
-
-    def stiffness(self, p: float, y: float) -> float:
+    def stiffness(self, p: float) -> float:
         """Return k in N/m: equation (2), sign corrected."""
-        a1, a2, a3, a4, _, _ = self.a
-        return -_slope_at(exp(a3 * self.contraction(y)), p, a1, a2, a3, a4) / self.l0
+        muscle = self._muscle
+        a1, a2, a3, a4, _, _ = muscle.a
+        return -_slope_at(self._e, p, a1, a2, a3, a4) / muscle.l0
 
-    def pressure_for(self, force: float, y: float) -> float:
+    def pressure_for(self, force: float) -> float:
         """Return the pressure in Pa for a *force* in N: (1) solved for p, not clamped."""
-        return _pressure_for_force(force, self.contraction(y), *self.a)
-
-    def damping(self, p: float, y: float, w: float, mass: float) -> float:
-        """Return c in N s/m: equation (4) for *mass* kg, and the configured effects of damping."""
-        return self._damping_of(self.stiffness(p, y), p, y, w, mass)
-
-    def _damping_of(self, k: float, p: float, y: float, w: float, mass: float) -> float:
-        c = _damping(k, mass, self.zeta)
-        for function, j in self._dampings:
-            c = function(c, p, y / self.l0, w, self._row, j)
-        return c
+        _, a2, _, _, _, a6 = self._muscle.a
+        return (force - a2 * self._e - a6) / self.gain
 
     # As the joint feels it ---------------------------------------------------------------------
 
-    def pull(self, p: float, s: float, v: float, inertia: float) -> tuple[float, float]:
-        """Return the effort and the damping that it gives the joint at the coordinate s.
+    def damping_on_joint(self, p: float, v: float, inertia: float) -> float:
+        """Return the damping that it gives the joint, which moves at v.
 
-        *inertia* is that of the joint, of which each muscle moves its share.
+        It is equation (4) with the configured effects of damping. *inertia* is that of the joint,
+        of which each muscle moves its share.
         """
-        a1, a2, a3, a4, a5, a6 = self.a
-        arm, y = self.arm(s), self.position(s)
-        kappa = self.contraction(y)
-        e = exp(a3 * kappa)
-        k = -_slope_at(e, p, a1, a2, a3, a4) / self.l0
-        f = self._slack(_force_at(e, p, kappa, a1, a2, a4, a5, a6), p, kappa)
-        c = self._damping_of(k, p, y, arm * v, inertia / (self._muscles * arm * arm))
-        return arm * f, arm * arm * c
+        muscle, arm = self._muscle, self.arm
+        c = _damping(self.stiffness(p), inertia / (muscle.muscles * arm * arm), muscle.zeta)
+        for function, j in muscle.dampings:
+            c = function(c, p, self.contraction, arm * v, muscle.row, j)
+        return arm * arm * c
 
-    def stiffness_on_joint(self, p: float, s: float) -> float:
-        """Return the stiffness that it gives the joint, N/m or N m/rad."""
-        arm, y = self.arm(s), self.position(s)
-        stiffness = arm * arm * self.stiffness(p, y)
-        slope = self.arm_slope(s)
-        return stiffness - slope * self.force(p, y) if slope else stiffness
+    def stiffness_on_joint(self, p: float, arm_slope: float) -> float:
+        """Return the stiffness that it gives the joint, N/m or N m/rad.
+
+        *arm_slope* is the derivative of the arm over the coordinate.
+        """
+        stiffness = self.arm * self.arm * self.stiffness(p)
+        return stiffness - arm_slope * self.force(p) if arm_slope else stiffness

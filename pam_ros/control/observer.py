@@ -53,13 +53,13 @@ class Observer:
 
     def predict(self, dt: float, pressures: Pressures, known: float = 0.0) -> None:
         """Advance by *dt* s with chambers at *pressures* Pa and a *known* upward force in N."""
-        model = self.model
-        steps = ceil(dt / SUBSTEP - 1e-6)
-        h = dt / max(steps, 1)
+        pull, inertia = self.model.pull, self.model.inertia
+        steps = max(ceil(dt / SUBSTEP - 1e-6), 1)
+        h = dt / steps
         y, v = self.position, self.velocity
-        given = self.disturbance + known - model.weight
-        for _ in range(max(steps, 1)):
-            a = (model.pull(pressures, y, v) + given) / model.inertia
+        given = self.disturbance + known - self.model.weight
+        for _ in range(steps):
+            a = (pull(pressures, y, v) + given) / inertia
             y += h * (v + 0.5 * h * a)
             v += h * a
         self.position, self.velocity = y, v

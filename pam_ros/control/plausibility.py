@@ -82,9 +82,8 @@ def bounds_of(sharing: Sharing) -> MotionBounds:
 def _greatest_effort(model: ControlModel, sharing: Sharing, s: float) -> float:
     """Return the greatest effort on the load at s, of the muscles and gravity together."""
     total = abs(model.gravity(s))
-    for muscle, range_ in zip(model.muscles, sharing.ranges, strict=True):
-        y = muscle.position(s)
-        total += abs(muscle.arm(s)) * max(abs(muscle.force(p, y)) for p in range_)
+    for muscle, range_ in zip(model.at(s).muscles, sharing.ranges, strict=True):
+        total += abs(muscle.arm) * max(abs(muscle.force(p)) for p in range_)
     return total
 
 

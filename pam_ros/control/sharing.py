@@ -13,8 +13,9 @@ from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from pam_ros.control.limits import MARGIN, Limits
+from pam_ros.control.limits import MARGIN, Limits, clamp
 from pam_ros.control.model import ControlModel
+from pam_ros.control.muscle_model import MusclePlace
 from pam_ros.control.stretch import PLACES, stretch
 from pam_ros.errors import ParameterError, RangeError
 from pam_ros.rig import pair, statics
@@ -60,7 +61,7 @@ class Sharing(ABC):
 
     def gains(self, s: float) -> tuple[float, ...]:
         """Return the effort per pressure of each muscle, arm dF/dp with its sign."""
-        return tuple(m.arm(s) * m.gain(m.position(s)) for m in self.model.muscles)
+        return self.model.at(s).gains
 
     def least(self, s: float) -> tuple[float, ...]:
         """Return the lowest pressures in Pa that have an effect at s."""
@@ -105,17 +106,15 @@ class OneSide(Sharing):
 
     def split(self, effort: float, stiffness: float, s: float) -> Split:
         """Return the pressure for *effort*, which determines the stiffness, too."""
-        if len(self.model.muscles) == 1:
+        muscles = self.model.at(s).muscles
+        if len(muscles) == 1:
             # The inverse of the force law itself, since the sums below round differently.
-            muscle = self.model.muscles[0]
-            p = muscle.pressure_for(effort / muscle.arm(s), muscle.position(s))
-            return self._taut((p,), s)
+            return self._taut((muscles[0].pressure_for(effort / muscles[0].arm),), s)
         rest = gain = 0.0
-        for muscle in self.model.muscles:
-            arm, y = muscle.arm(s), muscle.position(s)
-            rest += arm * muscle.force_law(0.0, y)
-            gain += arm * muscle.gain(y)
-        return self._taut(((effort - rest) / gain,) * len(self.model.muscles), s)
+        for muscle in muscles:
+            rest += muscle.arm * muscle.force_law(0.0)
+            gain += muscle.arm * muscle.gain
+        return self._taut(((effort - rest) / gain,) * len(muscles), s)
 
     def _taut(self, pressures: tuple[float, ...], s: float) -> Split:
         """Return *pressures* not below those at which the muscles become slack, if configured.
@@ -131,7 +130,7 @@ class OneSide(Sharing):
 
     def least(self, s: float) -> tuple[float, ...]:
         """Return the pressures in Pa at which the muscles become slack, or their lowest ones."""
-        slack = min(muscle.slack_pressure(muscle.position(s)) for muscle in self.model.muscles)
+        slack = min(muscle.slack_pressure() for muscle in self.model.at(s).muscles)
         return tuple(max(low, slack) for low, _ in self.ranges)
 
     def rates(
@@ -146,7 +145,9 @@ class OneSide(Sharing):
         total = 0.0
         for model, muscle in zip(self.model.muscles, self.model.joint.muscles, strict=True):
             y = 0.0 if muscle.is_load_only else 0.5 * muscle.kappa_max * muscle.l0
-            total += abs(model.arm(0.0)) * model.gain(y) * (muscle.p_max - max(muscle.p_min, 0.0))
+            arm = abs(model.arm(0.0))
+            gain = MusclePlace(model, arm, y).gain
+            total += arm * gain * (muscle.p_max - max(muscle.p_min, 0.0))
         return total
 
     def stiffness_range(self, s: float) -> tuple[float, float]:
@@ -215,6 +216,7 @@ class TwoSides(Sharing):
         )
         self._place = float('nan')
         self._lines: tuple[Line, Line]
+        self._pulls: tuple[pair.Limits, pair.Limits]  # at the same place
         self._before: tuple[float, ...] | None = None
         self.reach = self._reach()
 
@@ -227,15 +229,16 @@ class TwoSides(Sharing):
         if s != self._place:  # a step asks for them at its reference several times
             one, two = (self._line(side, s) for side in self._sides)
             self._place, self._lines = s, (one, two)
+            self._pulls = self._pulling(self._lines, self._within)
         return self._lines
 
     def _line(self, side: Sequence[int], s: float) -> Line:
         a = b = c = d = 0.0
+        place = self.model.at(s)
         for i in side:
-            muscle, high = self.model.muscles[i], self.ranges[i][1]
-            r, y, turn = muscle.arm(s), muscle.position(s), muscle.arm_slope(s)
-            force, gain = muscle.force_law(0.0, y), muscle.gain(y)
-            soft, stiff = muscle.stiffness(0.0, y), muscle.stiffness(high, y)
+            muscle, turn, high = place.muscles[i], place.arm_slopes[i], self.ranges[i][1]
+            r, force, gain = muscle.arm, muscle.force_law(0.0), muscle.gain
+            soft, stiff = muscle.stiffness(0.0), muscle.stiffness(high)
             a += r * force
             b += r * gain
             c += r * r * soft - turn * force
@@ -246,11 +249,8 @@ class TwoSides(Sharing):
         self, lines: tuple[Line, Line], ranges: tuple[pair.Limits, pair.Limits]
     ) -> tuple[pair.Limits, pair.Limits]:
         """Return the pressures of both sides at which they pull."""
-        one, two = (
-            (min(max(low, line.slack), high), high)
-            for line, (low, high) in zip(lines, ranges, strict=True)
-        )
-        return one, two
+        (one, two), ((a, b), (c, d)) = lines, ranges
+        return (clamp(one.slack, a, b), b), (clamp(two.slack, c, d), d)
 
     def split(self, effort: float, stiffness: float, s: float) -> Split:
         """Return the pressures that give *effort*, and *stiffness* as nearly as possible.
@@ -258,18 +258,18 @@ class TwoSides(Sharing):
         Pressures are within the limits and no muscle pushes.
         """
         one, two = lines = self.lines(s)
-        within = self._pulling(lines, self._within)
+        within = self._pulls
         low, high = pair.piece(one, two, effort, within)
         if low <= high:
-            p = min(max(pair.pressures(one, two, effort, stiffness)[0], low), high)
-            q = min(max(pair.other(one, two, effort, p), within[1][0]), within[1][1])
+            p = clamp(pair.pressures(one, two, effort, stiffness)[0], low, high)
+            q = clamp(pair.other(one, two, effort, p), *within[1])
             return Split(self._to_muscles(p, q), 0.0)
         ends = _ends(lines, within)
         p, q = ends[1] if effort > _given(lines, ends[1]) else ends[0]
         return Split(self._to_muscles(p, q), effort - _given(lines, (p, q)))
 
     def _to_muscles(self, p: float, q: float) -> tuple[float, ...]:
-        return tuple(q if side else p for side in self._side_of)
+        return tuple([q if side else p for side in self._side_of])
 
     def rates(
         self, dt: float, foreseen: float, rate: float, stiffness: float, s: float
@@ -280,12 +280,12 @@ class TwoSides(Sharing):
         """
         ahead = self.split(foreseen, stiffness, s).pressures
         before, self._before = self._before or ahead, ahead
-        return tuple((now - then) / dt for now, then in zip(ahead, before, strict=True))
+        return tuple([(now - then) / dt for now, then in zip(ahead, before, strict=True)])
 
     def available(self) -> float:
         """Return the greatest minus the least effort in the middle of the reach."""
         lines = self.lines(0.5 * (self.reach[0] + self.reach[1]))
-        least, most = _ends(lines, self._pulling(lines, self._within))
+        least, most = _ends(lines, self._pulls)
         return _given(lines, most) - _given(lines, least)
 
     def stiffness_range(self, s: float) -> tuple[float, float]:

@@ -43,10 +43,11 @@ def test_it_is_the_rig_without_memory(effects, v):
 
 
 def test_the_inverse_is_one():
-    muscle = ControlModel(single_muscle_joint(effects=[LengthOffset(offset=0.02)])).muscles[0]
-    assert muscle.force(muscle.pressure_for(200.0, 0.03), 0.03) == pytest.approx(200.0)
-    slope = (muscle.force(301e3, 0.03) - muscle.force(300e3, 0.03)) / 1e3
-    assert muscle.gain(0.03) == pytest.approx(slope, rel=1e-9)
+    model = ControlModel(single_muscle_joint(effects=[LengthOffset(offset=0.02)]))
+    (muscle,) = model.at(0.03).muscles
+    assert muscle.force(muscle.pressure_for(200.0)) == pytest.approx(200.0)
+    slope = (muscle.force(301e3) - muscle.force(300e3)) / 1e3
+    assert muscle.gain == pytest.approx(slope, rel=1e-9)
 
 
 def test_gravity_is_the_weight_of_the_moved_mass_and_adds_no_stiffness():
@@ -124,3 +125,17 @@ def test_the_model_of_every_joint_is_its_rig(name):
     h = 1e-6
     slope = (model.effort(p, s + h) - model.effort(p, s - h)) / (2.0 * h)
     assert model.stiffness(p, s) == pytest.approx(-slope, rel=1e-6)
+
+
+@pytest.mark.parametrize('name', OTHERS)
+def test_a_place_that_is_asked_again_is_that_of_its_coordinate(name):
+    """One model is asked at several coordinates in turn, another one only once."""
+    joint, places, p = OTHERS[name], (0.02, -0.01, 0.02, 0.02, 0.03), (3e5, 2.5e5)
+    model, p = ControlModel(joint), p[: len(joint.muscles)]
+    for s in places:
+        fresh = ControlModel(joint)
+        assert model.at(s).s == s
+        assert model.at(s).gains == fresh.at(s).gains
+        assert model.stiffness(p, s) == fresh.stiffness(p, s)
+        assert model.damping(p, s, 0.1) == fresh.damping(p, s, 0.1)
+        assert model.effort(p, s) == fresh.effort(p, s)

@@ -33,10 +33,10 @@ S = 1j * np.geomspace(0.3, 1500.0, 900)
 def single_muscle_joint(place, payload=0.0):
     """Return inertia, damping, stiffness, and effort per pressure of 20 kg on a muscle."""
     model = ControlModel(closed_loop.declared())
-    (muscle,) = model.muscles
+    (muscle,) = model.at(place).muscles
     mass = model.inertia + payload
-    p = (muscle.pressure_for(mass * model.weight / model.inertia, place),)
-    return mass, model.damping(p, place, 0.0), model.stiffness(p, place), muscle.gain(place)
+    p = (muscle.pressure_for(mass * model.weight / model.inertia),)
+    return mass, model.damping(p, place, 0.0), model.stiffness(p, place), muscle.gain
 
 
 @cache

@@ -131,10 +131,10 @@ def test_one_muscle_that_cannot_push_holds_no_cart_on_a_level_track():
 
 def test_a_muscle_is_given_no_pressure_that_is_too_low_to_have_an_effect():
     sharing = shared(hanging())
-    (muscle,) = sharing.model.muscles
+    (muscle,) = sharing.model.at(0.2).muscles
     split = sharing.split(-2.0, 0.0, 0.2)
     assert split.pressures == sharing.least(0.2)
-    assert muscle.force_law(split.pressures[0], muscle.position(0.2)) == pytest.approx(0, abs=1e-9)
+    assert muscle.force_law(split.pressures[0]) == pytest.approx(0, abs=1e-9)
     assert split.short == pytest.approx(-2.0)
     assert sharing.split(2.0, 0.0, 0.2).short == 0.0
 
@@ -211,8 +211,8 @@ def test_what_is_available_is_between_the_least_and_the_greatest_torque():
 def test_no_muscle_is_given_a_pressure_at_which_it_pushes():
     for torque in np.linspace(*efforts(0.2), 20):
         pressures = SHARING.split(float(torque), 0.0, 0.2).pressures
-        for muscle, p in zip(MODEL.muscles, pressures, strict=True):
-            assert muscle.force_law(p, muscle.position(0.2)) >= -1e-6
+        for muscle, p in zip(MODEL.at(0.2).muscles, pressures, strict=True):
+            assert muscle.force_law(p) >= -1e-6
 
 
 def test_within_its_reach_it_can_be_held_and_beyond_it_not():
