@@ -63,27 +63,31 @@ class Features:
     def __init__(self, tuning: FeatureTuning) -> None:
         """Create the features at rest at 0."""
         self._tuning = tuning
-        self.values = [0.0] * COUNT
-        self.rates = [0.0] * COUNT
         self.start(0.0)
 
     def start(self, position: float) -> None:
         """Start again at rest: no element is deflected."""
         self._origin = self._position = position
-        self.values[:] = [0.0] * CONSTANT + [1.0]
-        self.rates[:] = [0.0] * COUNT
+        self.values = self._before = [0.0] * CONSTANT + [1.0]
+        self._dt = 1.0  # of the last step, s
+
+    @property
+    def rates(self) -> list[float]:
+        """Change of the values per second in the last step."""
+        dt = self._dt
+        return [(a - b) / dt for a, b in zip(self.values, self._before, strict=True)]
 
     def follow(self, dt: float, position: float, velocity: float) -> list[float]:
         """Advance by *dt* s to *position* m and *velocity* m/s."""
-        way = position - self._position
-        self._position = position
-        now = [
-            min(max(before + way / reach, -1.0), 1.0)
-            for before, reach in zip(self.values, self._tuning.reaches, strict=False)
-        ]
-        ratio = velocity / self._tuning.stribeck_speed
-        stretch = (position - self._origin) / self._tuning.stroke
-        now += [now[0] * exp(-ratio * ratio), stretch, 1.0]
-        self.rates[:] = [(a - b) / dt for a, b in zip(now, self.values, strict=True)]
-        self.values[:] = now
+        tuning, way = self._tuning, position - self._position
+        self._position, self._before, self._dt = position, self.values, dt
+        now = []
+        # By comparison, since min() and max() take most of the time of such a loop.
+        for before, reach in zip(self._before, tuning.reaches, strict=False):
+            bent = before + way / reach
+            now.append(-1.0 if bent < -1.0 else 1.0 if bent > 1.0 else bent)
+        ratio = velocity / tuning.stribeck_speed
+        stretch = (position - self._origin) / tuning.stroke
+        now += (now[0] * exp(-ratio * ratio), stretch, 1.0)
+        self.values = now
         return now

@@ -18,20 +18,17 @@ from dataclasses import dataclass
 from math import exp
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pam_ros.control import features as beside
+from pam_ros.control.cascade import Cascade
 from pam_ros.control.features import Features, FeatureTuning
 from pam_ros.control.gains import Gains
 from pam_ros.control.model import ControlModel, Pressures
 from pam_ros.control.observer import Observer
 from pam_ros.control.pressure_path import Chamber
-from pam_ros.control.regression import Regression
-from pam_ros.control.sharing import Sharing
+from pam_ros.control.regression import Regression, dot
 from pam_ros.control.signals import Reference
 from pam_ros.control.tuning import number
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -99,7 +96,7 @@ class _Sensitivity:
 
     def follow(self, rate: float, fills: bool, tau: float, dt: float) -> None:
         """Advance by *dt* s in which the pressure changed at *rate* Pa/s."""
-        share = 1.0 - exp(-dt / max(tau, dt))
+        share = 1.0 - exp(-dt / (tau if tau > dt else dt))
         self.fill += share * ((-rate if fills else 0.0) - self.fill)
         self.vent += share * ((0.0 if fills else -rate) - self.vent)
 
@@ -120,7 +117,7 @@ class Learner:
 
     def __init__(
         self,
-        sharing: Sharing,
+        model: ControlModel,
         gains: Gains,
         tuning: LearningTuning,
         features: FeatureTuning,
@@ -128,8 +125,7 @@ class Learner:
         lag_is_declared: bool,
     ) -> None:
         """Start without learned parameters; *tuning* and *features* are in the joint's units."""
-        self._sharing, self.gains, self._tuning = sharing, gains, tuning
-        self._model: ControlModel = sharing.model
+        self._model, self.gains, self._tuning = model, gains, tuning
         self._lag_is_declared = lag_is_declared
         self._observer = Observer(self._model)
         self._wanted, self._actual = Features(features), Features(features)
@@ -151,7 +147,7 @@ class Learner:
         self._chambers = [Chamber() for _ in pressures]
         for chamber, pressure in zip(self._chambers, pressures, strict=True):
             chamber.pressure = pressure
-        self._declared = list(pressures)
+        self._declared = pressures
         self._sensitivities = [_Sensitivity() for _ in pressures]
         plain, noise = self._spread.copy(), self._tuning.noise
         plain[_LAGS] = 0.0
@@ -161,9 +157,10 @@ class Learner:
             one.theta[beside.CONSTANT] = -disturbance
         # Three equal poles, like the observer's, for the features and for the difference in force
         # between the learned chamber and the nominal one.
-        self._filter = np.zeros((3, _COLUMNS))
-        self._filter[:, beside.CONSTANT] = 1.0
-        self._input = np.zeros(_COLUMNS)
+        columns = [0.0] * _COLUMNS
+        columns[beside.CONSTANT] = 1.0
+        self._filter = Cascade(columns)
+        self._input = [0.0] * _COLUMNS
         self._plain_error = self._lagged_error = self._whole = 1.0
         self._plain_miss = self._lagged_miss = 1.0
         self._centre, self._has_learned = 0.0, False
@@ -173,31 +170,37 @@ class Learner:
         self._share = 0.0
 
     @property
-    def _weights(self) -> Array:
-        share = self._share
-        mix: Array = share * self._lagged.theta + (1.0 - share) * self._plain.theta
-        return mix
+    def _weights(self) -> list[float]:
+        share, thetas = self._share, zip(self._lagged.theta, self._plain.theta, strict=True)
+        return [share * lagged + (1.0 - share) * plain for lagged, plain in thetas]
 
     def feed_forward(self, dt: float, reference: Reference) -> tuple[float, float]:
         """Return the effort that the reference needs beyond the model, and its rate."""
         most = self._tuning.most
         self._wanted.follow(dt, reference.position, reference.velocity)
         values = self._wanted.values
-        self._input[_PLAIN] = self._plain.theta[:_N].dot(values)
-        self._input[_LAGGED] = self._lagged.theta[:_N].dot(values)
+        self._input[_PLAIN] = dot(values, self._plain.theta)
+        self._input[_LAGGED] = dot(values, self._lagged.theta)
         self._share += dt / self._tuning.blend * (self._prefers_lag - self._share)
-        weights = self._weights.tolist()
-        force = rate = 0.0
-        if self.trust > 0.0:
-            for n in range(beside.CONSTANT):
-                weight = self.trust * weights[n]
-                force += weight * self._wanted.values[n]
-                rate += weight * self._wanted.rates[n]
-        used = self.trust * self._share
-        self.lag = (used * weights[_FILL], used * weights[_VENT])
+        force, rate = self._learned_force()
         self._let_grow(dt)
         if abs(force) > most:
             return (most if force > 0.0 else -most), 0.0
+        return force, rate
+
+    def _learned_force(self) -> tuple[float, float]:
+        """Return the learned force along the reference and its rate; sets the lag to invert."""
+        if self.trust == 0.0:  # as for a long time in the beginning
+            self.lag = (0.0, 0.0)
+            return 0.0, 0.0
+        weights, rates = self._weights, self._wanted.rates
+        force = rate = 0.0
+        for n in range(beside.CONSTANT):
+            weight = self.trust * weights[n]
+            force += weight * self._wanted.values[n]
+            rate += weight * rates[n]
+        used = self.trust * self._share
+        self.lag = (used * weights[_FILL], used * weights[_VENT])
         return force, rate
 
     def _let_grow(self, dt: float) -> None:
@@ -205,7 +208,7 @@ class Learner:
         low, high = self.gains.bandwidth, self.gains.fast_bandwidth
         wanted = low
         if self.trust > 0.0 and not self._lag_is_declared:
-            lag = float(self._lagged.theta[_LAGS].max())
+            lag = max(self._lagged.theta[_LAGS])
             decay = (
                 self.trust * max(self._tuning.margin * lag, 1.0 / high) + (1.0 - self.trust) / low
             )
@@ -227,11 +230,7 @@ class Learner:
         *declared* are the pressures in Pa of the nominal chambers. *losses* is the effort that
         configured effects take along the reference: it is not learned again.
         """
-        share = 1.0 - exp(-self._tuning.fast * dt)
-        stages = self._filter
-        stages[0] += share * (self._input - stages[0])
-        stages[1] += share * (stages[0] - stages[1])
-        stages[2] += share * (stages[1] - stages[2])
+        self._filter.follow(dt, self._tuning.fast, self._input)
         if may_learn:
             self._moved += dt
             self._waited += dt
@@ -243,49 +242,47 @@ class Learner:
     def _advance(self, dt: float, inflows: Pressures, declared: Pressures, losses: float) -> None:
         """Advance the observer and the learned chambers, with their sensitivities to the lag."""
         observer = self._observer
-        gains = self._sharing.gains(observer.position)
         means = [0.5 * (a + b) for a, b in zip(self._declared, declared, strict=True)]
-        self._declared = list(declared)
+        self._declared = declared
         if self._lag_is_declared:
             observer.predict(dt, means, -losses)
             return
-        fill, vent = self._lagged.theta[_LAGS].tolist()
+        places = [muscle.at(observer.position) for muscle in self._model.muscles]
+        fill, vent = self._lagged.theta[_LAGS]
         pressures = []
         by_fill = by_vent = less = late = 0.0
-        for i, gain in enumerate(gains):
+        for i, place in enumerate(places):
             chamber, sensitivity = self._chambers[i], self._sensitivities[i]
+            gain, inflow, before = place.arm * place.gain, inflows[i], chamber.pressure
             chamber.fill, chamber.vent = fill, vent
-            before = chamber.pressure
-            fills = inflows[i] > before
-            pressures.append(chamber.follow(inflows[i], dt))
+            fills = inflow > before
+            pressure = chamber.follow(inflow, dt)
             rate = (chamber.pressure - before) / dt
             sensitivity.follow(rate, fills, fill if fills else vent, dt)
             by_fill += -gain * sensitivity.fill
             by_vent += -gain * sensitivity.vent
-            less += gain * (pressures[i] - means[i])
-            late += gain * (pressures[i] - inflows[i])
+            less += gain * (pressure - means[i])
+            late += gain * (pressure - inflow)
+            pressures.append(pressure)
         self._input[_FILL], self._input[_VENT] = by_fill, by_vent
         self._input[_FROM_LAW], self._input[_FROM_NO_LAG] = less, late
         observer.predict(dt, pressures, -losses)
 
     def _learn(self, span: float) -> None:
         """Update both hypotheses with the missing force, *span* s after the last update."""
-        phi = self._filter[2, :_UNKNOWNS]
+        filtered = self._filter.output
+        phi = filtered[:_UNKNOWNS]
         missing = -self._observer.disturbance
-        as_declared = missing - self._filter[2, _FROM_LAW]
+        as_declared = missing - filtered[_FROM_LAW]
         # The force that would be missing without an inverted lag: all that is to be explained.
-        unlearned = missing - self._filter[2, _FROM_NO_LAG]
-        plain = as_declared - float(phi[:_N] @ self._plain.theta[:_N])
-        lagged = missing - float(phi[:_N] @ self._lagged.theta[:_N])
+        unlearned = missing - filtered[_FROM_NO_LAG]
+        plain = as_declared - dot(phi[:_N], self._plain.theta)
+        lagged = missing - dot(phi[:_N], self._lagged.theta)
         share = min(span / self._tuning.judge, 1.0)
         self._plain_error += share * (plain * plain - self._plain_error)
         self._lagged_error += share * (lagged * lagged - self._lagged_error)
-        self._plain_miss += share * (
-            (as_declared - self._filter[2, _PLAIN]) ** 2 - self._plain_miss
-        )
-        self._lagged_miss += share * (
-            (missing - self._filter[2, _LAGGED]) ** 2 - self._lagged_miss
-        )
+        self._plain_miss += share * ((as_declared - filtered[_PLAIN]) ** 2 - self._plain_miss)
+        self._lagged_miss += share * ((missing - filtered[_LAGGED]) ** 2 - self._lagged_miss)
         if not self._has_learned:
             # The offset of an unmodelled load is no evidence of another effect.
             self._centre, self._has_learned = unlearned, True
@@ -295,8 +292,7 @@ class Learner:
         forgotten = self._tuning.forgotten * span
         # Early samples were taken under another estimate of the lag: they only give a direction.
         early = self._tuning.early * span * exp(-self._moved / self._tuning.settled)
-        by_parameter = np.full(_UNKNOWNS, forgotten)
-        by_parameter[_LAGS] += early
+        by_parameter = np.array([forgotten] * _N + [forgotten + early] * 2)
         self._plain.update(phi, plain, forgotten)
         self._lagged.update(phi, lagged, by_parameter)
 
@@ -325,10 +321,12 @@ class Learner:
         self._lagged.theta = self._plain.theta.copy()
         self._lagged.covariance = self._plain.covariance.copy()
         self._lagged.covariance[_LAGS, _LAGS] = np.diag(self._spread[_LAGS] ** 2)
-        self._observer.disturbance += float(self._filter[2, _FROM_LAW])
-        self._filter[:, _FROM_NO_LAG] -= self._filter[:, _FROM_LAW]
-        self._filter[:, _FROM_LAW] = 0.0
-        self._input[_N:] = 0.0
+        self._observer.disturbance += self._filter.stages[_FROM_LAW][2]
+        stages = self._filter.stages
+        pairs = zip(stages[_FROM_NO_LAG], stages[_FROM_LAW], strict=True)
+        one, two, three = (from_no_lag - from_law for from_no_lag, from_law in pairs)
+        stages[_FROM_NO_LAG], stages[_FROM_LAW] = (one, two, three), (0.0, 0.0, 0.0)
+        self._input[_N:] = [0.0] * (_COLUMNS - _N)
         for chamber, pressure in zip(self._chambers, self._declared, strict=True):
             chamber.pressure = pressure
         self._sensitivities = [_Sensitivity() for _ in self._declared]

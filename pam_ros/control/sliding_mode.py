@@ -119,7 +119,7 @@ class SlidingMode:
         self._losses = Losses(model)
         self._observer = Observer(model)
         self._learner = Learner(
-            self.sharing,
+            model,
             gains,
             scaled(LearningTuning(), length, force),
             scaled(FeatureTuning(), length, force),
@@ -192,11 +192,11 @@ class SlidingMode:
         self._offset = 0.0 if self.gains.observer else disturbance
         self._lost, self._may_learn = 0.0, False
         self.terms = Terms(reference=position, position=position)
-        self._note(self._commands)
+        self._note(self._commands, chambers)
 
     @property
     def _chambers(self) -> Pressures:
-        return tuple(path.chamber.pressure for path in self._paths)
+        return tuple([path.chamber.pressure for path in self._paths])
 
     @property
     def _commands(self) -> Pressures:
@@ -218,9 +218,9 @@ class SlidingMode:
         :meth:`pam_ros.control.signals.PositionLaw.update`.
         """
         position, velocity = step_arguments(dt, reference, position, velocity, age)
-        self._go_on(dt)
+        chambers = self._go_on(dt)
         self._take_in(dt, reference, position, age)
-        effort, foreseen, rate = self._wanted_effort(dt, reference, velocity)
+        effort, foreseen, rate = self._wanted_effort(dt, reference, velocity, chambers)
         effort = self._push(dt, reference, effort)
         stiffness, s = self._stiffness.stiffness, reference.position
         wanted = self.sharing.split(effort, stiffness, s)
@@ -232,30 +232,32 @@ class SlidingMode:
             cut += gain * (asked - commands[i])
         self.terms.cut = cut
         self._integrate(dt, effort, cut)
-        self._note(tuple(commands))
+        self._note(tuple(commands), chambers)
         return self.terms.pressures
 
-    def _note(self, commands: Pressures) -> None:
+    def _note(self, commands: Pressures, chambers: Pressures) -> None:
         """Set the terms of the pressures and of the resulting stiffness."""
         terms = self.terms
         terms.pressures = commands
         if self.sharing.can_stiffen:
             terms.co_contraction = self._stiffness.stiffness
-            terms.stiffness = self.model.stiffness(self._chambers, terms.position)
+            terms.stiffness = self.model.stiffness(chambers, terms.position)
 
-    def _go_on(self, dt: float) -> None:
-        """Advance all estimates by *dt* s under the last commands."""
+    def _go_on(self, dt: float) -> Pressures:
+        """Advance all estimates by *dt* s under the last commands; return the chambers' Pa."""
         paths = self._paths
         means = [
             path.follow(limiter.last, dt)
             for path, limiter in zip(paths, self._limiters, strict=True)
         ]
         self._observer.predict(dt, means, -self._lost)
+        chambers = self._chambers
         if self.gains.learning:
             inflows, losses = [path.inflow for path in paths], self._losses.effort
-            may_learn = self._may_learn
-            self._learner.go_on(dt, inflows, self._chambers, losses, may_learn=may_learn)
-        self._stiffness.follow(dt)
+            self._learner.go_on(dt, inflows, chambers, losses, may_learn=self._may_learn)
+        if self.sharing.can_stiffen:
+            self._stiffness.follow(dt)
+        return chambers
 
     def _take_in(
         self, dt: float, reference: Reference, position: float | None, age: float
@@ -291,11 +293,11 @@ class SlidingMode:
             learner.see(dt, waited, position)
 
     def _wanted_effort(
-        self, dt: float, reference: Reference, velocity: float | None
+        self, dt: float, reference: Reference, velocity: float | None, chambers: Pressures
     ) -> tuple[float, float, float]:
         """Return the wanted effort, its predicted part, and the rate of that part."""
         model, gains, observer, terms = self.model, self.gains, self._observer, self.terms
-        inertia, chambers = model.inertia, self._chambers
+        inertia = model.inertia
         s, v, a, jerk = reference
         self._k = k = model.stiffness(chambers, s) + model.gravity_stiffness(s)
         c = model.damping(chambers, s, v)
@@ -336,8 +338,10 @@ class SlidingMode:
         square = max(self._k / inertia, gains.surface_bandwidth * gains.surface_bandwidth)
         decay = max(2.0 * gains.surface_damping * sqrt(square), c / inertia)
         level, quick = self._rejection.level, gains.rejection_surface
-        self._square = square + level * (max(quick * quick, square) - square)
-        self._decay = decay + level * (max(2.0 * gains.rejection_damping * quick, decay) - decay)
+        if level > 0.0:
+            square += level * (max(quick * quick, square) - square)
+            decay += level * (max(2.0 * gains.rejection_damping * quick, decay) - decay)
+        self._square, self._decay = square, decay
 
     def _push(self, dt: float, reference: Reference, effort: float) -> float:
         """Return the effort to apply: pushes where the load sticks and slips, else *effort*."""

@@ -55,7 +55,7 @@ def test_a_load_that_nobody_declared_is_not_taken_for_anything_else(rest):
 def test_hysteresis_is_learned_and_the_bandwidth_grows(kind, level, bandwidth, most):
     """N in each muscle; 1/s; mm or degrees."""
     law, run = swung(kind, 'hysteresis')
-    learned = law._learner._weights[:ELEMENTS].sum()
+    learned = sum(law._learner._weights[:ELEMENTS])
     assert learned == pytest.approx(level * ARMS[kind], rel=0.1)
     assert max(law._learner.lag) < 5e-3
     assert run.terms['bandwidth'][-1] > bandwidth
@@ -72,7 +72,7 @@ def test_hysteresis_is_learned_and_the_bandwidth_grows(kind, level, bandwidth, m
 def test_friction_is_learned(kind, level, within, most):
     """N, or N m at the pivot; mm or degrees."""
     law, run = swung(kind, 'friction')
-    assert law._learner._weights[:ELEMENTS].sum() == pytest.approx(level, abs=within)
+    assert sum(law._learner._weights[:ELEMENTS]) == pytest.approx(level, abs=within)
     assert rms(kind, run) < most
     assert rms(kind, run) < 0.9 * rms(kind, swung(kind, 'friction', 8.0, learning=False)[1])
 
