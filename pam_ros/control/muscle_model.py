@@ -7,7 +7,7 @@ depends on the coordinate alone, above all the exponential of the force law, com
 """
 
 from collections.abc import Callable
-from math import exp, inf, sqrt
+from math import exp, inf
 
 from pam_ros.compiled import plain
 from pam_ros.effects.base import Compensation, EffectEquations
@@ -17,6 +17,7 @@ from pam_ros.rig.joint import Joint
 
 # The Python source of the force law: the steps of a controller must not wait for a compiler.
 _force_at, _slope_at, _damping = plain(law.force_at), plain(law.slope_at), plain(law.damping)
+_gain_at, _pressure_at = plain(law.gain_at), plain(law.pressure_at)
 PUSH = 1e6  # N: more than any muscle pushes; what slack leaves of it is the force of a slack one
 
 
@@ -75,9 +76,8 @@ class MuscleModel:
     def pull(self, p: float, s: float, v: float, inertia: float) -> tuple[float, float]:
         """Return the effort and the damping that it gives the joint, with *inertia*, at s and v.
 
-        These are ``arm force`` and ``damping_on_joint`` of the place at s, in the same order of
-        operations. An observer asks for both at new coordinates several times a step; so the law
-        is written out here, where calls would take longer than the sums.
+        These are ``arm force`` and ``damping_on_joint`` of the place at s. An observer asks for
+        both at new coordinates several times a step, at each of them once: no place is created.
         """
         i, numbers = self._i, self._numbers
         a1, a2, a3, a4, a5, a6, l0, zeta, at_zero = self._constants
@@ -86,13 +86,11 @@ class MuscleModel:
         for function, j in self.contractions:
             kappa = function(kappa, self.row, j)
         e = exp(a3 * kappa)
-        spring = a1 * p + a2
-        f = spring * e + a4 * kappa * p + a5 * p + a6
+        f = _force_at(e, p, kappa, a1, a2, a4, a5, a6)
         for equations, j in self.forces:
             f = equations.resting_force(f, p, kappa, self.row, j)
-        k = -(spring * a3 * e + a4 * p) / l0
-        mass = inertia / (self.muscles * arm * arm)
-        c = 2.0 * zeta * sqrt(mass * k) if k > 0.0 else 0.0
+        k = -_slope_at(e, p, a1, a2, a3, a4) / l0
+        c = _damping(k, inertia / (self.muscles * arm * arm), zeta)
         for function, j in self.dampings:
             c = function(c, p, contraction, arm * v, self.row, j)
         return arm * f, arm * arm * c
@@ -119,7 +117,7 @@ class MusclePlace:
             kappa = function(kappa, muscle.row, j)
         self._muscle, self.arm, self.kappa = muscle, arm, kappa
         self._e = e = exp(a3 * kappa)
-        self.gain = a1 * e + a4 * kappa + a5
+        self.gain = _gain_at(e, kappa, a1, a4, a5)
 
     # Along its own line ------------------------------------------------------------------------
 
@@ -153,7 +151,7 @@ class MusclePlace:
     def pressure_for(self, force: float) -> float:
         """Return the pressure in Pa for a *force* in N: (1) solved for p, not clamped."""
         _, a2, _, _, _, a6 = self._muscle.a
-        return (force - a2 * self._e - a6) / self.gain
+        return _pressure_at(self._e, force, self.gain, a2, a6)
 
     # As the joint feels it ---------------------------------------------------------------------
 

@@ -7,6 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from pam_ros.control.limits import clamp
+
 Array = NDArray[np.float64]
 
 
@@ -43,7 +45,7 @@ class Regression:
         direction = self.covariance @ np.array(phi)
         gain = direction / (self._noise + dot(phi, direction.tolist()))
         self.theta = [
-            min(max(old + each * error, low), high)
+            clamp(old + each * error, low, high)
             for old, each, (low, high) in zip(self.theta, gain.tolist(), self._bounds, strict=True)
         ]
         self.covariance -= gain[:, None] * direction

@@ -255,8 +255,7 @@ class SlidingMode:
         if self.gains.learning:
             inflows, losses = [path.inflow for path in paths], self._losses.effort
             self._learner.go_on(dt, inflows, chambers, losses, may_learn=self._may_learn)
-        if self.sharing.can_stiffen:
-            self._stiffness.follow(dt)
+        self._stiffness.follow(dt)
         return chambers
 
     def _take_in(
@@ -338,10 +337,8 @@ class SlidingMode:
         square = max(self._k / inertia, gains.surface_bandwidth * gains.surface_bandwidth)
         decay = max(2.0 * gains.surface_damping * sqrt(square), c / inertia)
         level, quick = self._rejection.level, gains.rejection_surface
-        if level > 0.0:
-            square += level * (max(quick * quick, square) - square)
-            decay += level * (max(2.0 * gains.rejection_damping * quick, decay) - decay)
-        self._square, self._decay = square, decay
+        self._square = square + level * (max(quick * quick, square) - square)
+        self._decay = decay + level * (max(2.0 * gains.rejection_damping * quick, decay) - decay)
 
     def _push(self, dt: float, reference: Reference, effort: float) -> float:
         """Return the effort to apply: pushes where the load sticks and slips, else *effort*."""

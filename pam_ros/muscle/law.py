@@ -70,7 +70,13 @@ def damping(k: float, mass: float, zeta: float) -> float:
 @scalar
 def gain(kappa: float, a1: float, a3: float, a4: float, a5: float) -> float:
     """Return dF/dp in N/Pa: the force law is affine in p, and this is its slope."""
-    return a1 * exp(a3 * kappa) + a4 * kappa + a5
+    return gain_at(exp(a3 * kappa), kappa, a1, a4, a5)
+
+
+@scalar
+def gain_at(e: float, kappa: float, a1: float, a4: float, a5: float) -> float:
+    """Return dF/dp in N/Pa for a known e = exp(a3 kappa)."""
+    return a1 * e + a4 * kappa + a5
 
 
 @scalar
@@ -90,7 +96,13 @@ def pressure_for_force(
     is not clamped and may lie outside the muscle's pressure range.
     """
     e = exp(a3 * kappa)
-    return (wanted - a2 * e - a6) / (a1 * e + a4 * kappa + a5)
+    return pressure_at(e, wanted, gain_at(e, kappa, a1, a4, a5), a2, a6)
+
+
+@scalar
+def pressure_at(e: float, wanted: float, gain: float, a2: float, a6: float) -> float:
+    """Return the pressure in Pa for *wanted* N, for a known e = exp(a3 kappa) and gain dF/dp."""
+    return (wanted - a2 * e - a6) / gain
 
 
 @scalar
