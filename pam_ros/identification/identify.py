@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from pam_ros.arguments import instance, sequence
 from pam_ros.errors import RecordingError
-from pam_ros.identification.data.noise import Noise, noise_of
+from pam_ros.identification.data.noise import Noise, noise_of, step_of
 from pam_ros.identification.data.parts import Part, parts_of
 from pam_ros.identification.data.segment import (
     Segment,
@@ -184,7 +184,9 @@ def _least(three: Sequence[Stage], parts: Sequence[Part]) -> Noise:
     for stage in three:
         pairs = zip(parts, stage.simulated, strict=True)
         signals.append([(part.segment.t, part.segment.target - run) for part, run in pairs])
-    return min(map(noise_of, signals), key=lambda noise: noise.sigma)
+    steps = [step_of(part.segment.target) for part in parts]
+    found = [noise_of(pairs, steps) for pairs in signals]
+    return min(found, key=lambda noise: noise.sigma)
 
 
 def _structure(ends: Final, found: Search, floor: float) -> Structure:
