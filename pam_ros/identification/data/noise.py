@@ -17,7 +17,7 @@ QUICK = 0.15  # ratio of the two noises below which the motion is too fast for l
 SAMPLES = (12, 200)  # fewest and most samples in a window
 DEGREE = 4  # of the polynomial that follows the motion within a window
 LONGEST = 0.05  # s, longest correlation time of noise: a slower error cannot be told from motion
-EVEN = 1e-3  # largest deviation of values from multiples of their step, in steps
+EVEN = 0.05  # largest deviation of a change from a multiple of the step, in steps
 
 
 @dataclass(frozen=True)

@@ -5,7 +5,7 @@
 import numpy as np
 import pytest
 
-from pam_ros.identification.data.noise import Noise, independent_share, noise_of
+from pam_ros.identification.data.noise import Noise, independent_share, noise_of, step_of
 from support.equations import coloured
 
 SIGMA = 2e-5  # m, beside motion of some 20 mm
@@ -50,6 +50,70 @@ def test_steps_and_their_ringing_are_not_noise():
     found = noise_of([(t, y + coloured(np.random.default_rng(2), t.size, 0.0, SIGMA))])
     assert found.sigma == pytest.approx(SIGMA, rel=0.1)
     assert found.rho < 0.1
+
+
+@pytest.mark.parametrize('rate', [100.0, 250.0, 1000.0])
+def test_stamps_that_jitter_are_no_noise(rate):
+    rng = np.random.default_rng(7)
+    t = np.arange(round(60.0 * rate)) / rate
+    t = t + rng.uniform(-0.15, 0.15, t.size) / rate
+    found = noise_of([(t, motion(t) + SIGMA * rng.standard_normal(t.size))])
+    # At 100 Hz the load moves by a hundred micrometres in the jitter of a stamp.
+    assert 0.93 < found.sigma / SIGMA < 1.03
+    assert found.rho < 0.05
+
+
+@pytest.mark.parametrize(
+    ('rate', 'rho', 'low'),
+    [(100.0, 0.85, 0.55), (250.0, 0.9, 0.68), (1000.0, 0.9, 0.9)],
+)
+def test_correlated_noise_of_an_encoder(rate, rho, low):
+    t = np.arange(round(60.0 * rate)) / rate
+    step = SIGMA
+    noise = coloured(np.random.default_rng(8), t.size, rho, SIGMA)
+    y = step * np.round((motion(t) + noise) / step)
+    whole = np.std(y - motion(t))
+    found = noise_of([(t, y)])
+    assert low < found.sigma / whole < 1.05
+    # Without its resolution, the white rounding error looks like less correlation, and the part
+    # of the noise that the polynomials take away is underestimated.
+    blind = noise_of([(t, y)], [0.0])
+    assert abs(np.log(found.sigma / whole)) < abs(np.log(blind.sigma / whole))
+    assert found.rho > blind.rho
+
+
+def test_an_encoder_at_rest_has_the_noise_of_its_step():
+    t = np.arange(2000) / 100.0
+    y = 1e-5 * np.round(motion(np.maximum(t - 10.0, 0.0)) / 1e-5)
+    assert noise_of([(t, y)]).sigma == pytest.approx(1e-5 / np.sqrt(12.0), rel=1e-6)
+
+
+def test_a_slow_error_is_not_noise():
+    t = np.arange(6000) / 100.0
+    slow = coloured(np.random.default_rng(9), t.size, 0.99, 10.0 * SIGMA)
+    white = SIGMA * np.random.default_rng(10).standard_normal(t.size)
+    # A correlation time of 1 s: what is faster than the windows is some 2 SIGMA.
+    assert noise_of([(t, motion(t) + slow + white)]).sigma < 3.0 * SIGMA
+
+
+@pytest.mark.parametrize('step', [1e-5, 2 * np.pi / 8192, 0.1])
+@pytest.mark.parametrize('offset', [0.0, 0.123456])
+def test_resolution_of_an_encoder(step, offset):
+    t = np.arange(3000) / 100.0
+    values = step * np.round(200.0 * np.sin(t) + np.random.default_rng(1).standard_normal(t.size))
+    assert step_of(values + offset) == pytest.approx(step, rel=1e-6)
+    # Files contain a few digits.
+    assert step_of(np.round(values + offset, 6)) == pytest.approx(step, rel=1e-2)
+    assert step_of(values[:1]) == 0.0
+
+
+def test_a_smooth_signal_has_no_resolution():
+    rng = np.random.default_rng(2)
+    t = np.arange(3000) / 100.0
+    assert step_of(motion(t) + SIGMA * rng.standard_normal(t.size)) == 0.0
+    # Noiseless, with rests: many samples are equal, but no step divides the others.
+    assert step_of(motion(np.minimum(t, 20.0))) == 0.0
+    assert step_of(np.full(50, 0.03)) == 0.0
 
 
 def test_scales_with_the_unit_and_pools_signals():
