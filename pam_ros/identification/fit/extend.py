@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Problems with one effect more or less, or with more or fewer of its parameters."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -28,14 +28,16 @@ Array = NDArray[np.float64]
 def with_effect(
     problem: Problem, joint: Joint, place: Place, start: Mapping[str, float]
 ) -> tuple[Problem, Array]:
-    """Return the problem with the effect's parameters in *start* unknown, and their u there.
+    """Return the problem with the effect's parameters in *start* unknown, and the new ones' u.
 
     If the problem lacks the effect at *place*, its other parameters have their defaults, and its
     memory at the start of each run becomes unknown, too. If the problem has the effect, the other
-    parameters do not change.
+    parameters do not change, and those that are unknown already are the same unknowns.
     """
-    added = [proper(one) for one in effect_unknowns(joint, place, start)]
-    is_new = not parameters_of(problem.unknowns, place.name)
+    there = parameters_of(problem.unknowns, place.name)
+    is_new = not there
+    more = {name: value for name, value in start.items() if name not in there}
+    added = [proper(one) for one in effect_unknowns(joint, place, more)]
     row = problem.row.copy()
     for k, p in enumerate(place.parameters):
         indices = place.indices(joint.layout, k)
@@ -49,6 +51,16 @@ def with_effect(
         unknowns=(*problem.unknowns, *added, *memory),
     )
     return new, np.array([*u, *(0.0 for _ in memory)])
+
+
+def started(problem: Problem, u: Array, place: Place, start: Mapping[str, float]) -> Array:
+    """Return u with those unknowns of the effect at *place* that are in *start* at its values."""
+    moved = u.copy()
+    for k, unknown in enumerate(problem.unknowns):
+        of = unknown.of
+        if isinstance(of, OfEffect) and of.place == place.name and of.parameter in start:
+            moved[k] = unknown.coordinate(start[of.parameter])
+    return moved
 
 
 def bounded(problem: Problem, u: Array, joint: Joint, place: Place) -> Problem:
@@ -94,23 +106,39 @@ def finer_starts(
     """Return starting values for the parameters at *place* that are not among *unknowns*.
 
     Either all of them with their values in the parameter *row*, or some with the values of a start
-    of the effect. If that start has a strength that is already fitted, other strengths in the same
-    unit keep their ratio to it.
+    of the effect. If that start has several strengths in the same unit, of which one is fitted,
+    all of them keep their ratios, and their geometric mean is the fitted value: alone, one
+    strength is fitted to a mean of all. So the friction is between that of a sliding and that of a
+    resting load. The values then include that of the fitted one.
     """
     there = parameters_of(unknowns, place.name)
     values = _values(row, joint, place)
     rest = {name: value for name, value in values.items() if name not in there}
-    units = {p.name: p.unit for p in place.parameters if p.strength}
     options = [rest] if rest else []
     for start in place.fit_starts:
         some = {name: value for name, value in start.items() if name in rest}
-        for name in some:
-            shared = [n for n in start if n not in rest and units.get(n) == units.get(name, '')]
-            if shared and start[shared[0]] * values[shared[0]] > 0.0:
-                some[name] *= values[shared[0]] / start[shared[0]]
+        for same in _same_units(place, some, start):
+            known = {name: values[name] for name in same if name in there}
+            if known and all(start[name] * value > 0.0 for name, value in known.items()):
+                factor = _mean(known.values()) / _mean(same.values())
+                some.update({name: factor * value for name, value in same.items()})
         if some and some not in options:
             options.append(some)
     return options
+
+
+def _same_units(
+    place: Place, some: Mapping[str, float], start: Mapping[str, float]
+) -> list[dict[str, float]]:
+    """Return the strengths in *start* for each unit in which *some* has a strength."""
+    units = {p.name: p.unit for p in place.parameters if p.strength}
+    new = dict.fromkeys(units[name] for name in some if name in units)
+    return [{n: value for n, value in start.items() if units.get(n) == unit} for unit in new]
+
+
+def _mean(values: Iterable[float]) -> float:
+    """Return the geometric mean of the sizes of *values*, none of which is 0."""
+    return float(np.exp(np.mean([np.log(abs(value)) for value in values])))
 
 
 def without_effect(problem: Problem, joint: Joint, place: Place) -> tuple[Problem, list[int]]:

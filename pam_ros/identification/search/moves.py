@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The moves of a search: one effect more or less, or more or fewer of its parameters."""
 
+import numpy as np
+
 from pam_ros.identification.fit.extend import (
     finer_starts,
     plainer_sets,
@@ -11,9 +13,10 @@ from pam_ros.identification.fit.extend import (
 from pam_ros.identification.fit.moment import moved
 from pam_ros.identification.fit.places import Place
 from pam_ros.identification.fit.problem import Problem
-from pam_ros.identification.fit.solve import Solution, settled
+from pam_ros.identification.fit.solve import Solution, fresh, settled
+from pam_ros.identification.fit.unknowns import OfEffect, parameters_of
 from pam_ros.identification.search.setting import Model, Setting
-from pam_ros.identification.search.starts import extended, looks
+from pam_ros.identification.search.starts import MOVES, extended, looks
 
 
 def with_each(parent: Model, names: list[str], setting: Setting) -> list[Model]:
@@ -73,6 +76,38 @@ def freed(model: Model, setting: Setting) -> list[Model]:
     return list(setting.pool.map(fit, options))
 
 
+def without_idle_parameters(model: Model, setting: Setting) -> Model:
+    """Return *model* without those unknown parameters of its effects that have no influence.
+
+    They get their defaults, and can become unknown again from another start. For example, a fit
+    can move a breakaway friction below the sliding friction, where it has no influence and no
+    gradient leads back.
+    """
+    for name in model.effects:
+        known = fresh(model.solution, setting.pool)
+        names = _with_influence(known, name, setting)
+        if not names or names == parameters_of(known.problem.unknowns, name):
+            continue
+        place = setting.places[name]
+        problem, keep = with_parameters(known.problem, setting.joint, place, names)
+        less = _kept(known, problem, keep)
+        if less.score <= known.score:
+            model = setting.model(model.effects, less)
+    return model
+
+
+def _with_influence(known: Solution, name: str, setting: Setting) -> set[str]:
+    """Return the unknown parameters of an effect that change the residuals by at least MOVES."""
+    moved = np.linalg.norm(known.jacobian, axis=0) * known.problem.prior
+    return {
+        unknown.of.parameter
+        for unknown, size in zip(known.problem.unknowns, moved, strict=True)
+        if isinstance(unknown.of, OfEffect)
+        and unknown.of.place == name
+        and size > MOVES * setting.noise
+    }
+
+
 def fixed(model: Model, setting: Setting) -> list[Model]:
     """Return *model* with fewer parameters of each of its effects, fitted from its present values.
 
@@ -117,10 +152,15 @@ def _less(
     setting: Setting,
 ) -> Model:
     """Return the fit of a *problem* with the unknowns *keep* of *known*, from their values."""
+    less = _kept(known, problem, keep)
+    return setting.model(effects, settled(less, setting.budget.iterations, setting.pool))
+
+
+def _kept(known: Solution, problem: Problem, keep: list[int]) -> Solution:
+    """Return the solution of a *problem* at the unknowns *keep* of *known*, without a fit."""
     u = known.u[keep]
     slopes = known.jacobian[:, keep]
-    less = Solution(problem, u, problem.residuals(u), slopes, known.discrepancy)
-    return setting.model(effects, settled(less, setting.budget.iterations, setting.pool))
+    return Solution(problem, u, problem.residuals(u), slopes, known.discrepancy)
 
 
 def swapped(

@@ -21,7 +21,14 @@ from pam_ros.identification.search.compare import (
     suffices,
     with_errors,
 )
-from pam_ros.identification.search.moves import dropped, fixed, freed, swapped, with_each
+from pam_ros.identification.search.moves import (
+    dropped,
+    fixed,
+    freed,
+    swapped,
+    with_each,
+    without_idle_parameters,
+)
 from pam_ros.identification.search.setting import Model, Setting
 
 Array = NDArray[np.float64]
@@ -235,6 +242,7 @@ def plainer(now: Model, names: Iterable[str], found: Search) -> Model:
 def with_more(now: Model, found: Search) -> Model:
     """Return *now* with those additional parameters of its effects that are accepted."""
     setting = found.setting
+    now = without_idle_parameters(now, setting)
     while not is_complete(now, setting):
         wider = freed(now, setting)
         found.looked_at += wider
@@ -281,7 +289,7 @@ def _fixed(now: Model, found: Search) -> Model:
         with_errors([m for m in less if is_near(m, now, setting)], setting)
         able = [m for m in less if suffices(m, now, setting)]
         if not able:
-            return now
+            return without_idle_parameters(now, setting)
         now = min(able, key=lambda m: m.score)
 
 

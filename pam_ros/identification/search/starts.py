@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pam_ros.identification.fit.discrepancy import WHITE, Discrepancy
-from pam_ros.identification.fit.extend import bounded, with_effect
+from pam_ros.identification.fit.extend import bounded, started, with_effect
 from pam_ros.identification.fit.places import Place
-from pam_ros.identification.fit.solve import Solution, improved, with_nominal_constants
+from pam_ros.identification.fit.solve import Solution, begun, improved, with_nominal_constants
 from pam_ros.identification.fit.unknowns import MemoryStart
 from pam_ros.identification.search.setting import Model, Setting
 from pam_ros.rig import layout as at
@@ -32,16 +32,16 @@ def looks(parent: Model, place: Place, setting: Setting) -> list[Solution]:
     starts = (*place.fit_starts, *guessed(parent, place))
     found = []
     for known, processes in _grounds(parent.solution):
-        begun = [extended(known, place, start, setting) for start in starts]
+        wider = [extended(known, place, start, setting) for start in starts]
         for process in processes:
-            some = [_look(replace(one, discrepancy=process), setting) for one in begun]
+            some = [_look(replace(one, discrepancy=process), setting) for one in wider]
             some.sort(key=lambda one: one.cost)
             found += some[: setting.budget.fits]
     return sorted((_with_own_discrepancy(one) for one in found), key=lambda one: one.score)
 
 
-def _look(begun: Solution, setting: Setting) -> Solution:
-    return improved(begun, setting.budget.looks, renew=False)
+def _look(wider: Solution, setting: Setting) -> Solution:
+    return improved(wider, setting.budget.looks, renew=False)
 
 
 def _grounds(known: Solution) -> list[tuple[Solution, list[Discrepancy]]]:
@@ -57,15 +57,20 @@ def _with_own_discrepancy(known: Solution) -> Solution:
 def extended(known: Solution, place: Place, start: dict[str, float], setting: Setting) -> Solution:
     """Return *known* with the effect at *place*, with its parameters at *start*.
 
-    The columns of the Jacobian that belong to the effect are computed; the others are kept.
+    The columns of the Jacobian that belong to the effect are computed; the others are kept, unless
+    the values of unknowns of *known* change.
     """
     problem, added = with_effect(known.problem, setting.joint, place, start)
-    begin = np.concatenate([known.u, added])
+    there = started(known.problem, known.u, place, start)
+    begin = np.concatenate([there, added])
     problem = bounded(problem, begin, setting.joint, place)
     u = np.clip(begin, *problem.bounds)
-    r = problem.residuals(u)
-    own = problem.jacobian(u, r, only=range(known.u.size, u.size))
-    whole = Solution(problem, u, r, np.hstack([known.jacobian, own]), known.discrepancy)
+    if np.array_equal(there, known.u):
+        r = problem.residuals(u)
+        own = problem.jacobian(u, r, only=range(known.u.size, u.size))
+        whole = Solution(problem, u, r, np.hstack([known.jacobian, own]), known.discrepancy)
+    else:
+        whole = begun(problem, u, known.discrepancy)
     return without_idle(whole, setting.noise)
 
 
