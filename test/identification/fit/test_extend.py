@@ -10,7 +10,9 @@ from pam_ros.identification.data.segment import segments_of
 from pam_ros.identification.fit.extend import (
     belongs,
     bounded,
+    finer_starts,
     plainer_sets,
+    started,
     with_effect,
     with_parameters,
     without_effect,
@@ -66,6 +68,40 @@ def test_more_of_an_effect_leaves_what_it_has(problem):
     names = [p.name for p in EFFECT['creep'].parameters()]
     assert list(changed) == [MODEL.layout.index(EFFECT['creep'], names.index('spread'))]
     assert row[changed[0]] == pytest.approx(4.0)
+
+
+@pytest.mark.parametrize('level', [20.0, 0.0])
+def test_strengths_in_one_unit_begin_at_the_mean_that_one_alone_had(problem, level):
+    place = PLACES['coulomb_friction']
+    new, added = with_effect(problem, MODEL, place, {'level': level})
+    u = np.concatenate([np.zeros(len(problem.unknowns)), added])
+    options = finer_starts(new.unknowns, new.row_at(u), MODEL, place)
+    assert options[0] == {
+        p.name: p.default for p in place.parameters if p.name != 'level'
+    }  # all others, from where they are
+    assert {'asymmetry': 0.0} in options
+    both = [one for one in options[1:] if 'breakaway' in one]
+    assert [one['stribeck_speed'] for one in both] == [0.01, 0.02]
+    if level == 0.0:  # no ratio to keep
+        assert [one['breakaway'] for one in both] == [8.0, 13.0]
+        assert not any('level' in one for one in both)
+        return
+    for one, ratio in zip(both, (8.0 / 5.0, 13.0 / 10.0), strict=True):
+        assert one['breakaway'] / one['level'] == pytest.approx(ratio)
+        assert one['breakaway'] * one['level'] == pytest.approx(level**2)
+    moved = started(new, u, place, both[0])
+    changed = np.flatnonzero(moved != u)
+    assert [new.unknowns[k].name for k in changed] == ['effects.coulomb_friction.level']
+    wider, more = with_effect(new, MODEL, place, both[0])
+    names = [one.name for one in wider.unknowns[len(new.unknowns) :]]
+    assert names == [
+        'effects.coulomb_friction.breakaway',
+        'effects.coulomb_friction.stribeck_speed',
+    ]
+    row = wider.row_at(np.append(moved, more))
+    for k, p in enumerate(place.parameters):
+        expected = both[0].get(p.name, p.default)
+        assert row[place.indices(MODEL.layout, k)[0]] == pytest.approx(expected)
 
 
 def test_an_effect_goes_with_all_that_is_its_own(problem):

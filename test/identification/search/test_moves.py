@@ -7,11 +7,19 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from pam_ros.identification.fit.extend import finer_starts
 from pam_ros.identification.fit.solve import begun, settled
-from pam_ros.identification.fit.unknowns import MemoryStart
+from pam_ros.identification.fit.unknowns import MemoryStart, parameters_of
 from pam_ros.identification.search import moves
 from pam_ros.identification.search.criteria import BUDGET, CRITERIA
-from pam_ros.identification.search.moves import dropped, fixed, freed, swapped, with_each
+from pam_ros.identification.search.moves import (
+    dropped,
+    fixed,
+    freed,
+    swapped,
+    with_each,
+    without_idle_parameters,
+)
 from pam_ros.identification.search.search import (
     Search,
     accepted,
@@ -112,6 +120,49 @@ def test_finer_parameters_of_what_is_in(tried, setting):
         assert model.effects == ('pressure_lag',)
         assert len(model.solution.u) > len(tried[0].solution.u)
     assert min(m.solution.cost for m in wider) < tried[0].solution.cost + 1.0
+
+
+def test_parameters_without_influence_are_no_unknowns(tried, retuned, setting):
+    """They are offered again: a breakaway friction below the level has no gradient."""
+    place = setting.places['coulomb_friction']
+    start = {'level': 20.0, 'breakaway': 8.0, 'stribeck_speed': 0.02}
+    known = extended(retuned.solution, place, start, setting)
+    model = setting.model(('coulomb_friction',), known)
+    less = without_idle_parameters(model, setting)
+    assert parameters_of(less.solution.problem.unknowns, place.name) == {'level'}
+    assert less.effects == model.effects
+    np.testing.assert_array_equal(less.solution.r, known.r)
+    assert less.score <= model.score
+    problem = less.solution.problem
+    row = problem.row_at(less.solution.u)
+    values = [row[place.indices(problem.layout, k)[0]] for k in range(len(place.parameters))]
+    expected = [start['level'] if p.name == 'level' else p.default for p in place.parameters]
+    assert values == pytest.approx(expected)
+    offered = freed_starts(less, setting)
+    assert any(one.get('breakaway', 0.0) > one.get('level', 20.0) for one in offered)
+    # Each parameter of the lag has an influence.
+    assert without_idle_parameters(tried[0], setting) is tried[0]
+
+
+def test_friction_at_rest_moves_the_friction_while_sliding(retuned, setting):
+    """Both begin around the friction that was fitted alone, with a fresh Jacobian."""
+    place = setting.places['coulomb_friction']
+    known = extended(retuned.solution, place, {'level': 20.0}, setting)
+    model = setting.model(('coulomb_friction',), known)
+    start = next(one for one in freed_starts(model, setting) if 'level' in one)
+    wider = extended(known, place, start, setting)
+    assert wider.value('effects.coulomb_friction.level') == pytest.approx(start['level'])
+    again = begun(wider.problem, wider.u, wider.discrepancy)
+    np.testing.assert_allclose(wider.r, again.r, rtol=0.0, atol=1e-15)
+    np.testing.assert_allclose(wider.jacobian, again.jacobian, rtol=0.0, atol=1e-12)
+
+
+def freed_starts(model, setting):
+    """Return the starts of the additional parameters of a model's only effect."""
+    known = model.solution
+    row = known.problem.row_at(known.u)
+    place = setting.places[model.effects[0]]
+    return finer_starts(known.problem.unknowns, row, setting.joint, place)
 
 
 def test_parameters_that_were_freed_and_are_not_needed_are_fixed(tried, retuned, setting):
