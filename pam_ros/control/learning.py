@@ -134,13 +134,26 @@ class Learner:
         self._spread, self._low, self._high = (
             np.array(a + b) for a, b in zip(priors, lags, strict=True)
         )
+        self.trust = 0.0
+        self.lag = (0.0, 0.0)
+        self.bandwidth = gains.bandwidth
+        plain, noise = self._spread.copy(), tuning.noise
+        plain[_LAGS] = 0.0
+        self._plain = Regression(plain, self._low, self._high, noise)
+        self._lagged = Regression(self._spread, self._low, self._high, noise)
+        self._plain_error = self._lagged_error = self._whole = 1.0
+        self._plain_miss = self._lagged_miss = 1.0
+        self._moved = self._restarted = 0.0
+        self._prefers_lag = False
+        self._share = 0.0
         self.start(0.0, [0.0] * len(self._model.muscles), 0.0)
 
     def start(self, position: float, pressures: Pressures, disturbance: float) -> None:
-        """Forget everything; the load rests at *position*, the chambers at *pressures* Pa."""
-        self.trust = 0.0
-        self.lag = (0.0, 0.0)
-        self.bandwidth = self.gains.bandwidth
+        """Start again: the load rests at *position*, the chambers are at *pressures* Pa.
+
+        What was learned stays, except for the constant force, which is *disturbance* now: another
+        load may be on the rig.
+        """
         self._observer.start(position, disturbance)
         self._wanted.start(position)
         self._actual.start(position)
@@ -149,25 +162,16 @@ class Learner:
             chamber.pressure = pressure
         self._declared = pressures
         self._sensitivities = [_Sensitivity() for _ in pressures]
-        plain, noise = self._spread.copy(), self._tuning.noise
-        plain[_LAGS] = 0.0
-        self._plain = Regression(plain, self._low, self._high, noise)
-        self._lagged = Regression(self._spread, self._low, self._high, noise)
         for one in (self._plain, self._lagged):
-            one.theta[beside.CONSTANT] = -disturbance
+            one.forget(beside.CONSTANT, -disturbance)
         # Three equal poles, like the observer's, for the features and for the difference in force
         # between the learned chamber and the nominal one.
         columns = [0.0] * _COLUMNS
         columns[beside.CONSTANT] = 1.0
         self._filter = Cascade(columns)
         self._input = [0.0] * _COLUMNS
-        self._plain_error = self._lagged_error = self._whole = 1.0
-        self._plain_miss = self._lagged_miss = 1.0
         self._centre, self._has_learned = 0.0, False
-        self._moved = self._restarted = self._waited = 0.0
-        self._prefers_lag = False
-        self._doubt = 0.0
-        self._share = 0.0
+        self._waited = self._doubt = 0.0
 
     @property
     def _weights(self) -> list[float]:

@@ -36,6 +36,12 @@ class Regression:
         self.theta = [0.0] * len(spread)
         self.covariance = np.diag(self._prior)
 
+    def forget(self, parameter: int, value: float) -> None:
+        """Let a *parameter* be *value*, with its prior, independent of the others."""
+        self.theta[parameter] = value
+        self.covariance[parameter, :] = self.covariance[:, parameter] = 0.0
+        self.covariance[parameter, parameter] = self._prior[parameter]
+
     def update(self, phi: Sequence[float], error: float, forgotten: float | Array) -> None:
         """Take in a sample whose y was *error* above phi . theta.
 

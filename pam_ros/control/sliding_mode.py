@@ -158,7 +158,7 @@ class SlidingMode:
         self._stiffness.set_goal(stiffness)
 
     def start(self, position: float, pressures: Pressures | None = None) -> None:
-        """Start again; what was learned is forgotten.
+        """Start again; what was learned stays, except for the constant force.
 
         If *pressures* are not known, it is assumed that the load rests as the model predicts, with
         the set stiffness. Raises ParameterError in the cases of

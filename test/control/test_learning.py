@@ -114,3 +114,44 @@ def test_of_all_at_once_enough_is_learned_within_bounds(kind):
     _, run = swung(kind, 'all')
     assert rms(kind, run) < (1.0 if kind is ONE else 0.2)
     assert np.max(np.abs(run.terms['learned'])) <= LearningTuning().most * ARMS[kind]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ('kind', 'plant', 'share'),
+    [
+        (ONE, 'friction', 0.2),
+        (ONE, 'hysteresis', 0.2),
+        (ONE, 'lag', 0.2),
+        (ONE, 'all', 0.2),
+        (PAIR, 'friction', 0.5),
+        (PAIR, 'all', 0.3),
+    ],
+    ids=str,
+)
+def test_what_was_learned_is_kept_when_control_starts_again(kind, plant, share):
+    """After ~/enable the error is small at once; a law that is made anew knows nothing."""
+    law, first = swung(kind, plant)
+    assert law._learner.trust > 0.3
+    again = kind.close(law, kind.truth(plant, seed=6), kind.swing, 4.0)
+    assert law._learner.trust > 0.3
+    # The reference jumps to its speed at the start, which moves the load in any case.
+    after, before = (run.error[(run.t > 1.5) & (run.t <= 4.0)] for run in (again, first))
+    assert np.sqrt(np.mean(after**2)) < share * np.sqrt(np.mean(before**2))
+
+
+@pytest.mark.slow
+@EACH_KIND
+def test_another_rig_after_a_start_is_learned_anew(kind):
+    law, _ = swung(kind, 'friction')
+    kind.close(law, kind.truth('nominal', seed=6), kind.swing, 8.0)
+    run = kind.close(law, kind.truth('hysteresis', seed=6), kind.swing, 8.0)
+    fresh = swung(kind, 'hysteresis', 8.0)[1]
+    assert rms(kind, run) < 1.3 * rms(kind, fresh)
+
+
+def test_another_load_after_a_start_is_no_friction():
+    law, _ = swung(ONE, 'payload', 4.0)
+    run = ONE.close(law, ONE.truth('nominal', seed=6), ONE.swing, 6.0)
+    assert np.max(np.abs(run.terms['learned'])) < 3.0
+    assert rms(ONE, run) < 0.02

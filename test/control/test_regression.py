@@ -37,3 +37,15 @@ def test_what_is_forgotten_can_be_learned_anew():
         found.update(np.array([1.0]), -3.0 - found.theta[0], 1e-4)
     assert found.theta[0] == pytest.approx(-3.0, abs=0.05)
     assert found.covariance[0, 0] <= 100.0
+
+
+def test_one_parameter_is_forgotten_and_the_others_are_kept():
+    rng = np.random.default_rng(2)
+    far = np.full(2, 1e9)
+    found = Regression(np.array([2.0, 3.0]), -far, far, 0.1)
+    for row in rng.normal(size=(50, 2)):
+        found.update(row, row @ [1.0, -2.0] - row @ found.theta, 0.0)
+    known, variance = found.theta[0], found.covariance[0, 0]
+    found.forget(1, 5.0)
+    assert found.theta == [known, 5.0]
+    np.testing.assert_array_equal(found.covariance, np.diag([variance, 9.0]))
