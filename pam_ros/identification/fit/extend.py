@@ -55,7 +55,7 @@ def with_effect(
 
 def started(problem: Problem, u: Array, place: Place, start: Mapping[str, float]) -> Array:
     """Return u with those unknowns of the effect at *place* that are in *start* at its values."""
-    moved = u.copy()
+    moved: Array = u.copy()
     for k, unknown in enumerate(problem.unknowns):
         of = unknown.of
         if isinstance(of, OfEffect) and of.place == place.name and of.parameter in start:
