@@ -231,12 +231,21 @@ def plainer(now: Model, names: Iterable[str], found: Search) -> Model:
         less, others = swapped(now, name, contained, setting)
         found.looked_at += [less, *others]
         for simple in others:
-            other = with_more(simple, found)
+            other = _best_like(with_more(simple, found), found)
             is_better = other.score < now.score and no_worse(other, now, setting)
             if is_better or hardly_more(other, now, setting):
                 now = other
                 break
     return now
+
+
+def _best_like(model: Model, found: Search) -> Model:
+    """Return the model with the best score among those with the effects and the step of *model*.
+
+    An earlier fit of these effects may have come further.
+    """
+    known = best_with({*model.effects}, model.solution.problem.step, found)
+    return min((model, known), key=lambda m: m.score)
 
 
 def with_more(now: Model, found: Search) -> Model:

@@ -11,7 +11,9 @@ import pytest
 from pam_ros.effects import ViscousFriction
 from pam_ros.identification.data.parts import parts_of
 from pam_ros.identification.fit.solve import begun
+from pam_ros.identification.search import search as search_module
 from pam_ros.identification.search.criteria import BUDGET, CRITERIA
+from pam_ros.identification.search.moves import with_each
 from pam_ros.identification.search.search import (
     Search,
     absent,
@@ -81,6 +83,19 @@ def test_a_broader_effect_and_the_simpler_one_are_compared_with_all_their_parame
     found = found_in([bench_truth.free(there, seed=21)], pool, name='leak')
     leak = with_more(found.best, found)
     assert plainer(leak, leak.effects, found).effects == (name,)
+
+
+def test_a_simpler_effect_counts_by_its_best_fit(pool, monkeypatch):
+    """A fit that begins beside the broader effect can stop before an earlier one did."""
+    found = found_in([bench_truth.free(effect('pressure_lag'), seed=21)], pool, name='leak')
+    setting, leak = found.setting, with_more(found.best, found)
+    (lag, *_) = with_each(found.retuned, ['pressure_lag'], setting)
+    worse = [replace(found.retuned, effects=('pressure_lag',))]
+    monkeypatch.setattr(search_module, 'swapped', lambda *given: (found.retuned, worse))
+    monkeypatch.setattr(search_module, 'with_more', lambda model, found: model)
+    assert plainer(leak, leak.effects, found) is leak
+    found.looked_at.append(lag)
+    assert plainer(leak, leak.effects, found) is lag
 
 
 @pytest.mark.parametrize('rho', [0.0, 0.95], ids=['white', 'coloured'])
