@@ -34,6 +34,7 @@ def row(kind, found=(), alternatives=None, **changes):
         'alternatives': [list(a) for a in alternatives or [()] * len(found)],
         'augmented': 1.1e-5,
         'noise': 1e-5,
+        'floor': 1.1e-5,
         'seconds': 1.0,
         'intervals': {},
     }
@@ -127,7 +128,7 @@ def test_what_was_not_fitted_or_has_no_truth_has_no_interval():
 ROWS = [
     row('creep', ['creep'], intervals={'a1': [1.0, 0.9, 1.2], 'zeta': [0.1, 0.2, 0.3]}),
     row('creep', ['leak'], augmented=3e-5, intervals={'a1': [9.0, 0.0, 1.0]}),
-    row('leak', ['leak'], augmented=1.0e-5),
+    row('leak', ['leak'], augmented=1.0e-5, floor=1.2e-5),
     row('noise_only'),
     row('noise_only', ['slack']),
     row('creep+leak', ['creep', 'leak'], intervals={'effects.leak.rate': [1.0, 0.9, 1.2]}),
@@ -135,20 +136,20 @@ ROWS = [
     row('creep+leak', ['creep', 'slack'], intervals={'effects.slack.share': [9.0, 0.0, 1.0]}),
     row('creep+leak'),
     row('cogging', verdict='unexplained_structure', in_library=False),
-    row('cogging', ['creep'], in_library=False),
+    row('cogging', ['creep'], in_library=False, floor=0.8e-5),
 ]
 
 
 def test_scores_by_hand():
     values = list(scores(ROWS).values())
-    assert values == pytest.approx([2 / 3, 1 / 2, 1 / 4, 2 / 4, 1 / 2, 1.1, 1.0, 1 / 2])
+    assert values == pytest.approx([2 / 3, 1 / 2, 1 / 4, 2 / 4, 1 / 2, 1.1, 9 / 11, 1.0, 1 / 2])
     assert list(scores(ROWS)) == list(TARGETS)
 
 
 def test_what_was_not_tried_has_no_score():
     values = list(scores([row('noise_only')]).values())
-    assert values[1] == 0.0
-    assert np.isnan([values[k] for k in (0, 2, 3, 4, 5, 6, 7)]).all()
+    assert (values[1], values[6]) == (0.0, 1.0)
+    assert np.isnan([values[k] for k in (0, 2, 3, 4, 5, 7, 8)]).all()
 
 
 def test_the_report_says_what_is_reached_and_what_is_confused(capsys):
