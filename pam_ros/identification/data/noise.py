@@ -18,6 +18,7 @@ SAMPLES = (12, 200)  # fewest and most samples in a window
 DEGREE = 4  # of the polynomial that follows the motion within a window
 LONGEST = 0.05  # s, longest correlation time of noise: a slower error cannot be told from motion
 EVEN = 0.05  # largest deviation of a change from a multiple of the step, in steps
+RANGE = 50  # fewest steps of a resolution in the range: a few levels are those of an experiment
 
 
 @dataclass(frozen=True)
@@ -57,7 +58,7 @@ def noise_of(
 def step_of(values: Array) -> float:
     """Return the resolution of values (n,): the step of which their differences are multiples.
 
-    It is 0 if there is none.
+    It is 0 if there is none, or if the values have a range of fewer than RANGE steps.
     """
     levels = np.unique(values)
     # Equal levels can differ by the rounding of the computer.
@@ -67,6 +68,8 @@ def step_of(values: Array) -> float:
         return 0.0
     # Files contain rounded values, so that the smallest change alone would not be accurate.
     multiples = np.round(changes / np.min(changes))
+    if np.sum(multiples) < RANGE:
+        return 0.0
     step = float(np.sum(changes) / np.sum(multiples))
     is_even = bool(np.all(np.abs(changes - multiples * step) < EVEN * step))
     return step if is_even else 0.0

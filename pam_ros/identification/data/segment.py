@@ -230,7 +230,8 @@ def _without_noise(t: Array, p: Array) -> Array:
     Noise of the input becomes noise of the simulated force. A lag of the pressure would reduce it,
     so that the search would find a lag. A pressure that jumps is not changed.
     """
-    noise = noise_of([(t, p)]).sigma
+    # The levels of a pressure that jumps can be multiples of a step, which is no resolution.
+    noise = noise_of([(t, p)], [0.0]).sigma
     if float(np.std(p)) <= CONSTANT * noise:
         return np.full_like(p, np.mean(p))
     smooth = _smooth(t, p)

@@ -116,6 +116,15 @@ def test_a_smooth_signal_has_no_resolution():
     assert step_of(np.full(50, 0.03)) == 0.0
 
 
+def test_a_few_levels_are_no_resolution():
+    """They are those of an experiment: its noise would be a large share of its motion."""
+    t = np.arange(3000) / 100.0
+    for levels in (2, 5, 40):
+        values = 1e-3 * (t // 0.5 % levels)
+        assert step_of(values) == 0.0
+        assert noise_of([(t, values)]).sigma < 1e-9
+
+
 def test_scales_with_the_unit_and_pools_signals():
     rng = np.random.default_rng(3)
     t = np.arange(4000) / 200.0

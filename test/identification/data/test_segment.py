@@ -98,6 +98,19 @@ def test_a_pressure_that_jumps_stays_as_it_was_measured():
     np.testing.assert_array_equal(segment.pressure, jumps)
 
 
+@pytest.mark.parametrize('short', [4.0, 0.4, 0.1], ids=str)
+def test_levels_of_a_pressure_are_not_the_noise_of_a_resolution(short):
+    """Without noise all levels are multiples of one step; a short pulse is no noise either."""
+    t = held().t
+    for levels in ((3e5, 4e5), (0.0, 5e3, 3e5)):
+        pressure = np.full(t.size, levels[0])
+        for n, level in enumerate(levels[1:]):
+            begin = 2.0 + 5.0 * n
+            pressure[(t >= begin) & (t < begin + short)] = level
+        (segment,) = segments_of([held(pressure=pressure)])
+        np.testing.assert_array_equal(segment.pressure, pressure)
+
+
 def test_noise_of_a_length_that_moves_hardly_reaches_it():
     truth = held().position
     noise = 1e-5 * np.random.default_rng(0).standard_normal(2000)
