@@ -2,11 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Problems with one effect more or less, or with more or fewer of its parameters."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.stats import gmean
 
 from pam_ros.identification.fit.places import Place
 from pam_ros.identification.fit.problem import Problem
@@ -120,8 +121,8 @@ def finer_starts(
         for same in _same_units(place, some, start):
             known = {name: values[name] for name in same if name in there}
             if known and all(start[name] * value > 0.0 for name, value in known.items()):
-                factor = _mean(known.values()) / _mean(same.values())
-                some.update({name: factor * value for name, value in same.items()})
+                factor = gmean(np.abs([*known.values()])) / gmean(np.abs([*same.values()]))
+                some.update({name: float(factor) * value for name, value in same.items()})
         if some and some not in options:
             options.append(some)
     return options
@@ -134,11 +135,6 @@ def _same_units(
     units = {p.name: p.unit for p in place.parameters if p.strength}
     new = dict.fromkeys(units[name] for name in some if name in units)
     return [{n: value for n, value in start.items() if units.get(n) == unit} for unit in new]
-
-
-def _mean(values: Iterable[float]) -> float:
-    """Return the geometric mean of the sizes of *values*, none of which is 0."""
-    return float(np.exp(np.mean([np.log(abs(value)) for value in values])))
 
 
 def without_effect(problem: Problem, joint: Joint, place: Place) -> tuple[Problem, list[int]]:

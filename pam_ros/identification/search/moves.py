@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The moves of a search: one effect more or less, or more or fewer of its parameters."""
 
-import numpy as np
-
 from pam_ros.identification.fit.extend import (
     finer_starts,
     plainer_sets,
@@ -16,7 +14,7 @@ from pam_ros.identification.fit.problem import Problem
 from pam_ros.identification.fit.solve import Solution, fresh, settled
 from pam_ros.identification.fit.unknowns import OfEffect, parameters_of
 from pam_ros.identification.search.setting import Model, Setting
-from pam_ros.identification.search.starts import MOVES, extended, looks
+from pam_ros.identification.search.starts import extended, looks, moving
 
 
 def with_each(parent: Model, names: list[str], setting: Setting) -> list[Model]:
@@ -97,14 +95,12 @@ def without_idle_parameters(model: Model, setting: Setting) -> Model:
 
 
 def _with_influence(known: Solution, name: str, setting: Setting) -> set[str]:
-    """Return the unknown parameters of an effect that change the residuals by at least MOVES."""
-    moved = np.linalg.norm(known.jacobian, axis=0) * known.problem.prior
+    """Return the unknown parameters of an effect that can change the residuals visibly."""
+    moves = moving(known, setting.noise)
     return {
         unknown.of.parameter
-        for unknown, size in zip(known.problem.unknowns, moved, strict=True)
-        if isinstance(unknown.of, OfEffect)
-        and unknown.of.place == name
-        and size > MOVES * setting.noise
+        for unknown, moves_it in zip(known.problem.unknowns, moves, strict=True)
+        if isinstance(unknown.of, OfEffect) and unknown.of.place == name and moves_it
     }
 
 

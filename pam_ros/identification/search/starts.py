@@ -16,8 +16,8 @@ from pam_ros.identification.search.setting import Model, Setting
 from pam_ros.rig import layout as at
 
 Array = NDArray[np.float64]
-# The memory at the start of a run is unknown if it can change the run by so many standard
-# deviations of the noise. A smaller influence is not visible in a score: ln(1 + 0.3^2) = 0.09.
+# An unknown has an influence if it can change the residuals by so many standard deviations of the
+# noise. A smaller influence is not visible in a score: ln(1 + 0.3^2) = 0.09.
 MOVES = 0.3
 
 
@@ -74,14 +74,20 @@ def extended(known: Solution, place: Place, start: dict[str, float], setting: Se
     return without_idle(whole, setting.noise)
 
 
+def moving(known: Solution, noise: float) -> NDArray[np.bool_]:
+    """Return which unknowns (k,) can change the residuals by more than MOVES *noise*."""
+    size = np.linalg.norm(known.jacobian, axis=0) * known.problem.prior
+    return np.asarray(size > MOVES * noise)
+
+
 def without_idle(known: Solution, noise: float) -> Solution:
     """Return *known* without those unknown memories that have no influence on their run."""
     problem = known.problem
-    moved = np.linalg.norm(known.jacobian, axis=0) * problem.prior
+    moves = moving(known, noise)
     keep = [
         k
         for k, unknown in enumerate(problem.unknowns)
-        if not isinstance(unknown.of, MemoryStart) or moved[k] > MOVES * noise
+        if not isinstance(unknown.of, MemoryStart) or moves[k]
     ]
     unknowns = tuple(problem.unknowns[k] for k in keep)
     return replace(
