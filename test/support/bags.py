@@ -5,6 +5,7 @@
 from pathlib import Path
 
 import numpy as np
+import yaml
 from rosbags.highlevel import AnyReader
 from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin, Writer
 from rosbags.typesys import Stores, get_typestore
@@ -122,6 +123,18 @@ def contents(bag):
             message = reader.deserialize(data, connection.msgtype)
             found[connection.topic].append((stamp, message))
     return found
+
+
+def written(bag):
+    """Return topic -> number of messages that the bag on disk says it has; none is no bag yet."""
+    file = bag / 'metadata.yaml'
+    if not file.exists():
+        return {}
+    information = yaml.safe_load(file.read_text())['rosbag2_bagfile_information']
+    return {
+        topic['topic_metadata']['name']: topic['message_count']
+        for topic in information['topics_with_message_count']
+    }
 
 
 def numbers(values, label='flexor,extensor'):

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64MultiArray
-from std_srvs.srv import SetBool
 
 from pam_ros.nodes.record.node import OF_JOINTS, OF_MUSCLE, missing_topics
 from pam_ros.recording.read import read_recording
 from pam_ros.rig.equilibrium import equilibrium
 from pam_ros.settings.nominal import nominal_joint
+from support.bags import written
 from support.harness import Program
 
 pytestmark = [pytest.mark.at_any_pace, pytest.mark.usefixtures('domain')]
@@ -30,16 +30,12 @@ def test_the_bag_of_a_joint_is_a_recording_of_it(peer, tmp_path):
     ):
         publisher = peer.node.create_publisher(Float64MultiArray, 'pressure_commands', 10)
         peer.until(lambda: publisher.get_subscription_count() == 2, 'both programs')
-        # A topic that the recorder finds late misses the beginning, and is no signal then.
-        peer.call(SetBool, 'pam_sim/pause', data=True)
-        for topic, subscribers in (('joint_states', 2), ('pressures', 1)):
-            peer.until(
-                lambda topic=topic, subscribers=subscribers: (
-                    peer.node.count_subscribers(topic) == subscribers
-                ),
-                f'the recorder of {topic}',
-            )
-        peer.call(SetBool, 'pam_sim/pause', data=False)
+        # The recorder has to receive each topic before the joint moves: a signal that
+        # begins late is not used. Only messages in the bag show this.
+        peer.until(
+            lambda: all(written(bag).get(topic) for topic in ('/joint_states', '/pressures')),
+            'messages of both topics in the bag',
+        )
         ends = []
         for command in COMMANDS:
             angle = equilibrium(nominal.joint, command)
@@ -61,6 +57,7 @@ def test_the_bag_of_a_joint_is_a_recording_of_it(peer, tmp_path):
     )
     assert (found.muscles, found.unit) == (('flexor', 'extensor'), 'rad')
     np.testing.assert_array_equal(found.command, COMMANDS)
+    assert found.pressure is not None, found.warnings
     for k, (angle, command) in enumerate(zip(ends, COMMANDS, strict=True)):
         until = found.command_t[k + 1] if k < 2 else np.inf
         last = np.flatnonzero(found.t < until - 0.05)[-1]
