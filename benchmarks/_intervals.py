@@ -11,45 +11,70 @@ gain of a regulator, is else in the constants.
 from collections.abc import Callable, Mapping
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from pam_ros.identification.result import Estimate
 from pam_ros.rig.loads import GRAVITY
 from truth import Trial, muscles
 from truth.plant import SUBSTEP
 
 Values = Mapping[str, float]
-SAME: dict[tuple[str, str], dict[str, Callable[[Values], float]]] = {
+Array = NDArray[np.float64]
+
+
+def mean_delay(dead_time: float, t: Array) -> float:
+    """Return the mean time in s after which the plant uses commands with the stamps t (n,).
+
+    It is longer than the *dead_time* in s: the plant takes a command at the beginning of the next
+    substep. With equidistant stamps this is the same part of a substep for all commands.
+    """
+    counts = np.maximum(np.ceil(np.diff(t) / SUBSTEP - 1e-6), 1).astype(int)
+    held = zip(t[:-1], t[1:], counts, strict=True)
+    substeps = np.concatenate([np.linspace(a, b, n, endpoint=False) for a, b, n in held])
+    taken = np.searchsorted(substeps, t + dead_time - 1e-9)
+    is_taken = taken < substeps.size
+    return float(np.mean(substeps[taken[is_taken]] - t[is_taken]))
+
+
+# The true value, of the parameters of the plant's effect and the stamps of the commands.
+SAME: dict[tuple[str, str], dict[str, Callable[[Values, Array], float]]] = {
     ('viscous_friction', 'linear'): {
-        'effects.viscous_friction.coefficient': lambda v: v['viscous_ns_m'],
+        'effects.viscous_friction.coefficient': lambda v, _: v['viscous_ns_m'],
     },
     ('coulomb_friction', 'lugre'): {  # of steady sliding
-        'effects.coulomb_friction.level': lambda v: v['coulomb_n'],
+        'effects.coulomb_friction.level': lambda v, _: v['coulomb_n'],
     },
     ('pressure_lag', 'two_times'): {
-        'effects.pressure_lag.fill': lambda v: v['fill_s'],
-        'effects.pressure_lag.vent': lambda v: v['vent_s'],
+        'effects.pressure_lag.fill': lambda v, _: v['fill_s'],
+        'effects.pressure_lag.vent': lambda v, _: v['vent_s'],
     },
-    ('dead_time', 'transport'): {  # the plant receives commands when a substep begins
-        'effects.dead_time.delay': lambda v: v['dead_time_s'] + 0.5 * SUBSTEP,
+    ('dead_time', 'transport'): {
+        'effects.dead_time.delay': lambda v, t: mean_delay(v['dead_time_s'], t),
     },
     ('pressure_offset', 'affine'): {
-        'effects.pressure_offset.offset': lambda v: v['regulator_pa'],
-        'effects.pressure_offset.gain': lambda v: v['regulator_gain'] - 1.0,
+        'effects.pressure_offset.offset': lambda v, _: v['regulator_pa'],
+        'effects.pressure_offset.gain': lambda v, _: v['regulator_gain'] - 1.0,
     },
     ('payload', 'mass'): {
-        'effects.payload.mass': lambda v: v['payload_kg'],
+        'effects.payload.mass': lambda v, _: v['payload_kg'],
     },
     ('pressure_dependent_damping', 'two_ways'): {
-        'effects.pressure_dependent_damping.inflating': lambda v: v['damping_up_ns_m_bar'] / 1e5,
-        'effects.pressure_dependent_damping.deflating': lambda v: v['damping_down_ns_m_bar'] / 1e5,
+        'effects.pressure_dependent_damping.inflating': lambda v, _: (
+            v['damping_up_ns_m_bar'] / 1e5
+        ),
+        'effects.pressure_dependent_damping.deflating': lambda v, _: (
+            v['damping_down_ns_m_bar'] / 1e5
+        ),
     },
     ('periodic_disturbance', 'force'): {
-        'effects.periodic_disturbance.frequency': lambda v: v['ripple_hz'],
+        'effects.periodic_disturbance.frequency': lambda v, _: v['ripple_hz'],
     },
     ('periodic_disturbance', 'supply'): {
-        'effects.periodic_disturbance.frequency': lambda v: v['ripple_hz'],
+        'effects.periodic_disturbance.frequency': lambda v, _: v['ripple_hz'],
     },
     ('length_offset', 'rest'): {
-        'effects.length_offset.offset': lambda v: v['kappa_offset'],
+        'effects.length_offset.offset': lambda v, _: v['kappa_offset'],
     },
 }
 
@@ -67,7 +92,7 @@ def truth_of(trial: Trial) -> dict[str, float]:
         truth['zeta'] = trial.zeta
     for one in trial.effects:
         for name, value in SAME.get((one.kind, one.form), {}).items():
-            truth[name] = value(one.values)
+            truth[name] = value(one.values, trial.recording.t_s)
     return truth
 
 

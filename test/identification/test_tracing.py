@@ -5,7 +5,7 @@
 import numpy as np
 import pytest
 
-from benchmarks._intervals import SAME, intervals, truth_of
+from benchmarks._intervals import SAME, intervals, mean_delay, truth_of
 from benchmarks.tracing import (
     TARGETS,
     declared_model,
@@ -18,7 +18,8 @@ from benchmarks.tracing import (
 )
 from pam_ros.effects import EFFECTS
 from pam_ros.identification.result import Estimate
-from truth import FORMS, blind_trial, effect
+from truth import FORMS, TruthPlant, blind_trial, effect, stamps
+from truth.excitation import multisine
 
 
 def row(kind, found=(), alternatives=None, **changes):
@@ -104,8 +105,26 @@ def test_parameters_of_the_same_meaning_exist_on_both_sides(kind, form):
     (kind_of,) = [one for one in EFFECTS if one.name == name]
     declared = {f'effects.{name}.{one.name}' for one in kind_of.parameters()}
     assert set(SAME[kind, form]) <= declared
+    stamps = np.arange(100) / 100.0
     for value in SAME[kind, form].values():
-        assert np.isfinite(value(there.values))
+        assert np.isfinite(value(there.values, stamps))
+
+
+@pytest.mark.parametrize('jitter', [0.0, 0.3])
+def test_the_true_delay_of_commands_is_that_of_a_plant_with_substeps_without_length(jitter):
+    rng = np.random.default_rng(1)
+    t, u = stamps(250.0, 2.0, jitter, rng), multisine(250.0, 2.0, 2e5, 3e5, rng)
+    dead_time = 0.00561
+
+    def moved(delay, **given):
+        plant = TruthPlant(effects=[effect('dead_time', dead_time_s=delay)], p0=u[0], **given)
+        return plant.run(t, u).y
+
+    real = moved(dead_time)
+    delay = mean_delay(dead_time, t)
+    assert dead_time < delay < dead_time + 5e-5
+    off = [np.std(real - moved(one, dt=1e-6)) for one in (dead_time, delay)]
+    assert off[1] < 0.1 * off[0]
 
 
 def test_what_was_not_fitted_or_has_no_truth_has_no_interval():

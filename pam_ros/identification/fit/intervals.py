@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The covariance of the unknowns of a fit, if its errors are correlated.
+"""The intervals of the unknowns of a fit whose errors are correlated.
 
 The least-squares estimates from residuals without whitening bring the simulation nearest to the
 measurement, which is the purpose of a simulator. The most probable estimates under a
@@ -13,35 +13,109 @@ their Jacobian J and the standard deviations P of the priors,
 
 (White 1980; Newey and West 1987). If errors are white, or were whitened before, C is 1, and
 cov(u) is A.
+
+The error of a model without the form of the real system is often not such a process: it depends
+on what the rig does, and displaces the estimates. The cluster-robust covariance (Liang and Zeger
+1986) assumes no form, only that the errors in different blocks of the recordings are nearly
+independent. With the residuals r_b and the Jacobian J_b of each of B blocks,
+
+    cov(u) = sum d_b d_b' + A P^-2 A,   d_b = A J_b' (1 - H_b)^(-1/2) r_b/s^2,
+
+with H_b = J_b A J_b'/s^2. The residuals of a block are smaller than its errors, most of all if few
+blocks determine a parameter. The factor with H_b corrects this: for white errors, the sum is
+unbiased (Bell and McCaffrey 2002, Survey Methodology 28(2), 169-181). In an interval the sum
+counts with the quantile of Student's t with B - 1 degrees of freedom.
+
+The first covariance is too small for errors of another form. The second is too small if a single
+block determines a parameter, or if errors are correlated for longer than a block. The longer of
+the two intervals counts.
 """
+
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.stats import norm
+from scipy.stats import t as student
 
 from pam_ros.identification.fit.discrepancy import Discrepancy
 from pam_ros.identification.fit.solve import Solution
 
 Array = NDArray[np.float64]
+# Errors of a model are correlated for up to some seconds, as long as a motion lasts. A block must
+# be longer; of a recording of a minute it is 7 s. With fewer blocks the intervals become wide.
+BLOCKS = 8
+TAIL = 0.975  # probability below the upper end of a 95 % interval
+LEAST = 1e-12  # of the eigenvalues of 1 - H_b, which are positive but for rounding
+
+
+def half_widths(known: Solution, process: Discrepancy) -> Array:
+    """Return half the length of the 95 % interval of each unknown u (k,) of a fit.
+
+    *process* is that of :func:`covariance`.
+    """
+    of_process = np.diag(covariance(known, process))
+    of_blocks, of_priors = block_variances(known)
+    normal, freedom = norm.ppf(TAIL), len(blocks(known)) - 1
+    square = student.ppf(TAIL, freedom) ** 2 * of_blocks + normal**2 * of_priors
+    return np.asarray(np.sqrt(np.maximum(normal**2 * of_process, square)))
 
 
 def covariance(known: Solution, process: Discrepancy) -> Array:
-    """Return the covariance of the unknowns u (k, k) of a fit.
+    """Return the covariance of the unknowns u (k, k) of a fit whose errors are a *process*.
 
     *process* is the correlated part of its residuals, in addition to white noise. The fit was made
     by least squares, or with this process. The uncertainty of the process itself is not included;
     it matters if a run is not many correlation times long.
     """
     problem = known.problem
-    prior = problem.prior
-    one = np.eye(prior.size)
-    # After scaling by the priors no number is so large or small that the inverse loses digits.
-    slope = problem.whitened(known.jacobian * prior, known.whitenings)
-    square = float(np.mean(known.whitened**2))
-    inverse = np.linalg.inv(slope.T @ slope / square + one)
+    slope, inverse, s = _scaled(known)
     if known.discrepancy != process:
         parts = zip(problem.stamps(), problem.by_run(slope), strict=True)
         spread = np.concatenate([process.times(t, part) for t, part in parts])
         whitened = problem.whitened(known.r, problem.whitenings(process))
-        scatter = float(np.mean(whitened**2)) / square**2 * (slope.T @ spread) + one
-        inverse = inverse @ scatter @ inverse
-    return np.asarray(inverse * np.outer(prior, prior))
+        scatter = float(np.mean(whitened**2)) / s**2 * (slope.T @ spread)
+        inverse = inverse @ (scatter + np.eye(problem.prior.size)) @ inverse
+    return np.asarray(inverse * np.outer(problem.prior, problem.prior))
+
+
+def block_variances(known: Solution) -> tuple[Array, Array]:
+    """Return the variances of the unknowns u (k,) by the blocks, and by the priors.
+
+    With A = L L' and K = J_b L/s, d_b = L (1 - K'K)^(-1/2) K' r_b/s has small matrices alone.
+    """
+    slope, inverse, s = _scaled(known)
+    root = np.linalg.cholesky(inverse)
+    found = np.zeros(len(root))
+    for block in blocks(known):
+        own = slope[block] @ root
+        values, vectors = np.linalg.eigh(own.T @ own)
+        change = vectors.T @ (own.T @ known.whitened[block]) / s
+        change /= np.sqrt(np.maximum(1.0 - values, LEAST))
+        found += (root @ (vectors @ change)) ** 2
+    unit = known.problem.prior**2
+    return unit * found, unit * np.sum(inverse**2, axis=0)
+
+
+def blocks(known: Solution) -> list[slice]:
+    """Return the samples of each block: parts of nearly the same size, or a short run."""
+    sizes = [t.size for t in known.problem.stamps()]
+    longest = sum(sizes) / BLOCKS
+    found, start = [], 0
+    for size in sizes:
+        parts = max(1, round(size / longest))
+        ends = start + np.linspace(0, size, parts + 1).round().astype(int)
+        found += [slice(*block) for block in pairwise(ends)]
+        start += size
+    return found
+
+
+def _scaled(known: Solution) -> tuple[Array, Array, float]:
+    """Return J/s, A and s, of whitened residuals and of unknowns in units of their priors.
+
+    After scaling by the priors no number is so large or small that the inverse loses digits.
+    """
+    problem = known.problem
+    s = float(np.sqrt(np.mean(known.whitened**2)))
+    slope = problem.whitened(known.jacobian * problem.prior, known.whitenings) / s
+    return slope, np.linalg.inv(slope.T @ slope + np.eye(problem.prior.size)), s

@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from pam_ros.identification.fit.intervals import covariance
+from pam_ros.identification.fit.intervals import half_widths
 from pam_ros.identification.fit.solve import Solution
 from pam_ros.identification.fit.unknowns import OnsetTime
 
@@ -54,19 +54,17 @@ def interval(known: Solution) -> tuple[float, float, float]:
     """Return the onset in s of a fit with the ends of its 95 % interval.
 
     The cost with the other unknowns fixed gives the distance of each end. It is multiplied by the
-    ratio of the onset's standard deviations with free and with fixed other unknowns.
+    ratio of the interval of :mod:`.intervals`, with all unknowns free, to the one that the
+    derivative gives with the others fixed.
     """
     k = index_of_onset(known)
     assert k is not None
     process = replace(known, discrepancy=known.most_likely())
     slope = process.problem.whitened(known.jacobian[:, k : k + 1], process.whitenings)
     known_by = float(np.sum(slope**2)) / process.noise**2 + known.problem.prior[k] ** -2.0
-    alone = known_by**-0.5
-    together = np.sqrt(covariance(known, process.discrepancy)[k, k])
+    ratio = half_widths(known, process.discrepancy)[k] / (WILKS / known_by) ** 0.5
     unknown, u = known.problem.unknowns[k], float(known.u[k])
-    low, high = (
-        unknown.value(u + (_end(process, k, side) - u) * together / alone) for side in (-1.0, 1.0)
-    )
+    low, high = (unknown.value(u + (_end(process, k, side) - u) * ratio) for side in (-1.0, 1.0))
     return unknown.value(u), low, high
 
 

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from pam_ros.identification.data.segment import Segment
 from pam_ros.identification.fit.discrepancy import Discrepancy
-from pam_ros.identification.fit.intervals import covariance
+from pam_ros.identification.fit.intervals import half_widths
 from pam_ros.identification.fit.moment import interval
 from pam_ros.identification.fit.places import Place
 from pam_ros.identification.fit.solve import Solution
@@ -22,7 +22,6 @@ from pam_ros.identification.source_units import in_source_units, with_row
 from pam_ros.rig.joint import Joint
 
 Array = NDArray[np.float64]
-INTERVAL = 1.96  # standard errors to each side
 NEAR = 1e-6  # distance of u from its bound that counts as 0
 
 
@@ -75,12 +74,10 @@ def estimates(known: Solution, process: Discrepancy, joint: Joint) -> dict[str, 
 
     Each is in the unit in which *joint* gives it. Starts of runs and memories are not included.
     """
-    error = np.sqrt(np.diag(covariance(known, process)))
+    widths = half_widths(known, process)
     return {
         unknown.name: _estimate(unknown, u, width, joint)
-        for unknown, u, width in zip(
-            known.problem.unknowns, known.u, INTERVAL * error, strict=True
-        )
+        for unknown, u, width in zip(known.problem.unknowns, known.u, widths, strict=True)
         if unknown.is_parameter
     }
 

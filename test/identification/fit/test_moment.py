@@ -9,7 +9,7 @@ import pytest
 
 from pam_ros.identification.data.segment import segments_of
 from pam_ros.identification.fit.extend import with_effect
-from pam_ros.identification.fit.intervals import covariance
+from pam_ros.identification.fit.intervals import half_widths
 from pam_ros.identification.fit.moment import index_of_onset, interval, moved
 from pam_ros.identification.fit.places import places_of
 from pam_ros.identification.fit.problem import Problem
@@ -85,10 +85,10 @@ def test_where_the_cost_is_smooth_the_interval_is_that_of_the_jacobian():
     problem, u = problem_of('payload', {'mass': 2.0}, 5.05, 5.03)
     known = least_squares(begun(problem, u))
     value, low, high = interval(known)
-    error = np.sqrt(covariance(known, known.most_likely())[0, 0])
-    assert abs(value - 5.03) < 4.0 * error
-    assert low == pytest.approx(value - 1.96 * error, abs=0.1 * error)
-    assert high == pytest.approx(value + 1.96 * error, abs=0.1 * error)
+    half = half_widths(known, known.most_likely())[0]
+    assert abs(value - 5.03) < 2.0 * half
+    assert low == pytest.approx(value - half, abs=0.05 * half)
+    assert high == pytest.approx(value + half, abs=0.05 * half)
 
 
 @pytest.mark.slow
