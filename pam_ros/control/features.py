@@ -15,7 +15,7 @@ from math import exp
 from pam_ros.control.tuning import number
 
 COUNT = 8  # play elements and the three others
-CONSTANT = COUNT - 1  # index of the constant force
+STRIBECK, STRETCH, CONSTANT = COUNT - 3, COUNT - 2, COUNT - 1  # indices of these three
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,6 @@ reference drives it, it cannot destabilise the loop. A learned lag is inverted; 
 found to be short, the bandwidth grows.
 """
 
-from dataclasses import dataclass
 from math import exp
 
 import numpy as np
@@ -23,61 +22,13 @@ from pam_ros.control import features as beside
 from pam_ros.control.cascade import Cascade
 from pam_ros.control.features import Features, FeatureTuning
 from pam_ros.control.gains import Gains
+from pam_ros.control.learned import Learned
+from pam_ros.control.learning_tuning import LearningTuning
 from pam_ros.control.model import ControlModel, Pressures
 from pam_ros.control.observer import Observer
 from pam_ros.control.pressure_path import Chamber
 from pam_ros.control.regression import Regression, dot
 from pam_ros.control.signals import Reference
-from pam_ros.control.tuning import number
-
-
-@dataclass(frozen=True)
-class LearningTuning:
-    """How fast to learn, when to trust the result, and the bound of the feed-forward."""
-
-    fast: float = number(
-        60.0,
-        'rad/s',
-        'bandwidth of the fast observer and of the features: half of the velocity bandwidth, so '
-        'that its noise stays below that of the law',
-    )
-    every: float = number(
-        0.01, 's', 'between two samples of the regressions: they see what the fast observer passes'
-    )
-    noise: float = number(
-        1.0, 'N^2', 'variance of the missing force, of the fast observer with the noise'
-    )
-    forgotten: float = number(
-        0.01, '1/s', 'share of the prior variance a second: a muscle warms in minutes'
-    )
-    early: float = number(
-        1.0,
-        '1/s',
-        'the same of a lag in the beginning, whose sensitivities change with itself (Ljung & '
-        'Soderstrom 1983, section 5.5): pair_control, lag; twice as much is less repeatable',
-    )
-    settled: float = number(
-        2.0, 's', 'of motion in which that falls to 1/e: longer costs control, friction'
-    )
-    lag_spread: float = number(0.05, 's', 'expected lag: servo valves have 20 to 130 ms')
-    lag_high: float = number(0.2, 's', 'largest lag that is inverted: slower ones are no control')
-    judge: float = number(1.0, 's', 'average of prediction errors: half a period of control')
-    centre: float = number(2.0, 's', 'average of the mean force: a period of control')
-    convinced: float = number(
-        1.5, 's', 'of motion until what is learned is trusted to 63 %: control, valve lag'
-    )
-    floor: float = number(1.0, 'N^2', 'missing force that explains nothing: that of the noise')
-    worse: float = number(0.7, '', 'ratio of errors at which a lag is doubted: control, all')
-    lost: float = number(0.6, '', 'ratio of errors at which it is sought anew: control, friction')
-    doubt: float = number(0.5, 's', 'of motion for which it must be doubted to be dropped')
-    restart: float = number(2.0, 's', 'of motion between two searches for a lag')
-    blend: float = number(0.2, 's', 'from one hypothesis to the other: slow beside the loop')
-    grow: float = number(0.2, 's', 'in which the bandwidth follows what the lag allows')
-    margin: float = number(
-        3.0, '', 'times a lag that make a decay time: a phase margin of some 60 degrees'
-    )
-    most: float = number(200.0, 'N', 'that is fed forward at most: the disturbance bound')
-
 
 # Columns of the filter: the features; the sensitivity of the missing force to both time constants;
 # and efforts: the difference of the learned chambers from those of the law, the difference from
@@ -125,7 +76,8 @@ class Learner:
         lag_is_declared: bool,
     ) -> None:
         """Start without learned parameters; *tuning* and *features* are in the joint's units."""
-        self._model, self.gains, self._tuning = model, gains, tuning
+        self._model, self.gains = model, gains
+        self._tuning, self._features = tuning, features
         self._lag_is_declared = lag_is_declared
         self._observer = Observer(self._model)
         self._wanted, self._actual = Features(features), Features(features)
@@ -145,7 +97,8 @@ class Learner:
         self._plain_miss = self._lagged_miss = 1.0
         self._moved = self._restarted = 0.0
         self._prefers_lag = False
-        self._share = 0.0
+        self._dropped_lag: tuple[float, float] | None = None
+        self._share = self._explained = 0.0
         self.start(0.0, [0.0] * len(self._model.muscles), 0.0)
 
     def start(self, position: float, pressures: Pressures, disturbance: float) -> None:
@@ -172,6 +125,24 @@ class Learner:
         self._input = [0.0] * _COLUMNS
         self._centre, self._has_learned = 0.0, False
         self._waited = self._doubt = 0.0
+
+    @property
+    def learned(self) -> Learned:
+        """The learned parameters in numbers for people."""
+        weights, stroke = [float(one) for one in self._weights], self._features.stroke
+        fill, vent = (self._share * float(one) for one in self._lagged.theta[_LAGS])
+        return Learned(
+            motion=self._moved,
+            missing=float(self._whole) ** 0.5,
+            noise=self._tuning.floor**0.5,
+            explained=float(self._explained),
+            weight=float(self.trust),
+            friction=sum(weights[: beside.STRIBECK]),
+            breakaway=weights[beside.STRIBECK],
+            stiffness=weights[beside.STRETCH] / stroke,
+            lag=None if self._lag_is_declared else (fill, vent),
+            dropped_lag=self._dropped_lag,
+        )
 
     @property
     def _weights(self) -> list[float]:
@@ -306,9 +277,13 @@ class Learner:
         is_worse = self._plain_error < tuning.worse * self._lagged_error
         self._doubt = self._doubt + span if is_worse else 0.0
         if self._lag_is_declared or self._doubt > tuning.doubt:
+            if self._prefers_lag and max(self.lag) > tuning.every:
+                self._dropped_lag = float(self.lag[0]), float(self.lag[1])
             self._prefers_lag = False
         elif self._lagged_error < self._plain_error:
             self._prefers_lag = True
+            if max(self.lag) > tuning.every:
+                self._dropped_lag = None
         is_used = self._prefers_lag or self._share > 0.05 or self._lag_is_declared
         is_lost = self._plain_error < tuning.lost * self._lagged_error
         if is_lost and not is_used and self._moved - self._restarted > tuning.restart:
@@ -316,7 +291,8 @@ class Learner:
         error = self._lagged_miss if self._prefers_lag else self._plain_miss
         explained = 1.0 - (error + tuning.floor) / (self._whole + 1e-9)
         practice = 1.0 - exp(-((self._moved / tuning.convinced) ** 2))
-        self.trust = min(max(1.25 * explained, 0.0), 1.0) * practice
+        self._explained = max(explained, 0.0)
+        self.trust = min(1.25 * self._explained, 1.0) * practice
 
     def _restart_lagged(self) -> None:
         """Restart the hypothesis with a lag from the one without, with a lag of 0."""

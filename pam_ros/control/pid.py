@@ -155,6 +155,10 @@ class Pid:
     def _signs(self, position: float) -> list[float]:
         return [1.0 if gain > 0.0 else -1.0 for gain in self.sharing.gains(position)]
 
+    @property
+    def learned(self) -> None:
+        """Nothing: this law does not learn."""
+
     def stiffen(self, stiffness: float) -> None:
         """Set a stiffness; raises RangeError if it is not possible at the reference."""
         self.sharing.refuse_stiffness(stiffness, self.terms.reference)

@@ -8,6 +8,7 @@ from math import isfinite
 from typing import NamedTuple, Protocol
 
 from pam_ros.arguments import array, number, refuse, refuse_shape
+from pam_ros.control.learned import Learned
 from pam_ros.control.sharing import Sharing
 
 Pressures = tuple[float, ...]  # gauge Pa, one a muscle
@@ -175,6 +176,10 @@ class PositionLaw(Protocol):
     @property
     def sharing(self) -> Sharing:
         """The allocation of the effort to the muscles."""
+
+    @property
+    def learned(self) -> Learned | None:
+        """What was learned from the motion, None for a law that does not learn."""
 
     def stiffen(self, stiffness: float) -> None:
         """Set a stiffness in N/m; raises RangeError if it is not possible at the reference."""

@@ -44,7 +44,9 @@ from pam_ros.control.co_contraction import CoContraction, StiffnessCourse
 from pam_ros.control.compensation import Losses
 from pam_ros.control.features import FeatureTuning
 from pam_ros.control.gains import SUPER_TWISTING, Gains
-from pam_ros.control.learning import Learner, LearningTuning
+from pam_ros.control.learned import Learned
+from pam_ros.control.learning import Learner
+from pam_ros.control.learning_tuning import LearningTuning
 from pam_ros.control.limits import Limiter, Limits
 from pam_ros.control.model import ControlModel
 from pam_ros.control.observer import Observer
@@ -193,6 +195,11 @@ class SlidingMode:
         self._lost, self._may_learn = 0.0, False
         self.terms = Terms(reference=position, position=position)
         self._note(self._commands, chambers)
+
+    @property
+    def learned(self) -> Learned | None:
+        """What was learned from the motion, None with ``gains.learning`` off."""
+        return self._learner.learned if self.gains.learning else None
 
     @property
     def _chambers(self) -> Pressures:

@@ -5,9 +5,8 @@
 import numpy as np
 import pytest
 
-from pam_ros.control.features import FeatureTuning
 from pam_ros.control.gains import Gains
-from pam_ros.control.learning import LearningTuning
+from pam_ros.control.learning_tuning import LearningTuning
 from pam_ros.control.sliding_mode import SlidingMode
 from pam_ros.effects import CoulombFriction
 from support.closed_loop import LAG, step_target
@@ -15,7 +14,6 @@ from support.kinds import EACH_KIND, ONE, PAIR, rms
 
 pytestmark = pytest.mark.needs_numba
 
-ELEMENTS = len(FeatureTuning().reaches)
 ARMS = {ONE: 1.0, PAIR: 0.08}  # of all muscles together, m on a joint that turns
 
 
@@ -29,7 +27,7 @@ def swung(kind, plant, seconds=12.0, effects=(), **gains):
 @EACH_KIND
 def test_nothing_is_learned_where_nothing_is_missing(kind):
     law, run = swung(kind, 'nominal', 8.0)
-    assert law._learner.trust == 0.0
+    assert law.learned.weight == 0.0
     assert np.all(run.terms['learned'] == 0.0)
     assert rms(kind, run) < 0.02
     without = swung(kind, 'nominal', 8.0, learning=False)[1]
@@ -55,9 +53,8 @@ def test_a_load_that_nobody_declared_is_not_taken_for_anything_else(rest):
 def test_hysteresis_is_learned_and_the_bandwidth_grows(kind, level, bandwidth, most):
     """N in each muscle; 1/s; mm or degrees."""
     law, run = swung(kind, 'hysteresis')
-    learned = sum(law._learner._weights[:ELEMENTS])
-    assert learned == pytest.approx(level * ARMS[kind], rel=0.1)
-    assert max(law._learner.lag) < 5e-3
+    assert law.learned.friction == pytest.approx(level * ARMS[kind], rel=0.1)
+    assert max(law.learned.lag) < 5e-3
     assert run.terms['bandwidth'][-1] > bandwidth
     without = swung(kind, 'hysteresis', 8.0, learning=False)[1]
     assert rms(kind, run) < most < 0.2 * rms(kind, without)
@@ -72,7 +69,7 @@ def test_hysteresis_is_learned_and_the_bandwidth_grows(kind, level, bandwidth, m
 def test_friction_is_learned(kind, level, within, most):
     """N, or N m at the pivot; mm or degrees."""
     law, run = swung(kind, 'friction')
-    assert sum(law._learner._weights[:ELEMENTS]) == pytest.approx(level, abs=within)
+    assert law.learned.friction == pytest.approx(level, abs=within)
     assert rms(kind, run) < most
     assert rms(kind, run) < 0.9 * rms(kind, swung(kind, 'friction', 8.0, learning=False)[1])
 
@@ -86,7 +83,7 @@ def test_friction_is_learned(kind, level, within, most):
 def test_a_lag_is_learned_and_the_bandwidth_stays(kind, within, bandwidth, most, share):
     """In s; 1/s; mm or degrees: of a pair it is 0.04 to 0.08 with other noise."""
     law, run = swung(kind, 'lag')
-    assert within[0] < 0.5 * sum(law._learner.lag) < within[1]
+    assert within[0] < 0.5 * sum(law.learned.lag) < within[1]
     assert run.terms['bandwidth'][-1] < bandwidth
     without = swung(kind, 'lag', 8.0, learning=False)[1]
     assert rms(kind, run) < most < share * rms(kind, without)
@@ -95,7 +92,7 @@ def test_a_lag_is_learned_and_the_bandwidth_stays(kind, within, bandwidth, most,
 @EACH_KIND
 def test_a_declared_lag_leaves_nothing_to_learn(kind):
     law, run = swung(kind, 'lag', 8.0, effects=LAG)
-    assert law._learner.lag == (0.0, 0.0)
+    assert law.learned.lag is None
     assert np.max(np.abs(run.terms['learned'])) < 3.0 * ARMS[kind]
     assert rms(kind, run) < (0.05 if kind is ONE else 0.02)
 
@@ -132,9 +129,9 @@ def test_of_all_at_once_enough_is_learned_within_bounds(kind):
 def test_what_was_learned_is_kept_when_control_starts_again(kind, plant, share):
     """After ~/enable the error is small at once; a law that is made anew knows nothing."""
     law, first = swung(kind, plant)
-    assert law._learner.trust > 0.3
+    assert law.learned.weight > 0.3
     again = kind.close(law, kind.truth(plant, seed=6), kind.swing, 4.0)
-    assert law._learner.trust > 0.3
+    assert law.learned.weight > 0.3
     # The reference jumps to its speed at the start, which moves the load in any case.
     after, before = (run.error[(run.t > 1.5) & (run.t <= 4.0)] for run in (again, first))
     assert np.sqrt(np.mean(after**2)) < share * np.sqrt(np.mean(before**2))
@@ -148,6 +145,25 @@ def test_another_rig_after_a_start_is_learned_anew(kind):
     run = kind.close(law, kind.truth('hysteresis', seed=6), kind.swing, 8.0)
     fresh = swung(kind, 'hysteresis', 8.0)[1]
     assert rms(kind, run) < 1.3 * rms(kind, fresh)
+
+
+@pytest.mark.slow
+def test_a_lag_that_has_gone_is_dropped_and_later_forgotten():
+    law, _ = swung(ONE, 'lag')
+    assert law.learned.dropped_lag is None
+    ONE.close(law, ONE.truth('nominal', seed=6), ONE.swing, 3.0)
+    after = law.learned
+    assert max(after.dropped_lag) > 0.02 > max(after.lag)
+    ONE.close(law, ONE.truth('lag', seed=6), ONE.swing, 8.0)
+    assert law.learned.dropped_lag is None
+    assert max(law.learned.lag) > 0.02
+
+
+def test_what_is_configured_not_to_be_learned_is_no_number():
+    joint = ONE.declared()
+    assert SlidingMode(joint, Gains.for_joint(joint, learning=False)).learned is None
+    still = SlidingMode(joint).learned
+    assert (still.motion, still.weight, still.dropped_lag) == (0.0, 0.0, None)
 
 
 def test_another_load_after_a_start_is_no_friction():

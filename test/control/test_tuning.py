@@ -8,7 +8,7 @@ import pytest
 
 from pam_ros.control.features import FeatureTuning
 from pam_ros.control.gains import OrderTuning
-from pam_ros.control.learning import LearningTuning
+from pam_ros.control.learning_tuning import LearningTuning
 from pam_ros.control.reference.shaping import StreamTuning
 from pam_ros.control.rest.oscillation import OscillationTuning
 from pam_ros.control.rest.rejection import RejectionTuning

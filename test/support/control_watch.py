@@ -2,11 +2,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """A test that watches a controller over DDS, and one that stands in for its rig."""
 
+import math
+
 import numpy as np
+from builtin_interfaces.msg import Duration
 from diagnostic_msgs.msg import DiagnosticArray
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64
 from std_srvs.srv import SetBool
+from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
 from pam_ros.control.signals import TERMS
 
@@ -78,13 +82,13 @@ class Watch:
         self.peer.until(found, f'{term} to rest')
         return self.latest(term)
 
-    def status(self, condition, what):
-        """Wait for a status of the part control that fulfils *condition*."""
+    def status(self, condition, what, part='control'):
+        """Wait for a status of this *part* that fulfils *condition*."""
 
         def find():
             for array in reversed(self.arrays):
                 for status in array.status:
-                    if status.name == 'pam_control: control' and condition(status):
+                    if status.name == f'pam_control: {part}' and condition(status):
                         return status
             return None
 
@@ -138,3 +142,14 @@ def columns(messages, names=TERMS):
     t = np.array([stamp(m) for m in messages])
     values = np.array([m.position for m in messages])
     return t - t[0], {name: values[:, i] for i, name in enumerate(names)}
+
+
+def sine(middle, swing, joint='pam', end=4.0):
+    """Return a 0.5 Hz sine as a trajectory that begins and ends softly, as robot stacks send."""
+    points = []
+    for t in np.linspace(0.02, end, round(end / 0.02)):
+        share = min(t, end - t, 1.0)
+        at = middle + swing * math.sin(0.5 * math.pi * share) ** 2 * math.sin(math.pi * t)
+        time = Duration(sec=int(t), nanosec=int(t % 1.0 * 1e9))
+        points.append(JointTrajectoryPoint(positions=[at], time_from_start=time))
+    return JointTrajectory(joint_names=[joint], points=points)

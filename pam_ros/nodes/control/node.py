@@ -18,6 +18,7 @@ from pam_ros.errors import RangeError
 from pam_ros.health import controller as control_health
 from pam_ros.health import start_line
 from pam_ros.health.health import Health
+from pam_ros.health.learning import learning
 from pam_ros.health.reports import Reports
 from pam_ros.health.tracking import Tracking
 from pam_ros.nodes.common.diagnostics import Diagnostics
@@ -78,7 +79,12 @@ class PamControl(TickingNode):
         self._open_topics()
         self.create_service(SetBool, '~/enable', self._enable)
         self._topics = watch_topics(self, self._setup, self._loop)
-        parts = {'timing': self._timing, 'control': self._control, 'topics': self._topics.health}
+        parts = {
+            'timing': self._timing,
+            'control': self._control,
+            'learning': lambda: learning(self._loop.law.learned, self._setup.unit),
+            'topics': self._topics.health,
+        }
         self._diagnostics = Diagnostics(self, parts)
         self._given.refuse_mistyped()
         self.ticker = Ticker(self._tick_rate)

@@ -8,7 +8,6 @@ from dataclasses import dataclass
 
 import numpy as np
 import pytest
-from builtin_interfaces.msg import Duration
 from diagnostic_msgs.msg import DiagnosticStatus
 from std_msgs.msg import Float64, Float64MultiArray
 from std_srvs.srv import SetBool
@@ -16,7 +15,7 @@ from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
 from pam_ros.control.signals import term_names
 from pam_ros.rig import statics
-from support.control_watch import LOSE_NO_TERMS, Simulation, Watch, columns
+from support.control_watch import LOSE_NO_TERMS, Simulation, Watch, columns, sine
 from support.harness import Program
 from support.pair_loop import declared
 
@@ -83,17 +82,6 @@ def pressures(kind):
 
 def stiffen(watch, value):
     watch.peer.publish(Float64(data=value), 'co_contraction_reference')
-
-
-def sine(middle, swing, joint='pam', end=4.0):
-    """Return a 0.5 Hz sine as a trajectory that begins and ends softly, as robot stacks send."""
-    points = []
-    for t in np.linspace(0.02, end, round(end / 0.02)):
-        share = min(t, end - t, 1.0)
-        at = middle + swing * math.sin(0.5 * math.pi * share) ** 2 * math.sin(math.pi * t)
-        time = Duration(sec=int(t), nanosec=int(t % 1.0 * 1e9))
-        points.append(JointTrajectoryPoint(positions=[at], time_from_start=time))
-    return JointTrajectory(joint_names=[joint], points=points)
 
 
 @both

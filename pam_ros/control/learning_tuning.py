@@ -1,0 +1,55 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The tuning numbers of learning (:mod:`.learning`), each with its source."""
+
+from dataclasses import dataclass
+
+from pam_ros.control.tuning import number
+
+
+@dataclass(frozen=True)
+class LearningTuning:
+    """How fast to learn, when to trust the result, and the bound of the feed-forward."""
+
+    fast: float = number(
+        60.0,
+        'rad/s',
+        'bandwidth of the fast observer and of the features: half of the velocity bandwidth, so '
+        'that its noise stays below that of the law',
+    )
+    every: float = number(
+        0.01, 's', 'between two samples of the regressions: they see what the fast observer passes'
+    )
+    noise: float = number(
+        1.0, 'N^2', 'variance of the missing force, of the fast observer with the noise'
+    )
+    forgotten: float = number(
+        0.01, '1/s', 'share of the prior variance a second: a muscle warms in minutes'
+    )
+    early: float = number(
+        1.0,
+        '1/s',
+        'the same of a lag in the beginning, whose sensitivities change with itself (Ljung & '
+        'Soderstrom 1983, section 5.5): pair_control, lag; twice as much is less repeatable',
+    )
+    settled: float = number(
+        2.0, 's', 'of motion in which that falls to 1/e: longer costs control, friction'
+    )
+    lag_spread: float = number(0.05, 's', 'expected lag: servo valves have 20 to 130 ms')
+    lag_high: float = number(0.2, 's', 'largest lag that is inverted: slower ones are no control')
+    judge: float = number(1.0, 's', 'average of prediction errors: half a period of control')
+    centre: float = number(2.0, 's', 'average of the mean force: a period of control')
+    convinced: float = number(
+        1.5, 's', 'of motion until what is learned is trusted to 63 %: control, valve lag'
+    )
+    floor: float = number(1.0, 'N^2', 'missing force that explains nothing: that of the noise')
+    worse: float = number(0.7, '', 'ratio of errors at which a lag is doubted: control, all')
+    lost: float = number(0.6, '', 'ratio of errors at which it is sought anew: control, friction')
+    doubt: float = number(0.5, 's', 'of motion for which it must be doubted to be dropped')
+    restart: float = number(2.0, 's', 'of motion between two searches for a lag')
+    blend: float = number(0.2, 's', 'from one hypothesis to the other: slow beside the loop')
+    grow: float = number(0.2, 's', 'in which the bandwidth follows what the lag allows')
+    margin: float = number(
+        3.0, '', 'times a lag that make a decay time: a phase margin of some 60 degrees'
+    )
+    most: float = number(200.0, 'N', 'that is fed forward at most: the disturbance bound')
