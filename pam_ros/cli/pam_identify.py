@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """``pam_identify``: what a declared model lacks, found in recordings of the real rig.
 
-How wrong is the model as declared, how wrong with its parameters re-tuned, which physical effect
+How wrong is the nominal model, how wrong with its parameters re-tuned, which physical effect
 is missing, how wrong is it with that added. Recordings are rosbag2 folders or CSV files whose
 column names carry the unit (t_s, pressure_command_kPa, position_mm, force_N, ...). The folder
 --out gets report.html to read, report.json, identified.yaml (a parameter file for pam_sim and

@@ -62,8 +62,8 @@ class Gains(JointSettings):
 
     bandwidth: float = parameter_field(
         14.0,
-        'decay rate of the sliding variable in the boundary layer; a loop with an undeclared '
-        'pressure lag of 1/bandwidth is still well damped',
+        'decay rate of the sliding variable in the boundary layer; a loop with a '
+        'pressure lag of 1/bandwidth that is not configured is still well damped',
         '1/s',
         low=0.5,
         high=200.0,
@@ -181,11 +181,12 @@ class Gains(JointSettings):
         high=5.0,
     )
     learning: bool = parameter_field(
-        True, 'whether undeclared friction, hysteresis and lag are learned from motion'
+        True,
+        'whether friction, hysteresis and lag that are not configured are learned from the motion',
     )
     pressure_time: float = parameter_field(
         0.02,
-        'time constant down to which a declared or learned pressure lag is inverted',
+        'time constant down to which a configured or learned pressure lag is inverted',
         's',
         low=0.001,
         high=1.0,

@@ -86,7 +86,7 @@ class PidGains(JointSettings):
     )
     bounded: bool = parameter_field(
         True,
-        'whether the gains are reduced at references at which the sensitivity of the declared '
+        'whether the gains are reduced at references at which the sensitivity of the nominal '
         'joint would exceed the bounds by which the defaults were found',
     )
 

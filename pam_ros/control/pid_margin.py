@@ -46,9 +46,9 @@ class Share(NamedTuple):
 class MarginTuning:
     """The bounds of the sensitivity, and where they are evaluated."""
 
-    peak: float = number(1.6, '', 'of the sensitivity of the declared joint: as of the defaults')
+    peak: float = number(1.6, '', 'of the sensitivity of the nominal joint: as of the defaults')
     late_peak: float = number(2.0, '', 'of the sensitivity with the lag: as of the defaults')
-    lag: float = number(0.06, 's', 'undeclared, of the pressure: as of the defaults')
+    lag: float = number(0.06, 's', 'of the pressure, not configured: as of the defaults')
     delay: float = number(0.003, 's', 'of the loop: a sample and a half at 500 Hz')
     slowest: float = number(
         0.03, 'rad/s', 'frequency: a tenth of 1/s, by which errors go at least'

@@ -8,7 +8,7 @@ from math import isfinite
 from typing import NamedTuple, Protocol
 
 from pam_ros.arguments import array, number, refuse, refuse_shape
-from pam_ros.control.learned import Learned
+from pam_ros.control.learning.learned import Learned
 from pam_ros.control.sharing import Sharing
 
 Pressures = tuple[float, ...]  # gauge Pa, one a muscle

@@ -42,11 +42,11 @@ from math import sqrt
 from pam_ros.arguments import instance
 from pam_ros.control.co_contraction import CoContraction, StiffnessCourse
 from pam_ros.control.compensation import Losses
-from pam_ros.control.features import FeatureTuning
 from pam_ros.control.gains import SUPER_TWISTING, Gains
-from pam_ros.control.learned import Learned
-from pam_ros.control.learning import Learner
-from pam_ros.control.learning_tuning import LearningTuning
+from pam_ros.control.learning.features import FeatureTuning
+from pam_ros.control.learning.learned import Learned
+from pam_ros.control.learning.learner import Learner
+from pam_ros.control.learning.learning_tuning import LearningTuning
 from pam_ros.control.limits import Limiter, Limits
 from pam_ros.control.model import ControlModel
 from pam_ros.control.observer import Observer

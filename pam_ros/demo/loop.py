@@ -35,7 +35,7 @@ HIDDEN: dict[str, Any] = {
     'sensor.position_noise': 5e-5,
 }
 NOISE = float(HIDDEN['sensor.position_noise'])
-CURVES = (Curve(0, 'as declared'), Curve(2, 'identified'))
+CURVES = (Curve(0, 'nominal'), Curve(2, 'identified'))
 MM = Scale(1e3, 'mm')
 
 
@@ -95,7 +95,7 @@ def figure(replay: Replay) -> Figure:
             time_plots.whole([replay.run]), list(CURVES), MM, 'position', NOISE, style.WIDE
         )
         drawn.axes[0].set_title(
-            'grey: the rig, broken: as declared, line: identified', loc='right', color=style.INK
+            'grey: the rig, broken: nominal, line: identified', loc='right', color=style.INK
         )
     return drawn
 

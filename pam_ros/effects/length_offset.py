@@ -21,7 +21,7 @@ class LengthOffset(Effect):
     """Difference between the effective contraction of the muscle and the measured one."""
 
     offset: float = strength(
-        'contraction at which the declared rest length really is',
+        'contraction that the muscle really has at the nominal rest length',
         'fraction',
         low=-0.3,
         high=0.3,

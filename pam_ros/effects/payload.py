@@ -36,7 +36,7 @@ class Payload(Effect):
     )
 
     name: ClassVar = 'payload'
-    text: ClassVar = 'mass of the load beside the declared one'
+    text: ClassVar = 'mass of the load in addition to the nominal one'
     source: ClassVar = 'Newton: weight and inertia alike'
     signature: ClassVar = 'constant residual force, and inertia: a slower oscillation'
     experiment: ClassVar = (

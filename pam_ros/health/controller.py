@@ -56,7 +56,7 @@ def values_of(loop: Loop, setup: ControlSetup, age: float | None) -> dict[str, A
         values['highest rejection level'] = terms.highest_rejection if is_running else None
     feedback = left_to_feedback(setup.joint)
     if feedback:
-        values['declared and left to the feedback'] = ', '.join(feedback)
+        values['configured, without feedforward'] = ', '.join(feedback)
     if law.sharing.can_stiffen:
         low, high = law.sharing.stiffness_range(law.terms.reference)
         values |= {

@@ -87,7 +87,7 @@ class Tracking:
         bounds = loop.plausibility.bounds
         seconds = f'for more than {LASTING * INTERVAL:g} s'
         error = f'{self._errors[-1]:.3g} {bounds.unit}'
-        advice = 'check the declared joint, load and muscle against the rig'
+        advice = 'check the configured joint, load and muscle against the rig'
         if self._saturation.lasts:
             return (
                 f'the command is at a limit of pressure {seconds}, and an error of {error} does '

@@ -90,7 +90,7 @@ def sentence(answer: Identification, lacking: str) -> str:
         since = '' if answer.since is None else f' from {time_of(answer.since)} on'
         return (
             f'The model lacks {names}{since}: with {it} the error on held-out data falls from '
-            f'{retuned} re-tuned ({declared} as declared) to {augmented}. {floor}'
+            f'{retuned} re-tuned ({declared} nominal) to {augmented}. {floor}'
         )
     if answer.verdict == 'no_missing_effect':
         return f'Nothing is missing: {declared} are left on held-out data. {floor}'

@@ -91,10 +91,10 @@ def page(
 def curves_of(result: Identification, runs: list[Run]) -> list[Curve]:
     """Return the models that differ, the nominal one first, each with its label."""
     names = [name_in_words(name) for name in added(result)]
-    effects = listed(names) or 'declared effects'
+    effects = listed(names) or 'configured effects'
     if len(effects) > LONGEST_LABEL:
         effects = f'{len(names)} effects'
-    labels = ('as declared', 're-tuned', f're-tuned + {effects}')
+    labels = ('nominal', 're-tuned', f're-tuned + {effects}')
     found = [Curve(0, labels[0])]
     for before, stage in pairwise(range(len(STAGES))):
         if not all(np.array_equal(r.simulated[before], r.simulated[stage]) for r in runs):

@@ -30,7 +30,7 @@ def identified(result: Identification, source: Provenance) -> Joint:
     """
     model = result.stages[-1].model
     names = listed([recording.name for recording in source.recordings])
-    text = plain_text(f'pam_ros, re-tuned on {names}; declared in {source.parameters}')
+    text = plain_text(f'pam_ros, re-tuned on {names}; nominal model: {source.parameters}')
     actuators = tuple(
         replace(
             actuator,

@@ -17,7 +17,7 @@ def last_line(result: Identification) -> str:
     words = ' '.join(word for word in (listed(names) if names else '', since) if word)
     found = f' ({words})' if words else ''
     errors = (
-        f'{number(scale.factor * declared)} {scale.unit} as declared, '
+        f'{number(scale.factor * declared)} {scale.unit} nominal, '
         f'{number(scale.factor * retuned)} {scale.unit} re-tuned'
     )
     if added(result):

@@ -40,7 +40,7 @@ class Experiment:
             plan(commands, self.settings),
             f'stops and vents outside {low:.1f} to {high:.1f} mm, and after '
             f'{self.settings.silence:g} s without joint_states',
-            f'the declared model would move from {1e3 * path.min():.1f} to '
+            f'the nominal model would move from {1e3 * path.min():.1f} to '
             f'{1e3 * path.max():.1f} mm',
         ]
         if path.min() < self.window[0] or path.max() > self.window[1]:

@@ -6,9 +6,9 @@ from dataclasses import astuple, dataclass, fields, replace
 
 import pytest
 
-from pam_ros.control.features import FeatureTuning
 from pam_ros.control.gains import OrderTuning
-from pam_ros.control.learning_tuning import LearningTuning
+from pam_ros.control.learning.features import FeatureTuning
+from pam_ros.control.learning.learning_tuning import LearningTuning
 from pam_ros.control.reference.shaping import StreamTuning
 from pam_ros.control.rest.oscillation import OscillationTuning
 from pam_ros.control.rest.rejection import RejectionTuning

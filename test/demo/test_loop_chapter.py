@@ -25,12 +25,12 @@ def test_three_rigs_are_put_on_the_clock_of_their_commands(tmp_path):
     topics = {
         '/demo/pressure_command': (FLOAT, [(ns(3.0 + 0.1 * k), number(k)) for k in range(99)])
     }
-    for name, start, rate in (('rig', 0.0, 200), ('declared', 1.3, 250), ('identified', 0.7, 125)):
+    for name, start, rate in (('rig', 0.0, 200), ('nominal', 1.3, 250), ('identified', 0.7, 125)):
         stamps = start + np.arange(round(10 * rate)) / rate
         messages = [(ns(s), joint(ns(s), [s - 3.0], [0.0], [0.0])) for s in stamps]
         topics[f'/demo/{name}/joint_states'] = (JOINT, messages)
     write_bag(tmp_path / 'bag', topics)
-    spaces = (f'/demo/{name}' for name in ('rig', 'declared', 'identified'))
+    spaces = (f'/demo/{name}' for name in ('rig', 'nominal', 'identified'))
     found = read_replay(tmp_path / 'bag', '/demo/pressure_command', *spaces)
     assert found.t[0] == pytest.approx(0.0, abs=1e-6)
     assert found.t[-1] == pytest.approx(7.0, abs=0.01)
@@ -51,7 +51,7 @@ def test_table_has_errors_and_what_was_hidden_beside_what_was_found(replay):
         'parameters': {'augmented': {'effects.coulomb_friction.level': level}},
     }
     rows = {line.split('  ')[0]: line.split() for line in loop.table(replay, report).splitlines()}
-    assert rows['as declared'][2:4] == ['3.00', '3.00']
+    assert rows['nominal'][2:4] == ['3.00', '3.00']
     assert rows['identified'][1:3] == ['0.100', '0.100']
     friction = rows['coulomb_friction.level [N]']
     assert friction[2:] == ['12', '11.9', '11.7', 'to', '12.2']

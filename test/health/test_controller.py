@@ -97,7 +97,7 @@ def test_the_rate_is_said_where_there_is_one(ticks, wanted, level, message):
 
 # What it says of the joint -----------------------------------------------------------------------
 
-LEFT = 'declared and left to the feedback'
+LEFT = 'configured, without feedforward'
 
 
 def values_of(**given):

@@ -125,9 +125,9 @@ def test_user_text_cannot_become_markup(friction):
 
 
 def test_models_that_do_not_differ_are_drawn_once(clean, friction):
-    assert [c.label for c in curves_of(clean[0], clean[2])] == ['as declared', 're-tuned']
+    assert [c.label for c in curves_of(clean[0], clean[2])] == ['nominal', 're-tuned']
     labels = [c.label for c in curves_of(friction[0], friction[2])]
-    assert labels == ['as declared', 're-tuned', 're-tuned + coulomb friction']
+    assert labels == ['nominal', 're-tuned', 're-tuned + coulomb friction']
 
 
 def test_an_effect_that_did_not_suffice_is_named_all_the_same(friction):

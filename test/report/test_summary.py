@@ -12,7 +12,7 @@ def test_line_says_verdict_and_errors(friction):
     result, _, _ = friction
     line = last_line(result)
     assert line.startswith('effect_found (coulomb_friction): held-out error ')
-    assert f'{1e3 * result.stages[0].held_error:.3g} mm as declared' in line
+    assert f'{1e3 * result.stages[0].held_error:.3g} mm nominal' in line
     assert f'{1e3 * result.stages[2].held_error:.3g}' in line
     assert line.endswith('noise 0.0500 mm')
     assert '\n' not in line
@@ -33,7 +33,7 @@ def test_without_an_effect_two_errors(clean):
 
 
 def test_force_is_in_newtons(held):
-    assert ' N as declared' in last_line(held[0])
+    assert ' N nominal' in last_line(held[0])
 
 
 def test_added_effects_are_those_that_were_not_declared(friction):

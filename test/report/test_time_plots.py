@@ -14,7 +14,7 @@ from pam_ros.report.time_plots import Curve
 from pam_ros.report.wording import Scale
 
 MM = Scale(1e3, 'mm')
-CURVES = [Curve(0, 'as declared'), Curve(1, 're-tuned'), Curve(2, 'last')]
+CURVES = [Curve(0, 'nominal'), Curve(1, 're-tuned'), Curve(2, 'last')]
 
 
 def test_overview_puts_runs_side_by_side(tested):

@@ -28,7 +28,8 @@ class OscillationTuning:
         0.9,
         '',
         'times the bandwidth of the loop: slower swings are those of a disturbance; with the '
-        'undeclared lag of 50/70 ms of disturbance they are 1.1 to 1.3 times as quick',
+        'lag of 50/70 ms of disturbance, which is not configured, they are 1.1 to 1.3 times as '
+        'quick',
     )
 
 

@@ -49,7 +49,8 @@ class RejectionTuning:
         12.3,
         'rad/s',
         'bandwidth of the observer at the highest level before anything is known of the delay: '
-        'the loop is still stable with the undeclared lag of 50/70 ms of disturbance',
+        'the loop is still stable with the lag of 50/70 ms of disturbance, which is not '
+        'configured',
     )
     climb: float = number(
         0.25, '1/s', 'by which the highest level rises: an oscillation is found before it is large'

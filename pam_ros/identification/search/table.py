@@ -144,6 +144,6 @@ def _why(model: Model, parent: Model, found: Search) -> str:
     if gain < criteria.gain and parent.strain - model.strain >= criteria.strain:
         return (
             f'{fall}: explains with its own parameter what re-tuning explains only by constants '
-            'far from those declared'
+            'far from the nominal ones'
         )
     return f'{fall}, and the error of samples that were not fitted by {100.0 * gain:.0f} %'

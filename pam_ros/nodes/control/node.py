@@ -18,7 +18,7 @@ from pam_ros.errors import RangeError
 from pam_ros.health import controller as control_health
 from pam_ros.health import start_line
 from pam_ros.health.health import Health
-from pam_ros.health.learning import learning
+from pam_ros.health.learned import learning
 from pam_ros.health.reports import Reports
 from pam_ros.health.tracking import Tracking
 from pam_ros.nodes.common.diagnostics import Diagnostics

@@ -35,8 +35,8 @@ SPACING = 0.02  # s between the points of the trajectory
 def play(stage: Stage) -> None:
     """Control the joint, and write a plot and a table."""
     stage.say(
-        f'An antagonistic joint over ROS topics: two {MUSCLE}, an arm declared with '
-        f'{DECLARED:g} kg, in truth with {TRUE:g} kg'
+        f'An antagonistic joint over ROS topics: two {MUSCLE}, configured with '
+        f'an arm of {DECLARED:g} kg; the real one has {TRUE:g} kg'
     )
     course = record(stage)
     begin = course.departure
@@ -50,7 +50,7 @@ def play(stage: Stage) -> None:
     from pam_ros.demo import figures
 
     path = stage.folder / 'joint.png'
-    headline = f'pam_control: {DECLARED:g} kg declared, {TRUE:g} kg moved'
+    headline = f'pam_control: {DECLARED:g} kg configured, {TRUE:g} kg moved'
     figures.save(joint.figure(course, headline), path)
     stage.wrote(path)
     stage.text('joint.txt', joint.table(parts))

@@ -53,11 +53,14 @@ def play(stage: Stage) -> None:
     stage.say(f'Closing the loop: what does a rig have that {loop.MUSCLE} has not?')
     record_in_time(stage, folder / 'recording', {'rig': loop.HIDDEN}, EXCITATION)
     report = identify(stage, folder)
-    stage.say('Commands that the fit has not seen: the rig, pam_sim as declared and as identified')
+    stage.say(
+        'Commands that were not used for the fit: the rig, and pam_sim with the nominal and the '
+        'identified model'
+    )
     identified = {'muscle': str(folder / 'report' / 'identified.yaml')}
     again = {
         'rig': {**loop.HIDDEN, 'sensor.seed': 1},
-        'declared': {'muscle': loop.MUSCLE},
+        'nominal': {'muscle': loop.MUSCLE},
         'identified': identified,
     }
     record_in_time(stage, folder / 'replay', again, UNSEEN)

@@ -33,8 +33,8 @@ SPACING = 0.05  # s between the points of its trajectory
 def play(stage: Stage) -> None:
     """Move the load, and write a plot and a table."""
     stage.say(
-        f'Position control over ROS topics: {MUSCLE}, declared with {DECLARED:g} kg, '
-        f'in truth with {TRUE:g} kg'
+        f'Position control over ROS topics: {MUSCLE}, configured with {DECLARED:g} kg; '
+        f'the real load has {TRUE:g} kg'
     )
     course, marks = record(stage)
     steps = [
@@ -47,7 +47,7 @@ def play(stage: Stage) -> None:
     from pam_ros.demo import figures
 
     path = stage.folder / 'position_control.png'
-    headline = f'pam_control: {DECLARED:g} kg declared, {TRUE:g} kg moved'
+    headline = f'pam_control: {DECLARED:g} kg configured, {TRUE:g} kg moved'
     figures.save(position.figure(course, headline), path)
     stage.wrote(path)
     stage.text('position_control.txt', position.table(steps, whole))

@@ -10,7 +10,7 @@ from pam_ros.control.signals import term_names
 from support.control_watch import Watch
 from support.harness import Program, lose_nothing
 
-LASTS = 'does not shrink: check the declared joint, load and muscle against the rig'
+LASTS = 'does not shrink: check the configured joint, load and muscle against the rig'
 
 
 @pytest.mark.at_any_pace

@@ -129,7 +129,7 @@ def test_the_plan_alone(peer, tmp_path):
     assert 'steps with holds' in output
     assert 'seed 5' in output
     assert 'outside -16.0 to 100.0 mm' in output
-    assert 'the declared model would move from' in output
+    assert 'the nominal model would move from' in output
     assert 'CAUTION' not in output
     table = np.genfromtxt(file, delimiter=',', names=True)
     np.testing.assert_array_equal(

@@ -18,16 +18,16 @@ from math import exp
 
 import numpy as np
 
-from pam_ros.control import features as beside
-from pam_ros.control.cascade import Cascade
-from pam_ros.control.features import Features, FeatureTuning
 from pam_ros.control.gains import Gains
-from pam_ros.control.learned import Learned
-from pam_ros.control.learning_tuning import LearningTuning
+from pam_ros.control.learning import features as beside
+from pam_ros.control.learning.cascade import Cascade
+from pam_ros.control.learning.features import Features, FeatureTuning
+from pam_ros.control.learning.learned import Learned
+from pam_ros.control.learning.learning_tuning import LearningTuning
+from pam_ros.control.learning.regression import Regression, dot
 from pam_ros.control.model import ControlModel, Pressures
 from pam_ros.control.observer import Observer
 from pam_ros.control.pressure_path import Chamber
-from pam_ros.control.regression import Regression, dot
 from pam_ros.control.signals import Reference
 
 # Columns of the filter: the features; the sensitivity of the missing force to both time constants;

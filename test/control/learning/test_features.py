@@ -7,7 +7,7 @@ from itertools import pairwise
 
 import pytest
 
-from pam_ros.control.features import CONSTANT, COUNT, Features, FeatureTuning
+from pam_ros.control.learning.features import CONSTANT, COUNT, Features, FeatureTuning
 
 TUNING = FeatureTuning()
 REACHES, STROKE = TUNING.reaches, TUNING.stroke

@@ -6,9 +6,9 @@ from dataclasses import replace
 
 import pytest
 
-from pam_ros.control.learned import Learned
+from pam_ros.control.learning.learned import Learned
 from pam_ros.health.health import Level
-from pam_ros.health.learning import learning
+from pam_ros.health.learned import learning
 
 FRICTION = Learned(
     motion=12.0,

@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from pam_ros.control.cascade import Cascade
+from pam_ros.control.learning.cascade import Cascade
 
 
 def test_a_step_gives_the_response_of_three_equal_lags():

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The tuning numbers of learning (:mod:`.learning`), each with its source."""
+"""The tuning numbers of learning (:mod:`.learner`), each with its source."""
 
 from dataclasses import dataclass
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from pam_ros.control.gains import Gains
-from pam_ros.control.learning_tuning import LearningTuning
+from pam_ros.control.learning.learning_tuning import LearningTuning
 from pam_ros.control.sliding_mode import SlidingMode
 from pam_ros.effects import CoulombFriction
 from support.closed_loop import LAG, step_target

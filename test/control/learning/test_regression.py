@@ -5,7 +5,7 @@
 import numpy as np
 import pytest
 
-from pam_ros.control.regression import Regression
+from pam_ros.control.learning.regression import Regression
 
 
 def test_it_is_the_regularised_batch_solution():
