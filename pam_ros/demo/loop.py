@@ -95,7 +95,7 @@ def figure(replay: Replay) -> Figure:
             time_plots.whole([replay.run]), list(CURVES), MM, 'position', NOISE, style.WIDE
         )
         drawn.axes[0].set_title(
-            'grey: the rig, broken: nominal, line: identified', loc='right', color=style.INK
+            'grey: the rig, dashed: nominal, line: identified', loc='right', color=style.INK
         )
     return drawn
 
