@@ -57,6 +57,6 @@ def test_the_loop_closes_over_topics(tmp_path):
     assert report['error']['noise_floor'] == pytest.approx(NOISE, rel=0.3)
 
     rows = {line.split('  ')[0]: line.split() for line in table.splitlines()}
-    before, after = float(rows['nominal'][2]), float(rows['identified'][1])
+    before, after = float(rows['nominal'][1]), float(rows['identified'][1])
     assert before > 1.0
     assert after < 0.15 * before

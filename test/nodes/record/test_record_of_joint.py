@@ -19,6 +19,12 @@ pytestmark = [pytest.mark.at_any_pace, pytest.mark.usefixtures('domain')]
 COMMANDS = [[3e5, 2e5], [2.2e5, 2.8e5], [3.4e5, 3.1e5]]
 
 
+def recorded(bag):
+    """Return how many messages of the joint and of its pressures are in the bag, of each."""
+    counts = written(bag)
+    return min(counts.get(topic, 0) for topic in ('/joint_states', '/pressures'))
+
+
 def test_the_bag_of_a_joint_is_a_recording_of_it(peer, tmp_path):
     nominal = nominal_joint('dmsp_20_400n', ['joint=antagonistic', 'muscles=flexor,extensor'])
     bag = tmp_path / 'elbow'
@@ -32,10 +38,7 @@ def test_the_bag_of_a_joint_is_a_recording_of_it(peer, tmp_path):
         peer.until(lambda: publisher.get_subscription_count() == 2, 'both programs')
         # The recorder has to receive each topic before the joint moves: a signal that
         # begins late is not used. Only messages in the bag show this.
-        peer.until(
-            lambda: all(written(bag).get(topic) for topic in ('/joint_states', '/pressures')),
-            'messages of both topics in the bag',
-        )
+        peer.until(lambda: recorded(bag) > 0, 'messages of both topics in the bag')
         ends = []
         for command in COMMANDS:
             angle = equilibrium(nominal.joint, command)
@@ -49,15 +52,18 @@ def test_the_bag_of_a_joint_is_a_recording_of_it(peer, tmp_path):
                 f'rest at {angle}',
             )
             ends.append(angle)
+        # What a busy machine has lost is sent again up to a second later: two seconds more.
+        before = recorded(bag)
+        peer.until(lambda: recorded(bag) > before + 1000, 'the messages up to the rest')
         recorder.interrupt()
         assert recorder.wait() == 0
-        assert '/pressures ' in recorder.output
+        output = recorder.output
     found = read_recording(
         bag, muscles=nominal.recorded_muscles, unit='rad', p_max=6e5, reach=nominal.reach
     )
     assert (found.muscles, found.unit) == (('flexor', 'extensor'), 'rad')
     np.testing.assert_array_equal(found.command, COMMANDS)
-    assert found.pressure is not None, found.warnings
+    assert found.pressure is not None, f'{found.warnings} {output}'
     for k, (angle, command) in enumerate(zip(ends, COMMANDS, strict=True)):
         until = found.command_t[k + 1] if k < 2 else np.inf
         last = np.flatnonzero(found.t < until - 0.05)[-1]
