@@ -179,7 +179,7 @@ class Effect(ABC):
     With ``moves_by_itself`` a load never comes to rest in its example. ``signature`` describes its
     residual, ``experiment`` describes what to record to distinguish it from its nearest
     ``rivals``. ``contains`` names the effects that it becomes if one of its parameters vanishes.
-    For each of them it maps the parameters of that effect to those of its own that replace them.
+    For each of them it maps parameters of that effect to those of its own with the same values.
     ``needs_muscle`` means that a load moved by another force cannot have it, since there is no
     braid, no bladder and no chamber.
 

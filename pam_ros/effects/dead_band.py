@@ -58,7 +58,8 @@ class DeadBand(Effect):
     experiment: ClassVar = 'slow ramps from no pressure up, at two loads'
     compensation: ClassVar = Compensation.PATH
     rivals: ClassVar = ('pressure_offset', 'slack')
-    contains: ClassVar = {'pressure_offset': {'offset': 'band'}}
+    # Above the band it is an offset of the other sign.
+    contains: ClassVar = {'pressure_offset': {}}
     equations: ClassVar = EffectEquations(pressure=pressure)
 
     @classmethod

@@ -86,6 +86,11 @@ def test_effect_says_all_that_is_asked_of_it(effect):
         assert len(text) > 10
     assert set(effect.rivals) <= set(NAMES) - {effect.name}
     assert set(effect.contains) <= set(NAMES) - {effect.name}
+    own = {p.name for p in effect.parameters()}
+    for simple, names in effect.contains.items():
+        of_simple = {p.name for p in EFFECTS[NAMES.index(simple)].parameters()}
+        assert set(names) <= of_simple
+        assert set(names.values()) <= own
     assert effect.fit_starts()
     for start in effect.fit_starts():
         assert effect(**start).is_present

@@ -157,6 +157,20 @@ def plainer_sets(unknowns: Sequence[Unknown], place: Place) -> list[set[str]]:
     return found
 
 
+def in_common(
+    problem: Problem, u: Array, joint: Joint, place: Place, simple: str
+) -> dict[str, float]:
+    """Return the values at u of the parameters that an effect shares with a *simple* one.
+
+    It contains the simple one, and is at *place*. The names are those of the simple effect. Only
+    parameters that are unknown are returned.
+    """
+    there = parameters_of(problem.unknowns, place.name)
+    values = _values(problem.row_at(u), joint, place)
+    pairs = place.effect.contains[simple].items()
+    return {own: values[name] for own, name in pairs if name in there}
+
+
 def with_parameters(
     problem: Problem, joint: Joint, place: Place, names: set[str]
 ) -> tuple[Problem, list[int]]:

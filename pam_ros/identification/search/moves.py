@@ -4,12 +4,13 @@
 
 from pam_ros.identification.fit.extend import (
     finer_starts,
+    in_common,
     plainer_sets,
     with_parameters,
     without_effect,
 )
 from pam_ros.identification.fit.moment import moved
-from pam_ros.identification.fit.places import Place
+from pam_ros.identification.fit.places import Place, effect_of
 from pam_ros.identification.fit.problem import Problem
 from pam_ros.identification.fit.solve import Solution, fresh, settled
 from pam_ros.identification.fit.unknowns import OfEffect, parameters_of
@@ -107,7 +108,8 @@ def _with_influence(known: Solution, name: str, setting: Setting) -> set[str]:
 def fixed(model: Model, setting: Setting) -> list[Model]:
     """Return *model* with fewer parameters of each of its effects, fitted from its present values.
 
-    The remaining ones suffice for a fit of this effect alone; the others have their defaults.
+    The remaining ones suffice for a fit of this effect alone, or of a simpler one that it
+    contains; the others have their defaults.
     """
     known = model.solution
     options = [
@@ -121,7 +123,51 @@ def fixed(model: Model, setting: Setting) -> list[Model]:
             model.effects, known, *with_parameters(known.problem, setting.joint, *option), setting
         )
 
-    return [fit(option) for option in options]
+    less = [fit(option) for option in options]
+    return [*less, *(one for name in model.effects for one in simplified(model, name, setting))]
+
+
+def simplified(model: Model, name: str, setting: Setting) -> list[Model]:
+    """Return *model* with each simpler effect that the effect called *name* contains, instead.
+
+    The fits begin from the present values, also from those of the parameters that both have in
+    common. The other effects have been fitted beside this one: without it they would move far.
+    """
+    known, place = model.solution, setting.places[name]
+    less = _kept(known, *without_effect(known.problem, setting.joint, place))
+    effects = tuple(one for one in model.effects if one != name)
+
+    def fit(simple: str, start: dict[str, float]) -> Model:
+        wider = extended(less, setting.places[simple], start, setting)
+        end = settled(wider, setting.budget.iterations, setting.pool)
+        return setting.model((*effects, simple), end)
+
+    return [
+        fit(simple, start)
+        for simple in contained(model, name, setting)
+        if (start := in_common(known.problem, known.u, setting.joint, place, effect_of(simple)))
+    ]
+
+
+def contained(model: Model, name: str, setting: Setting) -> list[str]:
+    """Return the places of those simpler effects that *name* contains and *model* could have."""
+    named = setting.related(name, setting.places[name].effect.contains)
+    able = absent(model, setting)
+    return [one for one in named if one in able]
+
+
+def absent(model: Model, setting: Setting) -> list[str]:
+    """Return the places of the effects that *model* lacks and its rig could have."""
+    joint, places = setting.joint, setting.places
+    there = [places[name] for name in model.effects]
+    declared = {effect.name for effect in joint.all_present}
+    return [
+        name
+        for name, place in places.items()
+        if place.effect.name not in declared
+        and not any(place.overlaps(other) for other in there)
+        and not (place.effect.needs_muscle and joint.is_driven)
+    ]
 
 
 def dropped(model: Model, name: str, setting: Setting) -> Model:

@@ -22,9 +22,12 @@ from pam_ros.identification.search.compare import (
     with_errors,
 )
 from pam_ros.identification.search.moves import (
+    absent,
+    contained,
     dropped,
     fixed,
     freed,
+    simplified,
     swapped,
     with_each,
     without_idle_parameters,
@@ -150,20 +153,6 @@ def _are_different(known: Solution, r: Array, setting: Setting) -> bool:
     return float(change @ change) > setting.criteria.margin * setting.noise**2
 
 
-def absent(model: Model, setting: Setting) -> list[str]:
-    """Return the places of the effects that *model* lacks and its rig could have."""
-    joint, places = setting.joint, setting.places
-    there = [places[name] for name in model.effects]
-    declared = {effect.name for effect in joint.all_present}
-    return [
-        name
-        for name, place in places.items()
-        if place.effect.name not in declared
-        and not any(place.overlaps(other) for other in there)
-        and not (place.effect.needs_muscle and joint.is_driven)
-    ]
-
-
 def accepted(models: Iterable[Model], than: Model, found: Search) -> Iterator[Model]:
     """Return those of *models*, in their order, that are accepted instead of a smaller one.
 
@@ -217,35 +206,38 @@ def joined(now: Model, found: Search) -> Model:
 def plainer(now: Model, names: Iterable[str], found: Search) -> Model:
     """Return *now* with simpler effects instead of those of *names* that contain them.
 
-    They must be nearly as good.
-
-    A leak of which only the refill is visible is a lag. A broader effect always fits as well, but
-    only until the simpler one has all of its own parameters: *now* has those of its effects.
+    A leak of which only the refill is visible is a lag. A simpler effect at the values that both
+    have in common has a parameter less, and replaces the broader one if it suffices. Elsewhere it
+    must be nearly as good with all of its own parameters, as *now* has those of its effects: a
+    broader effect always fits as well, but only until then.
     """
     setting = found.setting
     for name in names:
-        named = setting.related(name, setting.places[name].effect.contains)
-        contained = [one for one in named if one in absent(now, setting)]
-        if not contained:
-            continue
-        less, others = swapped(now, name, contained, setting)
-        found.looked_at += [less, *others]
-        for simple in others:
-            other = _best_like(with_more(simple, found), found)
-            is_better = other.score < now.score and no_worse(other, now, setting)
-            if is_better or hardly_more(other, now, setting):
-                now = other
-                break
+        direct = simplified(now, name, setting)
+        found.looked_at += direct
+        able = [m for m in direct if suffices(m, now, setting)]
+        now = min(able, key=lambda m: m.score) if able else _plainer(now, name, found)
     return now
 
 
-def _best_like(model: Model, found: Search) -> Model:
-    """Return the model with the best score among those with the effects and the step of *model*.
-
-    An earlier fit of these effects may have come further.
-    """
-    known = best_with({*model.effects}, model.solution.problem.step, found)
-    return min((model, known), key=lambda m: m.score)
+def _plainer(now: Model, name: str, found: Search) -> Model:
+    """Return *now* with a simpler effect instead of *name*, if one with all parameters is good."""
+    setting = found.setting
+    simpler = contained(now, name, setting)
+    if not simpler:
+        return now
+    less, others = swapped(now, name, simpler, setting)
+    found.looked_at += [less, *others]
+    for simple in others:
+        more = with_more(simple, found)
+        # An earlier fit of these effects may have come further.
+        best = best_with({*more.effects}, more.solution.problem.step, found)
+        fits = [more, best, simple]
+        with_errors(fits, setting)
+        able = [m for m in fits if suffices(m, now, setting) or hardly_more(m, now, setting)]
+        if able:
+            return min(able, key=lambda m: m.score)
+    return now
 
 
 def with_more(now: Model, found: Search) -> Model:

@@ -11,6 +11,7 @@ from pam_ros.identification.fit.extend import (
     belongs,
     bounded,
     finer_starts,
+    in_common,
     plainer_sets,
     started,
     with_effect,
@@ -160,3 +161,20 @@ def test_what_a_fit_ends_with_is_a_joint(problem, effect, start, end):
     found = with_row(MODEL, row, SEGMENTS, [place], {})
     np.testing.assert_allclose(found.parameters().ravel(), row, rtol=1e-12)
     assert (now.unknowns != new.unknowns) is (effect != 'creep')
+
+
+def test_what_a_broader_effect_has_in_common_with_a_simpler_one(problem):
+    """Its unknown parameters alone, with their present values, by the names of the simpler one."""
+    place = PLACES['leak']
+    start = {'rate': 0.03, 'refill': 0.1}
+    new, added = with_effect(problem, MODEL, place, start)
+    u = np.concatenate([np.zeros(len(problem.unknowns)), added])
+    assert in_common(new, u, MODEL, place, 'pressure_lag') == pytest.approx({'fill': 0.1})
+    more, last = with_effect(new, MODEL, place, {**start, 'vent': 0.05, 'supply': 1e6})
+    both = np.concatenate([u, last])
+    assert in_common(more, both, MODEL, place, 'pressure_lag') == pytest.approx(
+        {'fill': 0.1, 'vent': 0.05, 'fastest': 1e6}
+    )
+    none, added = with_effect(problem, MODEL, place, {'rate': 0.03})
+    u = np.concatenate([np.zeros(len(problem.unknowns)), added])
+    assert in_common(none, u, MODEL, place, 'pressure_lag') == {}

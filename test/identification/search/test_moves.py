@@ -16,6 +16,7 @@ from pam_ros.identification.search.moves import (
     dropped,
     fixed,
     freed,
+    simplified,
     swapped,
     with_each,
     without_idle_parameters,
@@ -175,6 +176,30 @@ def test_parameters_that_were_freed_and_are_not_needed_are_fixed(tried, retuned,
     best = confirmed(Search(setting, retuned, wider, [retuned, *tried, wider]))
     assert effects_in(best) == plain
     assert fixed(best, setting) == []
+
+
+@pytest.fixture(scope='module')
+def leaking(retuned, setting):
+    """Return the lag explained by a leak, whose refill and venting are that lag."""
+    start = {'rate': 0.01, 'refill': 0.1, 'vent': 0.1}
+    known = extended(retuned.solution, setting.places['leak'], start, setting)
+    return setting.model(('leak',), settled(known, BUDGET.iterations))
+
+
+def test_a_simpler_effect_begins_with_what_it_has_in_common(leaking, tried, retuned, setting):
+    (lag,) = simplified(leaking, 'leak', setting)
+    assert lag.effects == ('pressure_lag',)
+    assert effects_in(lag) == {'effects.pressure_lag.fill', 'effects.pressure_lag.vent'}
+    assert lag.score < tried[0].score + 0.1
+    known = extended(retuned.solution, setting.places['leak'], {'rate': 0.01}, setting)
+    assert simplified(setting.model(('leak',), known), 'leak', setting) == []
+    assert simplified(lag, 'pressure_lag', setting) == []
+
+
+def test_a_broader_effect_is_simplified_with_finer_steps(leaking, tried, retuned, setting):
+    assert abs(leaking.score - tried[0].score) < CRITERIA.margin
+    best = confirmed(Search(setting, retuned, leaking, [retuned, *tried, leaking]))
+    assert best.effects == ('pressure_lag',)
 
 
 def effects_in(model):

@@ -13,10 +13,9 @@ from pam_ros.identification.data.parts import parts_of
 from pam_ros.identification.fit.solve import begun
 from pam_ros.identification.search import search as search_module
 from pam_ros.identification.search.criteria import BUDGET, CRITERIA
-from pam_ros.identification.search.moves import with_each
+from pam_ros.identification.search.moves import absent, with_each
 from pam_ros.identification.search.search import (
     Search,
-    absent,
     leading,
     plainer,
     search,
@@ -91,10 +90,25 @@ def test_a_simpler_effect_counts_by_its_best_fit(pool, monkeypatch):
     setting, leak = found.setting, with_more(found.best, found)
     (lag, *_) = with_each(found.retuned, ['pressure_lag'], setting)
     worse = [replace(found.retuned, effects=('pressure_lag',))]
+    monkeypatch.setattr(search_module, 'simplified', lambda *given: [])
     monkeypatch.setattr(search_module, 'swapped', lambda *given: (found.retuned, worse))
     monkeypatch.setattr(search_module, 'with_more', lambda model, found: model)
     assert plainer(leak, leak.effects, found) is leak
     found.looked_at.append(lag)
+    assert plainer(leak, leak.effects, found) is lag
+
+
+def test_additional_parameters_that_are_not_needed_do_not_save_a_broader_effect(
+    pool, monkeypatch
+):
+    """With them the free run of the simpler effect may be worse than without."""
+    found = found_in([bench_truth.free(effect('pressure_lag'), seed=21)], pool, name='leak')
+    setting, leak = found.setting, with_more(found.best, found)
+    (lag, *_) = with_each(found.retuned, ['pressure_lag'], setting)
+    worse = replace(lag, solution=replace(found.retuned.solution))
+    monkeypatch.setattr(search_module, 'simplified', lambda *given: [])
+    monkeypatch.setattr(search_module, 'swapped', lambda *given: (found.retuned, [lag]))
+    monkeypatch.setattr(search_module, 'with_more', lambda model, found: worse)
     assert plainer(leak, leak.effects, found) is lag
 
 

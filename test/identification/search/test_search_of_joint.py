@@ -11,8 +11,8 @@ from pam_ros.effects import PressureLag
 from pam_ros.identification.data.parts import parts_of
 from pam_ros.identification.fit.solve import solved
 from pam_ros.identification.search.criteria import BUDGET, CRITERIA
-from pam_ros.identification.search.moves import with_each
-from pam_ros.identification.search.search import Search, absent, joined
+from pam_ros.identification.search.moves import absent, with_each
+from pam_ros.identification.search.search import Search, joined
 from pam_ros.identification.search.setting import Setting
 from pam_ros.recording.recording import Recording
 from pam_ros.rig.joint import Actuator, Joint
