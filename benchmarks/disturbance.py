@@ -175,11 +175,11 @@ def print_others(seed: int) -> None:
 
     for name, make in LAWS.items():
         plant = truth('nominal', seed=seed)
-        run = hold(make, plant, None, end + 3.0, hand)
+        run = hold(make, plant, (), end + 3.0, hand)
         plant = truth('payload', seed=seed)
-        dropped = hold(make, plant, None, BEGIN + 4.0, dropping(plant))
+        dropped = hold(make, plant, (), BEGIN + 4.0, dropping(plant))
         plant = truth('nominal', seed=seed)
-        sagged = hold(make, plant, None, BEGIN + 10.0, sagging(plant))
+        sagged = hold(make, plant, (), BEGIN + 10.0, sagging(plant))
         rests = []
         for effects in ('nominal', lag(0.020, 0.028)):
             still = hold(make, truth(effects, seed=seed), (), 6.0, lambda t: 0.0)
