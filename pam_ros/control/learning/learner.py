@@ -282,8 +282,8 @@ class Learner:
             self._prefers_lag = False
         elif self._lagged_error < self._plain_error:
             self._prefers_lag = True
-            if max(self.lag) > tuning.every:
-                self._dropped_lag = None
+        if self._prefers_lag and max(self.lag) > tuning.every:
+            self._dropped_lag = None
         is_used = self._prefers_lag or self._share > 0.05 or self._lag_is_declared
         is_lost = self._plain_error < tuning.lost * self._lagged_error
         if is_lost and not is_used and self._moved - self._restarted > tuning.restart:

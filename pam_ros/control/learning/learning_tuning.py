@@ -24,13 +24,17 @@ class LearningTuning:
         1.0, 'N^2', 'variance of the missing force, of the fast observer with the noise'
     )
     forgotten: float = number(
-        0.01, '1/s', 'share of the prior variance a second: a muscle warms in minutes'
+        0.02,
+        '1/s',
+        'share of the prior variance a second: a muscle warms in minutes; with half as much, '
+        'control, friction, has errors 1.1 times as large',
     )
     early: float = number(
-        1.0,
+        0.3,
         '1/s',
         'the same of a lag in the beginning, whose sensitivities change with itself (Ljung & '
-        'Soderstrom 1983, section 5.5): pair_control, lag; twice as much is less repeatable',
+        'Soderstrom 1983, section 5.5): pair_control, lag, has errors 1.5 times as large without, '
+        'and control, all, with three times as much',
     )
     settled: float = number(
         2.0, 's', 'of motion in which that falls to 1/e: longer costs control, friction'

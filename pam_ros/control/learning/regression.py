@@ -1,6 +1,14 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Recursive least squares with a prior: a Kalman filter of parameters that hardly change."""
+"""Recursive least squares with a prior and bounds: a Kalman filter of almost constant parameters.
+
+Parameters that are estimated from a short motion are strongly correlated. If each were clamped to
+its bounds, the others would not follow, and the prediction would be wrong by more than without
+any parameter. Therefore the estimate without bounds is kept, and the parameters are its nearest
+point within the bounds in the metric of its covariance: the most likely ones there (Simon 2010,
+"Kalman filtering with state constraints", section 2.3). This quadratic programme is solved by
+Hildreth's method (1957), which begins with the last multipliers.
+"""
 
 from collections.abc import Sequence
 
@@ -10,6 +18,8 @@ from numpy.typing import NDArray
 from pam_ros.control.limits import clamp
 
 Array = NDArray[np.float64]
+SWEEPS = 20  # at most, over all parameters; the next sample goes on where they end
+CLOSE = 1e-3  # standard deviations: smaller changes of a parameter end the sweeps
 
 
 def dot(a: Sequence[float], b: Sequence[float]) -> float:
@@ -35,10 +45,13 @@ class Regression:
         self._noise = noise
         self.theta = [0.0] * len(spread)
         self.covariance = np.diag(self._prior)
+        self._free = np.zeros(len(spread))  # the estimate without bounds
+        self._multipliers = [0.0] * len(spread)
 
     def forget(self, parameter: int, value: float) -> None:
         """Let a *parameter* be *value*, with its prior, independent of the others."""
-        self.theta[parameter] = value
+        self.theta[parameter] = self._free[parameter] = value
+        self._multipliers[parameter] = 0.0
         self.covariance[parameter, :] = self.covariance[:, parameter] = 0.0
         self.covariance[parameter, parameter] = self._prior[parameter]
 
@@ -48,13 +61,34 @@ class Regression:
         *forgotten* is the share of the prior variance by which theta may have drifted since the
         last sample, one number for all or one for each parameter.
         """
-        direction = self.covariance @ np.array(phi)
-        gain = direction / (self._noise + dot(phi, direction.tolist()))
-        self.theta = [
-            clamp(old + each * error, low, high)
-            for old, each, (low, high) in zip(self.theta, gain.tolist(), self._bounds, strict=True)
-        ]
+        row = np.array(phi)
+        direction = self.covariance @ row
+        gain = direction / (self._noise + float(row @ direction))
+        self._free += gain * (error + float(row @ (np.array(self.theta) - self._free)))
         self.covariance -= gain[:, None] * direction
         # A view: functions that fill a diagonal take as long as all of the above.
         diagonal = self.covariance.reshape(-1)[:: len(phi) + 1]
         np.minimum(diagonal + forgotten * self._prior, self._prior, out=diagonal)
+        self.theta = self._within_bounds(diagonal.tolist())
+
+    def _within_bounds(self, variances: list[float]) -> list[float]:
+        """Return the most likely parameters within the bounds."""
+        multipliers = self._multipliers
+        near = self._free + self.covariance @ np.array(multipliers)
+        for _ in range(SWEEPS):
+            is_close = True
+            for n, ((low, high), variance) in enumerate(zip(self._bounds, variances, strict=True)):
+                if variance == 0.0:
+                    continue
+                alone = near[n] - multipliers[n] * variance
+                bound = min(max(alone, low), high)
+                change = (bound - alone) / variance - multipliers[n]
+                if change == 0.0:
+                    continue
+                multipliers[n] += change
+                near += change * self.covariance[n]
+                is_close = is_close and change * change * variance < CLOSE * CLOSE
+            if is_close:
+                break
+        pairs = zip(near.tolist(), self._bounds, strict=True)
+        return [clamp(value, low, high) for value, (low, high) in pairs]

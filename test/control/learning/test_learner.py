@@ -121,8 +121,8 @@ def test_of_all_at_once_enough_is_learned_within_bounds(kind):
         (ONE, 'hysteresis', 0.2),
         (ONE, 'lag', 0.2),
         (ONE, 'all', 0.2),
-        (PAIR, 'friction', 0.5),
-        (PAIR, 'all', 0.3),
+        (PAIR, 'friction', 0.4),
+        (PAIR, 'all', 0.4),
     ],
     ids=str,
 )
@@ -133,7 +133,7 @@ def test_what_was_learned_is_kept_when_control_starts_again(kind, plant, share):
     again = kind.close(law, kind.truth(plant, seed=6), kind.swing, 4.0)
     assert law.learned.weight > 0.3
     # The reference jumps to its speed at the start, which moves the load in any case.
-    after, before = (run.error[(run.t > 1.5) & (run.t <= 4.0)] for run in (again, first))
+    after, before = (run.error[(run.t > 0.5) & (run.t <= 1.5)] for run in (again, first))
     assert np.sqrt(np.mean(after**2)) < share * np.sqrt(np.mean(before**2))
 
 
@@ -148,13 +148,22 @@ def test_another_rig_after_a_start_is_learned_anew(kind):
 
 
 @pytest.mark.slow
-def test_a_lag_that_has_gone_is_dropped_and_later_forgotten():
+def test_a_lag_that_has_gone_is_not_used_any_more():
     law, _ = swung(ONE, 'lag')
+    run = ONE.close(law, ONE.truth('nominal', seed=6), ONE.swing, 6.0)
+    assert law.learned.weight < 0.05
+    assert rms(ONE, run, 1.0) < 0.02
+
+
+@pytest.mark.slow
+def test_a_lag_that_explains_too_little_is_dropped_and_later_forgotten():
+    """The friction of the other rig looks like the lag, until it is learned."""
+    law, _ = swung(PAIR, 'lag', 8.0)
     assert law.learned.dropped_lag is None
-    ONE.close(law, ONE.truth('nominal', seed=6), ONE.swing, 3.0)
+    PAIR.close(law, PAIR.truth('friction', seed=6), PAIR.swing, 8.0)
     after = law.learned
     assert max(after.dropped_lag) > 0.02 > max(after.lag)
-    ONE.close(law, ONE.truth('lag', seed=6), ONE.swing, 8.0)
+    PAIR.close(law, PAIR.truth('lag', seed=6), PAIR.swing, 8.0)
     assert law.learned.dropped_lag is None
     assert max(law.learned.lag) > 0.02
 

@@ -4,6 +4,7 @@
 
 import numpy as np
 import pytest
+from scipy.optimize import lsq_linear
 
 from pam_ros.control.learning.regression import Regression
 
@@ -27,6 +28,39 @@ def test_bounds_hold_and_no_spread_keeps_a_parameter():
     for _ in range(100):
         found.update(np.array([1.0, 1.0]), 5.0 - sum(found.theta), 0.0)
     assert found.theta == [1.0, 0.0]
+
+
+@pytest.mark.parametrize('seed', range(8))
+def test_within_bounds_it_is_the_regularised_batch_solution_within_bounds(seed):
+    """Also of parameters whose features are almost the same, as in the beginning of a motion."""
+    rng = np.random.default_rng(seed)
+    spread, noise = np.array([20.0, 20.0, 10.0, 100.0]), 0.25
+    low, high = np.array([0.0, 0.0, -5.0, -300.0]), np.array([60.0, 60.0, 30.0, 300.0])
+    found = Regression(spread, low, high, noise)
+    common = rng.normal(size=(300, 1))
+    phi = common + 0.05 * rng.normal(size=(300, 4))
+    true = np.append(-8.0, rng.uniform(-10.0, 10.0, 3))
+    y = phi @ true + rng.normal(size=300) * noise**0.5
+    for row, value in zip(phi, y, strict=True):
+        found.update(row, value - row @ found.theta, 0.0)
+    rows = np.vstack([phi / noise**0.5, np.diag(1.0 / spread)])
+    best = lsq_linear(rows, np.append(y / noise**0.5, np.zeros(4)), (low, high), tol=1e-14)
+    assert best.active_mask.any()
+    np.testing.assert_allclose(found.theta, best.x, atol=0.01)
+
+
+def test_bounds_of_some_parameters_do_not_spoil_the_prediction():
+    """The first parameter would be negative; those that are like it take its part."""
+    rng = np.random.default_rng(4)
+    low, high = np.zeros(3), np.full(3, 60.0)
+    found = Regression(np.full(3, 20.0), low, high, 1.0)
+    ramp = np.linspace(0.0, 1.0, 200)
+    phi = np.stack([ramp, ramp**1.1, ramp**1.2], axis=1)
+    errors = []
+    for row, noise in zip(phi, rng.normal(size=200), strict=True):
+        errors.append(float(row @ found.theta))  # nothing but noise is measured
+        found.update(row, noise - errors[-1], 1e-4)
+    assert max(map(abs, errors)) < 2.0
 
 
 def test_what_is_forgotten_can_be_learned_anew():

@@ -98,9 +98,7 @@ def test_a_simpler_effect_counts_by_its_best_fit(pool, monkeypatch):
     assert plainer(leak, leak.effects, found) is lag
 
 
-def test_additional_parameters_that_are_not_needed_do_not_save_a_broader_effect(
-    pool, monkeypatch
-):
+def test_additional_parameters_that_are_not_needed_do_not_save_a_broader_effect(pool, monkeypatch):
     """With them the free run of the simpler effect may be worse than without."""
     found = found_in([bench_truth.free(effect('pressure_lag'), seed=21)], pool, name='leak')
     setting, leak = found.setting, with_more(found.best, found)
