@@ -105,12 +105,15 @@ def search_since(setting: Setting, late: Setting, tell: Progress) -> Search:
     *late* is the setting in which all effects begin at one time, and *setting* is that in which
     they act from the start. An effect that acts from the start can also explain a model that fails
     in the middle, such as a load that meets an end stop there for the first time. If the effects
-    explain as much from the start, nothing has begun.
+    explain as much from the start, nothing has begun. This is compared without the cost of the
+    unknowns: the derivative by an onset between two commands may be 0, and its cost is unknown.
     """
     found = search(late, tell)
     best = found.best
-    if best.effects and _from_start(best, late).score > best.score + late.criteria.margin:
-        return found
+    if best.effects:
+        gain = _from_start(best, late).solution.cost - best.solution.cost
+        if gain > late.criteria.margin:
+            return found
     return search(setting, tell)
 
 
