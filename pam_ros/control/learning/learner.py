@@ -83,16 +83,14 @@ class Learner:
         self._wanted, self._actual = Features(features), Features(features)
         lags = (tuning.lag_spread,) * 2, (0.0, 0.0), (tuning.lag_high,) * 2
         priors = features.spreads, features.lows, features.highs
-        self._spread, self._low, self._high = (
-            np.array(a + b) for a, b in zip(priors, lags, strict=True)
-        )
+        spread, low, high = (np.array(a + b) for a, b in zip(priors, lags, strict=True))
         self.trust = 0.0
         self.lag = (0.0, 0.0)
         self.bandwidth = gains.bandwidth
-        plain, noise = self._spread.copy(), tuning.noise
+        plain, noise = spread.copy(), tuning.noise
         plain[_LAGS] = 0.0
-        self._plain = Regression(plain, self._low, self._high, noise)
-        self._lagged = Regression(self._spread, self._low, self._high, noise)
+        self._plain = Regression(plain, low, high, noise)
+        self._lagged = Regression(spread, low, high, noise)
         self._plain_error = self._lagged_error = self._whole = 1.0
         self._plain_miss = self._lagged_miss = 1.0
         self._moved = self._restarted = 0.0
@@ -298,9 +296,7 @@ class Learner:
         """Restart the hypothesis with a lag from the one without, with a lag of 0."""
         self._restarted = self._moved
         self._lagged_error = self._plain_error
-        self._lagged.theta = self._plain.theta.copy()
-        self._lagged.covariance = self._plain.covariance.copy()
-        self._lagged.covariance[_LAGS, _LAGS] = np.diag(self._spread[_LAGS] ** 2)
+        self._lagged.restart_from(self._plain, _LAGS)
         self._observer.disturbance += self._filter.stages[_FROM_LAW][2]
         stages = self._filter.stages
         pairs = zip(stages[_FROM_NO_LAG], stages[_FROM_LAW], strict=True)

@@ -55,6 +55,16 @@ class Regression:
         self.covariance[parameter, :] = self.covariance[:, parameter] = 0.0
         self.covariance[parameter, parameter] = self._prior[parameter]
 
+    def restart_from(self, other: 'Regression', parameters: slice) -> None:
+        """Go on from what *other* has found, with the prior of these *parameters*.
+
+        *other* keeps them at 0: its spread of them is 0.
+        """
+        self.theta, self._free = other.theta.copy(), other._free.copy()
+        self._multipliers = other._multipliers.copy()
+        self.covariance = other.covariance.copy()
+        self.covariance[parameters, parameters] = np.diag(self._prior[parameters])
+
     def update(self, phi: Sequence[float], error: float, forgotten: float | Array) -> None:
         """Take in a sample whose y was *error* above phi . theta.
 
@@ -81,8 +91,7 @@ class Regression:
                 if variance == 0.0:
                     continue
                 alone = near[n] - multipliers[n] * variance
-                bound = min(max(alone, low), high)
-                change = (bound - alone) / variance - multipliers[n]
+                change = (clamp(alone, low, high) - alone) / variance - multipliers[n]
                 if change == 0.0:
                     continue
                 multipliers[n] += change

@@ -134,6 +134,12 @@ def simplified(model: Model, name: str, setting: Setting) -> list[Model]:
     common. The other effects have been fitted beside this one: without it they would move far.
     """
     known, place = model.solution, setting.places[name]
+    starts = {
+        simple: in_common(known.problem, known.u, setting.joint, place, effect_of(simple))
+        for simple in contained(model, name, setting)
+    }
+    if not any(starts.values()):
+        return []
     less = _kept(known, *without_effect(known.problem, setting.joint, place))
     effects = tuple(one for one in model.effects if one != name)
 
@@ -142,11 +148,7 @@ def simplified(model: Model, name: str, setting: Setting) -> list[Model]:
         end = settled(wider, setting.budget.iterations, setting.pool)
         return setting.model((*effects, simple), end)
 
-    return [
-        fit(simple, start)
-        for simple in contained(model, name, setting)
-        if (start := in_common(known.problem, known.u, setting.joint, place, effect_of(simple)))
-    ]
+    return [fit(simple, start) for simple, start in starts.items() if start]
 
 
 def contained(model: Model, name: str, setting: Setting) -> list[str]:

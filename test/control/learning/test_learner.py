@@ -122,7 +122,7 @@ def test_of_all_at_once_enough_is_learned_within_bounds(kind):
         (ONE, 'lag', 0.2),
         (ONE, 'all', 0.2),
         (PAIR, 'friction', 0.4),
-        (PAIR, 'all', 0.4),
+        (PAIR, 'all', 0.3),
     ],
     ids=str,
 )

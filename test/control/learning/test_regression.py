@@ -83,3 +83,25 @@ def test_one_parameter_is_forgotten_and_the_others_are_kept():
     found.forget(1, 5.0)
     assert found.theta == [known, 5.0]
     np.testing.assert_array_equal(found.covariance, np.diag([variance, 9.0]))
+
+
+def test_it_goes_on_from_what_another_one_has_found():
+    """The same samples move both alike, where the parameter that only one has is not seen."""
+    rng = np.random.default_rng(3)
+    low, high, spread = np.array([0.0, -9.0, -9.0]), np.full(3, 9.0), np.array([4.0, 4.0, 0.0])
+    known = Regression(spread, low, high, 0.1)
+    found = Regression(np.full(3, 4.0), low, high, 0.1)
+
+    def sample(one, row):
+        one.update(row, row @ [-2.0, 1.0, 0.0] - row @ one.theta, 0.0)
+
+    for row in rng.normal(size=(40, 3)):
+        sample(known, row * [1.0, 1.0, 0.0])
+        sample(found, 5.0 * row)
+    found.restart_from(known, slice(2, 3))
+    assert found.theta == known.theta
+    for row in rng.normal(size=(5, 3)):
+        sample(known, row * [1.0, 1.0, 0.0])
+        sample(found, row * [1.0, 1.0, 0.0])
+    np.testing.assert_allclose(found.theta, known.theta, atol=1e-9)
+    assert found.covariance[2, 2] == 16.0
