@@ -140,7 +140,7 @@ class SlidingMode:
     def set_gains(self, gains: Gains) -> None:
         """Continue from the present state with other gains; ParameterError as for a new law."""
         gains.require(turning=self.joint.is_revolute)
-        self.gains = self._learner.gains = self._rejection.gains = gains
+        self.gains = self._learner.growth.gains = self._rejection.gains = gains
         for path in self._paths:
             path.quickest = gains.pressure_time
         self._standstill.tolerance = gains.rest_tolerance
@@ -192,7 +192,7 @@ class SlidingMode:
         self.sharing.start()
         self._waited = 0.0  # since the last measurement, s
         self._offset = 0.0 if self.gains.observer else disturbance
-        self._lost, self._may_learn = 0.0, False
+        self._lost = 0.0
         self.terms = Terms(reference=position, position=position)
         self._note(self._commands, chambers)
 
@@ -261,7 +261,8 @@ class SlidingMode:
         chambers = self._chambers
         if self.gains.learning:
             inflows, losses = [path.inflow for path in paths], self._losses.effort
-            self._learner.go_on(dt, inflows, chambers, losses, may_learn=self._may_learn)
+            moves, cut = self._standstill.is_moving, self.terms.cut
+            self._learner.go_on(dt, inflows, chambers, losses, moves=moves, cut=cut)
         self._stiffness.follow(dt)
         return chambers
 
@@ -277,7 +278,7 @@ class SlidingMode:
             error = reference.position - position
         self._standstill.see_error(dt, error, self._standstill.moves(reference))
         scale = gains.rest_factor + (1.0 - gains.rest_factor) * self._standstill.factor
-        growth = learner.bandwidth / gains.bandwidth if gains.learning else 1.0
+        growth = learner.growth.bandwidth / gains.bandwidth if gains.learning else 1.0
         scale *= growth
         rejection = self._rejection
         stiffens = self.sharing.can_stiffen and self._stiffness.is_moving
@@ -296,7 +297,7 @@ class SlidingMode:
             self._waited = 0.0
         self._seen = observer.position if position is None else position
         if gains.learning:
-            learner.see(dt, waited, position)
+            learner.see(dt, waited, position, reference.position, rejection.least)
 
     def _wanted_effort(
         self, dt: float, reference: Reference, velocity: float | None, chambers: Pressures
@@ -390,4 +391,3 @@ class SlidingMode:
         if self._pushed is None:
             self._surface.integrate(growth, cut)
         standstill.see_force(dt, effort, self._seen, self._k)
-        self._may_learn = standstill.is_moving and cut == 0.0

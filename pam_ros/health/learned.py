@@ -31,15 +31,22 @@ def learning(learned: Learned | None, unit: str) -> Health:
         f'additional stiffness ({stiffness})': learned.stiffness,
         'lag while filling (s)': None if learned.lag is None else learned.lag[0],
         'lag while venting (s)': None if learned.lag is None else learned.lag[1],
+        'restarts': learned.restarts,
     }
     return Health(Level.OK, '; '.join(_sentences(learned)), values)
 
 
 def _sentences(learned: Learned) -> list[str]:
-    if learned.motion == 0.0:
-        return ['has learned nothing: the load has not moved yet']
     found = []
-    if learned.weight > USED:
+    if learned.restarts:
+        times = 'once' if learned.restarts == 1 else f'{learned.restarts} times'
+        found.append(
+            f'everything learned was forgotten {times}: the command oscillated between its limits'
+        )
+    if learned.motion == 0.0:
+        since = 'since then' if learned.restarts else 'yet'
+        found.append(f'has learned nothing: the load has not moved {since}')
+    elif learned.weight > USED:
         found.append('compensates what was learned')
     elif learned.missing < LITTLE * learned.noise:
         found.append('the nominal model lacks no force that changes with the motion')

@@ -21,6 +21,7 @@ FRICTION = Learned(
     stiffness=-20.0,
     lag=(0.0, 0.0),
     dropped_lag=None,
+    restarts=0,
 )
 
 
@@ -42,6 +43,16 @@ FRICTION = Learned(
             {'dropped_lag': (0.048, 0.07)},
             'compensates what was learned; a learned lag of 48 ms (filling) and 70 ms (venting) '
             'is not used any more: the motion is predicted better without it',
+        ),
+        (
+            {'restarts': 1},
+            'everything learned was forgotten once: the command oscillated between its limits; '
+            'compensates what was learned',
+        ),
+        (
+            {'motion': 0.0, 'restarts': 2},
+            'everything learned was forgotten 2 times: the command oscillated between its limits; '
+            'has learned nothing: the load has not moved since then',
         ),
     ],
 )

@@ -34,6 +34,8 @@ class Learned:
         0 where the motion is predicted better without a lag. None if a lag is configured
     dropped_lag
         the lag that was used before and is used no more, None if there is none
+    restarts
+        how often everything was forgotten because the command oscillated between its limits
     """
 
     motion: float
@@ -46,3 +48,4 @@ class Learned:
     stiffness: float
     lag: tuple[float, float] | None
     dropped_lag: tuple[float, float] | None
+    restarts: int

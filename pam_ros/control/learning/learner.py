@@ -11,7 +11,8 @@ that it explains. Nothing is used before the load has moved for a while.
 
 The learned force acts as a feed-forward along the reference. It is bounded, and since only the
 reference drives it, it cannot destabilise the loop. A learned lag is inverted; if the lag is
-found to be short, the bandwidth grows.
+found to be short, the bandwidth grows (:mod:`.growth`). An oscillation between the limits of the
+command (:mod:`.limit_cycle`) ends the use of everything that was learned; learning begins again.
 """
 
 from math import exp
@@ -22,8 +23,10 @@ from pam_ros.control.gains import Gains
 from pam_ros.control.learning import features as beside
 from pam_ros.control.learning.cascade import Cascade
 from pam_ros.control.learning.features import Features, FeatureTuning
+from pam_ros.control.learning.growth import Growth
 from pam_ros.control.learning.learned import Learned
 from pam_ros.control.learning.learning_tuning import LearningTuning
+from pam_ros.control.learning.limit_cycle import LimitCycle
 from pam_ros.control.learning.regression import Regression, dot
 from pam_ros.control.model import ControlModel, Pressures
 from pam_ros.control.observer import Observer
@@ -59,8 +62,8 @@ class Learner:
         0 to 1: the weight with which the learned parameters are used
     lag
         (fill, vent) in s: the lag to be inverted, if no lag is configured
-    bandwidth
-        1/s: the bandwidth that the lag allows, between the two bandwidths of the gains
+    growth
+        the bandwidth that the lag allows
 
     For a revolute joint, read rad for m, and N m for N. All muscles of a joint are assumed to
     have the same lag.
@@ -76,7 +79,7 @@ class Learner:
         lag_is_declared: bool,
     ) -> None:
         """Start without learned parameters; *tuning* and *features* are in the joint's units."""
-        self._model, self.gains = model, gains
+        self._model = model
         self._tuning, self._features = tuning, features
         self._lag_is_declared = lag_is_declared
         self._observer = Observer(self._model)
@@ -84,20 +87,28 @@ class Learner:
         lags = (tuning.lag_spread,) * 2, (0.0, 0.0), (tuning.lag_high,) * 2
         priors = features.spreads, features.lows, features.highs
         spread, low, high = (np.array(a + b) for a, b in zip(priors, lags, strict=True))
-        self.trust = 0.0
-        self.lag = (0.0, 0.0)
-        self.bandwidth = gains.bandwidth
-        plain, noise = spread.copy(), tuning.noise
+        self._priors = spread, low, high
+        self.growth = Growth(gains, tuning)
+        self._limit_cycle = LimitCycle(tuning)
+        self._restarts = 0
+        self._begin()
+        self.start(0.0, [0.0] * len(self._model.muscles), 0.0)
+
+    def _begin(self) -> None:
+        """Begin without anything learned."""
+        spread, low, high = self._priors
+        plain, noise = spread.copy(), self._tuning.noise
         plain[_LAGS] = 0.0
         self._plain = Regression(plain, low, high, noise)
         self._lagged = Regression(spread, low, high, noise)
+        self.trust = 0.0
+        self.lag = (0.0, 0.0)
         self._plain_error = self._lagged_error = self._whole = 1.0
         self._plain_miss = self._lagged_miss = 1.0
         self._moved = self._restarted = 0.0
         self._prefers_lag = False
         self._dropped_lag: tuple[float, float] | None = None
-        self._share = self._explained = 0.0
-        self.start(0.0, [0.0] * len(self._model.muscles), 0.0)
+        self._share = self._explained = self._known = 0.0
 
     def start(self, position: float, pressures: Pressures, disturbance: float) -> None:
         """Start again: the load rests at *position*, the chambers are at *pressures* Pa.
@@ -123,6 +134,14 @@ class Learner:
         self._input = [0.0] * _COLUMNS
         self._centre, self._has_learned = 0.0, False
         self._waited = self._doubt = 0.0
+        self.growth.start()
+        self._limit_cycle.start()
+
+    def _forget(self) -> None:
+        """Begin again without anything learned, from the present state."""
+        self._begin()
+        self._restarts += 1
+        self.start(self._observer.position, self._declared, self._observer.disturbance)
 
     @property
     def learned(self) -> Learned:
@@ -140,6 +159,7 @@ class Learner:
             stiffness=weights[beside.STRETCH] / stroke,
             lag=None if self._lag_is_declared else (fill, vent),
             dropped_lag=self._dropped_lag,
+            restarts=self._restarts,
         )
 
     @property
@@ -156,7 +176,8 @@ class Learner:
         self._input[_LAGGED] = dot(values, self._lagged.theta)
         self._share += dt / self._tuning.blend * (self._prefers_lag - self._share)
         force, rate = self._learned_force()
-        self._let_grow(dt)
+        explained = 0.0 if self._lag_is_declared else self.trust
+        self.growth.follow(dt, max(self._lagged.theta[_LAGS]), explained, self._known)
         if abs(force) > most:
             return (most if force > 0.0 else -most), 0.0
         return force, rate
@@ -176,35 +197,44 @@ class Learner:
         self.lag = (used * weights[_FILL], used * weights[_VENT])
         return force, rate
 
-    def _let_grow(self, dt: float) -> None:
-        """Let the bandwidth approach the one that the lag allows."""
-        low, high = self.gains.bandwidth, self.gains.fast_bandwidth
-        wanted = low
-        if self.trust > 0.0 and not self._lag_is_declared:
-            lag = max(self._lagged.theta[_LAGS])
-            decay = (
-                self.trust * max(self._tuning.margin * lag, 1.0 / high) + (1.0 - self.trust) / low
-            )
-            wanted = min(max(1.0 / decay, low), high)
-        self.bandwidth += dt / self._tuning.grow * (wanted - self.bandwidth)
+    def see(
+        self,
+        dt: float,
+        waited: float,
+        position: float | None,
+        reference: float,
+        negligible: float,
+    ) -> None:
+        """Take in a measured *position*, if any; the previous one came *waited* s before.
 
-    def see(self, dt: float, waited: float, position: float | None) -> None:
-        """Take in a measured *position*, if any; the previous one came *waited* s before."""
-        if position is not None:
-            self._observer.correct(position, waited, self._tuning.fast, self._tuning.fast)
+        *negligible* is the error to the *reference* below which no faster loop is needed.
+        """
         observer = self._observer
+        if position is not None:
+            observer.correct(position, waited, self._tuning.fast, self._tuning.fast)
+        self.growth.see(dt, reference - observer.position, negligible)
         self._input[:_N] = self._actual.follow(dt, observer.position, observer.velocity)
 
     def go_on(
-        self, dt: float, inflows: Pressures, declared: Pressures, losses: float, *, may_learn: bool
+        self,
+        dt: float,
+        inflows: Pressures,
+        declared: Pressures,
+        losses: float,
+        *,
+        moves: bool,
+        cut: float,
     ) -> None:
         """Advance by *dt* s with *inflows* Pa at the inlets of the chambers.
 
         *declared* are the pressures in Pa of the nominal chambers. *losses* is the effort that
-        configured effects take along the reference: it is not learned again.
+        configured effects take along the reference: it is not learned again. The law learns while
+        the load *moves* and the limits of pressure have *cut* nothing from the wanted effort.
         """
         self._filter.follow(dt, self._tuning.fast, self._input)
-        if may_learn:
+        if self._limit_cycle.see(dt, cut) and self._moved > 0.0:
+            self._forget()
+        if moves and cut == 0.0:
             self._moved += dt
             self._waited += dt
             if self._waited >= self._tuning.every - 1e-9:
@@ -291,6 +321,9 @@ class Learner:
         practice = 1.0 - exp(-((self._moved / tuning.convinced) ** 2))
         self._explained = max(explained, 0.0)
         self.trust = min(1.25 * self._explained, 1.0) * practice
+        # Errors above the assumed noise make the lag less certain.
+        excess = max(self._lagged_error / tuning.noise, 1.0)
+        self._known = max(1.0 - excess * self._lagged.uncertainty(_LAGS), 0.0) * practice
 
     def _restart_lagged(self) -> None:
         """Restart the hypothesis with a lag from the one without, with a lag of 0."""

@@ -56,4 +56,11 @@ class LearningTuning:
     margin: float = number(
         3.0, '', 'times a lag that make a decay time: a phase margin of some 60 degrees'
     )
+    cut: float = number(0.02, 's', 'filter of the side on which the command is cut: ten samples')
+    unstable: float = number(
+        0.15,
+        '',
+        'share of a second for which the command is cut on either side in an oscillation: it has '
+        'a quarter to a third; a step has none on one of the sides',
+    )
     most: float = number(200.0, 'N', 'that is fed forward at most: the disturbance bound')

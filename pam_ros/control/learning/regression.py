@@ -65,6 +65,11 @@ class Regression:
         self.covariance = other.covariance.copy()
         self.covariance[parameters, parameters] = np.diag(self._prior[parameters])
 
+    def uncertainty(self, parameters: slice) -> float:
+        """Return the share of the prior variance that is left, of the least certain of these."""
+        variances = np.diagonal(self.covariance)[parameters]
+        return float(np.max(variances / self._prior[parameters]))
+
     def update(self, phi: Sequence[float], error: float, forgotten: float | Array) -> None:
         """Take in a sample whose y was *error* above phi . theta.
 

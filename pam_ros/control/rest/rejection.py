@@ -120,6 +120,12 @@ class Rejection:
         """The standard deviation of the measured positions, estimated at rest and in motion."""
         return sqrt(self._variance)
 
+    @property
+    def least(self) -> float:
+        """The least error that counts as a disturbance of the load."""
+        tuning = self._tuning
+        return max(tuning.tolerances * self.gains.rest_tolerance, tuning.noises * self.noise)
+
     def between(self, calm: float, full: float) -> float:
         """Return the value at this level between *calm* at 0 and *full* at 1, logarithmically."""
         return calm if self.level == 0.0 else calm * (full / calm) ** self.level
@@ -139,8 +145,7 @@ class Rejection:
         if moves or not self.gains.rejection:
             self._begin_rest()
             return
-        # The least error that counts as a disturbance of the load.
-        least = max(tuning.tolerances * self.gains.rest_tolerance, tuning.noises * self.noise)
+        least = self.least
         if self._seen < tuning.known:
             return
         if not self._acts:

@@ -11,6 +11,7 @@ from pam_ros.control.sliding_mode import SlidingMode
 from pam_ros.effects import CoulombFriction
 from support.closed_loop import LAG, step_target
 from support.kinds import EACH_KIND, ONE, PAIR, rms
+from truth.effects import effect
 
 pytestmark = pytest.mark.needs_numba
 
@@ -30,8 +31,8 @@ def test_nothing_is_learned_where_nothing_is_missing(kind):
     assert law.learned.weight == 0.0
     assert np.all(run.terms['learned'] == 0.0)
     assert rms(kind, run) < 0.02
-    without = swung(kind, 'nominal', 8.0, learning=False)[1]
-    assert run.pressure.tobytes() == without.pressure.tobytes()
+    # Nor does the loop become faster: the error does not ask for it.
+    assert run.terms['bandwidth'][-1] == pytest.approx(law.gains.bandwidth, rel=0.05)
 
 
 @pytest.mark.slow
@@ -102,7 +103,10 @@ def test_declared_friction_is_not_learned_again():
     friction = [CoulombFriction(level=15.0, breakaway=25.0, stribeck_speed=0.01)]
     _, run = swung(ONE, 'friction', effects=friction)
     assert np.max(np.abs(run.terms['learned'][run.last(6.0)])) < 5.0
-    assert rms(ONE, run) < 0.55
+    # The motion has shown that the pressure follows fast, so that the loop is fast, too.
+    assert run.terms['bandwidth'][-1] > 30.0
+    _, learned = swung(ONE, 'friction')
+    assert rms(ONE, run) < rms(ONE, learned) < 0.15
 
 
 @pytest.mark.slow
@@ -180,3 +184,15 @@ def test_another_load_after_a_start_is_no_friction():
     run = ONE.close(law, ONE.truth('nominal', seed=6), ONE.swing, 6.0)
     assert np.max(np.abs(run.terms['learned'])) < 3.0
     assert rms(ONE, run) < 0.02
+
+
+@pytest.mark.slow
+def test_a_loop_that_a_sudden_dead_time_makes_unstable_forgets_and_comes_to_rest():
+    """What was learned before lets the loop be too fast; the command goes from limit to limit."""
+    law, _ = swung(ONE, 'friction')
+    assert law.learned.restarts == 0
+    late = (effect('dead_time', dead_time_s=0.04),)
+    run = ONE.close(law, ONE.truth(late, seed=6), ONE.step, 8.0)
+    assert (np.min(run.pressure), np.max(run.pressure)) == (0.0, 600e3)
+    assert law.learned.restarts == 1
+    assert np.max(np.abs(run.error[run.last(2.0)])) < law.gains.rest_tolerance

@@ -105,3 +105,20 @@ def test_it_goes_on_from_what_another_one_has_found():
         sample(found, row * [1.0, 1.0, 0.0])
     np.testing.assert_allclose(found.theta, known.theta, atol=1e-9)
     assert found.covariance[2, 2] == 16.0
+
+
+def test_what_is_left_of_the_prior_variance_is_that_of_the_least_certain_parameter():
+    """Y = a alone says nothing of b; a and b in turn say the same of both."""
+    spread = np.array([2.0, 5.0, 0.1])
+    found = Regression(spread, np.full(3, -9.0), np.full(3, 9.0), noise=0.5)
+    both = slice(0, 2)
+    assert found.uncertainty(both) == 1.0
+    for _ in range(10):
+        found.update((1.0, 0.0, 0.0), 0.0, 0.0)
+    assert found.uncertainty(both) == 1.0
+    of_a = found.uncertainty(slice(0, 1))
+    assert of_a == pytest.approx(1.0 / (1.0 + 10.0 * 4.0 / 0.5))  # of a normal prior
+    for _ in range(10):
+        found.update((0.0, 1.0, 0.0), 0.0, 0.0)
+    assert found.uncertainty(both) == pytest.approx(of_a)
+    assert found.uncertainty(slice(2, 3)) == 1.0
