@@ -27,6 +27,7 @@ from support import closed_loop, pair_loop
 from support.bench import cart
 from support.joint_loop import JOINTS
 from support.joint_models import pair
+from truth.effects import effect
 
 DT = 2e-3
 DEGREE = math.radians(1.0)
@@ -284,3 +285,25 @@ def test_an_effect_that_begins_later_is_not_known_to_the_law(law):
     )
     assert plain == later
     assert plain != loaded
+
+
+@pytest.mark.parametrize('law', [SlidingMode, Pid])
+@pytest.mark.parametrize(('beyond', 'gap'), [(0.03, 0.03), (0.03, 0.01)])
+def test_the_load_leaves_a_stop_that_is_not_configured_when_the_reference_goes_back(
+    law, beyond, gap
+):
+    """The stop has some 1e6 N/m and loses no energy; the reference jumps without shaping."""
+    rest = closed_loop.truth('nominal').y
+    stop = (effect('end_stop', stop_m=rest + gap, stop_n_m15=3e7, stop_s_m=0.0),)
+    plant = closed_loop.truth(stop, seed=1)
+    law = law(closed_loop.declared())
+    law.start(plant.y, (plant.state.u,))
+    measured, errors, reached = plant.measure(), [], 0.0
+    for n in range(4000):
+        goal = rest + (gap + beyond if 500 <= n < 2000 else 0.0)
+        (pressure,) = law.update(DT, Reference(goal), measured)
+        measured = plant.step(pressure, DT, 0.0)
+        reached = max(reached, plant.y)
+        errors.append(goal - plant.y)
+    assert reached > rest + gap  # it was in the stop
+    assert np.max(np.abs(errors[2750:])) < 2e-4  # 1.5 s later it has left the stop and rests
