@@ -28,15 +28,15 @@ from truth import TruthPlant
 from truth.control_plants import FEEDBACK_NOISE as NOISE
 
 FRICTION = (CoulombFriction(level=15.0, breakaway=25.0, stribeck_speed=0.01),)
-# Plant, what is declared of it; largest error at rest and RMS of the sine, mm.
+# Plant, what is configured of it; largest error at rest and RMS of the sine, mm.
 ROWS = {
     'nominal': ('nominal', (), 0.01, 0.02),
     'payload +5 kg': ('payload', (), 0.01, 0.02),
     'hysteresis 40 N': ('hysteresis', (), 0.03, 0.15),
     'friction 15/25 N': ('friction', (), 0.03, 0.15),
-    'friction, declared': ('friction', FRICTION, 0.03, 0.15),
+    'friction, configured': ('friction', FRICTION, 0.03, 0.15),
     'valve lag 50/70 ms': ('lag', (), 0.03, 0.25),
-    'valve lag, declared': ('lag', LAG, 0.01, 0.05),
+    'valve lag, configured': ('lag', LAG, 0.01, 0.05),
     'all, and 10 ms dead time': ('all', (), 0.06, 0.6),
 }
 LAWS = {'sliding mode': SlidingMode, 'PID': Pid}

@@ -288,10 +288,8 @@ def test_an_effect_that_begins_later_is_not_known_to_the_law(law):
 
 
 @pytest.mark.parametrize('law', [SlidingMode, Pid])
-@pytest.mark.parametrize(('beyond', 'gap'), [(0.03, 0.03), (0.03, 0.01)])
-def test_the_load_leaves_a_stop_that_is_not_configured_when_the_reference_goes_back(
-    law, beyond, gap
-):
+@pytest.mark.parametrize('gap', [0.03, 0.01])
+def test_the_load_leaves_a_stop_that_is_not_configured_when_the_reference_goes_back(law, gap):
     """The stop has some 1e6 N/m and loses no energy; the reference jumps without shaping."""
     rest = closed_loop.truth('nominal').y
     stop = (effect('end_stop', stop_m=rest + gap, stop_n_m15=3e7, stop_s_m=0.0),)
@@ -300,7 +298,7 @@ def test_the_load_leaves_a_stop_that_is_not_configured_when_the_reference_goes_b
     law.start(plant.y, (plant.state.u,))
     measured, errors, reached = plant.measure(), [], 0.0
     for n in range(4000):
-        goal = rest + (gap + beyond if 500 <= n < 2000 else 0.0)
+        goal = rest + (gap + 0.03 if 500 <= n < 2000 else 0.0)
         (pressure,) = law.update(DT, Reference(goal), measured)
         measured = plant.step(pressure, DT, 0.0)
         reached = max(reached, plant.y)

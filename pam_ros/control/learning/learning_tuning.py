@@ -61,6 +61,6 @@ class LearningTuning:
         0.15,
         '',
         'share of a second for which the command is cut on either side in an oscillation: it has '
-        'a quarter to a third; a step has none on one of the sides',
+        'a quarter to a third, and a step that is cut for 0.15 s at both ends has less',
     )
     most: float = number(200.0, 'N', 'that is fed forward at most: the disturbance bound')
