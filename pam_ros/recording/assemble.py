@@ -112,17 +112,17 @@ def _ascending(
     kept = {}
     for quantity, one in series.items():
         refuse_backwards(one.t, f'{name}: time of {one.source}')
-        share = f'{one.shared} of {one.t.size} samples of {one.source} share their time with'
+        share = f'of {one.t.size} samples of {one.source} share their time with'
         if one.is_coarse and quantity != 'pressure_command':
             if quantity in needed:
                 raise RecordingError(
-                    f'{name}: {share} the one before: the clock is too coarse (are milliseconds '
-                    'given as seconds, or digits cut off?)'
+                    f'{name}: {one.shared} {share} the one before: the clock is too coarse (are '
+                    'milliseconds given as seconds, or digits cut off?)'
                 )
-            notes.append(f'{share} the one before: it is not used')
+            notes.append(f'{one.shared} {share} the one before: it is not used')
             continue
-        if one.shared:
-            notes.append(f'{share} another: the last is kept')
+        if one.contradictory:
+            notes.append(f'{one.contradictory} {share} another: the last is kept')
         kept[quantity] = one.ascending()
     return kept
 

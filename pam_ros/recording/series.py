@@ -77,6 +77,16 @@ class Series:
         return int(np.count_nonzero(np.diff(self.t) == 0.0))
 
     @property
+    def contradictory(self) -> int:
+        """Return how many samples have the time of the one before, and another value.
+
+        A message that is published again while time stands still has the same value.
+        """
+        values = self.value.reshape(self.t.size, -1)
+        differs = (values[1:] != values[:-1]).any(axis=1)
+        return int(np.count_nonzero(differs & (np.diff(self.t) == 0.0)))
+
+    @property
     def is_coarse(self) -> bool:
         """Return whether so many share their time that the clock must be too coarse."""
         return self.shared > max(COARSE * self.t.size, 2)
