@@ -2,9 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """The simulated time at which a message was sent, as soon as it is known."""
 
+from array import array
 from bisect import bisect_right
 
-KEPT = 4096  # times that are kept, at least
+# Times that are kept, at least: a recorder that was delayed reads all of them before the messages
+# that were sent between them. Faster than real time there are thousands in a second.
+KEPT = 200_000
 
 
 class SimulatedTime:
@@ -16,8 +19,13 @@ class SimulatedTime:
 
     def __init__(self) -> None:
         """Start without any known time."""
-        self._sent: list[int] = []
-        self._time: list[int] = []
+        self._sent = array('q')
+        self._time = array('q')
+
+    @property
+    def newest(self) -> int | None:
+        """When the last known time was sent, None before the first one."""
+        return self._sent[-1] if self._sent else None
 
     def tell(self, sent: int, time: int) -> None:
         """Add a *time* of ``/clock`` that was sent at *sent*; one out of order is ignored."""

@@ -2,8 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """``pam_excite`` and ``pam_record`` beside a simulator that makes the time."""
 
+import signal
+
 import numpy as np
 import pytest
+from sensor_msgs.msg import JointState
 
 from pam_ros.excitation.programme import programme
 from pam_ros.excitation.settings import Excitation
@@ -12,9 +15,11 @@ from support.harness import DEADLINE, Peer, Program, lose_nothing
 
 pytestmark = pytest.mark.usefixtures('module_domain')
 
-RATE, CLOCK_RATE = 200.0, 100.0  # Hz of states and of /clock
+RATE = 200.0  # Hz of states
+CLOCK_RATES = {'scaled': 100.0, 'lockstep': RATE}  # Hz of /clock
 PLAN = {'duration': 30.0, 'pressure_min': 150e3, 'pressure_max': 400e3}
 DURATION = PLAN['duration']  # s
+MIDDLE = 21 * 10**9  # ns
 # A busy machine may keep the rig quiet for a while, and time goes faster than on the wall.
 EXCITATION = {**PLAN, 'use_sim_time': True, 'countdown': 0.5, 'silence': 10.0}
 # After such a pause two steps of the pressure can become one, with a larger overshoot.
@@ -29,13 +34,22 @@ def stamp(message):
     return message.header.stamp.sec * 10**9 + message.header.stamp.nanosec
 
 
-def play(peer, bag, mode):
-    """Excite and record a simulated rig; return what is in the bag, by topic."""
-    rig = {**FASTER[mode], 'publish_rate': RATE, 'clock_rate': CLOCK_RATE, **lose_nothing()}
+def play(peer, bag, mode, *, is_delayed=False):
+    """Excite and record a simulated rig; return what is in the bag, by topic.
+
+    If *is_delayed*, the recorder does not run from the middle to the end of the programme.
+    """
+    rig = {**FASTER[mode], 'publish_rate': RATE, 'clock_rate': CLOCK_RATES[mode], **lose_nothing()}
     recorder = ('-p', 'use_sim_time:=true', '--', '-o', str(bag))
     with Program('pam_sim', parameters=rig), Program('pam_record', *recorder) as record:
         peer.until(lambda: peer.node.count_subscribers('joint_states'), 'the recorder')
         with Program('pam_excite', parameters=EXCITATION) as excite:
+            if is_delayed:
+                states = peer.collect(JointState, 'joint_states')
+                peer.until(lambda: states and stamp(states[-1]) > MIDDLE, 'the middle')
+                record.interrupt(signal.SIGSTOP)
+                peer.until(lambda: 'vented' in excite.output, 'the end')
+                record.interrupt(signal.SIGCONT)
             assert excite.process.wait(2.0 * DEADLINE) == 0, excite.output
             assert f'played {DURATION:.1f} s, vented' in excite.output
         record.stop()
@@ -54,7 +68,13 @@ def test_what_is_recorded_has_the_time_of_its_sending(bags, mode):
     bag = bags[mode]
     late = np.array([time - stamp(message) for time, message in bag['/joint_states']]) * 1e-9
     assert len(late) > 0.9 * DURATION * RATE
-    periods = np.abs(late) * CLOCK_RATE
+    if mode == 'lockstep':
+        # Time stands still until the command: /clock says when it moves on.
+        assert not late.any()
+        stamps = {stamp(message) for _, message in bag['/joint_states']}
+        assert {time for time, _ in bag['/pressure_command']} <= stamps
+        return
+    periods = np.abs(late) * CLOCK_RATES[mode]
     # It lies between two messages of /clock, unless a busy machine has lost one of these.
     assert np.quantile(periods, 0.95) <= 1.001, np.quantile(periods, (0.9, 0.95, 0.99, 1.0))
 
@@ -75,7 +95,7 @@ def test_each_state_is_answered_and_the_programme_is_played_in_its_time(bags, mo
     plan = programme(Excitation(**PLAN))
     expected = np.interp(times - begin, plan.t, plan.pressure)
     off = np.abs(values - expected)
-    slack = 3.0 / CLOCK_RATE * Excitation().pressure_rate  # Pa
+    slack = 3.0 / CLOCK_RATES[mode] * Excitation().pressure_rate  # Pa
     # In lockstep always; else commands are as late as the machine is, and the faster time goes.
     assert (np.max(off) if mode == 'lockstep' else np.median(off)) < slack
     assert values.max() == pytest.approx(plan.pressure.max(), rel=0.02)
@@ -91,3 +111,12 @@ def test_in_lockstep_the_rig_moves_the_same_each_time(bags, peer, tmp_path):
     assert len(both) > 0.9 * DURATION * RATE
     assert [runs[0][t] for t in both] == [runs[1][t] for t in both]
     assert np.ptp(list(runs[0].values())) > 0.02
+
+
+def test_a_recorder_that_is_delayed_has_each_command_at_its_time(bags, peer, tmp_path):
+    delayed = play(peer, tmp_path / 'delayed', 'lockstep', is_delayed=True)
+    runs = [
+        [(time, message.data) for time, message in bag['/pressure_command']]
+        for bag in (bags['lockstep'], delayed)
+    ]
+    assert runs[0] == runs[1]

@@ -31,6 +31,14 @@ def test_after_the_last_time_it_is_not_known_yet(five_times_as_fast):
     assert five_times_as_fast.at(late) == SECOND + 30_500_000
 
 
+def test_the_newest_time_is_the_one_that_was_sent_last():
+    time = SimulatedTime()
+    assert time.newest is None
+    time.tell(20, 500)
+    time.tell(10, 900)
+    assert time.newest == 20
+
+
 def test_before_the_first_time_it_is_the_first(five_times_as_fast):
     assert five_times_as_fast.at(99 * SECOND) == SECOND
     assert five_times_as_fast.before(99 * SECOND) == 0

@@ -4,6 +4,7 @@
 
 from math import ceil
 
+from rclpy.node import Node
 from rclpy.qos_overriding_options import QoSOverridingOptions
 
 DEPTH = 10
@@ -12,11 +13,22 @@ DEPTH = 10
 # which is delayed by this, takes them. To send them again takes up to another second
 # (benchmarks.soak).
 KEPT = 2.0
+# Messages that each program can send again if time is simulated. It can pass faster than on the
+# wall: then some thousands are published while a recorder is delayed for a second.
+KEPT_SIMULATED = 5000
 
 
-def states_depth(rate: float) -> int:
-    """Return how many states a publisher keeps that publishes them at *rate* in Hz."""
-    return max(DEPTH, ceil(KEPT * rate))
+def states_depth(rate: float, *, is_simulated: bool) -> int:
+    """Return how many states a simulator keeps that publishes them at *rate* in Hz.
+
+    *is_simulated* says that it makes the time itself.
+    """
+    return max(KEPT_SIMULATED if is_simulated else DEPTH, ceil(KEPT * rate))
+
+
+def answers_depth(node: Node) -> int:
+    """Return how many messages *node* keeps that it publishes in answer to states."""
+    return KEPT_SIMULATED if node.get_parameter('use_sim_time').value else DEPTH
 
 
 def open_qos() -> QoSOverridingOptions:

@@ -10,13 +10,13 @@ from rclpy.node import Node
 from rclpy.qos import QoSProfile
 from std_msgs.msg import Float64, Float64MultiArray, MultiArrayDimension
 
-from pam_ros.nodes.common.qos import DEPTH, open_qos
+from pam_ros.nodes.common.qos import answers_depth, open_qos
 from pam_ros.settings.control import ControlSetup
 
 
 def _publisher(node: Node, kind: type, topic: str) -> Any:
     return node.create_publisher(
-        kind, topic, QoSProfile(depth=DEPTH), qos_overriding_options=open_qos()
+        kind, topic, QoSProfile(depth=answers_depth(node)), qos_overriding_options=open_qos()
     )
 
 

@@ -7,7 +7,7 @@ from rclpy.qos import QoSProfile
 from sensor_msgs.msg import JointState
 
 from pam_ros.control.signals import Terms
-from pam_ros.nodes.common.qos import DEPTH, open_qos
+from pam_ros.nodes.common.qos import answers_depth, open_qos
 from pam_ros.timing.pace import SECOND
 
 
@@ -22,7 +22,10 @@ class StateTopic:
         self._names = names
         self._message = JointState(name=names, position=[0.0] * len(names))
         self._publisher = node.create_publisher(
-            JointState, '~/state', QoSProfile(depth=DEPTH), qos_overriding_options=open_qos()
+            JointState,
+            '~/state',
+            QoSProfile(depth=answers_depth(node)),
+            qos_overriding_options=open_qos(),
         )
 
     def publish(self, stamp: int, terms: Terms) -> None:

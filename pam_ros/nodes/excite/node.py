@@ -6,6 +6,7 @@ import argparse
 import sys
 import time
 from pathlib import Path
+from typing import Any
 
 from rclpy.duration import Duration
 from rclpy.qos import QoSProfile, ReliabilityPolicy
@@ -17,7 +18,7 @@ from pam_ros.excitation.guard import Guard
 from pam_ros.excitation.programme import write_csv
 from pam_ros.health.absence import Absence
 from pam_ros.nodes.common.node_parameters import NodeParameters, given
-from pam_ros.nodes.common.qos import DEPTH, open_qos
+from pam_ros.nodes.common.qos import DEPTH, answers_depth, open_qos
 from pam_ros.nodes.common.spin import TickingNode
 from pam_ros.nodes.common.stamps import stamp_of
 from pam_ros.settings.excite import Experiment, experiment, table
@@ -27,6 +28,7 @@ from pam_ros.timing.ticker import Ticker
 STOPPED = 1  # exit code
 UNNAMED = '_NODE_NAME_UNKNOWN_'  # name of a node until it is completely discovered
 LONGEST = 0.1  # s: longest pause between commands that counts for the pressure rate
+LAST_READ = 5.0  # s in which a delayed recorder reads the last commands
 LAST = 0.2  # s for which 0 Pa is commanded after an emergency stop
 REPEAT = 0.05  # s after a command, after which it is sent again for a repeated state
 
@@ -47,6 +49,7 @@ class PamExcite(TickingNode):
         if csv is not None:
             write_csv(self._now.programme, csv)
         self._is_dry = is_dry
+        self._publisher: Any = None  # after the start
         self._pressure = 0.0  # last command
         self._rest = round(LAST * self._now.settings.rate)  # remaining commands of 0 Pa
         self._is_followed = bool(self.get_parameter('use_sim_time').value)
@@ -93,7 +96,7 @@ class PamExcite(TickingNode):
         self._publisher = self.create_publisher(
             Float64,
             'pressure_command',
-            QoSProfile(depth=DEPTH),
+            QoSProfile(depth=answers_depth(self)),
             qos_overriding_options=open_qos(),
         )
         # If time follows the states, it would stop at a lost state: they are received reliably.
@@ -279,19 +282,21 @@ class PamExcite(TickingNode):
         return max(self._pressure - settings.pressure_rate / settings.rate, 0.0)
 
     def finish(self) -> None:
-        """Vent if there is pressure left, since the node was requested to stop."""
-        if self._pressure > 0.0:
-            try:
+        """Vent if there is pressure left, and wait until all commands were received."""
+        try:
+            if self._pressure > 0.0:  # the node was requested to stop
                 self._bar.close()
                 print('pam_excite: asked to stop, venting', file=sys.stderr, flush=True)
-            finally:  # also if the output can no longer be printed
-                self._let_all_out()
+        finally:  # also if the output can no longer be printed
+            self._let_all_out()
 
     def _let_all_out(self) -> None:
         while self._pressure > 0.0:
             self._command(self._let_out())
             time.sleep(1.0 / self._now.settings.rate)
-        self._publisher.wait_for_all_acked(Duration(seconds=1))
+        if self._publisher:
+            # What is not received before this process ends is lost.
+            self._publisher.wait_for_all_acked(Duration(seconds=LAST_READ))
 
 
 def _nothing_live(built: Experiment) -> None:

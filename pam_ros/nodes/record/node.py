@@ -10,7 +10,7 @@ from collections.abc import Container, Mapping, Sequence
 from datetime import datetime
 from importlib import import_module
 from pathlib import Path
-from time import monotonic_ns
+from time import monotonic_ns, sleep
 from typing import Any
 
 from rclpy.executors import Executor, SingleThreadedExecutor
@@ -42,7 +42,10 @@ OF_JOINTS = (
 )
 LOOK = 5.0  # Hz, for new topics
 TAKE = 0.01  # s between two rounds of taking messages
-CLOCK_WAIT = SECOND // 2  # ns that a message waits for a later time on /clock
+# ns that a message waits for a later time on /clock: the middleware sends a lost one again after
+# up to 3 s.
+CLOCK_WAIT = 5 * SECOND
+STILL = SECOND // 10  # ns after a time on /clock up to which no other is missing at the end
 SEAL = 0.5  # s between two seals: a killed recorder can lose the messages of this time
 REPORT, REPORT_LOGGED = 1.0, 10.0  # s between lines of progress, on a terminal and in a log
 
@@ -242,6 +245,22 @@ class PamRecord(TickingNode):
             self._writer.write(recorded.channel, time, time, data)
             waiting.popleft()
 
+    def _take_last(self) -> None:
+        """Take what has arrived, and wait for times that messages were sent after."""
+        end = monotonic_ns() + CLOCK_WAIT
+        self._take()
+        while self._misses_times() and monotonic_ns() < end:
+            sleep(TAKE)
+            self._take()
+        self._take(is_last=True)
+
+    def _misses_times(self) -> bool:
+        newest = self._time.newest
+        last = max(
+            (one.waiting[-1][1] for one in self._recorded.values() if one.waiting), default=0
+        )
+        return newest is not None and last > newest + STILL
+
     # Progress reports ----------------------------------------------------------------------
 
     def _report(self) -> None:
@@ -265,7 +284,7 @@ class PamRecord(TickingNode):
             if self._problem:
                 self._fail(self._problem)
             else:
-                self._take(is_last=True)
+                self._take_last()
             self._writer.close()
         except RecordingError as error:
             self._fail(error)

@@ -126,6 +126,7 @@ class PamSim(TickingNode):
         self._fault = ''
         self._samples.begin(self._simulation.settings.publish_rate)
         self._clock_ticks.begin(self._clock_rate)
+        self._clock_step = -1  # the last one whose time was published on /clock
         self._turns.begin()
 
     # Time ----------------------------------------------------------------------------------
@@ -157,7 +158,7 @@ class PamSim(TickingNode):
             self._publish_again()
         elif self._is_lockstep:
             if self._turns.is_complete:
-                self._run_to(self._samples.next)
+                self._run_period()
             elif self._turns.must_repeat():
                 self._publish_again()
         else:
@@ -206,6 +207,7 @@ class PamSim(TickingNode):
                 plant.advance(step)
                 if step == clock.next:
                     self._output.publish_clock(self._time.stamp(step))
+                    self._clock_step = step
                     clock.advance()
                 if step == samples.next:
                     self._publish(self._time.stamp(step))
@@ -216,6 +218,17 @@ class PamSim(TickingNode):
             plant.advance(due)
         except (ArithmeticError, ValueError) as error:  # errors of the kernel as plain Python
             self._stop_at_fault(error)
+
+    def _run_period(self) -> None:
+        """In lockstep, simulate to the next state: all muscles were commanded.
+
+        If the last time on ``/clock`` is that of the state that was answered, it is published
+        again. A recorder then knows until when time stood still, and that the command was sent
+        before.
+        """
+        if self._clock_step == self._plant.step:
+            self._output.publish_clock(self._time.now())
+        self._run_to(self._samples.next)
 
     def _sample_from_here(self) -> None:
         """Let the next sample be due one period from now."""
@@ -291,7 +304,7 @@ class PamSim(TickingNode):
         if self._is_lockstep:
             self._turns.take(muscle)
             if self._turns.is_complete and not self._is_paused:
-                self._run_to(self._samples.next)
+                self._run_period()
 
     def _change(self, now: SimulationSetup) -> None:
         """Continue with other parameters."""

@@ -7,7 +7,7 @@ from typing import Any
 from rclpy.node import Node
 from rosgraph_msgs.msg import Clock
 
-from pam_ros.nodes.common.qos import DEPTH, states_depth
+from pam_ros.nodes.common.qos import KEPT_SIMULATED, states_depth
 from pam_ros.nodes.sim.muscle_states import MuscleStates
 from pam_ros.nodes.sim.telemetry import Telemetry
 from pam_ros.nodes.sim.telemetry_arrays import ArrayTelemetry, MuscleTelemetry
@@ -24,8 +24,8 @@ class Output:
         settings = setup.settings
         if settings.has_own_time:
             self._clock = Clock()
-            self._clock_publisher = node.create_publisher(Clock, '/clock', DEPTH)
-        depth = states_depth(settings.publish_rate)
+            self._clock_publisher = node.create_publisher(Clock, '/clock', KEPT_SIMULATED)
+        depth = states_depth(settings.publish_rate, is_simulated=settings.has_own_time)
         # Each takes a reading of the plant: of a single muscle, or of several.
         self._telemetry: list[Any]
         if setup.is_one:
