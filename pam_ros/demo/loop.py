@@ -11,8 +11,9 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from pam_ros.errors import PamError
 from pam_ros.recording.bag import read_bag
-from pam_ros.recording.mapping import read_mapping
+from pam_ros.recording.mapping import ColumnMapping
 from pam_ros.report import style, time_plots
 from pam_ros.report.diagnostics import Size, size_of
 from pam_ros.report.runs import Run
@@ -37,6 +38,7 @@ HIDDEN: dict[str, Any] = {
 NOISE = float(HIDDEN['sensor.position_noise'])
 CURVES = (Curve(0, 'nominal'), Curve(2, 'identified'))
 MM = Scale(1e3, 'mm')
+TICK = 1e-6  # s up to which stamps are equal
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,7 +47,7 @@ class Replay:
 
     t: Array
     measured: Array
-    declared: Array
+    nominal: Array
     identified: Array
 
     @property
@@ -56,7 +58,7 @@ class Replay:
             'replay',
             self.t,
             self.measured,
-            (self.declared, self.declared, self.identified),
+            (self.nominal, self.nominal, self.identified),
             np.ones(self.t.size, dtype=bool),
             True,
             nothing[:, None],
@@ -70,22 +72,27 @@ class Replay:
         return size_of([self.run.residual(stage)], [self.measured])
 
 
-def read_replay(bag: Path, command: str, rig: str, declared: str, identified: str) -> Replay:
-    """Return the positions that three rigs of a bag published, named by their namespaces.
+def read_replay(rig: Path, nominal: Path, identified: Path) -> Replay:
+    """Return the positions of three bags, of rigs that received the same commands.
 
-    *command* is the topic that all of them received: time starts at its first message. The stamps
-    are those of *rig*; the positions of the others are interpolated linearly.
+    Time starts at the first state of each. The stamps are those of *rig*; the positions of the
+    others are interpolated linearly. Raises PamError if their commands differ.
     """
-    mapping = read_mapping([f'{command}=pressure_command_Pa'])
-    stamps, values = [], []
-    for space in (rig, declared, identified):
-        series = read_bag(bag, mapping, space)[0]
-        stamps.append(series['position'].t - series['pressure_command'].t[0])
-        values.append(series['position'].value)
-    inside = (stamps[0] >= 0.0) & (stamps[0] <= min(t[-1] for t in stamps))
-    t = stamps[0][inside]
-    first, second = (np.interp(t, stamps[k], values[k]) for k in (1, 2))
-    return Replay(t, values[0][inside], first, second)
+    positions, commands = [], []
+    for bag in (rig, nominal, identified):
+        series = read_bag(bag, ColumnMapping())[0]
+        position, command = (series[k].ascending() for k in ('position', 'pressure_command'))
+        start = position.t[0]
+        positions.append((position.t - start, position.value))
+        commands.append((np.rint((command.t - start) / TICK).astype(int), command.value))
+    for at, value in commands[1:]:
+        _, mine, others = np.intersect1d(commands[0][0], at, return_indices=True)
+        if not np.array_equal(commands[0][1][mine], value[others]):
+            raise PamError(f'{rig}, {nominal} and {identified} received different commands')
+    t, measured = positions[0]
+    inside = t <= min(stamps[-1] for stamps, _ in positions)
+    t, measured = t[inside], measured[inside]
+    return Replay(t, measured, *(np.interp(t, *other) for other in positions[1:]))
 
 
 def figure(replay: Replay) -> Figure:

@@ -20,10 +20,10 @@ class Chapter:
 # Each is a module of pam_ros.nodes.demo with a function play(stage). The times were measured on
 # two cores in 2026, with all kernels compiled.
 CHAPTERS = {
-    'paper': Chapter('the experiment of the paper: a load is released, then pressure steps', 15),
-    'position': Chapter('position control of a load that is heavier than configured', 20),
-    'joint': Chapter('an antagonistic joint: angle and stiffness are controlled', 20),
-    'loop': Chapter('a rig is excited, recorded and identified, then simulated better', 85),
+    'paper': Chapter('the experiment of the paper: a load is released, then pressure steps', 10),
+    'position': Chapter('position control of a load that is heavier than configured', 15),
+    'joint': Chapter('an antagonistic joint: angle and stiffness are controlled', 13),
+    'loop': Chapter('a rig is excited, recorded and identified, then simulated better', 62),
 }
 ROUNDED = 5  # s
 

@@ -31,8 +31,14 @@ class PublishedRun:
 
     def between(self, begin: float, end: float) -> 'PublishedRun':
         """Return the part from *begin* up to *end* s."""
-        inside = (self.t >= begin) & (self.t < end)
-        return PublishedRun(*(getattr(self, item.name)[inside] for item in fields(self)))
+        return self._where((self.t >= begin) & (self.t < end))
+
+    def without_repetitions(self) -> 'PublishedRun':
+        """Return the run without the samples that have the stamp of the one before."""
+        return self._where(np.diff(self.t, prepend=-np.inf) > 0.0)
+
+    def _where(self, kept: NDArray[np.bool_]) -> 'PublishedRun':
+        return PublishedRun(*(getattr(self, item.name)[kept] for item in fields(self)))
 
     def acceleration(self, joint: Joint) -> Array:
         """Return y'' in m/s^2 by equation (3) from the published values."""

@@ -13,12 +13,13 @@ from rcl_interfaces.srv import DescribeParameters, GetParameters, SetParameters
 from rclpy.parameter import parameter_value_to_python
 
 from pam_ros.nodes.demo.client import Client, parameter_messages
-from pam_ros.nodes.demo.rig_log import lose_nothing
+from pam_ros.nodes.demo.rig_log import TOPICS
 from pam_ros.processes.children import PATIENCE as DEADLINE
 from pam_ros.processes.children import Program
 
 # s; it only bounds how long a broken program may hang a test, also beside busy programs.
 PEER_DEADLINE = 240.0
+HISTORY = 5000  # messages that a simulator keeps for a late subscriber: 10 s at 500 Hz
 
 __all__ = ['DEADLINE', 'Peer', 'Program', 'has_loaded', 'lose_nothing']
 
@@ -44,6 +45,11 @@ class Peer(Client):
         """Return the descriptions of parameters."""
         response = self.call(DescribeParameters, f'{node}/describe_parameters', names=list(names))
         return list(response.descriptors)
+
+
+def lose_nothing(namespace: str = '') -> dict[str, int]:
+    """Return the parameters with which a ``pam_sim`` keeps messages until they are received."""
+    return {f'qos_overrides.{namespace}/{topic}.publisher.depth': HISTORY for topic in TOPICS}
 
 
 def has_loaded(program: Program, library: str) -> bool:

@@ -13,12 +13,12 @@ import rclpy
 from rcl_interfaces.msg import Parameter as ParameterMessage
 from rcl_interfaces.srv import SetParametersAtomically
 from rclpy.duration import Duration
-from rclpy.executors import SingleThreadedExecutor
 from rclpy.parameter import Parameter
 from rclpy.qos import QoSProfile
 from std_srvs.srv import Trigger
 
 from pam_ros.errors import PamError
+from pam_ros.nodes.common.rclpy_internals import EventsExecutor
 from pam_ros.processes.interrupts import held_back
 
 DEPTH = 20_000  # messages that may wait: none is dropped
@@ -38,7 +38,7 @@ class Client:
         name = f'pam_client_{os.getpid()}_{next(_numbers)}'
         self.node = rclpy.create_node(name, context=self.context, namespace=namespace)
         self._patience = patience
-        self._executor = SingleThreadedExecutor(context=self.context)
+        self._executor = EventsExecutor(context=self.context)
         self._executor.add_node(self.node)
         self._publishers: dict[str, Any] = {}
 

@@ -23,10 +23,10 @@ from pam_ros.nodes.demo.rig_log import seconds
 from pam_ros.nodes.demo.stage import Stage
 
 MUSCLE = 'dmsp_20_400n'
-DECLARED, TRUE = 1.0, 1.3  # kg on the arm
+NOMINAL, TRUE = 1.0, 1.3  # kg on the arm
 RADIUS = 0.04  # m
 NOISE = math.radians(0.02)
-SWING, FREQUENCY, CYCLES = math.radians(15.0), 0.5, 6
+SWING, FREQUENCY, CYCLES = math.radians(15.0), 0.5, 4
 REST = 1.0  # s
 SOFT, STIFF = 20.0, 35.0  # N m/rad
 SPACING = 0.02  # s between the points of the trajectory
@@ -36,7 +36,7 @@ def play(stage: Stage) -> None:
     """Control the joint, and write a plot and a table."""
     stage.say(
         f'An antagonistic joint over ROS topics: two {MUSCLE}, configured with '
-        f'an arm of {DECLARED:g} kg; the real one has {TRUE:g} kg'
+        f'an arm of {NOMINAL:g} kg; the real one has {TRUE:g} kg'
     )
     course = record(stage)
     begin = course.departure
@@ -50,7 +50,7 @@ def play(stage: Stage) -> None:
     from pam_ros.demo import figures
 
     path = stage.folder / 'joint.png'
-    headline = f'pam_control: {DECLARED:g} kg configured, {TRUE:g} kg moved'
+    headline = f'pam_control: {NOMINAL:g} kg configured, {TRUE:g} kg moved'
     figures.save(joint.figure(course, headline), path)
     stage.wrote(path)
     stage.text('joint.txt', joint.table(parts))
@@ -60,7 +60,7 @@ def record(stage: Stage) -> JointCourse:
     """Return the recorded run."""
     both = {'joint': 'antagonistic', 'muscle': MUSCLE, 'radius': RADIUS}
     rig = {**both, 'mass': TRUE, 'initial.pressure': 250e3, 'sensor.position_noise': NOISE}
-    controller = {**both, 'mass': DECLARED, 'co_contraction': SOFT}
+    controller = {**both, 'mass': NOMINAL, 'co_contraction': SOFT}
     commands = (Float64MultiArray, 'pressure_commands')
     with LockstepPair(stage, rig, controller, commands, ('stiffnesses',)) as pair:
         arrays = pair.client.collect(Float64MultiArray, 'stiffnesses')

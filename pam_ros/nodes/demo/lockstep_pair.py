@@ -22,7 +22,8 @@ from pam_ros.nodes.demo.stage import Stage
 from pam_ros.processes.children import Program
 
 STILL = 1e-6  # change of a term up to which it counts as at rest
-HISTORY = 30_000  # messages kept for a late subscriber: a minute at 500 Hz
+RATE = 250.0  # Hz of states and commands
+HISTORY = 30_000  # messages kept for a late subscriber: two minutes
 PATIENCE = 600.0  # s that a busy machine may need for one of the motions
 
 
@@ -42,10 +43,10 @@ class LockstepPair:
         No message of *rig* on *topics* is lost.
         """
         self._space, self._command = stage.namespace, command
-        self._rig = {**rig, 'time_mode': 'lockstep'}
+        self._rig = {**rig, 'time_mode': 'lockstep', 'publish_rate': RATE}
         for topic in ('joint_states', *topics):
             self._rig[f'qos_overrides.{self._space}/{topic}.publisher.depth'] = HISTORY
-        self._controller = {**controller, 'use_sim_time': True}
+        self._controller = {**controller, 'use_sim_time': True, 'rate': RATE}
         self._controller[f'qos_overrides.{self._space}/pam_control/state.publisher.depth'] = (
             HISTORY
         )

@@ -4,13 +4,12 @@
 
 from itertools import pairwise
 
-from std_srvs.srv import Trigger
-
 from pam_ros.demo import paper
 from pam_ros.demo.run import PublishedRun
+from pam_ros.errors import PamError
 from pam_ros.nodes.demo.client import Client
-from pam_ros.nodes.demo.rig_log import RigLog, lose_nothing, seconds
-from pam_ros.nodes.demo.stage import Stage, hold_pressure
+from pam_ros.nodes.demo.rig_log import RigLog
+from pam_ros.nodes.demo.stage import Stage
 from pam_ros.processes.children import Program
 from pam_ros.settings.load import load_joint
 
@@ -18,6 +17,7 @@ MUSCLE = 'dmsp_20_400n'
 RELEASE = 3.0  # s
 STEPS = (500e3, 400e3, 300e3, 450e3, 600e3)  # Pa
 STEP = 2.0  # s
+RATE = 250.0  # Hz
 
 
 def play(stage: Stage) -> None:
@@ -41,31 +41,29 @@ def play(stage: Stage) -> None:
 
 def record(stage: Stage) -> tuple[PublishedRun, list[PublishedRun]]:
     """Return the run of the released load, and one run for each pressure step."""
-    remap = ('-r', f'__ns:={stage.namespace}')
+    space = stage.namespace
+    # Its /clock is in its namespace: no other node follows it.
+    remap = ('-r', f'__ns:={space}', '-r', f'/clock:={space}/clock')
     given = {
         'muscle': MUSCLE,
         'mass': paper.MASS,
         'initial.pressure': paper.PRESSURE,
         'initial.at_rest': False,
         'initial.position': 0.0,
-        **lose_nothing(stage.namespace),
+        'time_mode': 'lockstep',
+        'publish_rate': RATE,
     }
-    with Program('pam_sim', *remap, parameters=given) as sim, Client(stage.namespace) as client:
+    with Program('pam_sim', *remap, parameters=given) as sim, Client(space) as client:
         log = RigLog(client)
-        client.until(lambda: log.states or not sim.is_running, 'the first state of pam_sim')
-        received = len(log.states)
-        client.call(Trigger, 'pam_sim/reset')
-
-        def released() -> list[float]:
-            return [seconds(m) for m in log.states[received:] if m.position[0] == 0.0]
-
-        (begin, *_) = client.until(released, 'the release')
-        hold_pressure(client, paper.PRESSURE, RELEASE, lambda: log.now, 'released at 600 kPa')
+        client.until(lambda: log.has_begun or not sim.is_running, 'the first state of pam_sim')
+        if not sim.is_running:
+            raise PamError(f'pam_sim ended: {sim.output.strip()}')
+        begin = log.now
+        log.hold_pressure(paper.PRESSURE, RELEASE, 'released at 600 kPa')
         marks = [log.now]
         for pressure in STEPS:
-            what = f'step to {pressure / 1e3:.0f} kPa'
-            hold_pressure(client, pressure, STEP, lambda: log.now, what)
+            log.hold_pressure(pressure, STEP, f'step to {pressure / 1e3:.0f} kPa')
             marks.append(log.now)
-        run = log.put_in_step()
+        run = log.run()
     parts = [run.between(a, b) for a, b in pairwise(marks)]
     return run.between(begin, marks[0]), parts

@@ -23,17 +23,17 @@ from pam_ros.nodes.demo.rig_log import seconds
 from pam_ros.nodes.demo.stage import Stage
 
 MUSCLE = 'dmsp_20_400n'
-DECLARED, TRUE = 20.0, 25.0  # kg
+NOMINAL, TRUE = 20.0, 25.0  # kg
 GOALS = (0.070, 0.050, 0.060)  # m
 HOLD = 2.5  # s for each of them
-SWING, FREQUENCY, CYCLES = 0.010, 0.5, 5  # m, Hz: the sine, around the last of the goals
+SWING, FREQUENCY, CYCLES = 0.010, 0.5, 4  # m, Hz: the sine, around the last of the goals
 SPACING = 0.05  # s between the points of its trajectory
 
 
 def play(stage: Stage) -> None:
     """Move the load, and write a plot and a table."""
     stage.say(
-        f'Position control over ROS topics: {MUSCLE}, configured with {DECLARED:g} kg; '
+        f'Position control over ROS topics: {MUSCLE}, configured with {NOMINAL:g} kg; '
         f'the real load has {TRUE:g} kg'
     )
     course, marks = record(stage)
@@ -47,7 +47,7 @@ def play(stage: Stage) -> None:
     from pam_ros.demo import figures
 
     path = stage.folder / 'position_control.png'
-    headline = f'pam_control: {DECLARED:g} kg configured, {TRUE:g} kg moved'
+    headline = f'pam_control: {NOMINAL:g} kg configured, {TRUE:g} kg moved'
     figures.save(position.figure(course, headline), path)
     stage.wrote(path)
     stage.text('position_control.txt', position.table(steps, whole))
@@ -56,7 +56,7 @@ def play(stage: Stage) -> None:
 def record(stage: Stage) -> tuple[Course, list[float]]:
     """Return the recorded run, and the times in s at which the goals and the sine start."""
     rig = {'muscle': MUSCLE, 'mass': TRUE, 'initial.pressure': 300e3}
-    controller = {'muscle': MUSCLE, 'mass': DECLARED}
+    controller = {'muscle': MUSCLE, 'mass': NOMINAL}
     with LockstepPair(stage, rig, controller, (Float64, 'pressure_command')) as pair:
         pair.begin()
         stops = [pair.stop_after(1.5)]

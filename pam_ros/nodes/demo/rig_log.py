@@ -1,28 +1,25 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Collect all messages of a simulated muscle, and match them by time."""
+"""Command a simulated muscle in lockstep, and collect all messages that it publishes."""
 
 import numpy as np
 from sensor_msgs.msg import FluidPressure, JointState
 from std_msgs.msg import Float64
+from tqdm import tqdm
 
 from pam_ros.demo.run import PublishedRun
 from pam_ros.errors import PamError
 from pam_ros.nodes.demo.client import Client
+from pam_ros.nodes.demo.stage import PROGRESS, pause_of_bars
 
 TOPICS = ('joint_states', 'pressure', 'force', 'stiffness', 'damping')
-HISTORY = 5000  # messages that the simulator keeps for a late subscriber: 10 s at 500 Hz
+STILL = 1e-6  # s: less than a period of the simulator
 QUIET = 0.3  # s without a message after which all messages have arrived
 
 
 def seconds(message: JointState) -> float:
     """Return the stamp of a message in s."""
     return float(message.header.stamp.sec + 1e-9 * message.header.stamp.nanosec)
-
-
-def lose_nothing(namespace: str = '') -> dict[str, int]:
-    """Return the parameters with which a ``pam_sim`` keeps messages until they are received."""
-    return {f'qos_overrides.{namespace}/{topic}.publisher.depth': HISTORY for topic in TOPICS}
 
 
 class RigLog:
@@ -40,17 +37,40 @@ class RigLog:
         """The stamp of the last state in s."""
         return seconds(self.states[-1])
 
-    def put_in_step(self) -> PublishedRun:
-        """Reduce the simulator's publish_rate to 1 Hz, and return all messages that arrived.
+    @property
+    def has_begun(self) -> bool:
+        """Whether a message has arrived on each topic: from then on none is lost."""
+        return all(self._topics)
 
-        Floats carry no stamp, but the simulator publishes all topics together. When all messages
-        have arrived, they match if they are counted from the end. Raises PamError if one was lost.
+    def hold_pressure(self, pressure: float, duration: float, what: str) -> None:
+        """Answer each state with *pressure* in Pa for *duration* s of simulated time, with a bar.
+
+        The simulator is in lockstep: the number of its periods does not depend on the machine.
         """
-        self._client.set_together('pam_sim', publish_rate=1.0)
-        before = None
-        while before != (before := [len(messages) for messages in self._topics]):
+        end = self.now + duration
+        pause = pause_of_bars(1.0)
+        with tqdm(total=duration, desc=what, bar_format=PROGRESS, mininterval=pause) as bar:
+            while self.now < end - STILL:
+                bar.update(self._answer(pressure))
+
+    def _answer(self, pressure: float) -> float:
+        """Command *pressure*, await the next state, and return the time that passed in s."""
+        before = self.now
+        self._client.publish(Float64(data=pressure), 'pressure_command')
+        self._client.until(lambda: self.now > before, f'the state after {before:.3f} s')
+        return self.now - before
+
+    def run(self) -> PublishedRun:
+        """Return all messages that arrived.
+
+        Floats carry no stamp, but the simulator publishes all topics together. While it waits for
+        a command no other message comes, so they match if they are counted from the end. A state
+        that was published again counts once. Raises PamError if a message was lost.
+        """
+        counts: list[int] = []
+        while counts != (counts := [len(messages) for messages in self._topics]):
             self._client.work(QUIET)
-        n = min(before)
+        n = min(counts)
         states, pressures, force, stiffness, damping = (m[len(m) - n :] for m in self._topics)
         run = PublishedRun(
             np.array([seconds(m) for m in states]),
@@ -62,6 +82,6 @@ class RigLog:
             np.array([m.data for m in damping]),
         )
         efforts = np.array([m.effort[0] for m in states])
-        if not np.array_equal(run.force, efforts) or np.any(np.diff(run.t) <= 0.0):
+        if not np.array_equal(run.force, efforts):
             raise PamError('messages of the simulator were lost: is the machine overloaded?')
-        return run
+        return run.without_repetitions()

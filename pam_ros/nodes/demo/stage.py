@@ -4,15 +4,10 @@
 
 import os
 import sys
-from collections.abc import Callable
 from pathlib import Path
 
-from std_msgs.msg import Float64
-from tqdm import tqdm
-
-from pam_ros.nodes.demo.client import Client
-
-COMMAND_PERIOD = 0.02  # s
+# The form of progress bars: what is done, and simulated seconds.
+PROGRESS = '  {desc:<20} {bar:30} {n:4.1f} of {total:g} s'
 
 
 class Stage:
@@ -41,20 +36,6 @@ class Stage:
         self.wrote(path)
 
 
-def hold_pressure(
-    client: Client, pressure: float, seconds: float, now: Callable[[], float], what: str
-) -> None:
-    """Command *pressure* in Pa for some seconds of simulated time, with a progress bar.
-
-    *now* returns the time. The command is repeated, so that no timeout vents the muscle.
-    """
-    begin = passed = now()
-    form = '  {desc:<20} {bar:30} {n:4.1f} of {total:g} s'
-    # A bar that moves on a terminal, or at most one line a second in a log.
-    pause = 0.1 if sys.stderr.isatty() else 1.0
-    with tqdm(total=seconds, desc=what, bar_format=form, mininterval=pause) as bar:
-        while passed < begin + seconds:
-            client.publish(Float64(data=pressure), 'pressure_command')
-            client.work(COMMAND_PERIOD)
-            before, passed = passed, min(now(), begin + seconds)
-            bar.update(passed - before)
+def pause_of_bars(in_log: float) -> float:
+    """Return the s between two updates of a progress bar: fewer in a log than on a terminal."""
+    return 0.1 if sys.stderr.isatty() else in_log

@@ -35,6 +35,7 @@ def children_of(program):
     return [folder for folder in folders if parent(folder) == program.pid]
 
 
+@pytest.mark.at_any_pace
 def test_the_papers_experiment_over_topics(tmp_path):
     result = run_in(tmp_path, 'paper', '--out', 'shown')
     assert result.returncode == 0, result.stderr

@@ -9,13 +9,14 @@ import sys
 import pytest
 
 from pam_ros.demo.loop import HIDDEN, NOISE
-from pam_ros.nodes.demo.loop import EXCITATION, TOO_BUSY
+from pam_ros.nodes.demo.loop import EXCITATION
 from pam_ros.recording.read import read_recording
 from pam_ros.report.write import FILES
 
 
 @pytest.mark.needs_numba
-@pytest.mark.release
+@pytest.mark.at_any_pace
+@pytest.mark.slow
 @pytest.mark.usefixtures('domain')
 def test_the_loop_closes_over_topics(tmp_path):
     done = subprocess.run(
@@ -38,15 +39,12 @@ def test_the_loop_closes_over_topics(tmp_path):
 
     recording = read_recording(folder / 'recording')
     assert recording.kind == 'free'
-    assert recording.period == pytest.approx(1 / 200.0, rel=0.02)
+    assert recording.period == pytest.approx(1 / EXCITATION['rate'], rel=1e-6)
     assert recording.command.size > 0.9 * EXCITATION['duration'] * EXCITATION['rate']
 
     report = json.loads((folder / 'report' / 'report.json').read_text(encoding='utf-8'))
     table = (folder / 'before_and_after.txt').read_text(encoding='utf-8')
     assert table.strip() in done.stdout
-    if TOO_BUSY in done.stdout:
-        # Measured, not guessed: twice a simulator did not get the processor for 0.1 s.
-        pytest.skip(f'{TOO_BUSY}: what was recorded is not what the rig was told')
 
     assert report['verdict'] == 'effect_found'
     hidden = {name.split('.')[1] for name in HIDDEN if name.startswith('effects.')}
@@ -55,8 +53,13 @@ def test_the_loop_closes_over_topics(tmp_path):
     assert all(len(names & hidden) == 1 for names in found)
     assert hidden <= set().union(*found)
     assert report['error']['noise_floor'] == pytest.approx(NOISE, rel=0.3)
+    parameters = report['parameters']['augmented']
+    for name, true in HIDDEN.items():
+        if name.startswith('effects.'):
+            assert parameters[name]['value'] == pytest.approx(true, rel=0.02)
 
     rows = {line.split('  ')[0]: line.split() for line in table.splitlines()}
     before, after = float(rows['nominal'][1]), float(rows['identified'][1])
     assert before > 1.0
-    assert after < 0.15 * before
+    # In lockstep no command is late: what remains is the noise of the sensor.
+    assert 1e-3 * after < 1.1 * NOISE
