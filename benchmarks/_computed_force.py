@@ -7,10 +7,10 @@ disturbance that the observer sees: feedback linearisation with active disturban
 2009; the triple pole of the observer after Gao 2003, "Scaling and bandwidth-parameterization").
 """
 
+from pam_ros.control.allocation import allocation_of
 from pam_ros.control.limits import Limits
 from pam_ros.control.model import ControlModel
 from pam_ros.control.observer import Observer
-from pam_ros.control.sharing import sharing_of
 from pam_ros.control.signals import Pressures, Reference, Terms
 from pam_ros.rig.joint import Joint
 
@@ -21,7 +21,7 @@ class ComputedForce:
     def __init__(self, joint: Joint, observer: float = 100.0, error: float = 30.0) -> None:
         """Make it; see :meth:`start`."""
         self.model = ControlModel(joint)
-        self.sharing = sharing_of(self.model, Limits())
+        self.allocation = allocation_of(self.model, Limits())
         self.terms = Terms()
         self._observer = Observer(self.model)
         self._fast, self._w = observer, error
@@ -51,10 +51,10 @@ class ComputedForce:
         effort = model.inertia * (a + 2.0 * self._w * rate + self._w * self._w * error)
         effort += model.damping(self._pressures, seen.position, seen.velocity) * seen.velocity
         effort += model.gravity(seen.position) - seen.disturbance
-        wanted = self.sharing.split(effort, 0.0, seen.position).pressures
+        wanted = self.allocation.split(effort, 0.0, seen.position).pressures
         self._pressures = tuple(
             min(max(p, low), high)
-            for p, (low, high) in zip(wanted, self.sharing.ranges, strict=True)
+            for p, (low, high) in zip(wanted, self.allocation.ranges, strict=True)
         )
         self.terms.error = error
         return self._pressures

@@ -40,7 +40,7 @@ class Loop:
     def __init__(self, joint: Joint, true: Joint | None = None) -> None:
         """Rest in the middle of the reach."""
         self.law, self.rig = SlidingMode(joint), Simulation([true or joint])
-        low, high = self.law.sharing.reach
+        low, high = self.law.allocation.reach
         self._middle, self._reach = 0.5 * (low + high), high - low
         self.rig.reset(self.law.terms.pressures, self._middle, 0.0)
         self._rng = np.random.default_rng(1)

@@ -4,8 +4,8 @@
 
 from dataclasses import dataclass
 
+from pam_ros.control.allocation import Allocation
 from pam_ros.control.reference.profile import Bounds, Rest
-from pam_ros.control.sharing import Sharing
 from pam_ros.parameters import check_all, parameter_field
 
 RISE = 0.05  # s to reach the rate, and its slope: some three samples of a 50 Hz topic
@@ -39,22 +39,22 @@ class CoContraction:
         """Check every field."""
         check_all(self)
 
-    def wanted(self, sharing: Sharing) -> float:
+    def wanted(self, allocation: Allocation) -> float:
         """Return the stiffness for this joint; raises RangeError if it cannot have this stiffness.
 
         0 if the effort determines the stiffness.
         """
-        if not sharing.can_stiffen:
+        if not allocation.can_stiffen:
             return 0.0
-        middle = 0.5 * (sharing.reach[0] + sharing.reach[1])
+        middle = 0.5 * (allocation.reach[0] + allocation.reach[1])
         if self.co_contraction == 0.0:
-            low, high = sharing.stiffness_range(middle)
+            low, high = allocation.stiffness_range(middle)
             return 0.5 * (low + high)
-        sharing.refuse_stiffness(self.co_contraction, middle)
+        allocation.refuse_stiffness(self.co_contraction, middle)
         return self.co_contraction
 
 
-class StiffnessCourse:
+class StiffnessReference:
     """Moves the stiffness to the value that was set last, within bounds; N/m or N m/rad."""
 
     def __init__(self, goal: float, rate: float) -> None:

@@ -5,8 +5,8 @@
 from dataclasses import dataclass
 from math import acos, exp, log, pi, sqrt
 
+from pam_ros.control.allocation import Allocation
 from pam_ros.control.joint_settings import JointSettings
-from pam_ros.control.sharing import Sharing
 from pam_ros.control.tuning import number
 from pam_ros.errors import ParameterError
 from pam_ros.parameters import OnTurning, parameter_field
@@ -213,18 +213,20 @@ class Gains(JointSettings):
                 'and must be slower'
             )
 
-    def check(self, sharing: Sharing, period: float) -> None:
+    def check(self, allocation: Allocation, period: float) -> None:
         """Raise ParameterError if these gains do not suit a joint, sampled each *period* s."""
         if self.velocity_bandwidth * period > ORDER.samples:
             raise ParameterError(
                 f'velocity_bandwidth = {self.velocity_bandwidth:g} rad/s is too fast for a '
                 f'control rate of {1.0 / period:g} Hz: give at most {ORDER.samples / period:g}'
             )
-        available = sharing.available()
+        available = allocation.available()
         if self.disturbance_bound > available:
-            unit = sharing.model.joint.transmission.equations.effort_unit
+            unit = allocation.model.joint.transmission.equations.effort_unit
             these = (
-                'this muscle changes its' if len(sharing.ranges) == 1 else 'the muscles change the'
+                'this muscle changes its'
+                if len(allocation.ranges) == 1
+                else 'the muscles change the'
             )
             what = 'force' if unit == 'N' else 'torque'
             raise ParameterError(

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 from math import isfinite
 
 from pam_ros.control.plausibility import Plausibility
-from pam_ros.control.reference.course import Course
 from pam_ros.control.reference.points import Point, Points
+from pam_ros.control.reference.source import ReferenceSource
 from pam_ros.control.reference.trajectory import Trajectory
 from pam_ros.control.signals import PositionLaw, Pressures, Reference
 
@@ -60,10 +60,10 @@ class Loop:
     """
 
     def __init__(
-        self, law: PositionLaw, course: Course, period: float, plausibility: Plausibility
+        self, law: PositionLaw, source: ReferenceSource, period: float, plausibility: Plausibility
     ) -> None:
         """Make it wait for the first measurement; *period* in s."""
-        self.law, self.course, self.period = law, course, period
+        self.law, self.source, self.period = law, source, period
         self.plausibility, self.implausible = plausibility, 0
         self.timeout, self.safe, self.vent_time = 0.1, HOLD, 0.0
         self.state = WAITING
@@ -112,12 +112,12 @@ class Loop:
         self._seen, self._is_new = reading, True
         return ''
 
-    def change(self, law: PositionLaw, course: Course) -> None:
+    def change(self, law: PositionLaw, source: ReferenceSource) -> None:
         """Continue with another law and reference, from the present position and pressure."""
         if self.state == RUNNING:
             law.start(self.law.terms.position, self.pressures)
-            course.start(self.course.reference.position)
-        self.law, self.course = law, course
+            source.start(self.source.reference.position)
+        self.law, self.source = law, source
 
     def forget(self) -> None:
         """Start again at the next measurement, since the clock has jumped."""
@@ -150,7 +150,7 @@ class Loop:
         if self._is_new:
             position, velocity = reading.position, reading.velocity
             self._is_new = False
-        reference = self.course.follow(dt, passed - dt)
+        reference = self.source.follow(dt, passed - dt)
         self.pressures = self.law.update(dt, reference, position, velocity, now - reading.time)
         return self.pressures
 
@@ -158,7 +158,7 @@ class Loop:
         """Start again at the present position and pressure of the load."""
         known = self.pressures if self.chambers is None else self.chambers
         self.law.start(reading.position, known)
-        self.course.start(reading.position)
+        self.source.start(reading.position)
         self.time = now - self.period
         self.state = RUNNING
         self.starts += 1

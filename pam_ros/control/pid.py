@@ -8,13 +8,13 @@ from math import exp
 from typing import Any
 
 from pam_ros.arguments import instance
+from pam_ros.control.allocation import allocation_of
 from pam_ros.control.co_contraction import CoContraction
 from pam_ros.control.joint_settings import JointSettings
 from pam_ros.control.limits import Limiter, Limits
 from pam_ros.control.model import ControlModel
 from pam_ros.control.pid_schedule import Schedule
 from pam_ros.control.pressure_path import PressurePath
-from pam_ros.control.sharing import sharing_of
 from pam_ros.control.signals import (
     Pressures,
     Reference,
@@ -126,15 +126,15 @@ class Pid:
         gains.require(turning=joint.is_revolute)
         self.terms = Terms()
         self.model = ControlModel(joint)
-        self.sharing = sharing_of(self.model, limits)
-        self._stiffness = wanted.wanted(self.sharing)
+        self.allocation = allocation_of(self.model, limits)
+        self._stiffness = wanted.wanted(self.allocation)
         self._paths = [PressurePath(joint, i, 1.0) for i in range(len(self.model.muscles))]
         self._limiters = [
-            Limiter(low, high, limits.pressure_rate) for low, high in self.sharing.ranges
+            Limiter(low, high, limits.pressure_rate) for low, high in self.allocation.ranges
         ]
         self._schedule = (
             Schedule(
-                self.sharing,
+                self.allocation,
                 (gains.proportional, gains.integral, gains.derivative, gains.filter_bandwidth),
                 self._stiffness,
             )
@@ -147,13 +147,13 @@ class Pid:
     def _static(self, position: float) -> Pressures:
         """Return the commands in Pa that hold the load at *position*, according to the model."""
         effort = self.model.gravity(position)
-        chambers = self.sharing.split(effort, self._stiffness, position).pressures
+        chambers = self.allocation.split(effort, self._stiffness, position).pressures
         return tuple(
             path.command_at_rest(p) for path, p in zip(self._paths, chambers, strict=True)
         )
 
     def _signs(self, position: float) -> list[float]:
-        return [1.0 if gain > 0.0 else -1.0 for gain in self.sharing.gains(position)]
+        return [1.0 if gain > 0.0 else -1.0 for gain in self.allocation.gains(position)]
 
     @property
     def learned(self) -> None:
@@ -161,7 +161,7 @@ class Pid:
 
     def stiffen(self, stiffness: float) -> None:
         """Set a stiffness; raises RangeError if it is not possible at the reference."""
-        self.sharing.refuse_stiffness(stiffness, self.terms.reference)
+        self.allocation.refuse_stiffness(stiffness, self.terms.reference)
         if self._schedule is not None:
             self._schedule.refuse_stiffness(stiffness)
         self._stiffness = stiffness
@@ -203,7 +203,7 @@ class Pid:
         """
         position, _ = step_arguments(dt, reference, position, velocity, age)
         self._waited += dt
-        static, gains = self._static(reference.position), self.sharing.gains(reference.position)
+        static, gains = self._static(reference.position), self.allocation.gains(reference.position)
         signs = self._signs(reference.position)
         if position is not None:
             # The range that the limits leave to the output: simple-pid stops its integral there.
@@ -251,7 +251,7 @@ class Pid:
 
     def _note_stiffness(self) -> None:
         """Set the terms of the desired stiffness and of the stiffness under the commands."""
-        if not self.sharing.can_stiffen:
+        if not self.allocation.can_stiffen:
             return
         terms = self.terms
         chambers = [
@@ -271,7 +271,12 @@ class Pid:
         """
         low, high = float('inf'), -float('inf')
         for limiter, path, sign, pressure, least in zip(
-            self._limiters, self._paths, signs, static, self.sharing.least(reference), strict=True
+            self._limiters,
+            self._paths,
+            signs,
+            static,
+            self.allocation.least(reference),
+            strict=True,
         ):
             slack = min(max(path.command_at_rest(least), limiter.low), limiter.high)
             ends = sorted((sign * (slack - pressure), sign * (limiter.high - pressure)))

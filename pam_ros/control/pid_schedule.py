@@ -8,8 +8,8 @@ from math import isfinite
 
 import numpy as np
 
+from pam_ros.control.allocation import Allocation
 from pam_ros.control.pid_margin import Plant, Share, share
-from pam_ros.control.sharing import Sharing
 from pam_ros.control.tuning import number
 from pam_ros.errors import ParameterError, RangeError
 
@@ -24,12 +24,12 @@ class ScheduleTuning:
 TUNING = ScheduleTuning()
 
 
-def plant_at(sharing: Sharing, s: float, stiffness: float) -> Plant:
+def plant_at(allocation: Allocation, s: float, stiffness: float) -> Plant:
     """Return the joint at rest at *s*, with the *stiffness* if it can be chosen."""
-    model = sharing.model
-    p = sharing.split(model.gravity(s), stiffness, s).pressures
+    model = allocation.model
+    p = allocation.split(model.gravity(s), stiffness, s).pressures
     k = model.stiffness(p, s) + model.gravity_stiffness(s)
-    gain = sum(map(abs, sharing.gains(s)))
+    gain = sum(map(abs, allocation.gains(s)))
     return Plant(model.inertia, model.damping(p, s, 0.0), k, gain)
 
 
@@ -40,15 +40,15 @@ class Schedule:
     """
 
     def __init__(
-        self, sharing: Sharing, gains: tuple[float, float, float, float], stiffness: float
+        self, allocation: Allocation, gains: tuple[float, float, float, float], stiffness: float
     ) -> None:
         """Find them for the desired *stiffness*, and for the least and the greatest one."""
-        low, high = sharing.reach
+        low, high = allocation.reach
         self._places = np.linspace(low, high, TUNING.places) if isfinite(high) else np.zeros(1)
-        self._sharing, self._gains = sharing, gains
+        self._allocation, self._gains = allocation, gains
         self._levels = [stiffness]
-        if sharing.can_stiffen:
-            ranges = [sharing.stiffness_range(float(s)) for s in self._places]
+        if allocation.can_stiffen:
+            ranges = [allocation.stiffness_range(float(s)) for s in self._places]
             least, most = min(r[0] for r in ranges), max(r[1] for r in ranges)
             self._levels = sorted({min(least, stiffness), stiffness, max(most, stiffness)})
         self._table = [self._row(k) for k in self._levels]
@@ -56,14 +56,15 @@ class Schedule:
 
     def _row(self, stiffness: float) -> list[Share | None]:
         return [
-            share(self._gains, plant_at(self._sharing, float(s), stiffness)) for s in self._places
+            share(self._gains, plant_at(self._allocation, float(s), stiffness))
+            for s in self._places
         ]
 
     def _refuse_unstable(self, row: list[Share | None]) -> None:
         for s, found in zip(self._places, row, strict=True):
             if found is None:
-                unit = self._sharing.model.joint.transmission.equations
-                k = plant_at(self._sharing, float(s), self._levels[0]).stiffness
+                unit = self._allocation.model.joint.transmission.equations
+                k = plant_at(self._allocation, float(s), self._levels[0]).stiffness
                 raise ParameterError(
                     f'no share of these PID gains is stable at {s:.4g} {unit.unit}, where the '
                     f'joint has a stiffness of {k:.4g} {unit.effort_unit}/{unit.unit} with that '
@@ -77,7 +78,7 @@ class Schedule:
             return
         row = self._row(stiffness)
         if None in row:
-            unit = self._sharing.model.joint.transmission.equations
+            unit = self._allocation.model.joint.transmission.equations
             raise RangeError(
                 f'co-contraction {stiffness:.6g} {unit.effort_unit}/{unit.unit} leaves no share '
                 'of these PID gains stable in all of the reach: give a larger one'

@@ -19,8 +19,8 @@ from math import exp
 
 import numpy as np
 
+from pam_ros.control.allocation import Allocation
 from pam_ros.control.model import ControlModel
-from pam_ros.control.sharing import Sharing
 from pam_ros.rig import statics
 
 # Contraction beyond the permitted range that a load may reach: overshoot, and an offset of the
@@ -62,14 +62,14 @@ class MotionBounds:
     unit: str
 
 
-def bounds_of(sharing: Sharing) -> MotionBounds:
+def bounds_of(allocation: Allocation) -> MotionBounds:
     """Return the limits of motion of the nominal joint with the pressures within the limits."""
-    model = sharing.model
+    model = allocation.model
     joint, unit = model.joint, model.joint.transmission.equations.unit
     low, high = statics.span(joint, BEYOND, BEYOND)
     permitted = statics.span(joint)
     places = np.linspace(*permitted, PLACES)
-    greatest = max(_greatest_effort(model, sharing, float(s)) for s in places)
+    greatest = max(_greatest_effort(model, allocation, float(s)) for s in places)
     return MotionBounds(
         low,
         high,
@@ -79,10 +79,10 @@ def bounds_of(sharing: Sharing) -> MotionBounds:
     )
 
 
-def _greatest_effort(model: ControlModel, sharing: Sharing, s: float) -> float:
+def _greatest_effort(model: ControlModel, allocation: Allocation, s: float) -> float:
     """Return the greatest effort on the load at s, of the muscles and gravity together."""
     total = abs(model.gravity(s))
-    for muscle, range_ in zip(model.at(s).muscles, sharing.ranges, strict=True):
+    for muscle, range_ in zip(model.at(s).muscles, allocation.ranges, strict=True):
         total += abs(muscle.arm) * max(abs(muscle.force(p)) for p in range_)
     return total
 

@@ -8,8 +8,8 @@ from math import isfinite
 from typing import NamedTuple, Protocol
 
 from pam_ros.arguments import array, number, refuse, refuse_shape
+from pam_ros.control.allocation import Allocation
 from pam_ros.control.learning.learned import Learned
-from pam_ros.control.sharing import Sharing
 
 Pressures = tuple[float, ...]  # gauge Pa, one a muscle
 
@@ -174,7 +174,7 @@ class PositionLaw(Protocol):
         """The results of the last step."""
 
     @property
-    def sharing(self) -> Sharing:
+    def allocation(self) -> Allocation:
         """The allocation of the effort to the muscles."""
 
     @property

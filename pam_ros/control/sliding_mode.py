@@ -21,7 +21,7 @@ and the wanted effort is
 
 so that sigma' = -K sat(sigma / Phi) + (d^ - d) / J, with the consequences in
 :class:`pam_ros.control.gains.Gains`. The pressures are the explicit inverse of the force law **at
-the reference**, not at the load (:mod:`.sharing`): tau(p, r) = tau(p, s) - k e. So the joint's own
+the reference**, not at the load (:mod:`.allocation`): tau(p, r) = tau(p, s) - k e. So the joint's own
 spring pulls the load to the reference, without noise and without lag, and -k e above accounts for
 it. w is the joint's own sqrt(k / J) unless the gains ask for more; then (w^2 J - k) e is 0.
 Antagonistic muscles have the stiffness as a second set-point, which does not move the coordinate.
@@ -40,7 +40,8 @@ from dataclasses import dataclass
 from math import sqrt
 
 from pam_ros.arguments import instance
-from pam_ros.control.co_contraction import CoContraction, StiffnessCourse
+from pam_ros.control.allocation import allocation_of
+from pam_ros.control.co_contraction import CoContraction, StiffnessReference
 from pam_ros.control.compensation import Losses
 from pam_ros.control.gains import SUPER_TWISTING, Gains
 from pam_ros.control.learning.features import FeatureTuning
@@ -55,7 +56,6 @@ from pam_ros.control.rest.oscillation import OscillationTuning
 from pam_ros.control.rest.rejection import Rejection, RejectionTuning
 from pam_ros.control.rest.standstill import Standstill, StandstillTuning
 from pam_ros.control.rest.stiction import Stiction, StictionTuning
-from pam_ros.control.sharing import sharing_of
 from pam_ros.control.signals import (
     Pressures,
     Reference,
@@ -107,12 +107,12 @@ class SlidingMode:
         instance('co_contraction', wanted, CoContraction, 'a CoContraction')
         gains.require(turning=joint.is_revolute)
         self.model = model = ControlModel(joint)
-        self.sharing = sharing_of(model, limits)
+        self.allocation = allocation_of(model, limits)
         self.terms = Terms()
         length, force = 1.0 / model.arm, model.arms
         self._tuning = scaled(LawTuning(), length, force)
         self._limiters = [
-            Limiter(low, high, limits.pressure_rate) for low, high in self.sharing.ranges
+            Limiter(low, high, limits.pressure_rate) for low, high in self.allocation.ranges
         ]
         self._paths = [
             PressurePath(joint, i, gains.pressure_time) for i in range(len(model.muscles))
@@ -133,8 +133,10 @@ class SlidingMode:
         self._stiction = Stiction(gains.rest_tolerance, scaled(StictionTuning(), length, force))
         self._rejection = Rejection(gains, RejectionTuning(), OscillationTuning())
         self._surface = Surface()
-        self._stiffness = StiffnessCourse(wanted.wanted(self.sharing), wanted.co_contraction_rate)
-        low, high = self.sharing.reach
+        self._stiffness = StiffnessReference(
+            wanted.wanted(self.allocation), wanted.co_contraction_rate
+        )
+        low, high = self.allocation.reach
         self.start(0.5 * (low + high) if high < float('inf') else 0.0)
 
     def set_gains(self, gains: Gains) -> None:
@@ -147,7 +149,7 @@ class SlidingMode:
 
     def set_co_contraction(self, wanted: CoContraction) -> None:
         """Approach another stiffness, or at another rate; raises RangeError out of reach."""
-        self._stiffness.set_goal(wanted.wanted(self.sharing))
+        self._stiffness.set_goal(wanted.wanted(self.allocation))
         self._stiffness.rate = wanted.co_contraction_rate
 
     def stiffen(self, stiffness: float) -> None:
@@ -156,7 +158,7 @@ class SlidingMode:
         In N/m or N m/rad. At other positions it is kept as nearly as the limits of pressure
         allow.
         """
-        self.sharing.refuse_stiffness(stiffness, self.terms.reference)
+        self.allocation.refuse_stiffness(stiffness, self.terms.reference)
         self._stiffness.set_goal(stiffness)
 
     def start(self, position: float, pressures: Pressures | None = None) -> None:
@@ -170,7 +172,7 @@ class SlidingMode:
         start_arguments(position, pressures, len(model.muscles))
         if pressures is None:
             goal = self._stiffness.goal
-            chambers = self.sharing.split(model.gravity(position), goal, position).pressures
+            chambers = self.allocation.split(model.gravity(position), goal, position).pressures
             pressures = tuple(
                 path.command_at_rest(p) for path, p in zip(self._paths, chambers, strict=True)
             )
@@ -189,7 +191,7 @@ class SlidingMode:
         self._rejection.start()
         self._pushed: float | None = None
         self._surface.start()
-        self.sharing.start()
+        self.allocation.start()
         self._waited = 0.0  # since the last measurement, s
         self._offset = 0.0 if self.gains.observer else disturbance
         self._lost = 0.0
@@ -230,10 +232,10 @@ class SlidingMode:
         effort, foreseen, rate = self._wanted_effort(dt, reference, velocity, chambers)
         effort = self._push(dt, reference, effort)
         stiffness, s = self._stiffness.stiffness, reference.position
-        wanted = self.sharing.split(effort, stiffness, s)
-        rates = self.sharing.rates(dt, foreseen, rate, stiffness, s)
+        wanted = self.allocation.split(effort, stiffness, s)
+        rates = self.allocation.rates(dt, foreseen, rate, stiffness, s)
         cut, commands = wanted.short, []
-        for i, gain in enumerate(self.sharing.gains(s)):
+        for i, gain in enumerate(self.allocation.gains(s)):
             asked = self._paths[i].command_for(wanted.pressures[i], rates[i])
             commands.append(self._limiters[i].limit(asked, dt))
             cut += gain * (asked - commands[i])
@@ -246,7 +248,7 @@ class SlidingMode:
         """Set the terms of the pressures and of the resulting stiffness."""
         terms = self.terms
         terms.pressures = commands
-        if self.sharing.can_stiffen:
+        if self.allocation.can_stiffen:
             terms.co_contraction = self._stiffness.stiffness
             terms.stiffness = self.model.stiffness(chambers, terms.position)
 
@@ -281,7 +283,7 @@ class SlidingMode:
         growth = learner.growth.bandwidth / gains.bandwidth if gains.learning else 1.0
         scale *= growth
         rejection = self._rejection
-        stiffens = self.sharing.can_stiffen and self._stiffness.is_moving
+        stiffens = self.allocation.can_stiffen and self._stiffness.is_moving
         moves = self._standstill.is_moving or stiffens
         rejection.see(dt, error, position, moves=moves, is_cut=self.terms.saturated)
         self._bandwidth = rejection.between(scale * gains.bandwidth, gains.bandwidth)

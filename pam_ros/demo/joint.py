@@ -17,7 +17,7 @@ LAST = 0.2  # s at the end of a set-point over which the stiffness is evaluated
 
 
 @dataclass(frozen=True)
-class JointCourse:
+class JointRun:
     """Series (n,), one sample per stamp, all in SI: s, rad, rad, Pa, Pa, N m/rad, N m/rad.
 
     ``angle`` is measured; ``stiffness`` is that of the rig, ``co_contraction`` is its set-point.
@@ -41,19 +41,19 @@ class JointCourse:
         """The time in s at which the reference leaves its first value."""
         return float(self.t[np.argmax(np.abs(self.reference - self.reference[0]) > STILL)])
 
-    def with_stiffness(self, wanted: float) -> 'JointCourse':
+    def with_stiffness(self, wanted: float) -> 'JointRun':
         """Return the part in which the present set-point of the stiffness is *wanted* N m/rad."""
         return self._where(np.abs(self.co_contraction - wanted) < 1e-6 * wanted)
 
-    def _where(self, inside: NDArray[np.bool_]) -> 'JointCourse':
-        return JointCourse(*(getattr(self, item.name)[inside] for item in fields(self)))
+    def _where(self, inside: NDArray[np.bool_]) -> 'JointRun':
+        return JointRun(*(getattr(self, item.name)[inside] for item in fields(self)))
 
-    def between(self, begin: float, end: float) -> 'JointCourse':
+    def between(self, begin: float, end: float) -> 'JointRun':
         """Return the part from *begin* up to *end* s."""
         return self._where((self.t >= begin) & (self.t < end))
 
 
-def table(parts: list[tuple[str, JointCourse]]) -> str:
+def table(parts: list[tuple[str, JointRun]]) -> str:
     """Return a table of error and stiffness in each of the *parts*, by their names."""
     lines = [f'{"":<26}{"swing":>10}{"error RMS":>13}{"largest":>12}{"N m/rad":>12}{"set":>8}']
     for name, part in parts:
@@ -70,24 +70,24 @@ def table(parts: list[tuple[str, JointCourse]]) -> str:
     return '\n'.join(lines)
 
 
-def figure(course: JointCourse, headline: str) -> Figure:
+def figure(run: JointRun, headline: str) -> Figure:
     """Draw angle, error, both pressures and the stiffness over time."""
-    t = course.t - course.t[0]
+    t = run.t - run.t[0]
     with styled():
         drawn, axes = stacked(WIDTH, (180, 110, 140, 120))
         angle, error, pressure, stiffness = axes
-        angle.plot(t, np.degrees(course.reference), color=FAINT, linewidth=2.5, label='reference')
-        angle.plot(t, np.degrees(course.angle), color=COLOURS[2], label='angle')
+        angle.plot(t, np.degrees(run.reference), color=FAINT, linewidth=2.5, label='reference')
+        angle.plot(t, np.degrees(run.angle), color=COLOURS[2], label='angle')
         angle.margins(y=0.25)
-        error.plot(t, np.degrees(course.error), color=COLOURS[0], linewidth=0.8)
+        error.plot(t, np.degrees(run.error), color=COLOURS[0], linewidth=0.8)
         error.axhline(0.0, color=FAINT, linewidth=0.8, linestyle=(0, (4, 3)))
-        pressure.plot(t, 1e-3 * course.pressure_1, color=COLOURS[0], label='first muscle')
-        pressure.plot(t, 1e-3 * course.pressure_2, color=COLOURS[2], label='second muscle')
+        pressure.plot(t, 1e-3 * run.pressure_1, color=COLOURS[0], label='first muscle')
+        pressure.plot(t, 1e-3 * run.pressure_2, color=COLOURS[2], label='second muscle')
         pressure.margins(y=0.25)
         stiffness.plot(
-            t, course.co_contraction, color=FAINT, linewidth=2.5, label='set (co-contraction)'
+            t, run.co_contraction, color=FAINT, linewidth=2.5, label='set (co-contraction)'
         )
-        stiffness.plot(t, course.stiffness, color=COLOURS[2], label='of the rig')
+        stiffness.plot(t, run.stiffness, color=COLOURS[2], label='of the rig')
         stiffness.margins(y=0.3)
         for ax, title in (
             (angle, 'angle [degrees]'),

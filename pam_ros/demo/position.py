@@ -18,7 +18,7 @@ LAST = 0.5  # s at the end of a step over which the error is evaluated
 
 
 @dataclass(frozen=True)
-class Course:
+class PositionRun:
     """Series (n,), one sample per stamp, all in SI: s, m, m, m/s, Pa."""
 
     t: Array
@@ -32,10 +32,10 @@ class Course:
         """Reference less position, m."""
         return self.reference - self.position
 
-    def between(self, begin: float, end: float) -> 'Course':
+    def between(self, begin: float, end: float) -> 'PositionRun':
         """Return the part from *begin* up to *end* s."""
         inside = (self.t >= begin) & (self.t < end)
-        return Course(*(getattr(self, item.name)[inside] for item in fields(self)))
+        return PositionRun(*(getattr(self, item.name)[inside] for item in fields(self)))
 
     def departure(self, begin: float, least: float) -> float:
         """Return the time in s at which the reference is *least* m away from its value at *begin*.
@@ -52,7 +52,7 @@ class Course:
         return float(self.t[np.argmax(gone)])
 
 
-def settling(step: Course, goal: float) -> float:
+def settling(step: PositionRun, goal: float) -> float:
     """Return the time in s after which the load stays within SETTLED of *goal* m, inf if never."""
     off = np.flatnonzero(np.abs(step.position - goal) > SETTLED)
     if not off.size:
@@ -62,8 +62,8 @@ def settling(step: Course, goal: float) -> float:
     return float(step.t[off[-1] + 1] - step.t[0])
 
 
-def table(steps: list[tuple[float, Course]], sine: Course) -> str:
-    """Return a table of the results: each of the *steps* is a goal in m and its course."""
+def table(steps: list[tuple[float, PositionRun]], sine: PositionRun) -> str:
+    """Return a table of the results: each of the *steps* is a goal in m and its run."""
     lines = [f'{"set-point":<24}{"settles in":>12}{"error at rest":>16}{"pressure moves":>17}']
     for goal, step in steps:
         rest = step.between(step.t[-1] - LAST, np.inf)
@@ -79,19 +79,19 @@ def table(steps: list[tuple[float, Course]], sine: Course) -> str:
     return '\n'.join(lines)
 
 
-def figure(course: Course, headline: str) -> Figure:
+def figure(run: PositionRun, headline: str) -> Figure:
     """Draw position, error, pressure and sliding variable over time."""
-    t = course.t - course.t[0]
+    t = run.t - run.t[0]
     with styled():
         drawn, axes = stacked(WIDTH, (180, 120, 120, 120))
-        axes[0].plot(t, 1e3 * course.reference, color=FAINT, linewidth=2.5, label='reference')
-        axes[0].plot(t, 1e3 * course.position, color=COLOURS[2], label='position')
+        axes[0].plot(t, 1e3 * run.reference, color=FAINT, linewidth=2.5, label='reference')
+        axes[0].plot(t, 1e3 * run.position, color=COLOURS[2], label='position')
         axes[0].margins(y=0.2)
         axes[0].legend(loc='lower right', ncols=2, frameon=False)
         for ax, title, values in (
-            (axes[1], 'error [mm]', 1e3 * course.error),
-            (axes[2], 'pressure [kPa]', 1e-3 * course.pressure),
-            (axes[3], 'sliding variable [mm/s]', 1e3 * course.surface),
+            (axes[1], 'error [mm]', 1e3 * run.error),
+            (axes[2], 'pressure [kPa]', 1e-3 * run.pressure),
+            (axes[3], 'sliding variable [mm/s]', 1e3 * run.surface),
         ):
             ax.set_title(title)
             ax.plot(t, values, color=COLOURS[0])

@@ -39,7 +39,7 @@ def values_of(loop: Loop, setup: ControlSetup, age: float | None) -> dict[str, A
         f'error ({unit})': terms.error if is_running else None,
         'command (Pa)': shown(loop.pressures),
         'saturated': terms.saturated if is_running else None,
-        'on a trajectory': loop.course.is_on_trajectory if is_running else None,
+        'on a trajectory': loop.source.is_on_trajectory if is_running else None,
         f'lowest reference ({unit})': setup.reach[0],
         f'highest reference ({unit})': setup.reach[1],
         'age of joint_states (s)': age,
@@ -57,8 +57,8 @@ def values_of(loop: Loop, setup: ControlSetup, age: float | None) -> dict[str, A
     feedback = left_to_feedback(setup.joint)
     if feedback:
         values['configured, without feedforward'] = ', '.join(feedback)
-    if law.sharing.can_stiffen:
-        low, high = law.sharing.stiffness_range(law.terms.reference)
+    if law.allocation.can_stiffen:
+        low, high = law.allocation.stiffness_range(law.terms.reference)
         values |= {
             'co-contraction (N m/rad)': law.terms.co_contraction if is_running else None,
             'lowest co-contraction (N m/rad)': low,

@@ -14,6 +14,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from pam_ros.cached_property import cached_property
+from pam_ros.control.allocation import allocation_of
 from pam_ros.control.co_contraction import CoContraction
 from pam_ros.control.gains import Gains
 from pam_ros.control.limits import Limits
@@ -21,9 +22,8 @@ from pam_ros.control.loop import HOLD, VENT
 from pam_ros.control.model import ControlModel
 from pam_ros.control.pid import Pid, PidGains
 from pam_ros.control.pressure_path import PressurePath
-from pam_ros.control.reference.course import Course
 from pam_ros.control.reference.shaping import Shape
-from pam_ros.control.sharing import sharing_of
+from pam_ros.control.reference.source import ReferenceSource
 from pam_ros.control.signals import PositionLaw, Pressures, Reference
 from pam_ros.control.sliding_mode import SlidingMode
 from pam_ros.errors import ParameterError
@@ -197,9 +197,9 @@ class ControlParameters(RigParameters):
         limits = build(Limits, values, 'limits.')
         shape = build(Shape, values, 'shape.', is_turning=is_turning)
         co_contraction = build(CoContraction, values)
-        sharing = sharing_of(ControlModel(joint), limits)
-        gains.check(sharing, 1.0 / settings.rate)
-        co_contraction.wanted(sharing)
+        allocation = allocation_of(ControlModel(joint), limits)
+        gains.check(allocation, 1.0 / settings.rate)
+        co_contraction.wanted(allocation)
         setup = ControlSetup(
             joint,
             settings,
@@ -208,8 +208,8 @@ class ControlParameters(RigParameters):
             limits,
             shape,
             co_contraction,
-            sharing.reach,
-            sharing.can_stiffen,
+            allocation.reach,
+            allocation.can_stiffen,
             self.muscles[n * (k or 0) : n * (k or 0) + n],
             has_topics,
         )
@@ -307,9 +307,9 @@ class ControlSetup:
                 'or too close to 0, such as the mass or inertia of the load'
             )
 
-    def make_course(self) -> Course:
+    def make_reference_source(self) -> ReferenceSource:
         """Return a new reference generator, which must be started before use."""
-        return Course(self.shape, self.reach, self.unit)
+        return ReferenceSource(self.shape, self.reach, self.unit)
 
     def command_at(self, chambers: Sequence[float]) -> Pressures:
         """Return the commands in Pa at which the chambers stay at these gauge pressures in Pa."""

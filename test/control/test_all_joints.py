@@ -74,7 +74,7 @@ def test_neither_switching_term_grows_while_the_arm_cannot_follow():
 def test_the_surface_does_not_wind_up_while_something_holds_the_load(kind):
     """The switching term is at its limit long before the pressure is."""
     law = SlidingMode(declared(kind))
-    low, high = law.sharing.reach
+    low, high = law.allocation.reach
     begin, goal = 0.5 * (low + high), 0.6 * high + 0.4 * low
     law.start(begin)
     found = []

@@ -5,7 +5,7 @@
 import numpy as np
 import pytest
 
-from pam_ros.control.co_contraction import RISE, CoContraction, StiffnessCourse
+from pam_ros.control.co_contraction import RISE, CoContraction, StiffnessReference
 from pam_ros.errors import ParameterError, RangeError
 from pam_ros.rig.standard_joints import single_muscle_joint
 from support.closed_loop import shared
@@ -32,10 +32,10 @@ def test_one_that_cannot_be_had_is_refused():
 
 
 def test_another_is_approached_at_the_rate_and_without_a_jump():
-    course = StiffnessCourse(20.0, 100.0)
-    course.start(20.0)
-    course.set_goal(40.0)
-    way = np.array([course.follow(DT) for _ in range(300)])
+    source = StiffnessReference(20.0, 100.0)
+    source.start(20.0)
+    source.set_goal(40.0)
+    way = np.array([source.follow(DT) for _ in range(300)])
     slope = np.diff(way, prepend=20.0) / DT
     assert np.max(slope) == pytest.approx(100.0, rel=1e-6)
     assert np.min(slope) >= -1e-9
@@ -46,12 +46,12 @@ def test_another_is_approached_at_the_rate_and_without_a_jump():
 
 
 def test_a_new_goal_on_the_way_makes_no_jump():
-    course = StiffnessCourse(20.0, 100.0)
-    course.start(30.0)
-    before = course.follow(DT)
+    source = StiffnessReference(20.0, 100.0)
+    source.start(30.0)
+    before = source.follow(DT)
     for n in range(200):
         if n % 7 == 0:
-            course.set_goal(20.0 + n % 3)
-        now = course.follow(DT)
+            source.set_goal(20.0 + n % 3)
+        now = source.follow(DT)
         assert abs(now - before) <= 1.01 * 100.0 * DT
         before = now

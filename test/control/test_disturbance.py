@@ -151,7 +151,7 @@ def test_a_force_in_one_muscle_of_any_joint_is_rejected(name):
     found = {}
     for is_on in (True, False):
         law = SlidingMode(joint, Gains.for_joint(joint, rejection=is_on))
-        goal = 0.5 * sum(law.sharing.reach)
+        goal = 0.5 * sum(law.allocation.reach)
         run = close_joint(law, rig, lambda t, goal=goal: goal, 8.0, noise=noise)
         found[is_on] = swing(run)
     assert found[True] < 0.4 * found[False]

@@ -42,12 +42,12 @@ def test_an_observer_that_is_off_needs_no_bandwidth():
 
 
 def test_gains_that_do_not_suit_a_rig_or_a_rate_are_refused():
-    sharing = shared(single_muscle_joint())
-    Gains().check(sharing, 0.002)
+    allocation = shared(single_muscle_joint())
+    Gains().check(allocation, 0.002)
     with pytest.raises(ParameterError, match='too fast for a control rate of 50 Hz'):
-        Gains().check(sharing, 0.02)
+        Gains().check(allocation, 0.02)
     with pytest.raises(ParameterError, match='disturbance_bound = 5000 N cannot be overcome'):
-        Gains(disturbance_bound=5000.0).check(sharing, 0.002)
+        Gains(disturbance_bound=5000.0).check(allocation, 0.002)
 
 
 def test_width_and_gain_are_those_of_the_docstring():

@@ -6,8 +6,8 @@ import pytest
 
 from pam_ros.control.gains import Gains
 from pam_ros.control.pid import Pid, PidGains
-from pam_ros.control.reference.course import Course
 from pam_ros.control.reference.shaping import Shape
+from pam_ros.control.reference.source import ReferenceSource
 from pam_ros.control.sliding_mode import SlidingMode
 from pam_ros.errors import ParameterError
 from pam_ros.rig.standard_joints import single_muscle_joint
@@ -51,9 +51,12 @@ TURNS = 'the joint turns .rad, N m. and {} has the units of one that slides .m, 
         (lambda: SlidingMode(elbow()).set_gains(Gains()), TURNS.format('Gains')),
         (lambda: Pid(elbow(), PidGains()), TURNS.format('PidGains')),
         (lambda: Pid(single_muscle_joint(), PidGains.turning()), SLIDES.format('PidGains')),
-        (lambda: Course(Shape(), (-1.0, 1.0), 'rad'), TURNS.format('Shape')),
-        (lambda: Course(Shape.turning(), (0.0, 0.1)), SLIDES.format('Shape')),
-        (lambda: Course(Shape(), (0.0, 0.1)).set_shape(Shape.turning()), SLIDES.format('Shape')),
+        (lambda: ReferenceSource(Shape(), (-1.0, 1.0), 'rad'), TURNS.format('Shape')),
+        (lambda: ReferenceSource(Shape.turning(), (0.0, 0.1)), SLIDES.format('Shape')),
+        (
+            lambda: ReferenceSource(Shape(), (0.0, 0.1)).set_shape(Shape.turning()),
+            SLIDES.format('Shape'),
+        ),
     ],
 )
 def test_those_of_the_other_kind_are_refused(make, sentence):

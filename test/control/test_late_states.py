@@ -8,8 +8,8 @@ import pytest
 from pam_ros.control.loop import RUNNING, VENT, Loop, Reading
 from pam_ros.control.pid import Pid
 from pam_ros.control.plausibility import Plausibility, bounds_of
-from pam_ros.control.reference.course import Course
 from pam_ros.control.reference.shaping import Shape
+from pam_ros.control.reference.source import ReferenceSource
 from pam_ros.control.sliding_mode import SlidingMode
 from pam_ros.settings.control import ControlSettings
 from support.closed_loop import close_loop, declared, sine_target, truth
@@ -57,7 +57,12 @@ def test_a_moving_reference_is_followed_by_the_model(law, most):
 def test_the_loop_neither_vents_nor_begins_anew(law):
     settings, plant = ControlSettings(), truth('nominal', seed=3)
     law = law(declared())
-    loop = Loop(law, Course(Shape(), (-0.02, 0.1)), PERIOD, Plausibility(bounds_of(law.sharing)))
+    loop = Loop(
+        law,
+        ReferenceSource(Shape(), (-0.02, 0.1)),
+        PERIOD,
+        Plausibility(bounds_of(law.allocation)),
+    )
     loop.timeout, loop.safe = settings.state_timeout, settings.on_timeout
     assert loop.safe == VENT
     loop.chambers = (plant.state.u,)

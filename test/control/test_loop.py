@@ -16,8 +16,8 @@ from pam_ros.control.loop import (
     Reading,
 )
 from pam_ros.control.plausibility import MotionBounds, Plausibility
-from pam_ros.control.reference.course import Course
 from pam_ros.control.reference.shaping import Shape
+from pam_ros.control.reference.source import ReferenceSource
 from pam_ros.control.signals import Terms
 
 PERIOD = 0.002
@@ -47,7 +47,7 @@ class Recorder:
 
 @pytest.fixture
 def loop():
-    return Loop(Recorder(), Course(Shape(), (-1.0, 1.0)), PERIOD, Plausibility(BOUNDS))
+    return Loop(Recorder(), ReferenceSource(Shape(), (-1.0, 1.0)), PERIOD, Plausibility(BOUNDS))
 
 
 def test_it_commands_nothing_before_it_sees(loop):
@@ -243,9 +243,9 @@ def test_another_law_takes_over_in_flight(loop):
     loop.see(Reading(1.0, 0.05))
     last = loop.tick(1.0)
     other = Recorder()
-    loop.change(other, Course(Shape(), (-1.0, 1.0)))
+    loop.change(other, ReferenceSource(Shape(), (-1.0, 1.0)))
     assert other.starts == [(0.05, last)]
-    assert loop.course.reference.position == 0.05
+    assert loop.source.reference.position == 0.05
 
 
 def test_pressures_of_several_muscles_go_the_same_way():
@@ -253,8 +253,8 @@ def test_pressures_of_several_muscles_go_the_same_way():
         def update(self, *args, **kwargs):
             return 2 * super().update(*args, **kwargs)
 
-    course = Course(Shape.turning(), (-1.0, 1.0), 'rad')
-    loop = Loop(Two(), course, PERIOD, Plausibility(BOUNDS))
+    source = ReferenceSource(Shape.turning(), (-1.0, 1.0), 'rad')
+    loop = Loop(Two(), source, PERIOD, Plausibility(BOUNDS))
     loop.safe, loop.chambers = VENT, (123e3, 150e3)
     loop.see(Reading(1.0, 0.05))
     assert loop.tick(1.0) == loop.pressures == 2 * first(1)

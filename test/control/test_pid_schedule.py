@@ -24,8 +24,8 @@ GAINS = (49.1e3, 1.91e6, 9.09e3, 326.0)
 
 
 def schedule(joint, gains=GAINS):
-    sharing = shared(joint)
-    return Schedule(sharing, gains, CoContraction().wanted(sharing)), sharing
+    allocation = shared(joint)
+    return Schedule(allocation, gains, CoContraction().wanted(allocation)), allocation
 
 
 @pytest.mark.parametrize(
@@ -33,22 +33,22 @@ def schedule(joint, gains=GAINS):
 )
 def test_the_rigs_of_the_defaults_have_all_of_the_gains_at_all_places(joint):
     law = Pid(joint)
-    low, high = law.sharing.reach
+    low, high = law.allocation.reach
     for s in np.linspace(low, high, 41):
         assert law._schedule.at(float(s), law._stiffness) == (1.0, 1.0)
 
 
 def test_a_softer_pair_has_less_of_the_integral_gain():
-    found, sharing = schedule(pair_loop.declared())
-    wanted = CoContraction().wanted(sharing)
+    found, allocation = schedule(pair_loop.declared())
+    wanted = CoContraction().wanted(allocation)
     shares = [found.at(0.0, k).integral for k in (wanted, 0.7 * wanted, 0.0)]
     assert shares == sorted(shares, reverse=True)
     assert shares[-1] < 0.8
 
 
 def test_between_the_places_it_is_interpolated_and_beyond_them_that_of_the_end():
-    found, sharing = schedule(declared('crank'))
-    low, high = sharing.reach
+    found, allocation = schedule(declared('crank'))
+    low, high = allocation.reach
     shares = np.array([found.at(float(s), 0.0) for s in np.linspace(low - 1.0, high + 1.0, 4001)])
     assert np.max(np.abs(np.diff(shares, axis=0))) < 0.01
     assert tuple(shares[0]) == found.at(low, 0.0)
@@ -57,9 +57,11 @@ def test_between_the_places_it_is_interpolated_and_beyond_them_that_of_the_end()
 
 def test_the_stiffness_of_gravity_counts():
     joint = declared('crank', 3.0)
-    sharing = shared(joint)
-    plant = plant_at(sharing, 0.3, 0.0)
-    muscles = sharing.model.stiffness(sharing.split(sharing.model.gravity(0.3), 0.0, 0.3)[0], 0.3)
+    allocation = shared(joint)
+    plant = plant_at(allocation, 0.3, 0.0)
+    muscles = allocation.model.stiffness(
+        allocation.split(allocation.model.gravity(0.3), 0.0, 0.3)[0], 0.3
+    )
     assert plant.stiffness == pytest.approx(muscles + 3.0 * 9.80665 * 0.25 * np.cos(0.3))
 
 
@@ -76,8 +78,8 @@ def test_what_no_share_makes_stable_is_refused_with_a_sentence():
 
 
 def test_a_stiffness_that_leaves_no_share_stable_is_refused():
-    found, sharing = schedule(standing(7.0), (1e3, 1.91e6, 9.09e3, 326.0))
-    wanted = CoContraction().wanted(sharing)
+    found, allocation = schedule(standing(7.0), (1e3, 1.91e6, 9.09e3, 326.0))
+    wanted = CoContraction().wanted(allocation)
     for stiffness in (wanted, 1.2 * wanted, 0.95 * wanted):
         found.refuse_stiffness(stiffness)
     assert found.at(0.0, 0.95 * wanted).integral < 0.5

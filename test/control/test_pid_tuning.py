@@ -44,12 +44,12 @@ def pair(place, payload=0.0):
     """Return the same of two muscles and their arm, with the default stiffness."""
     joint = pair_loop.declared()
     stiffness = CoContraction().wanted(closed_loop.shared(joint))
-    sharing = closed_loop.shared(replace(joint, load=Arm(mass=joint.load.mass + payload)))
-    model = sharing.model
-    p = sharing.split(model.gravity(place), stiffness, place).pressures
+    allocation = closed_loop.shared(replace(joint, load=Arm(mass=joint.load.mass + payload)))
+    model = allocation.model
+    p = allocation.split(model.gravity(place), stiffness, place).pressures
     k = model.stiffness(p, place) + model.gravity_stiffness(place)
     # What the law wants is given to one muscle and taken from the other.
-    gain = sum(map(abs, sharing.gains(place)))
+    gain = sum(map(abs, allocation.gains(place)))
     return model.inertia, model.damping(p, place, 0.0), k, gain
 
 
@@ -152,9 +152,9 @@ def test_no_gains_near_by_are_better(bench, seed):
 
 
 def test_the_default_stiffness_can_be_had_at_the_angles_of_the_pair():
-    sharing = closed_loop.shared(pair_loop.declared())
-    stiffness = CoContraction().wanted(sharing)
+    allocation = closed_loop.shared(pair_loop.declared())
+    stiffness = CoContraction().wanted(allocation)
     for place in ANGLES[:-1]:
-        low, high = sharing.stiffness_range(place)
+        low, high = allocation.stiffness_range(place)
         assert low < stiffness < high
-    assert sharing.stiffness_range(ANGLES[-1])[0] == pytest.approx(stiffness, rel=0.01)
+    assert allocation.stiffness_range(ANGLES[-1])[0] == pytest.approx(stiffness, rel=0.01)

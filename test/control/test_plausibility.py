@@ -7,14 +7,14 @@ import math
 import numpy as np
 import pytest
 
+from pam_ros.control.allocation import allocation_of
 from pam_ros.control.limits import Limits
 from pam_ros.control.loop import BLIND, RUNNING, Loop, Reading
 from pam_ros.control.model import ControlModel
 from pam_ros.control.pid import Pid
 from pam_ros.control.plausibility import MotionBounds, Plausibility, bounds_of, fault_of_pressure
-from pam_ros.control.reference.course import Course
 from pam_ros.control.reference.shaping import Shape
-from pam_ros.control.sharing import sharing_of
+from pam_ros.control.reference.source import ReferenceSource
 from pam_ros.control.sliding_mode import SlidingMode
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig.loads import Mass
@@ -32,7 +32,7 @@ JOINT = closed_loop.declared()
 
 
 def bounds_for(joint):
-    return bounds_of(sharing_of(ControlModel(joint), Limits()))
+    return bounds_of(allocation_of(ControlModel(joint), Limits()))
 
 
 # Bounds ------------------------------------------------------------------------------------------
@@ -52,7 +52,7 @@ def test_one_muscle_goes_as_fast_as_its_greatest_force_less_its_weight_twice():
 
 @pytest.mark.parametrize('joint', [pair(), *JOINTS.values()], ids=['pair', *JOINTS])
 def test_every_joint_has_bounds_around_its_reach(joint):
-    found, reach = bounds_for(joint), sharing_of(ControlModel(joint), Limits()).reach
+    found, reach = bounds_for(joint), allocation_of(ControlModel(joint), Limits()).reach
     assert found.low < reach[0] < reach[1] < found.high
     assert 0.0 < found.allowance < 0.01 * (found.high - found.low)
     # From rest at its softest, all pressure at once moves no joint faster.
@@ -184,8 +184,8 @@ def test_every_measurement_of_the_hardest_motion_is_taken(rate, mass):
 
 
 def loop_of(law):
-    reach = law.sharing.reach
-    return Loop(law, Course(Shape(), reach), DT, Plausibility(bounds_of(law.sharing)))
+    reach = law.allocation.reach
+    return Loop(law, ReferenceSource(Shape(), reach), DT, Plausibility(bounds_of(law.allocation)))
 
 
 def motion(law, false, at, *, is_moving=False, seconds=2.0):
@@ -200,9 +200,9 @@ def motion(law, false, at, *, is_moving=False, seconds=2.0):
         (pressure,) = loop.tick(now)
         loop.chambers = None
         if n == 0:
-            loop.course.set_target(0.06)
+            loop.source.set_target(0.06)
         elif is_moving:
-            loop.course.set_target(0.06 + 0.01 * math.sin(2.0 * math.pi * 0.5 * n * DT))
+            loop.source.set_target(0.06 + 0.01 * math.sin(2.0 * math.pi * 0.5 * n * DT))
         measured = plant.step(pressure, DT)
         found.append(plant.y)
     return np.array(found), loop

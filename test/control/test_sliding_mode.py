@@ -67,7 +67,7 @@ def on_rig(law, case, way, seconds, effort=lambda t: 0.0):
         pressures = law.update(DT, Reference(goal), found)
         rows.append((t, goal - found, law.terms.surface, *pressures))
         # An outside effort is a change of pressures, against each other where there are two.
-        gains = np.array(law.sharing.gains(found))
+        gains = np.array(law.allocation.gains(found))
         rig.command(pressures + effort(t) * np.sign(gains) / np.sum(np.abs(gains)))
         rig.advance(2)
     t, e, s, *commands = np.array(rows).T
@@ -174,7 +174,7 @@ def test_an_arm_that_hangs_on_vented_muscles_stays_where_it_is(hanging_at):
 )
 def test_commands_stay_within_limits_of_pressure_and_rate(joint):
     law = SlidingMode(joint, Gains.for_joint(joint), Limits(100e3, 400e3, 1e6))
-    low, high = law.sharing.reach
+    low, high = law.allocation.reach
     law.start(0.5 * (low + high))
     rng, last = np.random.default_rng(0), law.terms.pressures
     noise, seen = (1e-2 if joint.is_revolute else 1e-3), []
@@ -191,7 +191,7 @@ def test_commands_stay_within_limits_of_pressure_and_rate(joint):
 @EACH
 def test_it_does_not_wind_up_at_a_limit(case):
     law = SlidingMode(case.joint, Gains.for_joint(case.joint), Limits(pressure_high=350e3))
-    far = law.sharing.reach[1] - case.begin + 0.5 * (0.03 if case.unit == 1e-3 else 1.0)
+    far = law.allocation.reach[1] - case.begin + 0.5 * (0.03 if case.unit == 1e-3 else 1.0)
     t, e, _, pressures = on_rig(law, case, lambda t: far if 0.5 < t < 4.0 else 0.0, 6.0)
     first = pressures[0]
     assert np.all(first[(t > 2.0) & (t < 4.0)] == 350e3)
@@ -248,7 +248,7 @@ def test_a_stiffness_out_of_reach_is_refused_and_the_last_one_holds():
 
 def test_a_stiffness_that_the_angle_does_not_leave_gives_way_and_comes_back():
     law = SlidingMode(pair_loop.declared(), Gains.turning())
-    most = law.sharing.stiffness_range(0.0)[1]
+    most = law.allocation.stiffness_range(0.0)[1]
     law.start(0.0)
     law.stiffen(most)
 

@@ -1,11 +1,11 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The demonstration's antagonistic joint: numbers of courses that are known."""
+"""The demonstration's antagonistic joint: numbers of sources that are known."""
 
 import numpy as np
 import pytest
 
-from pam_ros.demo.joint import JointCourse, figure, table
+from pam_ros.demo.joint import JointRun, figure, table
 
 TIME = np.arange(0.0, 6.0, 0.01)
 SWING = 0.25
@@ -16,7 +16,7 @@ def swinging(off):
     """Return a joint that rests for 2 s, then swings, *off* rad behind; stiffer after 4 s."""
     reference = np.where(TIME > 2.0, SWING * np.sin(np.pi * TIME), 0.0)
     flat = np.full_like(TIME, 2e5)
-    return JointCourse(TIME, reference, reference - off, flat, 2.0 * flat, TOLD, TOLD + 0.5)
+    return JointRun(TIME, reference, reference - off, flat, 2.0 * flat, TOLD, TOLD + 0.5)
 
 
 def test_it_departs_when_the_reference_moves():
@@ -24,11 +24,11 @@ def test_it_departs_when_the_reference_moves():
 
 
 def test_the_table_has_error_and_stiffness_of_each_part():
-    course = swinging(np.radians(0.1))
+    run = swinging(np.radians(0.1))
     head, soft, stiff = table(
         [
-            ('soft', course.between(2.0, 4.0)),
-            ('stiff', course.with_stiffness(30.0)),
+            ('soft', run.between(2.0, 4.0)),
+            ('stiff', run.with_stiffness(30.0)),
         ]
     ).splitlines()
     assert head.split() == ['swing', 'error', 'RMS', 'largest', 'N', 'm/rad', 'set']

@@ -31,7 +31,7 @@ def setup_of(**given):
 
 def loop_of(setup):
     law = setup.make_law()
-    return Loop(law, setup.make_course(), 0.002, Plausibility(bounds_of(law.sharing)))
+    return Loop(law, setup.make_reference_source(), 0.002, Plausibility(bounds_of(law.allocation)))
 
 
 @pytest.fixture(scope='module')

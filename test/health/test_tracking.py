@@ -17,7 +17,7 @@ TRAVEL = 0.12  # m; an error is large above a tenth of it
 BOUNDS = MotionBounds(0.0, TRAVEL, 10.0, TRAVEL / 200.0, 'm')
 
 
-class Course:
+class Motion:
     """A loop whose errors and saturations are given."""
 
     def __init__(self):
@@ -57,8 +57,8 @@ def constant(value):
     ids=['constant', 'just_too_large', 'oscillation', 'growing'],
 )
 def test_a_large_error_that_lasts_is_told(error):
-    course = Course()
-    warnings = course.run(6.0, error)
+    motion = Motion()
+    warnings = motion.run(6.0, error)
     assert not any(warnings[: int(2.9 / DT)])
     assert all(warnings[int(3.1 / DT) :])
     assert 'the error is larger than 0.012 m, a tenth of the travel' in warnings[-1]
@@ -76,32 +76,32 @@ def test_a_large_error_that_lasts_is_told(error):
     ids=['small', 'slow_approach', 'steps', 'saturation_with_breaks', 'saturation_without_error'],
 )
 def test_what_does_not_last_is_not_told(error, cut):
-    assert not any(Course().run(12.0, error, cut))
+    assert not any(Motion().run(12.0, error, cut))
 
 
 def test_a_saturation_that_lasts_is_told_though_the_error_is_not_large():
-    warnings = Course().run(6.0, constant(0.002), constant(-30.0))
+    warnings = Motion().run(6.0, constant(0.002), constant(-30.0))
     assert not any(warnings[: int(2.9 / DT)])
     assert 'the command is at a limit of pressure for more than 3 s' in warnings[-1]
     assert 'an error of 0.002 m does not shrink' in warnings[-1]
 
 
 def test_a_warning_does_not_flicker_and_ends():
-    course = Course()
-    course.run(4.0, constant(0.02))
-    assert all(course.run(2.0, constant(0.0)))
-    assert all(course.run(3.0, constant(0.02)))
-    assert not course.run(5.0, constant(0.0))[-1]
+    motion = Motion()
+    motion.run(4.0, constant(0.02))
+    assert all(motion.run(2.0, constant(0.0)))
+    assert all(motion.run(3.0, constant(0.02)))
+    assert not motion.run(5.0, constant(0.0))[-1]
 
 
 def test_a_new_start_begins_with_nothing():
-    course = Course()
-    course.run(5.0, constant(0.02))
-    course.loop.starts += 1
-    assert not any(course.run(2.5, constant(0.02)))
+    motion = Motion()
+    motion.run(5.0, constant(0.02))
+    motion.loop.starts += 1
+    assert not any(motion.run(2.5, constant(0.02)))
 
 
 def test_only_a_running_loop_counts():
-    course = Course()
-    course.loop.state = BLIND
-    assert not any(course.run(5.0, constant(0.02)))
+    motion = Motion()
+    motion.loop.state = BLIND
+    assert not any(motion.run(5.0, constant(0.02)))

@@ -7,10 +7,10 @@ from math import pi, sin
 
 import numpy as np
 
+from pam_ros.control.allocation import allocation_of
 from pam_ros.control.limits import Limits
 from pam_ros.control.model import ControlModel
 from pam_ros.control.reference.shaping import Shape, Shaper
-from pam_ros.control.sharing import sharing_of
 from pam_ros.effects import PressureLag
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig.loads import Mass
@@ -57,7 +57,7 @@ def declared(mass=20.0, effects=(), **muscle):
 
 def shared(joint, limits=None):
     """Return how the muscles of a joint share what a law wants."""
-    return sharing_of(ControlModel(joint), limits or Limits())
+    return allocation_of(ControlModel(joint), limits or Limits())
 
 
 def step_target(height, at=1.0):

@@ -52,7 +52,7 @@ def visits(law, joint, places=3, wait=WAIT):
 
     Errors and the farthest coordinate outside the two ends are shares of the reach.
     """
-    low, high = law.sharing.reach
+    low, high = law.allocation.reach
     grid = np.linspace(low, high, places)
     goals = [grid[0]]
     for one, two in permutations(grid, 2):

@@ -46,7 +46,7 @@ def close_joint(law, joint, target, duration, begin=None, noise=0.0, seed=0, rat
     Where nothing else is said, it begins in the middle of its reach.
     """
     dt, random = 1.0 / rate, np.random.default_rng(seed)
-    origin = 0.5 * sum(law.sharing.reach) if begin is None else begin
+    origin = 0.5 * sum(law.allocation.reach) if begin is None else begin
     law.start(origin)
     rig = Simulation([joint])
     rig.reset(law.terms.pressures, [origin], [0.0])

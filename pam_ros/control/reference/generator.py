@@ -8,12 +8,12 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from pam_ros.arguments import along, instance, number, refuse, stamps
+from pam_ros.control.allocation import allocation_of
 from pam_ros.control.limits import Limits
 from pam_ros.control.model import ControlModel
-from pam_ros.control.reference.course import Course
 from pam_ros.control.reference.points import Points
 from pam_ros.control.reference.shaping import Shape
-from pam_ros.control.sharing import sharing_of
+from pam_ros.control.reference.source import ReferenceSource
 from pam_ros.control.signals import Reference
 from pam_ros.rig.joint import Joint
 
@@ -42,21 +42,21 @@ class ReferenceGenerator:
         limits = Limits() if limits is None else limits
         instance('shape', shape, Shape, 'a Shape')
         instance('limits', limits, Limits, 'Limits')
-        self.reach = sharing_of(ControlModel(joint), limits).reach
-        self._course = Course(shape, self.reach, joint.transmission.equations.unit)
+        self.reach = allocation_of(ControlModel(joint), limits).reach
+        self._source = ReferenceSource(shape, self.reach, joint.transmission.equations.unit)
         low, high = self.reach
         self.start(0.5 * (low + high) if isfinite(low) and isfinite(high) else 0.0)
 
     def start(self, position: float) -> None:
         """Begin at rest at *position*, without a target."""
-        self._course.start(number('position', position))
+        self._source.start(number('position', position))
         # As in pam_control, time passes between a start and a target: without it, the target would
         # count as a sample of a motion, with a velocity.
-        self._course.follow(INSTANT)
+        self._source.follow(INSTANT)
 
     def set_target(self, position: float) -> None:
         """Approach *position*; a trajectory ends here. Raises RangeError out of reach."""
-        self._course.set_target(number('position', position))
+        self._source.set_target(number('position', position))
 
     def set_trajectory(
         self,
@@ -86,10 +86,10 @@ class ReferenceGenerator:
             has_velocity=np.full(n, velocity is not None),
             has_acceleration=np.full(n, acceleration is not None),
         )
-        self._course.play(points)
+        self._source.play(points)
 
     def update(self, dt: float) -> Reference:
         """Return the reference *dt* s after the last call."""
         if number('dt', dt) <= 0.0:
             refuse('dt', dt, 'a finite time above 0 s')
-        return self._course.follow(dt)
+        return self._source.follow(dt)

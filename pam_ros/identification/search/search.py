@@ -41,7 +41,7 @@ Progress = Callable[[float, str], None]  # share of the work that is done, and t
 
 @dataclass(eq=False)
 class Search:
-    """The course of a search: every model that it evaluated, and its final models."""
+    """A search: every model that it evaluated, and its final models."""
 
     setting: Setting
     retuned: Model

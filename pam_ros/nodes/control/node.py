@@ -93,7 +93,9 @@ class PamControl(TickingNode):
         setup = self._setup
         law, period = setup.make_law(), 1.0 / setup.settings.rate
         warm_up(law, setup.reach, period)
-        loop = Loop(law, setup.make_course(), period, Plausibility(bounds_of(law.sharing)))
+        loop = Loop(
+            law, setup.make_reference_source(), period, Plausibility(bounds_of(law.allocation))
+        )
         _protect(loop, setup)
         loop.enable(setup.settings.start_enabled)
         return loop
@@ -277,7 +279,7 @@ class PamControl(TickingNode):
     def _take_reference(self, message: Float64) -> None:
         if self._is_ready('position_reference'):
             try:
-                self._loop.course.set_target(message.data)
+                self._loop.source.set_target(message.data)
             except RangeError as error:
                 self._reports.refuse(str(error))
 
@@ -293,7 +295,7 @@ class PamControl(TickingNode):
             return
         try:
             begin, points = read_trajectory(message, self._setup.settings.joint_name)
-            self._loop.course.play(points, self._wait_for(begin) if begin else 0.0)
+            self._loop.source.play(points, self._wait_for(begin) if begin else 0.0)
         except RangeError as error:
             self._reports.refuse(str(error))
 
@@ -331,11 +333,11 @@ class PamControl(TickingNode):
         if now.needs_new_law(before):
             law = now.make_law()
             warm_up(law, now.reach, loop.period)
-            loop.change(law, now.make_course())
-            loop.plausibility.bounds = bounds_of(law.sharing)
+            loop.change(law, now.make_reference_source())
+            loop.plausibility.bounds = bounds_of(law.allocation)
         else:
             now.take_over(loop.law, before)
-            loop.course.set_shape(now.shape)
+            loop.source.set_shape(now.shape)
         if before.settings.rate != settings.rate:
             self.ticker.start(self._tick_rate, monotonic_ns())
 

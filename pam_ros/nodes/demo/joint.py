@@ -17,7 +17,7 @@ from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
 from pam_ros.control.signals import term_names
 from pam_ros.demo import joint
-from pam_ros.demo.joint import JointCourse
+from pam_ros.demo.joint import JointRun
 from pam_ros.nodes.demo.lockstep_pair import LockstepPair
 from pam_ros.nodes.demo.rig_log import seconds
 from pam_ros.nodes.demo.stage import Stage
@@ -38,10 +38,10 @@ def play(stage: Stage) -> None:
         f'An antagonistic joint over ROS topics: two {MUSCLE}, configured with '
         f'an arm of {NOMINAL:g} kg; the real one has {TRUE:g} kg'
     )
-    course = record(stage)
-    begin = course.departure
-    whole = course.between(begin + 1.0 / FREQUENCY, begin + (CYCLES - 1) / FREQUENCY)
-    still = course.between(begin + CYCLES / FREQUENCY, np.inf)
+    run = record(stage)
+    begin = run.departure
+    whole = run.between(begin + 1.0 / FREQUENCY, begin + (CYCLES - 1) / FREQUENCY)
+    still = run.between(begin + CYCLES / FREQUENCY, np.inf)
     parts = [
         (f'sine, {SOFT:g} N m/rad', whole.with_stiffness(SOFT)),
         (f'sine, {STIFF:g} N m/rad', whole.with_stiffness(STIFF)),
@@ -51,12 +51,12 @@ def play(stage: Stage) -> None:
 
     path = stage.folder / 'joint.png'
     headline = f'pam_control: {NOMINAL:g} kg configured, {TRUE:g} kg moved'
-    figures.save(joint.figure(course, headline), path)
+    figures.save(joint.figure(run, headline), path)
     stage.wrote(path)
     stage.text('joint.txt', joint.table(parts))
 
 
-def record(stage: Stage) -> JointCourse:
+def record(stage: Stage) -> JointRun:
     """Return the recorded run."""
     both = {'joint': 'antagonistic', 'muscle': MUSCLE, 'radius': RADIUS}
     rig = {**both, 'mass': TRUE, 'initial.pressure': 250e3, 'sensor.position_noise': NOISE}
@@ -101,7 +101,7 @@ def sine() -> JointTrajectory:
 
 def put_together(
     states: list[JointState], terms: list[JointState], arrays: list[Float64MultiArray]
-) -> JointCourse:
+) -> JointRun:
     """Return angle and stiffness of the rig together with the terms of the same stamp.
 
     An array has no stamp. One array arrives with each state, so that they match if
@@ -121,4 +121,4 @@ def put_together(
             pressures = values['pressure_1'], values['pressure_2']
             row = seconds(message), values['reference'], angle, *pressures
             rows.append((*row, values['co_contraction'], stiffness))
-    return JointCourse(*np.array(rows).T)
+    return JointRun(*np.array(rows).T)

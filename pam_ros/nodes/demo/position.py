@@ -17,7 +17,7 @@ from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
 from pam_ros.control.signals import TERMS
 from pam_ros.demo import position
-from pam_ros.demo.position import Course
+from pam_ros.demo.position import PositionRun
 from pam_ros.nodes.demo.lockstep_pair import STILL, LockstepPair
 from pam_ros.nodes.demo.rig_log import seconds
 from pam_ros.nodes.demo.stage import Stage
@@ -36,24 +36,24 @@ def play(stage: Stage) -> None:
         f'Position control over ROS topics: {MUSCLE}, configured with {NOMINAL:g} kg; '
         f'the real load has {TRUE:g} kg'
     )
-    course, marks = record(stage)
+    run, marks = record(stage)
     steps = [
-        (goal, course.between(begin, begin + HOLD))
+        (goal, run.between(begin, begin + HOLD))
         for goal, begin in zip(GOALS, marks[:-1], strict=True)
     ]
-    whole = course.between(
+    whole = run.between(
         marks[-1] + 1.0 / FREQUENCY, marks[-1] + (CYCLES - 1) / FREQUENCY
     )  # the part with the full amplitude
     from pam_ros.demo import figures
 
     path = stage.folder / 'position_control.png'
     headline = f'pam_control: {NOMINAL:g} kg configured, {TRUE:g} kg moved'
-    figures.save(position.figure(course, headline), path)
+    figures.save(position.figure(run, headline), path)
     stage.wrote(path)
     stage.text('position_control.txt', position.table(steps, whole))
 
 
-def record(stage: Stage) -> tuple[Course, list[float]]:
+def record(stage: Stage) -> tuple[PositionRun, list[float]]:
     """Return the recorded run, and the times in s at which the goals and the sine start."""
     rig = {'muscle': MUSCLE, 'mass': TRUE, 'initial.pressure': 300e3}
     controller = {'muscle': MUSCLE, 'mass': NOMINAL}
@@ -67,8 +67,8 @@ def record(stage: Stage) -> tuple[Course, list[float]]:
         stage.say(f'  a sine of {1e3 * SWING:.0f} mm at {FREQUENCY:g} Hz')
         pair.publish(sine(GOALS[-1]), 'joint_trajectory')
         pair.stop_after(CYCLES / FREQUENCY + 0.5)
-        course = put_together(pair.states, pair.terms)
-    return course, [course.departure(stop, STILL) for stop in stops]
+        run = put_together(pair.states, pair.terms)
+    return run, [run.departure(stop, STILL) for stop in stops]
 
 
 def sine(middle: float) -> JointTrajectory:
@@ -89,7 +89,7 @@ def sine(middle: float) -> JointTrajectory:
     return message
 
 
-def put_together(states: list[JointState], terms: list[JointState]) -> Course:
+def put_together(states: list[JointState], terms: list[JointState]) -> PositionRun:
     """Return the positions of the rig together with the terms of the same stamp."""
     at = {(m.header.stamp.sec, m.header.stamp.nanosec): m.position[0] for m in states}
     rows = []
@@ -100,4 +100,4 @@ def put_together(states: list[JointState], terms: list[JointState]) -> Course:
             values = dict(zip(TERMS, message.position, strict=True))
             row = seconds(message), values['reference'], measured
             rows.append((*row, values['surface'], values['pressure']))
-    return Course(*np.array(rows).T)
+    return PositionRun(*np.array(rows).T)

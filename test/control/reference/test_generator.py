@@ -50,7 +50,7 @@ def test_a_target_is_approached_within_the_bounds(joint, before):
 def test_it_begins_in_the_middle_of_the_reach_of_the_law():
     for joint in (LIFT, ELBOW):
         reference = ReferenceGenerator(joint)
-        assert reference.reach == SlidingMode(joint).sharing.reach
+        assert reference.reach == SlidingMode(joint).allocation.reach
         assert reference.update(DT).position == pytest.approx(np.mean(reference.reach))
 
 

@@ -7,9 +7,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from pam_ros.control.allocation import OneSide, TwoSides
 from pam_ros.control.limits import Limits
 from pam_ros.control.pressure_path import PressurePath
-from pam_ros.control.sharing import OneSide, TwoSides
 from pam_ros.effects import PressureLag, Slack
 from pam_ros.errors import ParameterError, RangeError
 from pam_ros.muscle.muscle import Muscle
@@ -62,36 +62,36 @@ def crank():
     'joint', [single_muscle_joint(), parallel(), crank()], ids=['one', 'two', 'crank']
 )
 def test_one_side_has_the_pressure_that_gives_the_effort(joint):
-    sharing = shared(joint)
-    assert isinstance(sharing, OneSide)
-    assert not sharing.can_stiffen
-    low, high = sharing.reach
+    allocation = shared(joint)
+    assert isinstance(allocation, OneSide)
+    assert not allocation.can_stiffen
+    low, high = allocation.reach
     bounds = statics.span(joint)
     assert bounds[0] <= low < high <= bounds[1]
     for s in np.linspace(low, high, 9).tolist():
-        effort = sharing.model.gravity(s) * 1.05
-        split = sharing.split(effort, 0.0, s)
+        effort = allocation.model.gravity(s) * 1.05
+        split = allocation.split(effort, 0.0, s)
         assert split.short == 0.0
         assert len(set(split.pressures)) == 1
-        assert sharing.model.effort(split.pressures, s) == pytest.approx(effort, rel=1e-9)
+        assert allocation.model.effort(split.pressures, s) == pytest.approx(effort, rel=1e-9)
         h = 1e-3
         more = [p + h for p in split.pressures]
-        slope = (sharing.model.effort(more, s) - effort) / h
-        assert sum(sharing.gains(s)) == pytest.approx(slope, rel=1e-4)
+        slope = (allocation.model.effort(more, s) - effort) / h
+        assert sum(allocation.gains(s)) == pytest.approx(slope, rel=1e-4)
         # At rest, where the stiffness is settled by the load.
-        least, most = sharing.stiffness_range(s)
+        least, most = allocation.stiffness_range(s)
         assert least == most
-        p = sharing.split(sharing.model.gravity(s), 0.0, s).pressures
+        p = allocation.split(allocation.model.gravity(s), 0.0, s).pressures
         assert least == pytest.approx(statics.stiffness(joint, p, s), rel=1e-9)
 
 
 @pytest.mark.parametrize('joint', [parallel(), crank()], ids=['two', 'crank'])
 def test_the_reach_of_one_side_is_where_its_limits_hold_the_load(joint):
-    sharing = shared(joint)
+    allocation = shared(joint)
     ends = [statics.equilibrium(joint, share * 600e3) for share in (0.02, 0.98)]
     bounds = statics.span(joint)
-    assert sharing.reach[0] == pytest.approx(max(min(ends), bounds[0]))
-    assert sharing.reach[1] == pytest.approx(min(max(ends), bounds[1]))
+    assert allocation.reach[0] == pytest.approx(max(min(ends), bounds[0]))
+    assert allocation.reach[1] == pytest.approx(min(max(ends), bounds[1]))
 
 
 def hanging(at=0.0, **slack):
@@ -102,8 +102,8 @@ def hanging(at=0.0, **slack):
 @pytest.mark.parametrize('at', [-0.6, 0.0, 0.5])
 def test_a_muscle_that_cannot_push_holds_no_arm_below_where_it_hangs(at):
     joint = hanging(at)
-    sharing = shared(joint)
-    low, high = sharing.reach
+    allocation = shared(joint)
+    low, high = allocation.reach
     pushing = shared(Joint((Actuator(contraction=0.1),), joint.load, joint.transmission)).reach
     assert pushing[0] < at - 0.3
     assert high == pytest.approx(pushing[1], rel=1e-6)
@@ -130,13 +130,13 @@ def test_one_muscle_that_cannot_push_holds_no_cart_on_a_level_track():
 
 
 def test_a_muscle_is_given_no_pressure_that_is_too_low_to_have_an_effect():
-    sharing = shared(hanging())
-    (muscle,) = sharing.model.at(0.2).muscles
-    split = sharing.split(-2.0, 0.0, 0.2)
-    assert split.pressures == sharing.least(0.2)
+    allocation = shared(hanging())
+    (muscle,) = allocation.model.at(0.2).muscles
+    split = allocation.split(-2.0, 0.0, 0.2)
+    assert split.pressures == allocation.least(0.2)
     assert muscle.force_law(split.pressures[0]) == pytest.approx(0, abs=1e-9)
     assert split.short == pytest.approx(-2.0)
-    assert sharing.split(2.0, 0.0, 0.2).short == 0.0
+    assert allocation.split(2.0, 0.0, 0.2).short == 0.0
 
 
 # Two sides ---------------------------------------------------------------------------------------
@@ -245,14 +245,14 @@ def test_each_muscle_keeps_its_own_effects():
 
 def test_a_lever_has_torque_and_stiffness_of_its_own_equations():
     hung = Actuator(contraction=0.1)
-    sharing = shared(Joint((hung, hung), Arm(hanging_at=0.2), Lever()))
-    assert sharing.can_stiffen
+    allocation = shared(Joint((hung, hung), Arm(hanging_at=0.2), Lever()))
+    assert allocation.can_stiffen
     for angle in (-0.3, 0.0, 0.4):
-        low, high = sharing.stiffness_range(angle)
-        k, torque = 0.5 * (low + high), sharing.model.gravity(angle)
-        pressures = sharing.split(torque, k, angle).pressures
-        assert sharing.model.effort(pressures, angle) == pytest.approx(torque, abs=1e-9)
-        assert statics.stiffness(sharing.model.joint, pressures, angle) == pytest.approx(k)
+        low, high = allocation.stiffness_range(angle)
+        k, torque = 0.5 * (low + high), allocation.model.gravity(angle)
+        pressures = allocation.split(torque, k, angle).pressures
+        assert allocation.model.effort(pressures, angle) == pytest.approx(torque, abs=1e-9)
+        assert statics.stiffness(allocation.model.joint, pressures, angle) == pytest.approx(k)
 
 
 # Several on each side ----------------------------------------------------------------------------
@@ -261,11 +261,11 @@ def test_a_lever_has_torque_and_stiffness_of_its_own_equations():
 def test_muscles_of_one_side_have_one_pressure():
     hung = Actuator(contraction=0.1)
     joint = Joint((hung,) * 4, Arm(mass=2.0), Pulley())
-    sharing, two = shared(joint), shared(Joint((hung, hung), Arm(mass=2.0), Pulley()))
-    split = sharing.split(3.0, 60.0, 0.1)
+    allocation, two = shared(joint), shared(Joint((hung, hung), Arm(mass=2.0), Pulley()))
+    split = allocation.split(3.0, 60.0, 0.1)
     one, other, third, fourth = split.pressures
     assert (one, other) == (third, fourth)
-    assert sharing.model.effort(split.pressures, 0.1) == pytest.approx(3.0, abs=1e-9)
-    assert sharing.model.stiffness(split.pressures, 0.1) == pytest.approx(60.0)
+    assert allocation.model.effort(split.pressures, 0.1) == pytest.approx(3.0, abs=1e-9)
+    assert allocation.model.stiffness(split.pressures, 0.1) == pytest.approx(60.0)
     # Twice the muscles do the same with half of it each.
     np.testing.assert_allclose(two.split(1.5, 30.0, 0.1).pressures, split.pressures[:2])

@@ -1,29 +1,29 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The course: one smooth reference of all that is told."""
+"""One smooth reference of all targets that are set."""
 
 import math
 
 import numpy as np
 import pytest
 
-from pam_ros.control.reference.course import Course
 from pam_ros.control.reference.points import Point, Points
 from pam_ros.control.reference.shaping import Shape
+from pam_ros.control.reference.source import ReferenceSource
 from pam_ros.errors import RangeError
 
 DT = 2e-3
 SHAPE = Shape()
 
 
-def a_course():
-    course = Course(SHAPE, (-0.01, 0.1))
-    course.start(0.02)
-    return course
+def a_source():
+    source = ReferenceSource(SHAPE, (-0.01, 0.1))
+    source.start(0.02)
+    return source
 
 
-def follow(course, seconds):
-    return np.array([course.follow(DT) for _ in range(round(seconds / DT))])
+def follow(source, seconds):
+    return np.array([source.follow(DT) for _ in range(round(seconds / DT))])
 
 
 def is_smooth(path, most=20.0):
@@ -32,35 +32,35 @@ def is_smooth(path, most=20.0):
 
 
 def test_it_holds_until_a_target_is_set():
-    assert np.all(follow(a_course(), 0.1) == [0.02, 0.0, 0.0, 0.0])
+    assert np.all(follow(a_source(), 0.1) == [0.02, 0.0, 0.0, 0.0])
 
 
 def test_a_trajectory_interrupts_a_step_and_a_step_a_trajectory():
-    course = a_course()
-    course.set_target(0.08)
-    first = follow(course, 0.2)
-    course.play(Points.of([Point(1.0, 0.05), Point(2.0, 0.03)]))
-    second = follow(course, 1.3)
-    assert course.is_on_trajectory
-    course.set_target(0.06)
-    third = follow(course, 2.0)
-    assert not course.is_on_trajectory
+    source = a_source()
+    source.set_target(0.08)
+    first = follow(source, 0.2)
+    source.play(Points.of([Point(1.0, 0.05), Point(2.0, 0.03)]))
+    second = follow(source, 1.3)
+    assert source.is_on_trajectory
+    source.set_target(0.06)
+    third = follow(source, 2.0)
+    assert not source.is_on_trajectory
     assert is_smooth(np.vstack([first, second, third]))
     assert third[-1].tolist() == [0.06, 0.0, 0.0, 0.0]
 
 
 def test_a_trajectory_is_passed_on_exactly_and_held_at_its_end():
-    course = a_course()
-    course.play(Points.of([Point(2.0, 0.05, 0.0, 0.0)]))
-    path = follow(course, 2.5)
+    source = a_source()
+    source.play(Points.of([Point(2.0, 0.05, 0.0, 0.0)]))
+    path = follow(source, 2.5)
     s = np.clip((np.arange(len(path)) + 1) * DT / 2.0, 0.0, 1.0)
     np.testing.assert_allclose(path[:, 0], 0.02 + 0.03 * (10 * s**3 - 15 * s**4 + 6 * s**5))
     assert path[-1].tolist() == [pytest.approx(0.05), 0.0, 0.0, 0.0]
-    assert not course.is_on_trajectory
+    assert not source.is_on_trajectory
 
 
 def test_it_waits_for_a_start_to_come_and_joins_one_that_is_past():
-    late, early = a_course(), a_course()
+    late, early = a_source(), a_source()
     points = [Point(0.0, 0.02), Point(1.0, 0.05)]
     late.play(Points.of(points), wait=0.5)
     early.play(Points.of(points), wait=-0.5)
@@ -73,12 +73,12 @@ def test_it_waits_for_a_start_to_come_and_joins_one_that_is_past():
 
 
 def test_a_trajectory_goes_on_while_nobody_looks():
-    course, other = a_course(), a_course()
-    for one in (course, other):
+    source, other = a_source(), a_source()
+    for one in (source, other):
         one.play(Points.of([Point(3.0, 0.08)]))
-    first = follow(course, 1.0)
-    missed = course.follow(0.1, 0.3)  # which is 0.4 s in all
-    last = follow(course, 1.6)
+    first = follow(source, 1.0)
+    missed = source.follow(0.1, 0.3)  # which is 0.4 s in all
+    last = follow(source, 1.6)
     assert abs(missed.position - first[-1, 0]) < 0.1 * SHAPE.max_velocity
     assert abs(missed.velocity - first[-1, 1]) < 2.0 * 0.1 * SHAPE.max_acceleration
     assert is_smooth(np.vstack([missed, last]))
@@ -86,32 +86,32 @@ def test_a_trajectory_goes_on_while_nobody_looks():
 
 
 def test_a_step_waits_while_nobody_looks():
-    course, other = a_course(), a_course()
-    for one in (course, other):
+    source, other = a_source(), a_source()
+    for one in (source, other):
         one.set_target(0.05)
-    course.follow(DT, 0.3)
-    assert course.reference == other.follow(DT)
+    source.follow(DT, 0.3)
+    assert source.reference == other.follow(DT)
 
 
 def test_an_empty_trajectory_stops():
-    course = a_course()
-    course.play(Points.of([Point(2.0, 0.08)]))
-    follow(course, 1.0)
-    course.play(Points.of([]))
-    path = follow(course, 1.0)
+    source = a_source()
+    source.play(Points.of([Point(2.0, 0.08)]))
+    follow(source, 1.0)
+    source.play(Points.of([]))
+    path = follow(source, 1.0)
     assert path[-1, 1] == 0.0
     assert path[-1, 0] < 0.07
     assert is_smooth(path)
 
 
 def test_what_cannot_be_is_refused_and_changes_nothing():
-    course = a_course()
-    course.play(Points.of([Point(2.0, 0.05)]))
+    source = a_source()
+    source.play(Points.of([Point(2.0, 0.05)]))
     for bad in (0.2, -0.5, math.nan, math.inf):
         with pytest.raises(RangeError):
-            course.set_target(bad)
+            source.set_target(bad)
     with pytest.raises(RangeError):
-        course.play(Points.of([Point(1.0, 0.3)]))
-    assert course.is_on_trajectory
-    follow(course, 2.5)
-    assert course.reference.position == pytest.approx(0.05)
+        source.play(Points.of([Point(1.0, 0.3)]))
+    assert source.is_on_trajectory
+    follow(source, 2.5)
+    assert source.reference.position == pytest.approx(0.05)

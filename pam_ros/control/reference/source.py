@@ -12,7 +12,7 @@ from pam_ros.control.signals import Reference
 from pam_ros.errors import RangeError
 
 
-class Course:
+class ReferenceSource:
     """Makes one reference of all targets that are set; the newest target counts."""
 
     def __init__(self, shape: Shape, reach: tuple[float, float], unit: str = 'm') -> None:

@@ -7,9 +7,9 @@ import math
 import numpy as np
 import pytest
 
-from pam_ros.control.reference.course import Course
 from pam_ros.control.reference.points import Point, Points
 from pam_ros.control.reference.shaping import Shape
+from pam_ros.control.reference.source import ReferenceSource
 from pam_ros.errors import RangeError
 
 DT, REACH, REST = 0.002, (0.0, 0.09), 0.06
@@ -17,68 +17,68 @@ TURN, SWING = math.pi, 0.005  # rad/s, m
 
 
 @pytest.fixture
-def course():
-    course = Course(Shape(), REACH)
-    course.start(REST)
-    follow(course, 1.0)
-    return course
+def source():
+    source = ReferenceSource(Shape(), REACH)
+    source.start(REST)
+    follow(source, 1.0)
+    return source
 
 
-def follow(course, seconds):
-    return np.array([course.follow(DT).position for _ in range(round(seconds / DT))])
+def follow(source, seconds):
+    return np.array([source.follow(DT).position for _ in range(round(seconds / DT))])
 
 
 @pytest.mark.parametrize('gap', [0.15, 0.3, 0.6, 2.5])
 @pytest.mark.parametrize('goal', [0.072, 0.085])
-def test_set_points_one_after_the_other_are_not_taken_for_a_motion(course, gap, goal):
-    course.set_target(0.07)
-    follow(course, gap)
-    course.set_target(goal)
-    way = follow(course, 4.0)
+def test_set_points_one_after_the_other_are_not_taken_for_a_motion(source, gap, goal):
+    source.set_target(0.07)
+    follow(source, gap)
+    source.set_target(goal)
+    way = follow(source, 4.0)
     assert np.max(way) < goal + 1e-3
     assert way[-1] == pytest.approx(goal, abs=1e-9)
 
 
 @pytest.mark.parametrize('gap', [0.02, 0.05, 0.09])
-def test_what_seems_a_motion_does_not_lead_out_of_reach(course, gap):
-    course.set_target(0.08)
-    follow(course, gap)
-    course.set_target(0.089)
-    way = follow(course, 4.0)
+def test_what_seems_a_motion_does_not_lead_out_of_reach(source, gap):
+    source.set_target(0.08)
+    follow(source, gap)
+    source.set_target(0.089)
+    way = follow(source, 4.0)
     assert np.max(way) <= REACH[1]
     assert way[-1] == pytest.approx(0.089, abs=1e-9)
 
 
-def test_a_load_that_rests_out_of_reach_is_held_there(course):
-    course.start(-0.01)
-    np.testing.assert_array_equal(follow(course, 0.1), -0.01)
+def test_a_load_that_rests_out_of_reach_is_held_there(source):
+    source.start(-0.01)
+    np.testing.assert_array_equal(follow(source, 0.1), -0.01)
 
 
 @pytest.mark.parametrize(('rate', 'most'), [(100, 5e-6), (20, 0.2e-3)])
-def test_a_stream_is_followed_without_lag(course, rate, most):
+def test_a_stream_is_followed_without_lag(source, rate, most):
     way, told = [], []
     for n in range(2000):
         if n % (500 // rate) == 0:
-            course.set_target(REST + SWING * math.sin(TURN * n * DT))
-        way.append(course.follow(DT).position)
+            source.set_target(REST + SWING * math.sin(TURN * n * DT))
+        way.append(source.follow(DT).position)
         told.append(REST + SWING * math.sin(TURN * (n + 1) * DT))
     assert np.max(np.abs(np.subtract(way, told)[1000:])) < most
 
 
-def test_a_trajectory_that_begins_in_motion_is_followed_at_once(course):
+def test_a_trajectory_that_begins_in_motion_is_followed_at_once(source):
     times = np.linspace(0.05, 4.0, 80)
     points = [
         Point(t, REST + SWING * math.sin(TURN * t), SWING * TURN * math.cos(TURN * t))
         for t in times
     ]
-    course.play(Points.of(points))
-    way = follow(course, 3.9)
+    source.play(Points.of(points))
+    way = follow(source, 3.9)
     told = REST + SWING * np.sin(TURN * DT * np.arange(1, way.size + 1))
     assert np.max(np.abs(way - told)) < 0.3e-3
 
 
-def test_a_refused_position_changes_nothing(course):
+def test_a_refused_position_changes_nothing(source):
     for bad in (0.1, math.nan, math.inf):
         with pytest.raises(RangeError):
-            course.set_target(bad)
-    np.testing.assert_array_equal(follow(course, 0.1), REST)
+            source.set_target(bad)
+    np.testing.assert_array_equal(follow(source, 0.1), REST)

@@ -29,7 +29,7 @@ class Split(NamedTuple):
     short: float
 
 
-class Sharing(ABC):
+class Allocation(ABC):
     """The pressures of the muscles of one joint.
 
     ``ranges`` are the lowest and highest pressure of each muscle in Pa. ``reach`` is the range of
@@ -91,7 +91,7 @@ class Sharing(ABC):
             )
 
 
-class OneSide(Sharing):
+class OneSide(Allocation):
     """Muscles that all pull in the same direction, with one pressure: that for the effort.
 
     It is not clamped to the limits. If slack is configured, it is not below the pressure at which
@@ -190,7 +190,7 @@ class OneSide(Sharing):
         return ends[0] <= model.gravity(s) <= ends[1]
 
 
-class TwoSides(Sharing):
+class TwoSides(Allocation):
     """Antagonistic muscles: those that a positive coordinate shortens, and the others."""
 
     can_stiffen = True
@@ -341,7 +341,7 @@ def _ends(
     return (a, c), (b, d)
 
 
-def sharing_of(model: ControlModel, limits: Limits) -> Sharing:
+def allocation_of(model: ControlModel, limits: Limits) -> Allocation:
     """Return how the muscles of a joint share what it wants."""
     signs = {muscle.arm(0.0) > 0.0 for muscle in model.muscles}
     return OneSide(model, limits) if len(signs) == 1 else TwoSides(model, limits)
