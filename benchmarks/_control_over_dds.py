@@ -23,7 +23,7 @@ from pam_ros.nodes.demo.client import Client
 from pam_ros.nodes.demo.rig_log import seconds
 from pam_ros.processes.children import Program
 
-MASS, PRESSURE = 20.0, 300e3  # declared kg, Pa at the start
+MASS, PRESSURE = 20.0, 300e3  # configured kg, Pa at the start
 BEFORE = 1.0  # s at rest before the step, and from one motion to the other
 SPACING = 0.05  # s between the points of the sine
 

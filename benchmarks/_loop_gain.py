@@ -45,7 +45,7 @@ class HeldLevel(Rejection):
 
 
 def margins_of(level: float, plant: TruthPlant, joint: Joint) -> Margins:
-    """Return the margins at a *level*, for a noiseless *plant* that is declared as *joint*."""
+    """Return the margins at a *level*, for a noiseless *plant* that is configured as *joint*."""
     response = np.array([_gain(level, plant, joint, f) for f in FREQUENCIES])
     size, phase = np.log(np.abs(response)), np.degrees(np.unwrap(np.angle(response)))
     fine = np.geomspace(FREQUENCIES[0], FREQUENCIES[-1], 20_000)

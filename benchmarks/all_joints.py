@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Each law of each kind of joint from places all over its reach to all others, with three loads.
 
-On the rig of the package as declared, with muscles that push as the law of force has it and with
+On the rig of the package as configured, with muscles that push as the law of force has it and with
 muscles that cannot push. Prints the largest error of the last 0.5 s of the 5 s after a step, and
 how far the joint goes beyond both ends of a step, as shares of the reach; fails where a law does
 not come to rest at its goal. Options: ``--places N`` (default 3).
@@ -18,7 +18,7 @@ from pam_ros.control.pid import Pid
 from pam_ros.control.sliding_mode import SlidingMode
 from pam_ros.errors import ParameterError
 from pam_ros.rig.arrangements import ARRANGEMENTS
-from support.joint_grid import BEYOND, LOADS, REACHED, SLACK, declared, visits
+from support.joint_grid import BEYOND, LOADS, REACHED, SLACK, nominal, visits
 
 
 def main() -> None:
@@ -32,7 +32,7 @@ def main() -> None:
     for kind, load in cases:
         for name, effects in (('push', ()), ('cannot push', SLACK)):
             for law in (Pid, SlidingMode):
-                joint = declared(kind, load, effects)
+                joint = nominal(kind, load, effects)
                 begin = f'| {kind} | {load:g} | {name} | {law.__name__} '
                 try:
                     controller = law(joint)

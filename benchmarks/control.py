@@ -23,7 +23,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / 'test'))
 from pam_ros.control.pid import Pid
 from pam_ros.control.sliding_mode import SlidingMode
 from pam_ros.effects import CoulombFriction
-from support.closed_loop import LAG, Run, close_loop, declared, sine_target, step_target, truth
+from support.closed_loop import LAG, Run, close_loop, nominal, sine_target, step_target, truth
 from truth import TruthPlant
 from truth.control_plants import FEEDBACK_NOISE as NOISE
 
@@ -40,7 +40,7 @@ ROWS = {
     'all, and 10 ms dead time': ('all', (), 0.06, 0.6),
 }
 LAWS = {'sliding mode': SlidingMode, 'PID': Pid}
-OVER_DDS = {'nominal': 0.0, 'payload +5 kg': 5.0}  # kg that are not declared
+OVER_DDS = {'nominal': 0.0, 'payload +5 kg': 5.0}  # kg that are not configured
 CONTROLLERS = {'sliding mode': 'sliding_mode', 'PID': 'pid'}
 STEP, SWING = 12.0, 20.0  # s
 HEIGHT, SWAY, FREQUENCY = 0.02, 0.01, 0.5  # m, m, Hz
@@ -74,7 +74,7 @@ def trial(
 ) -> tuple[Figures, Run, Run]:
     """Return what was reached in simulated time, and both runs."""
     name, effects, _, _ = ROWS[row]
-    make, joint = LAWS[law], declared(mass=mass, effects=effects)
+    make, joint = LAWS[law], nominal(mass=mass, effects=effects)
 
     def plant() -> TruthPlant:
         return truth(name, mass=mass, seed=seed, noise=noise)

@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """What a push moves a load that is held, in simulated time on the truth plant.
 
-20 kg on the DMSP-20, position with noise of 20 um at 500 Hz, one set of gains, nothing declared
+20 kg on the DMSP-20, position with noise of 20 um at 500 Hz, one set of gains, nothing configured
 but where it says so; the plants are those of ``test/truth``: own equations, own integrator.
 Prints how many times less than at a held pressure a sine of 8 N moves the load, how long other
-disturbances move it, what undeclared effects leave of that, and the margins of the linear loop;
+disturbances move it, what unconfigured effects leave of that, and the margins of the linear loop;
 draws the compliance over the frequency. The baselines are PID, and a computed force with an
 extended-state observer (``benchmarks/_computed_force.py``).
 Options: ``--seed N`` (default 0), ``--picture FILE``.
@@ -31,7 +31,7 @@ from pam_ros.control.rest.oscillation import OscillationTuning
 from pam_ros.control.rest.rejection import Rejection, RejectionTuning
 from pam_ros.control.signals import Reference, Terms
 from pam_ros.control.sliding_mode import SlidingMode
-from support.closed_loop import LAG, Run, close_loop, declared, truth
+from support.closed_loop import LAG, Run, close_loop, nominal, truth
 from truth import TruthPlant
 from truth.effects import effect
 
@@ -40,7 +40,7 @@ COLOURS = {'sliding mode': 'C0', 'PID': '0.6', 'computed force': 'C1'}
 FORCE, BEGIN, LASTS, JUDGED = 8.0, 1.0, 10.0, 4.0  # N, s
 FREQUENCIES = (0.3, 0.5, 0.7, 1.0, 1.4, 2.0, 2.5, 3.0, 4.0, 6.0, 8.0, 10.0, 15.0, 20.0)  # Hz
 LEAST = {0.5: 15.0, 1.0: 9.0, 2.0: 7.0, 3.0: 8.0}  # claimed of the sliding mode
-LEAST_DECLARED = {0.5: 10.0, 1.0: 6.0, 2.0: 5.0, 3.0: 6.0}  # the same with a declared lag
+LEAST_CONFIGURED = {0.5: 10.0, 1.0: 6.0, 2.0: 5.0, 3.0: 6.0}  # the same with a configured lag
 MOST = 1 / 1.6  # least of all frequencies
 HUNT = 0.05  # mm, most that a load may move after a push
 CLOSE = 1e-4  # m
@@ -53,7 +53,7 @@ def lag(fill: float, vent: float) -> tuple[Any, ...]:
     return (effect('pressure_lag', 'two_times', fill_s=fill, vent_s=vent),)
 
 
-# Plant, what is declared of its muscle.
+# Plant, what is configured of its muscle.
 ROWS = {
     'nominal': ('nominal', ()),
     'payload +5 kg': ('payload', ()),
@@ -62,18 +62,18 @@ ROWS = {
     'valve lag 10/14 ms': (lag(0.010, 0.014), ()),
     'valve lag 20/28 ms': (lag(0.020, 0.028), ()),
     'valve lag 50/70 ms': ('lag', ()),
-    'the same lag, declared': ('lag', LAG),
+    'the same lag, configured': ('lag', LAG),
     'dead time 20 ms': ((effect('dead_time', dead_time_s=0.020),), ()),
     'all, and 10 ms dead time': ('all', ()),
 }
-# Level, plant, what is declared: the loop whose margins are stated.
+# Level, plant, what is configured: the loop whose margins are stated.
 LOOPS = {
     'level 0.35, nominal': (FIRST, 'nominal', ()),
     'level 0.35, valve lag 20/28 ms': (FIRST, lag(0.020, 0.028), ()),
     'level 0.35, valve lag 50/70 ms': (FIRST, 'lag', ()),
     'level 1, nominal': (1.0, 'nominal', ()),
     'level 1, valve lag 10/14 ms': (1.0, lag(0.010, 0.014), ()),
-    'level 1, lag 50/70 ms declared': (1.0, 'lag', LAG),
+    'level 1, lag 50/70 ms configured': (1.0, 'lag', LAG),
 }
 
 
@@ -102,7 +102,7 @@ def hold(
     make: Any, plant: TruthPlant, effects: Any, seconds: float, push: Callable[[float], float]
 ) -> Run:
     """Let a law hold the load where it rests."""
-    return close_loop(make(declared(effects=effects)), plant, lambda t: 0.0, seconds, push=push)
+    return close_loop(make(nominal(effects=effects)), plant, lambda t: 0.0, seconds, push=push)
 
 
 def moved(make: Any, row: str, frequency: float, seed: int) -> float:
@@ -163,7 +163,9 @@ def sagging(plant: TruthPlant) -> Callable[[float], float]:
 def print_others(seed: int) -> None:
     """Print how long, and how far, other disturbances move the load, and how it rests without."""
     print('other disturbances, nominal: s until within 0.1 mm, largest error in mm; then without')
-    print('a push, nominal and with an undeclared lag of 20/28 ms: largest error of the last 2 s')
+    print(
+        'a push, nominal and with a lag of 20/28 ms not configured: largest error of the last 2 s'
+    )
     print(
         f'{"":<18}{"50 N begins":>13}{"ends":>8}{"5 kg dropped":>16}{"supply -8 %":>13}'
         f'{"at rest":>10}{"with lag":>10}'
@@ -192,7 +194,7 @@ def print_others(seed: int) -> None:
         )
 
 
-def print_undeclared(seed: int) -> None:
+def print_unconfigured(seed: int) -> None:
     """Print what effects leave of the rejection, and whether the load is calm afterwards."""
     print('sliding mode: held / law; largest error in mm 4 to 6 s after a push of 1 Hz and 8 s')
     heads = ''.join(f'{f"{f:g} Hz":>9}' for f in LEAST)
@@ -202,7 +204,7 @@ def print_undeclared(seed: int) -> None:
         end = BEGIN + 8.0
         run = hold(SlidingMode, truth(name, seed=seed), effects, end + 6.0, sine(1.0, end))
         after = 1e3 * float(np.max(np.abs(run.error[run.last(2.0)])))
-        least = {'nominal': LEAST, 'the same lag, declared': LEAST_DECLARED}.get(row, {})
+        least = {'nominal': LEAST, 'the same lag, configured': LEAST_CONFIGURED}.get(row, {})
         ok = after <= HUNT and all(r >= least.get(f, 0.0) for f, r in ratios.items())
         figures = ''.join(f'{r:>9.2f}' for r in ratios.values())
         print(f'{row:<28}{figures}{after:>10.3f}  {"ok" if ok else "SHORT"}', flush=True)
@@ -213,7 +215,7 @@ def print_margins() -> None:
     print('margins of the loop, cut at the command; the level is held')
     print(f'{"":<32}{"crosses at":>12}{"phase":>8}{"delay":>10}{"gain":>9}')
     for row, (level, name, effects) in LOOPS.items():
-        found: Margins = margins_of(level, truth(name, noise=0.0), declared(effects=effects))
+        found: Margins = margins_of(level, truth(name, noise=0.0), nominal(effects=effects))
         print(
             f'{row:<32}{found.crossover:>9.1f} Hz{found.phase:>6.0f} °'
             f'{1e3 * found.delay:>7.1f} ms{found.gain:>6.1f} dB',
@@ -255,7 +257,7 @@ def main() -> None:
     print()
     print_others(given.seed)
     print()
-    print_undeclared(given.seed)
+    print_unconfigured(given.seed)
     print()
     print_margins()
     print()

@@ -3,7 +3,7 @@
 """How long an identification takes, and how a single fit compares with plain scipy.
 
 It tries every effect of the library, for rigs that lack one or two of them. The fit is one
-candidate, a pressure lag: the declared parameters, the start and the lag's two times, once by the
+candidate, a pressure lag: the nominal parameters, the start and the lag's two times, once by the
 package and once by ``scipy.integrate.solve_ivp`` inside ``scipy.optimize.least_squares``, as one
 would write it in an afternoon, on the same recording and from the same start.
 """
@@ -20,7 +20,7 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import least_squares
 
 from benchmarks import tracing_joints
-from benchmarks.tracing import blind_trial, declared_model, recording_of
+from benchmarks.tracing import blind_trial, nominal_model, recording_of
 from pam_ros.identification.data.parts import parts_of
 from pam_ros.identification.fit.extend import with_effect
 from pam_ros.identification.fit.solve import solved
@@ -52,10 +52,10 @@ def main() -> None:
     warm()
     for kind, duration, rate, target in RUNS:
         trial = blind_trial(kind, 3, rate=rate, duration=duration)
-        took(kind, duration, rate, target, declared_model(trial), recording_of(trial))
+        took(kind, duration, rate, target, nominal_model(trial), recording_of(trial))
     for kind, duration, rate, target in OF_JOINTS:
         pair = tracing_joints.pair_trial(kind, 3, rate=rate, duration=duration)
-        model, recording = tracing_joints.declared_model(pair), tracing_joints.recording_of(pair)
+        model, recording = tracing_joints.nominal_model(pair), tracing_joints.recording_of(pair)
         took(kind, duration, rate, target, model, recording)
     compare()
 
@@ -76,7 +76,7 @@ def took(
 def compare() -> None:
     """Print the time of one fit by the package and by plain scipy."""
     trial = blind_trial('pressure_lag', 3, rate=200.0, duration=80.0)
-    model, recording = declared_model(trial), recording_of(trial)
+    model, recording = nominal_model(trial), recording_of(trial)
     parts = parts_of([recording], 1.0, 1.0)
     with ThreadPoolExecutor() as pool:
         setting = Setting(model, parts, CRITERIA, BUDGET, pool)

@@ -19,10 +19,10 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / 'test'))
 
 from pam_ros.control.pid import Pid
 from pam_ros.control.sliding_mode import SlidingMode
-from support.pair_loop import LAG, close_pair, declared
+from support.pair_loop import LAG, close_pair, nominal
 from truth.pair import pair_plant
 
-# Plant, what is declared of its muscles; largest RMS of the sine, degrees.
+# Plant, what is configured of its muscles; largest RMS of the sine, degrees.
 ROWS = {
     'nominal': ('nominal', (), 0.03),
     'payload +0.3 kg': ('payload', (), 0.05),
@@ -30,7 +30,7 @@ ROWS = {
     'payload and friction': ('payload and friction', (), 0.1),
     'valve lag 20/30 ms': ('quick lag', (), 0.1),
     'valve lag 50/70 ms': ('lag', (), 0.06),
-    'the same, declared': ('lag', LAG, 0.03),
+    'the same, configured': ('lag', LAG, 0.03),
     'hysteresis 15 N each': ('hysteresis', (), 0.06),
     'all, and 10 ms dead time': ('all', (), 0.2),
 }
@@ -54,7 +54,7 @@ def stiffness(t: float) -> float:
 def trial(law: str, row: str, seed: int) -> tuple[float, ...]:
     """Return RMS and maximum of the sine, angle at rest and meanwhile, degrees; stiffness, %."""
     name, effects, _ = ROWS[row]
-    make, joint = LAWS[law], declared(effects)
+    make, joint = LAWS[law], nominal(effects)
     run = close_pair(make(joint), pair_plant(name, seed=seed), sine, SINE)
     swung = np.degrees(run.error[run.last(JUDGED)])
     still = close_pair(

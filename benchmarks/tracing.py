@@ -47,9 +47,9 @@ TARGETS = {
 }
 
 
-def declared_model(trial: Trial) -> Joint:
+def nominal_model(trial: Trial) -> Joint:
     """Return what the user of the trial believes."""
-    d = trial.declared
+    d = trial.nominal
     muscle = Muscle(
         *d.constants_si, pressure_unit='Pa', contraction_unit='fraction', zeta=d.zeta, l0=d.l0
     )
@@ -82,7 +82,7 @@ def run_trial(job: Job) -> dict[str, Any]:
     """Run one trial and return a row of what was there and what was found."""
     trial = DRAWS[job.draws](job.kind, job.seed)
     began = time.perf_counter()
-    result = identify(declared_model(trial), [recording_of(trial)])
+    result = identify(nominal_model(trial), [recording_of(trial)])
     found = answer(result)
     return {
         'kind': job.kind,
@@ -102,12 +102,12 @@ def run_trial(job: Job) -> dict[str, Any]:
 
 def answer(found: Identification) -> dict[str, Any]:
     """Return what a search found; errors are those over held-out samples."""
-    declared, retuned, augmented = found.stages
+    nominal, retuned, augmented = found.stages
     return {
         'verdict': found.verdict,
         'found': [e.name for e in found.effects],
         'alternatives': [list(e.alternatives) for e in found.effects],
-        'declared': declared.held_error,
+        'declared': nominal.held_error,
         'retuned': retuned.held_error,
         'augmented': augmented.held_error,
         'floor': found.noise.sigma,

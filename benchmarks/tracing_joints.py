@@ -36,9 +36,9 @@ TARGETS = {
 }
 
 
-def declared_model(trial: PairTrial) -> Joint:
+def nominal_model(trial: PairTrial) -> Joint:
     """Return what the user of the trial believes."""
-    d = trial.declared
+    d = trial.nominal
     muscle = Muscle(
         *d.constants_si, pressure_unit='Pa', contraction_unit='fraction', zeta=d.zeta, l0=d.l0
     )
@@ -59,8 +59,8 @@ def run_trial(job: tuple[str, int]) -> dict[str, Any]:
     """Run one trial and return a row of what was there and what was found."""
     trial = pair_trial(*job)
     began = time.perf_counter()
-    found = identify(declared_model(trial), [recording_of(trial)])
-    declared, retuned, augmented = (stage.held_error for stage in found.stages)
+    found = identify(nominal_model(trial), [recording_of(trial)])
+    nominal, retuned, augmented = (stage.held_error for stage in found.stages)
     return {
         'kind': trial.kind,
         'seed': trial.seed,
@@ -71,7 +71,7 @@ def run_trial(job: tuple[str, int]) -> dict[str, Any]:
         'verdict': found.verdict,
         'found': [e.name for e in found.effects],
         'alternatives': [list(e.alternatives) for e in found.effects],
-        'declared': declared,
+        'declared': nominal,
         'retuned': retuned,
         'augmented': augmented,
         'noise': trial.noise,

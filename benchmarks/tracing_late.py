@@ -17,7 +17,7 @@ import time
 from typing import Any
 
 from benchmarks import _trials
-from benchmarks.tracing import answer, declared_model, recording_of
+from benchmarks.tracing import answer, nominal_model, recording_of
 from pam_ros.identification.identify import identify
 from truth import LATE, late_trial
 
@@ -35,7 +35,7 @@ def run_trial(job: tuple[str, int]) -> dict[str, Any]:
     late = late_trial(*job)
     trial = late.trial
     began = time.perf_counter()
-    found = identify(declared_model(trial), [recording_of(trial)])
+    found = identify(nominal_model(trial), [recording_of(trial)])
     since = found.since
     return {
         'kind': trial.kind,

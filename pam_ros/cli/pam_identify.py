@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""``pam_identify``: what a declared model lacks, found in recordings of the real rig.
+"""``pam_identify``: what the nominal model lacks, found in recordings of the real rig.
 
 How wrong is the nominal model, how wrong with its parameters re-tuned, which physical effect
 is missing, how wrong is it with that added. Recordings are rosbag2 folders or CSV files whose

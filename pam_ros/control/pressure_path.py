@@ -60,7 +60,7 @@ class PressurePath:
         low, high = self.reached(LOW), self.reached(HIGH)
         self._gain = (high - low) / (HIGH - LOW)
         self._offset = low - self._gain * LOW
-        self.is_lag_declared = fill > 0.0 or vent > 0.0
+        self.is_lag_configured = fill > 0.0 or vent > 0.0
         self.chamber = Chamber(fill, vent)
         self.delay = delays_of(layout, q)[muscle]
         self.quickest = quickest

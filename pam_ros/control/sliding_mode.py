@@ -21,9 +21,9 @@ and the wanted effort is
 
 so that sigma' = -K sat(sigma / Phi) + (d^ - d) / J, with the consequences in
 :class:`pam_ros.control.gains.Gains`. The pressures are the explicit inverse of the force law **at
-the reference**, not at the load (:mod:`.allocation`): tau(p, r) = tau(p, s) - k e. So the joint's own
-spring pulls the load to the reference, without noise and without lag, and -k e above accounts for
-it. w is the joint's own sqrt(k / J) unless the gains ask for more; then (w^2 J - k) e is 0.
+the reference**, not at the load (:mod:`.allocation`): tau(p, r) = tau(p, s) - k e. So the joint's
+own spring pulls the load to the reference, without noise and without lag, and -k e above accounts
+for it. w is the joint's own sqrt(k / J) unless the gains ask for more; then (w^2 J - k) e is 0.
 Antagonistic muscles have the stiffness as a second set-point, which does not move the coordinate.
 
 While the reference rests, the bandwidths shrink as the goal is reached (:mod:`.rest.standstill`)
@@ -117,7 +117,7 @@ class SlidingMode:
         self._paths = [
             PressurePath(joint, i, gains.pressure_time) for i in range(len(model.muscles))
         ]
-        self._is_lag_declared = any(path.is_lag_declared for path in self._paths)
+        self._is_lag_configured = any(path.is_lag_configured for path in self._paths)
         self._losses = Losses(model)
         self._observer = Observer(model)
         self._learner = Learner(
@@ -125,7 +125,7 @@ class SlidingMode:
             gains,
             scaled(LearningTuning(), length, force),
             scaled(FeatureTuning(), length, force),
-            lag_is_declared=self._is_lag_declared,
+            lag_is_configured=self._is_lag_configured,
         )
         self._standstill = Standstill(
             gains.rest_tolerance, scaled(StandstillTuning(), length, force)
@@ -321,7 +321,7 @@ class SlidingMode:
         learned = learned_rate = 0.0
         if gains.learning:
             learned, learned_rate = self._learner.feed_forward(dt, reference)
-            if not self._is_lag_declared:
+            if not self._is_lag_configured:
                 for path in self._paths:
                     path.chamber.fill, path.chamber.vent = self._learner.lag
         self._lost = lost + learned

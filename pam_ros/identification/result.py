@@ -38,7 +38,7 @@ class Estimate:
 
 @dataclass(frozen=True, eq=False)
 class Stage:
-    """One of the three models: nominal (named declared), re-tuned or augmented.
+    """One of the three models: nominal (named declared, as in the report), re-tuned or augmented.
 
     Errors are RMSE in the unit of the target: over the fitted samples, and over those that were
     held out or the test recordings. ``simulated`` and ``tested`` are its free runs over

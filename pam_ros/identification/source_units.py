@@ -100,9 +100,9 @@ def with_row(
     went = np.concatenate(
         [s.position if isinstance(s, HeldSegment) else s.target for s in segments]
     )
-    declared, nominal = model.parameters().ravel(), numbers_of(model)
+    configured, nominal = model.parameters().ravel(), numbers_of(model)
     for back, is_limited in ((0.0, False), *((a, True) for a in np.linspace(0.0, 1.0, 11))):
-        row = q + back * (declared - q)
+        row = q + back * (configured - q)
         try:
             actuators = tuple(
                 replace(

@@ -56,10 +56,10 @@ def explains(found: Search) -> bool:
     return max(fit, sqrt(fit * choose)) <= setting.criteria.left
 
 
-def verdict(found: Search, declared: float, retuned: float) -> str:
+def verdict(found: Search, nominal: float, retuned: float) -> str:
     """Return the verdict on data that support one.
 
-    *declared* and *retuned* are the errors of these models over the judging data, in m, rad or N.
+    *nominal* and *retuned* are the errors of these models over the judging data, in m, rad or N.
     """
     if found.best.effects:
         return 'effect_found' if explains(found) else 'unexplained_structure'
@@ -67,7 +67,7 @@ def verdict(found: Search, declared: float, retuned: float) -> str:
     level = max(found.setting.noise, found.best.errors.fit, found.best.errors.choose)
     if not explains(found) or retuned**2 - level**2 > level**2:
         return 'unexplained_structure'
-    is_same = declared <= found.setting.criteria.worse * retuned
+    is_same = nominal <= found.setting.criteria.worse * retuned
     return 'no_missing_effect' if is_same else 'parameters_wrong'
 
 
@@ -78,7 +78,7 @@ def sentence(answer: Identification, lacking: str) -> str:
     """
     if answer.verdict == 'insufficient_data':
         return f'The data cannot support a verdict: {lacking}.'
-    declared, retuned, augmented = (_size(s.held_error, answer.unit) for s in answer.stages)
+    nominal, retuned, augmented = (_size(s.held_error, answer.unit) for s in answer.stages)
     floor = f'The noise floor is {_size(answer.noise.sigma, answer.unit)}.'
     if answer.verdict == 'effect_found':
         names = ', '.join(
@@ -90,14 +90,14 @@ def sentence(answer: Identification, lacking: str) -> str:
         since = '' if answer.since is None else f' from {time_of(answer.since)} on'
         return (
             f'The model lacks {names}{since}: with {it} the error on held-out data falls from '
-            f'{retuned} re-tuned ({declared} nominal) to {augmented}. {floor}'
+            f'{retuned} re-tuned ({nominal} nominal) to {augmented}. {floor}'
         )
     if answer.verdict == 'no_missing_effect':
-        return f'Nothing is missing: {declared} are left on held-out data. {floor}'
+        return f'Nothing is missing: {nominal} are left on held-out data. {floor}'
     if answer.verdict == 'parameters_wrong':
         return (
             'No effect is missing, but parameters are wrong: re-tuning lowers the error on '
-            f'held-out data from {declared} to {retuned}. {floor}'
+            f'held-out data from {nominal} to {retuned}. {floor}'
         )
     since = ''
     if answer.since is not None:

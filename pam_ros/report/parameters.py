@@ -81,7 +81,7 @@ def refuse_custom(result: Identification, source: Provenance) -> None:
 def about(result: Identification, source: Provenance) -> str:
     """Return the comment at the head of the file: what it is, and where it comes from."""
     files = [
-        ('Declared', source.parameters, source.digest),
+        ('Nominal model', source.parameters, source.digest),
         *(('Recording', one.name, one.digest) for one in source.recordings),
         *(('Test recording', one.name, one.digest) for one in source.test),
     ]

@@ -10,14 +10,14 @@ from pam_ros.report.wording import listed, number, scale_for
 
 def last_line(result: Identification) -> str:
     """Return the verdict, and the error of each model on held-out data."""
-    declared, retuned, augmented = (stage.held_error for stage in result.stages)
+    nominal, retuned, augmented = (stage.held_error for stage in result.stages)
     scale = scale_for(result.unit, augmented)
     names = [spelled(finding.name) for finding in result.effects]
     since = '' if result.since is None else f'from {time_of(result.since)} on'
     words = ' '.join(word for word in (listed(names) if names else '', since) if word)
     found = f' ({words})' if words else ''
     errors = (
-        f'{number(scale.factor * declared)} {scale.unit} nominal, '
+        f'{number(scale.factor * nominal)} {scale.unit} nominal, '
         f'{number(scale.factor * retuned)} {scale.unit} re-tuned'
     )
     if added(result):

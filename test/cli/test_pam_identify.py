@@ -102,7 +102,7 @@ def test_report_is_valid(found):
     jsonschema.Draft202012Validator(schema).validate(report)
 
 
-def test_declared_parameters_are_not_estimates(found):
+def test_configured_parameters_are_not_estimates(found):
     report = json.loads((found[1] / 'report.json').read_text(encoding='utf-8'))
     for name, one in report['parameters']['declared'].items():
         assert one['low'] == one['value'] == one['high'], name
@@ -119,10 +119,10 @@ def test_progress_is_told_in_plain_lines_where_there_is_no_terminal(found):
 
 def test_identified_file_starts_the_better_simulator(found, bench):
     model = nominal_joint(found[1] / 'identified.yaml').joint
-    declared = nominal_joint('dmsp_20_400n', ['mass=20']).joint
+    nominal = nominal_joint('dmsp_20_400n', ['mass=20']).joint
     other = read_recording(bench / 'other.csv')
     rmse = {}
-    for name, rig in (('declared', declared), ('identified', model)):
+    for name, rig in (('declared', nominal), ('identified', model)):
         y = simulate(rig, other.t, other.command_t, other.command).position
         rmse[name] = np.sqrt(np.mean((y - other.position)[200:] ** 2))
     assert rmse['identified'] < 2.0 * results.NOISE

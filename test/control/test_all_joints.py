@@ -13,7 +13,7 @@ from pam_ros.control.pid import Pid
 from pam_ros.control.signals import Reference
 from pam_ros.control.sliding_mode import SlidingMode
 from pam_ros.rig.arrangements import ARRANGEMENTS
-from support.joint_grid import BEYOND, REACHED, SLACK, declared, visits
+from support.joint_grid import BEYOND, REACHED, SLACK, nominal, visits
 from support.joint_loop import close_joint
 
 pytestmark = pytest.mark.needs_numba
@@ -24,7 +24,7 @@ KINDS = [kind.name for kind in ARRANGEMENTS]
 def check(law, kind, load, effects, places):
     if law is Pid:
         pytest.importorskip('simple_pid', reason='the PID law needs simple-pid')
-    joint = declared(kind, load, effects)
+    joint = nominal(kind, load, effects)
     for visit in visits(law(joint), joint, places):
         assert visit.error < REACHED[law.__name__], visit
         assert visit.farthest < BEYOND[law.__name__], visit
@@ -47,7 +47,7 @@ def test_an_arm_that_hangs_on_a_slack_muscle_does_not_wind_it_up(law):
     """The law takes the muscle for one that pushes, and is asked to push for 7 s."""
     if law is Pid:
         pytest.importorskip('simple_pid', reason='the PID law needs simple-pid')
-    pushing, slack = declared('crank'), declared('crank', effects=SLACK)
+    pushing, slack = nominal('crank'), nominal('crank', effects=SLACK)
     run = close_joint(
         law(pushing),
         slack,
@@ -59,7 +59,7 @@ def test_an_arm_that_hangs_on_a_slack_muscle_does_not_wind_it_up(law):
 
 
 def test_neither_switching_term_grows_while_the_arm_cannot_follow():
-    pushing, slack = declared('crank'), declared('crank', effects=SLACK)
+    pushing, slack = nominal('crank'), nominal('crank', effects=SLACK)
     for switching in ('boundary_layer', 'super_twisting'):
         law = SlidingMode(pushing, Gains.for_joint(pushing, switching=switching))
         close_joint(law, slack, lambda t: 0.0 if t < 0.5 else -0.5, 3.0, begin=0.0)
@@ -73,7 +73,7 @@ def test_neither_switching_term_grows_while_the_arm_cannot_follow():
 @pytest.mark.parametrize('kind', KINDS)
 def test_the_surface_does_not_wind_up_while_something_holds_the_load(kind):
     """The switching term is at its limit long before the pressure is."""
-    law = SlidingMode(declared(kind))
+    law = SlidingMode(nominal(kind))
     low, high = law.allocation.reach
     begin, goal = 0.5 * (low + high), 0.6 * high + 0.4 * low
     law.start(begin)

@@ -240,7 +240,7 @@ def test_each_muscle_keeps_its_own_effects():
     joint = pair(effects=((), lag))
     assert [one.effects for one in shared(joint).model.joint.actuators] == [(), lag]
     lever = Joint(joint.actuators, Arm(), Lever())
-    assert [PressurePath(lever, i, 0.02).is_lag_declared for i in (0, 1)] == [False, True]
+    assert [PressurePath(lever, i, 0.02).is_lag_configured for i in (0, 1)] == [False, True]
 
 
 def test_a_lever_has_torque_and_stiffness_of_its_own_equations():

@@ -9,9 +9,9 @@ from pam_ros.control.co_contraction import RISE, CoContraction, StiffnessReferen
 from pam_ros.errors import ParameterError, RangeError
 from pam_ros.rig.standard_joints import single_muscle_joint
 from support.closed_loop import shared
-from support.pair_loop import declared
+from support.pair_loop import nominal
 
-SHARING = shared(declared())
+SHARING = shared(nominal())
 DT = 2e-3
 
 

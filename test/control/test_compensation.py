@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What declared effects take, against the rig that has them: of one muscle, and of a pair."""
+"""What configured effects take, against the rig that has them: of one muscle, and of a pair."""
 
 import math
 
@@ -17,7 +17,7 @@ from pam_ros.rig.joint import Actuator
 from pam_ros.rig.run import simulate_held
 from pam_ros.rig.simulation import Simulation
 from pam_ros.rig.standard_joints import single_muscle_joint
-from support.pair_loop import declared
+from support.pair_loop import nominal
 
 DT = 2e-3
 LOSSES = [Hysteresis(slip=30.0, slip_width=0.02), Creep(force=0.04)]
@@ -72,7 +72,7 @@ def test_it_says_what_it_leaves_to_feedback():
 
 def test_what_one_muscle_of_several_has_is_said_as_well():
     plain, leaks = Actuator(contraction=0.1), Actuator(effects=[Leak(rate=0.1)])
-    joint = declared()
+    joint = nominal()
     assert left_to_feedback(joint) == ()
     assert left_to_feedback(type(joint)((plain, leaks), joint.load, joint.transmission)) == (
         'leak',
@@ -101,14 +101,14 @@ def rms(believed, true, seconds=6.0):
     return float(np.sqrt(np.mean(np.square(errors[-1000:]))))
 
 
-def test_nothing_is_lost_of_a_pair_where_nothing_is_declared():
-    losses = losses_of(declared())
+def test_nothing_is_lost_of_a_pair_where_nothing_is_configured():
+    losses = losses_of(nominal())
     losses.start(0.0, (3e5, 3e5))
     assert losses.follow(DT, Reference(0.1, 1.0), (3e5, 3e5)) == 0.0
 
 
 def test_friction_of_the_load_is_a_torque_and_resists_the_motion():
-    losses = losses_of(declared(load=FRICTION))
+    losses = losses_of(nominal(load=FRICTION))
     losses.start(0.0, (3e5, 3e5))
     for n in range(200):
         lost = losses.follow(DT, Reference(0.5 * n * DT, 0.5), (3e5, 3e5))
@@ -121,8 +121,8 @@ def test_friction_of_the_load_is_a_torque_and_resists_the_motion():
 @pytest.mark.slow
 @pytest.mark.needs_numba
 @pytest.mark.parametrize('which', ['friction', 'hysteresis'])
-def test_what_is_declared_of_a_pair_is_compensated(which):
-    true = declared(load=FRICTION) if which == 'friction' else declared(HYSTERESIS)
-    known, unknown = rms(true, true), rms(declared(), true)
+def test_what_is_configured_of_a_pair_is_compensated(which):
+    true = nominal(load=FRICTION) if which == 'friction' else nominal(HYSTERESIS)
+    known, unknown = rms(true, true), rms(nominal(), true)
     assert unknown > math.radians(0.05)
     assert known < 0.35 * unknown

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What pushes move a load that is held: truth plants, every joint, undeclared delays."""
+"""What pushes move a load that is held: truth plants, every joint, unconfigured delays."""
 
 import math
 from dataclasses import replace
@@ -11,10 +11,10 @@ import pytest
 from pam_ros.control.gains import Gains
 from pam_ros.control.sliding_mode import SlidingMode
 from pam_ros.effects import PeriodicDisturbance
-from support.closed_loop import LAG, close_loop, declared, truth
+from support.closed_loop import LAG, close_loop, nominal, truth
 from support.joint_loop import JOINTS, close_joint
 from support.pair_loop import close_pair
-from support.pair_loop import declared as declared_pair
+from support.pair_loop import nominal as nominal_pair
 from truth.effects import effect
 from truth.pair import TruthPair, pair_plant
 from truth.sensor import Sensor
@@ -37,7 +37,7 @@ def swing(run, seconds=2.0):
 
 
 def held(plant, push, effects=(), **gains):
-    law = SlidingMode(declared(effects=effects), Gains(**gains))
+    law = SlidingMode(nominal(effects=effects), Gains(**gains))
     return close_loop(law, plant, lambda t: 0.0, SECONDS, push=push)
 
 
@@ -53,7 +53,7 @@ def left_alone(plant, push):
 
 # The ratios of docs/controller.md, less what noise adds to half of a range.
 @pytest.mark.parametrize(('frequency', 'least'), [(0.5, 13.0), (1.0, 9.0), (2.0, 7.0), (3.0, 8.0)])
-@pytest.mark.parametrize('lag', [(), LAG], ids=['nominal', 'declared lag'])
+@pytest.mark.parametrize('lag', [(), LAG], ids=['nominal', 'configured lag'])
 def test_a_push_moves_the_load_many_times_less_than_at_a_held_pressure(frequency, least, lag):
     push, name = sine(8.0, frequency), 'lag' if lag else 'nominal'
     run = held(truth(name, seed=5), push, effects=lag)
@@ -105,7 +105,7 @@ DELAYS = {
 
 @pytest.mark.parametrize('name', DELAYS)
 @pytest.mark.parametrize('size', [8.0, 50.0])
-def test_an_undeclared_delay_makes_it_give_way_and_not_oscillate(name, size):
+def test_an_unconfigured_delay_makes_it_give_way_and_not_oscillate(name, size):
     push = sine(size, 1.0, 5.0)
     run = held(truth(DELAYS[name], seed=6), push)
     pushed = (run.t > 2.0) & (run.t < 5.0)
@@ -119,16 +119,16 @@ def test_an_undeclared_delay_makes_it_give_way_and_not_oscillate(name, size):
 def test_the_level_is_0_where_nothing_pushes_and_while_the_reference_moves():
     run = held(truth('nominal', seed=3), lambda t: 0.0)
     assert np.mean(run.terms['rejection'] > 0.0) < 0.01
-    law = SlidingMode(declared())
+    law = SlidingMode(nominal())
     run = close_loop(law, truth('nominal'), lambda t: 0.01 * math.sin(math.pi * t), 4.0)
     assert not np.any(run.terms['rejection'][run.t > 0.1])
 
 
 def test_a_torque_on_a_pair_is_rejected():
     push, degree = sine(0.6, 1.0), math.radians(1.0)
-    law = SlidingMode(declared_pair())
+    law = SlidingMode(nominal_pair())
     run = close_pair(law, pair_plant('nominal', seed=2), lambda t: 0.0, SECONDS, push=push)
-    law = SlidingMode(declared_pair())
+    law = SlidingMode(nominal_pair())
     law.start(0.0)
     plant = TruthPair(sensor=Sensor(noise=0.0))
     plant.reset(0.0, law.terms.pressures)

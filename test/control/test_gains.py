@@ -13,9 +13,9 @@ from pam_ros.control.gains import Gains
 from pam_ros.errors import ParameterError
 from pam_ros.rig.standard_joints import single_muscle_joint
 from support.closed_loop import shared
-from support.pair_loop import declared
+from support.pair_loop import nominal
 
-PAIR = shared(declared())
+PAIR = shared(nominal())
 
 
 @pytest.mark.parametrize(
@@ -74,7 +74,7 @@ def test_the_error_bound_is_the_absolute_area_of_the_impulse_response(damping):
 
 
 def test_a_joint_that_turns_has_defaults_of_its_own():
-    assert Gains.for_joint(declared()) == Gains.turning()
+    assert Gains.for_joint(nominal()) == Gains.turning()
     assert Gains.for_joint(single_muscle_joint()) == Gains()
     assert Gains.turning().is_turning
     assert Gains.turning(bandwidth=30.0).bandwidth == 30.0

@@ -11,7 +11,7 @@ from pam_ros.control.reference.source import ReferenceSource
 from pam_ros.control.sliding_mode import SlidingMode
 from pam_ros.errors import ParameterError
 from pam_ros.rig.standard_joints import single_muscle_joint
-from support.pair_loop import declared as elbow
+from support.pair_loop import nominal as elbow
 
 KINDS = (Gains, PidGains, Shape)
 

@@ -12,7 +12,7 @@ from pam_ros.control.reference.shaping import Shape
 from pam_ros.control.reference.source import ReferenceSource
 from pam_ros.control.sliding_mode import SlidingMode
 from pam_ros.settings.control import ControlSettings
-from support.closed_loop import close_loop, declared, sine_target, truth
+from support.closed_loop import close_loop, nominal, sine_target, truth
 
 PERIOD, RATE = 0.002, 500.0
 LATE = 8.0  # s at which states stay away
@@ -36,7 +36,7 @@ class Late:
 
 def largest_error(law, name, target, delay):
     """Return the largest error in mm from LATE until 1 s after the states are back."""
-    run = close_loop(law(declared()), Late(truth(name, seed=3), delay), target, 10.0, RATE)
+    run = close_loop(law(nominal()), Late(truth(name, seed=3), delay), target, 10.0, RATE)
     then = (run.t > LATE) & (run.t < LATE + delay + 1.0)
     return 1e3 * np.max(np.abs(run.error[then]))
 
@@ -56,7 +56,7 @@ def test_a_moving_reference_is_followed_by_the_model(law, most):
 @pytest.mark.parametrize('law', [SlidingMode, Pid])
 def test_the_loop_neither_vents_nor_begins_anew(law):
     settings, plant = ControlSettings(), truth('nominal', seed=3)
-    law = law(declared())
+    law = law(nominal())
     loop = Loop(
         law,
         ReferenceSource(Shape(), (-0.02, 0.1)),

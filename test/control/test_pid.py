@@ -24,7 +24,7 @@ DT = 2e-3
 
 
 def test_a_joint_that_turns_has_gains_of_its_own():
-    assert PidGains.for_joint(PAIR.declared()) == PidGains.turning() == Pid(PAIR.declared()).gains
+    assert PidGains.for_joint(PAIR.nominal()) == PidGains.turning() == Pid(PAIR.nominal()).gains
     assert PidGains.for_joint(single_muscle_joint()) == PidGains()
     assert PidGains.turning(integral=0.0).integral == 0.0
 
@@ -46,7 +46,7 @@ def test_a_joint_that_turns_has_gains_of_its_own():
 def test_a_step_is_reached_and_then_it_rests(kind, plant, error, swing):
     """Errors in mm or degrees, swings of the pressure in Pa, over the last second."""
     seconds = 4.0 if kind is ONE else 8.0
-    run = kind.close(Pid(kind.declared()), kind.truth(plant, seed=4), kind.step, seconds)
+    run = kind.close(Pid(kind.nominal()), kind.truth(plant, seed=4), kind.step, seconds)
     assert np.all(np.isfinite(run.pressure))
     found = at_end(kind, run, 1.0)
     assert found[0] < error
@@ -62,7 +62,7 @@ def test_a_step_is_reached_and_then_it_rests(kind, plant, error, swing):
 @pytest.mark.parametrize('goal', [0.045, 0.055, 0.075])
 def test_it_settles_at_all_places(goal):
     plant = ONE.truth('nominal', noise=0.0)
-    run = ONE.close(Pid(ONE.declared()), plant, step_target(goal - plant.y), 4.0)
+    run = ONE.close(Pid(ONE.nominal()), plant, step_target(goal - plant.y), 4.0)
     assert np.max(np.abs(run.error[run.t > 3.0])) < 20e-6
 
 
@@ -70,7 +70,7 @@ def test_it_settles_at_all_places(goal):
 @pytest.mark.needs_numba
 @pytest.mark.parametrize(('plant', 'most'), [('nominal', 0.25), ('payload', 0.3), ('all', 2.5)])
 def test_a_pair_follows_a_sine(plant, most):
-    run = PAIR.close(Pid(PAIR.declared()), PAIR.truth(plant, seed=4), PAIR.swing, 8.0)
+    run = PAIR.close(Pid(PAIR.nominal()), PAIR.truth(plant, seed=4), PAIR.swing, 8.0)
     assert rms(PAIR, run) < most
 
 
@@ -85,20 +85,20 @@ def test_a_lever_rests_where_it_shall_also_where_a_muscle_is_at_its_limit(goal):
 
 
 def test_the_stiffness_is_set_and_one_out_of_reach_refused():
-    law = Pid(PAIR.declared(), co_contraction=CoContraction(20.0))
+    law = Pid(PAIR.nominal(), co_contraction=CoContraction(20.0))
     for wanted in (20.0, 35.0):
         if wanted != 20.0:
             law.stiffen(wanted)
         law.start(0.1)
         pressures = law.update(DT, Reference(0.1), 0.1)
-        assert statics.stiffness(PAIR.declared(), pressures, 0.1) == pytest.approx(wanted)
+        assert statics.stiffness(PAIR.nominal(), pressures, 0.1) == pytest.approx(wanted)
         assert law.terms.co_contraction == wanted
     with pytest.raises(RangeError, match='co-contraction 90 N m/rad'):
         law.stiffen(90.0)
 
 
 def test_what_one_muscle_gets_the_other_loses():
-    law = Pid(PAIR.declared())
+    law = Pid(PAIR.nominal())
     law.start(0.1)
     before = law.update(DT, Reference(0.1), 0.1)
     for _ in range(20):
@@ -118,7 +118,7 @@ def test_it_starts_at_the_pressures_that_are_there():
     assert held == pytest.approx(
         single_muscle_joint().muscle.pressure_for_force(weight, 0.161), rel=1e-6
     )
-    law = Pid(PAIR.declared())
+    law = Pid(PAIR.nominal())
     law.start(0.1, (3e5, 1.5e5))
     found = law.update(DT, Reference(0.1), 0.1)
     # The static part has the stiffness that is set; what moves the arm is as it was.
@@ -132,7 +132,7 @@ def test_it_does_not_wind_up_at_a_limit(kind):
         ONE: (320e3, 0.06, 0.07, 0.0605),
         PAIR: (300e3, 0.0, 0.3, 0.02),
     }[kind]
-    law = Pid(kind.declared(), limits=Limits(pressure_high=limit))
+    law = Pid(kind.nominal(), limits=Limits(pressure_high=limit))
     law.start(begin)
     for _ in range(2000):  # the load is held by something
         pressures = law.update(DT, Reference(goal), begin)

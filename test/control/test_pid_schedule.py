@@ -16,7 +16,7 @@ from pam_ros.rig.transmissions import Pulley
 from support import pair_loop
 from support.bench import cart
 from support.closed_loop import shared
-from support.joint_grid import declared
+from support.joint_grid import nominal
 from support.joint_loop import close_joint
 
 pytest.importorskip('simple_pid', reason='the PID law needs simple-pid')
@@ -29,7 +29,7 @@ def schedule(joint, gains=GAINS):
 
 
 @pytest.mark.parametrize(
-    'joint', [single_muscle_joint(), pair_loop.declared()], ids=['one', 'pair']
+    'joint', [single_muscle_joint(), pair_loop.nominal()], ids=['one', 'pair']
 )
 def test_the_rigs_of_the_defaults_have_all_of_the_gains_at_all_places(joint):
     law = Pid(joint)
@@ -39,7 +39,7 @@ def test_the_rigs_of_the_defaults_have_all_of_the_gains_at_all_places(joint):
 
 
 def test_a_softer_pair_has_less_of_the_integral_gain():
-    found, allocation = schedule(pair_loop.declared())
+    found, allocation = schedule(pair_loop.nominal())
     wanted = CoContraction().wanted(allocation)
     shares = [found.at(0.0, k).integral for k in (wanted, 0.7 * wanted, 0.0)]
     assert shares == sorted(shares, reverse=True)
@@ -47,7 +47,7 @@ def test_a_softer_pair_has_less_of_the_integral_gain():
 
 
 def test_between_the_places_it_is_interpolated_and_beyond_them_that_of_the_end():
-    found, allocation = schedule(declared('crank'))
+    found, allocation = schedule(nominal('crank'))
     low, high = allocation.reach
     shares = np.array([found.at(float(s), 0.0) for s in np.linspace(low - 1.0, high + 1.0, 4001)])
     assert np.max(np.abs(np.diff(shares, axis=0))) < 0.01
@@ -56,7 +56,7 @@ def test_between_the_places_it_is_interpolated_and_beyond_them_that_of_the_end()
 
 
 def test_the_stiffness_of_gravity_counts():
-    joint = declared('crank', 3.0)
+    joint = nominal('crank', 3.0)
     allocation = shared(joint)
     plant = plant_at(allocation, 0.3, 0.0)
     muscles = allocation.model.stiffness(
@@ -93,7 +93,7 @@ def test_a_load_without_a_muscle_has_one_share_everywhere():
 
 
 def test_unbounded_gains_are_used_as_they_are():
-    joint = declared('crank')
+    joint = nominal('crank')
     law = Pid(joint, PidGains.for_joint(joint, bounded=False))
     run = close_joint(law, joint, lambda t: 0.175 if t > 0.5 else 0.0, 6.0, begin=0.0)
     assert np.max(np.abs(run.error[run.last(1.0)])) > 0.1  # which a crank does not bear

@@ -32,7 +32,7 @@ S = 1j * np.geomspace(0.3, 1500.0, 900)
 @cache
 def single_muscle_joint(place, payload=0.0):
     """Return inertia, damping, stiffness, and effort per pressure of 20 kg on a muscle."""
-    model = ControlModel(closed_loop.declared())
+    model = ControlModel(closed_loop.nominal())
     (muscle,) = model.at(place).muscles
     mass = model.inertia + payload
     p = (muscle.pressure_for(mass * model.weight / model.inertia),)
@@ -42,7 +42,7 @@ def single_muscle_joint(place, payload=0.0):
 @cache
 def pair(place, payload=0.0):
     """Return the same of two muscles and their arm, with the default stiffness."""
-    joint = pair_loop.declared()
+    joint = pair_loop.nominal()
     stiffness = CoContraction().wanted(closed_loop.shared(joint))
     allocation = closed_loop.shared(replace(joint, load=Arm(mass=joint.load.mass + payload)))
     model = allocation.model
@@ -152,7 +152,7 @@ def test_no_gains_near_by_are_better(bench, seed):
 
 
 def test_the_default_stiffness_can_be_had_at_the_angles_of_the_pair():
-    allocation = closed_loop.shared(pair_loop.declared())
+    allocation = closed_loop.shared(pair_loop.nominal())
     stiffness = CoContraction().wanted(allocation)
     for place in ANGLES[:-1]:
         low, high = allocation.stiffness_range(place)

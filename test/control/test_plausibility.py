@@ -28,7 +28,7 @@ from truth.effects import effect
 
 DT = 2e-3
 METRES = MotionBounds(-0.05, 0.15, 100.0, 1e-3, 'm')
-JOINT = closed_loop.declared()
+JOINT = closed_loop.nominal()
 
 
 def bounds_for(joint):

@@ -44,7 +44,7 @@ class Case:
     disturbance: float
 
 
-ONE = closed_loop.declared()
+ONE = closed_loop.nominal()
 CASES = {
     'one muscle': Case(ONE, equilibrium(ONE, 300e3), (300e3,), 1e-3, 30.0),
     'pair': Case(pair(), 0.1, None, DEGREE, 1.0),
@@ -235,7 +235,7 @@ def test_gains_and_stiffness_can_change_in_flight_without_a_jump(case):
 
 
 def test_a_stiffness_out_of_reach_is_refused_and_the_last_one_holds():
-    law = SlidingMode(pair_loop.declared(), Gains.turning())
+    law = SlidingMode(pair_loop.nominal(), Gains.turning())
     law.start(0.2)
     law.stiffen(20.0)
     for bad in (500.0, 0.0, -3.0, math.nan, math.inf):
@@ -247,7 +247,7 @@ def test_a_stiffness_out_of_reach_is_refused_and_the_last_one_holds():
 
 
 def test_a_stiffness_that_the_angle_does_not_leave_gives_way_and_comes_back():
-    law = SlidingMode(pair_loop.declared(), Gains.turning())
+    law = SlidingMode(pair_loop.nominal(), Gains.turning())
     most = law.allocation.stiffness_range(0.0)[1]
     law.start(0.0)
     law.stiffen(most)
@@ -294,7 +294,7 @@ def test_the_load_leaves_a_stop_that_is_not_configured_when_the_reference_goes_b
     rest = closed_loop.truth('nominal').y
     stop = (effect('end_stop', stop_m=rest + gap, stop_n_m15=3e7, stop_s_m=0.0),)
     plant = closed_loop.truth(stop, seed=1)
-    law = law(closed_loop.declared())
+    law = law(closed_loop.nominal())
     law.start(plant.y, (plant.state.u,))
     measured, errors, reached = plant.measure(), [], 0.0
     for n in range(4000):

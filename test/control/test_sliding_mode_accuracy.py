@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""How closely the law reaches and follows: truth plants with undeclared effects, every joint."""
+"""How closely the law reaches and follows: truth plants with unconfigured effects, every joint."""
 
 import math
 from dataclasses import replace
@@ -17,7 +17,7 @@ from recorded.former import effects_of_0_1_0
 from support.closed_loop import LAG, shared
 from support.joint_loop import JOINTS, close_joint
 from support.kinds import EACH_KIND, ONE, PAIR, at_end, rms
-from support.pair_loop import close_pair, declared
+from support.pair_loop import close_pair, nominal
 from truth.pair import TruthPair, pair_plant
 
 pytestmark = pytest.mark.needs_numba
@@ -52,7 +52,7 @@ NAMES = [effect.name for effect in (*IN_MUSCLES, *ON_JOINT)]
 )
 def test_a_step_is_reached_and_then_it_is_calm(kind, plant, effects, more, rate, error, swing):
     """Errors in mm or degrees, swings of the pressure in Pa, over the last 2 s."""
-    law = SlidingMode(kind.declared(effects))
+    law = SlidingMode(kind.nominal(effects))
     seconds = 12.0 if swing < 3e3 else 8.0  # a hunt begins late
     run = kind.close(law, kind.truth(plant, **more), kind.step, seconds, rate=rate)
     found = at_end(kind, run)
@@ -82,7 +82,7 @@ def test_a_step_is_reached_and_then_it_is_calm(kind, plant, effects, more, rate,
     ids=str,
 )
 def test_a_sine_is_followed(kind, plant, effects, rate, most):
-    law = SlidingMode(kind.declared(effects))
+    law = SlidingMode(kind.nominal(effects))
     run = kind.close(law, kind.truth(plant, seed=7), kind.swing, 8.0, rate=rate)
     end = run.last(4.0)
     assert np.ptp((run.target - run.error)[end]) > 0.96 * np.ptp(run.target[end])
@@ -92,7 +92,7 @@ def test_a_sine_is_followed(kind, plant, effects, rate, most):
 @EACH_KIND
 def test_two_runs_are_the_same_to_the_bit(kind):
     runs = [
-        kind.close(SlidingMode(kind.declared()), kind.truth('friction', seed=2), kind.swing, 1.0)
+        kind.close(SlidingMode(kind.nominal()), kind.truth('friction', seed=2), kind.swing, 1.0)
         for _ in range(2)
     ]
     assert runs[0].pressure.tobytes() == runs[1].pressure.tobytes()
@@ -101,7 +101,7 @@ def test_two_runs_are_the_same_to_the_bit(kind):
 @pytest.mark.slow
 @pytest.mark.parametrize('plant', ['nominal', 'payload', 'payload and friction', 'all'])
 def test_the_stiffness_is_what_is_set_while_the_angle_holds(plant):
-    law, goal = SlidingMode(declared()), 10.0 * DEGREE
+    law, goal = SlidingMode(nominal()), 10.0 * DEGREE
 
     def stiffness(t):
         return 18.0 if t < 4.0 else 36.0
@@ -113,21 +113,21 @@ def test_the_stiffness_is_what_is_set_while_the_angle_holds(plant):
         assert run.stiffness[n] == pytest.approx(wanted, rel=1e-3)
         assert abs(run.error[n]) < 0.03 * DEGREE
     if plant == 'nominal':
-        expected = co_contraction.co_contraction_pressures(declared(), goal, 36.0)
+        expected = co_contraction.co_contraction_pressures(nominal(), goal, 36.0)
         np.testing.assert_allclose(run.pressure[:, -1], expected, rtol=2e-3)
     assert np.max(np.abs(run.error[run.t > 3.0])) < 0.03 * DEGREE
 
 
 def test_a_heavier_arm_that_begins_away_from_rest_is_caught():
     run = close_pair(
-        SlidingMode(declared()), TruthPair(mass=2.0, seed=1), lambda t: 0.4, 6.0, begin=0.4
+        SlidingMode(nominal()), TruthPair(mass=2.0, seed=1), lambda t: 0.4, 6.0, begin=0.4
     )
     assert np.max(np.abs(run.error)) < 3.0 * DEGREE
     assert np.max(np.abs(run.error[run.last(1.0)])) < 0.01 * DEGREE
 
 
 def heavier(joint):
-    """Return a joint with a load and friction that nobody declared."""
+    """Return a joint with a load and friction that nobody configured."""
     friction = 0.05 if joint.is_revolute else 20.0
     unknown = [Payload(mass=0.2 * joint.load.mass), ViscousFriction(coefficient=friction)]
     return replace(joint, effects=unknown)
@@ -181,18 +181,18 @@ def test_muscles_that_pull_the_same_way_get_the_same_pressure():
     assert np.min(np.abs(run.pressure[0] - run.pressure[1])[100:]) > 1e3
 
 
-def test_each_effect_is_declared_below():
+def test_each_effect_is_configured_below():
     assert {*NAMES} == {effect.name for effect in EFFECTS}
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize('name', [*NAMES, 'all'])
-def test_effects_that_are_declared_of_a_pair_give_a_law_that_runs(name):
+def test_effects_that_are_configured_of_a_pair_give_a_law_that_runs(name):
     in_muscles, on_load = (
         [effect for effect in effects if name in ('all', effect.name)]
         for effects in (IN_MUSCLES, ON_JOINT)
     )
-    joint = declared(in_muscles, on_load)
+    joint = nominal(in_muscles, on_load)
     run = close_joint(SlidingMode(joint), joint, lambda t: 0.3 if t > 0.2 else 0.0, 2.5, begin=0.0)
     assert np.all(np.isfinite(run.pressure))
     most = 1.0 if name == 'all' else 0.5

@@ -3,7 +3,7 @@
 """A node is killed, stopped or ended while the others run, and comes again.
 
 Where nothing controls the load, the valve lets it down after its time-out. At all times it moves
-within the declared limits.
+within the configured limits.
 """
 
 import signal

@@ -107,7 +107,7 @@ def values_of(**given):
     return control(loop, now, WELL, '').values
 
 
-def test_declared_effects_that_nothing_compensates_ahead_are_named():
+def test_configured_effects_that_nothing_compensates_ahead_are_named():
     assert LEFT not in values_of()
     compensated = {'effects.pressure_lag.fill': 0.05, 'effects.coulomb_friction.level': 5.0}
     assert LEFT not in values_of(**compensated)

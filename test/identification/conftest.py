@@ -23,7 +23,7 @@ def setting():
     recording = bench_truth.free(effect('pressure_lag'), seed=2, duration=20.0)
     parts = parts_of([recording], CRITERIA.fit, CRITERIA.choose)
     with ThreadPoolExecutor() as pool:
-        yield Setting(bench_truth.declared(), parts, CRITERIA, BUDGET, pool)
+        yield Setting(bench_truth.nominal(), parts, CRITERIA, BUDGET, pool)
 
 
 @pytest.fixture(scope='package')

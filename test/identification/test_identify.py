@@ -44,14 +44,14 @@ def names(found):
     ids=lambda one: getattr(one, 'kind', ''),
 )
 def test_an_effect_is_named_and_measured(there, numbers):
-    found = identify(bench_truth.declared(off=OFF), [bench_truth.free(there, seed=4)])
+    found = identify(bench_truth.nominal(off=OFF), [bench_truth.free(there, seed=4)])
     assert found.verdict == 'effect_found'
     assert names(found) == [there.kind]
     for name, value in numbers.items():
         assert found.effects[0].parameters[name].value == pytest.approx(value, rel=0.1)
-    declared, retuned, augmented = (s.held_error for s in found.stages)
+    nominal, retuned, augmented = (s.held_error for s in found.stages)
     # Re-tuning takes over most of what a viscous friction does, not all.
-    assert declared > retuned > 2.0 * augmented
+    assert nominal > retuned > 2.0 * augmented
     # LuGre's friction is not the package's: what the form leaves is still far below.
     assert augmented < (4.0 if there.kind == 'coulomb_friction' else 1.2) * NOISE
     assert found.noise.sigma == pytest.approx(NOISE, rel=0.15)
@@ -62,7 +62,7 @@ def test_an_effect_is_named_and_measured(there, numbers):
 
 @pytest.mark.parametrize('rho', [0.0, 0.9])
 def test_a_model_that_is_right_lacks_nothing(rho):
-    found = identify(bench_truth.declared(), [bench_truth.free(seed=1, rho=rho)])
+    found = identify(bench_truth.nominal(), [bench_truth.free(seed=1, rho=rho)])
     assert found.verdict == 'no_missing_effect'
     assert found.effects == ()
     assert found.stages[0].held_error < 1.2 * NOISE
@@ -70,7 +70,7 @@ def test_a_model_that_is_right_lacks_nothing(rho):
 
 @pytest.mark.parametrize('off', [OFF, [0.0, 0.0, 0.0, 0.0, 0.1, 0.0]], ids=['all', 'a5_by_10_%'])
 def test_constants_of_another_specimen_are_wrong_parameters(off):
-    found = identify(bench_truth.declared(off=off, zeta=0.2), [bench_truth.free(seed=3)])
+    found = identify(bench_truth.nominal(off=off, zeta=0.2), [bench_truth.free(seed=3)])
     assert found.verdict == 'parameters_wrong'
     assert found.effects == ()
     assert found.stages[0].held_error > 10.0 * NOISE
@@ -79,7 +79,7 @@ def test_constants_of_another_specimen_are_wrong_parameters(off):
 
 def test_a_few_seconds_support_no_verdict():
     found = identify(
-        bench_truth.declared(), [bench_truth.free(effect('viscous_friction'), duration=4.0)]
+        bench_truth.nominal(), [bench_truth.free(effect('viscous_friction'), duration=4.0)]
     )
     assert found.verdict == 'insufficient_data'
     assert found.effects == ()
@@ -90,13 +90,13 @@ def test_a_recording_without_enough_samples_for_a_fit_is_refused():
     whole = bench_truth.free(duration=6.0)
     short = replace(whole, t=whole.t[:20], position=whole.position[:20])
     with pytest.raises(RecordingError, match=r'truth\.csv is too short for a fit: it lasts 0\.19'):
-        identify(bench_truth.declared(), [short])
+        identify(bench_truth.nominal(), [short])
 
 
 def test_what_begins_in_the_middle_is_named_with_its_moment():
     """From then on, up to the end of the recording: there the rig is as it is now."""
     recording = bench_truth.late(effect('payload', payload_kg=-4.0), 15.0, duration=36.0)
-    found = identify(bench_truth.declared(off=OFF), [recording])
+    found = identify(bench_truth.nominal(off=OFF), [recording])
     assert (found.verdict, names(found)) == ('effect_found', ['payload'])
     assert found.effects[0].parameters['mass'].value == pytest.approx(-4.0, rel=0.02)
     assert found.since.low <= 15.0 <= found.since.high
@@ -114,7 +114,7 @@ def test_what_begins_in_the_middle_is_named_with_its_moment():
 def test_in_another_recording_it_is_there_from_the_start():
     late = bench_truth.late(effect('viscous_friction'), 12.0, duration=30.0)
     other = bench_truth.free(effect('viscous_friction'), seed=9, duration=15.0, name='other.csv')
-    found = identify(bench_truth.declared(off=OFF), [late], [other])
+    found = identify(bench_truth.nominal(off=OFF), [late], [other])
     assert names(found) == ['viscous_friction']
     assert found.since.value == pytest.approx(12.0, abs=0.1)
     assert found.stages[2].held_error < 1.2 * NOISE
@@ -123,7 +123,7 @@ def test_in_another_recording_it_is_there_from_the_start():
 @pytest.mark.release
 def test_what_no_effect_explains_has_its_moment_too():
     recording = bench_truth.late(effect('cogging'), 15.0)
-    found = identify(bench_truth.declared(off=OFF), [recording])
+    found = identify(bench_truth.nominal(off=OFF), [recording])
     assert (found.verdict, found.effects) == ('unexplained_structure', ())
     assert found.since.value == pytest.approx(15.0, abs=0.5)
     assert found.since.low - 0.1 <= 15.0 <= found.since.high
@@ -133,14 +133,14 @@ def test_what_no_effect_explains_has_its_moment_too():
 def test_what_begins_at_the_end_has_a_moment_and_no_name():
     """Too little of the recording comes after it to name anything."""
     recording = bench_truth.late(effect('payload', payload_kg=-4.0), 26.0, duration=30.0)
-    found = identify(bench_truth.declared(off=OFF), [recording])
+    found = identify(bench_truth.nominal(off=OFF), [recording])
     assert (found.verdict, found.effects) == ('unexplained_structure', ())
     assert found.since.value == pytest.approx(26.0, abs=0.2)
 
 
 def test_without_test_recordings_the_last_quarter_judges():
     lag = effect('pressure_lag')
-    found = identify(bench_truth.declared(), [bench_truth.free(lag, seed=5, duration=20.0)])
+    found = identify(bench_truth.nominal(), [bench_truth.free(lag, seed=5, duration=20.0)])
     (s,) = found.segments
     np.testing.assert_array_equal(s.fit, s.t < CRITERIA.choose * s.t[-1])
     for stage in found.stages:
@@ -155,7 +155,7 @@ def test_a_test_recording_judges_what_the_others_taught():
     other = bench_truth.free(lag, seed=6, name='other.csv', duration=20.0)
     calls = []
     found = identify(
-        bench_truth.declared(off=OFF), [first], [other], lambda share, text: calls.append(share)
+        bench_truth.nominal(off=OFF), [first], [other], lambda share, text: calls.append(share)
     )
     assert names(found) == ['pressure_lag']
     assert [s.name for s in found.test] == ['other.csv']
@@ -173,7 +173,7 @@ def test_a_test_recording_judges_what_the_others_taught():
 
 def test_the_same_recording_gives_the_same_numbers():
     recording = bench_truth.free(effect('viscous_friction'), seed=7, duration=15.0)
-    one, two = (identify(bench_truth.declared(off=OFF), [recording]) for _ in range(2))
+    one, two = (identify(bench_truth.nominal(off=OFF), [recording]) for _ in range(2))
     assert one.sentence == two.sentence
     assert one.candidates == two.candidates
     for a, b in zip(one.stages, two.stages, strict=True):
@@ -190,7 +190,7 @@ def test_the_same_recording_gives_the_same_numbers():
     ],
 )
 def test_an_isometric_muscle(name, there):
-    found = identify(bench_truth.declared(off=OFF), [bench_truth.held(there, seed=1)])
+    found = identify(bench_truth.nominal(off=OFF), [bench_truth.held(there, seed=1)])
     assert found.verdict == 'effect_found'
     assert names(found) == [name]
     assert (found.quantity, found.unit) == ('force', 'N')
@@ -199,13 +199,13 @@ def test_an_isometric_muscle(name, there):
 
 
 def test_an_isometric_muscle_that_lacks_nothing():
-    found = identify(bench_truth.declared(), [bench_truth.held(seed=2)])
+    found = identify(bench_truth.nominal(), [bench_truth.held(seed=2)])
     assert found.verdict == 'no_missing_effect'
 
 
 def test_every_candidate_is_listed_with_a_reason():
     recording = bench_truth.free(effect('viscous_friction'), seed=8, duration=15.0)
-    found = identify(bench_truth.declared(), [recording])
+    found = identify(bench_truth.nominal(), [recording])
     decisions = {c.decision for c in found.candidates}
     assert decisions <= {'chosen', 'ambiguous', 'rejected', 'untestable'}
     assert [c.effect for c in found.candidates if c.decision == 'chosen'] == ['viscous_friction']
@@ -216,7 +216,7 @@ def test_every_candidate_is_listed_with_a_reason():
 
 def test_recordings_of_two_kinds_are_refused():
     with pytest.raises(RecordingError, match='recordings of one kind are needed'):
-        identify(bench_truth.declared(), [bench_truth.free(duration=6.0), bench_truth.held()])
+        identify(bench_truth.nominal(), [bench_truth.free(duration=6.0), bench_truth.held()])
 
 
 def test_the_measured_drive_has_two_frictions(shared_data):
@@ -232,8 +232,8 @@ def test_the_measured_drive_has_two_frictions(shared_data):
     # Janot, Gautier & Brunot (2019) identify 203.5 N s/m and 20.4 N.
     assert by['viscous_friction']['coefficient'].value == pytest.approx(203.5, rel=0.2)
     assert by['coulomb_friction']['level'].value == pytest.approx(20.4, rel=0.2)
-    declared, retuned, augmented = (s.held_error for s in found.stages)
-    assert declared > retuned > 0.1
+    nominal, retuned, augmented = (s.held_error for s in found.stages)
+    assert nominal > retuned > 0.1
     assert augmented < 8e-3
     # The model by itself, from rest where the drive was, through all of the record.
     t, y = measured.t, measured.position
@@ -257,8 +257,8 @@ def test_the_measured_muscle_goes_slack(shared_data):
     found = identify(model, [*repeat(1), *repeat(2), *repeat(3)], [*repeat(4), *repeat(5)])
     assert found.verdict == 'effect_found'
     assert names(found) == ['slack']
-    declared, retuned, augmented = (s.held_error for s in found.stages)
-    assert declared > 200.0
+    nominal, retuned, augmented = (s.held_error for s in found.stages)
+    assert nominal > 200.0
     assert retuned > 30.0
     assert augmented <= 8.0
     # The muscle settles at every length, from repeat to repeat.

@@ -22,8 +22,8 @@ from truth.pair_trials import NAMES, pair_trial
 SEED = 901
 
 
-def declared(trial):
-    d = trial.declared
+def nominal(trial):
+    d = trial.nominal
     muscle = Muscle(
         *d.constants_si, pressure_unit='Pa', contraction_unit='fraction', zeta=d.zeta, l0=d.l0
     )
@@ -42,7 +42,7 @@ def recording(trial, **changes):
 @pytest.fixture(scope='module')
 def lag():
     trial = pair_trial('pressure_lag@one', SEED)
-    return trial, identify(declared(trial), [recording(trial)])
+    return trial, identify(nominal(trial), [recording(trial)])
 
 
 @pytest.mark.needs_numba
@@ -73,7 +73,7 @@ def test_the_model_that_is_found_has_the_effect_in_that_muscle_alone(lag):
 @pytest.mark.needs_numba
 def test_friction_is_named_on_the_joint():
     trial = pair_trial('viscous_friction@joint', SEED)
-    found = identify(declared(trial), [recording(trial)])
+    found = identify(nominal(trial), [recording(trial)])
     assert [effect.name for effect in found.effects] == ['viscous_friction']
     drag = found.effects[0].parameters['coefficient']
     assert drag.unit == 'N m s/rad'
@@ -83,7 +83,7 @@ def test_friction_is_named_on_the_joint():
 @pytest.mark.needs_numba
 def test_an_effect_of_both_muscles_alike_is_named_without_a_muscle():
     trial = pair_trial('dead_time@both', SEED)
-    found = identify(declared(trial), [recording(trial)])
+    found = identify(nominal(trial), [recording(trial)])
     assert [effect.name for effect in found.effects] == ['dead_time']
     (delay,) = (p.value for p in found.effects[0].parameters.values())
     assert delay == pytest.approx(trial.effects[0].values['dead_time_s'], abs=1e-3)
@@ -92,7 +92,7 @@ def test_an_effect_of_both_muscles_alike_is_named_without_a_muscle():
 @pytest.mark.needs_numba
 def test_specimens_and_noise_alone_have_no_effect():
     trial = pair_trial('noise_only', SEED)
-    found = identify(declared(trial), [recording(trial)])
+    found = identify(nominal(trial), [recording(trial)])
     assert not found.effects
     assert found.verdict in ('parameters_wrong', 'no_missing_effect')
     assert found.stages[1].held_error < CRITERIA.complete * trial.noise
@@ -112,17 +112,17 @@ def test_recordings_of_another_joint_are_refused(lag):
     with pytest.raises(
         RecordingError, match=r'idle: agonist.pressure_command is constant at 2000'
     ):
-        identify(declared(trial), [idle])
+        identify(nominal(trial), [idle])
     with pytest.raises(RecordingError, match='one is a recording of 1 muscle'):
-        identify(declared(trial), [given, single])
+        identify(nominal(trial), [given, single])
     swapped = replace(given, name='swapped', muscles=NAMES[::-1])
     with pytest.raises(RecordingError, match='swapped has the muscles antagonist, agonist, and'):
-        identify(declared(trial), [given, swapped])
+        identify(nominal(trial), [given, swapped])
 
 
 def test_a_nominal_joint_with_an_onset_is_refused(lag):
     trial, _ = lag
-    late = replace(declared(trial), effects=[ViscousFriction(coefficient=1, onset=9)])
+    late = replace(nominal(trial), effects=[ViscousFriction(coefficient=1, onset=9)])
     with pytest.raises(ParameterError) as error:
         identify(late, [recording(trial)])
     assert str(error.value) == (
@@ -135,20 +135,20 @@ def test_a_nominal_joint_with_an_onset_is_refused(lag):
 
 
 @pytest.mark.needs_numba
-def test_a_wrong_inertia_that_is_declared_as_uncertain_is_found():
+def test_a_wrong_inertia_that_is_configured_as_uncertain_is_found():
     """Taken as exact it looks like a missing effect, softening in these trials."""
     trial = pair_trial('noise_only', SEED)
-    joint = declared(trial)
-    joint = replace(joint, load=replace(joint.load, inertia=0.6 * trial.declared.inertia))
+    joint = nominal(trial)
+    joint = replace(joint, load=replace(joint.load, inertia=0.6 * trial.nominal.inertia))
     found = identify(joint, [recording(trial)], uncertain={'inertia': '60%', 'radius': 1e-9})
     assert found.verdict == 'parameters_wrong'
-    declared_, retuned, _ = found.stages
+    nominal_, retuned, _ = found.stages
     estimate = retuned.parameters['inertia']
     assert estimate.unit == 'kg m^2'
-    assert estimate.value == pytest.approx(trial.declared.inertia, rel=0.1)
-    assert declared_.parameters['inertia'].value == joint.load.inertia
+    assert estimate.value == pytest.approx(trial.nominal.inertia, rel=0.1)
+    assert nominal_.parameters['inertia'].value == joint.load.inertia
     assert retuned.model.load.inertia == estimate.value
-    assert retuned.held_error < 1.2 * trial.noise < declared_.held_error
+    assert retuned.held_error < 1.2 * trial.noise < nominal_.held_error
     assert found.uncertain == {'inertia': '60%', 'radius': '1e-09'}
     # Of a radius that is known to a nanometre a recording says nothing more.
     told = [text for text in found.warnings if 'hardly determine' in text]
@@ -158,4 +158,4 @@ def test_a_wrong_inertia_that_is_declared_as_uncertain_is_found():
 def test_an_uncertain_parameter_that_the_joint_lacks_is_refused_before_the_fit():
     trial = pair_trial('noise_only', SEED)
     with pytest.raises(ParameterError, match='the uncertain parameter crank is not one'):
-        identify(declared(trial), [recording(trial)], uncertain={'crank': '5%'})
+        identify(nominal(trial), [recording(trial)], uncertain={'crank': '5%'})

@@ -11,7 +11,7 @@ from pam_ros.identification.data.segment import segments_of
 from pam_ros.identification.fit.extend import with_effect
 from pam_ros.identification.fit.places import places_of
 from pam_ros.identification.fit.problem import Problem
-from pam_ros.identification.fit.unknowns import SPECIMEN, declared_unknowns, proper
+from pam_ros.identification.fit.unknowns import SPECIMEN, nominal_unknowns, proper
 from pam_ros.identification.source_units import in_source_units, with_row
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.recording.recording import Recording
@@ -46,7 +46,7 @@ def problem_of(model):
         model.layout,
         model.active,
         model.parameters().ravel(),
-        tuple(map(proper, declared_unknowns(model))),
+        tuple(map(proper, nominal_unknowns(model))),
     )
 
 
@@ -55,7 +55,7 @@ def model_at(model, problem, u, effects=()):
     return with_row(model, problem.row_at(u), problem.segments, places, {})
 
 
-def test_the_declared_model_comes_back():
+def test_the_configured_model_comes_back():
     problem = problem_of(BAR)
     back = model_at(BAR, problem, np.zeros(len(problem.unknowns)))
     assert back.muscle.pressure_unit == 'bar'

@@ -8,9 +8,9 @@ import pytest
 from benchmarks._intervals import SAME, intervals, mean_delay, truth_of
 from benchmarks.tracing import (
     TARGETS,
-    declared_model,
     is_exact,
     is_right,
+    nominal_model,
     pair_hits,
     recording_of,
     report,
@@ -103,8 +103,8 @@ def test_parameters_of_the_same_meaning_exist_on_both_sides(kind, form):
     there = effect(kind, form)
     (name,) = FORMS[(kind, form)].names
     (kind_of,) = [one for one in EFFECTS if one.name == name]
-    declared = {f'effects.{name}.{one.name}' for one in kind_of.parameters()}
-    assert set(SAME[kind, form]) <= declared
+    nominal = {f'effects.{name}.{one.name}' for one in kind_of.parameters()}
+    assert set(SAME[kind, form]) <= nominal
     stamps = np.arange(100) / 100.0
     for value in SAME[kind, form].values():
         assert np.isfinite(value(there.values, stamps))
@@ -186,9 +186,9 @@ def test_the_report_says_what_is_reached_and_what_is_confused(capsys):
 
 def test_the_finder_is_given_what_a_user_has():
     trial = blind_trial('payload', 0, rate=100.0, duration=10.0)
-    model, recording = declared_model(trial), recording_of(trial)
+    model, recording = nominal_model(trial), recording_of(trial)
     # The published constants, not those of the specimen, and the mass without the payload.
-    np.testing.assert_allclose(model.muscle.si, trial.declared.constants_si)
+    np.testing.assert_allclose(model.muscle.si, trial.nominal.constants_si)
     assert not np.allclose(model.muscle.si, trial.constants_si, rtol=1e-3)
     assert model.load.mass == trial.mass
     assert model.all_effects == ()

@@ -85,7 +85,7 @@ def test_nothing_is_missing_only_where_what_judges_says_so(found):
 
 
 def test_an_effect_that_explains_is_found_whatever_retuning_is_worth(found):
-    assert verdict(ended(found, 1.0, 33.0), declared=40.0, retuned=33.0) == 'effect_found'
+    assert verdict(ended(found, 1.0, 33.0), nominal=40.0, retuned=33.0) == 'effect_found'
 
 
 @pytest.mark.parametrize(('duration', 'is_enough'), [(4.9, False), (5.2, True)])

@@ -143,7 +143,7 @@ def test_what_is_not_allowed_is_one_sentence(programs_of, word, sentence):
 
 
 @pytest.mark.parametrize('word', ['joint:=knee', 'time_mode:=fast', 'use_sim_time:=yes'])
-def test_choices_are_declared(programs_of, word):
+def test_choices_are_configured(programs_of, word):
     with pytest.raises(RuntimeError, match='valid options are'):
         programs_of(word)
 

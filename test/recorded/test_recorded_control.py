@@ -9,7 +9,7 @@ from pam_ros.control.gains import SUPER_TWISTING, Gains
 from pam_ros.control.pid import Pid, PidGains
 from pam_ros.control.sliding_mode import SlidingMode
 from recorded.platform import compare
-from support.closed_loop import LAG, close_loop, declared, sine_target, step_target, truth
+from support.closed_loop import LAG, close_loop, nominal, sine_target, step_target, truth
 
 pytestmark = pytest.mark.needs_numba
 
@@ -24,21 +24,21 @@ def check(key, law, plant, motion, close=1e-9):
 
 @pytest.mark.parametrize(('plant', 'motion'), [('nominal', 'step'), ('all', 'sine')])
 def test_the_sliding_mode_controls_as_ever(plant, motion):
-    law = SlidingMode(declared(), Gains(learning=False))
+    law = SlidingMode(nominal(), Gains(learning=False))
     check(f'sliding mode {plant}', law, plant, motion)
 
 
 def test_super_twisting_controls_as_ever():
-    law = SlidingMode(declared(), Gains(switching=SUPER_TWISTING, learning=False))
+    law = SlidingMode(nominal(), Gains(switching=SUPER_TWISTING, learning=False))
     # Its root at 0 makes more of a last bit than the other laws do: a percent after 6 s.
     check('super twisting nominal', law, 'nominal', 'step', close=0.03)
 
 
-def test_a_declared_lag_is_compensated_as_ever():
-    law = SlidingMode(declared(effects=LAG), Gains(learning=False))
-    check('sliding mode declared lag', law, 'lag', 'sine')
+def test_a_configured_lag_is_compensated_as_ever():
+    law = SlidingMode(nominal(effects=LAG), Gains(learning=False))
+    check('sliding mode configured lag', law, 'lag', 'sine')
 
 
 def test_the_pid_law_controls_as_ever():
     pytest.importorskip('simple_pid', reason='the PID law needs simple-pid')
-    check('pid all', Pid(declared(), PidGains()), 'all', 'sine')
+    check('pid all', Pid(nominal(), PidGains()), 'all', 'sine')

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Parameters of the nodes in version 0.1.0 are still there, and its files make the same joint.
 
-``parameters.json`` holds its tables: what it declared when it was started with what GIVEN says.
+``parameters.json`` holds its tables: what it configured when it was started with what GIVEN says.
 ``identified.yaml`` was written by its ``pam_identify``.
 """
 

@@ -136,8 +136,8 @@ def test_provenance_names_files_and_versions(tested):
 
 def test_what_is_not_finite_becomes_null(friction, validate):
     result, source, runs = friction
-    declared, *others = result.stages
-    broken = replace(result, stages=(replace(declared, held_error=math.nan), *others))
+    nominal, *others = result.stages
+    broken = replace(result, stages=(replace(nominal, held_error=math.nan), *others))
     text = to_json(numbers(broken, runs, source))
     assert 'NaN' not in text
     report = json.loads(text)

@@ -174,8 +174,8 @@ def test_load_without_a_muscle_has_an_input_and_a_position(friction, friction_pa
         a1=0.0, a2=0.0, a3=0.0, a4=0.0, a6=0.0, a5=35.15, pressure_unit='Pa', zeta=0.0,
         p_min=-10.0, p_max=10.0, force_max=351.5,
     )  # fmt: skip
-    declared = replace(result.stages[0], model=single_muscle_joint(muscle, model.load))
-    html = rendered((replace(result, stages=(declared, *result.stages[1:])), source, runs))
+    nominal = replace(result.stages[0], model=single_muscle_joint(muscle, model.load))
+    html = rendered((replace(result, stages=(nominal, *result.stages[1:])), source, runs))
     assert 'Against the input' in html
     assert 'Against position' in html
     assert 'contraction, %' not in html
@@ -192,10 +192,10 @@ def test_warnings_are_told_once_with_the_recording_they_are_about(tested):
 @pytest.mark.parametrize('value', [np.nan, np.inf, -1e300])
 def test_a_model_that_diverges_is_drawn_and_its_numbers_stay_finite(clean, value):
     result, source, _ = clean
-    declared = result.stages[0]
-    simulated = declared.simulated[0].copy()
+    nominal = result.stages[0]
+    simulated = nominal.simulated[0].copy()
     simulated[1500:] = value
-    broken = replace(declared, simulated=(simulated,), fit_error=value, held_error=value)
+    broken = replace(nominal, simulated=(simulated,), fit_error=value, held_error=value)
     changed = replace(result, stages=(broken, *result.stages[1:]))
     runs = runs_of(changed)
     content = numbers(changed, runs, source)

@@ -36,7 +36,7 @@ def test_force_is_in_newtons(held):
     assert ' N nominal' in last_line(held[0])
 
 
-def test_added_effects_are_those_that_were_not_declared(friction):
+def test_added_effects_are_those_that_were_not_configured(friction):
     result, _, _ = friction
     assert added(result) == ['coulomb_friction']
     assert added(replace(result, stages=3 * result.stages[:1])) == []

@@ -48,12 +48,12 @@ def test_curves_and_residuals_are_drawn_in_the_display_unit(friction):
     above, below, alone = figure.axes
     measured = above.lines[0]
     assert measured.get_ydata().max() == pytest.approx(1e3 * runs[0].target.max())
-    declared = below.lines[0]
-    assert declared.get_ydata().min() == pytest.approx(1e3 * runs[0].residual(0).min())
+    nominal = below.lines[0]
+    assert nominal.get_ydata().min() == pytest.approx(1e3 * runs[0].residual(0).min())
     assert above.get_title('left') == 'position, mm'
     (last,) = (line for line in alone.lines if len(line.get_xdata()) > 2)
     assert last.get_ydata().max() == pytest.approx(1e3 * runs[0].residual(2).max())
-    assert declared.get_xdata()[-1] <= runs[0].t[-1]
+    assert nominal.get_xdata()[-1] <= runs[0].t[-1]
 
 
 def test_a_line_stands_where_effects_begin(tested):

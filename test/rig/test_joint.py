@@ -56,7 +56,7 @@ def test_a_known_force_in_the_place_of_a_muscle_drives_it():
     assert not single_muscle_joint(muscle(joints.LONG)).is_driven
 
 
-def test_an_undeclared_payload_moves_and_weighs():
+def test_an_unconfigured_payload_moves_and_weighs():
     joint = single_muscle_joint(effects=[Payload(mass=4.0)])
     assert joint.moved_mass == 24.0
     assert statics.weight(joint, 0.0) == pytest.approx(24.0 * GRAVITY)
@@ -195,7 +195,7 @@ def test_rows_of_a_pair_hold_everything_in_si():
         np.testing.assert_array_equal(row[:6], muscle(strand).si)
         assert (row[at.ZETA], row[at.L0]) == (joints.ZETA, strand.l0)
         assert row[at.AT_ZERO] == kappa * strand.l0
-    # The joint's lengths are angles, its inertia the declared one: effects reckon with these.
+    # The joint's lengths are angles, its inertia the configured one: effects reckon with these.
     inertia, length, mass = on_joint[[at.INERTIA, at.LENGTH, at.MASS]]
     assert (inertia, length, mass) == (pytest.approx(joints.J), 1.0, joints.M)
     load = on_joint[layout.load_at :][:4]

@@ -73,7 +73,7 @@ def test_latency_while_time_stands_still_remembers_one_sample():
         np.testing.assert_allclose(reading, sample(H)[:4, :1], rtol=1e-12)
 
 
-def test_noise_has_the_declared_deviation_and_is_white():
+def test_noise_has_the_configured_deviation_and_is_white():
     wanted = {'position': 20e-6, 'velocity': 1e-3, 'pressure': 400.0, 'force': 2.7}
     sensors = Sensors(**{f'{name}_noise': value for name, value in wanted.items()}, seed=5)
     feedback = Feedback(sensors, 2)

@@ -17,33 +17,33 @@ from support import joints
 from support.joint_models import UNEQUAL, lever, pair, parallel
 
 EACH = pytest.mark.parametrize(
-    'declared',
+    'transmission',
     [Straight(), Pulley(), Lever(), Lever(*joints.GEOMETRY), Lever(crank=0.3, anchor=0.3)],
     ids=['straight', 'pulley', 'lever', 'short lever', 'isosceles'],
 )
 PLACES = (-0.9, -0.3, 0.0, 0.4, 0.7)
 
 
-def functions(declared):
+def functions(transmission):
     """Return travel, arm, arm_slope and coordinate of (s, i), of rows with the numbers in front.
 
     They stand at some place in the row, not at its beginning.
     """
-    q = np.array([-7.0, *declared.numbers])
-    equations = declared.equations
+    q = np.array([-7.0, *transmission.numbers])
+    equations = transmission.equations
     each = equations.travel, equations.arm, equations.arm_slope, equations.coordinate
     return [lambda s, i, f=f: f(s, i, q, 1) for f in each]
 
 
 @EACH
-def test_it_has_as_many_numbers_as_it_says(declared):
-    assert len(declared.numbers) == declared.equations.numbers
+def test_it_has_as_many_numbers_as_it_says(transmission):
+    assert len(transmission.numbers) == transmission.equations.numbers
 
 
 @EACH
 @pytest.mark.parametrize('i', [0, 1, 2])
-def test_the_arm_is_the_slope_of_the_travel_and_never_nothing(declared, i):
-    travel, arm, _, _ = functions(declared)
+def test_the_arm_is_the_slope_of_the_travel_and_never_nothing(transmission, i):
+    travel, arm, _, _ = functions(transmission)
     h = 1e-6
     assert travel(0.0, i) == pytest.approx(0.0, abs=1e-16)
     for s in PLACES:
@@ -54,8 +54,8 @@ def test_the_arm_is_the_slope_of_the_travel_and_never_nothing(declared, i):
 
 @EACH
 @pytest.mark.parametrize('i', [0, 1])
-def test_the_slope_of_the_arm_is_that(declared, i):
-    _, arm, arm_slope, _ = functions(declared)
+def test_the_slope_of_the_arm_is_that(transmission, i):
+    _, arm, arm_slope, _ = functions(transmission)
     h = 1e-6
     for s in PLACES:
         slope = (arm(s + h, i) - arm(s - h, i)) / (2.0 * h)
@@ -64,8 +64,8 @@ def test_the_slope_of_the_arm_is_that(declared, i):
 
 @EACH
 @pytest.mark.parametrize('i', [0, 1])
-def test_the_coordinate_is_the_inverse_of_the_travel(declared, i):
-    travel, _, _, coordinate = functions(declared)
+def test_the_coordinate_is_the_inverse_of_the_travel(transmission, i):
+    travel, _, _, coordinate = functions(transmission)
     for s in PLACES:
         assert coordinate(travel(s, i), i) == pytest.approx(s, abs=1e-12)
 
@@ -161,7 +161,7 @@ def test_a_lever_with_a_far_anchor_is_a_pulley_for_small_angles():
 
 
 @pytest.mark.parametrize(
-    ('declared', 'fields', 'sentence'),
+    ('transmission', 'fields', 'sentence'),
     [
         (Pulley, {'radius': 0.0}, 'radius = 0.0 is not allowed: give above 0 and at most 1 m'),
         (Lever, {'crank': 0.0}, 'crank = 0.0 is not allowed: give above 0 and at most 1 m'),
@@ -170,7 +170,7 @@ def test_a_lever_with_a_far_anchor_is_a_pulley_for_small_angles():
         (Lever, {'angle': math.nan}, 'angle = nan is not allowed: give 0.1 to 3 rad'),
     ],
 )
-def test_what_makes_no_transmission_is_refused_with_a_sentence(declared, fields, sentence):
+def test_what_makes_no_transmission_is_refused_with_a_sentence(transmission, fields, sentence):
     with pytest.raises(ParameterError) as error:
-        declared(**fields)
+        transmission(**fields)
     assert str(error.value) == sentence

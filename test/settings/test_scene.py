@@ -98,7 +98,7 @@ def test_what_makes_one_is_taken(given):
     assert of({'mass': 20.0} | given)
 
 
-def test_only_what_a_name_is_given_is_declared_for_it():
+def test_only_what_a_name_is_given_is_configured_for_it():
     table = Scene({'muscles': ['a', 'b'], 'b.mass': 7.0}).table()
     assert [name for name in table if name.startswith(('a.', 'b.'))] == ['b.mass']
 
@@ -148,7 +148,7 @@ def test_a_pair_starts_at_rest_under_its_own_pressures():
 
 
 @pytest.mark.parametrize(('kind', 'muscles'), [('lever', 2), ('crank', 1)])
-def test_a_lever_is_declared_by_its_geometry(kind, muscles):
+def test_a_lever_is_configured_by_its_geometry(kind, muscles):
     now = built(
         joint=kind,
         joint_name='elbow',

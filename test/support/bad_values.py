@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Values that users give by mistake, for parameters as they are declared, and what fits them."""
+"""Values that users give by mistake, for parameters as they are configured, and what fits them."""
 
 import math
 from array import array
@@ -69,7 +69,7 @@ def values(kind, about):
 
 
 def fits(value, kind, about):
-    """Say whether a parameter that is declared as *about* may have this value."""
+    """Say whether a parameter that is configured as *about* may have this value."""
     if kind is bool:
         return isinstance(value, bool)
     if kind is str:

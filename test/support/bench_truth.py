@@ -68,7 +68,7 @@ def held(*effects, name='truth.csv', **settings):
     return recording_of(held_record(effects, **{'duration': 40.0, **settings}), name)
 
 
-def declared(mass=MASS, zeta=0.15, off=None):
+def nominal(mass=MASS, zeta=0.15, off=None):
     """Return the model that is exactly the truth plant's, constants times 1 + *off* (6,).
 
     The truth plant falls with 9.81 m/s^2; the difference to the standard value stands in a6.

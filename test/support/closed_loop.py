@@ -50,8 +50,8 @@ def truth(name, mass=20.0, p0=300e3, noise=FEEDBACK_NOISE, seed=0, **more):
     )
 
 
-def declared(mass=20.0, effects=(), **muscle):
-    """Return the rig as it is declared to the controller."""
+def nominal(mass=20.0, effects=(), **muscle):
+    """Return the rig as it is configured to the controller."""
     return single_muscle_joint(Muscle(zeta=0.15, **muscle), Mass(mass=mass), effects)
 
 

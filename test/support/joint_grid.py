@@ -25,7 +25,7 @@ REACHED = {'Pid': 0.04, 'SlidingMode': 2e-4}
 BEYOND = {'Pid': 0.3, 'SlidingMode': 0.01}
 
 
-def declared(kind, load=1.0, effects=()):
+def nominal(kind, load=1.0, effects=()):
     """Return a joint of a *kind* by name: its defaults with *load* times the mass."""
     (found,) = (one for one in ARRANGEMENTS if one.name == kind)
     muscle = Actuator(effects=effects, contraction=found.contraction)

@@ -26,7 +26,7 @@ def actuators(strands, contractions, effects=((), ()), zeta=joints.ZETA):
     )
 
 
-# What is declared of the arm, of the pulley, and of how the muscles are mounted.
+# What is configured of the arm, of the pulley, and of how the muscles are mounted.
 PAIR = {
     'radius': joints.R,
     'inertia': joints.OF_PULLEY,

@@ -19,7 +19,7 @@ from truth.pair import pair_plant
 class Kind:
     """A joint on which laws are judged.
 
-    declared  returns it as a controller knows it, with effects in each muscle
+    configured  returns it as a controller knows it, with effects in each muscle
     truth     returns a plant of the benchmarks by name, with noise and seed
     close     runs a law on such a plant: law, plant, target, seconds
     unit      what errors are counted in: 1 mm or 1 degree, in m or rad
@@ -27,7 +27,7 @@ class Kind:
     """
 
     name: str
-    declared: Callable[..., Joint]
+    nominal: Callable[..., Joint]
     truth: Callable[..., Any]
     close: Callable[..., Any]
     unit: float
@@ -38,16 +38,16 @@ class Kind:
         return self.name
 
 
-def _declared(effects=()):
-    return closed_loop.declared(effects=effects)
+def _nominal(effects=()):
+    return closed_loop.nominal(effects=effects)
 
 
 ONE = Kind(
-    *('one muscle', _declared, closed_loop.truth, closed_loop.close_loop, 1e-3),
+    *('one muscle', _nominal, closed_loop.truth, closed_loop.close_loop, 1e-3),
     *(closed_loop.step_target(0.02), closed_loop.sine_target(0.01, 0.5)),
 )
 PAIR = Kind(
-    *('pair', pair_loop.declared, pair_plant, pair_loop.close_pair, math.radians(1.0)),
+    *('pair', pair_loop.nominal, pair_plant, pair_loop.close_pair, math.radians(1.0)),
     lambda t: 0.2 if t > 0.5 else 0.0,
     closed_loop.sine_target(math.radians(15.0), 0.5),
 )

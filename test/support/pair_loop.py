@@ -12,7 +12,7 @@ from pam_ros.rig.loads import Arm
 from pam_ros.rig.transmissions import Pulley
 from support.closed_loop import LAG, STREAM
 
-__all__ = ['LAG', 'PairRun', 'close_pair', 'declared']
+__all__ = ['LAG', 'PairRun', 'close_pair', 'nominal']
 TERMS = ('error', 'surface', 'switching', 'observer', 'learned', 'bandwidth')
 
 
@@ -41,8 +41,8 @@ class PairRun:
         return self.t > self.t[-1] - seconds
 
 
-def declared(effects=(), load=()):
-    """Return the joint as it is declared to the controller; *effects* of both muscles."""
+def nominal(effects=(), load=()):
+    """Return the joint as it is configured to the controller; *effects* of both muscles."""
     actuator = Actuator(effects=effects, contraction=0.1)
     return Joint((actuator, actuator), Arm(), Pulley(), load)
 

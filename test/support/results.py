@@ -62,7 +62,7 @@ def held_recording(model, kappa, seconds=SECONDS, rate=100.0, seed=0):
 
 
 def rig(**values):
-    """Return a rig with flat *values*, ``__`` for a dot, over those that are declared."""
+    """Return a rig with flat *values*, ``__`` for a dot, over those that are configured."""
     given = {k.replace('__', '.'): v for k, v in values.items()}
     (joint,) = RigParameters({}).build_joints({**DECLARED, **given})
     return joint
@@ -142,14 +142,14 @@ def candidates(chosen, ambiguous=(), untestable=()):
     return tuple(found)
 
 
-def result_of(recordings, test, declared, retuned, augmented, verdict, findings=(), quantity=None):
+def result_of(recordings, test, nominal, retuned, augmented, verdict, findings=(), quantity=None):
     """Return the result that three models make of the recordings."""
     segments = segments_of(recordings)
     if not test:
         segments = [replace(s, fit=s.t < s.t[0] + 0.75 * (s.t[-1] - s.t[0])) for s in segments]
     test_segments = segments_of(test) if test else []
     quantity = quantity or segments[0].quantity
-    muscle = declared.muscle
+    muscle = nominal.muscle
     known = {
         'a1': estimate(muscle.a1, 0.0, 'N/bar'),
         'a5': estimate(muscle.a5, 0.0, 'N/bar'),
@@ -169,12 +169,12 @@ def result_of(recordings, test, declared, retuned, augmented, verdict, findings=
     others = [name for finding in findings for name in finding.alternatives]
     return Identification(
         verdict,
-        'The declared model lacks Coulomb friction.' if findings else 'Nothing is missing.',
+        'The configured model lacks Coulomb friction.' if findings else 'Nothing is missing.',
         quantity,
         'm' if quantity == 'position' else 'N',
         Noise(NOISE, 0.1) if quantity == 'position' else Noise(2.0, 0.0),
         (
-            stage('declared', declared, segments, test_segments, known),
+            stage('declared', nominal, segments, test_segments, known),
             stage('retuned', retuned, segments, test_segments, moved),
             stage('augmented', augmented, segments, test_segments, {**moved, **added}),
         ),
@@ -205,12 +205,12 @@ def friction_result(test=False, gap=False, seconds=SECONDS, rate=200.0):
     truth = rig(**{'effects.coulomb_friction.level': 14.0, 'a5': 303.5, 'zeta': 0.2})
     recordings = [free_recording(truth, seconds, rate, gap=gap)]
     others = [free_recording(truth, seconds, rate, 5, 'other.csv')] if test else []
-    declared, retuned = rig(), rig(a5=303.4, zeta=0.24)
+    nominal, retuned = rig(), rig(a5=303.4, zeta=0.24)
     augmented = rig(**{'effects.coulomb_friction.level': 14.02, 'a5': 303.502, 'zeta': 0.201})
     result = result_of(
-        recordings, others, declared, retuned, augmented, 'effect_found', (FRICTION_FOUND,)
+        recordings, others, nominal, retuned, augmented, 'effect_found', (FRICTION_FOUND,)
     )
-    return result, source_of(declared, recordings, others)
+    return result, source_of(nominal, recordings, others)
 
 
 def clean_result():
@@ -271,10 +271,10 @@ def crowded_result():
     return replace(result, candidates=(*result.candidates, *later), sentence=4 * reason), source
 
 
-def source_of(declared, recordings, test):
+def source_of(nominal, recordings, test):
     """Return the provenance of a result that was made by hand."""
     return provenance(
-        NominalJoint(declared, LOAD, ('muscle',), 'muscle'),
+        NominalJoint(nominal, LOAD, ('muscle',), 'muscle'),
         PRESET,
         ('mass=20',),
         recordings,

@@ -38,7 +38,7 @@ def found_in(
             replace(part, segment=replace(part.segment, target=target))
             for part, target in zip(parts, targets, strict=True)
         ]
-    setting = Setting(model or bench_truth.declared(), parts, CRITERIA, budget, pool)
+    setting = Setting(model or bench_truth.nominal(), parts, CRITERIA, budget, pool)
     problem = setting.problem
     retuned = setting.model((), solved(problem, np.zeros(len(problem.unknowns))))
     (best,) = with_each(retuned, [name], setting)

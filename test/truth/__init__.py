@@ -23,7 +23,7 @@ Any rig, and a recording of it::
 Blind trials of a kind, a pair or nothing at all::
 
     trial = blind_trial('hysteresis+pressure_lag', seed=3)
-    trial.recording, trial.declared  # what the finder gets
+    trial.recording, trial.nominal  # what the finder gets
     trial.kinds, trial.effects, trial.accepted  # the answer
     late_trial('leak', seed=3).onset  # the same, with an effect that begins in the middle
     visibility(trial)  # how much re-tuning alone would leave
@@ -41,7 +41,7 @@ from .trials import (
     ABSORBED,
     NOISE_ONLY,
     PAIRS,
-    Declared,
+    Nominal,
     Trial,
     blind_trial,
     held_trial,
@@ -59,9 +59,9 @@ __all__ = [
     'OUT_OF_LIBRARY',
     'PAIRS',
     'PROGRAMMES',
-    'Declared',
     'Effect',
     'LateTrial',
+    'Nominal',
     'Recording',
     'Sensor',
     'Trial',

@@ -44,7 +44,7 @@ PAIR_KINDS = (
 
 
 @dataclass(frozen=True)
-class DeclaredPair:
+class NominalPair:
     """What the user believes of the joint; units as those of TruthPair."""
 
     constants_si: tuple[float, ...]
@@ -67,7 +67,7 @@ class PairTrial:
 
     kind: str
     seed: int
-    declared: DeclaredPair
+    nominal: NominalPair
     effects: tuple[Effect, ...]
     where: str
     noise: float
@@ -94,7 +94,7 @@ def pair_trial(
     Drawn: magnitude and form (catalogue), each muscle's own specimen (each constant off by 2 %, at
     most 5 %), damping ratio, pulley, load, mounting, noise of 0.03 to 1 mrad, rate of 100 to 500
     Hz, jittered stamps in a quarter, 40 to 80 s. Friction at the pivot is that of a guide at the
-    pulley's radius. The declared model has the published constants; its geometry is right.
+    pulley's radius. The configured model has the published constants; its geometry is right.
     """
     rng = np.random.default_rng([zlib.crc32(kind.encode()), seed, 11])
     name, _, place = kind.partition('@')
@@ -104,7 +104,7 @@ def pair_trial(
         for _ in NAMES
     )  # fmt: skip
     radius = float(rng.uniform(0.03, 0.05))
-    declared = DeclaredPair(
+    nominal = NominalPair(
         constants_si(MUSCLE),
         0.15,
         LENGTH,
@@ -124,10 +124,10 @@ def pair_trial(
         muscles=(MUSCLE, MUSCLE),
         lengths=(LENGTH, LENGTH),
         radius=radius,
-        inertia=declared.inertia,
-        mass=declared.mass,
-        arm=declared.arm,
-        contraction=(declared.contraction, declared.contraction),
+        inertia=nominal.inertia,
+        mass=nominal.mass,
+        arm=nominal.arm,
+        contraction=(nominal.contraction, nominal.contraction),
         zeta=float(rng.uniform(0.11, 0.20)),
         constants=specimens,
         in_muscles=effects if where == BOTH else (),
@@ -137,7 +137,7 @@ def pair_trial(
         seed=seed,
     )
     angle = _played(plant, t, commands)
-    return PairTrial(kind, seed, declared, effects, where, noise, t, commands, angle)
+    return PairTrial(kind, seed, nominal, effects, where, noise, t, commands, angle)
 
 
 def _commands(t: np.ndarray, rate: float, duration: float, rng: np.random.Generator) -> np.ndarray:

@@ -30,7 +30,7 @@ class TruthPlant:
     Position y = kappa l0 in m, contraction (load up) positive; gauge Pa; N; s.
 
     muscle    name in muscles.PUBLISHED, or the six constants in SI (Pa, fraction)
-    mass      declared load, kg (a payload effect adds to it)
+    mass      configured load, kg (a payload effect adds to it)
     zeta      damping ratio of the paper's equation 4 (a choice: the paper prints none)
     l0        rest length, m
     mount     'vertical' (gravity pulls the load) or 'horizontal' (no gravity)

@@ -101,8 +101,8 @@ def test_trials_are_reproducible_and_differ_by_seed():
     np.testing.assert_array_equal(one.recording.position_m, again.recording.position_m)
     assert one.effects == again.effects
     assert one.effects != other.effects
-    assert one.constants_si != one.declared.constants_si
-    scatter = np.array(one.constants_si) / np.array(one.declared.constants_si) - 1.0
+    assert one.constants_si != one.nominal.constants_si
+    scatter = np.array(one.constants_si) / np.array(one.nominal.constants_si) - 1.0
     assert 0.0 < np.max(np.abs(scatter)) <= 0.05 + 1e-12
 
 

@@ -42,7 +42,7 @@ ABSORBED = ('payload', 'pressure_offset', 'length_offset')
 
 
 @dataclass(frozen=True)
-class Declared:
+class Nominal:
     """What the user believes: a1..a6 in SI, mass in kg, damping ratio, rest length in m."""
 
     constants_si: tuple[float, ...]
@@ -56,14 +56,14 @@ class Trial:
     """A recording to be explained, and the answer.
 
     kind      a kind of the catalogue, two joined by '+', or 'noise_only'
-    declared  the model as the finder gets it (another specimen's constants)
+    configured  the model as the finder gets it (another specimen's constants)
     recording what the finder gets
     effects   the truth
     """
 
     kind: str
     seed: int
-    declared: Declared
+    nominal: Nominal
     recording: Recording
     effects: tuple[Effect, ...]
     constants_si: tuple[float, ...]
@@ -170,8 +170,8 @@ def blind_trial(
     Drawn: magnitude and form (catalogue), specimen, damping ratio, mass, noise of 5 to 60 um,
     white or AR(1) up to 0.95 a sample, rate of 100 to 1000 Hz, in a quarter
     of the trials with stamps that jitter by 15 % of a period, duration of 40 to 120 s, virgin
-    or exercised memory. The declared model has the published constants and a damping ratio of
-    0.15; the declared mass is right, a payload aside.
+    or exercised memory. The configured model has the published constants and a damping ratio of
+    0.15; the configured mass is right, a payload aside.
     """
     draw = _Draw(kind, seed)
     kinds = () if kind == NOISE_ONLY else tuple(kind.split('+'))
@@ -190,7 +190,7 @@ def blind_trial(
     trial = Trial(
         kind=kind,
         seed=seed,
-        declared=Declared(constants_si(MUSCLE), mass, 0.15),
+        nominal=Nominal(constants_si(MUSCLE), mass, 0.15),
         recording=None,  # type: ignore[arg-type]
         effects=effects,
         constants_si=constants,
@@ -274,7 +274,7 @@ def held_trial(kind: str, seed: int) -> Trial:
     return Trial(
         kind=kind,
         seed=seed,
-        declared=Declared(constants_si(MUSCLE), 20.0, 0.15),
+        nominal=Nominal(constants_si(MUSCLE), 20.0, 0.15),
         recording=recording,
         effects=effects,
         constants_si=constants,

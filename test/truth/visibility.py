@@ -23,7 +23,7 @@ class Visibility:
 def visibility(trial: Trial, *, mass_free: bool = False) -> Visibility:
     """Return how visible a free trial's effects are.
 
-    The difference with and without the effects is projected on the sensitivities to the declared
+    The difference with and without the effects is projected on the sensitivities to the configured
     parameters (a1..a6, zeta, mass_free: mass); what is left over no re-tuning can explain, to
     first order.
     """

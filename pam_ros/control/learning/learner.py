@@ -76,12 +76,12 @@ class Learner:
         tuning: LearningTuning,
         features: FeatureTuning,
         *,
-        lag_is_declared: bool,
+        lag_is_configured: bool,
     ) -> None:
         """Start without learned parameters; *tuning* and *features* are in the joint's units."""
         self._model = model
         self._tuning, self._features = tuning, features
-        self._lag_is_declared = lag_is_declared
+        self._lag_is_configured = lag_is_configured
         self._observer = Observer(self._model)
         self._wanted, self._actual = Features(features), Features(features)
         lags = (tuning.lag_spread,) * 2, (0.0, 0.0), (tuning.lag_high,) * 2
@@ -122,7 +122,7 @@ class Learner:
         self._chambers = [Chamber() for _ in pressures]
         for chamber, pressure in zip(self._chambers, pressures, strict=True):
             chamber.pressure = pressure
-        self._declared = pressures
+        self._nominal = pressures
         self._sensitivities = [_Sensitivity() for _ in pressures]
         for one in (self._plain, self._lagged):
             one.forget(beside.CONSTANT, -disturbance)
@@ -141,7 +141,7 @@ class Learner:
         """Begin again without anything learned, from the present state."""
         self._begin()
         self._restarts += 1
-        self.start(self._observer.position, self._declared, self._observer.disturbance)
+        self.start(self._observer.position, self._nominal, self._observer.disturbance)
 
     @property
     def learned(self) -> Learned:
@@ -157,7 +157,7 @@ class Learner:
             friction=sum(weights[: beside.STRIBECK]),
             breakaway=weights[beside.STRIBECK],
             stiffness=weights[beside.STRETCH] / stroke,
-            lag=None if self._lag_is_declared else (fill, vent),
+            lag=None if self._lag_is_configured else (fill, vent),
             dropped_lag=self._dropped_lag,
             restarts=self._restarts,
         )
@@ -176,7 +176,7 @@ class Learner:
         self._input[_LAGGED] = dot(values, self._lagged.theta)
         self._share += dt / self._tuning.blend * (self._prefers_lag - self._share)
         force, rate = self._learned_force()
-        explained = 0.0 if self._lag_is_declared else self.trust
+        explained = 0.0 if self._lag_is_configured else self.trust
         self.growth.follow(dt, max(self._lagged.theta[_LAGS]), explained, self._known)
         if abs(force) > most:
             return (most if force > 0.0 else -most), 0.0
@@ -219,7 +219,7 @@ class Learner:
         self,
         dt: float,
         inflows: Pressures,
-        declared: Pressures,
+        nominal: Pressures,
         losses: float,
         *,
         moves: bool,
@@ -227,7 +227,7 @@ class Learner:
     ) -> None:
         """Advance by *dt* s with *inflows* Pa at the inlets of the chambers.
 
-        *declared* are the pressures in Pa of the nominal chambers. *losses* is the effort that
+        *nominal* are the pressures in Pa of the nominal chambers. *losses* is the effort that
         configured effects take along the reference: it is not learned again. The law learns while
         the load *moves* and the limits of pressure have *cut* nothing from the wanted effort.
         """
@@ -240,14 +240,14 @@ class Learner:
             if self._waited >= self._tuning.every - 1e-9:
                 self._learn(self._waited)
                 self._waited = 0.0
-        self._advance(dt, inflows, declared, losses)
+        self._advance(dt, inflows, nominal, losses)
 
-    def _advance(self, dt: float, inflows: Pressures, declared: Pressures, losses: float) -> None:
+    def _advance(self, dt: float, inflows: Pressures, nominal: Pressures, losses: float) -> None:
         """Advance the observer and the learned chambers, with their sensitivities to the lag."""
         observer = self._observer
-        means = [0.5 * (a + b) for a, b in zip(self._declared, declared, strict=True)]
-        self._declared = declared
-        if self._lag_is_declared:
+        means = [0.5 * (a + b) for a, b in zip(self._nominal, nominal, strict=True)]
+        self._nominal = nominal
+        if self._lag_is_configured:
             observer.predict(dt, means, -losses)
             return
         places = [muscle.at(observer.position) for muscle in self._model.muscles]
@@ -276,15 +276,15 @@ class Learner:
         filtered = self._filter.output
         phi = filtered[:_UNKNOWNS]
         missing = -self._observer.disturbance
-        as_declared = missing - filtered[_FROM_LAW]
+        as_nominal = missing - filtered[_FROM_LAW]
         # The force that would be missing without an inverted lag: all that is to be explained.
         unlearned = missing - filtered[_FROM_NO_LAG]
-        plain = as_declared - dot(phi[:_N], self._plain.theta)
+        plain = as_nominal - dot(phi[:_N], self._plain.theta)
         lagged = missing - dot(phi[:_N], self._lagged.theta)
         share = min(span / self._tuning.judge, 1.0)
         self._plain_error += share * (plain * plain - self._plain_error)
         self._lagged_error += share * (lagged * lagged - self._lagged_error)
-        self._plain_miss += share * ((as_declared - filtered[_PLAIN]) ** 2 - self._plain_miss)
+        self._plain_miss += share * ((as_nominal - filtered[_PLAIN]) ** 2 - self._plain_miss)
         self._lagged_miss += share * ((missing - filtered[_LAGGED]) ** 2 - self._lagged_miss)
         if not self._has_learned:
             # The offset of an unmodelled load is no evidence of another effect.
@@ -304,7 +304,7 @@ class Learner:
         tuning = self._tuning
         is_worse = self._plain_error < tuning.worse * self._lagged_error
         self._doubt = self._doubt + span if is_worse else 0.0
-        if self._lag_is_declared or self._doubt > tuning.doubt:
+        if self._lag_is_configured or self._doubt > tuning.doubt:
             if self._prefers_lag and max(self.lag) > tuning.every:
                 self._dropped_lag = float(self.lag[0]), float(self.lag[1])
             self._prefers_lag = False
@@ -312,7 +312,7 @@ class Learner:
             self._prefers_lag = True
         if self._prefers_lag and max(self.lag) > tuning.every:
             self._dropped_lag = None
-        is_used = self._prefers_lag or self._share > 0.05 or self._lag_is_declared
+        is_used = self._prefers_lag or self._share > 0.05 or self._lag_is_configured
         is_lost = self._plain_error < tuning.lost * self._lagged_error
         if is_lost and not is_used and self._moved - self._restarted > tuning.restart:
             self._restart_lagged()
@@ -336,6 +336,6 @@ class Learner:
         one, two, three = (from_no_lag - from_law for from_no_lag, from_law in pairs)
         stages[_FROM_NO_LAG], stages[_FROM_LAW] = (one, two, three), (0.0, 0.0, 0.0)
         self._input[_N:] = [0.0] * (_COLUMNS - _N)
-        for chamber, pressure in zip(self._chambers, self._declared, strict=True):
+        for chamber, pressure in zip(self._chambers, self._nominal, strict=True):
             chamber.pressure = pressure
-        self._sensitivities = [_Sensitivity() for _ in self._declared]
+        self._sensitivities = [_Sensitivity() for _ in self._nominal]

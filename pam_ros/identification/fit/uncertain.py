@@ -18,7 +18,7 @@ from pam_ros.errors import ParameterError
 from pam_ros.identification.fit.intervals import covariance
 from pam_ros.identification.fit.of_rig import OfRig, numbers_of
 from pam_ros.identification.fit.solve import Solution
-from pam_ros.identification.fit.unknowns import Constant, Unknown, declared_unknowns
+from pam_ros.identification.fit.unknowns import Constant, Unknown, nominal_unknowns
 from pam_ros.parameters import Parameter
 from pam_ros.rig.joint import Joint
 
@@ -42,7 +42,7 @@ def spread_unknowns(joint: Joint, muscles: Sequence[str], spreads: Spreads) -> l
     not above 0, and for a share of 0.
     """
     instance('uncertain', spreads, Mapping, "standard deviations by name, {'inertia': '50%'}")
-    found = declared_unknowns(joint, muscles)
+    found = nominal_unknowns(joint, muscles)
     numbers = numbers_of(joint)
     for name, given in spreads.items():
         constants = [k for k, one in enumerate(found) if name in _names(one)]

@@ -186,7 +186,7 @@ class Unknown:
         return self.coordinate(self.low), self.coordinate(self.high)
 
 
-def declared_unknowns(model: Joint, muscles: Sequence[str] = ()) -> list[Unknown]:
+def nominal_unknowns(model: Joint, muscles: Sequence[str] = ()) -> list[Unknown]:
     """Return the nominal parameters that re-tuning may change: a1..a6 and zeta if not 0.
 
     Each muscle has its own, since muscles are specimens; *muscles* are the names of several. The

@@ -33,7 +33,7 @@ class Final:
     """
 
     parts: tuple[Part, ...]
-    declared: Solution
+    nominal: Solution
     retuned: Solution
     augmented: Solution
 
@@ -45,11 +45,11 @@ def final(found: Search) -> Final:
     runs = [run_of(part.segment, part.known) for part in parts if _is_run(part)]
     whole = setting.problem_of(runs, short_step(setting.joint))
     starts = tuple(k for k in whole.unknowns if not k.is_parameter)
-    declared = _nearest(replace(whole, unknowns=starts), np.zeros(len(starts)), setting)
+    nominal = _nearest(replace(whole, unknowns=starts), np.zeros(len(starts)), setting)
     retuned = _nearest(*_begun(found.retuned, whole, setting), setting)
     if not found.best.effects:
-        return Final(parts, declared, retuned, retuned)
-    return Final(parts, declared, retuned, _nearest(*_nearer(found, whole), setting))
+        return Final(parts, nominal, retuned, retuned)
+    return Final(parts, nominal, retuned, _nearest(*_nearer(found, whole), setting))
 
 
 def short_step(joint: Joint) -> float:

@@ -162,11 +162,11 @@ def absent(model: Model, setting: Setting) -> list[str]:
     """Return the places of the effects that *model* lacks and its rig could have."""
     joint, places = setting.joint, setting.places
     there = [places[name] for name in model.effects]
-    declared = {effect.name for effect in joint.all_present}
+    nominal = {effect.name for effect in joint.all_present}
     return [
         name
         for name, place in places.items()
-        if place.effect.name not in declared
+        if place.effect.name not in nominal
         and not any(place.overlaps(other) for other in there)
         and not (place.effect.needs_muscle and joint.is_driven)
     ]

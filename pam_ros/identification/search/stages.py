@@ -34,7 +34,7 @@ def stages(ends: Final, found: Search, test: Sequence[Segment]) -> tuple[Stage, 
     joint = found.setting.joint
     problem = found.setting.problem
     known = [unknown for unknown in problem.unknowns if unknown.is_parameter]
-    declared = {k.name: in_source_units(k, 3 * [k.value(0.0)], joint, False) for k in known}
+    nominal = {k.name: in_source_units(k, 3 * [k.value(0.0)], joint, False) for k in known}
     retuned, augmented = (
         estimates(one, one.most_likely(), joint) for one in (ends.retuned, ends.augmented)
     )
@@ -57,7 +57,7 @@ def stages(ends: Final, found: Search, test: Sequence[Segment]) -> tuple[Stage, 
         return Stage(name, model, parameters, error, held, tuple(runs), tuple(tested))
 
     return (
-        stage('declared', ends.declared, declared, ()),
+        stage('declared', ends.nominal, nominal, ()),
         stage('retuned', ends.retuned, retuned, ()),
         stage('augmented', ends.augmented, augmented, effects),
     )

@@ -19,7 +19,7 @@ ARMS = {ONE: 1.0, PAIR: 0.08}  # of all muscles together, m on a joint that turn
 
 
 def swung(kind, plant, seconds=12.0, effects=(), **gains):
-    joint = kind.declared(effects)
+    joint = kind.nominal(effects)
     law = SlidingMode(joint, Gains.for_joint(joint, **gains))
     return law, kind.close(law, kind.truth(plant, seed=5), kind.swing, seconds)
 
@@ -37,9 +37,9 @@ def test_nothing_is_learned_where_nothing_is_missing(kind):
 
 @pytest.mark.slow
 @pytest.mark.parametrize('rest', [0.3, 1.0, 2.8, 3.4, 4.0])
-def test_a_load_that_nobody_declared_is_not_taken_for_anything_else(rest):
+def test_a_load_that_nobody_configured_is_not_taken_for_anything_else(rest):
     # Nor is the pressure known at the start, so that the load jumps before it is moved.
-    law, plant = SlidingMode(ONE.declared()), ONE.truth('payload', noise=0.0)
+    law, plant = SlidingMode(ONE.nominal()), ONE.truth('payload', noise=0.0)
     run = ONE.close(law, plant, step_target(0.02, at=rest), rest + 2.5, is_pressure_known=False)
     assert np.max(np.abs(run.terms['learned'])) < 1e-3
     assert np.max(np.abs(run.error[run.last(0.5)])) < 0.02e-3
@@ -91,7 +91,7 @@ def test_a_lag_is_learned_and_the_bandwidth_stays(kind, within, bandwidth, most,
 
 
 @EACH_KIND
-def test_a_declared_lag_leaves_nothing_to_learn(kind):
+def test_a_configured_lag_leaves_nothing_to_learn(kind):
     law, run = swung(kind, 'lag', 8.0, effects=LAG)
     assert law.learned.lag is None
     assert np.max(np.abs(run.terms['learned'])) < 3.0 * ARMS[kind]
@@ -99,7 +99,7 @@ def test_a_declared_lag_leaves_nothing_to_learn(kind):
 
 
 @pytest.mark.slow
-def test_declared_friction_is_not_learned_again():
+def test_configured_friction_is_not_learned_again():
     friction = [CoulombFriction(level=15.0, breakaway=25.0, stribeck_speed=0.01)]
     _, run = swung(ONE, 'friction', effects=friction)
     assert np.max(np.abs(run.terms['learned'][run.last(6.0)])) < 5.0
@@ -173,7 +173,7 @@ def test_a_lag_that_explains_too_little_is_dropped_and_later_forgotten():
 
 
 def test_what_is_configured_not_to_be_learned_is_no_number():
-    joint = ONE.declared()
+    joint = ONE.nominal()
     assert SlidingMode(joint, Gains.for_joint(joint, learning=False)).learned is None
     still = SlidingMode(joint).learned
     assert (still.motion, still.weight, still.dropped_lag) == (0.0, 0.0, None)

@@ -77,7 +77,7 @@ def test_a_load_that_follows_is_left_alone():
 
 
 def test_lengths_and_forces_of_a_pair_are_those_along_its_muscles():
-    of_one, of_pair = (SlidingMode(kind.declared()) for kind in (ONE, PAIR))
+    of_one, of_pair = (SlidingMode(kind.nominal()) for kind in (ONE, PAIR))
     one, two = of_one._stiction._tuning, of_pair._stiction._tuning
     assert two.loose_way == pytest.approx(one.loose_way / 0.04)
     assert two.loose_speed == pytest.approx(one.loose_speed / 0.04)
@@ -88,7 +88,7 @@ def test_lengths_and_forces_of_a_pair_are_those_along_its_muscles():
 
 def watched(kind):
     """Return a law, and the list of what its compensation says at each step."""
-    law, pushed = SlidingMode(kind.declared()), []
+    law, pushed = SlidingMode(kind.nominal()), []
     follow = law._stiction.follow
     law._stiction.follow = lambda *seen: pushed.append(follow(*seen)) or pushed[-1]
     return law, pushed
@@ -116,7 +116,7 @@ def test_on_the_truth_plant_stick_and_slip_end_within_the_tolerance(kind, seed):
     assert error < 0.03
     assert swing < 3e3
     # Without it, and as a push would not be rejected, the load hunts on and on.
-    joint = kind.declared()
+    joint = kind.nominal()
     law = SlidingMode(joint, Gains.for_joint(joint, rejection=False))
     law._stiction.follow = lambda *seen: None
     error, _ = at_end(kind, stepped(kind, law, plant(), shape=HASTY[kind]))

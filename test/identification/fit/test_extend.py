@@ -20,11 +20,11 @@ from pam_ros.identification.fit.extend import (
 )
 from pam_ros.identification.fit.places import places_of
 from pam_ros.identification.fit.problem import Problem
-from pam_ros.identification.fit.unknowns import declared_unknowns, run_unknowns
+from pam_ros.identification.fit.unknowns import nominal_unknowns, run_unknowns
 from pam_ros.identification.source_units import with_row
 from support import bench_truth
 
-MODEL = bench_truth.declared()
+MODEL = bench_truth.nominal()
 SEGMENTS = tuple(segments_of([bench_truth.free(duration=2.5, programme='steps')]))
 EFFECT = {effect.name: effect for effect in EFFECTS}
 PLACES = places_of(MODEL)
@@ -33,7 +33,7 @@ START = {'stiffness': 500.0, 'time': 3.0}
 
 @pytest.fixture
 def problem():
-    unknowns = (*declared_unknowns(MODEL), *run_unknowns(SEGMENTS, 1e-5))
+    unknowns = (*nominal_unknowns(MODEL), *run_unknowns(SEGMENTS, 1e-5))
     return Problem(SEGMENTS, MODEL.layout, (), MODEL.parameters().ravel(), unknowns, 0.01)
 
 

@@ -9,7 +9,7 @@ from pam_ros.identification.data.segment import segments_of
 from pam_ros.identification.fit.extend import with_effect, without_effect
 from pam_ros.identification.fit.places import places_of
 from pam_ros.identification.fit.problem import Problem
-from pam_ros.identification.fit.unknowns import MemoryStart, declared_unknowns, run_unknowns
+from pam_ros.identification.fit.unknowns import MemoryStart, nominal_unknowns, run_unknowns
 from pam_ros.identification.source_units import with_row
 from pam_ros.recording.recording import Recording
 from pam_ros.rig import layout as at
@@ -33,7 +33,7 @@ def run(joint):
 def problem():
     recording = Recording('elbow', T, T, COMMAND, run(ELBOW), muscles=NAMES, unit='rad')
     segments = tuple(segments_of([recording]))
-    unknowns = (*declared_unknowns(ELBOW, NAMES), *run_unknowns(segments, 1e-4))
+    unknowns = (*nominal_unknowns(ELBOW, NAMES), *run_unknowns(segments, 1e-4))
     row = ELBOW.parameters().ravel()
     return Problem(segments, ELBOW.layout, ELBOW.library, row, unknowns)
 
@@ -44,7 +44,7 @@ def at_start(problem, added):
 
 @pytest.mark.parametrize('name', ['pressure_lag', 'flexor.pressure_lag', 'extensor.pressure_lag'])
 def test_an_effect_acts_where_its_place_is(problem, name):
-    """The run of the problem is that of a joint that was declared with the effect."""
+    """The run of the problem is that of a joint that was configured with the effect."""
     place = PLACES[name]
     new, added = with_effect(problem, ELBOW, place, LAG)
     u = at_start(problem, added)

@@ -20,7 +20,7 @@ from support import bench_truth
 
 NOISE = 20e-6
 HOLD = 1.0  # s, of every command
-JOINT = bench_truth.declared()
+JOINT = bench_truth.nominal()
 PLACES = places_of(JOINT)
 
 

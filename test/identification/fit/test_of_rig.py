@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Joints with other numbers: in the matrix of a kernel as in a joint that is declared so."""
+"""Joints with other numbers: in the matrix of a kernel as in a joint that is configured so."""
 
 from dataclasses import replace
 

@@ -17,8 +17,8 @@ from pam_ros.identification.fit.problem import Problem
 from pam_ros.identification.fit.run_levels import LEVEL, level_unknowns
 from pam_ros.identification.fit.unknowns import (
     SPECIMEN,
-    declared_unknowns,
     memory_unknowns,
+    nominal_unknowns,
     proper,
     run_unknowns,
     time_unknowns,
@@ -51,7 +51,7 @@ def problem_of(model, segments, remembered=()):
     memories = [k for name in remembered for k in memory_unknowns(
         model.layout, places_of(model)[name], len(segments)
     )]  # fmt: skip
-    unknowns = (*declared_unknowns(model), *run_unknowns(segments, np.inf), *memories)
+    unknowns = (*nominal_unknowns(model), *run_unknowns(segments, np.inf), *memories)
     return Problem(
         tuple(segments),
         model.layout,

@@ -10,7 +10,7 @@ import pytest
 from pam_ros.errors import ParameterError
 from pam_ros.identification.fit.of_rig import OfRig
 from pam_ros.identification.fit.uncertain import spread_unknowns
-from pam_ros.identification.fit.unknowns import declared_unknowns
+from pam_ros.identification.fit.unknowns import nominal_unknowns
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig.loads import Arm, Mass
 from pam_ros.rig.standard_joints import antagonistic_joint, single_muscle_joint
@@ -26,7 +26,7 @@ def unknown(name, given, joint=ELBOW, muscles=NAMES):
 
 
 def test_without_any_the_unknowns_are_the_constants():
-    assert spread_unknowns(ELBOW, NAMES, {}) == declared_unknowns(ELBOW, NAMES)
+    assert spread_unknowns(ELBOW, NAMES, {}) == nominal_unknowns(ELBOW, NAMES)
 
 
 @pytest.mark.parametrize('given', ['50%', ' 50 %', 0.01, '0.01', np.float64(0.01)])
@@ -56,7 +56,7 @@ def test_a_mounting_is_that_of_one_muscle():
 
 
 def test_a_constant_is_that_of_one_muscle_or_of_all():
-    usual = {k.name: k for k in declared_unknowns(ELBOW, NAMES)}
+    usual = {k.name: k for k in nominal_unknowns(ELBOW, NAMES)}
     one = {k.name: k for k in spread_unknowns(ELBOW, NAMES, {'flexor.a2': '12%'})}
     assert one['flexor.a2'].value(1.0) - one['flexor.a2'].base == pytest.approx(
         0.12 * abs(one['flexor.a2'].base)

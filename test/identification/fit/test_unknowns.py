@@ -15,8 +15,8 @@ from pam_ros.identification.fit.places import places_of
 from pam_ros.identification.fit.unknowns import (
     SPECIMEN,
     RunStart,
-    declared_unknowns,
     effect_unknowns,
+    nominal_unknowns,
     onset_unknown,
     run_unknowns,
     time_unknowns,
@@ -56,7 +56,7 @@ def test_a_logarithm_has_no_bound_at_zero_or_infinity():
 
 
 def test_constants_and_damping_are_retuned_but_not_what_scale_and_rule_measure():
-    found = {one.name: one for one in declared_unknowns(RIG)}
+    found = {one.name: one for one in nominal_unknowns(RIG)}
     assert list(found) == ['a1', 'a2', 'a3', 'a4', 'a5', 'a6', 'zeta']
     q = RIG.parameters().ravel()
     for one in found.values():
@@ -80,7 +80,7 @@ def test_what_is_zero_stays_zero():
         Muscle(a1=0.0, a2=0.0, a4=0.0, a3=0.0, a6=0.0, zeta=0.0),
         Mass(mass=95.0, mount='horizontal'),
     )
-    assert [one.name for one in declared_unknowns(drive)] == ['a5']
+    assert [one.name for one in nominal_unknowns(drive)] == ['a5']
 
 
 def run(kind):

@@ -43,7 +43,7 @@ def errors(known, ends, found):
 
 def test_every_sample_before_those_that_judge_is_fitted(found, ends, recording):
     known = int(np.count_nonzero(recording.t < CRITERIA.choose * recording.t[-1]))
-    for solution in (ends.declared, ends.retuned, ends.augmented):
+    for solution in (ends.nominal, ends.retuned, ends.augmented):
         (run,) = solution.problem.segments
         assert run.t.size == solution.r.size == known
         assert solution.problem.step == STEP
@@ -51,10 +51,10 @@ def test_every_sample_before_those_that_judge_is_fitted(found, ends, recording):
 
 
 def test_errors_fall_from_model_to_model_to_the_noise_where_nothing_was_fitted(found, ends):
-    declared, retuned, augmented = (
-        errors(one, ends, found) for one in (ends.declared, ends.retuned, ends.augmented)
+    nominal, retuned, augmented = (
+        errors(one, ends, found) for one in (ends.nominal, ends.retuned, ends.augmented)
     )
-    assert declared[0] > retuned[0] > 3.0 * NOISE
+    assert nominal[0] > retuned[0] > 3.0 * NOISE
     assert retuned[1] > 3.0 * NOISE
     assert augmented == pytest.approx((NOISE, NOISE), rel=0.1)
 
@@ -70,19 +70,19 @@ def test_the_lag_is_within_three_standard_errors_of_the_true_one(ends):
     assert high - low < 0.01 * FILL
 
 
-def test_of_the_declared_model_only_the_starts_are_fitted(found, ends):
-    problem = ends.declared.problem
+def test_of_the_configured_model_only_the_starts_are_fitted(found, ends):
+    problem = ends.nominal.problem
     assert [k.name for k in problem.unknowns] == ['y0[0]', 'v0[0]']
     np.testing.assert_array_equal(
-        problem.row_at(ends.declared.u), found.setting.joint.parameters().ravel()
+        problem.row_at(ends.nominal.u), found.setting.joint.parameters().ravel()
     )
     (part,) = found.setting.parts
     s = part.segment
-    y0, v0 = (ends.declared.value(k.name) for k in problem.unknowns)
+    y0, v0 = (ends.nominal.value(k.name) for k in problem.unknowns)
     run = simulate(found.setting.joint, s.t, s.drive_t, s.drive, y0, v0).position
     e = run - s.target
     expected = [float(np.sqrt(np.mean(e[k] ** 2))) for k in (part.known, part.judge)]
-    assert errors(ends.declared, ends, found) == pytest.approx(expected, rel=1e-3)
+    assert errors(ends.nominal, ends, found) == pytest.approx(expected, rel=1e-3)
 
 
 def test_nothing_sees_what_judges(recording, pool, ends):
@@ -139,7 +139,7 @@ def test_at_a_prescribed_length_blocks_are_fitted_and_the_blocks_between_them_ju
     ends = final(found)
     known = [int(np.count_nonzero(part.known)) for part in found.setting.parts]
     assert [stamps.size for stamps in ends.augmented.problem.stamps()] == known
-    assert ends.declared.problem.unknowns == ()
+    assert ends.nominal.problem.unknowns == ()
     for name in ('declared', 'retuned'):
         assert min(errors(getattr(ends, name), ends, found)) > 3.0 * found.setting.noise
     after = errors(ends.augmented, ends, found)
@@ -205,8 +205,8 @@ def test_repeats_that_lie_apart_are_told_by_their_levels_and_the_last_one_by_the
 
 
 def at_one_length(seed, kappa, offset):
-    """Return 12 s at one length of the muscle that is declared, by its own equation."""
-    muscle = bench_truth.declared().muscle
+    """Return 12 s at one length of the muscle that is configured, by its own equation."""
+    muscle = bench_truth.nominal().muscle
     rng = np.random.default_rng(seed)
     t = np.arange(600) / 50.0
     pressure = 3e5 + 1.5e5 * np.sin(t + rng.uniform(0.0, 6.0))

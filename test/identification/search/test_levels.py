@@ -21,16 +21,16 @@ from support import bench_truth
 
 def at(kappa, name='held'):
     t = np.arange(400) / 100.0
-    position = np.full(t.size, kappa * bench_truth.declared().muscle.l0)
+    position = np.full(t.size, kappa * bench_truth.nominal().muscle.l0)
     return Recording(name, t, None, None, position, None, 100.0 + t, 1e5 + t, 'held')
 
 
 @pytest.fixture(scope='module')
 def known():
-    """Return the declared model over two repeats at 5 %, one at 10 % and a third at 5 %."""
+    """Return the configured model over two repeats at 5 %, one at 10 % and a third at 5 %."""
     recordings = [at(kappa) for kappa in (0.05, 0.05, 0.1, 0.05)]
     parts = parts_of(recordings, CRITERIA.fit, CRITERIA.choose)
-    problem = Setting(bench_truth.declared(), parts, CRITERIA, BUDGET, None).problem
+    problem = Setting(bench_truth.nominal(), parts, CRITERIA, BUDGET, None).problem
     levels = {0: 6.0, 1: -2.5}
     u = [
         one.coordinate(levels[one.of.run]) if isinstance(one.of, RunLevel) else 0.0
@@ -40,7 +40,7 @@ def known():
 
 
 def test_repeats_are_the_runs_at_one_length_in_their_order(known):
-    l0 = bench_truth.declared().muscle.l0
+    l0 = bench_truth.nominal().muscle.l0
     assert repeats(known.problem.segments, l0) == [[0, 1, 3], [2]]
 
 
@@ -48,9 +48,9 @@ def test_a_run_whose_length_changes_is_no_repeat():
     moving = bench_truth.held(duration=8.0)
     moving = replace(moving, position=moving.position + np.linspace(0.0, 5e-3, moving.t.size))
     segments = segments_of([moving, moving])
-    declared = bench_truth.declared()
-    assert repeats(segments, declared.muscle.l0) == []
-    assert level_unknowns(segments, declared) == []
+    nominal = bench_truth.nominal()
+    assert repeats(segments, nominal.muscle.l0) == []
+    assert level_unknowns(segments, nominal) == []
 
 
 def test_lengths_whose_recordings_lie_apart_are_listed_with_their_levels(known):

@@ -33,7 +33,7 @@ OFF = np.array([0.02, -0.03, 0.01, -0.02, 0.01, 0.03])  # a specimen within its 
 
 def searched(recordings, model=None, shares=(CRITERIA.fit, CRITERIA.choose)):
     """Return the search of recordings for what *model* lacks."""
-    model = model or bench_truth.declared(off=OFF)
+    model = model or bench_truth.nominal(off=OFF)
     parts = parts_of(recordings, *shares)
     with ThreadPoolExecutor() as pool:
         return search(Setting(model, parts, CRITERIA, BUDGET, pool))
@@ -123,7 +123,7 @@ def test_noise_is_no_effect(rho):
 
 
 def test_a_payload_that_retuning_hides_is_found_by_the_strain_of_the_constants():
-    model = bench_truth.declared(mass=17.0)
+    model = bench_truth.nominal(mass=17.0)
     found = searched([bench_truth.free(seed=5, duration=40.0)], model)
     assert found.best.effects == ('payload',)
     assert found.best.errors.fit == pytest.approx(found.retuned.errors.fit, rel=0.02)
@@ -169,8 +169,8 @@ def test_nothing_sees_what_judges():
     assert [m.score for m in one.looked_at] == [m.score for m in other.looked_at]
 
 
-def test_an_effect_that_is_declared_is_not_tried():
-    model = bench_truth.declared()
+def test_an_effect_that_is_configured_is_not_tried():
+    model = bench_truth.nominal()
     known = replace(model, effects=[ViscousFriction(coefficient=60.0)])
     found = searched([bench_truth.free(effect('viscous_friction'), seed=3)], known)
     assert found.best.effects == ()
@@ -199,7 +199,7 @@ def test_where_other_recordings_choose_the_nearest_free_run_leads(count, first, 
     """
     recordings = [bench_truth.free(seed=k, name=f'{k}.csv') for k in range(count)]
     parts = parts_of(recordings, CRITERIA.fit, CRITERIA.choose)
-    setting = Setting(bench_truth.declared(), parts, CRITERIA, BUDGET, pool)
+    setting = Setting(bench_truth.nominal(), parts, CRITERIA, BUDGET, pool)
     problem = setting.problem
     place = begun(problem, np.zeros(len(problem.unknowns)))
 

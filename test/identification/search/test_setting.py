@@ -97,7 +97,7 @@ def test_the_nearest_free_run_is_looked_for_from_nominal_constants_too(setting, 
 
 def test_at_a_prescribed_length_what_chooses_begins_at_rest():
     """A fitted start of a memory is worth nothing in another recording."""
-    joint = bench_truth.declared()
+    joint = bench_truth.nominal()
     parts = parts_of([bench_truth.held(rate=50.0)], CRITERIA.fit, CRITERIA.choose)
     with ThreadPoolExecutor() as pool:
         setting = Setting(joint, parts, CRITERIA, BUDGET, pool)
@@ -195,7 +195,7 @@ def on_a_rail(begin=0.0, gain=0.0100):
 
 
 def test_a_load_without_a_spring_is_fitted_in_short_runs_and_carried_on_in_one():
-    """Declared 2 % too strong, it runs away."""
+    """Configured 2 % too strong, it runs away."""
     with ThreadPoolExecutor() as pool:
         parts = parts_of([on_a_rail()], CRITERIA.fit, CRITERIA.choose)
         setting = Setting(DECLARED, parts, CRITERIA, BUDGET, pool)
@@ -204,7 +204,7 @@ def test_a_load_without_a_spring_is_fitted_in_short_runs_and_carried_on_in_one()
         assert max(s.t[-1] for s in problem.segments) < CRITERIA.fit * 16.0
         errors = setting.errors(begun(problem, np.zeros(len(problem.unknowns))))
         assert errors.carried > 2.0 * errors.choose > 2.0 * NOISE
-        # The run that is carried on is the declared model's, from the measured start.
+        # The run that is carried on is the configured model's, from the measured start.
         s = setting.thin[0].segment
         run = simulate(DECLARED, s.t, s.drive_t, s.drive, s.y0, s.v0, setting.step).position
         keep = setting.thin[0].choose
@@ -235,7 +235,7 @@ def test_a_stretch_with_too_little_to_fit_is_no_run():
     parts = parts_of([gap], CRITERIA.fit, CRITERIA.choose)
     assert [part.segment.t.size for part in parts] == [770, 10]
     with ThreadPoolExecutor() as pool:
-        setting = Setting(bench_truth.declared(), parts, CRITERIA, BUDGET, pool)
+        setting = Setting(bench_truth.nominal(), parts, CRITERIA, BUDGET, pool)
         problem = setting.problem
         assert len(problem.segments) == 1
         assert problem.segments[0].t[0] == pytest.approx(whole.t[30])

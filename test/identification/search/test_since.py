@@ -27,7 +27,7 @@ def setting_of():
 
         def made(*recordings, shares=SHARES, model=None):
             parts = parts_of(recordings, *shares)
-            model = model or bench_truth.declared(off=0.02 * np.array([1, -1, 1, 1, -1, 1]))
+            model = model or bench_truth.nominal(off=0.02 * np.array([1, -1, 1, 1, -1, 1]))
             return Setting(model, parts, CRITERIA, BUDGET, pool)
 
         yield made

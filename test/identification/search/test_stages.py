@@ -38,7 +38,7 @@ def three(ends, found):
 def test_each_model_simulates_what_is_shown_of_it(three, ends):
     (part,) = ends.parts
     s = part.segment
-    for stage, fit in zip(three, (ends.declared, ends.retuned, ends.augmented), strict=True):
+    for stage, fit in zip(three, (ends.nominal, ends.retuned, ends.augmented), strict=True):
         y0, v0 = fit.value('y0[0]'), fit.value('v0[0]')
         run = simulate(stage.model, s.t, s.drive_t, s.drive, y0, v0).position
         (shown,) = stage.simulated
@@ -52,10 +52,10 @@ def test_each_model_simulates_what_is_shown_of_it(three, ends):
 
 
 def test_the_last_one_has_the_effect_and_the_others_have_not(three):
-    declared, retuned, augmented = three
+    nominal, retuned, augmented = three
     assert [stage.name for stage in three] == ['declared', 'retuned', 'augmented']
-    assert declared.model == bench_truth.declared()
-    assert not by_name((*declared.model.all_effects, *retuned.model.all_effects))
+    assert nominal.model == bench_truth.nominal()
+    assert not by_name((*nominal.model.all_effects, *retuned.model.all_effects))
     found = augmented.parameters['effects.pressure_lag.fill']
     assert by_name(augmented.model.all_effects)['pressure_lag'].fill == pytest.approx(found.value)
     assert found.unit == 's'
@@ -79,12 +79,12 @@ def test_stamps_of_another_clock_are_no_lag(recording, pool):
     assert told.high - told.low < 2e-3
 
 
-def test_what_is_declared_is_not_fitted_and_has_no_interval(three):
-    declared, retuned, _ = three
-    assert declared.parameters.keys() == retuned.parameters.keys()
-    for name, one in declared.parameters.items():
+def test_what_is_configured_is_not_fitted_and_has_no_interval(three):
+    nominal, retuned, _ = three
+    assert nominal.parameters.keys() == retuned.parameters.keys()
+    for name, one in nominal.parameters.items():
         assert (
-            one.low == one.value == one.high == pytest.approx(getattr(declared.model.muscle, name))
+            one.low == one.value == one.high == pytest.approx(getattr(nominal.model.muscle, name))
         )
         assert one.unit == retuned.parameters[name].unit
         assert retuned.parameters[name].low < retuned.parameters[name].high
@@ -109,7 +109,7 @@ def test_a_load_without_a_spring_is_shown_in_one_run_from_its_measured_start(poo
     source = {'a1': 0.0, 'a2': 0.0, 'a3': 0.0, 'a4': 0.0, 'a6': 0.0, 'zeta': 0.0, 'l0': 1.0}
     units = {'pressure_unit': 'Pa', 'contraction_unit': 'fraction'}
     rail = Mass(mass=5.0, mount='horizontal')
-    declared = single_muscle_joint(Muscle(a5=0.0102, **source, **units), rail)
+    nominal = single_muscle_joint(Muscle(a5=0.0102, **source, **units), rail)
     there = [ViscousFriction(coefficient=4.0)]
     true = replace(single_muscle_joint(Muscle(a5=0.0100, **source, **units), rail), effects=there)
     t = np.arange(1600) / 100.0
@@ -117,7 +117,7 @@ def test_a_load_without_a_spring_is_shown_in_one_run_from_its_measured_start(poo
     y = simulate(true, t, t, command, 0.1).position
     y = y + NOISE * np.random.default_rng(3).standard_normal(t.size)
     recording = Recording('rail', t, t, command, y, None, None, None, 'free')
-    found = found_in([recording], pool, name='viscous_friction', model=declared)
+    found = found_in([recording], pool, name='viscous_friction', model=nominal)
     last = stages(final(found), found, ())[2]
     s = found.setting.parts[0].segment
     run = simulate(last.model, s.t, s.drive_t, s.drive, s.y0, s.v0).position
@@ -144,10 +144,10 @@ def test_intervals_hold_the_truth(pool, rho):
             [recording],
             pool,
             name='viscous_friction',
-            model=bench_truth.declared(off=off, zeta=0.18),
+            model=bench_truth.nominal(off=off, zeta=0.18),
         )
         parameters = stages(final(found), found, ())[2].parameters
-        truth = {f'a{k + 1}': a for k, a in enumerate(bench_truth.declared().muscle.si)}
+        truth = {f'a{k + 1}': a for k, a in enumerate(bench_truth.nominal().muscle.si)}
         truth |= {'zeta': 0.15, 'effects.viscous_friction.coefficient': friction}
         inside += [parameters[k].low <= value <= parameters[k].high for k, value in truth.items()]
     assert np.mean(inside) >= 0.85

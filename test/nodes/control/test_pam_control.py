@@ -17,7 +17,7 @@ from pam_ros.control.signals import term_names
 from pam_ros.rig import statics
 from support.control_watch import LOSE_NO_TERMS, Simulation, Watch, columns, sine
 from support.harness import Program
-from support.pair_loop import declared
+from support.pair_loop import nominal
 
 DEGREE = math.radians(1.0)
 ENABLE = 'pam_control/enable'
@@ -36,7 +36,7 @@ class Kind:
     way: float
     close: float  # of an error while it moves
     still: float  # of an error at rest
-    load: float  # kg, another than is declared
+    load: float  # kg, another than is configured
     refused: tuple  # references, and what is said of them
 
     @property
@@ -112,7 +112,7 @@ def test_a_step_and_a_sine_are_followed_in_lockstep(watch, kind):
 @of_a_pair
 @pytest.mark.at_any_pace
 def test_the_stiffness_is_led_while_the_angle_holds(watch, kind):
-    # A third more load than is declared, and a sensor with noise.
+    # A third more load than is configured, and a sensor with noise.
     rig = {**kind.lockstep, 'mass': kind.load, 'sensor.position_noise': 0.02 * DEGREE}
     with Program('pam_sim', parameters=rig), Program('pam_control', parameters=kind.following):
         watch.begin()
@@ -123,7 +123,7 @@ def test_the_stiffness_is_led_while_the_angle_holds(watch, kind):
             assert seen['co_contraction'][-1] == pytest.approx(wanted)
             # By the closed form, at the pressures that are commanded.
             p = seen['pressure_1'][-1], seen['pressure_2'][-1]
-            found = statics.stiffness(declared(), p, seen['position'][-1])
+            found = statics.stiffness(nominal(), p, seen['position'][-1])
             assert found == pytest.approx(wanted, rel=1e-3)
             (dim,) = watch.commands[-1].layout.dim
             assert dim.label == 'pam_1,pam_2'

@@ -9,7 +9,7 @@ from sensor_msgs.msg import JointState
 from support.control_watch import LOSE_NO_TERMS, Watch, stamp
 from support.harness import Peer, Program, lose_nothing
 
-# An 8 N sine of 1 Hz that is not declared: it moves the load by 1.3 mm at a held pressure.
+# An 8 N sine of 1 Hz that is not configured: it moves the load by 1.3 mm at a held pressure.
 RIG = {
     'time_mode': 'lockstep',
     'mass': 20.0,

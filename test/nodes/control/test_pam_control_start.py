@@ -12,7 +12,7 @@ from pam_ros.control.signals import TERMS
 from support.harness import Program, lose_nothing
 
 PRESSURE, AMBIENT = 300e3, 101325.0
-HEAVY = {'mass': 25.0, 'initial.pressure': PRESSURE, **lose_nothing()}  # 20 kg are declared
+HEAVY = {'mass': 25.0, 'initial.pressure': PRESSURE, **lose_nothing()}  # 20 kg are configured
 LOCKSTEP = {**HEAVY, 'time_mode': 'lockstep'}
 FOLLOWING = {'use_sim_time': True, 'state_rate': 500.0, 'pressure_wait': 60.0}
 ENABLE = 'pam_control/enable'
@@ -34,7 +34,7 @@ def states_of(position, stamp):
 @pytest.mark.parametrize(
     'mode', [pytest.param('lockstep', marks=pytest.mark.at_any_pace), 'real_time']
 )
-def test_a_load_that_nobody_declared_stays_where_it_is(peer, mode):
+def test_a_load_that_nobody_configured_stays_where_it_is(peer, mode):
     states = peer.collect(JointState, 'joint_states')
     terms = peer.collect(JointState, 'pam_control/state')
     # However long a busy machine holds them up.

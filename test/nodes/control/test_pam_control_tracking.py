@@ -31,7 +31,7 @@ def test_a_controller_of_another_kind_of_joint_says_that_it_does_not_control(pee
 
 
 @pytest.mark.at_any_pace
-def test_large_steps_of_a_declared_joint_are_no_fault(peer):
+def test_large_steps_of_a_configured_joint_are_no_fault(peer):
     watch = Watch(peer)
     rig = {'initial.pressure': 300e3, 'time_mode': 'lockstep', **lose_nothing()}
     shape = {'shape.max_velocity': 1.0}

@@ -29,7 +29,7 @@ def test_a_joint_is_led_by_angle_and_stiffness_over_topics(tmp_path):
     _, *sines, rest = text.splitlines()
     for row, wanted_stiffness in zip(sines, (20.0, 35.0), strict=True):
         *_, rms, _, _, _, stiffness, wanted = row.split()
-        assert float(rms) < 0.2  # degrees, with a third more load than was declared
+        assert float(rms) < 0.2  # degrees, with a third more load than was configured
         assert float(wanted) == wanted_stiffness
         assert abs(float(stiffness) - wanted_stiffness) < 0.05
     *_, largest, _, stiffness, wanted = rest.split()

@@ -34,5 +34,5 @@ def test_a_load_is_led_over_topics(tmp_path):
     for row in steps:
         _, _, settled, _, error, *_ = row.split()
         assert float(settled) < 2.4
-        assert float(error) < 100.0  # um, with a quarter more load than was declared
+        assert float(error) < 100.0  # um, with a quarter more load than was configured
     assert float(sine.split()[-3]) < 100.0

@@ -91,7 +91,7 @@ def test_a_command_is_a_period_to_the_bit_and_nothing_else_is(peer):
 
 
 def test_effects_begin_at_their_onsets_also_those_set_while_it_runs(peer):
-    """A load is taken off after 0.1 s, and a leak that is declared at 0.12 s begins at 0.2 s."""
+    """A load is taken off after 0.1 s, and a leak that is configured at 0.12 s begins at 0.2 s."""
     dropped = [Payload(mass=-5.0, onset=0.1)]
     leaking = [Leak(rate=2.0, refill=0.1, onset=0.2)]
     late = {'effects.payload.mass': -5.0, 'effects.payload.onset': 0.1}
@@ -99,8 +99,8 @@ def test_effects_begin_at_their_onsets_also_those_set_while_it_runs(peer):
         controller = Controller(peer)
         got = [controller.answer(pressure_at(k)) for k in range(60)]
         peer.until(lambda: last(controller.states, controller.time), 'the next state')
-        declared = {'rate': 2.0, 'refill': 0.1, 'onset': 0.2}
-        given = {f'effects__leak__{name}': value for name, value in declared.items()}
+        nominal = {'rate': 2.0, 'refill': 0.1, 'onset': 0.2}
+        given = {f'effects__leak__{name}': value for name, value in nominal.items()}
         assert peer.set_together('pam_sim', **given).successful
         got += [controller.answer(pressure_at(k)) for k in range(60, 150)]
         begun = 'effects.leak acts from 0.2 s of simulated time on'
