@@ -17,7 +17,7 @@ from pam_ros.units import turned_unit
 _KEY = 'parameter'
 
 
-class OnTurning(NamedTuple):
+class OnRevolute(NamedTuple):
     """Default and highest value of a parameter for a revolute joint."""
 
     default: Any
@@ -30,8 +30,8 @@ class Parameter:
 
     ``low`` and ``high`` are inclusive and in ``unit``; ``None`` means unbounded.
     ``choices`` lists the allowed values of a string. ``live`` is true if the parameter can be
-    changed while a node runs. ``above_low`` makes the lower bound exclusive. ``turning`` gives the
-    default and the highest value for a revolute joint, if they are different numbers.
+    changed while a node runs. ``above_low`` makes the lower bound exclusive. ``revolute`` gives
+    the default and the highest value for a revolute joint, if they are different numbers.
     """
 
     text: str
@@ -41,12 +41,12 @@ class Parameter:
     choices: tuple[str, ...] = ()
     live: bool = True
     above_low: bool = False
-    turning: OnTurning | None = None
+    revolute: OnRevolute | None = None
 
     def turned(self, name: str) -> 'Parameter':
         """Return the description of the parameter *name* for a revolute joint."""
-        high = self.high if self.turning is None else self.turning.high
-        return replace(self, unit=turned_unit(self.unit, name), high=high, turning=None)
+        high = self.high if self.revolute is None else self.revolute.high
+        return replace(self, unit=turned_unit(self.unit, name), high=high, revolute=None)
 
     def allowed(self, kind: type = float) -> str:
         """Return a text about the allowed values of type *kind*, for an error message."""
@@ -107,32 +107,32 @@ def field_about(default: Any, about: Parameter, *, kw_only: bool = False) -> Any
     return field(default=default, metadata={_KEY: about}, kw_only=kw_only)
 
 
-def described(cls: type, *, turning: bool = False) -> dict[str, tuple[type, Any, Parameter]]:
+def described(cls: type, *, revolute: bool = False) -> dict[str, tuple[type, Any, Parameter]]:
     """Return name -> (type, default, Parameter) of the described fields of a dataclass.
 
-    With *turning* they are those of a revolute joint.
+    With *revolute* they are those of a revolute joint.
     """
     table = {}
     for item in fields(cls):
         if _KEY in item.metadata:
             about, default = item.metadata[_KEY], item.default
-            if turning:
-                default = default if about.turning is None else about.turning.default
+            if revolute:
+                default = default if about.revolute is None else about.revolute.default
                 about = about.turned(item.name)
             table[item.name] = (type(item.default), default, about)
     return table
 
 
-def check_all(instance: Any, *, turning: bool = False) -> None:
+def check_all(instance: Any, *, revolute: bool = False) -> None:
     """Check and normalise every described field of a (frozen) dataclass instance.
 
-    With *turning* the instance is for a revolute joint.
+    With *revolute* the instance is for a revolute joint.
     """
-    for name, (kind, _, about) in described(type(instance), turning=turning).items():
+    for name, (kind, _, about) in described(type(instance), revolute=revolute).items():
         object.__setattr__(instance, name, about.check(name, getattr(instance, name), kind))
 
 
-def turning_defaults(cls: type) -> dict[str, Any]:
+def revolute_defaults(cls: type) -> dict[str, Any]:
     """Return the described fields of a dataclass with their defaults for a revolute joint."""
-    table = described(cls, turning=True)
+    table = described(cls, revolute=True)
     return {name: default for name, (_, default, _) in table.items()}

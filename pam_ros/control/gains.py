@@ -9,7 +9,7 @@ from pam_ros.control.allocation import Allocation
 from pam_ros.control.joint_settings import JointSettings
 from pam_ros.control.tuning import number
 from pam_ros.errors import ParameterError
-from pam_ros.parameters import OnTurning, parameter_field
+from pam_ros.parameters import OnRevolute, parameter_field
 
 BOUNDARY_LAYER, SUPER_TWISTING = 'boundary_layer', 'super_twisting'
 
@@ -67,7 +67,7 @@ class Gains(JointSettings):
         '1/s',
         low=0.5,
         high=200.0,
-        turning=OnTurning(25.0, 200.0),
+        revolute=OnRevolute(25.0, 200.0),
     )
     fast_bandwidth: float = parameter_field(
         50.0,
@@ -90,7 +90,7 @@ class Gains(JointSettings):
         '',
         low=0.05,
         high=5.0,
-        turning=OnTurning(0.5, 5.0),
+        revolute=OnRevolute(0.5, 5.0),
     )
     disturbance_bound: float = parameter_field(
         200.0,
@@ -99,7 +99,7 @@ class Gains(JointSettings):
         low=0.0,
         high=1e5,
         above_low=True,
-        turning=OnTurning(5.0, 1e5),
+        revolute=OnRevolute(5.0, 1e5),
     )
     switching: str = parameter_field(
         BOUNDARY_LAYER,
@@ -114,7 +114,7 @@ class Gains(JointSettings):
         low=0.0,
         high=1e6,
         above_low=True,
-        turning=OnTurning(5.0, 1e6),
+        revolute=OnRevolute(5.0, 1e6),
     )
     observer: bool = parameter_field(True, 'whether the disturbance observer acts')
     observer_bandwidth: float = parameter_field(
@@ -123,7 +123,7 @@ class Gains(JointSettings):
         'rad/s',
         low=0.01,
         high=200.0,
-        turning=OnTurning(8.0, 200.0),
+        revolute=OnRevolute(8.0, 200.0),
     )
     velocity_bandwidth: float = parameter_field(
         126.0,
@@ -142,7 +142,7 @@ class Gains(JointSettings):
         '',
         low=0.01,
         high=1.0,
-        turning=OnTurning(0.3, 1.0),
+        revolute=OnRevolute(0.3, 1.0),
     )
     rest_tolerance: float = parameter_field(
         12e-6,
@@ -152,7 +152,7 @@ class Gains(JointSettings):
         low=0.0,
         high=0.01,
         above_low=True,
-        turning=OnTurning(2e-4, 1.0),
+        revolute=OnRevolute(2e-4, 1.0),
     )
     rejection: bool = parameter_field(
         True,

@@ -7,7 +7,7 @@ from typing import Any, TypeVar
 
 from pam_ros.arguments import instance
 from pam_ros.errors import ParameterError
-from pam_ros.parameters import check_all, turning_defaults
+from pam_ros.parameters import check_all, revolute_defaults
 from pam_ros.rig.joint import Joint
 
 T = TypeVar('T', bound='JointSettings')
@@ -21,29 +21,29 @@ class JointSettings:
     of the joint. Raises ParameterError for a value out of range.
     """
 
-    is_turning: bool = field(default=False, kw_only=True)
+    is_revolute: bool = field(default=False, kw_only=True)
 
     @classmethod
     def for_joint(cls: type[T], joint: Joint, **given: Any) -> T:
         """Return the defaults for the kind of *joint*, with the values *given* in its units."""
-        is_turning = instance('joint', joint, Joint, 'a Joint').is_revolute
-        return cls.turning(**given) if is_turning else cls(**given)
+        is_revolute = instance('joint', joint, Joint, 'a Joint').is_revolute
+        return cls.revolute(**given) if is_revolute else cls(**given)
 
     @classmethod
-    def turning(cls: type[T], **given: Any) -> T:
+    def revolute(cls: type[T], **given: Any) -> T:
         """Return the defaults for a revolute joint, with the values *given* in rad and N m."""
-        return cls(**{**turning_defaults(cls), 'is_turning': True, **given})
+        return cls(**{**revolute_defaults(cls), 'is_revolute': True, **given})
 
     def __post_init__(self) -> None:
         """Check every field."""
-        check_all(self, turning=self.is_turning)
+        check_all(self, revolute=self.is_revolute)
 
-    def require(self, *, turning: bool) -> None:
+    def require(self, *, revolute: bool) -> None:
         """Raise ParameterError if these are settings for the other kind of joint."""
-        if self.is_turning is not turning:
+        if self.is_revolute is not revolute:
             own, other = (
                 ('turns (rad, N m)', 'slides (m, N)')
-                if turning
+                if revolute
                 else ('slides (m, N)', 'turns (rad, N m)')
             )
             name = type(self).__name__

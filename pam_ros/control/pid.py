@@ -23,7 +23,7 @@ from pam_ros.control.signals import (
     step_arguments,
 )
 from pam_ros.errors import ParameterError
-from pam_ros.parameters import OnTurning, parameter_field
+from pam_ros.parameters import OnRevolute, parameter_field
 from pam_ros.rig.joint import Joint
 
 
@@ -58,7 +58,7 @@ class PidGains(JointSettings):
         'Pa/m',
         low=0.0,
         high=1e9,
-        turning=OnTurning(49.1e3, 1e9),
+        revolute=OnRevolute(49.1e3, 1e9),
     )
     integral: float = parameter_field(
         39e6,
@@ -66,7 +66,7 @@ class PidGains(JointSettings):
         'Pa/(m s)',
         low=0.0,
         high=1e10,
-        turning=OnTurning(1.91e6, 1e10),
+        revolute=OnRevolute(1.91e6, 1e10),
     )
     derivative: float = parameter_field(
         194e3,
@@ -74,7 +74,7 @@ class PidGains(JointSettings):
         'Pa s/m',
         low=0.0,
         high=1e9,
-        turning=OnTurning(9.09e3, 1e9),
+        revolute=OnRevolute(9.09e3, 1e9),
     )
     filter_bandwidth: float = parameter_field(
         282.0,
@@ -82,7 +82,7 @@ class PidGains(JointSettings):
         'rad/s',
         low=1.0,
         high=1e4,
-        turning=OnTurning(326.0, 1e4),
+        revolute=OnRevolute(326.0, 1e4),
     )
     bounded: bool = parameter_field(
         True,
@@ -123,7 +123,7 @@ class Pid:
         self.gains = instance('gains', gains, PidGains, 'PidGains')
         instance('limits', limits, Limits, 'Limits')
         instance('co_contraction', wanted, CoContraction, 'a CoContraction')
-        gains.require(turning=joint.is_revolute)
+        gains.require(revolute=joint.is_revolute)
         self.terms = Terms()
         self.model = ControlModel(joint)
         self.allocation = allocation_of(self.model, limits)

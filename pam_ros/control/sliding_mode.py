@@ -105,7 +105,7 @@ class SlidingMode:
         self.gains = instance('gains', gains, Gains, 'Gains')
         instance('limits', limits, Limits, 'Limits')
         instance('co_contraction', wanted, CoContraction, 'a CoContraction')
-        gains.require(turning=joint.is_revolute)
+        gains.require(revolute=joint.is_revolute)
         self.model = model = ControlModel(joint)
         self.allocation = allocation_of(model, limits)
         self.terms = Terms()
@@ -141,7 +141,7 @@ class SlidingMode:
 
     def set_gains(self, gains: Gains) -> None:
         """Continue from the present state with other gains; ParameterError as for a new law."""
-        gains.require(turning=self.joint.is_revolute)
+        gains.require(revolute=self.joint.is_revolute)
         self.gains = self._learner.growth.gains = self._rejection.gains = gains
         for path in self._paths:
             path.quickest = gains.pressure_time

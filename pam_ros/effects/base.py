@@ -253,10 +253,10 @@ class Effect(ABC):
 
     @classmethod
     @cache
-    def parameters(cls, *, turning: bool = False) -> tuple[EffectParameter, ...]:
+    def parameters(cls, *, revolute: bool = False) -> tuple[EffectParameter, ...]:
         """Return its own parameters in order, without the onset that every effect has.
 
-        With *turning* they have the units and ranges of a revolute joint; raises ParameterError
+        With *revolute* they have the units and ranges of a revolute joint; raises ParameterError
         for a unit that has no counterpart there.
         """
         found = tuple(
@@ -266,7 +266,7 @@ class Effect(ABC):
         )
         if not any(p.strength for p in found):
             raise ParameterError(f'effect {cls.name} has no strength parameter to be absent by')
-        if not turning:
+        if not revolute:
             return found
         return tuple(p.turned(EffectName(cls.name, p.name).flat) for p in found)
 
@@ -275,12 +275,12 @@ class Effect(ABC):
         """Return whether it acts on the joint, and not in a muscle or its pressure path."""
         return any(place in ON_JOINT for place in cls.equations.places)
 
-    def check(self, *, mass: float, turning: bool) -> None:
+    def check(self, *, mass: float, revolute: bool) -> None:
         """Raise ParameterError for a value that is out of range on a joint.
 
-        *mass* in kg is the moved mass without effects, and *turning* is true for a revolute joint.
+        *mass* in kg is the moved mass without effects, *revolute* is true for a revolute joint.
         """
-        for p in self.parameters(turning=turning):
+        for p in self.parameters(revolute=revolute):
             p.check(EffectName(self.name, p.name).flat, getattr(self, p.name), float)
 
     @classmethod

@@ -25,14 +25,14 @@ def late(now: float, h: float, x: Row, i: int, xn: Row, q: Row, j: int) -> float
     T r: T is the time, r the spread, b the balance. x[i + FAST] and x[i + SLOW] are the lags,
     x[i + LAST] is their input at the start of the step.
     """
-    way = now - x[i + LAST]
+    change = now - x[i + LAST]
     xn[i + LAST] = now
     for n in range(2):
         r = q[j + SPREAD] if n == FAST else 1.0 / q[j + SPREAD]
         a = h * r / q[j + TIME]
         gone = -expm1(-a)
         share = gone / a if a > 0.0 else 1.0
-        xn[i + n] = x[i + n] + (x[i + LAST] - x[i + n]) * gone + way * (1.0 - share)
+        xn[i + n] = x[i + n] + (x[i + LAST] - x[i + n]) * gone + change * (1.0 - share)
     return now - (1.0 - q[j + BALANCE]) * xn[i + FAST] - q[j + BALANCE] * xn[i + SLOW]
 
 
@@ -102,7 +102,7 @@ class Creep(Effect):
     text: ClassVar = 'force, stiffness and pressure of which a part acts late'
     source: ClassVar = 'Standard linear solid; Minh et al. 2012 for a fluidic muscle'
     signature: ClassVar = (
-        'drift after steps that slows down: of length under load, of force at held length'
+        'drift after steps that slows down: of length under load, of force at constant length'
     )
     experiment: ClassVar = 'holds of several minutes after steps, up and down'
     compensation: ClassVar = Compensation.FEED_FORWARD

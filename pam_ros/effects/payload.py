@@ -46,12 +46,12 @@ class Payload(Effect):
     rivals: ClassVar = ('pressure_offset', 'length_offset')
     equations: ClassVar = EffectEquations(mass=moved)
 
-    def check(self, *, mass: float, turning: bool) -> None:
+    def check(self, *, mass: float, revolute: bool) -> None:
         """Raise ParameterError if it leaves the joint less than a fifth of its *mass* in kg.
 
         The equations keep a fifth for any payload, since fits may change the mass as well.
         """
-        super().check(mass=mass, turning=turning)
+        super().check(mass=mass, revolute=revolute)
         least = (LEAST_SHARE - 1.0) * mass
         if self.mass < least:
             raise ParameterError(

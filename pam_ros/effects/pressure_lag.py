@@ -71,8 +71,8 @@ def pressure(p: float, t: float, h: float, x: Row, i: int, xn: Row, q: Row, j: i
     """
     if q[j + FILL] == 0.0 and q[j + VENT] == 0.0:
         return p
-    way = 0 if p > x[i] else 1
-    tau, fastest = q[j + FILL + way], q[j + FASTEST + way]
+    side = 0 if p > x[i] else 1
+    tau, fastest = q[j + FILL + side], q[j + FASTEST + side]
     if q[j + CHOKING] > 0.0:
         g = pace(p, x[i], q[j + SUPPLY], q[j + CHOKING])
         g = pace(p, approached(p, x[i], 0.5 * h * g, tau, fastest), q[j + SUPPLY], q[j + CHOKING])

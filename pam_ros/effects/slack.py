@@ -94,7 +94,7 @@ class Slack(Effect):
         'residual only where the model would push: high contraction, low pressure'
     )
     experiment: ClassVar = (
-        'vent the muscle at held lengths beyond 10 % contraction with a force cell'
+        'vent the muscle at constant lengths beyond 10 % contraction with a force cell'
     )
     compensation: ClassVar = Compensation.MODEL
     rivals: ClassVar = ('end_stop',)

@@ -42,8 +42,8 @@ def force(
     xn[i + CONTRACTION] = min(max(x[i + CONTRACTION], kappa - BAND_KAPPA), kappa + BAND_KAPPA)
     over_p = abs(xn[i + PRESSURE] - x[i + PRESSURE])
     over_kappa = abs(xn[i + CONTRACTION] - x[i + CONTRACTION])
-    way = q[j + PER_PRESSURE] * over_p + q[j + PER_CONTRACTION] * over_kappa
-    xn[i + DAMAGE] = x[i + DAMAGE] + way + q[j + PER_SECOND] * h
+    growth = q[j + PER_PRESSURE] * over_p + q[j + PER_CONTRACTION] * over_kappa
+    xn[i + DAMAGE] = x[i + DAMAGE] + growth + q[j + PER_SECOND] * h
     return f * (1.0 - q[j + LIMIT] * (1.0 - exp(-xn[i + DAMAGE])))
 
 

@@ -21,7 +21,7 @@ class Guard:
     def problem(self, now: float) -> str:
         """Return the reason to stop as a sentence, or ''."""
         if now - self._seen > self._silence:
-            return f'joint_states has been silent for {now - self._seen:.2f} s'
+            return f'no joint_states for {now - self._seen:.2f} s'
         if self.position is None:
             return ''
         if not math.isfinite(self.position):

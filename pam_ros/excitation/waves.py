@@ -95,13 +95,13 @@ def chirp(rate: float, duration: float, fastest: float) -> Array:
     for mean, start, end in zip(MEANS, edges[:-1], edges[1:], strict=True):
         t = np.arange(end - start) / rate
         # A smooth transition from the last mean pressure, then the chirp, faded in and out.
-        way = 0.5 - 0.5 * np.cos(np.pi * np.clip(t / PASSAGE, 0.0, 1.0))
+        ramp = 0.5 - 0.5 * np.cos(np.pi * np.clip(t / PASSAGE, 0.0, 1.0))
         length = max(end - start, 1) / rate - PASSAGE
         x = np.clip(t - PASSAGE, 0.0, length)
         growth = np.log(fastest / 0.3)
         phase = 2.0 * np.pi * 0.3 * length / growth * np.expm1(growth * x / length)
         fade = np.clip(np.minimum(x, length - x) / 0.25, 0.0, 1.0)
-        parts.append(before + (mean - before) * way + 0.04 * fade * np.sin(phase))
+        parts.append(before + (mean - before) * ramp + 0.04 * fade * np.sin(phase))
         before = mean
     wave: Array = np.concatenate(parts)
     return wave

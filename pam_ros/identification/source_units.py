@@ -66,8 +66,8 @@ def _constant_unit(muscle: Muscle, name: str) -> str:
 
 def _effect_unit(model: Joint, effect: str, parameter: str) -> str:
     found = next(e for e in model.library if e.name == effect)
-    is_turning = found.acts_on_joint() and model.is_revolute
-    each = found.parameters(turning=is_turning)
+    is_revolute = found.acts_on_joint() and model.is_revolute
+    each = found.parameters(revolute=is_revolute)
     return next(p.unit for p in each if p.name == parameter)
 
 

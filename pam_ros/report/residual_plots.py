@@ -172,7 +172,7 @@ def loop_stretch(runs: list[Run]) -> Stretch:
     """Return the stretch with the widest and calmest loop of the input: few turns, no jumps."""
     best, most = Stretch(runs[0], 0, runs[0].t.size), -np.inf
     for run in runs:
-        way = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(run.drive)))])
+        path = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(run.drive)))])
         soon = np.searchsorted(run.t, run.t + LOOP_JUMP).clip(max=run.t.size - 1)
         leap = np.abs(run.drive[soon] - run.drive)
         total = float(run.t[-1] - run.t[0])
@@ -184,7 +184,7 @@ def loop_stretch(runs: list[Run]) -> Stretch:
                     continue
                 # The path of a full loop is twice the range of the input: a longer path has turns
                 # within it, a shorter one is not a full loop.
-                turns = float(way[j - 1] - way[i]) / reach
+                turns = float(path[j - 1] - path[i]) / reach
                 jumps = min(float(np.max(leap[i:j])) / reach, 1.0)
                 worth = reach * min(turns, 2.0) / max(turns, 2.0) * (1.0 - jumps) ** 2
                 if worth > most:

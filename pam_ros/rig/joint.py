@@ -81,7 +81,7 @@ class Joint:
             )
         for effect in self.effects:
             self._check_place(effect, on_joint=True)
-            effect.check(mass=self.load.mass, turning=self.is_revolute)
+            effect.check(mass=self.load.mass, revolute=self.is_revolute)
         for actuator in self.actuators:
             for effect in actuator.effects:
                 self._check_place(effect, on_joint=False)

@@ -152,8 +152,9 @@ class ControlParameters(RigParameters):
     @property
     def common(self) -> Table:
         """The table of the common parameters in addition to the rig, in the units of the joint."""
-        turning = self.kind.transmission.equations.revolute
-        gains, names = table_of(Gains, 'gains.', turning=turning), table_of(SimSettings)
+        revolute = self.kind.transmission.equations.revolute
+        gains, names = table_of(Gains, 'gains.', revolute=revolute), table_of(SimSettings)
+        can_stiffen = revolute and self.kind.muscles > 1
         del gains[f'gains.{MEASURED}']
         kind, default, about = names['muscle_topics']
         text = (
@@ -163,11 +164,11 @@ class ControlParameters(RigParameters):
         return {
             **{name: names[name] for name in NAMES},
             **table_of(ControlSettings),
-            **(table_of(CoContraction, turning=True) if turning and self.kind.muscles > 1 else {}),
+            **(table_of(CoContraction, revolute=True) if can_stiffen else {}),
             **gains,
-            **table_of(PidGains, 'pid.', turning=turning),
+            **table_of(PidGains, 'pid.', revolute=revolute),
             **table_of(Limits, 'limits.'),
-            **table_of(Shape, 'shape.', turning=turning),
+            **table_of(Shape, 'shape.', revolute=revolute),
         }
 
     def build(self, values: Values) -> 'ControlSetup':
@@ -188,14 +189,14 @@ class ControlParameters(RigParameters):
             joint = self.build_joints(values)[k]
             settings = replace(settings, joint_name=self.joints[k])
         joint = joint.at_start
-        is_turning = joint.is_revolute
+        is_revolute = joint.is_revolute
         gains = replace(
-            build(Gains, values, 'gains.', is_turning=is_turning),
+            build(Gains, values, 'gains.', is_revolute=is_revolute),
             use_measured_velocity=settings.velocity_source == 'measured',
         )
-        pid = build(PidGains, values, 'pid.', is_turning=is_turning)
+        pid = build(PidGains, values, 'pid.', is_revolute=is_revolute)
         limits = build(Limits, values, 'limits.')
-        shape = build(Shape, values, 'shape.', is_turning=is_turning)
+        shape = build(Shape, values, 'shape.', is_revolute=is_revolute)
         co_contraction = build(CoContraction, values)
         allocation = allocation_of(ControlModel(joint), limits)
         gains.check(allocation, 1.0 / settings.rate)

@@ -30,23 +30,23 @@ ORDINALS = ('first', 'second', 'third', 'fourth', 'fifth', 'sixth')
 ALIKE = 0.8  # similarity from which an unknown name is assumed to be mistyped
 
 
-def table_of(cls: type, prefix: str = '', *, turning: bool = False) -> Table:
+def table_of(cls: type, prefix: str = '', *, revolute: bool = False) -> Table:
     """Return the table of a described dataclass, with *prefix* before each name.
 
-    With *turning* it is the table for a revolute joint.
+    With *revolute* it is the table for a revolute joint.
     """
-    return {prefix + name: entry for name, entry in described(cls, turning=turning).items()}
+    return {prefix + name: entry for name, entry in described(cls, revolute=revolute).items()}
 
 
-def effects_table(library: tuple[type[Effect], ...] = EFFECTS, *, turning: bool = False) -> Table:
+def effects_table(library: tuple[type[Effect], ...] = EFFECTS, *, revolute: bool = False) -> Table:
     """Return the table of all effects: ``effects.<name>.<parameter>``.
 
-    With *turning* it is the table of effects on a revolute joint.
+    With *revolute* it is the table of effects on a revolute joint.
     """
     return {
         EffectName(effect.name, p.name).flat: (float, p.default, p)
         for effect in library
-        for p in (*effect.parameters(turning=turning), ONSET)
+        for p in (*effect.parameters(revolute=revolute), ONSET)
     }
 
 
@@ -66,7 +66,7 @@ def joint_table(kind: Arrangement) -> Table:
         **table_of(kind.transmission),
         **table_of(kind.load),
         **{name: _contraction(kind, i) for i, name in enumerate(mountings(kind))},
-        **effects_table(library, turning=is_revolute),
+        **effects_table(library, revolute=is_revolute),
     }
 
 

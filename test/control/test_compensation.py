@@ -89,7 +89,7 @@ def sine(t):
 
 def rms(believed, true, seconds=6.0):
     """Return the error of a law that takes a joint for another one, and learns nothing."""
-    law, rig = SlidingMode(believed, Gains.turning(learning=False)), Simulation([true])
+    law, rig = SlidingMode(believed, Gains.revolute(learning=False)), Simulation([true])
     law.start(0.0)
     rig.reset(law.terms.pressures, [0.0], [0.0])
     errors = []

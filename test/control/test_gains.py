@@ -74,15 +74,15 @@ def test_the_error_bound_is_the_absolute_area_of_the_impulse_response(damping):
 
 
 def test_a_joint_that_turns_has_defaults_of_its_own():
-    assert Gains.for_joint(nominal()) == Gains.turning()
+    assert Gains.for_joint(nominal()) == Gains.revolute()
     assert Gains.for_joint(single_muscle_joint()) == Gains()
-    assert Gains.turning().is_turning
-    assert Gains.turning(bandwidth=30.0).bandwidth == 30.0
-    assert Gains.turning().disturbance_bound < Gains().disturbance_bound
+    assert Gains.revolute().is_revolute
+    assert Gains.revolute(bandwidth=30.0).bandwidth == 30.0
+    assert Gains.revolute().disturbance_bound < Gains().disturbance_bound
 
 
 def test_the_defaults_suit_the_default_pair():
-    Gains.turning().check(PAIR, 2e-3)
+    Gains.revolute().check(PAIR, 2e-3)
 
 
 @pytest.mark.parametrize(
@@ -95,7 +95,7 @@ def test_the_defaults_suit_the_default_pair():
 )
 def test_what_does_not_suit_the_joint_is_refused(given, period, sentence):
     with pytest.raises(ParameterError, match=sentence):
-        Gains.turning(**given).check(PAIR, period)
+        Gains.revolute(**given).check(PAIR, period)
 
 
 @pytest.mark.parametrize(
@@ -108,11 +108,11 @@ def test_what_does_not_suit_the_joint_is_refused(given, period, sentence):
 )
 def test_bandwidths_out_of_order_are_refused_of_a_joint_that_turns(given, sentence):
     with pytest.raises(ParameterError, match=sentence):
-        Gains.turning(**given)
+        Gains.revolute(**given)
 
 
 def test_the_switching_gains_are_those_of_one_muscle_with_inertia_for_mass():
-    mine = Gains.turning(disturbance_bound=4.0, disturbance_rate=6.0)
+    mine = Gains.revolute(disturbance_bound=4.0, disturbance_rate=6.0)
     other = Gains(disturbance_bound=4.0, disturbance_rate=6.0)
     assert mine.switching_gain(0.2) == other.switching_gain(0.2)
     assert mine.super_twisting(0.2) == other.super_twisting(0.2)

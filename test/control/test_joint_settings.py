@@ -19,8 +19,8 @@ KINDS = (Gains, PidGains, Shape)
 @pytest.mark.parametrize('kind', KINDS)
 def test_the_joint_says_which_defaults_hold(kind):
     assert kind.for_joint(single_muscle_joint()) == kind()
-    assert kind.for_joint(elbow()) == kind.turning() != kind()
-    assert kind.for_joint(elbow()).is_turning
+    assert kind.for_joint(elbow()) == kind.revolute() != kind()
+    assert kind.for_joint(elbow()).is_revolute
 
 
 @pytest.mark.parametrize(
@@ -31,7 +31,7 @@ def test_what_is_given_goes_before_the_defaults_of_the_joint(kind, given):
     ((name, value),) = given.items()
     made = kind.for_joint(elbow(), **given)
     assert getattr(made, name) == value
-    assert made.is_turning
+    assert made.is_revolute
 
 
 def test_values_are_checked_in_the_units_of_the_joint():
@@ -47,14 +47,14 @@ TURNS = 'the joint turns .rad, N m. and {} has the units of one that slides .m, 
     ('make', 'sentence'),
     [
         (lambda: SlidingMode(elbow(), Gains(bandwidth=20.0)), TURNS.format('Gains')),
-        (lambda: SlidingMode(single_muscle_joint(), Gains.turning()), SLIDES.format('Gains')),
+        (lambda: SlidingMode(single_muscle_joint(), Gains.revolute()), SLIDES.format('Gains')),
         (lambda: SlidingMode(elbow()).set_gains(Gains()), TURNS.format('Gains')),
         (lambda: Pid(elbow(), PidGains()), TURNS.format('PidGains')),
-        (lambda: Pid(single_muscle_joint(), PidGains.turning()), SLIDES.format('PidGains')),
+        (lambda: Pid(single_muscle_joint(), PidGains.revolute()), SLIDES.format('PidGains')),
         (lambda: ReferenceSource(Shape(), (-1.0, 1.0), 'rad'), TURNS.format('Shape')),
-        (lambda: ReferenceSource(Shape.turning(), (0.0, 0.1)), SLIDES.format('Shape')),
+        (lambda: ReferenceSource(Shape.revolute(), (0.0, 0.1)), SLIDES.format('Shape')),
         (
-            lambda: ReferenceSource(Shape(), (0.0, 0.1)).set_shape(Shape.turning()),
+            lambda: ReferenceSource(Shape(), (0.0, 0.1)).set_shape(Shape.revolute()),
             SLIDES.format('Shape'),
         ),
     ],

@@ -253,7 +253,7 @@ def test_pressures_of_several_muscles_go_the_same_way():
         def update(self, *args, **kwargs):
             return 2 * super().update(*args, **kwargs)
 
-    source = ReferenceSource(Shape.turning(), (-1.0, 1.0), 'rad')
+    source = ReferenceSource(Shape.revolute(), (-1.0, 1.0), 'rad')
     loop = Loop(Two(), source, PERIOD, Plausibility(BOUNDS))
     loop.safe, loop.chambers = VENT, (123e3, 150e3)
     loop.see(Reading(1.0, 0.05))

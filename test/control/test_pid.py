@@ -24,9 +24,9 @@ DT = 2e-3
 
 
 def test_a_joint_that_turns_has_gains_of_its_own():
-    assert PidGains.for_joint(PAIR.nominal()) == PidGains.turning() == Pid(PAIR.nominal()).gains
+    assert PidGains.for_joint(PAIR.nominal()) == PidGains.revolute() == Pid(PAIR.nominal()).gains
     assert PidGains.for_joint(single_muscle_joint()) == PidGains()
-    assert PidGains.turning(integral=0.0).integral == 0.0
+    assert PidGains.revolute(integral=0.0).integral == 0.0
 
 
 @pytest.mark.slow

@@ -69,7 +69,7 @@ BENCHES = {
     'one muscle': Bench(
         PidGains(), single_muscle_joint, 20e-6, (0.045, 0.055, 0.065, 0.075, 0.085), 5.0, 50.0
     ),
-    'pair': Bench(PidGains.turning(), pair, radians(0.02), ANGLES, 0.3, 2.0),
+    'pair': Bench(PidGains.revolute(), pair, radians(0.02), ANGLES, 0.3, 2.0),
 }
 BY_BENCH = pytest.mark.parametrize('bench', BENCHES.values(), ids=BENCHES)
 NAMES = ('proportional', 'integral', 'derivative', 'filter_bandwidth')

@@ -160,7 +160,7 @@ def test_an_arm_that_hangs_on_vented_muscles_stays_where_it_is(hanging_at):
     joint = Joint((slack, slack), Arm(hanging_at=hanging_at), Pulley())
     begin = equilibrium(joint, [0.0, 0.0])
     assert begin == pytest.approx(hanging_at, abs=0.01)
-    law = SlidingMode(joint, Gains.turning())
+    law = SlidingMode(joint, Gains.revolute())
     case = Case(joint, begin, (0.0, 0.0), DEGREE, 0.0)
     _, e, *_ = on_rig(law, case, still, 2.0)
     assert np.max(np.abs(e)) < 0.1 * DEGREE
@@ -235,7 +235,7 @@ def test_gains_and_stiffness_can_change_in_flight_without_a_jump(case):
 
 
 def test_a_stiffness_out_of_reach_is_refused_and_the_last_one_holds():
-    law = SlidingMode(pair_loop.nominal(), Gains.turning())
+    law = SlidingMode(pair_loop.nominal(), Gains.revolute())
     law.start(0.2)
     law.stiffen(20.0)
     for bad in (500.0, 0.0, -3.0, math.nan, math.inf):
@@ -247,7 +247,7 @@ def test_a_stiffness_out_of_reach_is_refused_and_the_last_one_holds():
 
 
 def test_a_stiffness_that_the_angle_does_not_leave_gives_way_and_comes_back():
-    law = SlidingMode(pair_loop.nominal(), Gains.turning())
+    law = SlidingMode(pair_loop.nominal(), Gains.revolute())
     most = law.allocation.stiffness_range(0.0)[1]
     law.start(0.0)
     law.stiffen(most)

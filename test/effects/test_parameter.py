@@ -23,7 +23,7 @@ BY_EFFECT = pytest.mark.parametrize('effect', ON_LOAD, ids=lambda effect: effect
 
 
 def described(effect):
-    return {p.name: (p.unit, p.low, p.high) for p in effect.parameters(turning=True)}
+    return {p.name: (p.unit, p.low, p.high) for p in effect.parameters(revolute=True)}
 
 
 def test_effects_on_a_joint_that_turns_have_its_units():
@@ -41,7 +41,7 @@ def test_effects_on_a_joint_that_turns_have_its_units():
 
 @BY_EFFECT
 def test_nothing_else_about_them_differs(effect):
-    for one, this in zip(effect.parameters(turning=True), effect.parameters(), strict=True):
+    for one, this in zip(effect.parameters(revolute=True), effect.parameters(), strict=True):
         assert one.unit == TURNED[this.unit]
         if this.unit != 'fraction':
             assert replace(one, unit=this.unit) == this
@@ -80,7 +80,7 @@ def test_a_unit_of_which_nobody_has_said_what_it_is_there_is_refused():
         'known; add the unit to TURNED in pam_ros/units.py'
     )
     with pytest.raises(ParameterError) as error:
-        DRAG.parameters(turning=True)
+        DRAG.parameters(revolute=True)
     assert str(error.value) == sentence
     library = (DRAG,)
     single_muscle_joint(effects=[DRAG(size=1.0)], library=library)  # it slides

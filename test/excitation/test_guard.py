@@ -36,7 +36,7 @@ def test_a_position_that_is_no_number(position):
 def test_silence_from_the_start_and_later():
     watch = guard()
     assert watch.problem(100.4) == ''
-    assert 'silent for 0.60 s' in watch.problem(100.6)
+    assert 'no joint_states for 0.60 s' in watch.problem(100.6)
     watch.see(0.0, 100.6)
     assert watch.problem(101.0) == ''
-    assert 'silent for 0.70 s' in watch.problem(101.3)
+    assert 'no joint_states for 0.70 s' in watch.problem(101.3)

@@ -67,10 +67,10 @@ def test_the_numbers_have_the_units_of_the_joint():
     assert values['additional friction at rest (N)'] == 8.1
     assert values['additional stiffness (N/m)'] == -20.0
     assert values['lag while filling (s)'] == 0.0
-    turning = learning(replace(FRICTION, lag=None), 'rad').values
-    assert turning['friction and hysteresis (N m)'] == 15.2
-    assert turning['additional stiffness (N m/rad)'] == -20.0
-    assert turning['lag while venting (s)'] is None  # it is configured
+    revolute = learning(replace(FRICTION, lag=None), 'rad').values
+    assert revolute['friction and hysteresis (N m)'] == 15.2
+    assert revolute['additional stiffness (N m/rad)'] == -20.0
+    assert revolute['lag while venting (s)'] is None  # it is configured
 
 
 def test_a_law_that_does_not_learn_says_so():

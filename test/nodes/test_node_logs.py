@@ -159,7 +159,7 @@ def test_an_excitation_says_where_it_plays_and_what_it_waits_for(peer):
         wait_for(
             peer,
             excite,
-            'waits for the rig: pressure_command has no subscriber, joint_states is silent',
+            'waits for the rig: pressure_command has no subscriber, joint_states is not published',
         )
         peer.collect(Float64, 'valve')
 

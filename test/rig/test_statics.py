@@ -77,14 +77,14 @@ def test_a_levers_stiffness_is_a_difference_of_efforts(angle, strands):
     one, other = (joints.lever_torque(p, angle + way, strands) for way in (h, -h))
     found = statics.stiffness(joint, pascal, angle)
     assert found == pytest.approx((other - one) / (2.0 * h), rel=1e-7)
-    by_muscles_alone, turning = 0.0, 0.0
+    by_muscles_alone, revolute = 0.0, 0.0
     for i, (strand, pressure) in enumerate(zip(strands, p, strict=True)):
         y = (joints.KAPPA_1, joints.KAPPA_2)[i] * strand.l0 + joints.drawn(angle, i)
         by_muscles_alone += joints.lever_arm(angle, i) ** 2 * strand.stiffness(pressure, y)
         slope = joints.lever_arm(angle + h, i) - joints.lever_arm(angle - h, i)
-        turning += slope / (2.0 * h) * strand.force(pressure, y)
-    assert found == pytest.approx(by_muscles_alone - turning, rel=1e-6)
-    assert abs(turning) > 1e-3 * by_muscles_alone
+        revolute += slope / (2.0 * h) * strand.force(pressure, y)
+    assert found == pytest.approx(by_muscles_alone - revolute, rel=1e-6)
+    assert abs(revolute) > 1e-3 * by_muscles_alone
 
 
 @pytest.mark.parametrize('angle', [-0.5, 0.0, 0.7])

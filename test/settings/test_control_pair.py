@@ -139,7 +139,7 @@ def test_the_baseline_is_for_a_pair_too():
     now = setup(controller='pid', co_contraction=30.0)
     law = now.make_law()
     assert isinstance(law, Pid)
-    assert law.gains == PidGains.turning()
+    assert law.gains == PidGains.revolute()
     law.start(0.1)
     assert law.model.stiffness(law.terms.pressures, 0.1) == pytest.approx(30.0)
     # It takes another stiffness as a new law, as it takes the place of another one.

@@ -50,7 +50,7 @@ def close_joint(law, joint, target, duration, begin=None, noise=0.0, seed=0, rat
     law.start(origin)
     rig = Simulation([joint])
     rig.reset(law.terms.pressures, [origin], [0.0])
-    shaper = Shaper(Shape.turning() if joint.is_revolute else Shape())
+    shaper = Shaper(Shape.revolute() if joint.is_revolute else Shape())
     shaper.start(origin)
     steps, count, goal = round(dt / rig.step), round(duration * rate), origin
     rows = np.zeros((count, 3 + len(joint.muscles)))

@@ -67,7 +67,7 @@ def close_pair(
     dt, count = 1.0 / rate, round(duration * rate)
     law.start(begin)
     plant.reset(begin, law.terms.pressures)
-    shaper = Shaper(shape or Shape.turning())
+    shaper = Shaper(shape or Shape.revolute())
     shaper.start(begin)
     measured, taken, wanted = plant.measure(), None, None
     rows, terms = np.zeros((count, 7)), np.zeros((count, len(TERMS)))

@@ -43,7 +43,7 @@ class FeatureTuning:
     lows: tuple[float, ...] = number(
         (0.0, 0.0, 0.0, 0.0, 0.0, -5.0, -30.0, -300.0),
         'N',
-        'play elements resist the motion; a stiffness may be off either way by 3 N a mm',
+        'play elements resist the motion; a stiffness may be off in either direction by 3 N a mm',
     )
     highs: tuple[float, ...] = number(
         (60.0, 60.0, 60.0, 60.0, 60.0, 30.0, 30.0, 300.0),
@@ -79,12 +79,12 @@ class Features:
 
     def follow(self, dt: float, position: float, velocity: float) -> list[float]:
         """Advance by *dt* s to *position* m and *velocity* m/s."""
-        tuning, way = self._tuning, position - self._position
+        tuning, distance = self._tuning, position - self._position
         self._position, self._before, self._dt = position, self.values, dt
         now = []
         # By comparison, since min() and max() take most of the time of such a loop.
         for before, reach in zip(self._before, tuning.reaches, strict=False):
-            bent = before + way / reach
+            bent = before + distance / reach
             now.append(-1.0 if bent < -1.0 else 1.0 if bent > 1.0 else bent)
         ratio = velocity / tuning.stribeck_speed
         stretch = (position - self._origin) / tuning.stroke

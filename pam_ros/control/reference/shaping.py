@@ -14,7 +14,7 @@ from pam_ros.control.joint_settings import JointSettings
 from pam_ros.control.reference.profile import Bounds, Rest, advance, change
 from pam_ros.control.signals import Reference
 from pam_ros.control.tuning import number
-from pam_ros.parameters import OnTurning, parameter_field
+from pam_ros.parameters import OnRevolute, parameter_field
 
 
 @dataclass(frozen=True)
@@ -52,7 +52,7 @@ class Shape(JointSettings):
         low=0.0,
         high=10.0,
         above_low=True,
-        turning=OnTurning(2.0, 100.0),
+        revolute=OnRevolute(2.0, 100.0),
     )
     max_acceleration: float = parameter_field(
         0.5,
@@ -61,7 +61,7 @@ class Shape(JointSettings):
         low=0.0,
         high=1000.0,
         above_low=True,
-        turning=OnTurning(15.0, 1e4),
+        revolute=OnRevolute(15.0, 1e4),
     )
     max_jerk: float = parameter_field(
         6.0,
@@ -70,7 +70,7 @@ class Shape(JointSettings):
         low=0.0,
         high=1e6,
         above_low=True,
-        turning=OnTurning(300.0, 1e7),
+        revolute=OnRevolute(300.0, 1e7),
     )
 
     @property
@@ -116,7 +116,7 @@ class Tracker:
     def take(self, position: float, ago: float) -> bool:
         """Take in a sample in m, set *ago* s ago; return whether it is a jump."""
         interval = max(self._age - ago, STREAM.least_interval)
-        way = position - self._last
+        distance = position - self._last
         self._interval, self._age, self._last = interval, ago, position
         x, v, a = self.state
         # Both are compared at the present time: the sample is extrapolated.
@@ -126,7 +126,7 @@ class Tracker:
             interval > STREAM.pause
             or abs(surprise) * rate * rate > STREAM.rough * self.bounds.acceleration
         ):
-            speed = way / interval
+            speed = distance / interval
             is_stream = self._has_jumped and interval <= STREAM.pause
             is_second = is_stream and abs(speed) <= self.bounds.velocity
             self.state = (

@@ -20,7 +20,7 @@ class ReferenceSource:
 
         Raises ParameterError where *shape* is in the other unit, m or rad.
         """
-        shape.require(turning=unit == 'rad')
+        shape.require(revolute=unit == 'rad')
         self.reach, self.unit = reach, unit
         self._shaper = Shaper(shape)
         self._trajectory: Trajectory | None = None
@@ -50,7 +50,7 @@ class ReferenceSource:
 
     def set_shape(self, shape: Shape) -> None:
         """Continue within other bounds; ParameterError as for a new one."""
-        shape.require(turning=self.unit == 'rad')
+        shape.require(revolute=self.unit == 'rad')
         self._shaper.set_shape(shape)
 
     def set_target(self, position: float, ago: float = 0.0) -> None:

@@ -197,8 +197,8 @@ class Rejection:
         tuning = self._tuning
         self._calm = self._calm + dt if abs(self._error) < least else 0.0
         self._place += (1.0 - exp(-dt / tuning.place)) * (self._error - self._place)
-        way = self._error - self._place
-        side = 0.0 if abs(way) < least else copysign(1.0, way)
+        offset = self._error - self._place
+        side = 0.0 if abs(offset) < least else copysign(1.0, offset)
         share = 1.0 - exp(-dt / tuning.shake)
         self._moving += share * (abs(side) - self._moving)
         self._direction += share * (side - self._direction)

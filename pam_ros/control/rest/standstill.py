@@ -105,11 +105,11 @@ class Standstill:
             self.stiffness = 1.0
             return
         share, kept = 1.0 - exp(-dt / tuning.slow), 1.0 - exp(-dt / tuning.memory)
-        up, way = force - self._force, position - self._position
+        up, travel = force - self._force, position - self._position
         self._force += share * up
-        self._position += share * way
+        self._position += share * travel
         self._force_slope += share * (up - self._force_slope)
-        self._position_slope += share * (way - self._position_slope)
+        self._position_slope += share * (travel - self._position_slope)
         self._product += kept * (self._force_slope * self._position_slope - self._product)
         self._power += kept * (self._force_slope * self._force_slope - self._power)
         doubt = tuning.doubt * tuning.doubt

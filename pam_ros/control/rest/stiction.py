@@ -25,11 +25,11 @@ class StictionTuning:
     tolerance: float = number(
         1.5, '', 'rest tolerances that a load which sticks and slips may be off: control, friction'
     )
-    loose_way: float = number(
+    loose_displacement: float = number(
         60e-6,
         'm',
-        'way that distinguishes a slip from a bent contact: three times the noise, and beyond '
-        'the default presliding of 10 um',
+        'displacement that distinguishes a slip from a bent contact: three times the noise, and '
+        'beyond the default presliding of 10 um',
     )
     loose_speed: float = number(
         4e-3, 'm/s', 'speed that does, above the noise of the filtered one: control, friction'
@@ -106,20 +106,20 @@ class Stiction:
         if self._is_new:
             self._x = self._anchor = x
             self._is_new = False
-        way = (1.0 - exp(-dt / self._tuning.see)) * (x - self._x)
-        self._x += way
-        self._v += (1.0 - exp(-dt / self._tuning.see_speed)) * (way / dt - self._v)
+        displacement = (1.0 - exp(-dt / self._tuning.see)) * (x - self._x)
+        self._x += displacement
+        self._v += (1.0 - exp(-dt / self._tuning.see_speed)) * (displacement / dt - self._v)
         if abs(self._v) < self._tuning.loose_speed:
             self._anchor += (1.0 - exp(-dt / self._tuning.anchor)) * (self._x - self._anchor)
         if abs(self._v) < 0.5 * self._tuning.loose_speed:
             self._dwelt += dt
 
     def _has_slipped(self) -> bool:
-        way = self._x - self._anchor
+        displacement = self._x - self._anchor
         return (
-            abs(way) > self._tuning.loose_way
+            abs(displacement) > self._tuning.loose_displacement
             and abs(self._v) > self._tuning.loose_speed
-            and way * self._v > 0.0
+            and displacement * self._v > 0.0
         )
 
     def _note_break(self, force: float) -> None:

@@ -71,7 +71,7 @@ class Place:
         return tuple(
             replace(p, scale=self.turned.factor(plain.unit) * p.scale)
             for p, plain in zip(
-                self.effect.parameters(turning=True), self.effect.parameters(), strict=True
+                self.effect.parameters(revolute=True), self.effect.parameters(), strict=True
             )
         )
 

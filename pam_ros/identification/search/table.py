@@ -106,8 +106,8 @@ def _why_not(model: Model, parent: Model, tried: list[Model], found: Search) -> 
     """Return the first reason for which a model was not chosen."""
     fall, margin = parent.score - model.score, found.setting.criteria.margin
     if fall < margin:
-        way = 'lowers' if fall >= 0.0 else 'raises'
-        return f'{way} the score by {abs(fall):.1f}; a fall of {margin:g} is asked for'
+        verb = 'lowers' if fall >= 0.0 else 'raises'
+        return f'{verb} the score by {abs(fall):.1f}; a fall of {margin:g} is asked for'
     if not no_worse(model, parent, found.setting):
         a, b = parent.errors, model.errors
         return (

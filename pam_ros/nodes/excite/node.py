@@ -162,8 +162,8 @@ class PamExcite(TickingNode):
             return
         missing = {
             'pressure_command has no subscriber': not self._publisher.get_subscription_count(),
-            'joint_states is silent': self._guard.position is None,
-            'use_sim_time is set and /clock is silent': self._ros_time() == 0.0,
+            'joint_states is not published': self._guard.position is None,
+            'use_sim_time is set and /clock is not published': self._ros_time() == 0.0,
             'another node commands pressures': bool(rivals),
         }
         problems = ', '.join(text for text, is_so in missing.items() if is_so)
@@ -206,7 +206,7 @@ class PamExcite(TickingNode):
         if self._is_followed:
             silent = time.monotonic() - self._received
             if silent > self._now.settings.patience:
-                return f'joint_states has been silent for {silent:.1f} s, whatever /clock says'
+                return f'no joint_states for {silent:.1f} s, whatever /clock says'
             # The lesser of two times: time may stop, and /clock may arrive before its states.
             now = min(now, self._seen + silent)
         return self._misread or self._guard.problem(now)

@@ -121,12 +121,12 @@ def test_a_stop_comes_to_rest_without_going_back():
 
 
 def test_a_joint_that_turns_has_bounds_of_its_own():
-    assert Shape.turning().is_turning
-    assert Shape.turning().bounds == (2.0, 15.0, 300.0)
-    assert Shape.turning(max_velocity=1.5).max_velocity == 1.5
+    assert Shape.revolute().is_revolute
+    assert Shape.revolute().bounds == (2.0, 15.0, 300.0)
+    assert Shape.revolute(max_velocity=1.5).max_velocity == 1.5
     # 50 rad/s can be asked for, 50 m/s can not.
-    assert Shape.turning(max_velocity=50.0).bounds.velocity == 50.0
+    assert Shape.revolute(max_velocity=50.0).bounds.velocity == 50.0
     with pytest.raises(ParameterError, match=r'max_velocity = 50.0 .* at most 10 m/s'):
         Shape(max_velocity=50.0)
     with pytest.raises(ParameterError, match=r'max_velocity = 500.0 .* at most 100 rad/s'):
-        Shape.turning(max_velocity=500.0)
+        Shape.revolute(max_velocity=500.0)

@@ -42,8 +42,8 @@ def constant(error):
 def test_the_first_highest_level_is_a_bandwidth_of_the_observer():
     assert pytest.approx(TUNING.first) == 4.0 * 25.0**FIRST
     assert pytest.approx(0.35, abs=0.01) == FIRST
-    turning = Rejection(Gains(observer_bandwidth=8.0), TUNING, OscillationTuning())
-    assert 8.0 * 12.5**turning.highest == pytest.approx(TUNING.first)
+    revolute = Rejection(Gains(observer_bandwidth=8.0), TUNING, OscillationTuning())
+    assert 8.0 * 12.5**revolute.highest == pytest.approx(TUNING.first)
     for own, highest in ((14.0, TUNING.least), (12.0, TUNING.least)):
         one = Rejection(Gains(observer_bandwidth=own), TUNING, OscillationTuning())
         assert one.highest == highest

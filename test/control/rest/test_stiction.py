@@ -23,7 +23,7 @@ STICKY = effect(
 )
 HASTY = {
     ONE: Shape(max_acceleration=1.0, max_jerk=20.0),
-    PAIR: Shape.turning(max_acceleration=25.0, max_jerk=1000.0),
+    PAIR: Shape.revolute(max_acceleration=25.0, max_jerk=1000.0),
 }
 
 
@@ -79,7 +79,7 @@ def test_a_load_that_follows_is_left_alone():
 def test_lengths_and_forces_of_a_pair_are_those_along_its_muscles():
     of_one, of_pair = (SlidingMode(kind.nominal()) for kind in (ONE, PAIR))
     one, two = of_one._stiction._tuning, of_pair._stiction._tuning
-    assert two.loose_way == pytest.approx(one.loose_way / 0.04)
+    assert two.loose_displacement == pytest.approx(one.loose_displacement / 0.04)
     assert two.loose_speed == pytest.approx(one.loose_speed / 0.04)
     assert two.dwell == one.dwell
     doubts = of_one._standstill._tuning.doubt, of_pair._standstill._tuning.doubt
