@@ -36,7 +36,7 @@ def test_super_twisting_controls_as_ever():
 
 def test_a_configured_lag_is_compensated_as_ever():
     law = SlidingMode(nominal(effects=LAG), Gains(learning=False))
-    check('sliding mode configured lag', law, 'lag', 'sine')
+    check('sliding mode declared lag', law, 'lag', 'sine')
 
 
 def test_the_pid_law_controls_as_ever():

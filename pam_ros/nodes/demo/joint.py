@@ -18,9 +18,9 @@ from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 from pam_ros.control.signals import term_names
 from pam_ros.demo import joint
 from pam_ros.demo.joint import JointRun
+from pam_ros.demo.stage import Stage
 from pam_ros.nodes.demo.lockstep_pair import LockstepPair
 from pam_ros.nodes.demo.rig_log import seconds
-from pam_ros.nodes.demo.stage import Stage
 
 MUSCLE = 'dmsp_20_400n'
 NOMINAL, TRUE = 1.0, 1.3  # kg on the arm

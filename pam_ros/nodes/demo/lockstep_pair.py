@@ -15,10 +15,10 @@ from typing import Any
 from rclpy.duration import Duration
 from sensor_msgs.msg import JointState
 
+from pam_ros.demo.stage import Stage
 from pam_ros.errors import PamError
 from pam_ros.nodes.demo.client import Client
 from pam_ros.nodes.demo.rig_log import seconds
-from pam_ros.nodes.demo.stage import Stage
 from pam_ros.processes.children import Program
 
 STILL = 1e-6  # change of a term up to which it counts as at rest

@@ -20,13 +20,17 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
+from rclpy.time import Time
+from rosgraph_msgs.msg import Clock
+
 from pam_ros.demo import loop
+from pam_ros.demo.stage import Stage, progress
 from pam_ros.errors import PamError
 from pam_ros.nodes.demo import recorded_rig
 from pam_ros.nodes.demo.client import Client
 from pam_ros.nodes.demo.recorded_rig import RecordedRig
-from pam_ros.nodes.demo.stage import Stage
 
+TURN = 0.1  # s between two looks at programs that run
 EXCITATION: Mapping[str, Any] = {
     'muscle': loop.MUSCLE,
     'duration': 30.0,  # s, the shortest programme
@@ -81,7 +85,23 @@ def record(
             shutil.rmtree(bags / name, ignore_errors=True)
             space = f'{stage.namespace}/{name}'
             started.append(RecordedRig(programs, client, space, given, bags / name))
-        recorded_rig.play(client, started, excitation, 'exciting')
+        client.until(lambda: all(rig.is_ready for rig in started), 'the rigs and the recorders')
+        times = client.collect(Clock, started[0].clock)
+        for rig in started:
+            rig.excite(excitation)
+        show(client, started, times, excitation['duration'])
+        for rig in started:
+            rig.finish()
+
+
+def show(client: Client, rigs: list[RecordedRig], times: list[Clock], duration: float) -> None:
+    """Show the progress of the programme, in simulated time, until that of all *rigs* ends."""
+    with progress(duration, 'exciting', 5.0) as bar:
+        while any(rig.is_excited for rig in rigs):
+            client.work(TURN)
+            if times:
+                first, last = (Time.from_msg(one.clock) for one in (times[0], times[-1]))
+                bar.update(min(1e-9 * (last - first).nanoseconds, duration) - bar.n)
 
 
 def identify(stage: Stage, folder: Path) -> dict[str, Any]:

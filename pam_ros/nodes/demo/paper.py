@@ -4,12 +4,14 @@
 
 from itertools import pairwise
 
+from std_msgs.msg import Float64
+
 from pam_ros.demo import paper
 from pam_ros.demo.run import PublishedRun
+from pam_ros.demo.stage import Stage
 from pam_ros.errors import PamError
 from pam_ros.nodes.demo.client import Client
 from pam_ros.nodes.demo.rig_log import RigLog
-from pam_ros.nodes.demo.stage import Stage
 from pam_ros.processes.children import Program
 from pam_ros.settings.load import load_joint
 
@@ -59,10 +61,10 @@ def record(stage: Stage) -> tuple[PublishedRun, list[PublishedRun]]:
         if not sim.is_running:
             raise PamError(f'pam_sim ended: {sim.output.strip()}')
         begin = log.now
-        log.hold_pressure(paper.PRESSURE, RELEASE, 'released at 600 kPa')
+        log.hold(Float64(data=paper.PRESSURE), RELEASE, 'released at 600 kPa')
         marks = [log.now]
         for pressure in STEPS:
-            log.hold_pressure(pressure, STEP, f'step to {pressure / 1e3:.0f} kPa')
+            log.hold(Float64(data=pressure), STEP, f'step to {pressure / 1e3:.0f} kPa')
             marks.append(log.now)
         run = log.run()
     parts = [run.between(a, b) for a, b in pairwise(marks)]

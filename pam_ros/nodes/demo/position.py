@@ -18,9 +18,9 @@ from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 from pam_ros.control.signals import TERMS
 from pam_ros.demo import position
 from pam_ros.demo.position import PositionRun
+from pam_ros.demo.stage import Stage
 from pam_ros.nodes.demo.lockstep_pair import STILL, LockstepPair
 from pam_ros.nodes.demo.rig_log import seconds
-from pam_ros.nodes.demo.stage import Stage
 
 MUSCLE = 'dmsp_20_400n'
 NOMINAL, TRUE = 20.0, 25.0  # kg

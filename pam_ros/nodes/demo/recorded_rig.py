@@ -6,24 +6,20 @@ Simulated time waits for each command, and the recorder knows exactly when a com
 Therefore the recording does not depend on the load of the machine.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
-from rosgraph_msgs.msg import Clock
 from std_msgs.msg import Float64
-from tqdm import tqdm
 
 from pam_ros.errors import PamError
 from pam_ros.nodes.demo.client import Client
-from pam_ros.nodes.demo.stage import PROGRESS, pause_of_bars
 from pam_ros.processes.children import Program
 
 RATE = 100.0  # states and commands per simulated second
 # With a time on /clock for each state, the recorder knows the time of each command exactly.
 LOCKSTEP = {'time_mode': 'lockstep', 'publish_rate': RATE, 'clock_rate': RATE}
-TURN = 0.1  # s between two looks at programs that run
 LAST = 3  # lines that a failed program printed at its end
 
 
@@ -40,14 +36,14 @@ class RecordedRig:
     ) -> None:
         """Start the simulator with the parameters *rig*, and the recorder, which writes *bag*.
 
-        *programs* will stop them. All names are in the namespace *space*.
+        *programs* will stop them. All names are in the namespace *space*; ``clock`` is the topic
+        of the simulated time.
         """
         self._programs, self._client, self._space = programs, client, space
         self._command = f'{space}/pressure_command'
         self._states = f'{space}/rig/joint_states'
-        self._clock = f'{space}/clock'
+        self.clock = f'{space}/clock'
         self._running: list[Program] = []
-        self._times: list[Clock] = client.collect(Clock, self._clock)
         where = ('-r', f'__ns:={space}/rig', '-r', f'pressure_command:={self._command}')
         self._start('pam_sim', *where, parameters={**rig, **LOCKSTEP})
         asked = ('-p', 'use_sim_time:=true', '--', self._states, '-o', str(bag))
@@ -60,7 +56,7 @@ class RecordedRig:
         self, name: str, *arguments: str, parameters: Mapping[str, Any] | None = None
     ) -> Program:
         # No other node follows this clock.
-        clock = ('-r', f'/clock:={self._clock}')
+        clock = ('-r', f'/clock:={self.clock}')
         program = Program(name, *clock, *arguments, parameters=parameters)
         self._running.append(self._programs.enter_context(program))
         return program
@@ -75,11 +71,11 @@ class RecordedRig:
             if not program.is_running:
                 raise PamError(f'{program.name} ended: {_last_lines(program)}')
         count = self._client.node.count_subscribers
-        # Of the clock: this client, the time of the recorder's node, and the recording.
+        # Of the clock there are two: the time of the recorder's node, and the recording.
         return (
             self._publisher.get_subscription_count() > 1
             and count(self._states) > 0
-            and count(self._clock) > 2
+            and count(self.clock) > 1
         )
 
     def excite(self, parameters: Mapping[str, Any]) -> None:
@@ -94,14 +90,6 @@ class RecordedRig:
         """Whether the programme is still being played."""
         return self._excite.is_running
 
-    @property
-    def elapsed(self) -> float:
-        """Simulated seconds since the start."""
-        if not self._times:
-            return 0.0
-        first, last = (one.clock for one in (self._times[0], self._times[-1]))
-        return float(last.sec - first.sec) + 1e-9 * float(last.nanosec - first.nanosec)
-
     def finish(self) -> None:
         """Complete the recording; raises PamError if the programme stopped early."""
         if self._excite.wait():
@@ -112,22 +100,3 @@ class RecordedRig:
 
 def _last_lines(program: Program) -> str:
     return ' '.join(program.output.split('\n')[-LAST:]).strip()
-
-
-def play(
-    client: Client, rigs: Sequence[RecordedRig], excitation: Mapping[str, Any], what: str
-) -> None:
-    """Excite all *rigs* at the same time, with a progress bar, and complete their recordings.
-
-    Raises PamError if a program of a rig ends early.
-    """
-    client.until(lambda: all(rig.is_ready for rig in rigs), 'the rigs and the recorders')
-    for rig in rigs:
-        rig.excite(excitation)
-    whole = excitation['duration']
-    with tqdm(total=whole, desc=what, bar_format=PROGRESS, mininterval=pause_of_bars(5.0)) as bar:
-        while any(rig.is_excited for rig in rigs):
-            client.work(TURN)
-            bar.update(min(*(rig.elapsed for rig in rigs), whole) - bar.n)
-    for rig in rigs:
-        rig.finish()

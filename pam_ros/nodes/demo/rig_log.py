@@ -5,12 +5,11 @@
 import numpy as np
 from sensor_msgs.msg import FluidPressure, JointState
 from std_msgs.msg import Float64
-from tqdm import tqdm
 
 from pam_ros.demo.run import PublishedRun
+from pam_ros.demo.stage import progress
 from pam_ros.errors import PamError
 from pam_ros.nodes.demo.client import Client
-from pam_ros.nodes.demo.stage import PROGRESS, pause_of_bars
 
 TOPICS = ('joint_states', 'pressure', 'force', 'stiffness', 'damping')
 STILL = 1e-6  # s: less than a period of the simulator
@@ -42,21 +41,20 @@ class RigLog:
         """Whether a message has arrived on each topic: from then on none is lost."""
         return all(self._topics)
 
-    def hold_pressure(self, pressure: float, duration: float, what: str) -> None:
-        """Answer each state with *pressure* in Pa for *duration* s of simulated time, with a bar.
+    def hold(self, command: Float64, duration: float, what: str) -> None:
+        """Answer each state with *command* for *duration* s of simulated time, with a bar.
 
         The simulator is in lockstep: the number of its periods does not depend on the machine.
         """
         end = self.now + duration
-        pause = pause_of_bars(1.0)
-        with tqdm(total=duration, desc=what, bar_format=PROGRESS, mininterval=pause) as bar:
+        with progress(duration, what, 1.0) as bar:
             while self.now < end - STILL:
-                bar.update(self._answer(pressure))
+                bar.update(self._answer(command))
 
-    def _answer(self, pressure: float) -> float:
-        """Command *pressure*, await the next state, and return the time that passed in s."""
+    def _answer(self, command: Float64) -> float:
+        """Publish *command*, await the next state, and return the time that passed in s."""
         before = self.now
-        self._client.publish(Float64(data=pressure), 'pressure_command')
+        self._client.publish(command, 'pressure_command')
         self._client.until(lambda: self.now > before, f'the state after {before:.3f} s')
         return self.now - before
 

@@ -6,8 +6,7 @@ import os
 import sys
 from pathlib import Path
 
-# The form of progress bars: what is done, and simulated seconds.
-PROGRESS = '  {desc:<20} {bar:30} {n:4.1f} of {total:g} s'
+from tqdm import tqdm
 
 
 class Stage:
@@ -36,6 +35,14 @@ class Stage:
         self.wrote(path)
 
 
-def pause_of_bars(in_log: float) -> float:
-    """Return the s between two updates of a progress bar: fewer in a log than on a terminal."""
-    return 0.1 if sys.stderr.isatty() else in_log
+def progress(duration: float, what: str, pause: float) -> tqdm:
+    """Return a progress bar of *duration* s of simulated time.
+
+    It moves on a terminal; in a log it is a line every *pause* s.
+    """
+    return tqdm(
+        total=duration,
+        desc=what,
+        bar_format='  {desc:<20} {bar:30} {n:4.1f} of {total:g} s',
+        mininterval=0.1 if sys.stderr.isatty() else pause,
+    )
