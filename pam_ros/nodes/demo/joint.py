@@ -62,7 +62,7 @@ def record(stage: Stage) -> JointRun:
     rig = {**both, 'mass': TRUE, 'initial.pressure': 250e3, 'sensor.position_noise': NOISE}
     controller = {**both, 'mass': NOMINAL, 'co_contraction': SOFT}
     commands = (Float64MultiArray, 'pressure_commands')
-    with LockstepPair(stage, rig, controller, commands, ('stiffnesses',)) as pair:
+    with LockstepPair(stage, rig, controller, commands) as pair:
         arrays = pair.client.collect(Float64MultiArray, 'stiffnesses')
         pair.begin(arrays)
         before = len(arrays)

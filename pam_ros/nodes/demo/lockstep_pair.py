@@ -23,7 +23,6 @@ from pam_ros.processes.children import Program
 
 STILL = 1e-6  # change of a term up to which it counts as at rest
 RATE = 250.0  # Hz of states and commands
-HISTORY = 30_000  # messages kept for a late subscriber: two minutes
 PATIENCE = 600.0  # s that a busy machine may need for one of the motions
 
 
@@ -36,20 +35,11 @@ class LockstepPair:
         rig: dict[str, Any],
         controller: dict[str, Any],
         command: tuple[type, str],
-        topics: tuple[str, ...] = (),
     ) -> None:
-        """Prepare both with their own parameters; *command* is the type and topic of commands.
-
-        No message of *rig* on *topics* is lost.
-        """
+        """Prepare both with their own parameters; *command* is the type and topic of commands."""
         self._space, self._command = stage.namespace, command
         self._rig = {**rig, 'time_mode': 'lockstep', 'publish_rate': RATE}
-        for topic in ('joint_states', *topics):
-            self._rig[f'qos_overrides.{self._space}/{topic}.publisher.depth'] = HISTORY
         self._controller = {**controller, 'use_sim_time': True, 'rate': RATE}
-        self._controller[f'qos_overrides.{self._space}/pam_control/state.publisher.depth'] = (
-            HISTORY
-        )
         self._stack = ExitStack()
         self._end = 0.0  # simulated time in s at which time stands still
         self._held: Any = None  # the command that is not forwarded meanwhile

@@ -140,7 +140,7 @@ def test_at_a_prescribed_length_blocks_are_fitted_and_the_blocks_between_them_ju
     known = [int(np.count_nonzero(part.known)) for part in found.setting.parts]
     assert [stamps.size for stamps in ends.augmented.problem.stamps()] == known
     assert ends.nominal.problem.unknowns == ()
-    for name in ('declared', 'retuned'):
+    for name in ('nominal', 'retuned'):
         assert min(errors(getattr(ends, name), ends, found)) > 3.0 * found.setting.noise
     after = errors(ends.augmented, ends, found)
     assert after == pytest.approx((found.setting.noise,) * 2, rel=0.2)
