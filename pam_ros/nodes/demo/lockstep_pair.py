@@ -23,7 +23,7 @@ from pam_ros.processes.children import Program
 
 STILL = 1e-6  # change of a term up to which it counts as at rest
 RATE = 250.0  # Hz of states and commands
-PATIENCE = 600.0  # s that a busy machine may need for one of the motions
+PATIENCE = 600.0  # s that a busy machine may need for one of the motions, or to compile kernels
 
 
 class LockstepPair:

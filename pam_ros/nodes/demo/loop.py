@@ -28,6 +28,7 @@ from pam_ros.demo.stage import Stage, progress
 from pam_ros.errors import PamError
 from pam_ros.nodes.demo import recorded_rig
 from pam_ros.nodes.demo.client import Client
+from pam_ros.nodes.demo.lockstep_pair import PATIENCE
 from pam_ros.nodes.demo.recorded_rig import RecordedRig
 
 TURN = 0.1  # s between two looks at programs that run
@@ -79,7 +80,7 @@ def record(
     All receive the same commands at the same simulated times: those of pam_excite with the
     parameters *excitation*. Raises PamError if a program ends early.
     """
-    with ExitStack() as programs, Client(stage.namespace) as client:
+    with ExitStack() as programs, Client(stage.namespace, PATIENCE) as client:
         started = []
         for name, given in rigs.items():
             shutil.rmtree(bags / name, ignore_errors=True)

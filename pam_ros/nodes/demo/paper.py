@@ -11,6 +11,7 @@ from pam_ros.demo.run import PublishedRun
 from pam_ros.demo.stage import Stage
 from pam_ros.errors import PamError
 from pam_ros.nodes.demo.client import Client
+from pam_ros.nodes.demo.lockstep_pair import PATIENCE
 from pam_ros.nodes.demo.rig_log import RigLog
 from pam_ros.processes.children import Program
 from pam_ros.settings.load import load_joint
@@ -55,7 +56,7 @@ def record(stage: Stage) -> tuple[PublishedRun, list[PublishedRun]]:
         'time_mode': 'lockstep',
         'publish_rate': RATE,
     }
-    with Program('pam_sim', *remap, parameters=given) as sim, Client(space) as client:
+    with Program('pam_sim', *remap, parameters=given) as sim, Client(space, PATIENCE) as client:
         log = RigLog(client)
         client.until(lambda: log.has_begun or not sim.is_running, 'the first state of pam_sim')
         if not sim.is_running:
