@@ -121,8 +121,8 @@ def _ascending(
                 )
             notes.append(f'{one.shared} {share} the one before: it is not used')
             continue
-        if one.contradictory:
-            notes.append(f'{one.contradictory} {share} another: the last is kept')
+        if one.shared:
+            notes.append(f'{one.shared} {share} another: the last is kept')
         kept[quantity] = one.ascending()
     return kept
 

@@ -73,14 +73,10 @@ class Series:
 
     @property
     def shared(self) -> int:
-        """Return how many samples have the same time as the one before."""
-        return int(np.count_nonzero(np.diff(self.t) == 0.0))
-
-    @property
-    def contradictory(self) -> int:
         """Return how many samples have the time of the one before, and another value.
 
-        A message that is published again while time stands still has the same value.
+        A message that is published again while time stands still has the same value: it is the
+        same sample.
         """
         values = self.value.reshape(self.t.size, -1)
         differs = (values[1:] != values[:-1]).any(axis=1)

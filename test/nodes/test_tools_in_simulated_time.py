@@ -19,7 +19,7 @@ RATE = 200.0  # Hz of states
 CLOCK_RATES = {'scaled': 100.0, 'lockstep': RATE}  # Hz of /clock
 PLAN = {'duration': 30.0, 'pressure_min': 150e3, 'pressure_max': 400e3}
 DURATION = PLAN['duration']  # s
-MIDDLE = 21 * 10**9  # ns
+LAST_THIRD = 21 * 10**9  # ns
 # A busy machine may keep the rig quiet for a while, and time goes faster than on the wall.
 EXCITATION = {**PLAN, 'use_sim_time': True, 'countdown': 0.5, 'silence': 10.0}
 # After such a pause two steps of the pressure can become one, with a larger overshoot.
@@ -37,7 +37,7 @@ def stamp(message):
 def play(peer, bag, mode, *, is_delayed=False):
     """Excite and record a simulated rig; return what is in the bag, by topic.
 
-    If *is_delayed*, the recorder does not run from the middle to the end of the programme.
+    If *is_delayed*, the recorder does not run in the last third of the programme.
     """
     rig = {**FASTER[mode], 'publish_rate': RATE, 'clock_rate': CLOCK_RATES[mode], **lose_nothing()}
     recorder = ('-p', 'use_sim_time:=true', '--', '-o', str(bag))
@@ -46,7 +46,7 @@ def play(peer, bag, mode, *, is_delayed=False):
         with Program('pam_excite', parameters=EXCITATION) as excite:
             if is_delayed:
                 states = peer.collect(JointState, 'joint_states')
-                peer.until(lambda: states and stamp(states[-1]) > MIDDLE, 'the middle')
+                peer.until(lambda: states and stamp(states[-1]) > LAST_THIRD, 'the last third')
                 record.interrupt(signal.SIGSTOP)
                 peer.until(lambda: 'vented' in excite.output, 'the end')
                 record.interrupt(signal.SIGCONT)

@@ -141,6 +141,14 @@ def test_a_clock_too_coarse_for_what_is_not_needed():
     )
 
 
+def test_states_that_were_published_again_while_time_stood_still_are_one():
+    """A simulator that is paused, or waits for its controller, repeats its last state."""
+    t = np.insert(T, 0, np.full(200, T[0]))
+    one = assemble('log', free(position=signal('y', np.sin(t), t)), [])
+    assert one.warnings == ()
+    np.testing.assert_array_equal(one.position, np.sin(T))
+
+
 def test_of_commands_at_one_time_the_last_holds():
     command = signal('u', [1.0, 2.0, 3.0, 4.0, 5.0, 6.0], [0.0, 0.0, 1.0, 1.0, 1.0, 2.0])
     one = assemble('log', free(pressure_command=command), [])

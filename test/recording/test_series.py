@@ -33,13 +33,13 @@ def test_of_two_samples_at_one_time_the_last_is_kept():
     assert series(np.repeat(np.arange(500.0), 2)).is_coarse
 
 
-def test_a_sample_that_is_repeated_contradicts_nothing():
+def test_a_sample_that_is_repeated_with_the_same_value_is_one_sample():
     t, value = np.array([0.0, 0.0, 0.0, 1.0, 1.0]), np.array([5.0, 5.0, 6.0, 7.0, 7.0])
-    assert Series('pos', t, value).shared == 3
-    assert Series('pos', t, value).contradictory == 1
+    assert Series('pos', t, value).shared == 1
     pairs = np.column_stack([value, [1.0, 2.0, 2.0, 3.0, 3.0]])
-    assert Series('pressures', t, pairs).contradictory == 2
-    assert Series('pos', t[:1], value[:1]).contradictory == 0
+    assert Series('pressures', t, pairs).shared == 2
+    assert Series('pos', t[:1], value[:1]).shared == 0
+    assert not Series('pos', np.zeros(100), np.ones(100)).is_coarse
 
 
 @pytest.mark.parametrize(('period', 'limit'), [(1e-3, 0.05), (0.02, 0.2)])

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What is configured to the controller, put together and checked as a whole."""
+"""The settings of the controller, put together and checked as a whole."""
 
 from pathlib import Path
 

@@ -51,7 +51,7 @@ def truth(name, mass=20.0, p0=300e3, noise=FEEDBACK_NOISE, seed=0, **more):
 
 
 def nominal(mass=20.0, effects=(), **muscle):
-    """Return the rig as it is configured to the controller."""
+    """Return the rig as it is configured in the controller."""
     return single_muscle_joint(Muscle(zeta=0.15, **muscle), Mass(mass=mass), effects)
 
 

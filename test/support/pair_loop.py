@@ -42,7 +42,7 @@ class PairRun:
 
 
 def nominal(effects=(), load=()):
-    """Return the joint as it is configured to the controller; *effects* of both muscles."""
+    """Return the joint as it is configured in the controller; *effects* of both muscles."""
     actuator = Actuator(effects=effects, contraction=0.1)
     return Joint((actuator, actuator), Arm(), Pulley(), load)
 

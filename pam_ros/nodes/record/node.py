@@ -10,7 +10,7 @@ from collections.abc import Container, Mapping, Sequence
 from datetime import datetime
 from importlib import import_module
 from pathlib import Path
-from time import monotonic_ns, sleep
+from time import monotonic_ns, sleep, time_ns
 from typing import Any
 
 from rclpy.executors import Executor, SingleThreadedExecutor
@@ -42,10 +42,12 @@ OF_JOINTS = (
 )
 LOOK = 5.0  # Hz, for new topics
 TAKE = 0.01  # s between two rounds of taking messages
-# ns that a message waits for a later time on /clock: the middleware sends a lost one again after
-# up to 3 s.
-CLOCK_WAIT = 5 * SECOND
-STILL = SECOND // 10  # ns after a time on /clock up to which no other is missing at the end
+# ns that the recorder waits for what is missing, also at its end: the middleware sends a lost
+# message again after up to 3 s.
+PATIENCE = 5 * SECOND
+# ns. At the end, a topic with a longer period is not expected to have a later message, and no
+# time on /clock is missing that would be so little later than the last one.
+STILL = SECOND // 10
 SEAL = 0.5  # s between two seals: a killed recorder can lose the messages of this time
 REPORT, REPORT_LOGGED = 1.0, 10.0  # s between lines of progress, on a terminal and in a log
 
@@ -217,6 +219,7 @@ class PamRecord(TickingNode):
         for topic, recorded in self._recorded.items():
             for data, info in messages_of(recorded.subscription):
                 received, sent = info['received_timestamp'], info['source_timestamp']
+                recorded.count(sent)
                 if self._is_simulated and sent:
                     recorded.waiting.append((data, sent, monotonic_ns()))
                 else:
@@ -239,20 +242,37 @@ class PamRecord(TickingNode):
             data, sent, taken = waiting[0]
             time = self._time.at(sent)
             if time is None:
-                if not is_last and now - taken < CLOCK_WAIT:
+                if not is_last and now - taken < PATIENCE:
                     return
                 time = self._time.before(sent)
             self._writer.write(recorded.channel, time, time, data)
             waiting.popleft()
 
     def _take_last(self) -> None:
-        """Take what has arrived, and wait for times that messages were sent after."""
-        end = monotonic_ns() + CLOCK_WAIT
+        """Take what was sent until now, also what the middleware has to send again."""
+        until, begun = time_ns(), monotonic_ns()
+        is_reported = False
         self._take()
-        while self._misses_times() and monotonic_ns() < end:
+        while missing := self._may_miss(until):
+            waited = monotonic_ns() - begun
+            if waited > PATIENCE:
+                break
+            if waited > SECOND // 2 and not is_reported:
+                limit = f'waits up to {PATIENCE // SECOND} s for the last messages of '
+                print(limit + ', '.join(missing), flush=True)
+                is_reported = True
             sleep(TAKE)
             self._take()
         self._take(is_last=True)
+
+    def _may_miss(self, until: int) -> list[str]:
+        """Return the topics of which messages that were sent before *until* may still arrive."""
+        clock = ['/clock'] if self._misses_times() else []
+        return clock + [
+            topic
+            for topic, one in self._recorded.items()
+            if one.may_miss(until, STILL, PATIENCE) and self.count_publishers(topic)
+        ]
 
     def _misses_times(self) -> bool:
         newest = self._time.newest

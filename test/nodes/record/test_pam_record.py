@@ -39,6 +39,11 @@ def delivered(*publishers):
         assert publisher.wait_for_all_acked(Duration(seconds=DEADLINE))
 
 
+def stamp_of(message):
+    """Return the stamp of a state in ns."""
+    return message.header.stamp.sec * 10**9 + message.header.stamp.nanosec
+
+
 def on_disk(bag):
     """Return the number of messages that the bag on disk says it has."""
     return sum(written(bag).values())
@@ -83,8 +88,7 @@ def test_all_messages_of_a_rig_are_in_the_bag(peer, tmp_path, kind):
     assert output.count(f'{count} messages') == 6
     assert 'lost' not in output
     for stamp, message in found['/joint_states']:
-        sent = message.header.stamp.sec * 10**9 + message.header.stamp.nanosec
-        assert stamp >= sent
+        assert stamp >= stamp_of(message)
 
 
 @pytest.mark.at_any_pace
@@ -215,6 +219,27 @@ def test_a_recorder_that_is_held_up_has_what_the_simulator_published_meanwhile(p
     counts = [len(found[f'/{topic}']) for topic in ('joint_states', 'force', 'pressure')]
     assert min(counts) > 3500
     assert np.ptp(counts) < 100  # all began at about the same time
+
+
+@pytest.mark.at_any_pace
+def test_a_recorder_that_was_held_up_at_its_end_has_what_was_published_until_then(peer, tmp_path):
+    """What the middleware lost meanwhile is sent again later: the recorder waits for it."""
+    bag = tmp_path / 'rig'
+    states = peer.collect(JointState, 'joint_states')
+    with recorder(bag) as program, Program('pam_sim', parameters={'command_timeout': 0.0}):
+        peer.until(lambda: on_disk(bag) >= 2000, 'some messages')
+        program.interrupt(signal.SIGSTOP)
+        peer.work(1.0)
+        last = stamp_of(states[-1])
+        program.interrupt(signal.SIGCONT)
+        program.interrupt()
+        assert program.wait() == 0
+        assert 'lost' not in program.output
+    found = contents(bag)
+    for topic in ('joint_states', 'pressure'):
+        stamps = np.array([stamp_of(message) for _, message in found[f'/{topic}']])
+        assert stamps[-1] >= last, topic
+        assert np.diff(stamps).max() < 0.5e9, topic  # a busy machine may stop the simulator
 
 
 @pytest.mark.at_any_pace
