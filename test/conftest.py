@@ -34,7 +34,7 @@ def pytest_configure(config):
     for kind in (signal.SIGHUP, signal.SIGQUIT):
         signal.signal(kind, signal.SIG_DFL)
     os.environ['ROS_DOMAIN_ID'] = NOT_CLAIMED
-    # What is LOCALHOST here is told in the profile: the ROS layer would choose shared memory.
+    # What is LOCALHOST here is given in the profile: the ROS layer would choose shared memory.
     os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'] = 'SUBNET'
     os.environ.pop('ROS_STATIC_PEERS', None)
     os.environ['FASTRTPS_DEFAULT_PROFILES_FILE'] = str(DISCOVERY)

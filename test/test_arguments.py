@@ -67,7 +67,7 @@ def mapped(**changes):
 
 
 # Arrays ----------------------------------------------------------------------------------------
-# Each with a good value, and what is wrong with it beside what is wrong everywhere.
+# Each with a good value, and what is wrong with it in addition to what is wrong everywhere.
 
 ANY_LENGTH = 'any length'
 STAMPS = 'stamps'

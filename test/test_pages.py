@@ -93,7 +93,7 @@ def evaluated(source, tmp_path):
         'print("a")  # a\nprint("b")  # b',
     ],
 )
-def test_an_example_that_prints_what_it_says_passes(source, tmp_path):
+def test_an_example_that_prints_its_stated_output_passes(source, tmp_path):
     evaluated(source, tmp_path)
 
 

@@ -77,7 +77,7 @@ def found(bench):
 
 
 @pytest.mark.slow
-def test_friction_is_found_and_the_model_mended(found):
+def test_friction_is_found_and_the_model_corrected(found):
     (code, out, _), folder = found
     assert code == 0
     report = json.loads((folder / 'report.json').read_text(encoding='utf-8'))
@@ -108,7 +108,7 @@ def test_configured_parameters_are_not_estimates(found):
         assert one['low'] == one['value'] == one['high'], name
 
 
-def test_progress_is_told_in_plain_lines_where_there_is_no_terminal(found):
+def test_progress_is_printed_in_plain_lines_without_a_terminal(found):
     (_, _, errors), _ = found
     lines = [line for line in errors.splitlines() if ' %  ' in line]
     assert len(lines) >= 5

@@ -86,7 +86,7 @@ def test_the_last_line_names_the_effect_and_its_muscle(found):
     assert ' mrad with pressure_lag of flexor; noise 0.19' in line
 
 
-def test_the_report_says_where_the_effect_is(found):
+def test_the_report_names_the_muscle_with_the_effect(found):
     _, folder = found
     content = json.loads((folder / 'report.json').read_text(encoding='utf-8'))
     (effect,) = content['effects']

@@ -24,7 +24,7 @@ def test_where_the_effort_settles_the_stiffness_none_is_wanted():
     assert CoContraction(30.0).wanted(shared(single_muscle_joint())) == 0.0
 
 
-def test_one_that_cannot_be_had_is_refused():
+def test_a_stiffness_that_cannot_be_reached_is_refused():
     with pytest.raises(RangeError, match='co-contraction 90 N m/rad is out of reach'):
         CoContraction(90.0).wanted(SHARING)
     with pytest.raises(ParameterError, match='co_contraction_rate'):
@@ -45,7 +45,7 @@ def test_another_is_approached_at_the_rate_and_without_a_jump():
     assert way[-1] == 40.0
 
 
-def test_a_new_goal_on_the_way_makes_no_jump():
+def test_a_new_goal_during_the_motion_makes_no_jump():
     source = StiffnessReference(20.0, 100.0)
     source.start(30.0)
     before = source.follow(DT)

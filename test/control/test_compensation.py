@@ -65,12 +65,12 @@ def test_without_effects_nothing_is_lost():
     assert losses.follow(DT, Reference(0.05, 0.1), (300e3,)) == 0.0
 
 
-def test_it_says_what_it_leaves_to_feedback():
+def test_it_lists_what_it_leaves_to_feedback():
     joint = single_muscle_joint(effects=[Payload(mass=1.0), Leak(rate=0.1), Hysteresis(slip=3.0)])
     assert left_to_feedback(joint) == ('leak',)
 
 
-def test_what_one_muscle_of_several_has_is_said_as_well():
+def test_an_effect_of_one_muscle_of_several_is_listed_too():
     plain, leaks = Actuator(contraction=0.1), Actuator(effects=[Leak(rate=0.1)])
     joint = nominal()
     assert left_to_feedback(joint) == ()

@@ -105,7 +105,7 @@ DELAYS = {
 
 @pytest.mark.parametrize('name', DELAYS)
 @pytest.mark.parametrize('size', [8.0, 50.0])
-def test_an_unconfigured_delay_makes_it_give_way_and_not_oscillate(name, size):
+def test_an_unconfigured_delay_reduces_the_rejection_without_oscillation(name, size):
     push = sine(size, 1.0, 5.0)
     run = held(truth(DELAYS[name], seed=6), push)
     pushed = (run.t > 2.0) & (run.t < 5.0)

@@ -17,7 +17,7 @@ KINDS = (Gains, PidGains, Shape)
 
 
 @pytest.mark.parametrize('kind', KINDS)
-def test_the_joint_says_which_defaults_hold(kind):
+def test_the_joint_decides_which_defaults_apply(kind):
     assert kind.for_joint(single_muscle_joint()) == kind()
     assert kind.for_joint(elbow()) == kind.revolute() != kind()
     assert kind.for_joint(elbow()).is_revolute

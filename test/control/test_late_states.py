@@ -54,7 +54,7 @@ def test_a_moving_reference_is_followed_by_the_model(law, most):
 
 
 @pytest.mark.parametrize('law', [SlidingMode, Pid])
-def test_the_loop_neither_vents_nor_begins_anew(law):
+def test_the_loop_neither_vents_nor_restarts(law):
     settings, plant = ControlSettings(), truth('nominal', seed=3)
     law = law(nominal())
     loop = Loop(

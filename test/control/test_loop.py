@@ -106,7 +106,7 @@ def test_steps_are_as_long_as_they_were(loop):
     assert lengths == pytest.approx([0.002, 0.002, 0.0015, 0.0265, 0.0002])
 
 
-def test_without_states_the_pressure_is_held_and_then_begun_anew(loop):
+def test_without_states_the_pressure_is_held_and_control_restarts_later(loop):
     loop.see(Reading(1.0, 0.05))
     assert loop.tick(1.0) == first(1)
     assert loop.tick(1.09) == first(2)
@@ -214,7 +214,7 @@ def test_where_states_return_it_waits_for_the_pressure_that_is_there_now(loop, s
     assert loop.law.starts[-1] == (0.03, (123e3,))
 
 
-def test_disabled_it_is_silent_and_enabled_it_begins_anew(loop):
+def test_disabled_it_publishes_nothing_and_enabled_it_restarts(loop):
     loop.see(Reading(1.0, 0.05))
     loop.tick(1.0)
     loop.enable(False)
@@ -248,7 +248,7 @@ def test_another_law_takes_over_in_flight(loop):
     assert loop.source.reference.position == 0.05
 
 
-def test_pressures_of_several_muscles_go_the_same_way():
+def test_pressures_of_several_muscles_are_handled_alike():
     class Two(Recorder):
         def update(self, *args, **kwargs):
             return 2 * super().update(*args, **kwargs)

@@ -128,7 +128,7 @@ def test_the_model_of_every_joint_is_its_rig(name):
 
 
 @pytest.mark.parametrize('name', OTHERS)
-def test_a_place_that_is_asked_again_is_that_of_its_coordinate(name):
+def test_a_repeated_coordinate_gives_the_same_state(name):
     """One model is asked at several coordinates in turn, another one only once."""
     joint, places, p = OTHERS[name], (0.02, -0.01, 0.02, 0.02, 0.03), (3e5, 2.5e5)
     model, p = ControlModel(joint), p[: len(joint.muscles)]

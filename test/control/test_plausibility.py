@@ -102,7 +102,7 @@ def test_a_speed_is_allowed_to_last_and_then_is_forgotten():
     assert 'can have moved' in resting.fault_of(0.002, 0.074)
 
 
-def test_of_the_first_two_that_do_not_fit_nobody_knows_which_is_false():
+def test_of_the_first_two_that_do_not_fit_either_may_be_false():
     gate = Plausibility(METRES)
     assert gate.is_first
     assert gate.fault_of(0.0, 0.01) == ''
@@ -238,13 +238,13 @@ def test_a_position_that_stays_false_ends_as_where_nothing_is_seen():
     _, loop = motion(SlidingMode, -0.3, at, seconds=1.55)
     assert loop.state == BLIND
     assert loop.implausible == round(0.15 / DT)
-    # Seen again, it begins anew where the load is, at the pressure that it held.
+    # When states return, control starts where the load is, at the pressure that it held.
     found, loop = motion(SlidingMode, -0.3, at, seconds=2.5)
     assert (loop.state, loop.starts) == (RUNNING, 2)
     assert np.max(np.abs(found[700:] - found[700])) < 0.5e-3
 
 
-def test_control_that_began_at_a_false_position_begins_anew_at_the_true_one():
+def test_control_that_started_at_a_false_position_restarts_at_the_true_one():
     found, loop = motion(SlidingMode, 0.02, at=(0.0,))
     assert (loop.state, loop.starts, loop.implausible) == (RUNNING, 2, 0)
     assert np.ptp(found) < 0.5e-3  # it holds the load where it is

@@ -20,7 +20,7 @@ EFFECTS = [
 ]
 
 
-def test_it_knows_the_chamber_of_the_rig():
+def test_it_has_the_chamber_of_the_rig():
     joint = single_muscle_joint(effects=EFFECTS)
     rig, path = Simulation([joint]), PressurePath(joint, 0, 0.02)
     rig.reset([300e3], [0.06], [0.0])

@@ -246,7 +246,7 @@ def test_a_stiffness_out_of_reach_is_refused_and_the_last_one_holds():
     assert law.terms.co_contraction == 20.0
 
 
-def test_a_stiffness_that_the_angle_does_not_leave_gives_way_and_comes_back():
+def test_a_stiffness_that_the_angle_does_not_permit_is_reduced_and_restored():
     law = SlidingMode(pair_loop.nominal(), Gains.revolute())
     most = law.allocation.stiffness_range(0.0)[1]
     law.start(0.0)

@@ -173,7 +173,7 @@ def test_every_joint_follows_a_swing(name):
 
 
 @pytest.mark.slow
-def test_muscles_that_pull_the_same_way_get_the_same_pressure():
+def test_muscles_that_pull_in_the_same_direction_get_the_same_pressure():
     joint = JOINTS['four']
     run = close_joint(SlidingMode(joint), joint, lambda t: 0.3, 1.0, begin=0.0)
     np.testing.assert_array_equal(run.pressure[0], run.pressure[2])

@@ -84,7 +84,7 @@ def test_what_was_changed_is_scaled_too():
     assert scaled(quick, 25.0, 0.08).rest_speed == pytest.approx(5e-3)
 
 
-def test_a_unit_that_nobody_knows_is_no_unit():
+def test_an_unknown_unit_is_refused():
     @dataclass(frozen=True)
     class Bad:
         way: float = number(1.0, 'furlong', 'a source of three words')

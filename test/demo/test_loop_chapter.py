@@ -61,7 +61,7 @@ def test_sizes_are_those_of_the_two_models(replay):
     assert replay.size(2).maximum == pytest.approx(1e-4)
 
 
-def test_table_has_errors_and_what_was_hidden_beside_what_was_found(replay):
+def test_table_has_errors_and_the_hidden_next_to_the_identified_values(replay):
     level = {'value': 11.9, 'low': 11.7, 'high': 12.2, 'unit': 'N', 'at_bound': False}
     report = {
         'verdict': 'effect_found',

@@ -63,7 +63,7 @@ def test_the_commands_that_it_names_can_be_run(tmp_path, monkeypatch):
     assert str(tmp_path / 'a folder' / 'loop' / 'recording') in found[2]
     (page,) = (line.split()[-1] for line in text.splitlines() if line.startswith('and read'))
     assert (ROOT / page).is_file()
-    # Where its programs stand beside it, they are named there.
+    # Where its programs stand next to it, they are named there.
     (tmp_path / 'pam_sim').touch()
     monkeypatch.setattr(outline.sys, 'argv', [str(tmp_path / 'pam_demo')])
     assert commands(next_steps(tmp_path))[0][0] == str(tmp_path / 'pam_sim')

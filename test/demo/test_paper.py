@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The numbers beside the paper's, from motions whose numbers are known."""
+"""The numbers compared with the paper's, from motions whose numbers are known."""
 
 import numpy as np
 import pytest
@@ -53,7 +53,7 @@ def test_acceleration_is_equation_3():
         np.testing.assert_allclose(run.acceleration(joint), wanted, rtol=1e-12)
 
 
-def test_the_papers_values_stand_beside_ours():
+def test_the_values_of_the_paper_stand_next_to_ours():
     rows = paper.compare(swing(4.15, 6.0, 0.0973), MODEL)
     force, static, kappa, k, c, hertz = rows
     assert force.wanted == 198.0

@@ -23,7 +23,7 @@ def test_tables_are_those_of_the_library():
     assert text == TABLES['with_tables'](text), 'make tables writes them'
 
 
-def test_the_table_says_of_each_effect_all_that_it_says_itself():
+def test_the_table_contains_everything_that_each_effect_declares():
     rows = TABLES['effects_table']().splitlines()[2:]
     for effect, row in zip(EFFECTS, rows, strict=True):
         for text in (effect.name, effect.signature, effect.experiment, effect.compensation.value):

@@ -66,7 +66,7 @@ def test_maxwell_slip_is_the_complement_of_prandtls_plays(onset, ratio):
 
 
 @pytest.mark.parametrize('effect', [BOUC_WEN, SLIP, {**BOUC_WEN, **SLIP}])
-def test_only_the_way_counts_neither_speed_nor_sampling(effect):
+def test_only_the_displacement_counts_neither_speed_nor_sampling(effect):
     fine, coarse = loop(effect, path(points=100)), loop(effect, path(points=1))
     np.testing.assert_allclose(fine[::100], coarse, atol=1e-10)
 
@@ -123,7 +123,7 @@ def test_load_on_a_muscle_with_hysteresis_against_an_adaptive_solver():
 
 @pytest.mark.parametrize('effect', [BOUC_WEN, SLIP, {**SLIP, 'slip_ratio': 10.0}])
 @pytest.mark.parametrize('side', [1.0, -1.0])
-def test_loops_can_start_where_a_long_way_has_left_them(effect, side):
+def test_loops_can_start_as_a_long_motion_has_left_them(effect, side):
     far = np.linspace(0.0, side * 0.4, 401) + 0.1
     back = np.linspace(0.1 + side * 0.4, 0.1, 51)
     come = loop(effect, np.concatenate([far, back]))[401:]

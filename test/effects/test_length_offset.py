@@ -12,7 +12,7 @@ from support import bench
 
 @pytest.mark.needs_numba
 @pytest.mark.parametrize('offset', [-0.03, 0.05])
-def test_held_force_is_that_of_the_felt_contraction(offset):
+def test_isometric_force_is_that_of_the_shifted_contraction(offset):
     y = np.linspace(0.0, 0.2 * bench.L0, 50)
     t = 10.0 * np.arange(50)  # so slowly that damping is nothing
     p = np.linspace(1e5, 5e5, 50)

@@ -29,7 +29,7 @@ T = np.linspace(0.0, 2.0, 201)
 AT = np.array([0.0, 0.1, 0.6, 1.1003, 1.5])
 U = np.array([2e5, 3.3e5, 1.6e5, 2.6e5, 2.0e5])
 STARTS = [(e, start) for e in EFFECTS for start in e.fit_starts()]
-# Every other effect: kernels in which no effect stands beside the neighbours that it has in all.
+# Every other effect: kernels in which an effect lacks the neighbours that it has in the library.
 HALVES = (EFFECTS[::2], EFFECTS[1::2])
 BY_EFFECT = pytest.mark.parametrize('effect', EFFECTS, ids=lambda e: e.name)
 
@@ -81,7 +81,7 @@ def test_rows_are_named_by_the_fields(effect):
 
 
 @BY_EFFECT
-def test_effect_says_all_that_is_asked_of_it(effect):
+def test_effect_declares_everything_that_is_required(effect):
     for text in (effect.text, effect.source, effect.signature, effect.experiment):
         assert len(text) > 10
     assert set(effect.rivals) <= set(NAMES) - {effect.name}
@@ -110,7 +110,7 @@ def test_effect_says_all_that_is_asked_of_it(effect):
 
 
 @BY_EFFECT
-def test_what_a_controller_does_about_it_is_what_it_can_do(effect):
+def test_the_compensation_that_an_effect_names_is_one_that_the_controller_has(effect):
     """It inverts what has no memory, or a lag; it feeds forward what acts on forces."""
     by_pressure = effect.equations.delay is not None or effect.equations.pressure is not None
     if effect.compensation is Compensation.PATH:

@@ -38,7 +38,7 @@ scene = Scene(given)
 (joint,) = scene.build(checked(scene.table(), given)).joints
 t = np.array([0.0, 0.1, 0.2, 0.3])
 run = simulate(joint, t, [0.0, 0.1], [2e5, 3e5])
-beside = simulate(
+other = simulate(
     joint, t, [0.0, 0.1], [2e5, 3e5], hidden={'choked_valve': {'pressure': -1e4}}
 )
 (new,) = (effect for effect in EFFECTS if effect.name == 'choked_valve')
@@ -52,7 +52,7 @@ print(json.dumps({
         'effects.choked_valve.slowness' in rig_table(kind) for kind in ARRANGEMENTS
     ],
     'pressure': list(run.pressure),
-    'hidden': beside.pressure[0],
+    'hidden': other.pressure[0],
     'candidates': [effect.name for effect in single_muscle_joint().library],
     'unknown': [u.name for u in effect_unknowns(joint, place, place.example)],
     'feedback': list(left_to_feedback(joint)),
@@ -131,7 +131,7 @@ def test_it_is_simulated_and_its_hidden_state_can_be_set(found):
     assert known['hidden'] == pytest.approx(1.9e5)
 
 
-def test_identification_control_and_page_know_it(found):
+def test_it_is_in_identification_control_and_page(found):
     _, known = found
     assert known['unknown'] == ['effects.choked_valve.slowness']
     assert known['feedback'] == ['choked_valve']

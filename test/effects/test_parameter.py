@@ -74,7 +74,7 @@ def outside(f, p, y, v, t, h, x, i, xn, q, j):
 DRAG = effect_with('air_drag', 'N s^2/m^2', outside=outside)
 
 
-def test_a_unit_of_which_nobody_has_said_what_it_is_there_is_refused():
+def test_a_unit_without_a_counterpart_for_a_revolute_joint_is_refused():
     sentence = (
         'effects.air_drag.size is in N s^2/m^2: what that is on a joint that turns is not '
         'known; add the unit to TURNED in pam_ros/units.py'

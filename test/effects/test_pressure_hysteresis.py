@@ -71,7 +71,7 @@ def test_minor_loops_close_and_are_forgotten():
 
 
 @pytest.mark.parametrize('side', [1.0, -1.0])
-def test_the_loop_can_start_where_a_long_way_has_left_it(side):
+def test_the_loop_can_start_as_a_long_change_of_pressure_has_left_it(side):
     far, back = np.linspace(3e5, 3e5 + side * 2e5, 401), np.linspace(3e5 + side * 2e5, 3e5, 51)
     come = loop(np.concatenate([far, back]), slip=5e3)[401:]
     np.testing.assert_allclose(loop(back, slip=5e3, initial=side), come, atol=1e-6)
@@ -88,7 +88,7 @@ def test_a_muscle_that_shortens_at_constant_pressure_does_not_show_it():
     assert np.abs(force(Hysteresis(slip=5.0)) - force()).max() > 4.0
 
 
-def test_beside_hysteresis_over_contraction_their_forces_add():
+def test_with_hysteresis_over_contraction_the_forces_add():
     p = path(1e5 * np.array([1.0, 4.0, 3.0]))
     over_p, over_kappa = PressureHysteresis(slip=5e3), Hysteresis(slip=5.0, initial=0.5)
     both, alone = held(p, over_kappa, over_p), held(p)

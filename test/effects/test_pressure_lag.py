@@ -48,7 +48,7 @@ def test_load_follows_the_lagging_pressure():
     np.testing.assert_allclose(run.position, y, atol=1e-8)
 
 
-def test_either_way_may_be_immediate():
+def test_filling_or_venting_may_be_immediate():
     t = np.array([0.0, 0.1, 0.2, 0.3])
     model = bench.cart(PressureLag(vent=0.1))
     run = simulate(model, t, [0.0, 0.05, 0.2], [100.0, 300.0, 100.0], position=0.0)

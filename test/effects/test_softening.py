@@ -27,7 +27,7 @@ def test_time_alone_softens_exponentially(step):
     np.testing.assert_allclose(gain, 1.0 - LIMIT * (1.0 - np.exp(-0.05 * t)), rtol=1e-12)
 
 
-def test_cycles_of_pressure_soften_by_the_way_less_the_play_at_each_turn():
+def test_cycles_of_pressure_soften_by_their_travel_less_the_play_at_each_reversal():
     swing, rate = 3e5, 4e-7
     corners = np.arange(11.0)  # five cycles: up in 1 s, down in 1 s
     t = np.linspace(0.0, 10.0, 1001)

@@ -57,7 +57,7 @@ def positions(peer, length):
     return [by_stamp[time] for time in sorted(by_stamp)][:length]
 
 
-def test_it_reaches_its_goal_the_same_way_each_time(peer):
+def test_it_reaches_its_goal_with_the_same_motion_each_time(peer):
     first = positions(peer, LENGTH)
     assert len(first) == LENGTH
     np.testing.assert_allclose(first[-100:], 0.06, atol=5e-6)

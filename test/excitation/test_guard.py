@@ -11,7 +11,7 @@ def guard():
     return Guard(-0.016, 0.1, silence=0.5, now=100.0)
 
 
-def test_a_joint_in_its_window_that_is_heard_of_goes_on():
+def test_a_joint_in_its_window_with_states_continues():
     watch = guard()
     for position in (-0.016, 0.0, 0.1):
         watch.see(position, 100.2)

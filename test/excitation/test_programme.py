@@ -46,7 +46,7 @@ def test_no_programme_exceeds_its_limits(low, span, rate_of_change, duration, ra
         assert before.stop == after.start
 
 
-def test_the_default_takes_as_long_as_it_says():
+def test_the_default_takes_its_stated_duration():
     made = programme(Excitation())
     assert made.duration == pytest.approx(85.0, abs=0.5)
     assert made.pressure.max() == pytest.approx(450e3)
@@ -116,7 +116,7 @@ def test_a_rate_limit_catches_up():
     np.testing.assert_allclose(limit_rate(wanted, 2.0), [0.0, 2.0, 4.0, 5.0, 3.0, 1.0, 0.0])
 
 
-def test_the_plan_says_when_how_high_and_how_fast():
+def test_the_plan_has_times_levels_and_speeds():
     chosen = Excitation(seed=7)
     text = plan(programme(chosen), chosen)
     lines = text.splitlines()

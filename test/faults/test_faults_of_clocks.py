@@ -43,8 +43,8 @@ class OwnClock:
         message = Clock()
         message.clock.sec, message.clock.nanosec = divmod(self.now, SECOND)
         self._publisher.publish(message)
-        end, heard = monotonic() + PATIENCE, len(self._commands)
-        while len(self._commands) == heard and monotonic() < end:
+        end, received = monotonic() + PATIENCE, len(self._commands)
+        while len(self._commands) == received and monotonic() < end:
             self.peer.work(TURN)
 
     def until(self, condition, what):

@@ -106,7 +106,7 @@ def test_a_recorder_that_is_stopped(station):
         station.peer.work(STOPPED)
         counts = station.counts()
     woke = station.states[-1]
-    # More than had come in the moment before the stop: the middleware connects them anew.
+    # More than had come in the moment before the stop: the middleware reconnects them.
     station.peer.until(
         lambda: all(n > counts[topic] + RATE / 5 for topic, n in station.counts().items()),
         'more messages in the bag',

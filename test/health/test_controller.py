@@ -72,7 +72,7 @@ def setup():
         (DISABLED, {}, 'the law gave no number', Level.ERROR, 'the law gave no number'),
     ],
 )
-def test_the_worst_of_the_control_is_said(setup, state, received, fault, level, message):
+def test_the_worst_of_the_control_is_reported(setup, state, received, fault, level, message):
     loop = loop_of(setup)
     loop.state = state
     health = control(loop, setup, WELL._replace(**received), fault)
@@ -89,7 +89,7 @@ def test_the_worst_of_the_control_is_said(setup, state, received, fault, level, 
         (40, None, Level.OK, 'answers each joint state (use_sim_time is set)'),
     ],
 )
-def test_the_rate_is_said_where_there_is_one(ticks, wanted, level, message):
+def test_the_rate_is_reported_if_there_is_one(ticks, wanted, level, message):
     health = timing(Punctuality(2.0, ticks, 0, 0.0), 10, wanted)
     assert (health.level, health.message) == (level, message)
     assert health.values['command rate (Hz)'] == 5.0
@@ -123,7 +123,7 @@ def test_they_are_named_of_joints_of_several_muscles_too(kind):
     assert LEFT not in values_of(joint=kind)
 
 
-def test_a_pair_says_its_stiffness_and_a_parallel_joint_has_none_to_choose():
+def test_a_pair_reports_its_stiffness_and_a_parallel_joint_has_none_to_choose():
     values = values_of(joint='antagonistic')
     low, high = (values[f'{which} co-contraction (N m/rad)'] for which in ('lowest', 'highest'))
     assert low < high

@@ -56,7 +56,7 @@ FRICTION = Learned(
         ),
     ],
 )
-def test_one_sentence_says_what_is_used_and_what_is_not_any_more(changes, message):
+def test_one_sentence_lists_what_is_used_and_what_is_not_any_more(changes, message):
     health = learning(replace(FRICTION, **changes), 'm')
     assert (health.level, health.message) == (Level.OK, message)
 
@@ -73,5 +73,5 @@ def test_the_numbers_have_the_units_of_the_joint():
     assert revolute['lag while venting (s)'] is None  # it is configured
 
 
-def test_a_law_that_does_not_learn_says_so():
+def test_a_law_that_does_not_learn_reports_it():
     assert learning(None, 'm') == (Level.OK, 'the law does not learn', {})

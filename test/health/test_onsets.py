@@ -44,7 +44,7 @@ def test_each_has_one_line_when_it_has_begun():
     assert log == ['effects.leak acts from 2 s of simulated time on']
 
 
-def test_where_it_acts_is_said_of_several_muscles():
+def test_of_several_muscles_the_place_of_the_effect_is_reported():
     log = Log()
     looks(Plant(setup_of(PAIR)), log, [3])
     assert log == [

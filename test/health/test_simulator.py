@@ -45,7 +45,7 @@ BEHIND = {'published': 900}
         ('lockstep', {'speed': 0.0, 'waits': 'nobody'}, Level.WARN, 'nobody'),
     ],
 )
-def test_the_worst_of_the_rate_is_said(mode, done, level, message):
+def test_the_worst_of_the_rate_is_reported(mode, done, level, message):
     health = timing(SimSettings(time_mode=mode), KEPT, DONE._replace(**done), 'normal')
     assert (health.level, health.message) == (level, message)
     assert ('speed (simulated s / s)' in health.values) == (mode != 'real_time')

@@ -51,7 +51,7 @@ def look(health, count, publishers=('/pam_sim',), *, is_alone=False, has_several
     return [health.look(publishers, is_alone, has_several) for _ in range(count)]
 
 
-def test_commands_without_subscriber_are_told_once_when_that_lasts():
+def test_commands_without_a_subscriber_are_reported_once_if_that_lasts():
     health = TopicHealth('/left/pressure_command')
     *before, begins = look(health, LASTING, is_alone=True)
     assert before == [[]] * (LASTING - 1)
@@ -64,7 +64,7 @@ def test_commands_without_subscriber_are_told_once_when_that_lasts():
     assert topics([health], [1]).level == Level.OK
 
 
-def test_several_senders_are_told_with_topic_count_and_nodes():
+def test_several_senders_are_reported_with_topic_count_and_nodes():
     health = TopicHealth('/pressure')
     assert not any(look(health, LASTING - 1, TWO, has_several=True))
     assert look(health, 2, [*TWO, ''], has_several=True) == [[health.contested], []]
@@ -86,7 +86,7 @@ def test_the_warning_does_not_flicker_and_ends():
     assert not health.contested
 
 
-def test_joint_states_are_told_with_the_joint():
+def test_several_senders_of_joint_states_are_reported_with_the_joint():
     health = TopicHealth('/joint_states', ('elbow',))
     look(health, LASTING, TWO, has_several=True)
     assert 'more than one of them sends the joint elbow: stop all but one' in health.contested

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Which errors and saturations of a controller are told."""
+"""Which errors and saturations of a controller are reported."""
 
 from types import SimpleNamespace
 
@@ -56,7 +56,7 @@ def constant(value):
     ],
     ids=['constant', 'just_too_large', 'oscillation', 'growing'],
 )
-def test_a_large_error_that_lasts_is_told(error):
+def test_a_large_error_that_lasts_is_reported(error):
     motion = Motion()
     warnings = motion.run(6.0, error)
     assert not any(warnings[: int(2.9 / DT)])
@@ -75,11 +75,11 @@ def test_a_large_error_that_lasts_is_told(error):
     ],
     ids=['small', 'slow_approach', 'steps', 'saturation_with_breaks', 'saturation_without_error'],
 )
-def test_what_does_not_last_is_not_told(error, cut):
+def test_a_short_error_or_saturation_is_not_reported(error, cut):
     assert not any(Motion().run(12.0, error, cut))
 
 
-def test_a_saturation_that_lasts_is_told_though_the_error_is_not_large():
+def test_a_saturation_that_lasts_is_reported_though_the_error_is_not_large():
     warnings = Motion().run(6.0, constant(0.002), constant(-30.0))
     assert not any(warnings[: int(2.9 / DT)])
     assert 'the command is at a limit of pressure for more than 3 s' in warnings[-1]

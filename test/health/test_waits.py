@@ -75,7 +75,7 @@ def test_commands_that_stop_and_come_back(rig):
     assert len(rig.log.warnings) == 1
 
 
-def test_commands_slower_than_the_timeout_are_told_once(rig):
+def test_commands_slower_than_the_timeout_are_reported_once(rig):
     rig.advance(1, commands_at=(500,))
     for _ in range(10):
         rig.advance(1)

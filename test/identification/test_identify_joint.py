@@ -151,8 +151,8 @@ def test_a_wrong_inertia_that_is_configured_as_uncertain_is_found():
     assert retuned.held_error < 1.2 * trial.noise < nominal_.held_error
     assert found.uncertain == {'inertia': '60%', 'radius': '1e-09'}
     # Of a radius that is known to a nanometre a recording says nothing more.
-    told = [text for text in found.warnings if 'hardly determine' in text]
-    assert [text.split()[4] for text in told] == ['radius:']
+    warnings = [text for text in found.warnings if 'hardly determine' in text]
+    assert [text.split()[4] for text in warnings] == ['radius:']
 
 
 def test_an_uncertain_parameter_that_the_joint_lacks_is_refused_before_the_fit():

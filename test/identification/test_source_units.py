@@ -100,7 +100,7 @@ def test_constants_that_make_no_muscle_beyond_still_give_a_model():
     assert back.muscle.stiffness(3e5, 0.1) > 0.0
 
 
-def test_constants_are_told_in_the_units_of_their_source():
+def test_constants_are_reported_in_the_units_of_their_source():
     bar, si = (
         {
             unknown.name: in_source_units(

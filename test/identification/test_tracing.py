@@ -171,7 +171,7 @@ def test_what_was_not_tried_has_no_score():
     assert np.isnan([values[k] for k in (0, 2, 3, 4, 5, 7, 8)]).all()
 
 
-def test_the_report_says_what_is_reached_and_what_is_confused(capsys):
+def test_the_report_has_the_rates_and_the_confusions(capsys):
     report(ROWS)
     lines = capsys.readouterr().out.splitlines()
     reached = ('median', 'intervals of the effects')

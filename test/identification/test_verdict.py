@@ -77,7 +77,7 @@ def test_without_an_effect_more_than_noise_is_structure_and_constants_may_be_wro
     assert verdict(ended(bare, 1.5, 1.5), noise, noise) == 'unexplained_structure'
 
 
-def test_nothing_is_missing_only_where_what_judges_says_so(found):
+def test_nothing_is_missing_only_if_the_held_out_data_show_it(found):
     """A drift may begin after the parts that the search sees."""
     bare, noise = ended(replace(found, best=found.retuned), 1.0, 1.0), found.setting.noise
     assert verdict(bare, 1.3 * noise, 1.3 * noise) == 'no_missing_effect'
@@ -141,11 +141,11 @@ def test_each_verdict_has_its_sentence_and_its_next_experiment(name):
         (Estimate(17.0412, 17.0412, 17.0412, 's'), '17.041 s (17.041 to 17.041 s)'),
     ],
 )
-def test_a_moment_is_told_as_exactly_as_it_is_known(since, text):
+def test_a_moment_is_reported_as_precisely_as_it_is_known(since, text):
     assert time_of(since) == text
 
 
-def test_what_begins_in_the_middle_says_when():
+def test_an_effect_that_begins_in_the_middle_has_its_onset():
     since = Estimate(12.5, 12.4, 12.6, 's')
     answer = replace(results.friction_result()[0], since=since)
     found = sentence(replace(answer, verdict='effect_found'), '')
@@ -154,7 +154,7 @@ def test_what_begins_in_the_middle_says_when():
     assert 'up to 12.50 s (12.40 to 12.60 s), and not from there on.' in unknown
 
 
-def test_rivals_are_told_apart_by_the_experiment_of_the_effect():
+def test_rivals_are_distinguished_by_the_experiment_of_the_effect():
     answer = replace(results.friction_result()[0], verdict='effect_found')
     first = replace(answer.effects[0], alternatives=('slack', 'leak'))
     answer = replace(answer, effects=(first, *answer.effects[1:]))
@@ -163,7 +163,7 @@ def test_rivals_are_told_apart_by_the_experiment_of_the_effect():
     assert text.startswith(f'To tell {first.name}, slack, leak apart, record: ')
 
 
-def test_without_a_name_the_effect_that_comes_nearest_says_what_to_record():
+def test_without_a_named_effect_the_nearest_one_decides_what_to_record():
     answer = replace(results.friction_result()[0], verdict='unexplained_structure')
     library = answer.stages[0].model.library
     best = max(answer.candidates, key=lambda c: c.gain)
@@ -173,12 +173,12 @@ def test_without_a_name_the_effect_that_comes_nearest_says_what_to_record():
 
 
 @pytest.mark.parametrize(
-    ('offset', 'is_told'), [(-101362.0, True), (-96e3, True), (-9e4, False), (101325.0, False)]
+    ('offset', 'is_reported'), [(-101362.0, True), (-96e3, True), (-9e4, False), (101325.0, False)]
 )
-def test_an_offset_of_the_pressure_of_the_air_is_told(offset, is_told):
+def test_an_offset_of_the_ambient_pressure_is_reported(offset, is_reported):
     name = 'up.effects.pressure_offset.offset'
-    told = of_absolute_pressures({name: results.estimate(offset, 0.01, 'Pa')}, 'pressure')
-    assert bool(told) is is_told
-    if told:
-        assert "'NAME=pressure_Pa-101325'" in told[0]
-        assert told[0].startswith(f'{name} = {offset:.6g} Pa is the pressure of the air')
+    sentences = of_absolute_pressures({name: results.estimate(offset, 0.01, 'Pa')}, 'pressure')
+    assert bool(sentences) is is_reported
+    if sentences:
+        assert "'NAME=pressure_Pa-101325'" in sentences[0]
+        assert sentences[0].startswith(f'{name} = {offset:.6g} Pa is the pressure of the air')

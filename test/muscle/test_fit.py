@@ -107,7 +107,7 @@ def test_agrees_with_a_general_least_squares_solver():
     np.testing.assert_allclose(fit.standard_errors, np.sqrt(np.diag(fit.covariance)))
 
 
-def test_censoring_uses_what_slack_says():
+def test_censoring_uses_the_information_of_slack():
     """A pull at one or two contractions a pressure: that the rest is slack says a lot."""
     some = P <= 2.0
     force = noisy(np.random.default_rng(8), slack=True)[some]

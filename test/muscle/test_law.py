@@ -49,7 +49,7 @@ def test_slope_stiffness_and_gain_are_the_derivatives_of_the_force():
     numeric = (law.force_v(P, KAPPA + h, *SI) - law.force_v(P, KAPPA - h, *SI)) / (2 * h)
     slope = law.slope_v(P, KAPPA, A1, A2, A3, A4)
     np.testing.assert_allclose(slope, numeric, rtol=1e-7)
-    assert np.all(slope < 0.0)  # the bracket of (2) is negative: the paper's sign is mended
+    assert np.all(slope < 0.0)  # the bracket of (2) is negative: the paper's sign is corrected
     np.testing.assert_allclose(law.stiffness_v(P, KAPPA, A1, A2, A3, A4, L0), -slope / L0)
     numeric = (law.force_v(P + 10.0, KAPPA, *SI) - law.force_v(P - 10.0, KAPPA, *SI)) / 20.0
     np.testing.assert_allclose(law.gain_v(KAPPA, A1, A3, A4, A5), numeric, rtol=1e-9)

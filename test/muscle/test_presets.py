@@ -48,7 +48,7 @@ def test_the_published_muscles_are_there():
 
 
 @pytest.mark.parametrize('path', MUSCLES + RIGS, ids=lambda path: path.stem)
-def test_every_preset_makes_a_rig_and_says_all_of_it(path):
+def test_every_preset_makes_a_rig_and_documents_it(path):
     values = load(path)
     # inside_diameter is of no use where there is no muscle.
     missing = OF_MUSCLE | OF_LOAD if path in MUSCLES else OF_MUSCLE - {'inside_diameter'}

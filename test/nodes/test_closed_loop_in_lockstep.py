@@ -109,13 +109,13 @@ def run_pam_control(busy):
     rig = {
         **RIG,
         **both,
-        'mass': 1.3,  # more than the controller is told
+        'mass': 1.3,  # more than is configured in the controller
         'sensor.position_noise': float(np.radians(0.02)),
         'initial.pressure': 2e5,
         'qos_overrides./joint_states.publisher.depth': 5000,
     }
-    # Control begins at the pressure that is there, however late that is heard.
-    told = {**both, 'use_sim_time': True, 'pressure_wait': 60.0}
+    # Control begins at the pressure that is there, however late that is received.
+    given = {**both, 'use_sim_time': True, 'pressure_wait': 60.0}
     with ExitStack() as stack:
         keep_busy(stack, busy)
         peer = stack.enter_context(Peer())
@@ -125,7 +125,7 @@ def run_pam_control(busy):
         peer.more(states)
         assert peer.call(SetBool, 'pam_sim/pause', data=True).success
         commands = peer.collect(Float64MultiArray, 'pressure_commands')
-        control = stack.enter_context(Program('pam_control', parameters=told))
+        control = stack.enter_context(Program('pam_control', parameters=given))
         peer.more(commands)  # it controls
         peer.publish(trajectory(), 'joint_trajectory')
         count = len(diagnostics)

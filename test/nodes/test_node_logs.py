@@ -152,7 +152,7 @@ def test_a_controller_waits_for_a_measured_pressure(peer):
         peer.until(lambda: watch.commands, 'commands')
 
 
-def test_an_excitation_says_where_it_plays_and_what_it_waits_for(peer):
+def test_an_excitation_logs_its_topics_and_what_it_waits_for(peer):
     given = {'duration': 60.0, 'countdown': 3.0}
     with Program('pam_excite', '-r', 'pressure_command:=valve', parameters=given) as excite:
         wait_for(peer, excite, 'commands: /valve, at 200 Hz; states: /joint_states')
@@ -171,7 +171,7 @@ def test_an_excitation_says_where_it_plays_and_what_it_waits_for(peer):
         assert excite.output.count('waits for the rig') == 1
 
 
-def test_a_recorder_says_what_it_records_and_where_to(peer, tmp_path, monkeypatch):
+def test_a_recorder_logs_its_topics_and_its_directory(peer, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     with Program('pam_record', '-r', '__ns:=/left') as record:
         wait_for(peer, record, 'records to recording_')

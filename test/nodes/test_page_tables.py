@@ -45,7 +45,7 @@ DRY_RUNS = [
 ]
 
 
-def told(page, name):
+def table_of(page, name):
     """Return what a part of a page says: name -> type, `/` before what is absolute."""
     found = {}
     for name_cell, type_cell, _ in rows(part(page, name)):
@@ -54,7 +54,7 @@ def told(page, name):
     return found
 
 
-ONE, SEVERAL = told(SIMULATOR, 'interface'), told(SIMULATOR, 'several')
+ONE, SEVERAL = table_of(SIMULATOR, 'interface'), table_of(SIMULATOR, 'several')
 OF_ALL = {name: kind for name, kind in ONE.items() if name.startswith(('/', '~'))}
 
 
@@ -99,13 +99,13 @@ def test_the_interface_is_that_of_the_running_simulator(peer, parameters, expect
 
 
 def test_the_interface_is_that_of_the_running_controller(peer):
-    expected = told(CONTROLLER, 'control')
+    expected = table_of(CONTROLLER, 'control')
     with Program('pam_control'):
         peer.until(lambda: expected.items() <= interface(peer, 'pam_control').items(), 'the table')
 
 
 def test_the_interface_is_that_of_the_running_controller_of_a_pair(peer):
-    expected = {**told(CONTROLLER, 'control'), **told(CONTROLLER, 'pair')}
+    expected = {**table_of(CONTROLLER, 'control'), **table_of(CONTROLLER, 'pair')}
     for of_one in ('pressure', 'pressure_command'):
         del expected[of_one]
     with Program('pam_control', parameters={'joint': 'antagonistic'}):
@@ -154,7 +154,7 @@ def later(peer, states):
     return states[-1]
 
 
-def test_the_first_commands_lead_where_the_page_says(peer):
+def test_the_first_commands_lead_to_the_result_on_the_page(peer):
     page = text_of(TEN_MINUTES)
     states = peer.collect(JointState, 'joint_states')
 

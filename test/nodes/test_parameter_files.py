@@ -76,7 +76,7 @@ def test_a_dump_starts_the_same_node_again(peer, tmp_path, program, rig):
 
 
 @pytest.mark.parametrize('program', ['pam_sim', 'pam_control'])
-def test_former_names_of_parameters_start_a_node_that_says_so(peer, tmp_path, program):
+def test_former_names_of_parameters_start_a_node_with_a_warning(peer, tmp_path, program):
     file = tmp_path / 'of_0_1_0.yaml'
     file.write_text(
         '/**:\n  ros__parameters:\n    joint_name: joint_1\n'

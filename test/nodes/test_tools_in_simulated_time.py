@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""``pam_excite`` and ``pam_record`` beside a simulator that makes the time."""
+"""``pam_excite`` and ``pam_record`` next to a simulator that makes the time."""
 
 import signal
 

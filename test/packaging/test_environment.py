@@ -14,7 +14,7 @@ import pytest
 SHELL_TOOLS = ('cat', 'cut', 'dirname', 'env', 'flock', 'mkdir', 'rm', 'sed', 'sh', 'sha256sum')
 SHELL_TOOLS += ('cp', 'sleep', 'touch')
 # In a folder of its own it is `python3`; the environment it makes has a copy of it. Its version,
-# and what it cannot do, are in files beside the checkout. It hangs without starting a program:
+# and what it cannot do, are in files next to the checkout. It hangs without starting a program:
 # dash loses a signal that comes to its child between `vfork` and `exec`.
 STAND_IN = """#!/bin/sh
 case "$*" in
@@ -113,13 +113,13 @@ def test_a_touched_input_is_no_change(checkout):
     assert checkout.set_up() == (0, [], '')
 
 
-def test_another_python_makes_it_anew(checkout):
+def test_another_python_makes_a_new_environment(checkout):
     checkout.set_up()
     checkout.set(version='3.12.0')
     assert checkout.set_up() == (0, ['venv', ALL], '')
 
 
-def test_a_moved_checkout_makes_it_anew(checkout):
+def test_a_moved_checkout_makes_a_new_environment(checkout):
     checkout.set_up()
     moved = checkout.folder.with_name('moved')
     checkout.folder.rename(moved)
@@ -128,7 +128,7 @@ def test_a_moved_checkout_makes_it_anew(checkout):
 
 
 @pytest.mark.parametrize('kind', [signal.SIGINT, signal.SIGKILL], ids=lambda kind: kind.name)
-def test_an_interrupted_set_up_is_done_anew(checkout, kind):
+def test_an_interrupted_set_up_is_repeated(checkout, kind):
     checkout.set(hang='')
     running = checkout.start()
     end = monotonic() + 60
@@ -160,7 +160,7 @@ def test_two_at_once_set_up_once(checkout):
     assert checkout.asked() == ['venv', ALL]
 
 
-def test_a_python_out_of_range_is_said(checkout):
+def test_a_python_out_of_range_is_refused_with_its_version(checkout):
     checkout.set(out_of_range='1')
     code, asked, complaint = checkout.set_up()
     assert (code, asked) == (1, [])

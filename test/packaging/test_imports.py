@@ -52,7 +52,7 @@ ROS = {
     *('rcl_interfaces', 'rclpy', 'rosgraph_msgs', 'sensor_msgs', 'std_msgs', 'std_srvs'),
     'trajectory_msgs',
 }
-# What the other rooms may import beside themselves and Python's own library.
+# What the other rooms may import in addition to themselves and Python's own library.
 ALLOWED = {
     *('jinja2', 'matplotlib', 'mcap', 'numba', 'numpy', 'rosbags', 'scipy'),
     *('simple_pid', 'tqdm', 'yaml'),
@@ -128,7 +128,7 @@ def test_rooms_import_from_lower_floors():
     assert upward(ARROWS) == set()
 
 
-def test_rooms_beside_the_nodes_see_no_ros():
+def test_packages_other_than_nodes_do_not_import_ros():
     for path in FILES:
         if not is_node(path):
             assert imported(ROOT / path) - sys.stdlib_module_names <= ALLOWED, path

@@ -25,12 +25,12 @@ each = pytest.mark.parametrize('path', LAUNCH_FILES, ids=lambda path: path.name)
 
 
 def programs():
-    told = {}
+    arguments = {}
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(setuptools, 'setup', told.update)
+        patch.setattr(setuptools, 'setup', arguments.update)
         patch.chdir(ROOT)
         runpy.run_path('setup.py')
-    return {script.split()[0] for script in told['entry_points']['console_scripts']}
+    return {script.split()[0] for script in arguments['entry_points']['console_scripts']}
 
 
 def parsed(path):

@@ -44,11 +44,11 @@ def package():
 def setup():
     """Return what setup.py tells setuptools."""
     with pytest.MonkeyPatch.context() as patch:
-        told = {}
-        patch.setattr(setuptools, 'setup', told.update)
+        arguments = {}
+        patch.setattr(setuptools, 'setup', arguments.update)
         patch.chdir(ROOT)
         runpy.run_path('setup.py')
-    return told
+    return arguments
 
 
 def third_party():

@@ -14,7 +14,7 @@ import pytest
 ROOT = Path(__file__).parents[2]
 FOLDER = '.venv/oldest'  # kept between runs, as tools/environment knows when it is out of date
 VERSIONS = ('3.12', '3.11', '3.10')  # what the oldest numpy and scipy have wheels for
-# Beside what needs ROS: the truth plant, which is no part of the package, judges itself only once.
+# What needs ROS, and the truth plant: it is not a part of the package, and is tested only once.
 NOT_PURE = ('nodes', 'packaging', 'truth')
 INSTALLATION_DEADLINE = 600.0  # s; both only bound how long something broken may hang
 TESTS_DEADLINE = 1200.0

@@ -95,7 +95,7 @@ def check_make(words):
         if target == 'bench':
             check_benchmarks(value.split())
         else:
-            # Options of pytest stand beside the paths.
+            # Options of pytest stand next to the paths.
             paths = [word for word in value.split() if not word.startswith('-')]
             assert all((ROOT / path).exists() for path in paths), value
 
@@ -124,10 +124,10 @@ BUILDERS = {
 
 def check_parameters(name, words):
     """Check that a program starts with the parameters of a command."""
-    told = [word.partition(':=') for flag, word in pairwise(words) if flag == '-p']
-    given = {parameter: yaml.safe_load(value) for parameter, _, value in told}
+    parts = [word.partition(':=') for flag, word in pairwise(words) if flag == '-p']
+    given = {parameter: yaml.safe_load(value) for parameter, _, value in parts}
     table = TABLES[name](given)
-    for parameter, _, value in told:
+    for parameter, _, value in parts:
         if not isinstance(given[parameter], list):
             given.update([override(f'{parameter}={value}', table)])
     assert given.keys() <= table.keys()
@@ -288,8 +288,8 @@ def test_files_that_a_page_names_exist_or_are_written(page):
     for name in {name for name in names(page) if FILE.fullmatch(name)} - OF_AN_EXAMPLE:
         here = list(ROOT.glob(name)) or list(ROOT.glob(f'[!.]*/**/{name}'))
         # What is not in the repository is left by a program of it, which then names it.
-        told = (f"'{name}'", f"'{Path(name).name}'")
-        assert here or any(one in sources() for one in told), name
+        texts = (f"'{name}'", f"'{Path(name).name}'")
+        assert here or any(one in sources() for one in texts), name
 
 
 @pytest.mark.parametrize('picture', sorted((ROOT / 'docs' / 'images').iterdir()), ids=str)

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What view.launch.py starts, with stand-ins for launch, and what RViz is told to show."""
+"""What view.launch.py starts, with stand-ins for launch, and the configuration of RViz."""
 
 from pathlib import Path
 

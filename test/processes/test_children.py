@@ -18,7 +18,7 @@ def test_a_program_that_ends_by_itself_gives_its_output_and_code():
     ('value', 'text'),
     [(True, 'true'), (20.0, '20.0'), ('vent', 'vent'), (('left', 'right'), '[left, right]')],
 )
-def test_parameters_are_told_as_ros_reads_them(value, text):
+def test_parameters_are_written_as_ros_reads_them(value, text):
     with Program('pam_identify', '-r', 'a:=b', parameters={'name': value}) as program:
         program.wait()
         given = program.process.args[program.process.args.index('--ros-args') :]

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What takes long is told of once, and what does not is not."""
+"""A long task is announced once, and a short one is not."""
 
 from threading import Event
 
@@ -9,21 +9,21 @@ import pytest
 from pam_ros.processes.notice import notice
 
 
-def test_what_takes_long_is_told_of_while_it_lasts():
-    told = Event()
-    with notice(0.01, told.set):
-        assert told.wait(60.0)
+def test_a_long_task_is_announced_while_it_runs():
+    announced = Event()
+    with notice(0.01, announced.set):
+        assert announced.wait(60.0)
 
 
-def test_what_ends_before_is_not_told_of():
-    told = Event()
-    with notice(0.2, told.set):
+def test_a_short_task_is_not_announced():
+    announced = Event()
+    with notice(0.2, announced.set):
         pass
-    assert not told.wait(0.4)
+    assert not announced.wait(0.4)
 
 
 def test_nor_is_what_fails():
-    told = Event()
-    with pytest.raises(ZeroDivisionError), notice(0.2, told.set):
+    announced = Event()
+    with pytest.raises(ZeroDivisionError), notice(0.2, announced.set):
         raise ZeroDivisionError
-    assert not told.wait(0.4)
+    assert not announced.wait(0.4)

@@ -65,7 +65,7 @@ def test_a_load_that_moves_is_free_though_its_force_is_measured():
     assert assemble('log', free(force=signal('f', 196.0 + np.sin(T))), []).kind == 'free'
 
 
-def test_a_length_that_is_moved_is_held_when_the_user_says_so():
+def test_a_length_that_is_moved_is_prescribed_if_the_user_states_it():
     series = free(force=signal('f', 196.0 + np.sin(T)))
     one = assemble('log', series, [], kind='held')
     assert one.kind == 'held'
@@ -156,7 +156,7 @@ def test_of_commands_at_one_time_the_last_holds():
     assert one.warnings == ('3 of 6 samples of u share their time with another: the last is kept',)
 
 
-def test_a_gap_is_known():
+def test_a_gap_is_recorded():
     keep = (T < 3.0) | (T >= 4.5)
     one = assemble('log', free(position=signal('y', np.sin(T[keep]), T[keep])), [])
     assert one.gaps == ((pytest.approx(2.99), pytest.approx(4.5)),)
@@ -199,7 +199,7 @@ def test_commands_at_each_change_are_no_stream():
         ),
     ],
 )
-def test_what_is_missing_is_said(series, kind, l0, words):
+def test_a_missing_signal_is_named(series, kind, l0, words):
     with pytest.raises(RecordingError) as caught:
         assemble('log', series, [], kind, l0)
     assert 'log' in str(caught.value) or 'kind' in str(caught.value)

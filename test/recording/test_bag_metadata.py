@@ -39,7 +39,7 @@ def test_names_that_yaml_would_read_as_something_else():
         assert found['files'][0]['path'] == name
 
 
-def test_a_bag_without_messages_begins_where_rosbag2_says():
+def test_a_bag_without_messages_has_the_start_time_of_rosbag2():
     found = parsed(TOPICS, {'/a': 0, '/b': 0}, None, [ListedFile.of('x', 0, None)], '')
     assert found['starting_time'] == {'nanoseconds_since_epoch': 2**63 - 1}
     assert found['duration'] == {'nanoseconds': 0}

@@ -143,7 +143,7 @@ def test_a_type_that_the_bag_defines_itself(tmp_path):
     assert (decoded.level, decoded.code) == (0.25, 7)
 
 
-def test_a_type_that_nothing_defines_is_said():
+def test_a_type_without_a_definition_is_reported():
     """As in a .db3 file of ROS 2 Humble."""
     with pytest.raises(RecordingError, match=r'lab_msgs/msg/Valve.* ros2 bag convert'):
         RosbagsDecoder()(Topic('lab_msgs/msg/Valve'), b'')
@@ -178,7 +178,7 @@ def test_a_file_that_only_has_the_name(tmp_path, name):
         open_bag(tmp_path / name)
 
 
-def test_a_length_beyond_the_end_of_an_unfinished_file_is_not_asked_for(tmp_path):
+def test_a_length_beyond_the_end_of_an_unfinished_file_is_not_read(tmp_path):
     """Reading it would take all memory."""
     magic = b'\x89MCAP0\r\n'
     (tmp_path / 'cut.mcap').write_bytes(magic + b'\1' + b'\xff' * 7 + b'\0' * 9)

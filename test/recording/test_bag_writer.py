@@ -235,7 +235,7 @@ def test_a_directory_that_cannot_be_made(tmp_path):
         BagWriter(tmp_path / 'file' / 'bag')
 
 
-def test_a_full_disk_is_said(tmp_path, monkeypatch):
+def test_a_full_disk_is_reported(tmp_path, monkeypatch):
     writer = BagWriter(tmp_path / 'bag')
     force = writer.add_topic(topic('/force', bags.FLOAT))
     put(writer, force, 1)

@@ -33,7 +33,7 @@ def test_the_work_of_a_cycle_is_the_area_of_its_loop():
     np.testing.assert_allclose(work, -2.0 * 5.0 * STROKE, rtol=0.02)
 
 
-def test_a_position_against_the_pull_is_turned_and_that_is_said():
+def test_a_position_against_the_pull_is_reversed_with_a_note():
     recording = held(150.0 + 5.0 * UP + NOISE[0], Y + 2e-5 * NOISE[1])
     turned = with_contraction_positive(recording)
     np.testing.assert_array_equal(turned.position, -recording.position)

@@ -42,7 +42,7 @@ def test_it_exists_from_the_first_put_on(file):
 
 
 @pytest.mark.parametrize(('count', 'size'), [(0, 0), (1, 10), (900, 1000), (9, 500_000)])
-def test_it_has_no_more_chunks_than_it_says(file, count, size):
+def test_it_has_no_more_chunks_than_its_summary_lists(file, count, size):
     """Large messages begin new chunks between two puts as well."""
     for _ in range(5):
         fill(file, count, size)

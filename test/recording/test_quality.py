@@ -42,7 +42,7 @@ def test_a_good_recording_has_no_warnings():
     assert check(held(), l0=0.4, p_max=6e5) == ()
 
 
-def test_a_muscle_that_is_held_may_be_sampled_slowly_and_the_unit_is_asked_for():
+def test_an_isometric_muscle_may_be_sampled_slowly_and_the_unit_is_requested():
     (warning,) = check(held(t=np.arange(T.size) * 1.0), l0=0.4, p_max=6e5)
     assert warning == 'samples are 1 s apart: is the time in another unit?'
 
@@ -136,7 +136,7 @@ def test_a_coarse_sensor():
     )
 
 
-def test_units_against_what_is_known_of_the_muscle():
+def test_units_are_compared_with_the_properties_of_the_muscle():
     assert 'position reaches' in only(recording(), l0=0.1)
     assert 'above p_max = 300000 Pa' in only(recording(), p_max=3e5)
 
@@ -195,7 +195,7 @@ def test_a_force_that_is_always_the_same():
     assert warning == 'force is 0 N in every sample: is the force cell connected?'
 
 
-def test_a_position_that_counts_the_other_way():
+def test_a_position_with_the_opposite_sign():
     turned = recording(position=0.12 - recording().position)
     assert only(turned).startswith('position falls where pressure_command rises')
     assert check(recording(position=0.05 + 1e-3 * np.sin(40.0 * T))) == ()  # of no direction

@@ -146,7 +146,7 @@ def test_names_of_columns_are_harmless_in_warnings(tmp_path):
     assert len(warning) < 300
 
 
-def test_a_pipe_is_refused_instead_of_waited_for(tmp_path):
+def test_a_pipe_is_refused_without_waiting(tmp_path):
     os.mkfifo(tmp_path / 'pipe.csv')
     with pytest.raises(RecordingError, match=r'pipe\.csv is neither a file nor a folder'):
         read_recording(tmp_path / 'pipe.csv')

@@ -44,7 +44,7 @@ def test_before_the_first_time_it_is_the_first(five_times_as_fast):
     assert five_times_as_fast.before(99 * SECOND) == 0
 
 
-def test_where_time_stands_still_or_begins_anew_nothing_lies_between():
+def test_where_time_stands_still_or_restarts_nothing_is_interpolated():
     time = SimulatedTime()
     for sent, now in ((10, 500), (20, 500), (30, 100)):
         time.tell(sent, now)

@@ -91,7 +91,7 @@ def test_no_cell_shows_the_inside_of_the_program(html):
         assert not re.search(rf'(?<![A-Za-z]){re.escape(bad)}(?![a-z])', text), bad
 
 
-def test_page_says_the_numbers_of_the_result(friction, friction_page):
+def test_page_has_the_numbers_of_the_result(friction, friction_page):
     result, _, _ = friction
     text = ' '.join(' '.join(outline(friction_page).text).split())
     assert 'Effect found : coulomb friction' in text.replace('found:', 'found :')
@@ -106,12 +106,12 @@ def test_page_says_the_numbers_of_the_result(friction, friction_page):
 
 
 @pytest.mark.parametrize('verdict', VERDICTS)
-def test_every_verdict_says_what_is_open(clean, verdict):
+def test_every_verdict_states_what_is_open(clean, verdict):
     sentences = not_excluded(replace(clean[0], verdict=verdict), Scale(1e3, 'mm'))
     assert len(sentences) == (0 if verdict == 'effect_found' else 1)
 
 
-def test_nothing_missing_says_what_would_not_be_seen(reports, clean):
+def test_the_verdict_that_nothing_is_missing_lists_what_would_not_be_found(reports, clean):
     html = (reports(clean) / 'report.html').read_text(encoding='utf-8')
     assert '<h1 id="verdict">Nothing missing</h1>' in html
     assert 'stay below the noise floor of 0.0500 mm' in html
@@ -145,7 +145,7 @@ def test_later_rounds_stand_below_the_first(friction):
 
 
 @pytest.mark.slow
-def test_what_the_data_cannot_show_is_said_with_what_to_record(held):
+def test_what_the_data_cannot_show_is_listed_with_the_experiment_to_record(held):
     result, *_ = held
     assert result.untestable == ('payload', 'end_stop')
     assert not {*result.untestable} & {*result.tested}
@@ -158,7 +158,7 @@ def test_what_the_data_cannot_show_is_said_with_what_to_record(held):
 
 
 @pytest.mark.slow
-def test_page_without_candidates_says_so(clean):
+def test_page_without_candidates_states_it(clean):
     result, source, runs = clean
     html = rendered((replace(result, candidates=(), next_experiment=''), source, runs))
     assert 'None: the data do not allow it.' in html
@@ -181,10 +181,10 @@ def test_load_without_a_muscle_has_an_input_and_a_position(friction, friction_pa
     assert 'contraction, %' not in html
 
 
-def test_warnings_are_told_once_with_the_recording_they_are_about(tested):
+def test_each_warning_is_shown_once_with_its_recording(tested):
     result, source, _ = tested
-    told = (*result.warnings, *(w for r in source.recordings for w in r.warnings))
-    found = warnings_of(replace(result, warnings=told), source)
+    all_warnings = (*result.warnings, *(w for r in source.recordings for w in r.warnings))
+    found = warnings_of(replace(result, warnings=all_warnings), source)
     assert found == [('', 'the position covers 11 % of the stroke'), ('bench.csv', '1 gap(s)')]
 
 

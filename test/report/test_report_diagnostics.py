@@ -31,7 +31,7 @@ def test_size_pools_runs_and_is_nan_without_any():
 
 
 @pytest.mark.parametrize('rho', [0.0, 0.9])
-def test_interval_of_rmse_holds_the_truth_as_often_as_it_says(rho):
+def test_interval_of_rmse_contains_the_true_value_at_its_stated_rate(rho):
     rng = np.random.default_rng(1)
     hits = 0
     for _ in range(400):
@@ -123,7 +123,7 @@ def test_coherence_is_high_where_related_and_below_its_level_elsewhere():
     assert f[-1] == pytest.approx(50.0)
 
 
-def test_nothing_is_said_about_a_residual_that_is_nothing():
+def test_a_residual_of_zero_has_no_statement():
     zero = [np.zeros(500)]
     assert np.all(diagnostics.autocorrelation(zero, 5)[0] == 0.0)
     assert np.all(diagnostics.cross_correlation([np.arange(500.0)], zero, 3, 3)[0] == 0.0)

@@ -74,7 +74,7 @@ def test_constants_stay_in_the_units_of_their_source(friction, tmp_path):
     assert 're-tuned on bench.csv' in model.muscle.source
 
 
-def test_comment_says_where_it_comes_from(tested, tmp_path):
+def test_comment_names_the_source_of_the_value(tested, tmp_path):
     reloaded(tested, tmp_path)
     lines = (tmp_path / 'identified.yaml').read_text(encoding='utf-8').splitlines()
     comment = [line for line in lines if line.startswith('#')]

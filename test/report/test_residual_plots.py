@@ -59,7 +59,7 @@ def test_levels_get_a_bin_each():
     assert mean[-3:].tolist() == [1.0, 4.0, 9.0]
 
 
-def test_rising_and_falling_are_told_apart(loop_run):
+def test_rising_and_falling_are_distinguished(loop_run):
     with style.styled():
         figure = residual_plots.by_direction([loop_run], BOTH, MM, KPA, 'pressure, kPa')
     up, down = lines(figure)[:2]

@@ -8,7 +8,7 @@ from pam_ros.identification.result import Estimate
 from pam_ros.report.summary import added, last_line
 
 
-def test_line_says_verdict_and_errors(friction):
+def test_line_has_verdict_and_errors(friction):
     result, _, _ = friction
     line = last_line(result)
     assert line.startswith('effect_found (coulomb_friction): held-out error ')
@@ -18,7 +18,7 @@ def test_line_says_verdict_and_errors(friction):
     assert '\n' not in line
 
 
-def test_line_says_since_when(friction):
+def test_line_has_the_onset(friction):
     since = Estimate(12.5, 12.4, 12.6, 's')
     line = last_line(replace(friction[0], since=since))
     assert line.startswith('effect_found (coulomb_friction from 12.50 s (12.40 to 12.60 s) on): ')

@@ -57,7 +57,7 @@ def loops(effects, active, transmission=Straight.equations, load=Mass.equations,
 
 
 @pytest.mark.skipif(not HAVE_NUMBA, reason='nothing is kept on disk without numba')
-def test_kernels_on_disk_are_told_apart_by_code_and_place():
+def test_kernels_on_disk_are_distinguished_by_code_and_place():
     one, other = effect_of(SOURCE), effect_of(SOURCE.replace('f - q[j]', 'f + q[j]'))
     names = loops((one,), (one,))
     again = effect_of(SOURCE)

@@ -108,8 +108,8 @@ def test_a_command_that_has_acted_has_acted_whatever_delay_begins():
     np.testing.assert_array_equal(run.pressure, p)
 
 
-def test_a_muscle_gets_friction_and_a_load_on_the_way_down():
-    """The paper's muscle against DOP853, which begins anew at the moment with the other load."""
+def test_a_muscle_gets_friction_and_a_load_while_the_load_falls():
+    """The paper's muscle against DOP853, which begins again at the moment with the other load."""
     muscle, more, c, onset = Muscle(zeta=0.05), 4.0, 30.0, 0.3137
     effects = [Payload(mass=more, onset=onset), ViscousFriction(coefficient=c, onset=onset)]
     t = np.linspace(0.0, 1.0, 201)

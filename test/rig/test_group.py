@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Joints beside each other in one rig: each is to the bit what it is alone."""
+"""Joints next to each other in one rig: each is to the bit what it is alone."""
 
 import numpy as np
 import pytest
@@ -53,7 +53,7 @@ def state(rig, joints_at, muscles_at):
     )
 
 
-# One kernel knows the effects of its own joints: those of another library are beside it.
+# One kernel knows the effects of its own joints: another library has its own.
 SWINGS = single_muscle_joint(
     effects=[smooth_supply.SmoothSupply(mean=3e5)], library=(smooth_supply.SmoothSupply,)
 )
@@ -79,8 +79,8 @@ RIGS = {
 
 
 @pytest.mark.parametrize('mixed', RIGS.values(), ids=RIGS)
-def test_each_joint_is_what_it_is_alone(mixed):
-    """To the bit, with effects and without, whatever stands beside it in the rig."""
+def test_each_joint_of_a_group_moves_as_it_does_alone(mixed):
+    """To the bit, with effects and without, whatever else is in the rig."""
     muscles = sum(len(joint.muscles) for joint in mixed)
     commands = np.random.default_rng(1).uniform(0.0, 6e5, (8, muscles))
     together = driven(mixed, commands)

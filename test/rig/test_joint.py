@@ -140,7 +140,7 @@ def test_what_makes_no_joint_is_refused_with_a_sentence(parts, sentence):
     assert str(error.value).startswith(sentence)
 
 
-def test_only_one_muscle_can_be_asked_for_as_the_muscle():
+def test_the_single_muscle_exists_only_for_one_muscle():
     with pytest.raises(ParameterError, match='this joint has 2 muscles, not one'):
         _ = pair().muscle
 

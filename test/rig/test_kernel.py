@@ -189,7 +189,7 @@ def test_the_order_of_convergence_is_four(swing):
 
 @pytest.mark.parametrize('case', [ALONE, TWO], ids=['one muscle', 'pair'])
 def test_a_staircase_of_commands_is_within_a_nanometre_of_dop853(case):
-    """Commands at 50 Hz, each held to the next: the solver starts anew at each."""
+    """Commands at 50 Hz, each held to the next: the solver starts again at each."""
     muscles = len(case.joint.muscles)
     start = 0.0 if case is TWO else equilibrium(case.joint, 3e5)
     rigs = [Simulation([case.joint], step) for step, _ in case.bounds]

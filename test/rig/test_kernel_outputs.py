@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What a rig shows beside its motion, by the equations of each joint."""
+"""What a rig publishes in addition to its motion, by the equations of each joint."""
 
 import numpy as np
 import pytest

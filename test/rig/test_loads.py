@@ -20,7 +20,7 @@ EACH = pytest.mark.parametrize('load', [Mass(mass=12.0), Arm(hanging_at=0.3)], i
 
 
 @EACH
-def test_it_has_as_many_numbers_as_it_says(load):
+def test_it_has_the_number_of_parameters_that_it_declares(load):
     assert len(load.numbers) == load.equations.numbers
 
 

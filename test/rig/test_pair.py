@@ -58,7 +58,7 @@ def test_the_piece_is_what_the_limits_leave_of_the_line(two, tau, share):
     assert pair.pressures(one, other, tau, k)[0] == pytest.approx(p, rel=1e-6, abs=1.0)
 
 
-def test_muscles_that_pull_the_same_way_alike_have_no_stiffness_to_choose():
+def test_equal_muscles_that_pull_in_the_same_direction_have_no_free_stiffness():
     one = Line(-3.0, 1e-4, 5.0, 2e-5)
     assert pair.is_settled(one, one)
     assert not pair.is_settled(one, one._replace(b=-1e-4))

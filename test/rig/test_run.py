@@ -104,7 +104,7 @@ def parabolas(t, command_t, command, y, v, delay=0.0):
     return np.array(found).T
 
 
-# In whole microseconds: a command within 1 ns of a sample may act beside it.
+# In whole microseconds: a command within 1 ns of a sample may act one sample off.
 stamp = st.integers(0, 100_000).map(lambda n: n * 1e-6)
 stamps = st.lists(stamp, min_size=1, max_size=12).map(sorted)
 
@@ -280,7 +280,7 @@ def test_each_held_muscle_feels_its_pressure_after_its_own_dead_time():
 
 
 @pytest.mark.slow
-def test_held_muscles_remember_apart_and_friction_of_the_joint_is_not_felt():
+def test_isometric_muscles_have_separate_memories_and_no_friction_of_the_joint():
     """Slip of one muscle over its own contraction, at any step; the load's effects are none."""
     slip = [Hysteresis(slip=9.0, slip_width=0.02, slip_onset=1.0)]
     t = np.linspace(0.0, 1.0, 201)
@@ -365,7 +365,7 @@ def test_what_acts_on_the_load_alone_is_not_in_the_force_of_a_machine():
 
 
 def test_friction_of_a_wheel_is_not_in_the_force_of_its_muscles():
-    """The force cells are at the ends of the muscles, the bearing is beside them."""
+    """The force cells are at the ends of the muscles, the bearing is not."""
     t = np.linspace(0.0, 2.0, 201)
     angle, p = 0.2 * np.sin(3.0 * t), np.full((t.size, 2), 2e5)
     rubs = [CoulombFriction(level=2.0), ViscousFriction(coefficient=1.0)]

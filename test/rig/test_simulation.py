@@ -128,30 +128,30 @@ def test_a_command_acts_when_its_dead_time_is_over(delay, late):
     assert rig.pressure[0] == 4e5
 
 
-def test_each_muscle_of_a_joint_hears_its_own_command_after_its_own_dead_time():
+def test_each_muscle_of_a_joint_gets_its_own_command_after_its_own_dead_time():
     late = pair(effects=([DeadTime(delay=0.003)], [DeadTime(delay=0.005)]))
     rig = Simulation([single_muscle_joint(), late])
     rig.command([1e5, 2e5, 3e5])
-    heard = []
+    received = []
     for _ in range(7):
         rig.advance()
-        heard.append(rig.pressure)
+        received.append(rig.pressure)
     expected = np.zeros((7, 3))
     expected[:, 0], expected[3:, 1], expected[5:, 2] = 1e5, 2e5, 3e5
-    np.testing.assert_array_equal(heard, expected)
+    np.testing.assert_array_equal(received, expected)
 
 
 def test_all_commands_of_a_long_dead_time_arrive_in_order():
     """A second of delay with a command at each step: a thousand are under way."""
     rig = Simulation([single_muscle_joint(effects=[DeadTime(delay=1.0)])] * 2)
-    heard = []
+    received = []
     for k in range(2200):
         rig.command([100.0 * k, 50.0 * k])
         rig.advance()
-        heard.append(rig.pressure)
-    heard = np.array(heard)
+        received.append(rig.pressure)
+    received = np.array(received)
     expected = 100.0 * np.maximum(np.arange(2200) - 1000.0, 0.0)
-    np.testing.assert_array_equal(heard, np.stack([expected, 0.5 * expected], axis=1))
+    np.testing.assert_array_equal(received, np.stack([expected, 0.5 * expected], axis=1))
 
 
 def test_the_last_of_several_commands_at_one_moment_counts():
@@ -175,7 +175,7 @@ def test_one_muscle_can_be_commanded_alone():
     np.testing.assert_array_equal(rig.pressure, [1e5, 2e5, 6e5])
 
 
-def test_reset_goes_to_any_state_and_forgets_the_commands_under_way():
+def test_reset_goes_to_any_state_and_forgets_the_delayed_commands():
     rig = Simulation([pair(effects=(DELAY, LAG)), single_muscle_joint()])
     rig.command(4e5)
     rig.advance(3)

@@ -138,7 +138,7 @@ def test_what_creeps_begins_unrelaxed_and_relaxes():
     np.testing.assert_allclose(run.force, -0.05 * np.exp(-t / 0.5), atol=5e-5)
 
 
-def test_nothing_is_moved_where_nothing_is_said():
+def test_without_a_start_nothing_is_moved():
     joint = single_muscle_joint(effects=LAG)
     bare, said = (simulate(joint, T, [0.0], [3e5], hidden=hidden) for hidden in (None, {}))
     for one, other in zip(vars(bare).values(), vars(said).values(), strict=True):
@@ -191,7 +191,7 @@ def test_a_run_may_begin_with_every_hidden_state_two_spreads_away(effect, sign):
     assert away[-1] < 0.5 * np.max(away)
 
 
-def test_spreads_are_there_where_a_state_is_not_known_beforehand():
+def test_states_that_are_not_known_beforehand_have_spreads():
     """Names of one effect's states differ; a spread of 0 says that a state is always known."""
     for effect in EFFECTS:
         names = [state.name for state in effect.states]

@@ -123,7 +123,7 @@ def test_pressures_are_one_a_muscle_or_one_for_all():
         statics.each(joint, [1.0, 2.0, 3.0])
 
 
-def test_a_joint_without_an_equilibrium_says_what_is_left_over():
+def test_a_joint_without_an_equilibrium_reports_the_remaining_force():
     class Heavy:
         """A mechanism that is not checked as a joint is: a thousand times the weight."""
 
@@ -154,7 +154,7 @@ def test_a_muscles_push_counts_as_none_in_the_pull():
 
 
 def test_a_load_that_stands_on_soft_muscles_falls_to_either_side():
-    """Upside down, without pressure, the upright is unstable: the rest is beside it."""
+    """Upside down, without pressure, the upright is unstable: the rest is near it."""
     heavy = {'mass': 6.0, 'hanging_at': np.pi, 'contraction_1': 0.1, 'contraction_2': 0.1}
     joint = pair(BOTH_LONG, **heavy)
     assert statics.stiffness(joint, 0.0, 0.0) + statics.weight_stiffness(joint, 0.0) < 0.0

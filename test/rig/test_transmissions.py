@@ -36,7 +36,7 @@ def functions(transmission):
 
 
 @EACH
-def test_it_has_as_many_numbers_as_it_says(transmission):
+def test_it_has_the_number_of_parameters_that_it_declares(transmission):
     assert len(transmission.numbers) == transmission.equations.numbers
 
 
@@ -149,7 +149,7 @@ def test_beyond_a_dead_centre_the_coordinate_stays_short_of_it():
 
 
 def test_a_lever_with_a_far_anchor_is_a_pulley_for_small_angles():
-    """Square to its muscle and long beside its crank, its arm is the crank."""
+    """Square to its muscle and long compared with its crank, its arm is the crank."""
     travel, arm, arm_slope, _ = functions(Lever(0.04, 20.0, 0.5 * math.pi))
     assert arm(0.0, 0) == pytest.approx(0.04, rel=1e-5)
     assert arm(0.0, 1) == pytest.approx(-0.04, rel=1e-5)

@@ -57,7 +57,7 @@ def test_another_angle_replaces_that_of_the_file(file):
     assert nominal_joint(file, ['braid.angle=23']).joint.muscle == wanted
 
 
-def test_a_constant_beside_it_comes_before(file):
+def test_an_explicit_constant_has_precedence(file):
     muscle = load_joint(file, a2=200.0).muscle
     assert (muscle.a1, muscle.a2, muscle.a6) == (MUSCLE.a1, 200.0, MUSCLE.a6)
     write(file, {**FILE, 'a2': 200.0})

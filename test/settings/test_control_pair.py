@@ -55,7 +55,7 @@ def test_a_pair_of_every_muscle_can_be_controlled(muscle):
     assert now.can_stiffen
 
 
-def test_one_muscle_is_what_it_was():
+def test_a_joint_of_one_muscle_is_unchanged():
     table, build = settings_of({})
     assert 'co_contraction' not in table
     assert 'radius' not in table

@@ -87,7 +87,7 @@ def test_every_muscle_of_the_package_is_found(name):
     assert find(name) == ROOT / 'config' / 'muscles' / f'{name}.yaml'
 
 
-def test_an_unknown_muscle_is_refused_with_the_names_that_there_are():
+def test_an_unknown_muscle_is_refused_with_the_known_names():
     with pytest.raises(ParameterError, match=r'dmsp_99 is neither .* dmsp_20_400n'):
         find('dmsp_99')
 

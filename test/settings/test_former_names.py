@@ -105,7 +105,7 @@ def file(tmp_path):
     return made
 
 
-def test_a_file_makes_the_joint_of_both_effects_and_says_so_once(file, caplog):
+def test_a_file_makes_the_joint_with_both_effects_and_one_warning(file, caplog):
     path = file(OLD)
     with caplog.at_level(logging.WARNING, 'pam_ros'):
         joints = [load_joint(path) for _ in range(2)]

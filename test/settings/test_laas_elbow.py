@@ -44,7 +44,7 @@ def test_both_muscles_have_the_initial_contraction_in_the_middle(elbow):
     assert high > 2.0
 
 
-def test_it_says_how_exactly_its_values_are_known(elbow):
+def test_it_states_the_uncertainty_of_its_values(elbow):
     found = spread_unknowns(elbow.joint, elbow.muscles, uncertain_values('laas_elbow'))
     known = {unknown.name: unknown for unknown in found}
     bladder = known['agonist.a2']

@@ -49,7 +49,7 @@ def test_muscles_that_differ_stand_behind_their_names(tmp_path):
     assert again.present == joint.present
 
 
-def test_what_is_known_of_a_parameter():
+def test_the_uncertainty_of_a_parameter():
     nominal = nominal_joint(ANTAGONISTIC, NAMED)
     assert nominal.unit('effects.coulomb_friction.level') == 'N m'
     assert nominal.unit('extensor.l0') == nominal.unit('l0') == 'm'

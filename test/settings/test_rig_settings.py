@@ -109,7 +109,7 @@ def flat_of(joint):
     return NominalJoint(joint, LOAD, ('muscle',), 'muscle').flat()
 
 
-def test_the_rig_of_a_file_is_the_one_that_is_simulated(file):
+def test_the_rig_of_a_file_is_simulated(file):
     """Of a file of all values as well, whose effects of no strength are not present."""
     path = file(f'mass: 7, {RUBS}: 12')
     scene = Scene({'muscle': path})

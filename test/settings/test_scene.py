@@ -27,7 +27,7 @@ def built(**given):
     return of(given)
 
 
-def test_one_is_what_it_was():
+def test_a_scene_of_one_muscle_is_unchanged():
     now = built(mass=12.0, joint_name='arm')
     assert (now.joint_names, now.muscle_names, now.is_one) == (('arm',), ('arm',), True)
     assert now.joints[0].load.mass == 12.0

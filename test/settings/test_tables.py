@@ -40,7 +40,7 @@ def inside(about):
 
 
 def test_the_table_has_every_effect_parameter_and_no_name_twice():
-    # Each effect has an onset beside its own parameters.
+    # Each effect has an onset in addition to its own parameters.
     assert len(effects_table()) == sum(len(effect.parameters()) + 1 for effect in EFFECTS)
     assert len(TABLE) == len(table_of(Muscle)) + len(table_of(Mass)) + len(effects_table())
     some = {'a1', 'zeta', 'mass', 'mount', 'effects.payload.mass', 'effects.payload.onset'}

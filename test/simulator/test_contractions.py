@@ -65,7 +65,7 @@ def test_within_the_limit_and_its_margin_there_is_none():
     assert found.count == 0
 
 
-def test_a_muscle_that_is_driven_beyond_is_told_with_name_contraction_and_limit():
+def test_a_contraction_beyond_the_limit_is_reported_with_muscle_value_and_limit():
     rig = plant(mass=1.0, initial__pressure=600e3)
     kappa = rig.read_one()[0] / rig.setup.muscles[0].l0
     assert kappa > 0.26
@@ -76,7 +76,7 @@ def test_a_muscle_that_is_driven_beyond_is_told_with_name_contraction_and_limit(
     assert health.values['largest contraction beyond kappa_max'] == pytest.approx(kappa)
 
 
-def test_of_several_the_one_that_exceeds_its_own_limit_is_told():
+def test_of_several_muscles_the_one_beyond_its_own_limit_is_reported():
     given = {'initial.pressure': 300e3, 'mass': 20.0, 'right.kappa_max': 0.1}
     rig = plant(muscles=('left', 'right'), **given)
     rig.read()

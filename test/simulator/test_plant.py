@@ -40,7 +40,7 @@ def readings(rig, steps, stride=2):
 
 # The integrator is of fourth order: four times the rate, 256 times the accuracy.
 @pytest.mark.parametrize(('rate', 'tolerance'), [(1000.0, 2e-9), (4000.0, 1e-11)])
-def test_a_released_load_moves_as_the_adaptive_solver_says(rate, tolerance):
+def test_a_released_load_moves_as_in_the_adaptive_solver(rate, tolerance):
     rig = Plant(simulation({**RELEASED, 'physics_rate': rate}))
     y, v, p, force, stiffness, _ = readings(rig, round(3 * rate))
     expected = moved(600e3, 0.0, 0.0, np.arange(y.size) * 2.0 / rate)
@@ -66,7 +66,7 @@ def test_a_command_acts_from_its_step_on():
     assert p == 400e3
 
 
-def test_one_muscle_is_read_the_same_both_ways():
+def test_both_readings_of_one_muscle_are_equal():
     rig = Plant(simulation(RELEASED))
     rig.advance(200)
     one, many = rig.read_one(), rig.read()
@@ -124,7 +124,9 @@ def test_silence_vents_or_holds_its_muscle_alone_and_a_new_command_is_obeyed(on_
 
 @pytest.mark.parametrize('stride', [1, 20, 500])
 @pytest.mark.parametrize('physics_rate', [500.0, 1000.0, 4000.0])
-def test_a_silent_muscle_vents_evenly_however_often_it_is_read(physics_rate, stride):
+def test_a_muscle_without_commands_vents_at_the_same_rate_however_often_it_is_read(
+    physics_rate, stride
+):
     rig = plant(physics_rate=physics_rate, publish_rate=1.0, command_timeout=0.5, vent_time=1.0)
     rig.take(0, 400e3)
     seconds = np.arange(1, round(2.0 * physics_rate) + 1) / physics_rate

@@ -28,14 +28,14 @@ def test_a_vacuum_is_let_in():
     assert venting(a0=-60).move(0.5) == pytest.approx({0: -45e3})
 
 
-def test_one_that_is_commanded_vents_no_longer():
+def test_a_muscle_that_is_commanded_stops_venting():
     valves = venting(a0=300, a1=200)
     valves.end(0)
     valves.end(7)
     assert valves.move(1.0) == pytest.approx({1: 100e3})
 
 
-def test_one_that_rests_already_is_done_at_once():
+def test_a_muscle_at_rest_is_vented_at_once():
     valves = venting(a0=0)
     assert valves.move(1e-3) == {0: 0.0}
     assert not valves

@@ -64,7 +64,7 @@ def rest(p, weight=MASS * G):
 
 
 def solved(rhs, t, state, commands=((0.0, 0.0),), **options):
-    """Integrate ``rhs(t, state, u)`` adaptively, anew after each command; return (states, t).
+    """Integrate ``rhs(t, state, u)`` adaptively, restarted after each command; return (states, t).
 
     commands: (stamp, value) pairs, ascending, the first at or before t[0].
     """

@@ -14,10 +14,10 @@ from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 
 from pam_ros.control.signals import TERMS
 
-# For a controller in lockstep whose terms are all to be heard, however late.
+# For a controller in lockstep whose terms are all to be received, however late.
 LOSE_NO_TERMS = {'qos_overrides./pam_control/state.publisher.depth': 20_000}
-SOON = 0.05  # s of simulated time in which something told shows, but on a busy machine
-LONGEST = 10.0  # s of it that something told may take to show
+SOON = 0.05  # s of simulated time in which a setting shows, but on a busy machine
+LONGEST = 10.0  # s of it that a setting may take to show
 QUIET = 0.2  # s without a message after which none is under way any more
 
 
@@ -36,16 +36,16 @@ class Watch:
     def refer(self, position):
         self.peer.publish(Float64(data=position), 'position_reference')
 
-    def lead(self, tell, seconds, term='reference'):
-        """Do *tell*(); return the terms of some *seconds* from when *term* has left its value.
+    def lead(self, action, seconds, term='reference'):
+        """Call *action*; return the terms of *seconds* s from the first change of *term* on.
 
-        In lockstep. Time stands still while something is told, and again and again until all that
-        was before is heard: it does not run away from a listener who is late.
+        In lockstep: time stands still during the action, and in intervals until all earlier terms
+        have been received, so that a late subscriber misses nothing.
         """
         self._stop()
         i, k = self.names.index(term), len(self.terms) - 1
         rest = self.terms[k].position[i]
-        tell()
+        action()
         begin = stamp(self.terms[k])
         while self.terms[k].position[i] == rest:
             assert stamp(self.terms[k]) < begin + LONGEST, f'{term} stays at {rest}'
@@ -94,7 +94,7 @@ class Watch:
 
         return self.peer.until(find, what)
 
-    def falls_silent(self):
+    def stops_publishing(self):
         """Wait until no command comes from one word of the diagnostics to the next but one."""
         count = -1
         while count != (count := len(self.commands)):

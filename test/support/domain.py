@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""A ROS domain for each test of nodes, in which nobody else on this machine is heard.
+"""A ROS domain for each test of nodes, in which nobody else on this machine is present.
 
 The programs of a domain find each other on UDP ports that follow from its number.
 ``discovery.xml`` moves these ports away from those of programs that do not load it, and a domain
@@ -19,19 +19,19 @@ from xml.etree import ElementTree
 
 DISCOVERY = Path(__file__).with_name('discovery.xml')
 DOMAINS = range(1, 101)  # 0 is everybody's; above 100 the ports meet Linux' ephemeral ones
-PATIENCE = 10.0  # s that the programs of a test may take to end once they were told to
+PATIENCE = 10.0  # s that the programs of a test may take to end once they were stopped
 TURN = 0.02  # s
 NOT_CLAIMED = 'claimed by no test: it has to use the fixture domain'
 _turns = count(os.getpid())
 
 
-def _told(name: str) -> int:
+def _constant_of(name: str) -> int:
     """Return a number of the port mapping in the file that all programs of the tests load."""
     (element,) = ElementTree.parse(DISCOVERY).iter(f'{{http://www.eprosima.com}}{name}')
     return int(element.text or '')
 
 
-FIRST_PORT, PORTS_A_DOMAIN = _told('portBase'), _told('domainIDGain')
+FIRST_PORT, PORTS_A_DOMAIN = _constant_of('portBase'), _constant_of('domainIDGain')
 
 
 def ports_of(domain: int) -> range:
@@ -58,13 +58,13 @@ def programs_in(domain: int) -> list[int]:
     found = []
     for folder in Path('/proc').glob('[0-9]*'):
         try:
-            told = (folder / 'environ').read_bytes().split(b'\0')
+            variables = (folder / 'environ').read_bytes().split(b'\0')
         except OSError:  # it has ended meanwhile, or is another user's
             continue
-        if wanted in told and any(
+        if wanted in variables and any(
             one.startswith(b'FASTRTPS_DEFAULT_PROFILES_FILE=')
             and one.endswith(os.fsencode(DISCOVERY.name))
-            for one in told
+            for one in variables
         ):
             found.append(int(folder.name))
     return found

@@ -45,7 +45,7 @@ class ExampleController(Node):
         stamp = state.header.stamp.sec * 10**9 + state.header.stamp.nanosec
         if self.ended:
             return
-        if stamp == self._last:  # told again, before it had heard the answer
+        if stamp == self._last:  # published again, before the answer arrived
             self._command.publish(self._said)
             return
         if len(self.rows) == 1:

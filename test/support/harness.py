@@ -17,7 +17,7 @@ from pam_ros.nodes.demo.rig_log import TOPICS
 from pam_ros.processes.children import PATIENCE as DEADLINE
 from pam_ros.processes.children import Program
 
-# s; it only bounds how long a broken program may hang a test, also beside busy programs.
+# s; it only bounds how long a broken program may hang a test, also next to busy programs.
 PEER_DEADLINE = 240.0
 HISTORY = 5000  # messages that a simulator keeps for a late subscriber: 10 s at 500 Hz
 

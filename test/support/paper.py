@@ -4,7 +4,7 @@
 
 Nothing here uses the package: p in bar, kappa in percent, displacement x in m downwards from the
 length at rest, as Sárosi (2015) has them, for the DMSP-20-400N. The sign under the root of
-equation (4) is mended, since the bracket is negative.
+equation (4) is corrected, since the bracket is negative.
 """
 
 import math
@@ -27,7 +27,7 @@ def bracket(p, kappa):
 
 
 def stiffness(p, kappa):
-    """Equation (2), N/m: the bracket is per percent of L0, and its sign is mended."""
+    """Equation (2), N/m: the bracket is per percent of L0, and its sign is corrected."""
     return -bracket(p, kappa) / (L0 / 100.0)
 
 

@@ -27,7 +27,7 @@ def found_in(
     model=None,
     budget=BUDGET,
 ):
-    """Return a search that has found the effect, and nothing beside it, by its first move.
+    """Return a search that has found the effect, and nothing else, by its first move.
 
     *fit* and *choose* are where these parts end; with *spoil*, what judges is gone.
     """

@@ -27,7 +27,7 @@ PARAMETERS = {
     'pam_sim': {'publish_rate': RATE, 'command_timeout': AWAY, 'initial.pressure': 250e3},
     'pam_control': {'rate': RATE, 'command_timeout': AWAY, 'state_timeout': AWAY},
 }
-ASKED = 'pam_control/state'  # is recorded beside the topics of each rig
+ASKED = 'pam_control/state'  # is recorded in addition to the topics of each rig
 RECORDED = [
     *('/damping', '/force', '/joint_states', f'/{ASKED}', '/pressure', '/pressure_command'),
     '/stiffness',
@@ -41,7 +41,7 @@ STOPPING = 0.05  # s at its speed in which the law stops a load that was falling
 
 
 class Station:
-    """The three programs, and what was heard of them; ``bag`` is the one that is recorded now."""
+    """The three programs, and their messages; ``bag`` is the one that is recorded now."""
 
     def __init__(self, peer, folder: Path, **parameters):
         """Start nothing yet; *parameters* are given to all programs."""

@@ -61,7 +61,7 @@ def test_a_late_turn_loses_no_simulated_time():
     assert clocks.pace.origin == START
 
 
-def test_catching_up_is_bounded_and_what_is_lost_is_told():
+def test_catching_up_is_bounded_and_skipped_periods_are_reported():
     clocks = Clocks()
     assert clocks.passes(3 * SECOND) == 500
     assert clocks.pace.lost == pytest.approx(2.5)

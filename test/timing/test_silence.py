@@ -17,7 +17,7 @@ DELAY = 300_000  # ns that a message takes
 
 
 class Bench:
-    """A process that does its work each period, and a sensor beside it that measures each one."""
+    """A process that does its work each period, and a sensor next to it that measures each one."""
 
     def __init__(self):
         self.now = 50 * SECOND
@@ -63,7 +63,7 @@ def test_a_silence_in_the_middle_of_the_work_is_found_once(bench):
 
 
 def test_turns_without_work_are_one_silence(bench):
-    # It is held up twice, and between that it does no work: the rig heard nothing all the time.
+    # It is held up twice, and between that it does no work: the rig received nothing all the time.
     assert bench.sleep(600 * MS) == 0
     assert bench.sleep(600 * MS) == 1200 * MS
 

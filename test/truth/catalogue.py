@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The one table of what a truth plant may have beside its muscle, with magnitudes.
+"""The one table of what a truth plant may have in addition to its muscle, with magnitudes.
 
 A kind may come in several forms: other equations for the same physical effect. `small` and
 `large` bound what a blind trial draws, log-uniformly when both are positive. What
@@ -104,7 +104,7 @@ _FORMS = (
         free=False,
     ),
     Form(
-        'creep',  # two Maxwell branches beside the muscle
+        'creep',  # two Maxwell branches next to the muscle
         'strain',
         {
             'maxwell_1_n_m': R(600.0, 200.0, 1500.0),

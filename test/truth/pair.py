@@ -163,7 +163,7 @@ class TruthPair:
     def reset(self, angle: float, p0: tuple[float, float]) -> None:
         """Put it at an angle in rad, at rest, with chambers at p0 (Pa) and virgin memory.
 
-        The noise begins anew with its seed.
+        The noise begins again with its seed.
         """
         self.sensor.reset(self.seed)
         G = self.state

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The truth plant: a muscle, a load and what they have beside the paper's model."""
+"""The truth plant: a muscle, a load and what the paper's model lacks."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ class TruthPlant:
     zeta      damping ratio of the paper's equation 4 (a choice: the paper prints none)
     l0        rest length, m
     mount     'vertical' (gravity pulls the load) or 'horizontal' (no gravity)
-    effects   what is there beside the paper's model, see effects.effect
+    effects   what is added to the paper's model, see effects.effect
     dt        largest substep, s
     sensor    noise, offset, latency and quantisation of measured positions; ideal if None
     seed      of the sensor's noise and of random forces

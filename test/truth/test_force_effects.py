@@ -21,7 +21,7 @@ T = np.arange(0.0, 2.0, 5e-3)
 
 
 def muscle(p, y, v, mass=MASS):
-    """Net force of muscle and weight, written anew."""
+    """Net force of muscle and weight, written independently."""
     e = math.exp(A[2] * y / L0)
     pull = (A[0] * p + A[1]) * e + A[3] * y / L0 * p + A[4] * p + A[5]
     bracket = (A[0] * p + A[1]) * A[2] * e + A[3] * p

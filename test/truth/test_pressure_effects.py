@@ -52,7 +52,7 @@ def test_a_bladder_takes_its_pressure_from_the_chamber():
 
 
 def iso_6358(p, target, c_fill, c_vent, volume, band):
-    """dp/dt written anew: n C p1 psi(p2/p1) p_ref / V, absolute pressures, litres and bar."""
+    """dp/dt, independently: n C p1 psi(p2/p1) p_ref / V, absolute pressures, litres and bar."""
     opening = np.clip((target - p) / band, -1.0, 1.0)
     up, down, c = (9.013e5, p + 1.013e5, c_fill) if opening > 0 else (p + 1.013e5, 1.013e5, c_vent)
     psi = np.sqrt(1.0 - (max(down / up - 0.3, 0.0) / 0.7) ** 2)

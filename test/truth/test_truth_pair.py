@@ -60,7 +60,7 @@ def test_its_stiffness_is_that_of_the_equations():
     assert plant.stiffness() == pytest.approx(expected, rel=1e-6)
 
 
-def test_friction_holds_what_it_can():
+def test_friction_holds_forces_up_to_its_breakaway():
     plant = pair_plant('friction', noise=0.0)
     plant.reset(0.0, (3e5, 3e5))
     # 0.15 N m off balance on 29 N m/rad: stuck, but for the bend of the bristles.

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The integrator against scipy's adaptive solvers, which see the same equations written anew."""
+"""The integrator against scipy's adaptive solvers with independently written equations."""
 
 import numpy as np
 import pytest

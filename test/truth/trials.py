@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Blind trials: a specimen, a rig and a recording drawn from a seed, and the truth beside them."""
+"""Blind trials: a specimen, a rig and a recording drawn from a seed, with the truth."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from .plant import TruthPlant
 from .records import Recording, held_record, play
 from .sensor import Sensor
 
-# Pairs whose signatures differ, each expected to be told apart.
+# Pairs whose signatures differ, each expected to be distinguished.
 PAIRS = (
     'coulomb_friction+pressure_lag',
     'hysteresis+pressure_lag',

@@ -34,7 +34,7 @@ def test_a_known_lag_lets_it_grow_as_far_as_the_error_asks():
     assert settled(known=1.0, error=3.0 * NEGLIGIBLE) == pytest.approx(HIGH)
 
 
-def test_nothing_known_and_nothing_explained_keeps_it():
+def test_without_knowledge_of_the_lag_it_stays():
     assert settled(error=1.0) == pytest.approx(LOW)
 
 

@@ -131,7 +131,7 @@ def test_of_all_at_once_enough_is_learned_within_bounds(kind):
     ids=str,
 )
 def test_what_was_learned_is_kept_when_control_starts_again(kind, plant, share):
-    """After ~/enable the error is small at once; a law that is made anew knows nothing."""
+    """After ~/enable the error is small at once; a new law has learned nothing."""
     law, first = swung(kind, plant)
     assert law.learned.weight > 0.3
     again = kind.close(law, kind.truth(plant, seed=6), kind.swing, 4.0)
@@ -143,7 +143,7 @@ def test_what_was_learned_is_kept_when_control_starts_again(kind, plant, share):
 
 @pytest.mark.slow
 @EACH_KIND
-def test_another_rig_after_a_start_is_learned_anew(kind):
+def test_another_rig_after_a_start_is_learned_again(kind):
     law, _ = swung(kind, 'friction')
     kind.close(law, kind.truth('nominal', seed=6), kind.swing, 8.0)
     run = kind.close(law, kind.truth('hysteresis', seed=6), kind.swing, 8.0)

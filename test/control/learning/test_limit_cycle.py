@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""An oscillation between the limits is told from a step, a blocked load, and noise at a limit."""
+"""Distinguish oscillation between the limits from a step, a blocked load, noise at a limit."""
 
 import numpy as np
 import pytest

@@ -63,7 +63,7 @@ def test_bounds_of_some_parameters_do_not_spoil_the_prediction():
     assert max(map(abs, errors)) < 2.0
 
 
-def test_what_is_forgotten_can_be_learned_anew():
+def test_what_is_forgotten_can_be_learned_again():
     found = Regression(np.array([10.0]), np.array([-99.0]), np.array([99.0]), 1.0)
     for _ in range(2000):
         found.update(np.array([1.0]), 3.0 - found.theta[0], 1e-4)

@@ -22,13 +22,13 @@ def duration(pieces):
     return sum(piece.duration for piece in pieces)
 
 
-def test_a_short_way_takes_four_pieces_of_jerk():
+def test_a_short_distance_takes_four_segments_of_jerk():
     # Rest to rest by jerk alone: x = j (T/4)^3 2, so T = (32 x / j)^(1/3).
     x = 1e-3
     assert duration(to_rest((x, 0.0, 0.0), BOUNDS)) == pytest.approx((32.0 * x / 6.0) ** (1 / 3))
 
 
-def test_a_long_way_is_made_at_the_velocity_bound():
+def test_a_long_distance_is_travelled_at_the_velocity_bound():
     # x / v + v / a + a / j for a way on which both bounds are met.
     x = 0.2
     expected = x / 0.1 + 0.1 / 0.5 + 0.5 / 6.0
@@ -49,7 +49,7 @@ def test_it_ends_at_rest_at_zero_from_anywhere(x, v, a):
     v=st.floats(-0.05, 0.05),
     a=st.floats(-0.2, 0.2),
 )
-def test_bounds_hold_on_the_way(x, v, a):
+def test_bounds_hold_during_the_motion(x, v, a):
     rest = Rest()
     rest.begin((x, v, a), BOUNDS)
     before = (x, v, a)

@@ -59,7 +59,7 @@ def test_a_trajectory_is_passed_on_exactly_and_held_at_its_end():
     assert not source.is_on_trajectory
 
 
-def test_it_waits_for_a_start_to_come_and_joins_one_that_is_past():
+def test_it_waits_for_a_start_in_the_future_and_joins_one_in_the_past():
     late, early = a_source(), a_source()
     points = [Point(0.0, 0.02), Point(1.0, 0.05)]
     late.play(Points.of(points), wait=0.5)

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What a load is told never leads it astray: set-points, streams, trajectories, reach."""
+"""Set-points, streams and trajectories, and the reach that limits them."""
 
 import math
 
@@ -56,13 +56,13 @@ def test_a_load_that_rests_out_of_reach_is_held_there(source):
 
 @pytest.mark.parametrize(('rate', 'most'), [(100, 5e-6), (20, 0.2e-3)])
 def test_a_stream_is_followed_without_lag(source, rate, most):
-    way, told = [], []
+    way, wanted = [], []
     for n in range(2000):
         if n % (500 // rate) == 0:
             source.set_target(REST + SWING * math.sin(TURN * n * DT))
         way.append(source.follow(DT).position)
-        told.append(REST + SWING * math.sin(TURN * (n + 1) * DT))
-    assert np.max(np.abs(np.subtract(way, told)[1000:])) < most
+        wanted.append(REST + SWING * math.sin(TURN * (n + 1) * DT))
+    assert np.max(np.abs(np.subtract(way, wanted)[1000:])) < most
 
 
 def test_a_trajectory_that_begins_in_motion_is_followed_at_once(source):
@@ -73,8 +73,8 @@ def test_a_trajectory_that_begins_in_motion_is_followed_at_once(source):
     ]
     source.play(Points.of(points))
     way = follow(source, 3.9)
-    told = REST + SWING * np.sin(TURN * DT * np.arange(1, way.size + 1))
-    assert np.max(np.abs(way - told)) < 0.3e-3
+    wanted = REST + SWING * np.sin(TURN * DT * np.arange(1, way.size + 1))
+    assert np.max(np.abs(way - wanted)) < 0.3e-3
 
 
 def test_a_refused_position_changes_nothing(source):

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""A loop that oscillates by itself is told from a disturbance and from a damped response."""
+"""Distinguish a loop that oscillates by itself from a disturbance and from a damped response."""
 
 import math
 

@@ -161,7 +161,7 @@ def test_the_noise_is_measured_and_is_no_disturbance(noise):
     one = Rejection(GAINS, TUNING, OscillationTuning())
 
     def place(t):
-        # A load that swings by 20 mm, beside the noise.
+        # A load that swings by 20 mm, in addition to the noise.
         return drawn[round(t / DT)] + 0.02 * math.sin(3.0 * t)
 
     levels = follow(one, lambda t: drawn[round(t / DT)], 20.0, measured=place)
@@ -173,7 +173,7 @@ def test_the_noise_is_measured_and_is_no_disturbance(noise):
     assert one.level > 0.5 * FIRST
 
 
-def test_to_start_is_to_begin_anew():
+def test_a_start_resets_it():
     one = rejection()
     follow(one, constant(LARGE), 10.0, measured=lambda t: 1e-3 * (round(t / DT) % 2))
     one.start()

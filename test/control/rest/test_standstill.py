@@ -71,7 +71,7 @@ def test_a_load_that_sticks_shows_its_contact():
     assert stiffness_seen(4.0 * K) == pytest.approx(2.0, abs=1.0)
 
 
-def test_a_motion_says_nothing_of_stiffness():
+def test_a_motion_gives_no_information_on_stiffness():
     standstill = Standstill(TOLERANCE, TUNING)
     for n in range(500):
         standstill.see_error(DT, 1e-3, True)

@@ -8,7 +8,7 @@ import pytest
 from pam_ros.identification.data.noise import Noise, independent_share, noise_of, step_of
 from support.equations import coloured
 
-SIGMA = 2e-5  # m, beside motion of some 20 mm
+SIGMA = 2e-5  # m, with a motion of some 20 mm
 
 
 def motion(t):
@@ -145,7 +145,7 @@ def test_a_stretch_shorter_than_a_window_changes_nothing(samples):
     assert noise_of([(t, y), (t[:samples], y[:samples])]) == noise_of([(t, y)])
 
 
-def test_a_silent_signal_has_no_noise():
+def test_a_constant_signal_has_no_noise():
     t = np.arange(1000) / 100.0
     assert noise_of([(t, np.full(t.size, 0.03))]).sigma < 1e-12
     # A polynomial that the windows follow exactly is motion, whatever its size.

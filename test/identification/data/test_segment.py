@@ -167,7 +167,7 @@ def test_what_cannot_be_compared_is_refused(recording, words):
         segments_of([recording])
 
 
-def test_windows_start_anew_from_the_measurement():
+def test_each_window_starts_from_the_measurement():
     (segment,) = segments_of([free()])
     parts = windows(segment, 2.0)
     assert len(parts) == 20

@@ -76,7 +76,7 @@ def test_impulse_over_every_stride_is_kept(kind, seed):
     full = np.array([impulse(stamps, command, *span) for span in spans])
     kept = np.array([impulse(thin.drive_t, thin.drive[:, 0], *span) for span in spans])
     arms = np.array([moment(stamps, command, *span) for span in spans])
-    # What a held mean cannot have is lent to the strides beside it, and no more than that.
+    # What a held mean cannot have is given to the adjacent strides, and no more than that.
     lent = np.abs(np.concatenate([[0.0], arms])[:-1]) + np.abs(np.append(arms[1:], 0.0))
     assert np.all(np.abs(kept - full) <= 0.5 * lent / STEP + 1e-9 * full)
     if kind == 'noise':  # every stride has a jump: the commands are as they were

@@ -56,7 +56,7 @@ def moment_of(known):
 
 @pytest.mark.parametrize('near', [5.9, 5.1])
 def test_a_lag_that_begins_in_a_hold_is_found_in_another(near):
-    """From beside the right hold a slope leads nowhere: it is 0, or points to the hold's end."""
+    """From an adjacent hold no slope leads to the moment: it is 0, or points to the hold's end."""
     problem, u = problem_of('pressure_lag', {'fill': 0.1, 'vent': 0.1}, near, 4.6)
     known = begun(problem, u)
     better = moved(known)

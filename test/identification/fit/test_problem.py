@@ -158,7 +158,7 @@ def lagging(tau):
 
 
 @pytest.mark.parametrize('away', [0.5, -1.0])
-def test_a_pressure_that_begins_away_from_rest_decays_as_its_lag_says(away):
+def test_a_pressure_that_begins_away_from_rest_decays_with_its_lag(away):
     """M y'' = gain (p + d exp(-t/tau)) in closed form, d the distance from the commanded p."""
     tau = 0.3
     problem = problem_of(lagging(tau), [parabola(0.1, 0.0), parabola(0.1, 0.0)], ['pressure_lag'])
@@ -177,7 +177,7 @@ def test_a_pressure_that_begins_away_from_rest_decays_as_its_lag_says(away):
 
 
 @pytest.mark.parametrize('name', [e.name for e in EFFECTS if any(s.spread for s in e.states)])
-def test_a_memory_begins_where_a_simulation_begins_that_is_told_so(name):
+def test_a_memory_begins_where_a_simulation_with_this_start_begins(name):
     effect = LIBRARY[name]
     model = single_muscle_joint(Muscle(), Mass(mass=20.0), [effect.example()])
     t = np.arange(60) / 50.0
@@ -282,7 +282,7 @@ def test_columns_come_alone_and_side_by_side(two_runs):
         np.testing.assert_array_equal(two_runs.jacobian(u, r, pool), whole)
 
 
-def test_the_row_holds_what_is_unknown_and_nothing_else_moves(two_runs):
+def test_the_row_contains_the_unknowns_and_nothing_else_changes(two_runs):
     row = two_runs.row_at(np.array([1.0, 5.0, 5.0, 5.0, 5.0]))
     a5 = SOURCE.layout.constant(at.A5)
     assert row[a5] == pytest.approx((1.0 + SPECIMEN) * GAIN)

@@ -115,7 +115,7 @@ def test_what_begins_before_a_gap_is_there_behind_it():
 
 
 def test_a_run_is_smooth_in_the_moment():
-    """The column of the moment is the closed form's derivative, also beside a sample."""
+    """The column of the moment is the closed form's derivative, also near a sample."""
     c, onset = 20.0, 0.7
     problem, u = late('viscous_friction', {'coefficient': c}, onset)
     column = problem.jacobian(u, problem.residuals(u))[:, 0]

@@ -69,7 +69,7 @@ def test_a_term_that_is_there_is_preferred_and_one_that_is_not_costs():
     assert finer < plain - 10.0
 
 
-def test_a_parameter_of_which_more_was_known_costs_less():
+def test_a_parameter_with_a_smaller_uncertainty_costs_less():
     y = COLUMNS[:, :2] @ np.array([1.0, -0.4]) + NOISE
     found = []
     for known in (0.1, 1.0, 10.0):

@@ -237,7 +237,7 @@ def test_a_discrepancy_that_is_not_there_is_not_found_for_a_decay():
     assert solution.noise == pytest.approx(NOISE, rel=0.1)
 
 
-def test_a_slow_error_is_found_beside_a_decay():
+def test_a_slow_error_is_found_next_to_a_decay():
     values = decay(TRUTH) + slow_error(np.random.default_rng(6), SLOW)
     unknowns = [unknown(name, prior=10.0) for name in 'abc']
     solution = solved(equation(lambda u: decay(u) - values, unknowns), np.ones(3))

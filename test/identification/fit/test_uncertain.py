@@ -93,13 +93,13 @@ def test_one_muscle_has_a_constant_without_its_name():
         (['inertia'], 'uncertain = '),
     ],
 )  # fmt: skip
-def test_what_says_no_standard_deviation_is_refused(spreads, words):
+def test_a_text_without_a_standard_deviation_is_refused(spreads, words):
     with pytest.raises(ParameterError) as refused:
         spread_unknowns(ELBOW, NAMES, spreads)
     assert words in str(refused.value)
 
 
-def test_the_refusal_of_an_unknown_name_lists_what_there_is():
+def test_the_refusal_of_an_unknown_name_lists_the_known_names():
     with pytest.raises(
         ParameterError, match=r'flexor\.a1, a1, .*extensor\.zeta, inertia, mass, arm'
     ):

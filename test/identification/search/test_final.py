@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Fits of every sample that a verdict may rest on, with the truth plant's numbers beside them."""
+"""Fits of every sample that a verdict may rest on, compared with the truth plant's numbers."""
 
 from dataclasses import replace
 
@@ -186,7 +186,7 @@ def test_without_an_effect_the_last_model_is_the_retuned_one(found):
     assert ends.augmented is ends.retuned
 
 
-def test_repeats_that_lie_apart_are_told_by_their_levels_and_the_last_one_by_the_law(pool):
+def test_different_levels_of_repeats_are_explained_and_the_last_one_by_the_law(pool):
     """The force cell's zero wanders by 9 N; constants would take it for their own."""
     offsets = (9.0, 3.0, 0.0)
     recordings = [

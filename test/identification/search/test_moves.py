@@ -78,14 +78,14 @@ def test_the_best_of_the_finer_ones_is_fitted_to_its_end(tried, setting):
     assert best.score - settled(best.solution, 100).score < 0.1
 
 
-def test_errors_are_found_when_they_are_asked_for(tried):
+def test_errors_are_computed_on_request(tried):
     model = replace(tried[-1])
     assert 'errors' not in vars(model)
     assert model.errors.fit > tried[0].errors.fit
     assert 'errors' in vars(model)
 
 
-def test_a_fit_that_stopped_beside_a_slow_discrepancy_continues_from_the_nearest_run(
+def test_a_fit_that_stopped_with_a_slow_discrepancy_continues_from_the_nearest_run(
     tried, retuned, setting
 ):
     """Its score is lower there, and the model of the better fit takes its place."""
@@ -274,7 +274,9 @@ def test_a_broader_effect_does_not_replace_one_that_is_as_good_once_fitted(
     assert better.score < poor.score - 1000.0
 
 
-def test_what_is_not_needed_beside_the_right_effect_goes_with_finer_steps(tried, retuned, setting):
+def test_what_the_right_effect_makes_unnecessary_is_removed_with_finer_steps(
+    tried, retuned, setting
+):
     (both,) = with_each(tried[0], ['viscous_friction'], setting)
     found = Search(setting, retuned, both, [retuned, *tried, both])
     assert confirmed(found).effects == ('pressure_lag',)

@@ -61,7 +61,7 @@ def test_the_effect_that_is_there_is_found_and_no_other(there):
 
 
 def valve(**values):
-    """Return a lag by the flow through a valve, which depends on the pressures beside it."""
+    """Return a lag by the flow through a valve, which depends on the pressures at it."""
     return effect('pressure_lag', 'iso_6358', **values)
 
 
@@ -85,7 +85,7 @@ def test_a_broader_effect_and_the_simpler_one_are_compared_with_all_their_parame
 
 
 def test_a_simpler_effect_counts_by_its_best_fit(pool, monkeypatch):
-    """A fit that begins beside the broader effect can stop before an earlier one did."""
+    """A fit that starts near the broader effect can stop before an earlier one did."""
     found = found_in([bench_truth.free(effect('pressure_lag'), seed=21)], pool, name='leak')
     setting, leak = found.setting, with_more(found.best, found)
     (lag, *_) = with_each(found.retuned, ['pressure_lag'], setting)
@@ -184,7 +184,7 @@ def test_what_is_not_in_the_library_gets_no_name():
     assert not explains(found)
 
 
-def test_what_lowers_the_score_alone_gives_way_to_what_shows_in_the_free_run():
+def test_an_effect_that_lowers_only_the_score_is_replaced_by_one_that_improves_the_free_run():
     """Viscous friction has the better score, and 1 % of the error, as long as creep is missing."""
     there = (effect('viscous_friction', viscous_ns_m=42.0), effect('creep', 'pressure'))
     found = searched([bench_truth.free(*there, seed=9, duration=60.0)])

@@ -74,9 +74,9 @@ def test_stamps_of_another_clock_are_no_lag(recording, pool):
 
     fooled = lag_of(late)
     assert not fooled.low < FILL < fooled.high
-    told = lag_of(replace(late, command_spread=1e-3))
-    assert told.low < FILL < told.high
-    assert told.high - told.low < 2e-3
+    found = lag_of(replace(late, command_spread=1e-3))
+    assert found.low < FILL < found.high
+    assert found.high - found.low < 2e-3
 
 
 def test_what_is_configured_is_not_fitted_and_has_no_interval(three):

@@ -91,7 +91,7 @@ def test_what_is_within_the_margin_is_ambiguous(search):
     }
 
 
-def test_a_move_that_makes_the_free_run_worse_says_so(search):
+def test_a_move_that_makes_the_free_run_worse_is_marked(search):
     strict = replace(CRITERIA, worse=0.01)
     found = replace(search, setting=replace(search.setting, criteria=strict))
     row = next(r for r in candidates(found) if r.effect == 'dead_time')

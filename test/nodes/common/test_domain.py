@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""A domain that a test has claimed: nobody else claims it, and nobody else is heard in it."""
+"""A domain that a test has claimed: nobody else claims it, and nobody else is present in it."""
 
 import os
 import socket
@@ -20,7 +20,7 @@ from support.harness import DEADLINE, Program
 
 HERE = Path(__file__).parents[2]
 PROFILE = 'FASTRTPS_DEFAULT_PROFILES_FILE'
-# Once it is told to begin, it claims a domain again and again, of all that there are always the
+# Once it reads the line, it claims a domain again and again, of all that there are always the
 # first that it can have, and notes it in a file that must not be there yet.
 CLAIM_OFTEN = """
 import sys
@@ -128,13 +128,15 @@ def test_of_two_that_claim_at_once_each_has_its_own(tmp_path):
     for process in both:
         process.stdin.write('begin\n')
         process.stdin.flush()
-    told = [process.communicate()[0].split() for process in both]
+    claimed = [process.communicate()[0].split() for process in both]
     assert [process.returncode for process in both] == [0, 0]
-    assert [len(numbers) for numbers in told] == [100, 100]
-    assert len({number for numbers in told for number in numbers}) > 1  # they met
+    assert [len(numbers) for numbers in claimed] == [100, 100]
+    assert len({number for numbers in claimed for number in numbers}) > 1  # they met
 
 
-def test_a_claim_is_told_to_what_is_started_and_ends(begin_at, comes_free):
+def test_a_claimed_domain_is_passed_to_child_processes_and_released_at_the_end(
+    begin_at, comes_free
+):
     before = os.environ['ROS_DOMAIN_ID']
     with claimed() as number:
         assert os.environ['ROS_DOMAIN_ID'] == str(number)
@@ -183,19 +185,19 @@ def sleeping(environment):
 
 def test_a_domain_in_which_somebody_starts_is_left_alone(free, begin_at):
     """What a killed test has started may have no ports yet."""
-    told = {**os.environ, 'ROS_DOMAIN_ID': str(free)}
-    with sleeping(told) as left:
+    environment = {**os.environ, 'ROS_DOMAIN_ID': str(free)}
+    with sleeping(environment) as left:
         assert programs_in(free) == [left.pid]
         begin_at(free)
         with claimed() as other:
             assert other != free
         # A shell of somebody else, who has chosen the same domain for what he does, is no matter.
-        del told[PROFILE]
-        with sleeping(told):
+        del environment[PROFILE]
+        with sleeping(environment):
             assert programs_in(free) == [left.pid]
 
 
-def test_a_program_that_is_left_running_is_told(monkeypatch):
+def test_a_program_that_is_left_running_is_reported(monkeypatch):
     monkeypatch.setattr(domains, 'PATIENCE', 0.1)
     with ExitStack() as stack, pytest.raises(RuntimeError, match='still runs'), claimed():
         stack.enter_context(sleeping(os.environ))
@@ -205,7 +207,7 @@ def test_the_ports_of_the_tests_are_not_those_of_others():
     for domain in DOMAINS:
         ours = ports_of(domain)
         assert len(ours) == 125
-        # The mapping of DDS-RTPS for whoever is told nothing, of some sixty programs.
+        # The mapping of DDS-RTPS for programs without the profile, of some sixty programs.
         first = 7400 + 250 * domain
         assert not set(ours) & {first, first + 1, *range(first + 10, first + 124)}
         assert ours[-1] < 32_768  # where Linux begins to give ports to anybody
@@ -214,7 +216,7 @@ def test_the_ports_of_the_tests_are_not_those_of_others():
 
 
 @pytest.mark.at_any_pace
-def test_strangers_in_the_same_domain_are_not_heard(domain, peer, monkeypatch):
+def test_nodes_of_others_in_the_same_domain_are_not_received(domain, peer, monkeypatch):
     """Neither programs of the same domain that load no profile, nor another run of tests."""
     states = peer.collect(JointState, 'joint_states')
     with monkeypatch.context() as patch:
@@ -228,9 +230,9 @@ def test_strangers_in_the_same_domain_are_not_heard(domain, peer, monkeypatch):
     try:
         with stranger, Program('pam_sim', parameters={'joint_name': 'ours'}):
             peer.more(states)
-            heard, _ = listener.communicate()
+            received, _ = listener.communicate()
             assert neighbour.stdout.readline() == 'published\n'
-            # All that are heard at all are heard within some announcements.
+            # All that are received at all are received within some announcements.
             peer.work(1.0)
             assert {m.name[0] for m in states} == {'ours'}
             assert {n for n in peer.node.get_node_names() if n.startswith('pam')} == {
@@ -242,7 +244,7 @@ def test_strangers_in_the_same_domain_are_not_heard(domain, peer, monkeypatch):
         neighbour.kill()
         neighbour.communicate()
     # Nor do they hear the test, though they hear each other.
-    assert heard.split() == ['stranger', 'pam_sim_stranger']
+    assert received.split() == ['stranger', 'pam_sim_stranger']
 
 
 def uses_shared_memory(pid):

@@ -100,7 +100,7 @@ def test_a_middleware_that_hangs_at_the_end_does_not_keep_the_program(domain):
 
 
 @pytest.mark.at_any_pace
-def test_one_that_does_not_hang_ends_properly(domain):
+def test_a_program_that_does_not_hang_ends_properly(domain):
     done = run(HANGING.format(is_hanging=False))
     assert done.returncode == 0, done.stderr
     assert 'destroy_node' not in done.stderr

@@ -31,7 +31,7 @@ def policies(pid):
 
 
 @pytest.mark.parametrize('mode', ['real_time', 'scaled', 'lockstep'])
-def test_only_the_loop_of_real_time_goes_first_and_says_so(peer, mode):
+def test_only_the_loop_in_real_time_has_priority_and_logs_it(peer, mode):
     reports = peer.collect(DiagnosticArray, '/diagnostics')
     with Program('pam_sim', parameters={'time_mode': mode}) as sim:
 

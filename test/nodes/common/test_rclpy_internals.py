@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What the nodes use of rclpy beside its public interface is there, and only in one file."""
+"""What the nodes use of rclpy outside its public interface exists, and only in one file."""
 
 import re
 import time
@@ -105,10 +105,10 @@ def test_messages_are_taken_with_their_numbers_and_stamps(node):
 def test_the_executor_serves_a_node(node):
     executor = EventsExecutor(context=node.context)
     executor.add_node(node)
-    heard = []
-    node.create_timer(0.01, lambda: heard.append(time.monotonic()))
+    received = []
+    node.create_timer(0.01, lambda: received.append(time.monotonic()))
     began = time.monotonic()
-    while len(heard) < 3:
+    while len(received) < 3:
         assert time.monotonic() < began + PATIENCE
         executor.spin_once(timeout_sec=0.1)
     executor.shutdown()

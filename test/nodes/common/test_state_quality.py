@@ -17,7 +17,7 @@ OVERRIDE = 'qos_overrides./joint_states.subscription.reliability'
 
 @pytest.mark.parametrize('offered', [RELIABLE, BEST_EFFORT], ids=['reliable', 'best_effort'])
 @pytest.mark.parametrize('joint', ['load', 'antagonistic'])
-def test_in_real_time_a_rig_is_heard_whatever_it_offers(peer, offered, joint):
+def test_in_real_time_a_rig_is_received_with_any_quality_of_service(peer, offered, joint):
     quality = QoSProfile(depth=10, reliability=offered)
     states = peer.node.create_publisher(JointState, 'joint_states', quality)
     terms = peer.collect(JointState, 'pam_control/state')

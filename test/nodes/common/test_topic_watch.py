@@ -218,7 +218,7 @@ def test_only_some_topics_are_sampled_at_a_time(monkeypatch):
 
 
 @pytest.mark.parametrize(
-    ('subscribers', 'is_told'),
+    ('subscribers', 'is_reported'),
     [
         ((), True),
         (('_ros2cli_1', '_pam_control_sampler'), True),
@@ -226,10 +226,10 @@ def test_only_some_topics_are_sampled_at_a_time(monkeypatch):
         (('_NODE_NAME_UNKNOWN_',), False),
     ],
 )
-def test_hidden_nodes_receive_no_commands(monkeypatch, subscribers, is_told):
+def test_hidden_nodes_receive_no_commands(monkeypatch, subscribers, is_reported):
     graph = Graph(*subscribers)
     monkeypatch.setattr(graph, 'count_publishers', lambda topic: 1)
     watch = TopicWatch(graph, [Watched(Float64, 'valve', is_command=True)], lambda: True)
     for _ in range(LASTING):
         watch.health()
-    assert bool(graph.warnings) == is_told
+    assert bool(graph.warnings) == is_reported

@@ -92,8 +92,8 @@ def test_a_step_and_a_sine_are_followed_in_lockstep(watch, kind):
         begin = watch.begin()
         assert list(watch.terms[0].name) == list(term_names(kind.muscles))
         assert watch.latest('error') == pytest.approx(0.0, abs=kind.still)  # without a bump
-        heard = watch.lead(lambda: watch.refer(begin + kind.way), 2.0)
-        t, seen = columns(heard, watch.names)
+        received = watch.lead(lambda: watch.refer(begin + kind.way), 2.0)
+        t, seen = columns(received, watch.names)
         np.testing.assert_allclose(np.diff(t), 2e-3, atol=1e-8)
         assert seen['reference'][-1] == pytest.approx(begin + kind.way, abs=1e-9)
         assert np.max(np.abs(seen['error'][-100:])) < kind.still
@@ -101,8 +101,8 @@ def test_a_step_and_a_sine_are_followed_in_lockstep(watch, kind):
 
         middle, swing = begin + kind.way, 0.5 * kind.way
         wave = sine(middle, swing)
-        heard = watch.lead(lambda: watch.peer.publish(wave, 'joint_trajectory'), 4.2)
-        t, seen = columns(heard, watch.names)
+        received = watch.lead(lambda: watch.peer.publish(wave, 'joint_trajectory'), 4.2)
+        t, seen = columns(received, watch.names)
         begun = t[np.argmax(np.abs(seen['reference'] - middle) > 0.05 * swing)]
         moving = (t > begun + 1.0) & (t < begun + 3.0)
         assert np.ptp(seen['reference'][moving]) == pytest.approx(2.0 * swing, rel=0.02)
@@ -117,8 +117,10 @@ def test_the_stiffness_is_led_while_the_angle_holds(watch, kind):
     with Program('pam_sim', parameters=rig), Program('pam_control', parameters=kind.following):
         watch.begin()
         for wanted in (18.0, 38.0):
-            heard = watch.lead(lambda wanted=wanted: stiffen(watch, wanted), 2.0, 'co_contraction')
-            _, seen = columns(heard, watch.names)
+            received = watch.lead(
+                lambda wanted=wanted: stiffen(watch, wanted), 2.0, 'co_contraction'
+            )
+            _, seen = columns(received, watch.names)
             assert np.max(np.abs(seen['error'])) < 0.1 * DEGREE
             assert seen['co_contraction'][-1] == pytest.approx(wanted)
             # By the closed form, at the pressures that are commanded.
@@ -164,7 +166,7 @@ def test_silence_of_the_joint_is_answered_safely(watch, kind, action, word):
         commanded = np.atleast_1d(watch.steady_command())
         assert np.all(commanded == 0.0) if action == 'vent' else np.all(commanded > 1e5)
         if action == 'vent':
-            watch.falls_silent()  # a rig that starts again must not find a command to vent
+            watch.stops_publishing()  # a rig that starts again must not find a command to vent
         else:
             watch.peer.more(watch.commands)
         # When the joint is seen again, it goes on from there.
@@ -235,7 +237,7 @@ def test_disabled_it_commands_nothing_and_enabled_it_holds_the_load_where_it_is(
         assert 'disabled' in answer.message
         rig.tell(0.055)
         watch.status(lambda s: 'disabled' in s.message, 'its word')
-        watch.falls_silent()
+        watch.stops_publishing()
 
 
 @both

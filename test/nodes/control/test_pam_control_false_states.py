@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""``pam_control`` beside a publisher whose states cannot be true: the load stays where it is."""
+"""``pam_control`` next to a publisher whose states cannot be true: the load stays where it is."""
 
 import numpy as np
 import pytest
@@ -44,13 +44,13 @@ def tell_until_left_out(watch, states, false):
 
     One that a busy machine holds up is older than the next true one, and is no news.
     """
-    before, told = left_out(watch), -1
+    before, counted = left_out(watch), -1
 
     def is_left_out():
-        nonlocal told
+        nonlocal counted
         if left_out(watch) > before:
             return True
-        if told != (told := len(watch.arrays)):
+        if counted != (counted := len(watch.arrays)):
             message = JointState(name=['pam'], position=[false])
             message.header.stamp = soon_after(states[-1].header.stamp)
             watch.peer.publish(message, 'joint_states')

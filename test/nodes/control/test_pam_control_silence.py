@@ -152,7 +152,7 @@ def test_the_command_that_a_stop_held_up_throws_nothing(watch, on_timeout, comma
 
 
 @pytest.mark.at_any_pace
-def test_in_lockstep_nothing_begins_anew(watch):
+def test_in_lockstep_control_does_not_restart_after_a_pause(watch):
     peer = watch.peer
     states = peer.collect(JointState, 'joint_states')
     rig = {**RIG, 'time_mode': 'lockstep', **lose_nothing()}

@@ -23,7 +23,7 @@ def term(message, name):
 
 
 def states_of(position, stamp):
-    """Return a joint state and the pressure beside it as a rig tells them, *stamp* in s."""
+    """Return a joint state and the pressure as a rig publishes them, *stamp* in s."""
     state = JointState(name=['pam'], position=[position])
     pressure = FluidPressure(fluid_pressure=AMBIENT + 250e3)
     for message in (state, pressure):
@@ -38,11 +38,11 @@ def test_a_load_that_nobody_configured_stays_where_it_is(peer, mode):
     states = peer.collect(JointState, 'joint_states')
     terms = peer.collect(JointState, 'pam_control/state')
     # However long a busy machine holds them up.
-    told = {**FOLLOWING, 'use_sim_time': mode == 'lockstep', 'state_timeout': 60.0}
+    given = {**FOLLOWING, 'use_sim_time': mode == 'lockstep', 'state_timeout': 60.0}
     rig = {**HEAVY, 'time_mode': mode, 'command_timeout': 0.0}
     with Program('pam_sim', parameters=rig):
         peer.more(states)
-        with Program('pam_control', parameters=told):
+        with Program('pam_control', parameters=given):
             peer.more(terms, 500)
     positions = np.array([message.position[0] for message in states])
     assert np.ptp(positions) < 1e-6  # m; the controller's own guess would move it by 8 mm
@@ -64,13 +64,13 @@ def test_it_does_not_wait_for_ever_for_a_pressure_that_nobody_tells(peer):
         peer.until(commanded, 'a command')
 
 
-# A regulator that is known to give more than it is told is told less.
+# The command to a regulator with a known offset is reduced by it.
 @pytest.mark.at_any_pace
 @pytest.mark.parametrize('offset', [0.0, 10e3])
 def test_it_waits_for_the_pressure_and_begins_there(peer, offset):
     commands = peer.collect(Float64, 'pressure_command')
-    told = {'pressure_wait': 60.0, 'effects.pressure_offset.offset': offset}
-    with Program('pam_control', parameters=told):
+    given = {'pressure_wait': 60.0, 'effects.pressure_offset.offset': offset}
+    with Program('pam_control', parameters=given):
         count = 0
 
         def tell(with_pressure):
@@ -93,8 +93,8 @@ def test_it_waits_for_the_pressure_and_begins_there(peer, offset):
 def test_in_lockstep_it_is_enabled_at_the_state_that_waits(peer):
     states = peer.collect(JointState, 'joint_states')
     terms = peer.collect(JointState, 'pam_control/state')
-    told = {**FOLLOWING, 'start_enabled': False}
-    with Program('pam_sim', parameters=LOCKSTEP), Program('pam_control', parameters=told):
+    given = {**FOLLOWING, 'start_enabled': False}
+    with Program('pam_sim', parameters=LOCKSTEP), Program('pam_control', parameters=given):
         peer.more(states)
         assert peer.call(SetBool, ENABLE, data=True).success
         peer.more(terms, 100)

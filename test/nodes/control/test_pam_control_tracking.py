@@ -14,7 +14,7 @@ LASTS = 'does not shrink: check the configured joint, load and muscle against th
 
 
 @pytest.mark.at_any_pace
-def test_a_controller_of_another_kind_of_joint_says_that_it_does_not_control(peer):
+def test_a_controller_of_another_kind_of_joint_reports_that_it_does_not_control(peer):
     watch = Watch(peer, term_names(2), Float64MultiArray, 'pressure_commands')
     with (
         Program('pam_sim', parameters={'joint': 'parallel', 'command_timeout': 0.0}),

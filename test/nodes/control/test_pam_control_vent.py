@@ -31,7 +31,7 @@ def test_the_pressure_is_lowered_evenly_and_then_nothing_is_commanded(watch):
         rig.tell_until(lambda: len(watch.terms) > 10, 'control')
         watch.status(lambda s: 'has stopped' in s.message, 'the time-out')
         watch.peer.until(lambda: watch.commands[-1].data == 0.0, 'a command of 0 Pa')
-        watch.falls_silent()
+        watch.stops_publishing()
     commands = np.array([one.data for one in watch.commands])
     end = int(np.argmax(commands == 0.0))
     assert not np.any(commands[end:])

@@ -35,7 +35,7 @@ def test_a_new_subscriber_is_another_rig_until_venting_begins_again(peer, publis
             assert not watch.is_new(5.0)
 
 
-def test_one_that_comes_after_the_other_has_gone_is_another_rig(peer, publisher, watch):
+def test_a_simulator_that_starts_after_another_has_ended_is_another_rig(peer, publisher, watch):
     with Peer() as first:
         first.collect(Float64, 'pressure_command')
         peer.until(lambda: publisher.get_subscription_count() == 1, 'the rig')

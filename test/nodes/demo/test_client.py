@@ -71,13 +71,13 @@ def test_a_service_is_called_once(requests):
     assert len(requests) == 2
 
 
-def test_a_lost_answer_is_asked_for_again(requests, losing):
+def test_a_request_without_a_response_is_repeated(requests, losing):
     with Client() as client:
         assert client.call(SetBool, 'switch', data=True).success
     assert [one.data for one in requests] == [True, True]
 
 
-def test_what_may_act_twice_is_not_asked_for_again(requests, losing):
+def test_a_request_that_may_act_twice_is_not_repeated(requests, losing):
     with (
         Client(patience=1.0) as client,
         pytest.raises(PamError, match='while waiting for the answer of act'),

@@ -53,7 +53,7 @@ def test_the_papers_experiment_over_topics(tmp_path):
 
 
 @pytest.mark.at_any_pace
-def test_an_unknown_chapter_is_refused_with_those_that_there_are(tmp_path):
+def test_an_unknown_chapter_is_refused_with_the_list_of_chapters(tmp_path):
     result = run_in(tmp_path, 'encore')
     assert result.returncode == 2
     assert 'the chapter encore does not exist' in result.stderr

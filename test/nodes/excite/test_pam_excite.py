@@ -35,7 +35,7 @@ main()
 
 
 class Simulation:
-    """Answers commands with joint states, and keeps what it was told."""
+    """Answers commands with joint states, and keeps the commands."""
 
     def __init__(self, peer, name='pam'):
         self.peer, self.names = peer, [name]

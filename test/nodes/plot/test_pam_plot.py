@@ -114,7 +114,7 @@ def test_nothing_published_is_one_sentence(tmp_path):
     assert not png.exists()
 
 
-def test_a_page_says_what_is_missing_and_goes_on_waiting(peer):
+def test_a_page_names_what_is_missing_and_continues_to_wait(peer):
     other = peer.node.create_publisher(JointState, 'force', 10)
     with Program('pam_plot') as program:
         address = address_of(peer, program)

@@ -27,7 +27,7 @@ def recorder(path, *arguments):
     return Program('pam_record', '--', '-o', str(path), *arguments)
 
 
-def heard(peer, kind, topic, qos=DEEP):
+def connected(peer, kind, topic, qos=DEEP):
     """Return a publisher once the recorder listens."""
     publisher = peer.node.create_publisher(kind, topic, qos)
     peer.until(publisher.get_subscription_count, f'the recorder on {topic}')
@@ -56,11 +56,11 @@ def test_all_messages_of_a_rig_are_in_the_bag(peer, tmp_path, kind):
     bag = tmp_path / 'rig'
     with recorder(bag) as program:
         floats = {
-            topic: heard(peer, Float64, topic)
+            topic: connected(peer, Float64, topic)
             for topic in ('pressure_command', 'force', 'stiffness', 'damping')
         }
-        joints = heard(peer, JointState, 'joint_states')
-        fluid = heard(peer, FluidPressure, 'pressure')
+        joints = connected(peer, JointState, 'joint_states')
+        fluid = connected(peer, FluidPressure, 'pressure')
         state = JointState(name=['pam'], position=[0.0], velocity=[1.0], effort=[2.0])
         for k in range(count):
             state.header.stamp = peer.node.get_clock().now().to_msg()
@@ -96,7 +96,7 @@ def test_what_is_recorded_describes_itself(peer, tmp_path):
     """The reader checks the definitions in the bag against the hashes of the types."""
     bag = tmp_path / 'rig'
     with recorder(bag):
-        joints = heard(peer, JointState, 'joint_states', QoSProfile(depth=7))
+        joints = connected(peer, JointState, 'joint_states', QoSProfile(depth=7))
         joints.publish(JointState())
         delivered(joints)
     with AnyReader([bag]) as reader:
@@ -115,11 +115,11 @@ def test_what_is_recorded_describes_itself(peer, tmp_path):
 def test_topics_that_come_late_and_topics_that_are_named(peer, tmp_path):
     bag = tmp_path / 'rig'
     with recorder(bag, 'notes', '/other/level', 'silent') as program:
-        force = heard(peer, Float64, 'force')
+        force = connected(peer, Float64, 'force')
         force.publish(Float64(data=1.0))
-        notes = heard(peer, String, 'notes')
+        notes = connected(peer, String, 'notes')
         notes.publish(String(data='now it creaks'))
-        level = heard(peer, Float64, '/other/level')
+        level = connected(peer, Float64, '/other/level')
         level.publish(Float64(data=2.0))
         ignored = peer.node.create_publisher(Float64, 'unasked', 10)
         delivered(force, notes, level)
@@ -138,14 +138,14 @@ def test_a_rig_in_a_namespace_and_remapped(peer, tmp_path):
     bag = tmp_path / 'rig'
     arguments = ('-r', '__ns:=/left', '-r', 'force:=cell')
     with Program('pam_record', *arguments, '--', '-o', str(bag)):
-        force = heard(peer, Float64, '/left/cell')
+        force = connected(peer, Float64, '/left/cell')
         force.publish(Float64(data=1.0))
         delivered(force)
     assert sorted(contents(bag)) == ['/left/cell']
 
 
 @pytest.mark.at_any_pace
-def test_publishers_of_every_quality_are_heard(peer, tmp_path):
+def test_publishers_of_every_quality_of_service_are_received(peer, tmp_path):
     """And what was published before, where the publisher keeps it."""
     bag = tmp_path / 'rig'
     qualities = {
@@ -164,7 +164,7 @@ def test_publishers_of_every_quality_are_heard(peer, tmp_path):
     )
     kept.publish(Float64(data=4.0))
     with recorder(bag, 'kept'):
-        publishers = [heard(peer, Float64, topic, qos) for topic, qos in qualities.items()]
+        publishers = [connected(peer, Float64, topic, qos) for topic, qos in qualities.items()]
 
         def are_written():
             for publisher in publishers:
@@ -183,7 +183,7 @@ def test_a_recorder_that_is_killed_leaves_a_whole_bag(peer, tmp_path):
     bag = tmp_path / 'rig'
     sent = 0
     with recorder(bag) as program:
-        force = heard(peer, Float64, 'force')
+        force = connected(peer, Float64, 'force')
 
         def publish():
             nonlocal sent
@@ -246,7 +246,7 @@ def test_a_recorder_that_was_held_up_at_its_end_has_what_was_published_until_the
 def test_a_directory_that_is_renamed_ends_it_with_one_sentence(peer, tmp_path):
     bag = tmp_path / 'rig'
     with recorder(bag) as program:
-        force = heard(peer, Float64, 'force')
+        force = connected(peer, Float64, 'force')
         peer.until(lambda: [force.publish(Float64()), on_disk(bag) > 0][1], 'a message on disk')
         bag.rename(tmp_path / 'gone')
         peer.until(lambda: [force.publish(Float64()), not program.is_running][1], 'its end')
@@ -262,7 +262,7 @@ def test_a_directory_that_is_renamed_ends_it_with_one_sentence(peer, tmp_path):
 def test_where_time_is_simulated_it_is_what_is_recorded(peer, tmp_path):
     bag = tmp_path / 'rig'
     with Program('pam_record', '-p', 'use_sim_time:=true', '--', '-o', str(bag)):
-        force = heard(peer, Float64, 'force')
+        force = connected(peer, Float64, 'force')
         clock = peer.node.create_publisher(Clock, '/clock', 10)
         now = Clock()
         now.clock.sec = 5

@@ -38,7 +38,7 @@ def last(states, after=0):
 
 
 class Controller:
-    """Answers each state with pressures that the test knows; one told again, with the same."""
+    """Answers each state with pressures that the test knows; a repeated one, with the same."""
 
     def __init__(self, peer):
         self.peer, self.states = peer, peer.collect(JointState, 'joint_states')
@@ -46,9 +46,9 @@ class Controller:
 
     def next_state(self):
         """Return the next state when it is there, and answer the last one again if need be."""
-        is_told_again = len(self.states) > self.seen and stamp(self.states[-1]) == self.time
+        is_repeated = len(self.states) > self.seen and stamp(self.states[-1]) == self.time
         self.seen = len(self.states)
-        if is_told_again:
+        if is_repeated:
             self.peer.publish(Float64(data=self.said), 'pressure_command')
         return last(self.states, self.time)
 
@@ -79,7 +79,7 @@ def test_a_command_is_a_period_to_the_bit_and_nothing_else_is(peer):
         got = [controller.answer(pressure_at(k)) for k in range(200)]
         peer.until(lambda: last(controller.states, controller.time), 'the last state')
         end = len(controller.states)
-        peer.work(1.5)  # a controller that thinks is not told twice
+        peer.work(1.5)  # a state is not published twice while the controller computes
         assert len(controller.states) == end
     assert [(m.position[0], m.velocity[0]) for m in got] == expected(200)
     assert set(np.diff([stamp(m) for m in got])) == {PERIOD}
@@ -121,7 +121,7 @@ def test_a_refused_command_is_a_period_with_the_last_good_one(peer):
         assert c.position[0] > b.position[0] > a.position[0]
 
 
-def test_a_dead_controller_is_waited_for_and_told_and_a_new_one_goes_on(peer):
+def test_without_its_controller_it_waits_with_a_warning_and_a_new_one_continues(peer):
     diagnostics = peer.collect(DiagnosticArray, '/diagnostics')
 
     def said(words):
@@ -207,7 +207,7 @@ def test_reset_repeats_the_run_and_time_goes_on(peer):
     assert all(np.diff([stamp(m) for run in runs for m in run]) > 0)
 
 
-def test_all_muscles_are_waited_for(peer):
+def test_it_waits_for_the_commands_of_all_muscles(peer):
     names = ['left', 'right']
     given = {**MANY, 'muscles': names, 'muscle_topics': True}
     diagnostics = peer.collect(DiagnosticArray, '/diagnostics')
@@ -262,11 +262,11 @@ class Naive:
     """A controller that answers all it hears, also what it has answered before."""
 
     def __init__(self, peer):
-        self.heard = []
+        self.received = []
         publisher = peer.node.create_publisher(Float64, 'pressure_command', 10)
 
         def answer(state):
-            self.heard.append((stamp(state), state.position[0], state.velocity[0]))
+            self.received.append((stamp(state), state.position[0], state.velocity[0]))
             publisher.publish(Float64(data=self.law(state.position[0])))
 
         peer.node.create_subscription(JointState, 'joint_states', answer, 10)
@@ -279,15 +279,15 @@ class Naive:
 def test_a_controller_that_answers_too_often_gets_the_same_run(peer):
     with Program('pam_sim', parameters={**LOCKSTEP, **RELEASED}):
         naive = Naive(peer)
-        peer.until(lambda: len(naive.heard) > 300, 'some periods')
+        peer.until(lambda: len(naive.received) > 300, 'some periods')
         for _ in range(2):
             assert peer.call(SetBool, 'pam_sim/pause', data=True).success
-            count = len(naive.heard)
-            peer.until(lambda n=count: len(naive.heard) > n + 4, 'the same state again')
+            count = len(naive.received)
+            peer.until(lambda n=count: len(naive.received) > n + 4, 'the same state again')
             assert peer.call(SetBool, 'pam_sim/pause', data=False).success
-            count = len(naive.heard)
-            peer.until(lambda n=count: len(naive.heard) > n + 300, 'more periods')
-    got = sorted(set(naive.heard))
+            count = len(naive.received)
+            peer.until(lambda n=count: len(naive.received) > n + 300, 'more periods')
+    got = sorted(set(naive.received))
     rig = Simulation([single_muscle_joint()], 1e-3)
     rig.reset([0.0], [0.0], [0.0])
     assert len(got) > 600

@@ -25,7 +25,7 @@ def test_it_follows_the_clock_and_survives_a_jump_back(peer):
         now.clock.nanosec = rest * 1_000_000
         peer.publish(now, '/clock')
 
-    # A clock is heard as it comes, or not: it is told again until it was heard.
+    # A message of the clock can be lost: it is published again until it is received.
     def leap(milliseconds, jumps):
         """Set the clock elsewhere, and wait for word that this was seen."""
 

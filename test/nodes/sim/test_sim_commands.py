@@ -104,7 +104,7 @@ def test_silence_vents_and_a_new_command_is_obeyed(watch):
 
 
 @pytest.mark.at_any_pace
-def test_a_lost_load_is_told_and_never_published(watch):
+def test_a_lost_load_is_reported_and_never_published(watch):
     given = {'initial.at_rest': False, 'initial.velocity': -100.0}  # no muscle holds that
     with Program('pam_sim', parameters=given) as sim:
         status, values = watch.status('timing', lambda s, v: s.level == DiagnosticStatus.ERROR)

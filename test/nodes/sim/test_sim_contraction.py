@@ -16,7 +16,7 @@ BEYOND = 'more than the 25.0 % that it permits (kappa_max)'
 
 
 @pytest.mark.at_any_pace
-def test_each_contraction_beyond_the_permitted_one_is_told_once(peer):
+def test_each_contraction_beyond_the_permitted_one_is_reported_once(peer):
     arrays = peer.collect(DiagnosticArray, '/diagnostics')
     states = peer.collect(JointState, 'joint_states')
 
@@ -42,5 +42,5 @@ def test_each_contraction_beyond_the_permitted_one_is_told_once(peer):
         values = {pair.key: pair.value for pair in becomes(DiagnosticStatus.OK).values}
         assert values['times beyond kappa_max'] == '2'
     largest = 100.0 * max(one.position[0] for one in states) / LENGTH
-    told = float(re.search(r'contracts by ([0-9.]+) %', status.message)[1])
-    assert told == pytest.approx(largest, abs=0.5)
+    reported = float(re.search(r'contracts by ([0-9.]+) %', status.message)[1])
+    assert reported == pytest.approx(largest, abs=0.5)

@@ -43,19 +43,19 @@ class Arm:
         self.arrays = {name: peer.collect(Float64MultiArray, name) for name in names}
 
     def after(self, time, pressures):
-        """Return the state after *time*; where the one before is told again, answer it again."""
-        is_told_again = len(self.states) > self.seen and stamp(self.states[-1]) == time
+        """Return the state after *time*; if the one before is published again, answer it again."""
+        is_repeated = len(self.states) > self.seen and stamp(self.states[-1]) == time
         self.seen = len(self.states)
-        if is_told_again:
+        if is_repeated:
             self.peer.publish(Float64MultiArray(data=pressures), 'pressure_commands')
         return next((m for m in self.states if stamp(m) > time), None)
 
     def run(self, pressures, periods=PERIODS):
         """Return the states of so many periods of constant pressures, and the one after."""
-        heard, found = 0, []
+        received, found = 0, []
         for _ in range(periods + 1):
-            state = self.peer.until(lambda t=heard: self.after(t, pressures), 'the next state')
-            heard, self.seen = stamp(state), len(self.states)
+            state = self.peer.until(lambda t=received: self.after(t, pressures), 'the next state')
+            received, self.seen = stamp(state), len(self.states)
             found.append(state)
             if len(found) <= periods:
                 self.peer.publish(Float64MultiArray(data=pressures), 'pressure_commands')
@@ -94,7 +94,7 @@ def is_as(arm, states, rig):
     arm.comes_to('dampings', damping)
 
 
-def test_each_muscle_is_its_own_and_what_it_is_not_told_is_everybodys(peer):
+def test_each_muscle_has_its_own_parameters_and_the_common_ones_otherwise(peer):
     names = ['left', 'mid', 'right']
     arm = Arm(peer)
     given = {
@@ -248,7 +248,7 @@ def test_silence_of_one_vents_it_alone(peer):
         peer.until(only_b_is_vented, 'b to vent')
 
         def b_is_named():
-            # While a is still heard: were both silent, both would be named.
+            # While a is still received: if both were missing, both would be named.
             peer.publish(Float64(data=2e5), 'a/pressure_command')
             peer.work(0.02)
             return any('for b ' in s.message for m in diagnostics for s in m.status)

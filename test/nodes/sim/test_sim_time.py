@@ -72,7 +72,7 @@ def test_another_factor_acts_from_now_on(wall):
     assert time.due(step) == step + 200
 
 
-def test_what_is_too_late_is_lost_and_told(wall):
+def test_periods_that_are_too_late_are_skipped_and_reported(wall):
     time = OwnTime(1000.0, 2.0)
     wall.now += 3 * SECOND
     step = time.due(0)
@@ -165,7 +165,7 @@ def test_pause_step_and_reset_in_scaled_time(peer, factor):
             last = [stamp(m) for m in states[-3:]]
             return len(set(last)) == 1 and len({tick(m) for m in clocks[-3:]}) == 1
 
-        peer.until(stands, 'a standstill that is told')
+        peer.until(stands, 'a standstill that is reported')
         begin = stamp(states[-1])
         response = peer.call(Trigger, 'pam_sim/step')
         assert response.success

@@ -48,7 +48,7 @@ def are_as(a, b):
     return np.isclose(a, b, rtol=1e-10, atol=0.0)
 
 
-def hears(peer, messages, wanted):
+def check_received(peer, messages, wanted):
     """Wait for the values *wanted* (n,) among unstamped messages: they must be in one piece."""
     # Topics are not discovered in one moment: what came before is no measure of what is to come.
     peer.until(lambda: any(are_as([m.data for m in messages], wanted[-1])), f'{wanted[-1]}')
@@ -62,7 +62,7 @@ def test_all_topics_are_those_of_the_motion_that_the_commands_cause(peer):
     floats = {name: peer.collect(Float64, name) for name in ('force', 'stiffness', 'damping')}
     with Program('pam_sim', parameters=RELEASED):
         for messages in (pressures, *floats.values()):
-            peer.more(messages)  # all are heard before the reset
+            peer.more(messages)  # all are received before the reset
         first = from_reset(peer, states, RATE // 2)
         for command in (300e3, 500e3, 450e3):
             peer.publish(Float64(data=command), 'pressure_command')
@@ -73,22 +73,22 @@ def test_all_topics_are_those_of_the_motion_that_the_commands_cause(peer):
                 'the commanded pressure',
             )
             peer.more(states, RATE // 2)
-        heard = states[first:]
-        position = np.array([m.position[0] for m in heard])
+        received = states[first:]
+        position = np.array([m.position[0] for m in received])
         force, k = np.array([spring(600e3, y) for y in position[: RATE // 2]]).T
-        hears(peer, floats['force'], force)
-        hears(peer, floats['stiffness'], k)
-        hears(peer, floats['damping'], 2.0 * ZETA * np.sqrt(MASS * k))
-    stamps = np.array([stamp(m) for m in heard])
+        check_received(peer, floats['force'], force)
+        check_received(peer, floats['stiffness'], k)
+        check_received(peer, floats['damping'], 2.0 * ZETA * np.sqrt(MASS * k))
+    stamps = np.array([stamp(m) for m in received])
     np.testing.assert_allclose(np.diff(stamps), 1e6, atol=1.1)  # whole ns
     efforts = [spring(600e3, y)[0] for y in position[: RATE // 2]]
-    np.testing.assert_allclose([m.effort[0] for m in heard[: RATE // 2]], efforts, rtol=1e-12)
+    np.testing.assert_allclose([m.effort[0] for m in received[: RATE // 2]], efforts, rtol=1e-12)
 
     at = {stamp(m): m.fluid_pressure - AMBIENT for m in pressures}
     both = np.array([s in at for s in stamps])
     assert np.mean(both) > 0.99  # the last pressures may still be on their way
     t, y = (stamps[both] - stamps[0]) * 1e-9, position[both]
-    v = np.array([m.velocity[0] for m in heard])[both]
+    v = np.array([m.velocity[0] for m in received])[both]
     p = np.array([at[s] for s in stamps[both]])
     np.testing.assert_allclose(np.unique(p.round(3)), [300e3, 450e3, 500e3, 600e3])
     # A sample is the state before a command of the same stamp acts: a command acts at the last
