@@ -7,7 +7,7 @@
 The table below is as one reads it from a diagram of force over contraction, with one curve for
 each pressure. Its numbers are those of the force law with the constants of
 config/muscles/dmsp_20_festo.yaml, rounded to 10 N. Replace them by the points of your data sheet.
-None stands where a curve has ended.
+None: the curve has ended before this contraction.
 """
 
 import numpy as np

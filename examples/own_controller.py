@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Control the position of a muscle over topics with a custom controller: an integral law.
 
-Start the simulator, then this program; Ctrl-C ends both. In lockstep the simulator waits for a
+Start the simulator, then this program; Ctrl-C ends each. In lockstep the simulator waits for a
 command after each state:
 
     ros2 run pam_ros pam_sim --ros-args -p muscle:=dmsp_20_400n -p time_mode:=lockstep
@@ -42,7 +42,7 @@ class OwnController(Node):
         self.publisher.publish(Float64(data=self.pressure))
 
 
-signals = []  # that ask the program to end: Ctrl-C, or SIGTERM
+signals = []  # received signals that end the program: Ctrl-C, SIGTERM
 for kind in (signal.SIGINT, signal.SIGTERM):
     signal.signal(kind, lambda number, frame: signals.append(number))
 rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
