@@ -21,7 +21,7 @@ from pam_ros.identification.data.segment import (
     segments_of,
 )
 from pam_ros.identification.fit.solve import Solution
-from pam_ros.identification.fit.uncertain import spread_unknowns, untold
+from pam_ros.identification.fit.uncertain import spread_unknowns, undetermined
 from pam_ros.identification.result import Estimate, Finding, Identification, Stage
 from pam_ros.identification.search.criteria import BUDGET, CRITERIA
 from pam_ros.identification.search.final import Final, final
@@ -119,7 +119,7 @@ def identify(
         warnings=(
             *(text for recording in (*recordings, *test) for text in recording.warnings),
             *apart(ends.augmented, answer.noise.sigma),
-            *untold(ends.augmented),
+            *undetermined(ends.augmented),
             *of_absolute_pressures(
                 answer.stages[2].parameters, driving(recordings[0])[0].quantity
             ),

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Convert the result of a fit to a model: constants in the units of their source, and effects."""
+"""Convert the result of a fit to a model with constants in the units of their source."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace

@@ -125,8 +125,8 @@ def _require_joint(recording: Recording, joint: Joint) -> None:
         )
     if recording.kind == 'held' and (count > 1 or joint.is_revolute):
         raise RecordingError(
-            f'{recording.name} is held at a prescribed position, which is for one muscle in line '
-            'with its load: record the joint while it moves freely'
+            f'{recording.name} has a prescribed position (kind held), which is supported only '
+            'for one muscle in line with its load: record the joint while it moves freely'
         )
 
 
@@ -172,7 +172,7 @@ def _segment(part: Recording) -> Segment:
         at = np.searchsorted(part.command_t, part.t, side='left') - 1
         pressure = part.command[np.maximum(at, 0)]
     if part.force is None:
-        raise RecordingError(f'{part.name}: a held recording needs the force')
+        raise RecordingError(f'{part.name}: no force was recorded')
     position, velocity = _motion(part.t, part.position)
     return HeldSegment(
         name=part.name,
@@ -225,7 +225,7 @@ def _motion(t: Array, y: Array) -> tuple[Array, Array]:
 
 
 def _without_noise(t: Array, p: Array) -> Array:
-    """Return the pressure, constant or smoothed if that removes hardly more than its noise.
+    """Return the pressure, as a constant or smoothed if this removes hardly more than noise.
 
     Noise of the input becomes noise of the simulated force. A lag of the pressure would reduce it,
     so that the search would find a lag. A pressure that jumps is not changed.

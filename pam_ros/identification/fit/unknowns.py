@@ -91,7 +91,7 @@ class MemoryStart:
     """A hidden state of an effect at the start of a run, relative to its value after a long rest.
 
     ``row`` and ``column`` are its place in the state x, and ``place`` is the name of the effect's
-    place. Rigs that are already moving, or moved a minute ago, do not start from such a rest.
+    place. A rig that is already moving, or moved a minute ago, does not start from such a rest.
     """
 
     run: int
@@ -137,7 +137,7 @@ class CommandTime:
 
 
 OF_RUNS = (RunStart, MemoryStart, RunLevel)
-DECLARED = (Constant, OfRig)  # unknowns of re-tuning
+OF_RETUNING = (Constant, OfRig)
 
 
 @dataclass(frozen=True)
