@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from pam_ros.errors import RecordingError
 from pam_ros.recording.of_joint import of_joint
-from pam_ros.recording.quantities import TURNED
+from pam_ros.recording.quantities import ANGULAR
 from pam_ros.recording.recording import KINDS, OUTPUTS, Recording, interpolated
 from pam_ros.recording.series import GAP_SECONDS, Series, refuse_backwards
 
@@ -130,7 +130,7 @@ def _ascending(
 def _make_position(
     name: str, series: dict[str, Series], l0: float | None, notes: list[str]
 ) -> None:
-    for linear, angular in TURNED.items():
+    for linear, angular in ANGULAR.items():
         if angular in series:
             if linear in series:
                 one, other = series[angular].source, series[linear].source

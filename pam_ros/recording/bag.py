@@ -58,8 +58,8 @@ def _ours(muscles: Sequence[str], unit: str | None) -> Ours:
     if not muscles:
         return _OURS
     linear = {'position': Target('position', 'm'), 'velocity': Target('velocity', 'm_s')}
-    turned = {'position': Target('angle', 'rad'), 'velocity': Target('angular_velocity', 'rad_s')}
-    motion = turned if unit == 'rad' else linear
+    angular = {'position': Target('angle', 'rad'), 'velocity': Target('angular_velocity', 'rad_s')}
+    motion = angular if unit == 'rad' else linear
     names = muscles if len(muscles) > 1 else ('',)
     commands = {
         f'data[{i}]': Meaning(Target('pressure_command', 'Pa', name))

@@ -73,7 +73,7 @@ def page(
         style=style,
         interval=interval,
         scale=scale,
-        held_out='test recordings' if result.test else 'part held out',
+        held_out='test recordings' if result.test else 'a part of each recording',
         errors=rows.errors(content, scale, {curve.stage: curve.label for curve in curves}),
         pictures=plots.pictures(result, runs, content, curves, scale),
         rounds=rows.rounds(result, scale),

@@ -119,13 +119,13 @@ def _correlation(
     return [
         _narrow(
             'autocorrelation',
-            'Residual with itself',
+            'Autocorrelation of the residual',
             'At lags above 0, white noise stays within the band (95 %).',
             residual_plots.autocorrelation(runs, curves),
         ),
         _narrow(
             'cross-correlation',
-            'Residual with the input',
+            'Cross-correlation with the input',
             'A residual that is independent of the input stays within the band (Ljung, 99 %, '
             'drawn for the last model).',
             residual_plots.cross_correlation(runs, curves),

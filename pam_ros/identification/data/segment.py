@@ -76,7 +76,8 @@ class FreeSegment(Segment):
 class HeldSegment(Segment):
     """A run at a prescribed length.
 
-    The inputs are the measured pressure in Pa, position and velocity; the output is in N.
+    The inputs are the pressure in Pa (measured, or the command if it was not measured), position
+    and velocity; the output is in N.
     """
 
     kind: ClassVar[str] = 'held'
@@ -88,7 +89,7 @@ class HeldSegment(Segment):
 
     @property
     def first_pressures(self) -> Array:
-        """Measured pressure in Pa at the start of the run."""
+        """Pressure in Pa at the start of the run."""
         return self.pressure[:1]
 
 

@@ -84,7 +84,7 @@ class Solution:
 
     @property
     def noise(self) -> float:
-        """Standard deviation of the white noise in m or N."""
+        """Standard deviation of the white noise in m, rad or N."""
         return float(np.sqrt(np.mean(self.whitened**2)))
 
     @property
