@@ -62,8 +62,8 @@ class Candidate:
     that decide between models, in m, rad or N. ``score_fall`` is the decrease of the score,
     -2 ln(evidence), by the effect: 10 is very strong evidence. ``gain`` is the relative decrease
     of ``choose_error``. ``p`` is that of the likelihood-ratio test (Wilks 1938), times the number
-    of effects that were added to these parents (Bonferroni). ``interval_clear`` is true if the 95
-    % intervals of its strengths exclude 0. ``decision`` is chosen, ambiguous, rejected or
+    of effects that were added to these parents (Bonferroni). ``interval_clear`` is true if the
+    95 % intervals of its strengths exclude 0. ``decision`` is chosen, ambiguous, rejected or
     untestable. Untestable means that the recordings could not have shown the effect; then p is
     NaN. ``reason`` is the reason for the decision, and for an untestable effect what to record.
     """
