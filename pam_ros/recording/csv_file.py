@@ -197,7 +197,7 @@ def _cells(path: Path, number: int, line: str, separator: str) -> list[str]:
         (cells,) = csv.reader([line], delimiter=separator, skipinitialspace=True, strict=True)
     except csv.Error:
         longest = csv.field_size_limit()
-        what = 'a quotation mark is not closed, or stands within a cell'
+        what = 'a quotation mark is not closed, or is within a cell'
         if len(line) > longest:
             what = f'a cell is longer than {longest} characters, or {what}'
         raise RecordingError(f'{path.name}, line {number}: {what}') from None

@@ -162,8 +162,8 @@ def in_common(
 ) -> dict[str, float]:
     """Return the values at u of the parameters that an effect shares with a *simple* one.
 
-    The effect at *place* contains the simple one, whose names the parameters have. Only parameters
-    that are unknown are returned.
+    The effect at *place* contains the simple one. The values have the names of the parameters of
+    the simple one; only parameters that are unknown are returned.
     """
     there = parameters_of(problem.unknowns, place.name)
     values = _values(problem.row_at(u), joint, place)

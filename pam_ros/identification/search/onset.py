@@ -99,7 +99,7 @@ def shares_after(
     return (fit, choose) if (fit - gone) * (last - first) >= least else None
 
 
-def search_since(setting: Setting, late: Setting, tell: Progress) -> Search:
+def search_since(setting: Setting, late: Setting, progress: Progress) -> Search:
     """Find the effects that begin late, or else those that act from the start.
 
     *late* is the setting in which all effects begin at one time, and *setting* is that in which
@@ -109,13 +109,13 @@ def search_since(setting: Setting, late: Setting, tell: Progress) -> Search:
     unknowns is not compared: the derivative by an onset between two commands may be 0, and then
     its cost is not known.
     """
-    found = search(late, tell)
+    found = search(late, progress)
     best = found.best
     if best.effects:
         gain = _from_start(best, late).solution.cost - best.solution.cost
         if gain > late.criteria.margin:
             return found
-    return search(setting, tell)
+    return search(setting, progress)
 
 
 def _from_start(late: Model, setting: Setting) -> Model:

@@ -49,23 +49,23 @@ class Search:
     looked_at: list[Model] = field(default_factory=list)
 
 
-def search(setting: Setting, tell: Progress = lambda share, text: None) -> Search:
-    """Find the effects that the nominal model lacks; *tell* is called with the progress."""
-    tell(0.0, 're-tuning the parameters')
+def search(setting: Setting, progress: Progress = lambda share, text: None) -> Search:
+    """Find the effects that the nominal model lacks; *progress* is called at each step."""
+    progress(0.0, 're-tuning the parameters')
     problem = setting.problem
     u = np.zeros(len(problem.unknowns))
     retuned = setting.model((), solved(problem, u, pool=setting.pool))
     found = Search(setting, retuned, retuned, [retuned])
     budget = setting.budget
     for n in range(budget.rounds):
-        tell(0.05 + 0.75 * n / budget.rounds, f'trying effects, round {n + 1}')
+        progress(0.05 + 0.75 * n / budget.rounds, f'trying effects, round {n + 1}')
         if len(found.best.effects) == budget.effects or is_complete(found.best, setting):
             break
         better = _better(found) or exchanged(found)
         if better is None:
             break
         found.best = better
-    tell(0.8, 'confirming the effects with finer steps')
+    progress(0.8, 'confirming the effects with finer steps')
     found.best = confirmed(found)
     return found
 
