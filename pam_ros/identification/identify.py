@@ -21,7 +21,7 @@ from pam_ros.identification.data.segment import (
     segments_of,
 )
 from pam_ros.identification.fit.solve import Solution
-from pam_ros.identification.fit.uncertain import spread_unknowns, untold
+from pam_ros.identification.fit.uncertain import spread_unknowns, undetermined
 from pam_ros.identification.result import Estimate, Finding, Identification, Stage
 from pam_ros.identification.search.criteria import BUDGET, CRITERIA
 from pam_ros.identification.search.final import Final, final
@@ -79,7 +79,7 @@ def identify(
     test = sequence('test', test, Recording, 'a Recording')
     if not recordings:
         raise RecordingError('recordings is empty: give at least one Recording')
-    tell: Progress = progress or (lambda share, text: None)
+    notify: Progress = progress or (lambda share, text: None)
     require_one_kind([*recordings, *test])
     require_joint([*recordings, *test], model)
     refuse_copies([*recordings, *test])
@@ -103,10 +103,10 @@ def identify(
         later = since and shares_after(since, parts, shares, CRITERIA.duration)
         if since and later:
             late = replace(setting, parts=parts_of(recordings, *later), onset=since.time)
-            found = search_since(setting, late, tell)
+            found = search_since(setting, late, notify)
         else:
-            found = search(setting, tell)
-        tell(0.9, 'fitting the chosen models in full')
+            found = search(setting, notify)
+        notify(0.9, 'fitting the chosen models in full')
         ends = final(found)
         answer = _answer(found, ends, tests, recordings, test)
     name = verdict(found, *(stage.held_error for stage in answer.stages[:2]))
@@ -119,13 +119,13 @@ def identify(
         warnings=(
             *(text for recording in (*recordings, *test) for text in recording.warnings),
             *apart(ends.augmented, answer.noise.sigma),
-            *untold(ends.augmented),
+            *undetermined(ends.augmented),
             *of_absolute_pressures(
                 answer.stages[2].parameters, driving(recordings[0])[0].quantity
             ),
         ),
     )
-    tell(1.0, 'done')
+    notify(1.0, 'done')
     return replace(
         answer,
         sentence=sentence(answer, lacking),

@@ -38,7 +38,7 @@ class Estimate:
 
 @dataclass(frozen=True, eq=False)
 class Stage:
-    """One of the three models: nominal (named declared, as in the report), re-tuned or augmented.
+    """One of the three models: nominal (called ``declared`` in files), re-tuned or augmented.
 
     Errors are RMSE in the unit of the target: over the fitted samples, and over those that were
     held out or the test recordings. ``simulated`` and ``tested`` are its free runs over
@@ -59,13 +59,13 @@ class Candidate:
     """An effect that was tried in addition to ``parents``.
 
     ``fit_error`` and ``choose_error`` are RMSE over the samples that were fitted and over those
-    that decide between models, in m or N. ``score_fall`` is the decrease of the score,
+    that decide between models, in m, rad or N. ``score_fall`` is the decrease of the score,
     -2 ln(evidence), by the effect: 10 is very strong evidence. ``gain`` is the relative decrease
     of ``choose_error``. ``p`` is that of the likelihood-ratio test (Wilks 1938), times the number
-    of effects that were tried there (Bonferroni). ``interval_clear`` is true if the 95 % intervals
-    of its strengths exclude 0. ``decision`` is chosen, ambiguous, rejected or untestable.
-    Untestable means that the recordings could not have shown the effect; then p is NaN. ``reason``
-    is the reason for the decision, and for an untestable effect what to record.
+    of effects that were added to these parents (Bonferroni). ``interval_clear`` is true if the
+    95 % intervals of its strengths exclude 0. ``decision`` is chosen, ambiguous, rejected or
+    untestable. Untestable means that the recordings could not have shown the effect; then p is
+    NaN. ``reason`` is the reason for the decision, and for an untestable effect what to record.
     """
 
     effect: str

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Convert the result of a fit to a model: constants in the units of their source, and effects."""
+"""Convert the result of a fit to a model with constants in the units of their source."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
@@ -97,7 +97,7 @@ def with_row(
             )
     in_muscles = [tuple(effects.values()) for effects in kinds]
     on_joint = tuple(kinds_on_joint.values())
-    went = np.concatenate(
+    positions = np.concatenate(
         [s.position if isinstance(s, HeldSegment) else s.target for s in segments]
     )
     configured, nominal = model.parameters().ravel(), numbers_of(model)
@@ -107,7 +107,9 @@ def with_row(
             actuators = tuple(
                 replace(
                     actuator,
-                    muscle=_muscle(model, row, i, _limits(model, i, went) if is_limited else {}),
+                    muscle=_muscle(
+                        model, row, i, _limits(model, i, positions) if is_limited else {}
+                    ),
                     effects=in_muscles[i],
                 )
                 for i, actuator in enumerate(model.actuators)
@@ -124,9 +126,9 @@ def with_row(
     )
 
 
-def _limits(model: Joint, i: int, went: Array) -> dict[str, float]:
-    """Return the limits of the contraction of muscle i at the recorded positions *went*."""
-    contraction = statics.contraction(model, i, went)
+def _limits(model: Joint, i: int, positions: Array) -> dict[str, float]:
+    """Return the limits of the contraction of muscle i at the recorded *positions*."""
+    contraction = statics.contraction(model, i, positions)
     return {
         'kappa_min': min(0.0, float(contraction.min())),
         'kappa_max': max(0.01, float(contraction.max())),

@@ -39,10 +39,11 @@ def too_little(segments: Sequence[Segment], noise: float, criteria: Criteria) ->
 def explains(found: Search) -> bool:
     """Return whether the best model of a search explains enough of the error after re-tuning.
 
-    The errors are compared on *fit*, and on *fit* and *choose* by the geometric mean. If a load
-    sticks, it sticks elsewhere with slightly less friction than fitted. So a right model with
-    hardly any error on *fit* may have a larger one on *choose*. Without effects: return whether
-    the error above the noise after re-tuning is at most the noise, on *fit* or on *choose*.
+    The errors are compared on *fit*, and on *fit* and *choose* by the geometric mean: a load that
+    sticks stops at another position if its friction differs slightly from the fitted one, so that
+    a correct model with hardly any error on *fit* may have a larger one on *choose*. Without
+    effects, return whether the error above the noise after re-tuning is at most the noise, on
+    *fit* or on *choose*.
     """
     setting, errors, before = found.setting, found.best.errors, found.retuned.errors
     now = [setting.above(e) for e in (errors.fit, errors.choose)]
@@ -57,7 +58,7 @@ def explains(found: Search) -> bool:
 
 
 def verdict(found: Search, nominal: float, retuned: float) -> str:
-    """Return the verdict on data that support one.
+    """Return the verdict on data that are sufficient for one.
 
     *nominal* and *retuned* are the errors of these models over the judging data, in m, rad or N.
     """
@@ -93,7 +94,7 @@ def sentence(answer: Identification, lacking: str) -> str:
             f'{retuned} re-tuned ({nominal} nominal) to {augmented}. {floor}'
         )
     if answer.verdict == 'no_missing_effect':
-        return f'Nothing is missing: {nominal} are left on held-out data. {floor}'
+        return f'Nothing is missing: the error on held-out data is {nominal}. {floor}'
     if answer.verdict == 'parameters_wrong':
         return (
             'No effect is missing, but parameters are wrong: re-tuning lowers the error on '
@@ -103,22 +104,23 @@ def sentence(answer: Identification, lacking: str) -> str:
     if answer.since is not None:
         since = (
             f' It begins in the middle: the re-tuned model explains the recording up to '
-            f'{time_of(answer.since)}, and not from there on.'
+            f'{time_of(answer.since)}, but not after this time.'
         )
     return (
-        f'Something is missing that no effect of the library explains: {augmented} are left on '
-        f'held-out data, and {100 * answer.structure.ceiling:.0f} % of the residual can be '
-        f'predicted from the input.{since} {floor}'
+        'Something is missing that no effect of the library explains: the error on held-out data '
+        f'is {augmented}, and {100 * answer.structure.ceiling:.0f} % of the variance of the '
+        'residual can be predicted from pressure, position, velocity and time.'
+        f'{since} {floor}'
     )
 
 
 def of_absolute_pressures(parameters: Mapping[str, Estimate], signal: str) -> list[str]:
-    """Return a warning for each pressure offset that equals the negative pressure of the air.
+    """Return a warning for each pressure offset that is minus the pressure of the air.
 
     *signal* is the pressure that drives the recordings: ``pressure_command`` or ``pressure``.
     """
     return [
-        f'{name} = {one.value:.6g} Pa is the pressure of the air: are the pressures of the '
+        f'{name} = {one.value:.6g} Pa is minus the pressure of the air: are the pressures of the '
         f"recording absolute? Gauge pressures are expected: --column 'NAME={signal}_Pa-101325'"
         for name, one in parameters.items()
         if name.endswith('effects.pressure_offset.offset')
@@ -127,7 +129,7 @@ def of_absolute_pressures(parameters: Mapping[str, Estimate], signal: str) -> li
 
 
 def next_experiment(answer: Identification, library: tuple[type[Effect], ...]) -> str:
-    """Return which recording would resolve the open question of *answer*."""
+    """Return which recording would resolve what *answer* leaves open."""
     known = {e.name: e.experiment for e in library}
     if answer.verdict == 'insufficient_data':
         return 'Record a minute or more with pam_excite over the whole range of pressure.'
@@ -135,19 +137,18 @@ def next_experiment(answer: Identification, library: tuple[type[Effect], ...]) -
         first = next((e for e in answer.effects if e.alternatives), answer.effects[0])
         if first.alternatives:
             rivals = ', '.join(map(spelled, (first.name, *first.alternatives)))
-            return f'To tell {rivals} apart, record: {known[effect_of(first.name)]}.'
+            return f'To distinguish {rivals}, record: {known[effect_of(first.name)]}.'
         return f'To confirm {spelled(first.name)}, record: {known[effect_of(first.name)]}.'
     if answer.verdict == 'unexplained_structure':
         tried = [c for c in answer.candidates if c.gain > 0.0 and c.effect in answer.tested]
         if tried:
             best = max(tried, key=lambda c: c.gain).effect
             return (
-                f'{spelled(best)} comes nearest; to see what is left with it, record: '
-                f'{known[effect_of(best)]}, '
-                'with force and pressure measured.'
+                f'{spelled(best)} lowers the error most, but not enough; to see what remains with '
+                f'it, record: {known[effect_of(best)]}, with force and pressure measured.'
             )
         return 'Record force and pressure together with the position, slowly and fast.'
-    return 'Repeat the recording on another day, or with another load, to see whether it holds.'
+    return 'Repeat the recording on another day, or with another load, to confirm the verdict.'
 
 
 def time_of(since: Estimate) -> str:

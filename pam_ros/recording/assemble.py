@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from pam_ros.errors import RecordingError
 from pam_ros.recording.of_joint import of_joint
-from pam_ros.recording.quantities import TURNED
+from pam_ros.recording.quantities import ANGULAR
 from pam_ros.recording.recording import KINDS, OUTPUTS, Recording, interpolated
 from pam_ros.recording.series import GAP_SECONDS, Series, refuse_backwards
 
@@ -56,15 +56,15 @@ def assemble(
     _make_position(name, series, l0, notes)
     if 'pressure_command' not in series and 'pressure' not in series:
         raise MissingSignalError(
-            f'{name} has no pressure_command and no pressure: nothing drives it'
+            f'{name} has neither pressure_command nor pressure: one of them is needed as the input'
         )
     kind = _find_kind(name, series, kind)
-    judged = 'position' if kind == 'free' else 'force'
-    needed = {judged, 'position'}
+    predicted = 'position' if kind == 'free' else 'force'
+    needed = {predicted, 'position'}
     if 'pressure_command' not in series:
         needed.add('pressure')
     series = _ascending(name, series, needed, notes)
-    main, command = series[judged], series.get('pressure_command')
+    main, command = series[predicted], series.get('pressure_command')
     t = _common(name, main, [series[quantity] for quantity in needed], command, notes)
     for quantity in OUTPUTS:
         if quantity in series and quantity not in needed:
@@ -73,7 +73,7 @@ def assemble(
         for start, end in one.holes():
             t = t[(t <= start) | (t >= end)]
     if t.size < 2:
-        raise RecordingError(f'{name}: its signals share no stretch of time')
+        raise RecordingError(f'{name}: its signals do not overlap in time')
     origin = float(t[0])
     recording = Recording(
         name=name,
@@ -130,7 +130,7 @@ def _ascending(
 def _make_position(
     name: str, series: dict[str, Series], l0: float | None, notes: list[str]
 ) -> None:
-    for linear, angular in TURNED.items():
+    for linear, angular in ANGULAR.items():
         if angular in series:
             if linear in series:
                 one, other = series[angular].source, series[linear].source
@@ -148,7 +148,7 @@ def _make_position(
     if l0 is None:
         raise RecordingError(
             f'{name}: {contraction.source} is a contraction: the length l0 of the muscle is '
-            'needed to make a position of it'
+            'needed to convert it to a position'
         )
     series['position'] = replace(contraction, value=contraction.value * l0)
 
@@ -160,12 +160,14 @@ def _find_kind(name: str, series: dict[str, Series], kind: str | None) -> str:
     if kind not in KINDS:
         raise RecordingError(f'kind = {kind!r} is not known: give one of ' + ', '.join(KINDS))
     if 'position' not in series:
-        what = 'position or contraction, which a free load is judged by'
+        what = 'position or contraction, the predicted signal of a free load'
         if kind == 'held' or 'force' in series:
             what = 'position or contraction, at which the force was measured'
         raise MissingSignalError(f'{name} has no {what}')
     if kind == 'held' and 'force' not in series:
-        raise MissingSignalError(f'{name} has no force, which a held length is judged by')
+        raise MissingSignalError(
+            f'{name} has no force, the predicted signal at a prescribed length (kind held)'
+        )
     return kind
 
 
@@ -186,7 +188,7 @@ def _common(
         start = float(command.t[0])
     t: Array = main.t[(main.t >= start) & (main.t <= end)]
     if t.size < 2:
-        raise RecordingError(f'{name}: its signals share no stretch of time')
+        raise RecordingError(f'{name}: its signals do not overlap in time')
     return t
 
 
@@ -218,7 +220,7 @@ def _gaps(t: Array) -> list[tuple[float, float]]:
 
 
 def _note_stream(recording: Recording, notes: list[str]) -> None:
-    """Note where a stream of commands pauses: the behaviour of the rig then is not recorded."""
+    """Note where a stream of commands pauses: it is not recorded how the rig reacted."""
     command_t = recording.command_t
     if command_t is None or command_t.size < 10:
         return
@@ -230,7 +232,7 @@ def _note_stream(recording: Recording, notes: list[str]) -> None:
     if period < STREAM and long.any():
         i = int(np.argmax(pauses))
         notes.append(
-            f'commands came every {1e3 * period:.3g} ms but pause {int(long.sum())} time(s), at '
-            f'{stamps[i]:.4g} s for {pauses[i]:.3g} s: taken as held (a rig that vents after a '
-            'while did not)'
+            f'commands came every {1e3 * period:.3g} ms but pause {int(long.sum())} time(s), the '
+            f'longest at {stamps[i]:.4g} s for {pauses[i]:.3g} s: the last command is taken as '
+            'constant (wrong if the rig vented)'
         )

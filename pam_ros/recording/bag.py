@@ -58,8 +58,8 @@ def _ours(muscles: Sequence[str], unit: str | None) -> Ours:
     if not muscles:
         return _OURS
     linear = {'position': Target('position', 'm'), 'velocity': Target('velocity', 'm_s')}
-    turned = {'position': Target('angle', 'rad'), 'velocity': Target('angular_velocity', 'rad_s')}
-    motion = turned if unit == 'rad' else linear
+    angular = {'position': Target('angle', 'rad'), 'velocity': Target('angular_velocity', 'rad_s')}
+    motion = angular if unit == 'rad' else linear
     names = muscles if len(muscles) > 1 else ('',)
     commands = {
         f'data[{i}]': Meaning(Target('pressure_command', 'Pa', name))
@@ -82,7 +82,7 @@ class _Field(NamedTuple):
     topic: str
     path: str
     meaning: Meaning
-    asked: bool  # by the user: then it must exist
+    is_required: bool  # by the user; then it must have values
 
 
 class _Samples(NamedTuple):
@@ -153,7 +153,7 @@ def _fields(
         if meaning is not None and meaning.target.quantity == 'time':
             raise RecordingError(f'{name}: the time in a bag is that of its messages')
         if meaning is not None:
-            fields.append(_Field(topic, field or 'data', meaning, asked=True))
+            fields.append(_Field(topic, field or 'data', meaning, is_required=True))
     given = {field.meaning.target.key for field in fields}
     given |= {'position'} if 'contraction' in given else set()
     found = {
@@ -176,7 +176,7 @@ def _fields(
             if field == 'effort' and 'force' in found:
                 continue
             if meaning.target.key not in given and f'{topic}.{field}' not in mapping:
-                fields.append(_Field(topic, field, meaning, asked=False))
+                fields.append(_Field(topic, field, meaning, is_required=False))
     if not any(f.meaning.target.quantity in _OUTPUTS for f in fields):
         raise RecordingError(
             f'{path.name} has neither joint_states nor force: it has {_named(source)}'
@@ -311,7 +311,7 @@ def _headers_agree(samples: dict[str, _Samples], notes: list[str]) -> bool:
         if not early <= late <= _LATENCY[1]:
             notes.append(
                 f'{topic} was stamped by a clock {late:.4g} s behind that of the recorder: all '
-                'messages are taken at their receipt'
+                'messages get the time of their receipt'
             )
             return False
     return True
@@ -331,7 +331,7 @@ def _add(
     key, quantity = field.meaning.target.key, field.meaning.target.quantity
     filled = value[~np.isnan(value)]
     if filled.size == 0 or (quantity in _UNFILLED and not filled.any()):
-        if field.asked:
+        if field.is_required:
             raise RecordingError(f'{path.name}: {source} has no values')
         return
     if key in series:

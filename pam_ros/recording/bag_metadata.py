@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import yaml
 
 METADATA_VERSION = 9  # rosbag2's, since Jazzy
-_NO_TIME = 2**63 - 1  # what rosbag2 writes as the start of a bag without messages
+_NO_TIME = 2**63 - 1  # the start that rosbag2 writes for a bag without messages
 
 Span = tuple[int, int]  # first and last time in ns
 

@@ -4,7 +4,7 @@
 
 Each :meth:`BagWriter.seal` leaves a complete bag: files with summaries and ``metadata.yaml``. A
 recorder that is killed therefore loses only the messages after the last seal, and nothing needs
-repair. If a seal does not fit on the disk, the bag ends with the seal before.
+repair. If a seal does not fit on the disk, the bag ends with the previous seal.
 
 Like rosbag2 itself, the writer splits the bag into files ``NAME_0.mcap``, ``NAME_1.mcap`` and so
 on, because the memory of a file and the duration of a seal grow with the number of its chunks.

@@ -197,7 +197,7 @@ def _cells(path: Path, number: int, line: str, separator: str) -> list[str]:
         (cells,) = csv.reader([line], delimiter=separator, skipinitialspace=True, strict=True)
     except csv.Error:
         longest = csv.field_size_limit()
-        what = 'a quotation mark is not closed, or stands within a cell'
+        what = 'a quotation mark is not closed, or is within a cell'
         if len(line) > longest:
             what = f'a cell is longer than {longest} characters, or {what}'
         raise RecordingError(f'{path.name}, line {number}: {what}') from None
@@ -220,7 +220,8 @@ def _decode(path: Path, data: bytes) -> str:
         raise RecordingError(f'{path.name} is not a text file: give a CSV file or a rosbag2')
     if _SWAPPED_BREAK in text:
         raise RecordingError(
-            f'{path.name} begins with the byte order mark of the other UTF-16: save it as UTF-8'
+            f'{path.name} begins with a byte order mark of UTF-16, and has the other byte order: '
+            'save it as UTF-8'
         )
     return text
 

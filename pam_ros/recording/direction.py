@@ -37,9 +37,9 @@ def with_contraction_positive(recording: Recording) -> Recording:
     if len(work) < ENOUGH or min(work) <= _least(y, f, p):
         return recording
     note = (
-        f'the force gives off {float(np.mean(work)):.3g} J in each cycle of the position at a '
-        'constant pressure, which no actuator can: the position counts against its pull, and is '
-        'taken with the other sign'
+        f'the force delivers {float(np.mean(work)):.3g} J in each cycle of the position at a '
+        'constant pressure, which is impossible for an actuator: the position increases against '
+        'its pull, and its sign is changed'
     )
     velocity = None if recording.velocity is None else -recording.velocity
     return replace(recording, position=-y, velocity=velocity, warnings=(*recording.warnings, note))

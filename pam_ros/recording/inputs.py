@@ -46,7 +46,9 @@ def driving(recording: Recording, p_max: float | Sequence[float] | None = None) 
     elif recording.pressure is not None:
         name, values = 'pressure', recording.pressure
     else:
-        raise RecordingError(f'{recording.name}: nothing drives it')
+        raise RecordingError(
+            f'{recording.name}: neither pressure_command nor pressure was recorded'
+        )
     names = [f'{muscle}.{name}' for muscle in recording.muscles] or [name]
     highest: Sequence[float | None] = [None] * len(names)
     if p_max is not None:

@@ -12,7 +12,7 @@ from collections.abc import Collection, Sequence
 from pam_ros.recording.mapping import ColumnMapping
 from pam_ros.recording.quantities import ATMOSPHERE, OF_MUSCLE, OF_ONE, QUANTITIES, Target, unit_in
 
-# Words that other programs use for our quantities, together with a unit of that quantity.
+# Words that other programs use for the quantities, together with a unit of the quantity.
 _WORDS = {
     'pressure': ('p', 'u', 'pres', 'press', 'pressure'),
     'position': (
@@ -52,8 +52,8 @@ def found_columns(header: Sequence[str], mapping: ColumnMapping, known: Collecti
         if target is not None and _linear(target.key) not in read:
             option = shlex.quote(f'{name}={_rule(name, target)}')
             options.setdefault(_linear(target.key), []).append(f'--column {option}')
-    said = ' '.join(' or '.join(alike) for alike in options.values())
-    return f'its columns are {shown}{more}' + (f': say what they are with {said}' if said else '')
+    text = ' '.join(' or '.join(alike) for alike in options.values())
+    return f'its columns are {shown}{more}' + (f': say what they are with {text}' if text else '')
 
 
 def likely_target(name: str) -> Target | None:

@@ -36,7 +36,7 @@ def of_joint(
         if stranger not in names:
             raise RecordingError(
                 f'{name}: {_source_of(series, stranger)} is of a muscle {stranger!r}, which the '
-                f'joint does not have: its muscles are {", ".join(names)}; say whose it is with '
+                f'joint does not have: its muscles are {", ".join(names)}; give its muscle with '
                 f"--column 'NAME={names[0]}.pressure_command_kPa', or leave it out with "
                 "--column 'NAME=ignore'"
             )
@@ -44,9 +44,9 @@ def of_joint(
     for quantity in ('pressure_command', 'pressure'):
         if quantity in made:
             raise RecordingError(
-                f'{name}: {made[quantity].source} is of no muscle, and the joint has '
-                f'{len(names)}: name it {names[0]}.{quantity}_kPa or after another of '
-                f'{", ".join(names)}'
+                f'{name}: {made[quantity].source} does not name a muscle, and the joint '
+                f'has {len(names)}: name it {names[0]}.{quantity}_kPa, or likewise with another '
+                f'of {", ".join(names)}'
             )
         own = [series.get(f'{muscle}.{quantity}') for muscle in names]
         given = [one for one in own if one is not None]
@@ -63,7 +63,7 @@ def of_joint(
             made[quantity] = _together(name, given, is_held=quantity == 'pressure_command')
     if 'force' in made:
         source = made.pop('force').source
-        notes.append(f'{source} is not used: which muscle it is of is not known')
+        notes.append(f'{source} is not used: its muscle is not known')
     forces = [one.source for key, one in series.items() if key.endswith('.force')]
     if forces:
         notes.append(f'{", ".join(forces)}: forces of the muscles of a joint are not used')
@@ -110,7 +110,7 @@ def _together(name: str, given: list[Series], *, is_held: bool) -> Series:
         t = given[0].t[(given[0].t >= start) & (given[0].t <= end)]
     if t.size == 0:
         sources = ', '.join(one.source for one in given)
-        raise RecordingError(f'{name}: {sources} share no stretch of time')
+        raise RecordingError(f'{name}: {sources} do not overlap in time')
     columns = []
     for one in given:
         if is_held:

@@ -15,7 +15,7 @@ Array = NDArray[np.float64]
 
 SHORT = 10.0  # s
 SLOW = 0.05  # s between samples; above, there are few in an oscillation of a free load
-RESTING = 0.02  # share of samples at an extreme value from which on it may be a stop
+RESTING = 0.02  # share of samples at an extreme value above which it may be a stop
 SATURATED = 0.6  # an input with a greater share of samples at one end of its range is poor
 LEVELS = 100  # a signal with fewer distinct values is called coarse
 SMALL_RANGE = 0.2  # of the input's largest value
@@ -63,7 +63,7 @@ def _warn_gaps(recording: Recording) -> list[str]:
     total = sum(end - start for start, end in recording.gaps)
     return [
         f'{len(recording.gaps)} gap(s) without samples, {total:.3g} s in all, the longest '
-        f'{longest[1] - longest[0]:.3g} s at {longest[0]:.4g} s: each part is simulated on its own'
+        f'{longest[1] - longest[0]:.3g} s at {longest[0]:.4g} s: each part is simulated separately'
     ]
 
 
@@ -72,7 +72,7 @@ def _warn_range(recording: Recording, l0: float | None, inputs: Sequence[Input])
     if l0 is not None and recording.position is not None:
         most = float(np.max(np.abs(recording.position)))
         if most > 0.6 * l0:
-            found.append(f'position reaches {most:.4g} m, l0 is {l0:g} m: are both right?')
+            found.append(f'position reaches {most:.4g} m, l0 is {l0:g} m: are both correct?')
     for one in inputs:
         most = float(np.max(one.values))
         if one.p_max is not None and most > 1.05 * one.p_max:
@@ -119,7 +119,7 @@ def _warn_direction(recording: Recording, inputs: Sequence[Input]) -> list[str]:
         return []
     return [
         f'position falls where {inputs[0].name} rises: a shorter muscle has a greater position; '
-        "with --column 'NAME=position_m*-1' it counts the other way"
+        "change its sign with --column 'NAME=position_m*-1'"
     ]
 
 
@@ -153,7 +153,7 @@ def _warn_extremes(recording: Recording, inputs: Sequence[Input]) -> list[str]:
             )
             if quantity != 'pressure' or not is_commanded:
                 found.append(
-                    f'{name} rests at its {word} value, {extreme:.6g} {si}, in '
+                    f'{name} stays at its {word} value, {extreme:.6g} {si}, in '
                     f'{100 * at.mean():.0f} % of the samples: a sensor at its limit, or a stop?'
                 )
     return found
@@ -168,8 +168,8 @@ def _warn_coarse(recording: Recording) -> list[str]:
         if levels.size < LEVELS:
             step = float(np.median(np.diff(levels)))
             found.append(
-                f'{name} takes only {levels.size} values, {step:.3g} {si} apart: what is smaller '
-                'cannot be seen'
+                f'{name} takes only {levels.size} values, {step:.3g} {si} apart: smaller '
+                'changes cannot be seen'
             )
     return found
 
@@ -187,7 +187,7 @@ def _warn_excitation(recording: Recording, inputs: Sequence[Input]) -> list[str]
 def _excited(name: str, value: Array, p_max: float | None) -> list[str]:
     """Return warnings on poor excitation by one input."""
     if is_constant(value):
-        return [f'{name} is constant at {value[0]:.6g} Pa: what it does cannot be seen']
+        return [f'{name} is constant at {value[0]:.6g} Pa: its influence cannot be seen']
     found = []
     scale = p_max if p_max is not None else float(np.max(np.abs(value)))
     share = float(np.ptp(value)) / scale
@@ -206,7 +206,7 @@ def _excited(name: str, value: Array, p_max: float | None) -> list[str]:
     turns = _turns(value)
     if turns < 3:
         found.append(
-            f'{name} turns round {turns} time(s): poor excitation, hysteresis and friction need '
+            f'{name} reverses {turns} time(s): poor excitation, hysteresis and friction need '
             'both directions several times'
         )
     return found

@@ -55,7 +55,7 @@ QUANTITIES = {
     )
 }
 # The quantities that replace position and velocity for a revolute joint (units of an angle).
-TURNED = {'position': 'angle', 'velocity': 'angular_velocity'}
+ANGULAR = {'position': 'angle', 'velocity': 'angular_velocity'}
 OF_MUSCLE = ('pressure_command', 'pressure', 'force')  # quantities of each muscle of a joint
 # Spellings of the time axis without a unit; ROS and most loggers mean seconds.
 _BARE_TIME = ('t', 'time')
@@ -65,7 +65,7 @@ _TIME_NAMES = ('t', 'time', 'timestamp', 'stamp', 'elapsed', 'elapsed_time')
 
 def quantity_in(unit: str, name: str) -> Quantity:
     """Return the quantity called *name* if positions are in *unit*, m or rad."""
-    return QUANTITIES[TURNED.get(name, name) if unit == 'rad' else name]
+    return QUANTITIES[ANGULAR.get(name, name) if unit == 'rad' else name]
 
 
 @dataclass(frozen=True)
@@ -128,10 +128,10 @@ def _target(name: str, rest: str) -> Target | None:
             unit = _unit(word, _LENGTH)
             if quantity == 'contraction' and unit is not None:
                 return Target('position', unit)
-            turned = TURNED.get(quantity)
-            unit = None if turned is None else _unit(word, QUANTITIES[turned].units)
-            if turned is not None and unit is not None:
-                return Target(turned, unit)
+            angular = ANGULAR.get(quantity)
+            unit = None if angular is None else _unit(word, QUANTITIES[angular].units)
+            if angular is not None and unit is not None:
+                return Target(angular, unit)
             # One further word is meant as a unit; several words are the name of another signal.
             if '_' not in word:
                 raise RecordingError(
@@ -154,8 +154,8 @@ def _unit(word: str, units: dict[str, float]) -> str | None:
 
 
 def _unit_sentence(name: str, quantity: str, what: str) -> str:
-    turned = QUANTITIES[TURNED[quantity]].units if quantity in TURNED else {}
-    units = ', '.join((*QUANTITIES[quantity].units, *turned))
+    angular = QUANTITIES[ANGULAR[quantity]].units if quantity in ANGULAR else {}
+    units = ', '.join((*QUANTITIES[quantity].units, *angular))
     example = Target(quantity, next(iter(QUANTITIES[quantity].units)))
     return (
         f'{name!r} {what}: {quantity} is given in {units}; say what it is with '

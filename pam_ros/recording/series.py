@@ -39,7 +39,7 @@ class Series:
         Single samples may be missing, or the rate of the column may be lower than that of the
         stamps *t*. Raises RecordingError, with the name of the recording, for infinite values,
         and for a stretch without values that is longer than :attr:`gap_limit` (at the ends also
-        longer than 1 s): then the sensor failed.
+        longer than 1 s), since the sensor has failed there.
         """
         if np.isinf(value).any():
             at = t[np.argmax(np.isinf(value))]

@@ -24,7 +24,7 @@ class SimulatedTime:
 
     @property
     def newest(self) -> int | None:
-        """When the last known time was sent, None before the first one."""
+        """The time of sending of the last known time, None before the first one."""
         return self._sent[-1] if self._sent else None
 
     def tell(self, sent: int, time: int) -> None:

@@ -79,8 +79,8 @@ def _refuse_low(recording: Recording, inputs: Sequence[Input]) -> None:
     ):
         name, p_max = inputs[0].name, inputs[0].p_max
         raise RecordingError(
-            f'{recording.name}: {name} stays below {highest[0]:.4g} Pa, the muscle takes up to '
-            f'{p_max:g} Pa: is it in another unit ({name}_bar, {name}_kPa)?'
+            f'{recording.name}: {name} stays below {highest[0]:.4g} Pa, and p_max of the '
+            f'muscle is {p_max:g} Pa: is it in another unit ({name}_bar, {name}_kPa)?'
         )
 
 
@@ -97,7 +97,7 @@ def _refuse_position(recording: Recording, l0: float | None) -> None:
             f'{recording.name}: position = {value:.6g} m at {at:.6g} s is not a '
             f'contraction of a muscle of l0 = {l0:g} m: positions are {low:g} to '
             f"{high:g} m, 0 at length l0 and positive where it is shorter: --column 'NAME="
-            "position_mm*-1+120' turns and moves them"
+            "position_mm*-1+120' inverts and shifts them"
         )
 
 
@@ -115,7 +115,7 @@ def _refuse_beyond(recording: Recording, reach: tuple[float, float] | None) -> N
             f'{recording.name}: position = {value:.6g} {unit} at {at:.6g} s is outside {low:.4g} '
             f'to {high:.4g} {unit}, where the muscles of this joint have a length: is it in '
             f"another unit ({other}), or is its zero elsewhere (--column 'NAME=position_{unit}"
-            "*-1+0.5' turns and moves it)?"
+            "*-1+0.5' inverts and shifts it)?"
         )
 
 
@@ -125,7 +125,8 @@ def _refuse_constant(recording: Recording, inputs: Sequence[Input]) -> None:
         levels = ' and '.join(f'{float(np.mean(one.values)):.6g} Pa' for one in inputs)
         verb = 'is' if len(inputs) == 1 else 'are'
         raise RecordingError(
-            f'{recording.name}: {names} {verb} constant at {levels}: nothing can be found from it'
+            f'{recording.name}: {names} {verb} constant at {levels}, so that no parameter can '
+            'be identified'
         )
     output = 'position' if recording.kind == 'free' else 'force'
     if np.ptp(getattr(recording, output)) == 0.0:

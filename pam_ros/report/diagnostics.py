@@ -41,8 +41,8 @@ def size_of(residuals: Sequence[Array], targets: Sequence[Array]) -> Size:
     """Return the size of residuals (n,) of some runs with these measured targets (n,).
 
     The interval is computed from the spread of the mean square of twenty batches in time, each of
-    which should be longer than the correlation time of the residual. It needs at least forty
-    samples, else it has no width. fit = 100 (1 - |e| / |y - mean y|), NaN for constant targets.
+    which should be longer than the correlation time of the residual. With fewer than forty samples
+    it has no width. fit = 100 (1 - |e| / |y - mean y|), NaN for constant targets.
     """
     e = np.concatenate(residuals) if residuals else np.empty(0)
     if e.size == 0:

@@ -73,7 +73,7 @@ def page(
         style=style,
         interval=interval,
         scale=scale,
-        held_out='test recordings' if result.test else 'part held out',
+        held_out='test recordings' if result.test else 'a part of each recording',
         errors=rows.errors(content, scale, {curve.stage: curve.label for curve in curves}),
         pictures=plots.pictures(result, runs, content, curves, scale),
         rounds=rows.rounds(result, scale),
@@ -81,11 +81,19 @@ def page(
         recordings=rows.recordings(content),
         configuration=rows.configuration(source),
         warnings=warnings_of(result, source),
-        inputs='pressure and length' if result.quantity == 'force' else 'command',
+        inputs=_inputs(result, source),
         content=content,
         source=source,
         no_file=no_file,
     )
+
+
+def _inputs(result: Identification, source: Provenance) -> str:
+    """Return the names of the signals that a free run receives."""
+    if result.quantity == 'force':
+        return 'pressure and length'
+    commanded = all(one.command is not None for one in source.recordings)
+    return 'command' if commanded else 'measured pressure'
 
 
 def curves_of(result: Identification, runs: list[Run]) -> list[Curve]:
@@ -117,28 +125,28 @@ def not_excluded(result: Identification, scale: Scale) -> list[str]:
         others = [name_in_words(other) for other in finding.alternatives]
         if others:
             sentences.append(
-                f'Instead of {name} it could be {" or ".join(others)}: these data do not tell '
-                'them apart.'
+                f'Instead of {name} it could be {" or ".join(others)}: these data do not '
+                'distinguish them.'
             )
         else:
             sentences.append(
                 f'No other effect of the library explains these data as well as {name}.'
             )
     if result.verdict == 'no_missing_effect':
-        sentences.append(f'Effects that stay below the noise floor of {floor} could be there.')
+        sentences.append(f'Effects that stay below the noise floor of {floor} could be present.')
     elif result.verdict == 'parameters_wrong':
         sentences.append(
-            'An effect that acts just like a change of the parameters could be there: a payload '
-            'like a mass, an offset of pressure like a6.'
+            'An effect that acts like a change of the parameters could be present: a payload acts '
+            'like a mass, an offset of the pressure like a6.'
         )
     elif result.verdict == 'unexplained_structure':
         sentences.append(
-            f'Any effect beyond the {len(result.tested)} of the library that were tested could be '
-            'the cause.'
+            f'Any effect other than the {len(result.tested)} effects of the library that were '
+            'tested could be the cause.'
         )
     elif result.verdict == 'insufficient_data':
         sentences.append('No effect can be excluded with these data.')
     if result.untestable:
         names = listed([name_in_words(name) for name in result.untestable])
-        sentences.append(f'These data cannot show {names}: the table below says what to record.')
+        sentences.append(f'These data cannot show {names}: the table below states what to record.')
     return sentences

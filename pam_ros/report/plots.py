@@ -74,8 +74,8 @@ def _errors(
         _wide(
             'rmse',
             'RMSE of each model',
-            'Open: fitted data. Filled: held-out data. Bars: 95 % intervals. A model that '
-            'lacks nothing reaches the noise floor.',
+            'Open circles: fitted data. Filled circles: held-out data. Bars: 95 % intervals. A '
+            'model that lacks nothing reaches the noise floor.',
             lambda width: time_plots.errors(measured, result.noise.sigma, scale, width),
         )
     ]
@@ -89,10 +89,10 @@ def _over_time(
     before = curves[-2].stage if len(curves) > 1 else curves[-1].stage
     close = time_plots.close_up(runs, before, curves[-1].stage)
     several = f'{len(runs)} runs side by side. ' if len(runs) > 1 else ''
-    tint = '' if result.test else 'Tinted ground: held out. '
-    band = 'Band: two standard deviations of the noise.'
+    tint = '' if result.test else 'Tinted background: held-out data. '
+    band = 'Band: ± two standard deviations of the noise.'
     if result.since is not None:
-        band += ' Red line: what is missing acts from there on.'
+        band += ' Red line: the time from which the missing effect acts.'
     return [
         _wide(
             'overview',
@@ -119,21 +119,21 @@ def _correlation(
     return [
         _narrow(
             'autocorrelation',
-            'Residual with itself',
-            'Beyond lag 0 white noise stays within the band (95 %).',
+            'Autocorrelation of the residual',
+            'At lags above 0, white noise stays within the band (95 %).',
             residual_plots.autocorrelation(runs, curves),
         ),
         _narrow(
             'cross-correlation',
-            'Residual with the input',
-            'A residual that the input does not explain stays within the band (Ljung, 99 %, '
+            'Cross-correlation with the input',
+            'A residual that is independent of the input stays within the band (Ljung, 99 %, '
             'drawn for the last model).',
             residual_plots.cross_correlation(runs, curves),
         ),
         _narrow(
             'spectrum',
             'Spectrum of the residual',
-            'Broken line: the noise alone.',
+            'Dashed line: the noise alone.',
             residual_plots.spectrum(runs, curves, scale, result.noise),
         ),
         _narrow(
@@ -206,8 +206,8 @@ def _against(
         _narrow(
             'directions',
             'Rising and falling input',
-            'Solid where the input rises, broken where it falls: apart, they are a loop that '
-            'the model lacks.',
+            'Solid: rising input. Dashed: falling input. A distance between the two lines is a '
+            'loop that the model lacks.',
             residual_plots.by_direction(runs, curves, scale, pressure, input_label),
         )
     )

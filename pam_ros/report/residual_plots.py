@@ -63,7 +63,7 @@ def cross_correlation(runs: list[Run], curves: list[Curve]) -> Figure:
     reach = 1.15 * max(top, min(band, 1.0))
     ax.set_ylim(-reach, reach)
     ax.set_title('correlation')
-    ax.set_xlabel('residual after the input by, s')
+    ax.set_xlabel('lag of the residual after the input, s')
     return figure
 
 
@@ -169,7 +169,7 @@ def loop(
 
 
 def loop_stretch(runs: list[Run]) -> Stretch:
-    """Return the stretch with the widest and calmest loop of the input: few turns, no jumps."""
+    """Return the stretch with the widest loop of the input, with few reversals and no jumps."""
     best, most = Stretch(runs[0], 0, runs[0].t.size), -np.inf
     for run in runs:
         path = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(run.drive)))])
@@ -182,8 +182,8 @@ def loop_stretch(runs: list[Run]) -> Stretch:
                 reach = float(np.ptp(run.drive[i:j])) if j - i > FEWEST else 0.0
                 if reach <= 0.0:
                     continue
-                # The path of a full loop is twice the range of the input: a longer path has turns
-                # within it, a shorter one is not a full loop.
+                # The path of a full loop is twice the range of the input: a longer path contains
+                # more reversals, a shorter one is not a full loop.
                 turns = float(path[j - 1] - path[i]) / reach
                 jumps = min(float(np.max(leap[i:j])) / reach, 1.0)
                 worth = reach * min(turns, 2.0) / max(turns, 2.0) * (1.0 - jumps) ** 2

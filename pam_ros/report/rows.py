@@ -65,7 +65,7 @@ def rounds(result: Identification, scale: Scale) -> list[tuple[str, list[Row]]]:
         found.setdefault(candidate.parents, []).append(candidate)
     return [
         (
-            'On top of ' + (listed([name_in_words(name) for name in parents]) or 're-tuning'),
+            'In addition to ' + (listed([name_in_words(name) for name in parents]) or 're-tuning'),
             [
                 _candidate(candidate, scale)
                 for candidate in sorted(

@@ -26,10 +26,11 @@ class Run:
     t is in s on the clock of its recording. target is measured, simulated is by the three models
     in the order of ``STAGES``, both in SI. held marks samples that were not fitted. pressures (n,
     muscles) in Pa are the input of a free load (the commands if they were recorded), or the
-    measured pressures at a prescribed length. position and velocity (m or rad, and per s) are
-    those of the last model for a free load, without the noise of the measurement, or measured
-    ones at a prescribed length. drive (n,) in Pa is the input as one signal, see
-    :func:`drive_of`. since is the time in s from which effects act, None if from the start.
+    pressures at a prescribed length (measured, if they were recorded). position and velocity (m or
+    rad, and per s) are those of the last model for a free load, without the noise of the
+    measurement, or measured ones at a prescribed length. drive (n,) in Pa is the input as one
+    signal, see :func:`drive_of`. since is the time in s from which effects act, None if from the
+    start.
     """
 
     name: str

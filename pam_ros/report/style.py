@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""How the plots of a report look, and how they become SVG inside a page.
+"""The style of the plots of a report, and their conversion to SVG inside a page.
 
 Figures are sized in CSS pixels, 1:1 on the page, so that their text has the size of the page's.
 """
@@ -29,7 +29,7 @@ MEASURED = '#9aa4af'
 COLOURS = ('#c8500a', '#b8860b', '#0b62a8')
 DASHES: tuple[Any, ...] = ((0, (4, 1.5)), (0, (1.5, 1)), 'solid')
 NOISE = '#7a4fa3'
-KEPT_BACK = '#eef3f8'
+HELD_OUT = '#eef3f8'
 SINCE = '#b3124a'
 
 WIDE, NARROW = 1080, 356

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""``residual.csv``: every sample measured and simulated, with its residuals."""
+"""``residual.csv``: every sample, measured and simulated, with its residuals."""
 
 from itertools import repeat
 

@@ -85,8 +85,8 @@ def measured_and_simulated(
 ) -> Figure:  # fmt: skip
     """Return the measured and simulated signals over time, with the residuals below.
 
-    The residual of the last model is drawn once more alone, since those of the models before it
-    may be far larger. Samples that were not fitted have a tinted background. The band is two
+    The residual of the last model is drawn again alone, since those of the models before it may
+    be far larger. Samples that were not fitted have a tinted background. The band is two
     standard deviations of the *noise* on each side. If effects begin to act at some time, a line
     is drawn there.
     """
@@ -132,7 +132,7 @@ def _tint(ax: Axes, t: Array, held: NDArray[np.bool_]) -> None:
         return  # all samples of this stretch are held out
     edges = np.flatnonzero(np.diff(np.concatenate([[0], held.astype(int), [0]])))
     for start, stop in edges.reshape(-1, 2):
-        ax.axvspan(t[start], t[stop - 1], color=style.KEPT_BACK, linewidth=0.0, zorder=0)
+        ax.axvspan(t[start], t[stop - 1], color=style.HELD_OUT, linewidth=0.0, zorder=0)
 
 
 def errors(

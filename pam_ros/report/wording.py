@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Numbers as people read them: few digits, handy units, true minus signs."""
+"""Numbers and names as texts for readers: few digits, convenient units, true minus signs."""
 
 import math
 from dataclasses import dataclass
@@ -22,7 +22,7 @@ class Scale:
 
 
 def scale_for(unit: str, size: float) -> Scale:
-    """Return a handy unit for values in SI *unit* of about *size*: mm, mrad, kPa."""
+    """Return a convenient unit for values in SI *unit* of about *size*: mm, mrad, kPa."""
     if unit == 'm':
         return Scale(1e6, 'µm') if 0.0 < size < 1e-5 else Scale(1e3, 'mm')
     if unit == 'rad':

@@ -315,4 +315,4 @@ def test_the_measured_cylinder_has_friction(shared_data):
     for run, s in zip(found.stages[2].tested, found.test, strict=True):
         assert np.sqrt(np.mean((run - s.target) ** 2)) < 4.0
     assert {'payload', 'end_stop'} <= set(found.untestable)
-    assert sum('taken with the other sign' in warning for warning in found.warnings) == 4
+    assert sum('its sign is changed' in warning for warning in found.warnings) == 4

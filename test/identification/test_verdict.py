@@ -117,7 +117,7 @@ def test_each_verdict_has_its_sentence_and_its_next_experiment(name):
         'effect_found': errors,
         'no_missing_effect': errors[:1],
         'parameters_wrong': errors[:2],
-        'unexplained_structure': [errors[2], '% of the residual'],
+        'unexplained_structure': [errors[2], '% of the variance of the residual'],
         'insufficient_data': ['last 1.0 s'],
     }[name]
     assert all(part in text for part in there)
@@ -151,7 +151,7 @@ def test_an_effect_that_begins_in_the_middle_has_its_onset():
     found = sentence(replace(answer, verdict='effect_found'), '')
     assert 'lacks coulomb_friction (or hysteresis) from 12.50 s (12.40 to 12.60 s) on: ' in found
     unknown = sentence(replace(answer, verdict='unexplained_structure'), '')
-    assert 'up to 12.50 s (12.40 to 12.60 s), and not from there on.' in unknown
+    assert 'up to 12.50 s (12.40 to 12.60 s), but not after this time.' in unknown
 
 
 def test_rivals_are_distinguished_by_the_experiment_of_the_effect():
@@ -160,14 +160,14 @@ def test_rivals_are_distinguished_by_the_experiment_of_the_effect():
     answer = replace(answer, effects=(first, *answer.effects[1:]))
     assert f'{first.name} (or slack or leak)' in sentence(answer, '')
     text = next_experiment(answer, answer.stages[0].model.library)
-    assert text.startswith(f'To tell {first.name}, slack, leak apart, record: ')
+    assert text.startswith(f'To distinguish {first.name}, slack, leak, record: ')
 
 
 def test_without_a_named_effect_the_nearest_one_decides_what_to_record():
     answer = replace(results.friction_result()[0], verdict='unexplained_structure')
     library = answer.stages[0].model.library
     best = max(answer.candidates, key=lambda c: c.gain)
-    assert next_experiment(answer, library).startswith(f'{best.effect} comes nearest')
+    assert next_experiment(answer, library).startswith(f'{best.effect} lowers the error most')
     none = replace(answer, candidates=())
     assert next_experiment(none, library).startswith('Record force and pressure')
 
@@ -181,4 +181,4 @@ def test_an_offset_of_the_ambient_pressure_is_reported(offset, is_reported):
     assert bool(sentences) is is_reported
     if sentences:
         assert "'NAME=pressure_Pa-101325'" in sentences[0]
-        assert sentences[0].startswith(f'{name} = {offset:.6g} Pa is the pressure of the air')
+        assert sentences[0].startswith(f'{name} = {offset:.6g} Pa is minus the pressure of the air')

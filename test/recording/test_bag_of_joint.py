@@ -88,7 +88,7 @@ def test_one_muscle_of_a_crank_has_arrays_of_one(tmp_path):
         (
             {'pressure_commands': None, 'pressures': None},
             NAMES,
-            'bag has no pressure_command and no pressure: nothing drives it',
+            'bag has neither pressure_command nor pressure: one of them is needed as the input',
         ),
         (
             {'pressure_commands': (bags.FLOAT, [(bags.ns(0.0), bags.number(3e5))])},

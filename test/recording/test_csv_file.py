@@ -133,8 +133,8 @@ def test_a_stretch_of_missing_commands_in_a_full_column_is_refused(tmp_path):
         (PLAIN.replace('t_s', '"t_s'), ['line 1', 'quotation mark is not closed']),
         (PLAIN.encode('utf-16') + b'0', ['not UTF-16', 'truncated data']),
         (codecs.BOM_UTF16_LE + b'\0\xd8' * 9, ['not UTF-16', 'surrogate']),
-        (codecs.BOM_UTF16_BE + PLAIN.encode('utf-16-le'), ['the other UTF-16']),
-        (codecs.BOM_UTF16_LE + PLAIN.encode('utf-16-be'), ['the other UTF-16']),
+        (codecs.BOM_UTF16_BE + PLAIN.encode('utf-16-le'), ['the other byte order']),
+        (codecs.BOM_UTF16_LE + PLAIN.encode('utf-16-be'), ['the other byte order']),
         (PLAIN.encode('utf-32'), ['not a text file']),
     ],
 )

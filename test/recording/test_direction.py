@@ -40,8 +40,8 @@ def test_a_position_against_the_pull_is_reversed_with_a_note():
     np.testing.assert_array_equal(turned.velocity, -recording.velocity)
     np.testing.assert_array_equal(turned.force, recording.force)
     (warning,) = turned.warnings
-    assert 'gives off 0.3 J in each cycle' in warning
-    assert 'is taken with the other sign' in warning
+    assert 'delivers 0.3 J in each cycle' in warning
+    assert 'its sign is changed' in warning
     assert with_contraction_positive(turned) is turned
 
 

@@ -49,7 +49,7 @@ def test_without_commands_the_measured_pressures_drive():
 
 
 def test_a_recording_that_nothing_drives():
-    with pytest.raises(RecordingError, match='two: nothing drives it'):
+    with pytest.raises(RecordingError, match='two: neither pressure_command nor pressure'):
         driving(of_two(command=None, command_t=None))
     with pytest.raises(ParameterError, match='p_max has the shape'):
         driving(of_two(), [4e5, 5e5, 6e5])

@@ -99,8 +99,8 @@ def written(path, names):
 @pytest.mark.parametrize(
     ('names', 'kind', 'missing'),
     [
-        (('t_s', 'p_cmd[bar]', 'position_mm', 'force_N'), None, 'no pressure_command and no'),
-        (('t_s', 'p_cmd[bar]', 'pos [mm]', 'F[N]'), None, 'no pressure_command and no pressure'),
+        (('t_s', 'p_cmd[bar]', 'position_mm', 'force_N'), None, 'neither pressure_command nor'),
+        (('t_s', 'p_cmd[bar]', 'pos [mm]', 'F[N]'), None, 'neither pressure_command nor'),
         (('t_s', 'pressure_bar', 'pos_mm', 'force_N'), None, 'no position or contraction'),
         (('t_s', 'pressure_bar', 'position_mm', 'cell_force[N]'), 'held', 'no force'),
         (('time_raw_s', 'u[bar]', 'pos_mm', 'F_load_N'), None, 'no time axis'),

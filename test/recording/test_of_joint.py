@@ -127,8 +127,8 @@ def test_forces_of_single_muscles_are_noted(tmp_path):
         ),
         (
             {'pressure_command_kPa': UP},
-            'elbow.csv: pressure_command_kPa is of no muscle, and the joint has 2: name it '
-            'flexor.pressure_command_kPa or after another of flexor, extensor',
+            'elbow.csv: pressure_command_kPa does not name a muscle, and the joint has 2: name it '
+            'flexor.pressure_command_kPa, or likewise with another of flexor, extensor',
         ),
         (
             {'position_rad': None, 'position_mm': ANGLE},
@@ -154,7 +154,7 @@ def test_forces_of_single_muscles_are_noted(tmp_path):
                 'extensor.pressure_command_kPa': 0.0 * T + 250.0,
             },
             'elbow.csv: flexor.pressure_command and extensor.pressure_command are constant at '
-            '200000 Pa and 250000 Pa: nothing can be found from it',
+            '200000 Pa and 250000 Pa, so that no parameter can be identified',
         ),
         (
             {
@@ -175,7 +175,7 @@ def test_what_is_refused(tmp_path, changes, words):
 def test_a_constant_command_of_one_muscle_is_warned_of(tmp_path):
     one = read_recording(elbow(tmp_path, **{'extensor.pressure_command_kPa': 0.0 * T + 250.0}))
     assert (
-        'extensor.pressure_command is constant at 250000 Pa: what it does cannot be seen'
+        'extensor.pressure_command is constant at 250000 Pa: its influence cannot be seen'
         in one.warnings
     )
 

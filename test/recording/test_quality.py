@@ -119,7 +119,7 @@ def test_gaps_are_counted_and_measured():
 def test_a_clipped_sensor():
     clipped = np.maximum(held().pressure * 1e-3 - 200.0, -18.6)
     warning = only(held(force=clipped))
-    assert 'force rests at its lowest value, -18.6 N' in warning
+    assert 'force stays at its lowest value, -18.6 N' in warning
 
 
 def test_a_muscle_that_is_vented_does_not_look_like_a_clipped_sensor():
@@ -150,9 +150,9 @@ def test_an_absolute_pressure():
 @pytest.mark.parametrize(
     ('changes', 'words'),
     [
-        (constant(0.0) | {'command': 2e5 + 1e5 * (T > 9.0)}, ['only 2 levels', 'turns round 0']),
+        (constant(0.0) | {'command': 2e5 + 1e5 * (T > 9.0)}, ['only 2 levels', 'reverses 0']),
         ({'command': 3e5 + 2e4 * np.sin(3.0 * T)}, ['covers only 12 %']),
-        ({'command': 1e5 + 2e4 * T}, ['turns round 0 time(s)']),
+        ({'command': 1e5 + 2e4 * T}, ['reverses 0 time(s)']),
         (
             {'command': 6e5 * np.clip(np.sin(T) * 3.0, 0.0, 1.0) * (T > 10.0)},
             ['at its lowest value in 7'],

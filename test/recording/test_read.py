@@ -40,7 +40,7 @@ def test_the_measured_muscle(shared_data, name):
 def test_a_cell_at_its_limit_is_warned_of(shared_data):
     folder = shared_data / 'psu_dmsp20_398mm'
     clipped = read_recording(folder / 'kappa17.59_test05.csv', l0=0.398)
-    assert any('force rests at its lowest value, -18.59 N' in text for text in clipped.warnings)
+    assert any('force stays at its lowest value, -18.59 N' in text for text in clipped.warnings)
     free = read_recording(folder / 'kappa00.00_test03.csv', l0=0.398)
     assert not any('force rests' in text for text in free.warnings)
 
@@ -73,7 +73,7 @@ def test_the_measured_drive(shared_data):
         ('festo_dmsp20_datasheet_points.csv', ['no time axis', 'pressure_kPa']),
         ('petre2021_noload_hysteresis.csv', ['no time axis']),
         ('martens_dmsp20_300_measured.csv', ['no time axis']),
-        ('emps/emps_estimation.csv', ['nothing drives it']),
+        ('emps/emps_estimation.csv', ['neither pressure_command nor pressure']),
     ],
 )
 def test_data_that_are_no_recordings(shared_data, name, words):

@@ -141,7 +141,7 @@ def test_later_rounds_stand_below_the_first(friction):
     result, source, runs = friction
     later = tuple(replace(c, parents=('coulomb_friction',)) for c in result.candidates[:3])
     html = rendered((replace(result, candidates=(*result.candidates, *later)), source, runs))
-    assert html.index('On top of re-tuning') < html.index('On top of coulomb friction')
+    assert html.index('In addition to re-tuning') < html.index('In addition to coulomb friction')
 
 
 @pytest.mark.slow

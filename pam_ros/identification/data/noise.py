@@ -16,7 +16,7 @@ WINDOWS = (0.25, 0.1)  # s: shorter than one period of a muscle's own oscillatio
 QUICK = 0.15  # ratio of the two noises below which the motion is too fast for long windows
 SAMPLES = (12, 200)  # fewest and most samples in a window
 DEGREE = 4  # of the polynomial that follows the motion within a window
-LONGEST = 0.05  # s, longest correlation time of noise: a slower error cannot be told from motion
+LONGEST = 0.05  # s, longest correlation time of noise: a slower error looks like motion
 EVEN = 0.05  # largest deviation of a change from a multiple of the step, in steps
 RANGE = 50  # fewest steps of a resolution in the range: a few levels are those of an experiment
 

@@ -1,11 +1,11 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Three parts of every recording: for fits, for choices between models, and for the judgement.
+"""Three parts of every recording: for fits, for choices between models, and to judge them.
 
 If a load moves freely, they are the first, the next and the last part of the time, since a model
-is judged by how well its free run continues. If there are enough recordings, whole ones decide:
-each may have a single step up, and a single step back at its end, which otherwise no fit would
-use.
+is judged by how well its free run continues. If there are enough recordings, the choices use whole
+recordings: each may have a single step up, and a single step down at its end, which otherwise no
+fit would use.
 A muscle at a prescribed length has no motion of its own, and such a recording often has a single
 rise and a single fall of the pressure. Then the parts are interleaved blocks of time, so that each
 part contains all of the excitation.

@@ -76,7 +76,8 @@ class FreeSegment(Segment):
 class HeldSegment(Segment):
     """A run at a prescribed length.
 
-    The inputs are the measured pressure in Pa, position and velocity; the output is in N.
+    The inputs are the pressure in Pa (measured, or the command if it was not measured), position
+    and velocity; the output is in N.
     """
 
     kind: ClassVar[str] = 'held'
@@ -88,7 +89,7 @@ class HeldSegment(Segment):
 
     @property
     def first_pressures(self) -> Array:
-        """Measured pressure in Pa at the start of the run."""
+        """Pressure in Pa at the start of the run."""
         return self.pressure[:1]
 
 
@@ -125,8 +126,8 @@ def _require_joint(recording: Recording, joint: Joint) -> None:
         )
     if recording.kind == 'held' and (count > 1 or joint.is_revolute):
         raise RecordingError(
-            f'{recording.name} is held at a prescribed position, which is for one muscle in line '
-            'with its load: record the joint while it moves freely'
+            f'{recording.name} has a prescribed position (kind held), which is supported only '
+            'for one muscle in line with its load: record the joint while it moves freely'
         )
 
 
@@ -172,7 +173,7 @@ def _segment(part: Recording) -> Segment:
         at = np.searchsorted(part.command_t, part.t, side='left') - 1
         pressure = part.command[np.maximum(at, 0)]
     if part.force is None:
-        raise RecordingError(f'{part.name}: a held recording needs the force')
+        raise RecordingError(f'{part.name}: no force was recorded')
     position, velocity = _motion(part.t, part.position)
     return HeldSegment(
         name=part.name,
@@ -225,7 +226,7 @@ def _motion(t: Array, y: Array) -> tuple[Array, Array]:
 
 
 def _without_noise(t: Array, p: Array) -> Array:
-    """Return the pressure, constant or smoothed if that removes hardly more than its noise.
+    """Return the pressure, as a constant or smoothed if this removes hardly more than noise.
 
     Noise of the input becomes noise of the simulated force. A lag of the pressure would reduce it,
     so that the search would find a lag. A pressure that jumps is not changed.

@@ -24,7 +24,7 @@ PHASE = 0.5  # rad of the rig's fastest oscillation in one period
 PERIODS = (1e-3, 10e-3)  # s, shortest period, and the longest one unless there are many samples
 LONGEST = 50e-3  # s, longest period: commands that change keep their own stamps
 JUMP = 0.01  # change of a command that is a jump, as a share of its range
-ROUNDING = 1e-9  # largest change that is none, as a share of its range: that of means
+ROUNDING = 1e-9  # largest change by the rounding of means, as a share of a command's range
 ROOM = 0.1  # share by which a period may be longer than desired, since stamps jitter
 HELD_STEP = 0.02  # s; at a prescribed length there are no dynamics to resolve, only memories
 

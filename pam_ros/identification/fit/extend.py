@@ -107,10 +107,10 @@ def finer_starts(
     """Return starting values for the parameters at *place* that are not among *unknowns*.
 
     Either all of them with their values in the parameter *row*, or some with the values of a start
-    of the effect. If that start has several strengths in the same unit, of which one is fitted,
-    all of them keep their ratios, and their geometric mean is the fitted value: alone, one
-    strength is fitted to a mean of all. So the friction is between that of a sliding and that of a
-    resting load. The values then include that of the fitted one.
+    of the effect. If that start has several strengths in the same unit, of which one is already
+    fitted, they keep their ratios, and their geometric mean becomes the fitted value, because a
+    strength that is fitted alone is a mean of all: for example, a friction between those of a
+    sliding and of a resting load. The values then include that of the fitted strength.
     """
     there = parameters_of(unknowns, place.name)
     values = _values(row, joint, place)
@@ -162,8 +162,8 @@ def in_common(
 ) -> dict[str, float]:
     """Return the values at u of the parameters that an effect shares with a *simple* one.
 
-    It contains the simple one, and is at *place*. The names are those of the simple effect. Only
-    parameters that are unknown are returned.
+    The effect at *place* contains the simple one. The values have the names of the parameters of
+    the simple one; only parameters that are unknown are returned.
     """
     there = parameters_of(problem.unknowns, place.name)
     values = _values(problem.row_at(u), joint, place)

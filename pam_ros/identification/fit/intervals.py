@@ -23,12 +23,12 @@ independent. With the residuals r_b and the Jacobian J_b of each of B blocks,
 
 with H_b = J_b A J_b'/s^2. The residuals of a block are smaller than its errors, most of all if few
 blocks determine a parameter. The factor with H_b corrects this: for white errors, the sum is
-unbiased (Bell and McCaffrey 2002, Survey Methodology 28(2), 169-181). In an interval the sum
-counts with the quantile of Student's t with B - 1 degrees of freedom.
+unbiased (Bell and McCaffrey 2002, Survey Methodology 28(2), 169-181). For the sum
+over blocks, an interval uses the quantile of Student's t with B - 1 degrees of freedom.
 
 The first covariance is too small for errors of another form. The second is too small if a single
 block determines a parameter, or if errors are correlated for longer than a block. The longer of
-the two intervals counts.
+the two intervals is used.
 """
 
 from itertools import pairwise
@@ -46,7 +46,7 @@ Array = NDArray[np.float64]
 # be longer; of a recording of a minute it is 7 s. With fewer blocks the intervals become wide.
 BLOCKS = 8
 TAIL = 0.975  # probability below the upper end of a 95 % interval
-LEAST = 1e-12  # of the eigenvalues of 1 - H_b, which are positive but for rounding
+LEAST = 1e-12  # of the eigenvalues of 1 - H_b, which are positive except for rounding
 
 
 def half_widths(known: Solution, process: Discrepancy) -> Array:
@@ -82,7 +82,7 @@ def covariance(known: Solution, process: Discrepancy) -> Array:
 def block_variances(known: Solution) -> tuple[Array, Array]:
     """Return the variances of the unknowns u (k,) by the blocks, and by the priors.
 
-    With A = L L' and K = J_b L/s, d_b = L (1 - K'K)^(-1/2) K' r_b/s has small matrices alone.
+    With A = L L' and K = J_b L/s, d_b = L (1 - K'K)^(-1/2) K' r_b/s needs only small matrices.
     """
     slope, inverse, s = _scaled(known)
     root = np.linalg.cholesky(inverse)

@@ -44,7 +44,7 @@ from pam_ros.rig.start import fill_chambers, start_state
 Array = NDArray[np.float64]
 T = TypeVar('T')
 DIFFERENCE = 1e-3  # step of u for a derivative; a thousandth of a parameter's typical size
-DIVERGED = 1e6  # m or N: the residual of a simulation without a finite result
+DIVERGED = 1e6  # m, rad or N: the residual of a simulation without a finite result
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,7 +7,7 @@ The evidence of a model is the probability of the data under it, integrated over
     p(y) = integral p(y | z) p(z) dz
 
 with the residual y, white after the map W of :mod:`pam_ros.identification.fit.discrepancy`, and
-unknowns u = P z, where P holds the standard deviations of their priors and z ~ N(0, 1). Laplace's
+unknowns u = P z, where P has the standard deviations of their priors and z ~ N(0, 1). Laplace's
 method approximates the posterior by a normal distribution around its maximum (MacKay, Information
 Theory, Inference and Learning Algorithms, 2003, chapter 27). With the Jacobian J of W y there,
 
@@ -16,8 +16,8 @@ Theory, Inference and Learning Algorithms, 2003, chapter 27). With the Jacobian 
 
 This is exact if y is linear in u. The last term is the cost of the unknowns: it grows with the
 information that the data add to the priors, so that no additional count of parameters is needed.
-At the most likely sigma^2 = |W y|^2 / n the first two terms are n ln sigma^2 and n (1 + ln 2 pi);
-the latter is the same for all models and is left out.
+At the most likely sigma^2 = |W y|^2 / n the first two terms are n ln sigma^2 + n (1 + ln 2 pi),
+of which the second part is the same for all models and is left out.
 
 A difference of 10 between two models is very strong evidence (Kass and Raftery 1995).
 
@@ -46,7 +46,7 @@ LEAST_SIZE, GREATEST_SIZE = 1e-2, 1e3  # beyond it the process, or the noise, is
 PRICE = 4.0
 # Largest correlation time, as a share of the longest run. An error that is constant over a whole
 # run would be an offset without cost, so that the level of the measurement would have no
-# influence. And less than ten correlation times contain little information on a process.
+# influence. Less than ten correlation times also contain little information on a process.
 LONGEST = 0.1
 CLOSE = 0.05  # accuracy of the best score: small compared with a margin of 10
 STEP = 1e-2  # of the logarithms, for derivatives of the score, which is smooth in them
@@ -83,7 +83,7 @@ def most_likely(
     Correlation times are searched from the sampling period to a tenth of the longest run.
     """
     edges = np.cumsum([stamps.size for stamps in t])[:-1]
-    # Side by side they are filtered in one pass.
+    # The residual and its derivatives are filtered in one pass if they are columns of an array.
     apart = np.split(residuals, edges)
     parts = [np.column_stack(both) for both in zip(apart, slopes.blocks, strict=True)]
     places = [np.append(0, 1 + own) for own in slopes.columns]

@@ -9,10 +9,10 @@ Minimised is -2 ln(posterior) with the variance of the noise at its most likely 
 where W whitens the residuals r and z are the unknowns in standard deviations of their priors.
 scipy's ``least_squares`` computes the whole Jacobian at every step. Here each of its columns costs
 a simulation, and most hardly change. So Broyden's rule updates them, and they are computed only
-when steps become worse than predicted (:mod:`.slopes`). An unknown at a bound that its gradient
-points out of is held there. The others approach their bounds by a share of the distance in each
+when steps become worse than predicted (:mod:`.slopes`). An unknown at a bound stays there if the
+cost would fall beyond it. The others approach their bounds by a share of the distance in each
 step, like the "fraction to the boundary" of interior-point methods (Nocedal and Wright 2006,
-Numerical Optimization, eq. 19.9), but each alone.
+Numerical Optimization, eq. 19.9), but each unknown separately.
 """
 
 from collections.abc import Sequence
@@ -28,21 +28,21 @@ from pam_ros.identification.fit import score as evidence
 from pam_ros.identification.fit.discrepancy import WHITE, Discrepancy, Whitening, deviance
 from pam_ros.identification.fit.problem import Problem
 from pam_ros.identification.fit.slopes import Slopes
-from pam_ros.identification.fit.unknowns import DECLARED
+from pam_ros.identification.fit.unknowns import OF_RETUNING
 
 Array = NDArray[np.float64]
 LEAST_DAMPING = 1e-9
 DAMPING = 1e-3  # of a first step that failed undamped, relative to the normal matrix's diagonal
 MORE, LESS = 30.0, 0.03  # factors of the damping after a step that failed, and one that did not
-LITTLE = 0.1  # fall of the cost, a -2 log likelihood, below which a step has not been worth it
-TRIALS = 6  # dampings that are tried along a Jacobian of its place; half along an old one
+LITTLE = 0.1  # fall of the cost, a -2 log likelihood, below which a step has failed
+TRIALS = 6  # dampings that are tried with a fresh Jacobian; half as many with an old one
 # Residual and discrepancy depend on each other. With a correct model they agree at once; with a
 # wrong model the second estimate differs little from the first.
 ALTERNATIONS = 3
-AGREED = 0.05  # largest change of the logarithms of size and time that counts as none
+AGREED = 0.05  # largest change of the logarithms of size and time with which they agree
 # A step of an unknown goes at most this share of the distance to its bound. On the bound it would
-# be held, and the gradient there may not lead back: an effect that has no influence at its bound
-# gives its other parameters no gradient, and with these where they are, more of it may be worse.
+# stay, since the gradient there may not lead back: an effect without influence at its bound gives
+# its other parameters no gradient, and with their present values a stronger effect may be worse.
 SHARE_TO_BOUND = 0.9
 AT_BOUND = 1e-3  # distance, in units of u, from which a step may end on the bound
 
@@ -84,7 +84,7 @@ class Solution:
 
     @property
     def noise(self) -> float:
-        """Standard deviation of the white noise in m or N."""
+        """Standard deviation of the white noise in m, rad or N."""
         return float(np.sqrt(np.mean(self.whitened**2)))
 
     @property
@@ -155,7 +155,7 @@ def with_nominal_constants(known: Solution) -> list[Solution]:
     Constants that a fit has moved far may have compensated for a missing effect, and a fit that
     begins there does not return.
     """
-    constants = [isinstance(unknown.of, DECLARED) for unknown in known.problem.unknowns]
+    constants = [isinstance(unknown.of, OF_RETUNING) for unknown in known.problem.unknowns]
     if np.max(np.abs(known.z[constants]), initial=0.0) <= 1.0:
         return []
     u = np.where(constants, 0.0, known.u)
@@ -187,8 +187,8 @@ def improved(
     """Minimise the cost of *known* from there with the same discrepancy; it never increases.
 
     A Jacobian that is not fresh is used, too, and updated by Broyden's rule. It is computed again
-    when steps do not lower the cost, or by much less than predicted. Without *renew* the fit ends
-    there, which is cheap.
+    when steps do not lower the cost, or lower it by much less than predicted. Without *renew* it
+    is never computed, and the fit ends when steps hardly lower the cost, which is cheap.
     """
     problem, u, r, j = known.problem, known.u, known.r, known.slopes
     stale = not known.is_fresh

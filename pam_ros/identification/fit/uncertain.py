@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""How exactly the nominal values are known: the priors of the unknowns of re-tuning.
+"""The accuracy of the nominal values: the priors of the unknowns of re-tuning.
 
 The constants of a muscle differ between specimens of its type, and always have a prior. Masses and
 lengths are measured, and are treated as exact, unless a user gives the standard deviation with
@@ -25,9 +25,9 @@ from pam_ros.rig.joint import Joint
 Spreads = Mapping[str, float | str]
 ALLOWED = "a standard deviation above 0: in the parameter's unit, or as a share such as 50%"
 
-# Standard deviation, as a share of the prior one, above which a number counts as not determined:
-# then the recordings have at most halved its variance.
-UNTOLD = 0.7
+# Standard deviation, as a share of that of the prior, above which a number is not determined: the
+# recordings have then at most halved its variance.
+UNDETERMINED = 0.7
 
 
 def spread_unknowns(joint: Joint, muscles: Sequence[str], spreads: Spreads) -> list[Unknown]:
@@ -111,7 +111,7 @@ def _deviation(
     return 0.01 * number * abs(value)
 
 
-def untold(known: Solution) -> tuple[str, ...]:
+def undetermined(known: Solution) -> tuple[str, ...]:
     """Return a sentence on each number of the rig that the fitted recordings do not determine.
 
     If two numbers have the same influence, such as an inertia and the scale of a torque, neither
@@ -120,7 +120,7 @@ def untold(known: Solution) -> tuple[str, ...]:
     error = np.sqrt(np.diag(covariance(known, known.most_likely())))
     return tuple(
         f'the recordings hardly determine {one.name}: it stays near its nominal value, within the '
-        'standard deviation that was given'
+        'given standard deviation'
         for one, width in zip(known.problem.unknowns, error, strict=True)
-        if isinstance(one.of, OfRig) and width > UNTOLD * one.prior
+        if isinstance(one.of, OfRig) and width > UNDETERMINED * one.prior
     )

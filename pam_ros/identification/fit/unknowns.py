@@ -91,7 +91,7 @@ class MemoryStart:
     """A hidden state of an effect at the start of a run, relative to its value after a long rest.
 
     ``row`` and ``column`` are its place in the state x, and ``place`` is the name of the effect's
-    place. Rigs that are already moving, or moved a minute ago, do not start from such a rest.
+    place. A rig that is already moving, or moved a minute ago, does not start from such a rest.
     """
 
     run: int
@@ -137,7 +137,7 @@ class CommandTime:
 
 
 OF_RUNS = (RunStart, MemoryStart, RunLevel)
-DECLARED = (Constant, OfRig)  # unknowns of re-tuning
+OF_RETUNING = (Constant, OfRig)
 
 
 @dataclass(frozen=True)
@@ -224,10 +224,10 @@ def _constants(model: Joint, i: int, whose: str) -> list[Unknown]:
 def run_unknowns(segments: Sequence[Segment], sigma: float) -> list[Unknown]:
     """Return position and velocity at the start of each free run with samples to fit.
 
-    *sigma* is the noise of the position in m. A start without a prior would hide an error of the
-    model, above all if no spring returns the load. So it stays as near to the measurement as its
-    noise and the curvature of the first samples allow. With an infinite *sigma*, for short runs of
-    a load without a spring, it is free.
+    *sigma* is the noise of the position in m or rad. A start without a prior would hide an error
+    of the model, above all if no spring returns the load. So it stays as near to the measurement
+    as its noise and the curvature of the first samples allow. With an infinite *sigma*, for short
+    runs of a load without a spring, it is free.
     """
     found = []
     for k, s in enumerate(segments):

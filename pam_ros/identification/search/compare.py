@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""How models are compared: by their scores, by the errors of their free runs, by what matters."""
+"""Comparisons of models: by score, by the errors of free runs, and by what an effect explains."""
 
 from collections.abc import Iterable
 
@@ -28,7 +28,7 @@ def no_worse(now: Model, than: Model, setting: Setting) -> bool:
     """Return whether a model's free run over *choose* loses no more than it gains over *fit*.
 
     The product of both errors may grow by the factor ``worse``: constants that are fitted to half
-    of the data cause some percent of an error in the other half.
+    of the data increase the error in the other half by some percent.
     """
     a, b = than.errors, now.errors
     return b.carried * b.fit <= setting.criteria.worse * a.carried * a.fit

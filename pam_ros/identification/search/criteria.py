@@ -12,8 +12,8 @@ class Criteria:
     ``margin``: least difference between the scores of two models for a decision. The score is
     -2 ln(evidence), and 10 is "very strong" (Kass and Raftery 1995).
     ``fit``, ``choose``: shares of each recording at which the fitted part ends, and at which the
-    part for choices ends. The rest judges. Half of the data determine parameters, and a quarter
-    each is long enough to show how well the free run of a model continues.
+    part for choices ends. The rest is used to judge. Half of the data determine the
+    parameters, and each of the other parts shows how well the free run of a model continues.
     ``worse``: factor by which a move may raise the product of the errors of the free run over
     *fit* and *choose*. The score weighs whitened residuals, in which a slow drift costs little; a
     free run shows it.
@@ -36,8 +36,8 @@ class Criteria:
     0.1. For phenomena that the library does not have, wrong effects left 0.62 to 0.96 of a
     backlash and a second mode, 0.30 to 0.97 of a coupling, a saturation and a random walk, and
     0.22 to 0.59 of a drift with the temperature, whose form is similar to that of softening. The
-    same share determines since when a re-tuned model fails: before this time its error is at most
-    this share of its error after it, and at most the noise over this share. In 36 recordings in
+    same share determines the time from which a re-tuned model fails: before it, its error is at
+    most this share of its later error, and at most the noise over this share. In 36 recordings in
     which something began, it was 0.4 to 2.1 noise floors before and 2.5 to 1500 after; if an
     effect was missing from the start, it was 6 and more before.
     ``duration``: least s of recording, and ``range``: least change of the target, in noise floors,

@@ -128,10 +128,10 @@ def simulated(known: Solution, parts: Sequence[Part], setting: Setting) -> list[
 
 
 def errors_of(runs: Sequence[Array], parts: Sequence[Part]) -> tuple[float, float]:
-    """Return the RMSE in m or N of free runs through *parts*, without *judge*, and over it.
+    """Return the RMSE in m, rad or N of free runs through *parts*: without *judge*, and over it.
 
-    NaN if there are no judging samples. It is only for reports: a search that used it would judge
-    itself.
+    NaN if there are no judging samples. It is only for reports: a search must not use the data
+    that judge it.
     """
     left = [run - part.segment.target for run, part in zip(runs, parts, strict=True)]
     judge = np.concatenate([part.judge for part in parts])

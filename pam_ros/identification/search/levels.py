@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Warnings for isometric recordings at one length whose forces differ."""
+"""Warnings for isometric recordings at the same length whose forces differ."""
 
 import numpy as np
 
@@ -20,16 +20,16 @@ def apart(known: Solution, noise: float) -> tuple[str, ...]:
     l0 = float(problem.row[problem.layout.constant(at.L0)])
     pairs = zip(problem.unknowns, known.u, strict=True)
     level = {one.of.run: one.value(u) for one, u in pairs if isinstance(one.of, RunLevel)}
-    told = []
+    sentences = []
     for runs in repeats(problem.segments, l0):
         levels = np.array([level.get(run, 0.0) for run in runs])
         if np.ptp(levels) > noise:
             s = problem.segments[runs[0]]
             assert isinstance(s, HeldSegment)
             listed = ', '.join(f'{value:+.1f}' for value in levels)
-            told.append(
+            sentences.append(
                 f'the recordings at {100.0 * float(s.position.mean()) / l0:.4g} % contraction '
                 f'differ by {np.ptp(levels):.1f} N, more than the noise ({listed} N, in their '
                 'order): the model describes the last one'
             )
-    return tuple(told)
+    return tuple(sentences)

@@ -33,7 +33,7 @@ def with_each(parent: Model, names: list[str], setting: Setting) -> list[Model]:
     def closer(model: Model) -> Model:
         return setting.model(model.effects, settled(moved(model.solution), budget.closer))
 
-    # An effect has no start here if its starts are read from the residual, and nothing is found.
+    # An effect has no start if all of its starts are derived from the residual, and none is found.
     # The effects with most starts come first, so that no thread has a long task at the end.
     longest = sorted(names, key=lambda name: -len(setting.places[name].fit_starts))
     some = [found for found in setting.pool.map(look, longest) if found]
@@ -131,7 +131,7 @@ def simplified(model: Model, name: str, setting: Setting) -> list[Model]:
     """Return *model* with each simpler effect that the effect called *name* contains, instead.
 
     The fits begin from the present values, also from those of the parameters that both have in
-    common. The other effects have been fitted beside this one: without it they would move far.
+    common. The other effects were fitted together with this one: without it they would move far.
     """
     known, place = model.solution, setting.places[name]
     starts = {

@@ -29,7 +29,7 @@ from pam_ros.identification.search.starts import without_idle
 
 Array = NDArray[np.float64]
 BLOCKS, WITHIN = 20, 10  # blocks of a recording (3 s of a minute), and of a block
-FIRST = 3  # blocks that are fitted first: a seventh of the data roughly fixes seven constants
+FIRST = 3  # blocks that are fitted first: a seventh of the data roughly gives seven constants
 ITERATIONS = 8  # of these fits; each begins at the result of the one before
 
 
@@ -99,22 +99,23 @@ def shares_after(
     return (fit, choose) if (fit - gone) * (last - first) >= least else None
 
 
-def search_since(setting: Setting, late: Setting, tell: Progress) -> Search:
+def search_since(setting: Setting, late: Setting, progress: Progress) -> Search:
     """Find the effects that begin late, or else those that act from the start.
 
     *late* is the setting in which all effects begin at one time, and *setting* is that in which
-    they act from the start. An effect that acts from the start can also explain a model that fails
-    in the middle, such as a load that meets an end stop there for the first time. If the effects
-    explain as much from the start, nothing has begun. This is compared without the cost of the
-    unknowns: the derivative by an onset between two commands may be 0, and its cost is unknown.
+    they act from the start. A model that lacks an effect from the start can also fail only in the
+    middle, for example if the load reaches an end stop there for the first time. If the effects
+    explain as much when they act from the start, none of them begins later. The cost of the
+    unknowns is not compared: the derivative by an onset between two commands may be 0, and then
+    its cost is not known.
     """
-    found = search(late, tell)
+    found = search(late, progress)
     best = found.best
     if best.effects:
         gain = _from_start(best, late).solution.cost - best.solution.cost
         if gain > late.criteria.margin:
             return found
-    return search(setting, tell)
+    return search(setting, progress)
 
 
 def _from_start(late: Model, setting: Setting) -> Model:

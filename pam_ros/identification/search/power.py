@@ -66,10 +66,10 @@ def _fall(
 def _reason(effect: type[Effect], size: float, is_held: bool) -> str:
     if is_held and effect.acts_on_joint() and effect.equations.drag is None:
         return (
-            'these data cannot show it: it acts on a load that moves freely, and a machine '
-            f'prescribes the position here; with a free load, record: {effect.experiment}'
+            'these data cannot show it: it acts on a load that moves freely, but here a machine '
+            f'prescribes the position; with a free load, record: {effect.experiment}'
         )
     return (
-        'these data cannot show it: clearly present, it would lower the score by '
+        'these data cannot show it: if it were clearly present, it would lower the score by only '
         f'{size:.1f}; record: {effect.experiment}'
     )

@@ -49,23 +49,23 @@ class Search:
     looked_at: list[Model] = field(default_factory=list)
 
 
-def search(setting: Setting, tell: Progress = lambda share, text: None) -> Search:
-    """Find the effects that the nominal model lacks; *tell* is called with the progress."""
-    tell(0.0, 're-tuning the parameters')
+def search(setting: Setting, progress: Progress = lambda share, text: None) -> Search:
+    """Find the effects that the nominal model lacks; *progress* is called at each step."""
+    progress(0.0, 're-tuning the parameters')
     problem = setting.problem
     u = np.zeros(len(problem.unknowns))
     retuned = setting.model((), solved(problem, u, pool=setting.pool))
     found = Search(setting, retuned, retuned, [retuned])
     budget = setting.budget
     for n in range(budget.rounds):
-        tell(0.05 + 0.75 * n / budget.rounds, f'trying effects, round {n + 1}')
+        progress(0.05 + 0.75 * n / budget.rounds, f'trying effects, round {n + 1}')
         if len(found.best.effects) == budget.effects or is_complete(found.best, setting):
             break
         better = _better(found) or exchanged(found)
         if better is None:
             break
         found.best = better
-    tell(0.8, 'confirming the effects with finer steps')
+    progress(0.8, 'confirming the effects with finer steps')
     found.best = confirmed(found)
     return found
 
@@ -103,8 +103,8 @@ def leading(tried: list[Model], found: Search) -> list[Model]:
 def exchanged(found: Search) -> Model | None:
     """Return the model with a rival instead of one of the effects, if it is accepted.
 
-    The first effect was chosen without those that were added later. A rival that contains it must
-    be better than with the simpler effect, as when an effect is added.
+    The first effect was chosen without those that were added later. The new model must lower the
+    score by the margin, as if an effect were added.
     """
     setting, best = found.setting, found.best
     tried: list[Model] = []
@@ -125,10 +125,10 @@ def exchanged(found: Search) -> Model | None:
 
 
 def confirmed(found: Search) -> Model:
-    """Return the best model, fitted with finer steps, without what only coarse steps need.
+    """Return the best model, fitted with finer steps, without effects that only coarse steps need.
 
-    A coarse step is a model error, too: a dead time can compensate it if a load meets a stop. If
-    finer steps hardly change the residuals, the fit with coarse steps remains.
+    A coarse step is a model error, too: if a load hits a stop, a dead time can compensate for it.
+    If finer steps hardly change the residuals, the fit with coarse steps remains.
     """
     setting, best = found.setting, found.best
     if not best.effects:
@@ -147,7 +147,8 @@ def _are_different(known: Solution, r: Array, setting: Setting) -> bool:
     """Return whether a model that explains the change of the residuals to r (n,) could be chosen.
 
     It could if the squared change, in units of the noise, is larger than the margin: the score
-    falls by at most so much. With a discrepancy, which the free run does not have, it falls less.
+    falls by at most this amount. With a discrepancy, which the free run does not have, it falls
+    less.
     """
     change = r - known.r
     return float(change @ change) > setting.criteria.margin * setting.noise**2
@@ -171,8 +172,8 @@ def accepted(models: Iterable[Model], than: Model, found: Search) -> Iterator[Mo
 def refitted(model: Model, setting: Setting) -> Model:
     """Return *model*, fitted again from its nearest free run if its score is lower there.
 
-    A fit may stop at a place where a slow discrepancy describes what the effects themselves can.
-    Least squares have no discrepancy, and find another place from there.
+    A fit may end in a minimum in which a slow discrepancy describes what the effects could. Least
+    squares have no discrepancy, and reach another minimum from there.
     """
     near = model.nearest
     there = replace(near, discrepancy=near.most_likely())
@@ -206,10 +207,11 @@ def joined(now: Model, found: Search) -> Model:
 def plainer(now: Model, names: Iterable[str], found: Search) -> Model:
     """Return *now* with simpler effects instead of those of *names* that contain them.
 
-    A leak of which only the refill is visible is a lag. A simpler effect at the values that both
-    have in common has a parameter less, and replaces the broader one if it suffices. Elsewhere it
-    must be nearly as good with all of its own parameters, as *now* has those of its effects: a
-    broader effect always fits as well, but only until then.
+    For example, a leak of which only the refill is visible is a lag. A simpler effect that starts
+    from the common parameters has fewer unknowns, and replaces the broader one if it suffices.
+    Otherwise it is also fitted from its own starts and with all of its parameters, and replaces
+    the broader one if it is then nearly as good. With only some of them it would seem worse for
+    this reason alone.
     """
     setting = found.setting
     for name in names:
@@ -257,8 +259,8 @@ def with_more(now: Model, found: Search) -> Model:
 def _reduced(now: Model, found: Search) -> Model:
     """Return *now* without those of its effects that it does not need, or that matter too little.
 
-    Each is removed while the other unknowns begin at their present values. If something sticks or
-    hits, fits stop early, and any additional effect can move them to their optimum. This
+    Each is removed while the other unknowns begin at their present values. If a load sticks or
+    hits a stop, fits end early, and any additional effect can move them to their optimum. This
     improvement must not count for the effect.
     """
     setting = found.setting

@@ -34,7 +34,7 @@ from pam_ros.identification.fit.run_levels import level_unknowns
 from pam_ros.identification.fit.solve import Solution, improved, with_nominal_constants
 from pam_ros.identification.fit.uncertain import Spreads, spread_unknowns
 from pam_ros.identification.fit.unknowns import (
-    DECLARED,
+    OF_RETUNING,
     OF_RUNS,
     MemoryStart,
     onset_unknown,
@@ -109,7 +109,7 @@ class Model:
         """Prior chi-square of the nominal constants, a measure of how far re-tuning moved them."""
         solution = self.solution
         pairs = zip(solution.problem.unknowns, solution.z, strict=True)
-        return float(sum(z * z for unknown, z in pairs if isinstance(unknown.of, DECLARED)))
+        return float(sum(z * z for unknown, z in pairs if isinstance(unknown.of, OF_RETUNING)))
 
 
 @dataclass(frozen=True, eq=False)

@@ -99,7 +99,7 @@ def without_idle(known: Solution, noise: float) -> Solution:
 
 
 def guessed(parent: Model, place: Place) -> tuple[dict[str, float], ...]:
-    """Return the starts that an effect reads from the residual of *parent* in the longest run."""
+    """Return the starts that an effect derives from *parent*'s residual in the longest run."""
     if place.effect.equations.guess is None:
         return ()
     problem = parent.solution.problem

@@ -103,30 +103,30 @@ def _decision(model: Model, parent: Model, tried: list[Model], found: Search) ->
 
 
 def _why_not(model: Model, parent: Model, tried: list[Model], found: Search) -> str:
-    """Return the first reason for which a model was not chosen."""
+    """Return the first reason why a model was not chosen."""
     fall, margin = parent.score - model.score, found.setting.criteria.margin
     if fall < margin:
         verb = 'lowers' if fall >= 0.0 else 'raises'
-        return f'{verb} the score by {abs(fall):.1f}; a fall of {margin:g} is asked for'
+        return f'{verb} the score by {abs(fall):.1f}; a decrease of {margin:g} is required'
     if not no_worse(model, parent, found.setting):
         a, b = parent.errors, model.errors
         return (
-            'the free run over samples that were not fitted is '
-            f'{_changed(b.carried / a.carried)}, over those that were {_changed(b.fit / a.fit)}'
+            f'the error of the free run is {_changed(b.carried / a.carried)} over samples that '
+            f'were not fitted, and {_changed(b.fit / a.fit)} over those that were'
         )
     if not matters(model, parent, found.retuned, found.setting):
-        return 'explains too little of what re-tuning left'
+        return 'explains too little of the error that remains after re-tuning'
     winner = min(tried, key=lambda one: one.score)
     if winner is not model:
         more = model.score - winner.score
         return f'{spelled(winner.effects[-1])} lowers the score by {more:.0f} more'
-    return 'not needed beside what was found later'
+    return 'not needed in addition to the effects that were found later'
 
 
 def _changed(ratio: float) -> str:
     """Return in words how an error has changed."""
     percent = f'{100.0 * abs(ratio - 1.0):.0f} %'
-    return f'{percent} worse' if ratio > 1.0 else f'{percent} better'
+    return f'{percent} larger' if ratio > 1.0 else f'{percent} smaller'
 
 
 def reason_for(found: Search, name: str) -> str:
@@ -143,7 +143,7 @@ def _why(model: Model, parent: Model, found: Search) -> str:
     criteria = found.setting.criteria
     if gain < criteria.gain and parent.strain - model.strain >= criteria.strain:
         return (
-            f'{fall}: explains with its own parameter what re-tuning explains only by constants '
+            f'{fall}: explains by its own parameters what re-tuning explains only by constants '
             'far from the nominal ones'
         )
     return f'{fall}, and the error of samples that were not fitted by {100.0 * gain:.0f} %'

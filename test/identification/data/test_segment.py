@@ -159,7 +159,7 @@ def test_kinds_do_not_mix():
     ('recording', 'words'),
     [
         (replace(free(), position=None), 'free: no position'),
-        (held(force=None), 'held: a held recording needs the force'),
+        (held(force=None), 'held: no force was recorded'),
     ],
 )
 def test_what_cannot_be_compared_is_refused(recording, words):

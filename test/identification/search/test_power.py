@@ -58,5 +58,5 @@ def test_what_nothing_excites_is_hidden_and_the_experiment_named(retuned):
     for name, reason in found.items():
         assert reason.startswith('these data cannot show it: ')
         assert reason.endswith(f'record: {EFFECT[name].experiment}')
-    assert 'would lower the score by 0.0' in found['dead_time']
-    assert 'a machine prescribes the position here; with a free load' in found['payload']
+    assert 'would lower the score by only 0.0' in found['dead_time']
+    assert 'a machine prescribes the position; with a free load' in found['payload']

@@ -73,7 +73,7 @@ def test_decisions_have_reasons(table):
     assert 'pressure_lag lowers the score by' in reason[(), 'dead_time'][1]
     decision, why = reason[('pressure_lag',), 'viscous_friction']
     assert decision == 'rejected'
-    assert f'a fall of {CRITERIA.margin:g} is asked for' in why
+    assert f'a decrease of {CRITERIA.margin:g} is required' in why
 
 
 def test_the_reason_of_an_effect_is_what_the_best_model_without_it_lacks(search, retuned):
@@ -96,11 +96,12 @@ def test_a_move_that_makes_the_free_run_worse_is_marked(search):
     found = replace(search, setting=replace(search.setting, criteria=strict))
     row = next(r for r in candidates(found) if r.effect == 'dead_time')
     assert row.decision == 'rejected'
-    assert 'the free run over samples that were not fitted is' in row.reason
+    assert row.reason.startswith('the error of the free run is ')
+    assert 'over samples that were not fitted, and ' in row.reason
     model = next(m for m in search.looked_at if m.effects == ('dead_time',))
     for now, before in (
         (model.errors.carried, search.retuned.errors.carried),
         (model.errors.fit, search.retuned.errors.fit),
     ):
         change = 100.0 * (now / before - 1.0)
-        assert f'{abs(change):.0f} % {"worse" if change > 0.0 else "better"}' in row.reason
+        assert f'{abs(change):.0f} % {"larger" if change > 0.0 else "smaller"}' in row.reason
