@@ -137,7 +137,7 @@ def next_experiment(answer: Identification, library: tuple[type[Effect], ...]) -
         first = next((e for e in answer.effects if e.alternatives), answer.effects[0])
         if first.alternatives:
             rivals = ', '.join(map(spelled, (first.name, *first.alternatives)))
-            return f'To distinguish {rivals}, record: {known[effect_of(first.name)]}.'
+            return f'To distinguish between {rivals}, record: {known[effect_of(first.name)]}.'
         return f'To confirm {spelled(first.name)}, record: {known[effect_of(first.name)]}.'
     if answer.verdict == 'unexplained_structure':
         tried = [c for c in answer.candidates if c.gain > 0.0 and c.effect in answer.tested]

@@ -160,7 +160,7 @@ def test_rivals_are_distinguished_by_the_experiment_of_the_effect():
     answer = replace(answer, effects=(first, *answer.effects[1:]))
     assert f'{first.name} (or slack or leak)' in sentence(answer, '')
     text = next_experiment(answer, answer.stages[0].model.library)
-    assert text.startswith(f'To distinguish {first.name}, slack, leak, record: ')
+    assert text.startswith(f'To distinguish between {first.name}, slack, leak, record: ')
 
 
 def test_without_a_named_effect_the_nearest_one_decides_what_to_record():
