@@ -35,13 +35,13 @@ def commands(plant: Plant, last: int) -> Health:
         values['muscles commanded'] = int(commanded.size)
     if age is None:
         return Health(Level.OK, 'no command yet', values)
-    if np.any(plant.is_silent):
+    if np.any(plant.has_timed_out):
         did = {'vent': 'vented', 'hold': 'held'}[plant.setup.settings.on_timeout]
         whose = ''
         if len(inputs) > 1:
-            silent = np.flatnonzero(plant.is_silent)
-            names = [plant.setup.muscle_names[i] for i in silent[:5]]
-            whose = f' for {", ".join(names)}' + (' and others' if len(silent) > 5 else '')
+            late = np.flatnonzero(plant.has_timed_out)
+            names = [plant.setup.muscle_names[i] for i in late[:5]]
+            whose = f' for {", ".join(names)}' + (' and others' if len(late) > 5 else '')
         return Health(Level.WARN, f'no command{whose} for {age:.3g} s: {did}', values)
     return Health(Level.OK, 'commanded', values)
 

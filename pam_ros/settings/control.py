@@ -37,7 +37,9 @@ from pam_ros.settings.tables import Table, Values, build, table_of
 MEASURED = 'use_measured_velocity'  # the gain that velocity_source sets
 TRIALS = 3  # updates of a law, after which its command must be finite
 LEAST_PERIODS = 3  # of rate for which the rig must at least keep the last command
-LONGEST_SILENCE = 1.0  # s of silence after which control starts again if command_timeout is 0
+LONGEST_INTERRUPTION = (
+    1.0  # s of interruption after which control starts again if command_timeout is 0
+)
 NAMES = ('muscles', 'joint_names', 'muscle_topics')  # parameters that pam_sim has, too
 
 
@@ -133,15 +135,15 @@ class ControlSettings:
             )
 
     @property
-    def longest_silence(self) -> float:
-        """Duration in s of its own silence after which the controller starts again."""
-        return self.command_timeout or LONGEST_SILENCE
+    def longest_interruption(self) -> float:
+        """Duration in s of an interruption of the controller after which control starts again."""
+        return self.command_timeout or LONGEST_INTERRUPTION
 
     @property
-    def silence_limit(self) -> str:
-        """This limit in words; command_timeout 0 means that the rig has no timeout."""
+    def interruption_limit(self) -> str:
+        """This limit as text; command_timeout 0 means that the rig has no timeout."""
         name = 'command_timeout' if self.command_timeout else 'permitted with command_timeout 0'
-        return f'{name} ({self.longest_silence:g} s)'
+        return f'{name} ({self.longest_interruption:g} s)'
 
 
 class ControlParameters(RigParameters):

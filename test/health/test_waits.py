@@ -43,8 +43,8 @@ class Rig:
                 self.look()
 
     def look(self):
-        silence = commands(self.plant, 0).message if self.plant.is_silent.any() else ''
-        self.waits.look_for_commands(silence)
+        missing = commands(self.plant, 0).message if self.plant.has_timed_out.any() else ''
+        self.waits.look_for_commands(missing)
 
 
 @pytest.fixture

@@ -16,8 +16,8 @@ from pam_ros.control.loop import BLIND, WAITING, Loop
 from pam_ros.control.plausibility import fault_of_pressure
 from pam_ros.nodes.common.stamps import stamp_of
 from pam_ros.settings.control import ControlSetup
+from pam_ros.timing.interruption import steady_ns
 from pam_ros.timing.pace import SECOND
-from pam_ros.timing.silence import steady_ns
 
 FRESH = SECOND  # ns by which a pressure may be older than the state at which control begins
 LONGEST = SECOND // 10  # most ns of waiting between two calls: if longer, this process was delayed

@@ -32,8 +32,8 @@ from pam_ros.nodes.control.rig_watch import RigWatch
 from pam_ros.nodes.control.state import StateTopic
 from pam_ros.nodes.control.topics import watch_topics
 from pam_ros.settings.control import ControlSetup, settings_of
+from pam_ros.timing.interruption import steady_ns
 from pam_ros.timing.pace import SECOND
-from pam_ros.timing.silence import steady_ns
 from pam_ros.timing.ticker import Ticker
 
 # s; if a step is later than this, messages that arrived meanwhile are received first.
@@ -70,8 +70,8 @@ class PamControl(TickingNode):
         self._intake = Intake(
             self,
             self._is_followed,
-            lambda: self._setup.settings.longest_silence,
-            self._begin_anew,
+            lambda: self._setup.settings.longest_interruption,
+            self._restart_after_pause,
         )
         self._shown = 0  # ROS time of the last message on ~/state, ns
         self._fault = ''
@@ -122,7 +122,7 @@ class PamControl(TickingNode):
         return WATCH_RATE if self._is_followed else self._setup.settings.rate
 
     def start(self) -> None:
-        """Start to count time: the creation of the node does not count as a silence."""
+        """Start to count time: the creation of the node does not count as an interruption."""
         line = start_line.of_controller(
             self._setup,
             self._given.values,
@@ -150,14 +150,14 @@ class PamControl(TickingNode):
             self._step(now / SECOND, self.get_clock().now().nanoseconds)
             self._intake.mark(now)
 
-    def _begin_anew(self, silent: int) -> None:
-        """Start again after a silence of *silent* ns: load and pressure may have changed."""
+    def _restart_after_pause(self, pause: int) -> None:
+        """Start again after *pause* ns without a command: load and pressure may have changed."""
         self._loop.forget()
         self._loop.pressures = None
         self._chambers.forget()
         self._stamp = None
         if self._loop.is_enabled:
-            self._reports.begin_anew(silent, self._setup.settings.silence_limit)
+            self._reports.restart(pause, self._setup.settings.interruption_limit)
 
     def _watch(self) -> None:
         if self._stamp is None:
@@ -215,7 +215,7 @@ class PamControl(TickingNode):
             # this command.
             timeout = self._setup.settings.command_timeout
             if timeout:
-                self._publish(loop.vented(pressures, self._intake.silent / SECOND - timeout))
+                self._publish(loop.vented(pressures, self._intake.pause / SECOND - timeout))
             return
         rate = self._setup.settings.state_rate
         # Slightly early counts as due, since the stamps of samples are rounded.
@@ -251,8 +251,8 @@ class PamControl(TickingNode):
         if passed < 0:
             self._loop.forget()  # simulated time starts again, and so does control
             self._chambers.forget()
-        elif self._loop.state == RUNNING and passed > settings.longest_silence * SECOND:
-            self._begin_anew(passed)
+        elif self._loop.state == RUNNING and passed > settings.longest_interruption * SECOND:
+            self._restart_after_pause(passed)
         self._stamp = sight.stamp
         self._take_in(sight, sight.stamp)
         self._prepare()

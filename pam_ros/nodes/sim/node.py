@@ -29,8 +29,8 @@ from pam_ros.processes.notice import notice
 from pam_ros.settings.scene import Scene, SimulationSetup
 from pam_ros.simulator.plant import BadCommand, OneReading, Plant, Reading
 from pam_ros.timing.grid import Grid
+from pam_ros.timing.interruption import Interruptions, steady_ns
 from pam_ros.timing.pace import CATCH_UP, SECOND
-from pam_ros.timing.silence import Silence, steady_ns
 from pam_ros.timing.ticker import Ticker
 
 SLICE = 5_000_000  # ns of simulation after which commands and services are handled
@@ -63,7 +63,7 @@ class PamSim(TickingNode):
         self._is_paused = False
         self._published = self._bad = 0
         self._said: tuple[int, Reading | OneReading] | None = None
-        self._silence = Silence(steady_ns())
+        self._interruptions = Interruptions(steady_ns())
         self._samples = Grid(settings.physics_rate)
         self._clock_ticks = Grid(settings.physics_rate)
         self._one = self._simulation.is_one
@@ -107,7 +107,7 @@ class PamSim(TickingNode):
         )
         self.get_logger().info(line)
         super().start()
-        self._silence.mark(steady_ns())
+        self._interruptions.mark(steady_ns())
         self._time.align(0)
         self._begin()
         if self._is_lockstep:
@@ -153,7 +153,7 @@ class PamSim(TickingNode):
     def tick(self) -> None:
         """Simulate and publish all samples that are due; if time stops, repeat the last state."""
         self._look_for_stop()
-        self._silence.mark(steady_ns())
+        self._interruptions.mark(steady_ns())
         if self._is_paused:
             self._publish_again()
         elif self._is_lockstep:
@@ -268,8 +268,8 @@ class PamSim(TickingNode):
         have sent them to vent. They are ignored: the last command before them remains active.
         """
         longest = max(CATCH_UP, round(3 * SECOND / self._tick_rate))
-        self._silence.find(steady_ns(), longest)
-        return self._is_followed and not self._is_paused and self._silence.is_settling
+        self._interruptions.find(steady_ns(), longest)
+        return self._is_followed and not self._is_paused and self._interruptions.is_settling
 
     def _command(self, muscle: int, message: Float64) -> None:
         if self._look_for_stop():
@@ -323,7 +323,7 @@ class PamSim(TickingNode):
             self._clock_ticks.begin(self._clock_rate, sample=passed + 1)
         if self._tick_rate != self.ticker.rate:
             self.ticker.start(self._tick_rate, monotonic_ns())
-        self._silence.mark(steady_ns())  # compiling takes time: the process was not stopped
+        self._interruptions.mark(steady_ns())  # compiling takes time: the process was not stopped
 
     def _reset(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         self._begin_again()
@@ -357,7 +357,7 @@ class PamSim(TickingNode):
             response.message = 'time goes on: pause first'
             return response
         response.success, response.message = self._step_periods()
-        self._silence.mark(steady_ns())  # it was busy, not stopped
+        self._interruptions.mark(steady_ns())  # it was busy, not stopped
         return response
 
     def _step_periods(self) -> tuple[bool, str]:
