@@ -64,7 +64,7 @@ def _draw_recording(arguments: list[str]) -> None:
         prog='pam_plot',
         description=help_text(__doc__),
         formatter_class=argparse.RawDescriptionHelpFormatter,
-        epilog='All else is given with --ros-args: see the manual of ROS 2.',
+        epilog='Parameters and remappings follow --ros-args: see the manual of ROS 2.',
     )
     parser.add_argument('--version', action='version', version=VERSION_LINE, help=VERSION_HELP)
     add_arguments(parser)

@@ -195,7 +195,7 @@ class Plant:
         l0 = self.setup.muscles[0].l0
         reach = self.setup.reach.item() * l0
         if not (abs(position) < reach and math.isfinite(force + velocity)):
-            raise ArithmeticError(f"at {position:g} m it is out of the muscle's reach")
+            raise ArithmeticError(f"the position {position:g} m is out of the muscle's reach")
         self.contractions.see_one(simulation.time, position / l0, self.setup.rated.item())
         sensors = self._sensors.of_joints
         if not sensors.is_ideal:

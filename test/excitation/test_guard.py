@@ -22,7 +22,7 @@ def test_a_joint_in_its_window_that_is_heard_of_goes_on():
 def test_leaving_the_window(position):
     watch = guard()
     watch.see(position, 100.1)
-    assert f'stands at {1e3 * position:.1f} mm' in watch.problem(100.1)
+    assert f'is at {1e3 * position:.1f} mm' in watch.problem(100.1)
     assert '-16.0 to 100.0 mm' in watch.problem(100.1)
 
 

@@ -69,7 +69,13 @@ def setup():
         ),
         (BLIND, {}, '', Level.ERROR, 'joint_states has stopped: vents'),
         (DISABLED, {}, '', Level.OK, 'disabled: commands nothing'),
-        (DISABLED, {}, 'the law gave no number', Level.ERROR, 'the law gave no number'),
+        (
+            DISABLED,
+            {},
+            'the law gave a pressure that is not finite',
+            Level.ERROR,
+            'the law gave a pressure that is not finite',
+        ),
     ],
 )
 def test_the_worst_of_the_control_is_said(setup, state, received, fault, level, message):

@@ -84,7 +84,8 @@ class Intake:
     def measure(self, kind: type, topic: str, callback: Callable[[Any], None]) -> None:
         """Call *callback* with each measurement on *topic*, except old ones.
 
-        Those from before the end of an interruption are old. If time follows the states, the newest of the queued measurements is used, too.
+        Those from before the end of an interruption are old. If time follows the states, the
+        newest of the queued measurements is used, too.
         """
 
         def receive(message: Any) -> None:

@@ -48,7 +48,9 @@ def play(stage: Stage) -> None:
     """Excite, record, identify, replay; write the bags, the report, a plot and a table."""
     folder = stage.folder / 'loop'
     folder.mkdir(parents=True, exist_ok=True)
-    stage.say(f'Closing the loop: what does a rig have that {loop.MUSCLE} has not?')
+    stage.say(
+        f'Closing the loop: which effects of a rig does the nominal model {loop.MUSCLE} lack?'
+    )
     record(stage, folder, {'recording': loop.HIDDEN}, EXCITATION)
     stage.wrote(folder / 'recording')
     report = identify(stage, folder)

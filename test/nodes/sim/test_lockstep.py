@@ -158,9 +158,9 @@ def test_a_signal_ends_a_long_step_with_an_answer(peer):
         assert sim.wait() == 0
         peer.until(answer.done, 'the answer')
     assert not answer.result().success
-    assert answer.result().message.startswith('asked to stop: simulated ')
+    assert answer.result().message.startswith('stop requested: simulated ')
     assert answer.result().message.endswith(' of 100000 periods')
-    # As many were simulated when it was asked to stop, and not all that were wanted.
+    # As many were simulated when the stop was requested, and not all that were wanted.
     assert stamp(states[-1]) < before + 100_000 * PERIOD
 
 

@@ -108,7 +108,7 @@ def test_a_lost_load_is_told_and_never_published(watch):
     given = {'initial.at_rest': False, 'initial.velocity': -100.0}  # no muscle holds that
     with Program('pam_sim', parameters=given) as sim:
         status, values = watch.status('timing', lambda s, v: s.level == DiagnosticStatus.ERROR)
-        assert 'the load is lost' in status.message
+        assert 'the state is invalid' in status.message
         assert values['paused'] == 'True'
         assert status.message in sim.output
         # Set right, it goes on.
