@@ -26,7 +26,7 @@ from pam_ros.cli.start import start_node
 from pam_ros.errors import PamError, shown
 from pam_ros.plot.options import Options, add_arguments, checked
 from pam_ros.processes.ends import ignore_ends
-from pam_ros.processes.interrupts import heed
+from pam_ros.processes.interrupts import raise_on_signal
 from pam_ros.processes.outputs import guard_outputs
 from pam_ros.version import VERSION_HELP, VERSION_LINE
 
@@ -58,7 +58,7 @@ def _own(arguments: list[str]) -> list[str]:
 
 def _draw_recording(arguments: list[str]) -> None:
     """Draw the recording of --bag, without ROS; exit with the exit code of the program."""
-    heed()
+    raise_on_signal()
     guard_outputs()
     parser = argparse.ArgumentParser(
         prog='pam_plot',

@@ -24,7 +24,7 @@ Array = NDArray[np.float64]
 
 MUSCLE = 'dmsp_20_400n'
 # Properties of the rig that the nominal model lacks: friction of the guide, a slow valve, a
-# specimen that differs from the maker's data, and noise of the sensor.
+# specimen that differs from the manufacturer's data, and noise of the sensor.
 HIDDEN: dict[str, Any] = {
     'muscle': MUSCLE,
     'a2': 290.0,

@@ -1,13 +1,13 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What a controller has learned from the motion, and how far it uses this, for people."""
+"""A report on what a controller has learned from the motion, and how much it uses this."""
 
 from typing import Any
 
 from pam_ros.control.learning.learned import Learned
 from pam_ros.health.health import Health, Level
 
-# Times its noise, RMS of the missing force below which nothing has to be learned.
+# Multiple of its noise; with a smaller RMS of the missing force nothing has to be learned.
 LITTLE = 2.0
 USED = 0.5  # weight above which what was learned counts as used
 

@@ -66,8 +66,8 @@ def sentence_of(setup: SimulationSetup, excess: Excess) -> str:
     name, limit = setup.muscle_names[excess.muscle], setup.rated[excess.muscle]
     return (
         f'muscle {name} contracts by {100.0 * excess.largest:.1f} % of its length, more than the '
-        f'{100.0 * limit:.1f} % that it permits (kappa_max): a real muscle may not be used there, '
-        'and the model is extrapolated'
+        f'{100.0 * limit:.1f} % that it permits (kappa_max): a real muscle must not be used '
+        'there, and the model is extrapolated'
     )
 
 

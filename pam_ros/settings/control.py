@@ -49,13 +49,12 @@ class ControlSettings:
 
     controller: str = parameter_field(
         'sliding_mode',
-        'law that controls: sliding_mode, or pid as a baseline (needs simple-pid)',
+        'control law: sliding_mode, or pid as a baseline (needs simple-pid)',
         choices=('sliding_mode', 'pid'),
     )
     velocity_source: str = parameter_field(
         'estimated',
-        'where the law has its velocity from: estimated from positions, or measured in '
-        'joint_states',
+        'velocity that the law uses: estimated from positions, or measured in joint_states',
         choices=('estimated', 'measured'),
     )
     rate: float = parameter_field(
@@ -70,8 +69,8 @@ class ControlSettings:
     )
     state_timeout: float = parameter_field(
         0.5,  # a loaded machine sometimes delays messages by 0.1 s
-        'silence of joint_states after which on_timeout acts; before that, control goes on by '
-        'the model',
+        'time without joint_states after which on_timeout acts; until then, control continues '
+        'with the model',
         's',
         low=0.005,
         high=3600.0,
@@ -83,16 +82,16 @@ class ControlSettings:
     )
     vent_time: float = parameter_field(
         2.0,
-        'how long venting takes to 0 Pa, whatever the pressure before: that of on_timeout, and '
-        'that of the rig after command_timeout; 0: at once',
+        'time in which venting lowers any pressure to 0 Pa: by the controller (on_timeout), and '
+        'by the rig after command_timeout; 0: at once',
         's',
         low=0.0,
         high=60.0,
     )
     command_timeout: float = parameter_field(
         1.0,
-        'how long the rig goes on with the last command before it vents; 0: for ever. After a '
-        'longer silence of its own (with 0: than 1 s) the controller starts again from the '
+        'time for which the rig keeps the last command before it vents; 0: for ever. If the '
+        'controller sends no command for longer (with 0: than 1 s), it starts again from the '
         'present state',
         's',
         low=0.0,
@@ -101,7 +100,7 @@ class ControlSettings:
     pressure_wait: float = parameter_field(
         0.5,
         'longest wait for a measured pressure before control begins, so that it begins at that '
-        'pressure; 0: none is asked for',
+        'pressure; 0: measured pressures are not used',
         's',
         low=0.0,
         high=60.0,
@@ -109,13 +108,13 @@ class ControlSettings:
     )
     ambient_pressure: float = parameter_field(
         101325.0,
-        'pressure around the muscle, which measured ones include',
+        'absolute pressure around the muscle, subtracted from measured pressures',
         'Pa',
         low=0.0,
         high=2e5,
     )
     start_enabled: bool = parameter_field(
-        True, 'whether it controls from the start; false: from ~/enable on', live=False
+        True, 'whether control starts at once; false: at a call of ~/enable', live=False
     )
     joint: str = parameter_field(
         LOAD.name,
@@ -160,7 +159,7 @@ class ControlParameters(RigParameters):
         del gains[f'gains.{MEASURED}']
         kind, default, about = names['muscle_topics']
         text = (
-            'command each muscle on <name>/pressure_command, as pam_sim with muscle_topics takes'
+            'command each muscle on <name>/pressure_command, as pam_sim with muscle_topics expects'
         )
         names['muscle_topics'] = kind, default, replace(about, text=text)
         return {
@@ -181,8 +180,8 @@ class ControlParameters(RigParameters):
         n = self.kind.muscles
         if self.kind is not LOAD and len(self.joints) > 1 and not has_topics:
             raise ParameterError(
-                f'pressure_commands has all muscles of {len(self.joints)} joints and this is '
-                f'the controller of {self.joints[k or 0]} alone: set muscle_topics, here and in '
+                f'pressure_commands has all muscles of {len(self.joints)} joints, and this '
+                f'controller has only {self.joints[k or 0]}: set muscle_topics, here and in '
                 'pam_sim'
             )
         if k is None:
@@ -228,8 +227,8 @@ class ControlParameters(RigParameters):
         if self.kind is LOAD and not has_topics:
             return None
         raise ParameterError(
-            f'joint_name = {name} is not one of the joints {", ".join(self.joints)}: say which '
-            'of them is controlled'
+            f'joint_name = {name} is not one of the joints {", ".join(self.joints)}: give '
+            'the one that is controlled'
         )
 
 

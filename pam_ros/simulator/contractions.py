@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Detect muscles that contract further than they permit, and how far."""
+"""Detect muscles that contract beyond their permitted contraction, and by how much."""
 
 from dataclasses import dataclass
 from typing import NamedTuple

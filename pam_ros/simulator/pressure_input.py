@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Check pressure commands as a rig's valve would: never out of its limits, never a NaN."""
+"""Check pressure commands like the valve of a rig: within its limits, and never NaN."""
 
 import math
 
