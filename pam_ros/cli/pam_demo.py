@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""``pam_demo``: what this package can do, shown over real topics in a folder of plots."""
+"""``pam_demo``: run the parts of this package over ROS topics, and write plots and tables."""
 
 import argparse
 import os

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""``pam_plot``: draw what a rig does, as a page for a browser or as a PNG file.
+"""``pam_plot``: draw the signals of a rig, as a page for a browser or as a PNG file.
 
 Position and reference, commanded and measured pressure, force, stiffness and damping, one below
 the other on a common time axis. In SI units, with the names of the joints and muscles; pressures
@@ -14,7 +14,7 @@ Subscribes, best effort
 Without an option it prints the address of a page on this machine (127.0.0.1) that shows the last
 20 s, until Ctrl-C. With ``--png FILE`` it draws ``--seconds`` from the first message on and ends.
 ``--bag PATH`` draws a recording, without ROS. Exit code 0 at the end and after Ctrl-C, 2 for
-invalid input, and where ``--png`` received nothing.
+invalid input, and if ``--png`` received nothing.
 """
 
 import argparse
