@@ -81,7 +81,7 @@ def trouble(loop: Loop, on_timeout: str, blindness: str, fault: str) -> str:
         RUNNING: '',
         WAITING: f'waits for {missing}' + why,
         BLIND: f'joint_states has stopped: {did}' + why,
-        DISABLED: fault or 'disabled: commands nothing',
+        DISABLED: fault or 'disabled: sends no commands',
     }[loop.state]
 
 

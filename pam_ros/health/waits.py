@@ -28,7 +28,7 @@ class Waits:
         self._next = Absence(logger, 'commands are received again', 0.0, Level.WARN)
 
     def look(self, no_clock: str, no_turn: str) -> None:
-        """Check the clock, and in lockstep the answer: what is missing, '' if nothing is."""
+        """Check the clock and, in lockstep, the commands: a sentence if missing, else ''."""
         now = steady_ns() / SECOND
         self._clock.look(no_clock, now)
         # A controller that is sometimes slow is back only if the next check finds it, too.
@@ -42,7 +42,9 @@ class Waits:
         """
         plant = self._plant
         is_commanded = not np.all(np.isnan(plant.commanded_at))
-        first = '' if is_commanded else f'waits for commands on {self._topic}: the pressure stays'
+        first = (
+            '' if is_commanded else f'waits for commands on {self._topic}: pressures do not change'
+        )
         self._first.look(first, plant.time)
         if is_commanded:
             timeout = plant.setup.settings.command_timeout

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Slow venting of valves whose commands have stopped, as by pneumatic soft-start valves.
+"""Slow venting of valves whose commands have stopped, at a constant rate of pressure.
 
 A muscle that vents at once drops its load: 5 kg reach 3 m/s.
 """

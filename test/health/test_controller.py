@@ -68,7 +68,7 @@ def setup():
             f'waits for joint_states: {NO_JOINT}',
         ),
         (BLIND, {}, '', Level.ERROR, 'joint_states has stopped: vents'),
-        (DISABLED, {}, '', Level.OK, 'disabled: commands nothing'),
+        (DISABLED, {}, '', Level.OK, 'disabled: sends no commands'),
         (
             DISABLED,
             {},

@@ -115,7 +115,7 @@ class PamExcite(TickingNode):
         if not self._is_followed:
             pace = f'at {settings.rate:g} Hz'
         self.get_logger().info(
-            f'plays pressures of {self._now.programme.duration:.1f} s; commands: {command}, '
+            f'plays a programme of {self._now.programme.duration:.1f} s; commands: {command}, '
             f'{pace}; states: {states}; begins {settings.countdown:g} s after the rig is found'
         )
 

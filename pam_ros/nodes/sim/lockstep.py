@@ -77,9 +77,11 @@ class Turns:
         if monotonic_ns() - self._since < PATIENCE:
             return ''
         if not self._known:
-            return f'waits for a controller since {self.waited:.1f} s: no node publishes commands'
+            return (
+                f'waits for a controller, {self.waited:.1f} s so far: no node publishes commands'
+            )
         left = self._muscles - len(self._answered)
-        return f'waits for commands since {self.waited:.1f} s: {left} of {self._muscles} missing'
+        return f'waits for commands, {self.waited:.1f} s so far: {left} of {self._muscles} missing'
 
     def must_repeat(self) -> bool:
         """Return whether to publish the state again now; to be called a few times per second."""

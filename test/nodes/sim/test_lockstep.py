@@ -133,7 +133,7 @@ def test_a_dead_controller_is_waited_for_and_told_and_a_new_one_goes_on(peer):
             got = [controller.answer(pressure_at(k)) for k in range(50)]
             first.until(lambda: last(controller.states, controller.time), 'the last state')
         diagnostics.clear()
-        peer.until(lambda: said('waits for a controller since'), 'word that one is missing')
+        peer.until(lambda: said('waits for a controller'), 'word that one is missing')
         with Peer() as second:
             controller = Controller(second)
             got += [controller.answer(pressure_at(k)) for k in range(50, 100)]
