@@ -5,7 +5,7 @@
 It reports the error of the nominal model, the error with re-tuned parameters, which physical
 effect is missing, and the error with it. Recordings are rosbag2 folders or CSV files whose
 column names contain the unit (t_s, pressure_command_kPa, position_mm, force_N, ...). The folder
---out gets report.html to read, report.json, identified.yaml (a parameter file for pam_sim and
+--out will contain report.html, report.json, identified.yaml (a parameter file for pam_sim and
 pam_control) and residual.csv. Exit code 0 for any verdict, 2 for invalid input. Runs
 without ROS.
 """
@@ -212,7 +212,7 @@ def main() -> None:
 
 
 def _terminate(kind: int, frame: FrameType | None) -> NoReturn:
-    """Exit as on Ctrl-C: incomplete files are removed on the way."""
+    """Exit as on Ctrl-C: incomplete files are removed before the end."""
     sys.exit(TERMINATED)
 
 

@@ -26,7 +26,7 @@ Services
 
 Contraction is positive: the load moves up. Parameters are described by
 ``ros2 param describe /pam_sim <name>``. Time is real, scaled or in lockstep (time_mode). A
-pressure command outside p_min..p_max is clamped. One that is not a number is rejected, and the
+pressure command outside p_min..p_max is clamped. One that is not finite is rejected, and the
 last valid one remains. If no command arrives for command_timeout seconds, the muscle
 vents within vent_time (on_timeout).
 """

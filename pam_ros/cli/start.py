@@ -40,5 +40,5 @@ def start_node(module: str, name: str, about: str | None) -> NoReturn:
 
 
 def _before_ros(arguments: list[str]) -> list[str]:
-    """Return the arguments of a program that stand before those for ROS."""
+    """Return the arguments of a program that precede those for ROS."""
     return list(takewhile(lambda word: word != '--ros-args', arguments))

@@ -22,7 +22,7 @@ class Reports:
         self._tracking = ''
         self._start = Absence(logger, 'control begins')
         self._states = Absence(
-            logger, 'joint_states are received again: control goes on', 0.0, Level.ERROR
+            logger, 'joint_states are received again: control continues', 0.0, Level.ERROR
         )
 
     def refuse(self, reason: str) -> None:

@@ -77,7 +77,7 @@ class Progress(NamedTuple):
     published: int  # samples
     speed: float  # desired simulated seconds per second; 0: as many as possible
     time: float  # simulated s since the start or the last reset
-    lost: float  # simulated s of delay that were never made up for
+    lost: float  # simulated s of delay that are not caught up
     jumps: int  # of the clock that it follows
     is_paused: bool
     follows_clock: bool

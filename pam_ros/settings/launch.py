@@ -88,9 +88,9 @@ def refuse_unknown(file: str, known: Iterable[str], words: Iterable[str]) -> Non
     if name not in (Path(word).name for word in words):
         return
     given = [word.partition(':=')[0] for word in words if ':=' in word]
-    for stranger in refuse_mistyped(given, known):
+    for unknown in refuse_mistyped(given, known):
         raise ParameterError(
-            f'{stranger} is not an argument of {name}: give one of {", ".join(known)}, or a '
+            f'{unknown} is not an argument of {name}: give one of {", ".join(known)}, or a '
             'parameter file as params'
         )
 

@@ -37,7 +37,7 @@ class Venting:
         self._valves[muscle] = _Valve(pressure, rest, abs(pressure - rest) / time)
 
     def end(self, muscle: int) -> None:
-        """Stop the venting of a valve: it gets commands again, or has its final pressure."""
+        """Stop the venting of a valve: it receives commands again, or has its final pressure."""
         self._valves.pop(muscle, None)
 
     def move(self, time: float) -> dict[int, float]:

@@ -81,9 +81,9 @@ def test_one_muscle_is_read_the_same_both_ways():
 @pytest.mark.parametrize(
     ('value', 'applied', 'is_refused', 'word'),
     [
-        (math.nan, 300e3, True, 'nan is not a number'),
-        (math.inf, 300e3, True, 'inf is not a number'),
-        (-math.inf, 300e3, True, '-inf is not a number'),
+        (math.nan, 300e3, True, 'nan is not finite'),
+        (math.inf, 300e3, True, 'inf is not finite'),
+        (-math.inf, 300e3, True, '-inf is not finite'),
         (-5.0, 0.0, False, '-5 Pa is outside 0 to 600000'),
         (601e3, 600e3, False, '601000 Pa is outside 0 to 600000'),
     ],

@@ -39,7 +39,7 @@ BAD_INPUT = 2
 LAST_ANSWER = 4.0
 # s in which the middleware must shut down. It usually takes 0.1 s, but it may hang.
 LEAVING = 20.0
-LONGEST_WAIT = 0.1  # s in the executor, so that the node stops soon at any rate
+LONGEST_WAIT = 0.1  # s in the executor, so that the node stops soon even if its ticks are slow
 
 # What rclpy raises for an invalid command line. RuntimeError is raised for errors of rcl and for
 # unknown policies in overrides of QoS.

@@ -31,7 +31,7 @@ from pam_ros.nodes.demo.client import Client
 from pam_ros.nodes.demo.lockstep_pair import PATIENCE
 from pam_ros.nodes.demo.recorded_rig import RecordedRig
 
-TURN = 0.1  # s between two looks at programs that run
+TURN = 0.1  # s between two checks of running programs
 EXCITATION: Mapping[str, Any] = {
     'muscle': loop.MUSCLE,
     'duration': 30.0,  # s, the shortest programme

@@ -81,7 +81,7 @@ class PamExcite(TickingNode):
         return cls(arguments.csv, arguments.dry_run)
 
     def start(self) -> None:
-        """Print the plan and look for the rig."""
+        """Print the plan and subscribe to the states of the rig."""
         super().start()
         print(self._now.plan(), flush=True)
         if self._is_dry:
@@ -143,7 +143,7 @@ class PamExcite(TickingNode):
                 self._answer(now, is_again=bool(before) and self._stamp == before)
 
     def _answer(self, now: float, *, is_again: bool) -> None:
-        """Command at *now* s; a state that is received again gets the last command again."""
+        """Send the command of *now* s; answer a repeated state with the last command."""
         if not is_again:
             self._play_at(now)
         elif time.monotonic() - self._answered > REPEAT:

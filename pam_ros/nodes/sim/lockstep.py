@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The turns in lockstep: the simulator continues when all muscles were commanded."""
+"""Lockstep: the simulator continues when all muscles were commanded."""
 
 from time import monotonic_ns
 
