@@ -15,8 +15,8 @@ USED = 0.5  # weight above which what was learned counts as used
 def learning(learned: Learned | None, unit: str) -> Health:
     """Return what was *learned*, None if the law does not learn.
 
-    *unit* is that of the coordinate, m or rad. It is never a warning: control continues without what
-    was learned.
+    *unit* is that of the coordinate, m or rad. It is never a warning: control continues without
+    what was learned.
     """
     if learned is None:
         return Health(Level.OK, 'the law does not learn', {})

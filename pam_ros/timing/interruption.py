@@ -64,7 +64,7 @@ class Interruptions:
         return self._ran < SETTLE
 
     def is_old(self, source: str, stamp: int, now: int) -> bool:
-        """Return whether *source* may have sent a message before the last interruption ended.
+        """Return whether a message of *source* may precede the end of the last interruption.
 
         *now* is its time of receipt. Until all queued messages have arrived, every message may be
         old. Later its *stamp* decides; a message without a stamp (0) is then new. The sum of the
