@@ -37,9 +37,8 @@ from pam_ros.settings.tables import Table, Values, build, table_of
 MEASURED = 'use_measured_velocity'  # the gain that velocity_source sets
 TRIALS = 3  # updates of a law, after which its command must be finite
 LEAST_PERIODS = 3  # of rate for which the rig must at least keep the last command
-LONGEST_INTERRUPTION = (
-    1.0  # s of interruption after which control starts again if command_timeout is 0
-)
+# s of interruption after which control starts again if command_timeout is 0
+LONGEST_INTERRUPTION = 1.0
 NAMES = ('muscles', 'joint_names', 'muscle_topics')  # parameters that pam_sim has, too
 
 
