@@ -128,5 +128,5 @@ def table(replay: Replay, report: Mapping[str, Any]) -> str:
             unit = f' [{one["unit"]}]' if one else ''
             lines.append(f'{name.removeprefix("effects.") + unit:<34}{value:>8g}{text}')
     before, after = (size.rmse for _, size in sizes)
-    lines += ['', f'{report["verdict"]}: the error fell to 1/{before / after:.0f}']
+    lines += ['', f'{report["verdict"]}: the RMS error fell to 1/{before / after:.0f}']
     return '\n'.join(lines)

@@ -14,7 +14,7 @@ class Guard:
         self._seen = now
         self.position: float | None = None
 
-    def see(self, position: float, now: float) -> None:
+    def record(self, position: float, now: float) -> None:
         """Record the position of the joint at the time *now*."""
         self.position, self._seen = position, now
 

@@ -196,7 +196,7 @@ class Plant:
         reach = self.setup.reach.item() * l0
         if not (abs(position) < reach and math.isfinite(force + velocity)):
             raise ArithmeticError(f"the position {position:g} m is out of the muscle's reach")
-        self.contractions.see_one(simulation.time, position / l0, self.setup.rated.item())
+        self.contractions.record_one(simulation.time, position / l0, self.setup.rated.item())
         sensors = self._sensors.of_joints
         if not sensors.is_ideal:
             sample = np.array([[position], [velocity], [pressure], [force], [acceleration]])
@@ -217,5 +217,5 @@ class Plant:
         if not (np.all(is_there) and np.isfinite(np.sum(force) + np.sum(simulation.velocity))):
             lost = self.setup.muscle_names[int(np.argmin(is_there))]
             raise ArithmeticError(f'{lost} is out of its reach')
-        self.contractions.see(simulation.time, contraction, self.setup.rated)
+        self.contractions.record(simulation.time, contraction, self.setup.rated)
         return Reading(*self._sensors.read(), stiffness, damping)

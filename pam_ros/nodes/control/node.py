@@ -194,7 +194,7 @@ class PamControl(TickingNode):
             pressures = loop.tick(time)
         except ArithmeticError:
             pressures = (float('nan'),)
-        self._tracking.see(loop)
+        self._tracking.record(loop)
         if pressures is None or self._intake.look():  # the process can be stopped here, too
             return
         if not all(map(isfinite, pressures)):

@@ -1,13 +1,12 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The whole procedure over topics: excite, record and identify a rig, then simulate it better.
+"""The whole procedure over topics: excite, record and identify a rig, then validate the model.
 
 ``pam_sim`` represents the rig, with effects that no other program is given. ``pam_excite`` plays
 its programme, ``pam_record`` writes a rosbag2, ``pam_identify`` finds the effects that the nominal
-model lacks.
-Then the rig runs once more with commands that were not used for the fit. Two simulators run next
-to it, one with the nominal model and one with ``identified.yaml``; all three receive the same
-commands at the same simulated times, since each runs in lockstep.
+model lacks. Then the rig runs once more with commands that were not used for the fit. Two
+simulators run next to it, one with the nominal model and one with ``identified.yaml``; all three
+receive the same commands at the same simulated times, since each runs in lockstep.
 """
 
 import json

@@ -138,7 +138,7 @@ class PamExcite(TickingNode):
             before, self._received = self._stamp, time.monotonic()
             self._stamp = stamp_of(message) / SECOND if self._is_followed else 0.0
             self._seen = now = self._stamp or self._ros_time()
-            self._guard.see(message.position[at], now)
+            self._guard.record(message.position[at], now)
             if self._is_followed and self._do == self._play:
                 self._answer(now, is_again=bool(before) and self._stamp == before)
 
