@@ -4,7 +4,7 @@
 
 That lock is shared by all objects of a class: while a thread computes the property of one object,
 no other thread can compute it for another one. Fits that run in parallel would wait for each
-other. Without it two threads that ask at the same time both compute the value.
+other. Without it two threads that need the value at the same time both compute it.
 """
 
 import sys

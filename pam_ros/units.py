@@ -60,7 +60,7 @@ def turned_unit(unit: str, whose: str) -> str:
     """
     if unit not in TURNED:
         raise ParameterError(
-            f'{whose} is in {unit}: what that is on a joint that turns is not known; add the '
+            f'{whose} is in {unit}: the unit for a revolute joint is not known; add the '
             'unit to TURNED in pam_ros/units.py'
         )
     return TURNED[unit]

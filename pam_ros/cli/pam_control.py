@@ -11,18 +11,18 @@ Publishes
     ``~/state`` (sensor_msgs/JointState): the terms of the law by name, their values as positions
     ``/diagnostics`` (diagnostic_msgs/DiagnosticArray), once a second
 Services
-    ``~/enable`` (std_srvs/SetBool): control from where the joint is, or command nothing
+    ``~/enable`` (std_srvs/SetBool): control from the present position on, or send no commands
 
 The same law serves every kind of ``joint``: load (one muscle, the default), parallel,
-antagonistic, lever and crank. The last three turn: rad for m. With any but load it publishes
-``pressure_commands`` (std_msgs/Float64MultiArray), or ``<muscle>/pressure_command`` of each. With
-antagonistic and lever it subscribes ``co_contraction_reference`` (Float64, stiffness of the joint
-in N m/rad) as well.
+antagonistic, lever and crank. The last three are revolute: rad instead of m. With any joint but
+load it publishes ``pressure_commands`` (std_msgs/Float64MultiArray), or
+``<muscle>/pressure_command`` for each muscle (muscle_topics). With antagonistic and lever it also
+subscribes to ``co_contraction_reference`` (std_msgs/Float64): stiffness of the joint in N m/rad.
 
-Contraction is positive: the load moves up. Parameters say what they are:
-``ros2 param describe /pam_control <name>``. It begins by holding the load where it is. A reference
-that is out of reach is refused and the last one holds; when joint_states has stopped for
-state_timeout seconds the muscle vents within vent_time, or its pressure is held (on_timeout).
+Contraction is positive: the load moves up. Parameters are described by
+``ros2 param describe /pam_control <name>``. Control starts at the present position. A reference
+that is out of reach is refused, and the last one remains. If no joint_states arrive for
+state_timeout seconds, the muscle vents within vent_time, or its pressure is held (on_timeout).
 """
 
 from pam_ros.cli.start import start_node

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""``pam_demo``: what this package can do, shown over real topics in a folder of plots."""
+"""``pam_demo``: run the parts of this package over ROS topics, and write plots and tables."""
 
 import argparse
 import os
@@ -12,7 +12,7 @@ from pam_ros.cli.help_text import help_text
 from pam_ros.demo.outline import CHAPTERS, next_steps, plan
 from pam_ros.errors import PamError
 from pam_ros.processes.ends import ignore_ends
-from pam_ros.processes.interrupts import heed
+from pam_ros.processes.interrupts import raise_on_signal
 from pam_ros.processes.outputs import guard_outputs
 from pam_ros.version import VERSION_HELP, VERSION_LINE
 
@@ -35,7 +35,7 @@ def main() -> None:
     names = given.chapters or [*CHAPTERS]
     print(plan(names, given.out), flush=True)
     # Each signal that requests the end stops the programs that a chapter has started.
-    heed()
+    raise_on_signal()
     # The demonstration needs no other machine, and no other should receive its messages.
     os.environ.setdefault('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
     try:

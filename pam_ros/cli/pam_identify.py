@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """``pam_identify``: what the nominal model lacks, found in recordings of the real rig.
 
-How wrong is the nominal model, how wrong with its parameters re-tuned, which physical effect
-is missing, how wrong is it with that added. Recordings are rosbag2 folders or CSV files whose
-column names carry the unit (t_s, pressure_command_kPa, position_mm, force_N, ...). The folder
---out gets report.html to read, report.json, identified.yaml (a parameter file for pam_sim and
+It reports the error of the nominal model, the error with re-tuned parameters, which physical
+effect is missing, and the error with it. Recordings are rosbag2 folders or CSV files whose
+column names contain the unit (t_s, pressure_command_kPa, position_mm, force_N, ...). The folder
+--out will contain report.html, report.json, identified.yaml (a parameter file for pam_sim and
 pam_control) and residual.csv. Exit code 0 for any verdict, 2 for invalid input. Runs
 without ROS.
 """
@@ -31,7 +31,7 @@ class _Parser(argparse.ArgumentParser):
 
     def error(self, message: str) -> NoReturn:
         """Print the sentence and exit."""
-        self.exit(BAD_INPUT, f'{self.prog}: {shown(message)} (--help says more)\n')
+        self.exit(BAD_INPUT, f'{self.prog}: {shown(message)} (see --help)\n')
 
 
 def parser() -> argparse.ArgumentParser:
@@ -56,15 +56,15 @@ def parser() -> argparse.ArgumentParser:
         action='append',
         default=[],
         metavar='NAME=VALUE',
-        help='override a parameter of it, such as mass=20; may be repeated',
+        help='override one of its parameters, such as mass=20; may be repeated',
     )
     made.add_argument(
         '--uncertain',
         action='append',
         default=[],
         metavar='NAME=DEVIATION',
-        help='how exactly a nominal value is known, its standard deviation: inertia=50%%, or in '
-        'its unit, mass=0.2; it is then fitted as well; may be repeated',
+        help='standard deviation of a nominal value: inertia=50%%, or in its unit, mass=0.2; the '
+        'value is then fitted as well; may be repeated',
     )
     made.add_argument(
         '--test',
@@ -72,14 +72,14 @@ def parser() -> argparse.ArgumentParser:
         action='extend',
         default=[],
         metavar='RECORDING',
-        help='recordings to judge by, which no fit sees (default: the last quarter of the others)',
+        help='recordings for validation, not used for fits (default: last quarter of the others)',
     )
     made.add_argument(
         '--column',
         action='append',
         default=[],
         metavar='SOURCE=TARGET',
-        help='what a column or topic means: adc=force_N*0.392-4.18, or NAME=ignore',
+        help='meaning of a column or topic: adc=force_N*0.392-4.18, or NAME=ignore',
     )
     made.add_argument(
         '--mapping', type=Path, metavar='FILE', help='YAML file with such lines below columns:'
@@ -87,9 +87,9 @@ def parser() -> argparse.ArgumentParser:
     made.add_argument(
         '--kind',
         choices=('free', 'held'),
-        help='free: the load moves; held: the length is prescribed (default: found)',
+        help='free: the load moves; held: the length is prescribed (default: from the data)',
     )
-    made.add_argument('--namespace', help='the rig to take from bags that hold several')
+    made.add_argument('--namespace', help='namespace of the rig, if bags contain several')
     made.add_argument(
         '--out', type=Path, required=True, metavar='DIR', help='folder for the report'
     )
@@ -212,7 +212,7 @@ def main() -> None:
 
 
 def _terminate(kind: int, frame: FrameType | None) -> NoReturn:
-    """Exit as on Ctrl-C: incomplete files are removed on the way."""
+    """Exit as on Ctrl-C: incomplete files are removed before the end."""
     sys.exit(TERMINATED)
 
 

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""``pam_plot``: draw what a rig does, as a page for a browser or as a PNG file.
+"""``pam_plot``: draw the signals of a rig, as a page for a browser or as a PNG file.
 
 Position and reference, commanded and measured pressure, force, stiffness and damping, one below
 the other on a common time axis. In SI units, with the names of the joints and muscles; pressures
@@ -14,7 +14,7 @@ Subscribes, best effort
 Without an option it prints the address of a page on this machine (127.0.0.1) that shows the last
 20 s, until Ctrl-C. With ``--png FILE`` it draws ``--seconds`` from the first message on and ends.
 ``--bag PATH`` draws a recording, without ROS. Exit code 0 at the end and after Ctrl-C, 2 for
-invalid input, and where ``--png`` received nothing.
+invalid input, and if ``--png`` received nothing.
 """
 
 import argparse
@@ -26,7 +26,7 @@ from pam_ros.cli.start import start_node
 from pam_ros.errors import PamError, shown
 from pam_ros.plot.options import Options, add_arguments, checked
 from pam_ros.processes.ends import ignore_ends
-from pam_ros.processes.interrupts import heed
+from pam_ros.processes.interrupts import raise_on_signal
 from pam_ros.processes.outputs import guard_outputs
 from pam_ros.version import VERSION_HELP, VERSION_LINE
 
@@ -58,13 +58,13 @@ def _own(arguments: list[str]) -> list[str]:
 
 def _draw_recording(arguments: list[str]) -> None:
     """Draw the recording of --bag, without ROS; exit with the exit code of the program."""
-    heed()
+    raise_on_signal()
     guard_outputs()
     parser = argparse.ArgumentParser(
         prog='pam_plot',
         description=help_text(__doc__),
         formatter_class=argparse.RawDescriptionHelpFormatter,
-        epilog='All else is given with --ros-args: see the manual of ROS 2.',
+        epilog='Parameters and remappings follow --ros-args: see the manual of ROS 2.',
     )
     parser.add_argument('--version', action='version', version=VERSION_LINE, help=VERSION_HELP)
     add_arguments(parser)

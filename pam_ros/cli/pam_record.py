@@ -4,11 +4,11 @@
 
 Records ``joint_states``, ``pressure_command``, ``force``, ``stiffness``, ``damping`` and
 ``pressure``, of joints ``pressure_commands``, ``forces``, ``stiffnesses``, ``dampings`` and
-``pressures``, and the topics that are named, each as soon as it is published. Messages are kept
-as they came, with the time at which the middleware received them. The bag (MCAP, with
-metadata.yaml) is whole at every moment: when the recorder is killed, what is lost is the last
-second. Ctrl-C ends it, and so do SIGTERM, SIGHUP (the terminal is closed) and SIGQUIT. On a full
-disk it ends with exit code 2; the bag has what was written before.
+``pressures``, and the topics that are named, each as soon as it is published. Messages are stored
+unchanged, with the time at which the middleware received them. The bag (MCAP, with metadata.yaml)
+can be read at any time: if the recorder is killed, at most the last second is lost. Ctrl-C ends
+it, and so do SIGTERM, SIGHUP (the terminal is closed) and SIGQUIT. On a full disk it ends with
+exit code 2; the bag contains the messages written before.
 """
 
 from pam_ros.cli.start import start_node

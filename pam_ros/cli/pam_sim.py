@@ -8,7 +8,7 @@ and publishes
     ``joint_states`` (sensor_msgs/JointState): contraction in m, velocity in m/s, force in N
     ``force``, ``stiffness``, ``damping`` (std_msgs/Float64): N, N/m, N s/m
     ``pressure`` (sensor_msgs/FluidPressure): absolute Pa in the chamber
-Several (parameters muscles, joint) subscribe
+Several muscles (parameters muscles, joint) subscribe
     ``pressure_commands`` (std_msgs/Float64MultiArray): Pa gauge, in the order of the muscles
 and publish
     ``joint_states``: all joints in order; m, m/s, N, or rad, rad/s, N m
@@ -21,13 +21,13 @@ All publish
     ``/clock`` (rosgraph_msgs/Clock), in time_mode scaled and lockstep
 Services
     ``~/reset`` (std_srvs/Trigger): back to the initial state
-    ``~/pause`` (std_srvs/SetBool): let simulated time stand still; messages go on
+    ``~/pause`` (std_srvs/SetBool): stop simulated time; the state is still published
     ``~/step`` (std_srvs/Trigger): while paused, simulate step_periods periods
 
-Contraction is positive: the load moves up. Parameters say what they are:
+Contraction is positive: the load moves up. Parameters are described by
 ``ros2 param describe /pam_sim <name>``. Time is real, scaled or in lockstep (time_mode). A
-pressure command outside p_min..p_max is clamped. One that is not a number is rejected, and the
-last valid one stays in force. If no command arrives for command_timeout seconds, the muscle
+pressure command outside p_min..p_max is clamped. One that is not finite is rejected, and the
+last valid one remains. If no command arrives for command_timeout seconds, the muscle
 vents within vent_time (on_timeout).
 """
 

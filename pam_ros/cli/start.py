@@ -19,7 +19,7 @@ from pam_ros.version import VERSION_LINE
 
 
 def start_node(module: str, name: str, about: str | None) -> NoReturn:
-    """Run the node class *name* of *module* until it is asked to stop; exit with its code.
+    """Run the node class *name* of *module* until a stop is requested; exit with its code.
 
     *about* is the docstring that ``--help`` shows. ``--version`` does not start ROS.
     """
@@ -40,5 +40,5 @@ def start_node(module: str, name: str, about: str | None) -> NoReturn:
 
 
 def _before_ros(arguments: list[str]) -> list[str]:
-    """Return the arguments of a program that stand before those for ROS."""
+    """Return the arguments of a program that precede those for ROS."""
     return list(takewhile(lambda word: word != '--ros-args', arguments))

@@ -55,7 +55,7 @@ class JointRun:
 
 def table(parts: list[tuple[str, JointRun]]) -> str:
     """Return a table of error and stiffness in each of the *parts*, by their names."""
-    lines = [f'{"":<26}{"swing":>10}{"error RMS":>13}{"largest":>12}{"N m/rad":>12}{"set":>8}']
+    lines = [f'{"":<26}{"amplitude":>10}{"error RMS":>13}{"largest":>12}{"N m/rad":>12}{"set":>8}']
     for name, part in parts:
         error = np.degrees(part.error)
         last = part.between(part.t[-1] - LAST, np.inf)

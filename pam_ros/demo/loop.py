@@ -24,7 +24,7 @@ Array = NDArray[np.float64]
 
 MUSCLE = 'dmsp_20_400n'
 # Properties of the rig that the nominal model lacks: friction of the guide, a slow valve, a
-# specimen that differs from the maker's data, and noise of the sensor.
+# specimen that differs from the manufacturer's data, and noise of the sensor.
 HIDDEN: dict[str, Any] = {
     'muscle': MUSCLE,
     'a2': 290.0,
@@ -128,5 +128,5 @@ def table(replay: Replay, report: Mapping[str, Any]) -> str:
             unit = f' [{one["unit"]}]' if one else ''
             lines.append(f'{name.removeprefix("effects.") + unit:<34}{value:>8g}{text}')
     before, after = (size.rmse for _, size in sizes)
-    lines += ['', f'{report["verdict"]}: the error fell to 1/{before / after:.0f}']
+    lines += ['', f'{report["verdict"]}: the RMS error fell to 1/{before / after:.0f}']
     return '\n'.join(lines)

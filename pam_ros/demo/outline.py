@@ -23,7 +23,7 @@ CHAPTERS = {
     'paper': Chapter('the experiment of the paper: a load is released, then pressure steps', 10),
     'position': Chapter('position control of a load that is heavier than configured', 15),
     'joint': Chapter('an antagonistic joint: angle and stiffness are controlled', 13),
-    'loop': Chapter('a rig is excited, recorded and identified, then simulated better', 62),
+    'loop': Chapter('a rig is excited, recorded and identified; the result is validated', 62),
 }
 ROUNDED = 5  # s
 

@@ -92,7 +92,7 @@ def compare(released: PublishedRun, model: Joint) -> list[Row]:
             'frequency',
             'Hz',
             float(np.sqrt(k / MASS * (1.0 - model.muscle.zeta**2)) / (2.0 * np.pi)),
-            'k and c, small swings',
+            'k and c, linearised',
             frequency(released),
             3,
         ),

@@ -64,7 +64,7 @@ def settling(step: PositionRun, goal: float) -> float:
 
 def table(steps: list[tuple[float, PositionRun]], sine: PositionRun) -> str:
     """Return a table of the results: each of the *steps* is a goal in m and its run."""
-    lines = [f'{"set-point":<24}{"settles in":>12}{"error at rest":>16}{"pressure moves":>17}']
+    lines = [f'{"set-point":<24}{"settles in":>12}{"error at rest":>16}{"pressure range":>17}']
     for goal, step in steps:
         rest = step.between(step.t[-1] - LAST, np.inf)
         lines.append(

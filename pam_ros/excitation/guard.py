@@ -14,7 +14,7 @@ class Guard:
         self._seen = now
         self.position: float | None = None
 
-    def see(self, position: float, now: float) -> None:
+    def record(self, position: float, now: float) -> None:
         """Record the position of the joint at the time *now*."""
         self.position, self._seen = position, now
 
@@ -28,7 +28,7 @@ class Guard:
             return f'the position of the joint is {self.position}'
         if not self._low <= self.position <= self._high:
             return (
-                f'the joint stands at {1e3 * self.position:.1f} mm, outside its window of '
+                f'the joint is at {1e3 * self.position:.1f} mm, outside its window of '
                 f'{1e3 * self._low:.1f} to {1e3 * self._high:.1f} mm'
             )
         return ''

@@ -132,7 +132,7 @@ def _ramp(start: float, stop: float, rate: float) -> Array:
 
 def plan(programme: Programme, settings: Excitation) -> str:
     """Return the table of a programme for the user to read before it starts."""
-    lines = [f'{"segment":<18} {"from":>7} {"to":>7}  {"pressure":<15} brings out']
+    lines = [f'{"segment":<18} {"from":>7} {"to":>7}  {"pressure":<15} shows']
     for s in programme.segments:
         part = programme.pressure[s.start : s.stop] / 1e3
         span = f'{part.min():.0f} to {part.max():.0f} kPa'

@@ -45,7 +45,7 @@ class Excitation:
     )
     silence: float = parameter_field(
         0.5,
-        'silence of joint_states after which the programme stops and vents',
+        'time without joint_states after which the programme stops and vents',
         's',
         low=0.01,
         high=60.0,
@@ -61,21 +61,25 @@ class Excitation:
         200.0, 'commands per second', 'Hz', low=20.0, high=2000.0, live=False
     )
     seed: int = parameter_field(
-        0, 'chooses the levels and phases; same seed, same programme', '', low=0, live=False
+        0,
+        'seed of the random levels and phases; equal seeds give equal programmes',
+        '',
+        low=0,
+        live=False,
     )
     countdown: float = parameter_field(
         3.0, 'time to read the plan before it starts', 's', low=0.0, high=60.0, live=False
     )
     patience: float = parameter_field(
         10.0,
-        'how long joint_states and a subscriber of pressure_command are waited for',
+        'longest wait for joint_states and a subscriber of pressure_command',
         's',
         low=0.1,
         high=3600.0,
         live=False,
     )
     joint_name: str = parameter_field(
-        '', "joint to watch in joint_states; '' where there is only one", live=False
+        '', "joint to monitor in joint_states; '' if there is only one", live=False
     )
 
     def __post_init__(self) -> None:

@@ -26,7 +26,7 @@ class Absence:
         self._logger, self._back = logger, back
         self._patience, self._level = patience, level
         self._is_missing = False  # according to the log
-        self._since: float | None = None  # time in s since which the log is no longer right
+        self._since: float | None = None  # time in s since which the log is out of date
         self._times = 0
 
     def look(self, missing: str, now: float, lasting: float = 0.0, times: int = 0) -> None:

@@ -22,9 +22,9 @@ class Received(NamedTuple):
     is_refusal_new: bool = False  # since the last report
     implausibility: str = ''  # sentence on the last measurement that cannot be true
     is_implausibility_new: bool = False  # since the last report
-    silences: int = 0  # pauses of the commands longer than longest_silence of the settings
-    silence: str = ''  # sentence on the last of them
-    is_silence_new: bool = False  # since the last report
+    pauses: int = 0  # of the commands, longer than longest_interruption of the settings
+    pause: str = ''  # sentence on the last of them
+    is_pause_new: bool = False  # since the last report
     tracking: str = ''  # sentence on an error or saturation that lasts
 
 
@@ -81,7 +81,7 @@ def trouble(loop: Loop, on_timeout: str, blindness: str, fault: str) -> str:
         RUNNING: '',
         WAITING: f'waits for {missing}' + why,
         BLIND: f'joint_states has stopped: {did}' + why,
-        DISABLED: fault or 'disabled: commands nothing',
+        DISABLED: fault or 'disabled: sends no commands',
     }[loop.state]
 
 
@@ -91,12 +91,12 @@ def control(loop: Loop, setup: ControlSetup, received: Received, fault: str) -> 
     why = trouble(loop, setup.settings.on_timeout, received.blindness, fault)
     values = values_of(loop, setup, received.age)
     values |= {'refused': received.refused, 'last reason': received.refusal}
-    values |= {'starts after a silence': received.silences, 'last silence': received.silence}
+    values |= {'starts after a silence': received.pauses, 'last silence': received.pause}
     is_blind = state == BLIND or (state == WAITING and bool(received.blindness))
     if is_blind or fault:
         return Health(Level.ERROR, why, values)
     for is_new, what in (
-        (received.is_silence_new, received.silence),
+        (received.is_pause_new, received.pause),
         (received.is_refusal_new, received.refusal),
         (received.is_implausibility_new, received.implausibility),
     ):

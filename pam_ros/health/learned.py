@@ -1,13 +1,13 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What a controller has learned from the motion, and how far it uses this, for people."""
+"""A report on what a controller has learned from the motion, and how much it uses this."""
 
 from typing import Any
 
 from pam_ros.control.learning.learned import Learned
 from pam_ros.health.health import Health, Level
 
-# Times its noise, RMS of the missing force below which nothing has to be learned.
+# Multiple of its noise; with a smaller RMS of the missing force nothing has to be learned.
 LITTLE = 2.0
 USED = 0.5  # weight above which what was learned counts as used
 
@@ -15,8 +15,8 @@ USED = 0.5  # weight above which what was learned counts as used
 def learning(learned: Learned | None, unit: str) -> Health:
     """Return what was *learned*, None if the law does not learn.
 
-    *unit* is that of the coordinate, m or rad. It is never a warning: control goes on without what
-    was learned.
+    *unit* is that of the coordinate, m or rad. It is never a warning: control continues without
+    what was learned.
     """
     if learned is None:
         return Health(Level.OK, 'the law does not learn', {})

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Conditions that last, as opposed to those that come and go."""
+"""Conditions that last, as opposed to short ones."""
 
 
 class Persistence:

@@ -18,11 +18,11 @@ class Reports:
         self._logger = logger
         self._refusal, self._refused, self._is_refusal_new = '', 0, False
         self._implausibility, self._is_implausibility_new = '', False
-        self._silence, self._silences, self._is_silence_new = '', 0, False
+        self._pause, self._pauses, self._is_pause_new = '', 0, False
         self._tracking = ''
         self._start = Absence(logger, 'control begins')
         self._states = Absence(
-            logger, 'joint_states are received again: control goes on', 0.0, Level.ERROR
+            logger, 'joint_states are received again: control continues', 0.0, Level.ERROR
         )
 
     def refuse(self, reason: str) -> None:
@@ -36,15 +36,18 @@ class Reports:
         self._implausibility, self._is_implausibility_new = what, True
         self._logger.warning(what, throttle_duration_sec=1.0)
 
-    def begin_anew(self, silent: int, limit: str) -> None:
-        """Report a pause of commands of *silent* ns, which is longer than *limit* (a text)."""
-        self._silence = (
-            f'no command was given for {silent / SECOND:.2f} s, longer than {limit}: '
+    def restart(self, pause: int, limit: str) -> None:
+        """Report that control starts again, after *pause* ns without a command.
+
+        *limit* describes the limit that was exceeded.
+        """
+        self._pause = (
+            f'no command was given for {pause / SECOND:.2f} s, longer than {limit}: '
             'control starts again from the present position'
         )
-        self._is_silence_new = True
-        self._silences += 1
-        self._logger.warning(self._silence)
+        self._is_pause_new = True
+        self._pauses += 1
+        self._logger.warning(self._pause)
 
     def follow(self, tracking: str) -> None:
         """Report which error or saturation lasts, '' if none does; log it when it begins."""
@@ -74,10 +77,10 @@ class Reports:
             is_refusal_new=self._is_refusal_new,
             implausibility=self._implausibility,
             is_implausibility_new=self._is_implausibility_new,
-            silences=self._silences,
-            silence=self._silence,
-            is_silence_new=self._is_silence_new,
+            pauses=self._pauses,
+            pause=self._pause,
+            is_pause_new=self._is_pause_new,
             tracking=self._tracking,
         )
-        self._is_refusal_new = self._is_implausibility_new = self._is_silence_new = False
+        self._is_refusal_new = self._is_implausibility_new = self._is_pause_new = False
         return received

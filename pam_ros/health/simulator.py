@@ -35,13 +35,13 @@ def commands(plant: Plant, last: int) -> Health:
         values['muscles commanded'] = int(commanded.size)
     if age is None:
         return Health(Level.OK, 'no command yet', values)
-    if np.any(plant.is_silent):
+    if np.any(plant.has_timed_out):
         did = {'vent': 'vented', 'hold': 'held'}[plant.setup.settings.on_timeout]
         whose = ''
         if len(inputs) > 1:
-            silent = np.flatnonzero(plant.is_silent)
-            names = [plant.setup.muscle_names[i] for i in silent[:5]]
-            whose = f' for {", ".join(names)}' + (' and others' if len(silent) > 5 else '')
+            late = np.flatnonzero(plant.has_timed_out)
+            names = [plant.setup.muscle_names[i] for i in late[:5]]
+            whose = f' for {", ".join(names)}' + (' and others' if len(late) > 5 else '')
         return Health(Level.WARN, f'no command{whose} for {age:.3g} s: {did}', values)
     return Health(Level.OK, 'commanded', values)
 
@@ -66,8 +66,8 @@ def sentence_of(setup: SimulationSetup, excess: Excess) -> str:
     name, limit = setup.muscle_names[excess.muscle], setup.rated[excess.muscle]
     return (
         f'muscle {name} contracts by {100.0 * excess.largest:.1f} % of its length, more than the '
-        f'{100.0 * limit:.1f} % that it permits (kappa_max): a real muscle may not be used there, '
-        'and the model is extrapolated'
+        f'{100.0 * limit:.1f} % that it permits (kappa_max): a real muscle must not be used '
+        'there, and the model is extrapolated'
     )
 
 
@@ -77,7 +77,7 @@ class Progress(NamedTuple):
     published: int  # samples
     speed: float  # desired simulated seconds per second; 0: as many as possible
     time: float  # simulated s since the start or the last reset
-    lost: float  # simulated s of delay that were never made up for
+    lost: float  # simulated s of delay that are not caught up
     jumps: int  # of the clock that it follows
     is_paused: bool
     follows_clock: bool

@@ -46,13 +46,13 @@ class Senders:
 
 
 class TopicHealth:
-    """The health of a topic: ``unheard`` and ``contested`` are lasting faults, '' if none."""
+    """The health of a topic: ``unreceived`` and ``contested`` are lasting faults, '' if none."""
 
     def __init__(self, topic: str, joints: Sequence[str] = ()) -> None:
         """Check *topic*; of joint states only the messages with one of *joints* count."""
         self.topic, self.joints = topic, joints
-        self.unheard = self.contested = ''
-        self._is_unheard = Persistence(LASTING, 1)
+        self.unreceived = self.contested = ''
+        self._is_unreceived = Persistence(LASTING, 1)
         self._is_contested = Persistence(LASTING, LASTING)
 
     def look(
@@ -64,16 +64,16 @@ class TopicHealth:
         more than one of them sends.
         """
         begins = []
-        if self._is_unheard.look(is_without_subscriber):
-            self.unheard = (
+        if self._is_unreceived.look(is_without_subscriber):
+            self.unreceived = (
                 f'commands on {self.topic} have no subscriber: is the rig or the simulator '
                 'running, with the same topic name and namespace?'
             )
-            begins.append(self.unheard)
+            begins.append(self.unreceived)
         if self._is_contested.look(has_several):
             begins.append(self._sentence(publishers))
-        if not self._is_unheard.lasts:
-            self.unheard = ''
+        if not self._is_unreceived.lasts:
+            self.unreceived = ''
         if not self._is_contested.lasts:
             self.contested = ''
         elif has_several:
@@ -115,7 +115,7 @@ def topics(each: Sequence[TopicHealth], publishers: Sequence[int]) -> Health:
     values = {
         f'publishers of {one.topic}': count for one, count in zip(each, publishers, strict=True)
     }
-    faults = [one.unheard for one in each if one.unheard]
+    faults = [one.unreceived for one in each if one.unreceived]
     faults += [one.contested for one in each if one.contested]
     if faults:
         return Health(Level.WARN, '; '.join(faults[:2]), values)

@@ -37,7 +37,7 @@ class Tracking:
         self._starts = -1
         self.warning = ''
 
-    def see(self, loop: Loop) -> None:
+    def record(self, loop: Loop) -> None:
         """Note the step that *loop* has just done."""
         if loop.state != RUNNING:
             return

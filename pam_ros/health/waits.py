@@ -9,12 +9,15 @@ import numpy as np
 from pam_ros.health.absence import Absence
 from pam_ros.health.health import Level
 from pam_ros.simulator.plant import Plant
+from pam_ros.timing.interruption import steady_ns
 from pam_ros.timing.pace import SECOND
-from pam_ros.timing.silence import steady_ns
 
 
 class Waits:
-    """Logs one line when one is missing, and one when it is there; checked once a second."""
+    """Logs a line when the clock or a command is missing, and a line when it is received again.
+
+    Checked once a second.
+    """
 
     def __init__(self, logger: Any, plant: Plant, topic: str) -> None:
         """Write to *logger*, of rclpy; *topic* is the full name of the topic of commands."""
@@ -25,22 +28,24 @@ class Waits:
         self._next = Absence(logger, 'commands are received again', 0.0, Level.WARN)
 
     def look(self, no_clock: str, no_turn: str) -> None:
-        """Check the clock, and in lockstep the answer: what is missing, '' if nothing is."""
+        """Check the clock and, in lockstep, the commands: a sentence if missing, else ''."""
         now = steady_ns() / SECOND
         self._clock.look(no_clock, now)
         # A controller that is sometimes slow is back only if the next check finds it, too.
         self._turn.look(no_turn, now, 0.5)
 
-    def look_for_commands(self, silence: str) -> None:
+    def look_for_commands(self, missing: str) -> None:
         """Check for the first command and, if commands have stopped, for the next one.
 
-        *silence* is a sentence on what the muscles do since then, '' if they are commanded. Both
-        are measured in simulated time, like the timeout.
+        *missing* is a sentence on commands that have stopped, '' if all muscles are commanded.
+        Both waits are measured in simulated time, like the timeout.
         """
         plant = self._plant
         is_commanded = not np.all(np.isnan(plant.commanded_at))
-        first = '' if is_commanded else f'waits for commands on {self._topic}: the pressure stays'
+        first = (
+            '' if is_commanded else f'waits for commands on {self._topic}: pressures do not change'
+        )
         self._first.look(first, plant.time)
         if is_commanded:
             timeout = plant.setup.settings.command_timeout
-            self._next.look(silence, plant.time, timeout, plant.silences)
+            self._next.look(missing, plant.time, timeout, plant.timeouts)

@@ -54,10 +54,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help=f'how long --png waits for the first message (default: {WAIT:g} s)',
     )
     parser.add_argument(
-        '--port', type=int, metavar='N', help='port of the page (default: any that is free)'
+        '--port', type=int, metavar='N', help='port of the page (default: any free port)'
     )
     parser.add_argument(
-        '--unit', choices=UNITS, help='unit of positions, for the titles: messages do not say it'
+        '--unit',
+        choices=UNITS,
+        help='unit of positions, for the titles: messages do not contain it',
     )
     parser.add_argument(
         '--bag',
@@ -65,13 +67,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar='PATH',
         help='draw a recording, a rosbag2 or a CSV file, instead of a rig that is running',
     )
-    parser.add_argument('--namespace', help='the rig to take from a bag that holds several')
+    parser.add_argument('--namespace', help='namespace of the rig, if a bag contains several')
     parser.add_argument(
         '--column',
         action='append',
         default=[],
         metavar='SOURCE=TARGET',
-        help='what a column of a CSV file means, as for pam_identify',
+        help='meaning of a column of a CSV file, as for pam_identify',
     )
 
 
@@ -107,7 +109,7 @@ def _refuse_together(given: argparse.Namespace) -> None:
     for option, value, other, is_other, reason in (
         ('--port', given.port, '--png', given.png, 'a PNG file has no page'),
         ('--seconds', given.seconds, '--bag', given.bag, 'a recording is drawn from end to end'),
-        ('--wait', given.wait, '--bag', given.bag, 'a recording is there at once'),
+        ('--wait', given.wait, '--bag', given.bag, 'a recording is already complete'),
     ):
         if value is not None and is_other is not None:
             raise PamError(f'{option} is not allowed with {other}: {reason}')

@@ -55,7 +55,7 @@ def titles(unit: str) -> dict[str, str]:
     """Return the titles of the plots in order; the *unit* of positions is m, rad or unknown."""
     return {
         'position': f'position, {unit or "m or rad"}',
-        'contraction': 'contraction, share of the length',
+        'contraction': 'contraction, fraction of the length',
         'pressure': 'pressure (gauge), Pa',
         'force': 'force, N',
         'effort': f'effort of the joint, {_EFFORT[unit]}',

@@ -77,7 +77,7 @@ def _rounded(value: float) -> float | None:
 class PageServer:
     """Serves the page and its data on 127.0.0.1.
 
-    Each request is answered in a thread of its own, which calls *look*. Requests to another host
+    Each request is answered in a separate thread, which calls *look*. Requests to another host
     are refused: a page of another site could otherwise read the plots through a host name that
     leads to this machine.
     """
@@ -145,7 +145,7 @@ class _Handler(BaseHTTPRequestHandler):
         """Answer with the page or with its data."""
         port = self.server.server_port
         if self.headers.get('Host', '') not in (f'{HOST}:{port}', f'localhost:{port}'):
-            self.send_error(HTTPStatus.FORBIDDEN, 'The page is for this machine alone')
+            self.send_error(HTTPStatus.FORBIDDEN, 'The page is only for this machine')
         elif self.path == '/':
             self._answer('text/html; charset=utf-8', self.server.page)
         elif self.path == '/data':

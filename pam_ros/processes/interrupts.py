@@ -20,7 +20,7 @@ class _Interrupt:
     is_held = False
 
 
-def heed() -> None:
+def raise_on_signal() -> None:
     """Let the first signal raise KeyboardInterrupt; later ones have no effect."""
     _Interrupt.is_made = False
     on_end(_note)

@@ -8,9 +8,9 @@ from threading import Timer
 
 
 @contextmanager
-def notice(seconds: float, tell: Callable[[], object]) -> Iterator[None]:
-    """Call *tell* once, from another thread, if the context takes longer than *seconds*."""
-    timer = Timer(seconds, tell)
+def notice(seconds: float, inform: Callable[[], object]) -> Iterator[None]:
+    """Call *inform* once, from another thread, if the context takes longer than *seconds*."""
+    timer = Timer(seconds, inform)
     timer.daemon = True
     timer.start()
     try:

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Standard outputs that cannot end a program: closed, full, or without a character of a name.
+"""Standard outputs that do not end a program if they are closed, full or lack a character.
 
 The task of a program, such as a report or a muscle under pressure, does not depend on who reads
 its output. After ``| head -1``, or if the disk of its log is full, the program continues.

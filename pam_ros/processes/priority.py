@@ -9,7 +9,7 @@ NORMAL = 'normal'
 
 
 def prefer_real_time() -> str:
-    """Schedule the calling thread before every normal one; return its scheduling now.
+    """Schedule the calling thread before all normal threads; return its present scheduling.
 
     The controller manager of ros2_control does the same: without it a busy machine delays ticks by
     several periods. The threads of DDS are unchanged: if they were woken for every message before

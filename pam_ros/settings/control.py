@@ -37,7 +37,8 @@ from pam_ros.settings.tables import Table, Values, build, table_of
 MEASURED = 'use_measured_velocity'  # the gain that velocity_source sets
 TRIALS = 3  # updates of a law, after which its command must be finite
 LEAST_PERIODS = 3  # of rate for which the rig must at least keep the last command
-LONGEST_SILENCE = 1.0  # s of silence after which control starts again if command_timeout is 0
+# s of interruption after which control starts again if command_timeout is 0
+LONGEST_INTERRUPTION = 1.0
 NAMES = ('muscles', 'joint_names', 'muscle_topics')  # parameters that pam_sim has, too
 
 
@@ -47,13 +48,12 @@ class ControlSettings:
 
     controller: str = parameter_field(
         'sliding_mode',
-        'law that controls: sliding_mode, or pid as a baseline (needs simple-pid)',
+        'control law: sliding_mode, or pid as a baseline (needs simple-pid)',
         choices=('sliding_mode', 'pid'),
     )
     velocity_source: str = parameter_field(
         'estimated',
-        'where the law has its velocity from: estimated from positions, or measured in '
-        'joint_states',
+        'velocity that the law uses: estimated from positions, or measured in joint_states',
         choices=('estimated', 'measured'),
     )
     rate: float = parameter_field(
@@ -68,8 +68,8 @@ class ControlSettings:
     )
     state_timeout: float = parameter_field(
         0.5,  # a loaded machine sometimes delays messages by 0.1 s
-        'silence of joint_states after which on_timeout acts; before that, control goes on by '
-        'the model',
+        'time without joint_states after which on_timeout acts; until then, control continues '
+        'with the model',
         's',
         low=0.005,
         high=3600.0,
@@ -81,16 +81,16 @@ class ControlSettings:
     )
     vent_time: float = parameter_field(
         2.0,
-        'how long venting takes to 0 Pa, whatever the pressure before: that of on_timeout, and '
-        'that of the rig after command_timeout; 0: at once',
+        'time in which venting lowers any pressure to 0 Pa: by the controller (on_timeout), and '
+        'by the rig after command_timeout; 0: at once',
         's',
         low=0.0,
         high=60.0,
     )
     command_timeout: float = parameter_field(
         1.0,
-        'how long the rig goes on with the last command before it vents; 0: for ever. After a '
-        'longer silence of its own (with 0: than 1 s) the controller starts again from the '
+        'time for which the rig keeps the last command before it vents; 0: for ever. If the '
+        'controller sends no command for longer (with 0: than 1 s), it starts again from the '
         'present state',
         's',
         low=0.0,
@@ -99,7 +99,7 @@ class ControlSettings:
     pressure_wait: float = parameter_field(
         0.5,
         'longest wait for a measured pressure before control begins, so that it begins at that '
-        'pressure; 0: none is asked for',
+        'pressure; 0: measured pressures are not used',
         's',
         low=0.0,
         high=60.0,
@@ -107,13 +107,13 @@ class ControlSettings:
     )
     ambient_pressure: float = parameter_field(
         101325.0,
-        'pressure around the muscle, which measured ones include',
+        'absolute pressure around the muscle, subtracted from measured pressures',
         'Pa',
         low=0.0,
         high=2e5,
     )
     start_enabled: bool = parameter_field(
-        True, 'whether it controls from the start; false: from ~/enable on', live=False
+        True, 'whether control starts at once; false: at a call of ~/enable', live=False
     )
     joint: str = parameter_field(
         LOAD.name,
@@ -133,15 +133,15 @@ class ControlSettings:
             )
 
     @property
-    def longest_silence(self) -> float:
-        """Duration in s of its own silence after which the controller starts again."""
-        return self.command_timeout or LONGEST_SILENCE
+    def longest_interruption(self) -> float:
+        """Duration in s of an interruption of the controller after which control starts again."""
+        return self.command_timeout or LONGEST_INTERRUPTION
 
     @property
-    def silence_limit(self) -> str:
-        """This limit in words; command_timeout 0 means that the rig has no timeout."""
+    def interruption_limit(self) -> str:
+        """This limit as text; command_timeout 0 means that the rig has no timeout."""
         name = 'command_timeout' if self.command_timeout else 'permitted with command_timeout 0'
-        return f'{name} ({self.longest_silence:g} s)'
+        return f'{name} ({self.longest_interruption:g} s)'
 
 
 class ControlParameters(RigParameters):
@@ -158,7 +158,7 @@ class ControlParameters(RigParameters):
         del gains[f'gains.{MEASURED}']
         kind, default, about = names['muscle_topics']
         text = (
-            'command each muscle on <name>/pressure_command, as pam_sim with muscle_topics takes'
+            'command each muscle on <name>/pressure_command, as pam_sim with muscle_topics expects'
         )
         names['muscle_topics'] = kind, default, replace(about, text=text)
         return {
@@ -179,8 +179,8 @@ class ControlParameters(RigParameters):
         n = self.kind.muscles
         if self.kind is not LOAD and len(self.joints) > 1 and not has_topics:
             raise ParameterError(
-                f'pressure_commands has all muscles of {len(self.joints)} joints and this is '
-                f'the controller of {self.joints[k or 0]} alone: set muscle_topics, here and in '
+                f'pressure_commands has all muscles of {len(self.joints)} joints, and this '
+                f'controller has only {self.joints[k or 0]}: set muscle_topics, here and in '
                 'pam_sim'
             )
         if k is None:
@@ -226,8 +226,8 @@ class ControlParameters(RigParameters):
         if self.kind is LOAD and not has_topics:
             return None
         raise ParameterError(
-            f'joint_name = {name} is not one of the joints {", ".join(self.joints)}: say which '
-            'of them is controlled'
+            f'joint_name = {name} is not one of the joints {", ".join(self.joints)}: give '
+            'the one that is controlled'
         )
 
 

@@ -79,8 +79,8 @@ def find(name: str) -> Path:
     if name in presets:
         return presets[name]
     raise ParameterError(
-        f'{name} is neither a parameter file nor a muscle of this package: give a path or one of '
-        + ', '.join(presets)
+        f'{name} is neither a parameter file nor a muscle or rig of this package: give a path or '
+        'one of ' + ', '.join(presets)
     )
 
 

@@ -26,16 +26,17 @@ MOST_CROWDING = 0.98
 
 
 def renamed(values: Mapping[str, Any]) -> tuple[dict[str, Any], str]:
-    """Return flat *values* under the names of today, and a sentence; '' where all are today's.
+    """Return flat *values* with their present names, and a sentence on former ones, '' if none.
 
-    A name of today is taken before a former one. Names of one muscle, with its name before a dot,
-    are treated as common ones are. Raises ParameterError for a former value out of range.
+    The value of a present name is used before that of a former one. Names of one muscle, with its
+    name before a dot, are treated as common ones are. Raises ParameterError for a former value out
+    of range.
     """
     found: dict[str, Any] = {}
     changes = []
     is_split = False
     for name, value in values.items():
-        new, now = _of_today(name, value)
+        new, now = _at_present(name, value)
         if new == name:
             found[name] = value
             continue
@@ -59,8 +60,8 @@ def _split(name: str) -> tuple[str, EffectName] | None:
     return None if own is None else (head + dot, own)
 
 
-def _of_today(name: str, value: Any) -> tuple[str, Any]:
-    """Return today's name and value of a parameter of any version."""
+def _at_present(name: str, value: Any) -> tuple[str, Any]:
+    """Return the present name and value of a parameter of any version."""
     of = _split(name)
     if of is None or of[1].effect != FORMER:
         return name, value

@@ -42,25 +42,28 @@ class Argument(NamedTuple):
 
 ARGUMENTS = {
     'muscle': Argument(
-        'muscle of config/muscles, or the path of a parameter file of one; none: what params '
-        f'says, and without params {MUSCLE}'
+        'muscle of config/muscles, or the path of a parameter file of one; if not given: that of '
+        f'params, and without params {MUSCLE}'
     ),
-    'joint': Argument('kind of the joint; none: what params says, or load', '', ('', *KINDS)),
-    'mass': Argument("kg of the load; none: what params says, or the muscle's"),
+    'joint': Argument('kind of the joint; if not given: as in params, or load', '', ('', *KINDS)),
+    'mass': Argument('kg of the load; if not given: as in params, or that of the muscle file'),
     'params': Argument(
-        'ROS parameter file of the programs, such as an identified.yaml; of several, with commas '
-        'between them, the last one holds'
+        'ROS parameter file of the programs, such as an identified.yaml; several are separated by '
+        'commas, and later ones override earlier ones'
     ),
-    'publish_rate': Argument('Hz of the simulated joint states; none: what params says, or 500'),
-    'rate': Argument("Hz of the controller's commands; none: what params says, or 500"),
+    'publish_rate': Argument(
+        'Hz of the simulated joint states; if not given: as in params, or 500'
+    ),
+    'rate': Argument("Hz of the controller's commands; if not given: as in params, or 500"),
     'time_mode': Argument(
-        'how simulated time passes; a controller follows /clock where it is scaled or lockstep; '
-        'none: what params says, or real_time',
+        'how simulated time passes; if it is scaled or lockstep, a controller follows /clock; '
+        'if not given: as in params, or real_time',
         '',
         ('', *SIM['time_mode'][2].choices),
     ),
     'use_sim_time': Argument(
-        'true: programs that do not make the time follow /clock; none: where time_mode says so',
+        'true: programs that do not generate the time follow /clock; if not given: only a '
+        'controller does, if time_mode is scaled or lockstep',
         '',
         ('', *TRUE_OR_FALSE),
     ),
@@ -69,7 +72,7 @@ ARGUMENTS = {
         'rig, antagonistic_pair, or the path of a URDF with the joint of joint_states', 'rig'
     ),
     'rviz': Argument(
-        'false: publish the description and tf alone, without RViz', 'true', TRUE_OR_FALSE
+        'false: publish only the robot description and tf, without RViz', 'true', TRUE_OR_FALSE
     ),
 }
 
@@ -85,9 +88,9 @@ def refuse_unknown(file: str, known: Iterable[str], words: Iterable[str]) -> Non
     if name not in (Path(word).name for word in words):
         return
     given = [word.partition(':=')[0] for word in words if ':=' in word]
-    for stranger in refuse_mistyped(given, known):
+    for unknown in refuse_mistyped(given, known):
         raise ParameterError(
-            f'{stranger} is not an argument of {name}: give one of {", ".join(known)}, or a '
+            f'{unknown} is not an argument of {name}: give one of {", ".join(known)}, or a '
             'parameter file as params'
         )
 

@@ -166,8 +166,8 @@ class RigParameters:
             known = self._own(name)
             given = {rest: value for rest, value in values.items() if rest not in self.elsewhere}
             all_known = {f'{name}.{rest}' for rest in known}
-            for stranger in refuse_mistyped((f'{name}.{rest}' for rest in given), all_known):
-                raise ParameterError(f'{stranger}: {name} has no parameter of this name')
+            for unknown in refuse_mistyped((f'{name}.{rest}' for rest in given), all_known):
+                raise ParameterError(f'{unknown}: {name} has no parameter of this name')
             common = {flat: self._given.get(flat, table[flat][1]) for flat in (*NAMES, *LIMITS)}
             preset = with_braid(self._preset(given, known), given, known, common)
             known = with_defaults(known, preset)

@@ -116,12 +116,12 @@ class SimulationSetup:
         low, high = reach_of(joint)
         unit = joint.transmission.equations.unit
         if statics.is_direct(joint):
-            what = f'length of a muscle of {joint.muscle.l0:g} m'
+            what = f'a muscle of {joint.muscle.l0:g} m'
         else:
-            what = f'place of joint = {self.settings.joint}'
+            what = f'joint = {self.settings.joint}'
         if not low <= position <= high:
             raise ParameterError(
-                f'{whose}initial.position = {position:g} {unit} is not a {what}: give '
+                f'{whose}initial.position = {position:g} {unit} is not possible with {what}: give '
                 f'{low:g} to {high:g} {unit}'
             )
 

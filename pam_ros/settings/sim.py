@@ -15,8 +15,8 @@ MUSCLE: Table = {
         str,
         '',
         Parameter(
-            'what is not given as a parameter comes from here: a muscle of this package, such as '
-            'dmsp_20_400n, or the path of a parameter file',
+            'source of the values of all parameters that are not given: a muscle of this package, '
+            'such as dmsp_20_400n, or the path of a parameter file',
             live=False,
         ),
     )
@@ -36,7 +36,7 @@ class SimSettings:
     )
     speed_factor: float = parameter_field(
         1.0,
-        'simulated seconds a second in time_mode scaled, 0.1 or more; 0: as fast as possible',
+        'simulated seconds per second in time_mode scaled, 0.1 or more; 0: as fast as possible',
         low=0.0,
         high=1000.0,
     )
@@ -58,7 +58,7 @@ class SimSettings:
     )
     command_timeout: float = parameter_field(
         1.0,
-        'silence of pressure_command after which on_timeout acts, once a command has come; '
+        'time without a pressure command after which on_timeout acts, from the first command on; '
         '0: never',
         's',
         low=0.0,
@@ -66,12 +66,12 @@ class SimSettings:
     )
     on_timeout: str = parameter_field(
         'vent',
-        'what the valve does when commands stop: vent to 0 Pa, or hold the last one',
+        'what the valve does when commands stop: vent to 0 Pa, or hold the last pressure',
         choices=('vent', 'hold'),
     )
     vent_time: float = parameter_field(
         2.0,  # so that no load of a preset falls faster than 0.15 m/s or 2.5 rad/s
-        'how long the valve takes to 0 Pa when it vents, whatever the pressure before; 0: at once',
+        'time in which a valve that vents lowers any pressure to 0 Pa; 0: at once',
         's',
         low=0.0,
         high=60.0,
@@ -90,14 +90,16 @@ class SimSettings:
         live=False,
     )
     muscles: tuple[str, ...] = parameter_field(
-        (), 'names of the muscles in order, two in a row for a joint of two; none: one', live=False
+        (),
+        'names of the muscles in order, joint by joint; empty: the muscles of one joint',
+        live=False,
     )
     muscle_topics: bool = parameter_field(
-        False, 'beside the arrays, topics of each muscle below its name', live=False
+        False, 'topics of each muscle below its name, in addition to the arrays', live=False
     )
     joint_name: str = parameter_field('pam', 'name of the joint in joint_states', live=False)
     joint_names: tuple[str, ...] = parameter_field(
-        (), 'names of the joints in joint_states where they are several', live=False
+        (), 'names of the joints in joint_states, if there are several', live=False
     )
     frame_id: str = parameter_field('', 'frame in the headers of joint_states and pressure')
 
@@ -114,7 +116,7 @@ class SimSettings:
             if rate > self.physics_rate and (name == 'publish_rate' or self.has_own_time):
                 raise ParameterError(
                     f'{name} = {rate:g} Hz is above physics_rate = {self.physics_rate:g} Hz: '
-                    'there is nothing new to publish so often'
+                    'the state does not change so often'
                 )
 
     @property
@@ -135,14 +137,14 @@ class Start:
     )
     position: float = parameter_field(
         0.0,
-        'contraction at the start unless initial.at_rest; rad for a pulley',
+        'position at the start unless initial.at_rest; rad for a revolute joint',
         'm',
         low=-5.0,
         high=9.0,
     )
     velocity: float = parameter_field(
         0.0,
-        'velocity at the start unless initial.at_rest; rad/s for a pulley',
+        'velocity at the start unless initial.at_rest; rad/s for a revolute joint',
         'm/s',
         low=-100.0,
         high=100.0,

@@ -130,12 +130,12 @@ def refuse_mistyped(names: Iterable[str], known: Iterable[str]) -> list[str]:
     Raises ParameterError for a name so similar to a known name that it must be mistyped.
     """
     known = set(known)
-    strangers = [name for name in names if name not in known]
-    for name in strangers:
+    unknown = [name for name in names if name not in known]
+    for name in unknown:
         alike = get_close_matches(name, known, n=1, cutoff=ALIKE)
         if alike:
             raise ParameterError(f'{name} is not a parameter: was {alike[0]} meant?')
-    return strangers
+    return unknown
 
 
 def refuse_unknown_effects(values: Values) -> None:

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Detect muscles that contract further than they permit, and how far."""
+"""Detect muscles that contract beyond their permitted contraction, and by how much."""
 
 from dataclasses import dataclass
 from typing import NamedTuple
@@ -43,12 +43,12 @@ class Contractions:
         """Forget the events, but not their count: simulated time starts again."""
         self._events.clear()
 
-    def see_one(self, time: float, contraction: float, limit: float) -> None:
+    def record_one(self, time: float, contraction: float, limit: float) -> None:
         """Record the contraction of a single muscle at *time* s; it and *limit* are fractions."""
         if contraction - limit > MARGIN:
             self._note(time, 0, contraction)
 
-    def see(
+    def record(
         self, time: float, contraction: NDArray[np.float64], limits: NDArray[np.float64]
     ) -> None:
         """Record the contractions (muscles,) at *time* in s; they and *limits* are fractions."""

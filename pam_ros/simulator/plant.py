@@ -51,7 +51,7 @@ class Plant:
     def __init__(self, setup: SimulationSetup) -> None:
         """Create the rig in its initial state."""
         self.setup = setup
-        self.silences = 0  # how often commands of a muscle stopped for longer than the timeout
+        self.timeouts = 0  # how often commands of a muscle stopped for longer than the timeout
         self.inputs = [PressureInput(muscle) for muscle in setup.muscles]
         self._simulation = Simulation(setup.joints, 1.0 / setup.settings.physics_rate)
         self._all = range(len(self.inputs))
@@ -71,7 +71,7 @@ class Plant:
         self._ordered = pressures.copy()  # Pa, the last commands of the valves
         # Simulated time of each muscle's last valid command, NaN before the first one.
         self.commanded_at = np.full(len(pressures), np.nan)
-        self.is_silent = np.zeros(len(pressures), dtype=bool)
+        self.has_timed_out = np.zeros(len(pressures), dtype=bool)
         self._deadline = math.inf  # simulated time at which the next timeout is reached
         self._venting = Venting()
 
@@ -102,7 +102,7 @@ class Plant:
             self._simulation.advance(steps)
             self.step += steps
             if self._simulation.time > self._deadline:
-                self._fall_silent()
+                self._time_out()
 
     # Valves ----------------------------------------------------------------------------------
 
@@ -115,7 +115,7 @@ class Plant:
         self._venting.end(muscle)
         self._order(muscle, pressure)
         self.commanded_at[muscle] = self._simulation.time
-        self.is_silent[muscle] = False
+        self.has_timed_out[muscle] = False
         self._set_deadline()
         return None if pressure == value else self._bad(muscle)
 
@@ -137,7 +137,7 @@ class Plant:
                 self._venting.end(i)
                 ordered[i] = pressure
                 self.commanded_at[i] = now
-                self.is_silent[i] = False
+                self.has_timed_out[i] = False
         self._simulation.command(ordered)
         self._set_deadline()
         return bad
@@ -154,19 +154,19 @@ class Plant:
         timeout = self.setup.settings.command_timeout
         if len(self.commanded_at) == 1:
             last = self.commanded_at.item()
-            is_watched = timeout and not (math.isnan(last) or self.is_silent.item())
+            is_watched = timeout and not (math.isnan(last) or self.has_timed_out.item())
             self._deadline = last + timeout if is_watched else math.inf
             return
-        last = self.commanded_at[~np.isnan(self.commanded_at) & ~self.is_silent]
+        last = self.commanded_at[~np.isnan(self.commanded_at) & ~self.has_timed_out]
         self._deadline = float(last.min()) + timeout if timeout and last.size else math.inf
 
-    def _fall_silent(self) -> None:
+    def _time_out(self) -> None:
         settings = self.setup.settings
         for i in self._all:
             age = self._simulation.time - self.commanded_at[i]
-            if age > settings.command_timeout and not self.is_silent[i]:
-                self.is_silent[i] = True
-                self.silences += 1
+            if age > settings.command_timeout and not self.has_timed_out[i]:
+                self.has_timed_out[i] = True
+                self.timeouts += 1
                 if settings.on_timeout == 'vent':
                     self._vent(i, settings.vent_time)
         self._set_deadline()
@@ -195,8 +195,8 @@ class Plant:
         l0 = self.setup.muscles[0].l0
         reach = self.setup.reach.item() * l0
         if not (abs(position) < reach and math.isfinite(force + velocity)):
-            raise ArithmeticError(f"at {position:g} m it is out of the muscle's reach")
-        self.contractions.see_one(simulation.time, position / l0, self.setup.rated.item())
+            raise ArithmeticError(f"the position {position:g} m is out of the muscle's reach")
+        self.contractions.record_one(simulation.time, position / l0, self.setup.rated.item())
         sensors = self._sensors.of_joints
         if not sensors.is_ideal:
             sample = np.array([[position], [velocity], [pressure], [force], [acceleration]])
@@ -217,5 +217,5 @@ class Plant:
         if not (np.all(is_there) and np.isfinite(np.sum(force) + np.sum(simulation.velocity))):
             lost = self.setup.muscle_names[int(np.argmin(is_there))]
             raise ArithmeticError(f'{lost} is out of its reach')
-        self.contractions.see(simulation.time, contraction, self.setup.rated)
+        self.contractions.record(simulation.time, contraction, self.setup.rated)
         return Reading(*self._sensors.read(), stiffness, damping)

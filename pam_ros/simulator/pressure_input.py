@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Check pressure commands as a rig's valve would: never out of its limits, never a NaN."""
+"""Check pressure commands like the valve of a rig: within its limits, and never NaN."""
 
 import math
 
@@ -11,7 +11,7 @@ class PressureInput:
     """Accepts commands in Pa gauge, counts the bad ones, and keeps the reason of the last one.
 
     A value outside p_min..p_max is clamped, as by a valve that is fully open or closed. A value
-    that is not finite is refused: the last valid command stays in force.
+    that is not finite is refused: the last valid command remains active.
     """
 
     def __init__(self, muscle: Muscle) -> None:
@@ -28,7 +28,7 @@ class PressureInput:
         if not math.isfinite(value):
             self.refused += 1
             self.reason = (
-                f'pressure command {value} is not a number: the last valid one stays in force'
+                f'pressure command {value} is not finite: the last valid one remains active'
             )
             return None
         self.accepted += 1

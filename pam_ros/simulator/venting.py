@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Slow venting of valves whose commands have stopped, as by pneumatic soft-start valves.
+"""Slow venting of valves whose commands have stopped, at a constant rate of pressure.
 
 A muscle that vents at once drops its load: 5 kg reach 3 m/s.
 """
@@ -37,7 +37,7 @@ class Venting:
         self._valves[muscle] = _Valve(pressure, rest, abs(pressure - rest) / time)
 
     def end(self, muscle: int) -> None:
-        """Stop the venting of a valve: it gets commands again, or has its final pressure."""
+        """Stop the venting of a valve: it receives commands again, or has its final pressure."""
         self._valves.pop(muscle, None)
 
     def move(self, time: float) -> dict[int, float]:

@@ -3,7 +3,7 @@
 """How much simulated time is due, and the stamp of each simulated step."""
 
 SECOND = 1_000_000_000
-CATCH_UP = SECOND // 2  # longest lateness that is made up for, ns
+CATCH_UP = SECOND // 2  # longest delay that is caught up, ns
 JUMP = SECOND // 10  # ns by which slewing may move ROS time against steady time; more is a jump
 
 
@@ -20,7 +20,7 @@ class Pace:
         """Start at step 0 at the times *ros* and *steady*, with *rate* in Hz."""
         self.rate = rate
         self.jumps = 0
-        self.lost = 0.0  # simulated seconds that were never made up for
+        self.lost = 0.0  # simulated seconds of delay that are not caught up
         self.origin = ros
         self._ros, self._steady = ros, steady
 

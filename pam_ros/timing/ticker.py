@@ -24,7 +24,7 @@ class Ticker:
     """Computes when the next tick is due; due times are counted from a start, never summed.
 
     Times are nanoseconds of a steady clock. A tick that comes a whole period late or more is an
-    overrun; the ticks that are missed with it are not made up for.
+    overrun; the ticks that are missed with it are skipped.
     """
 
     def __init__(self, rate: float) -> None:

@@ -31,7 +31,7 @@ def test_the_table_has_error_and_stiffness_of_each_part():
             ('stiff', run.with_stiffness(30.0)),
         ]
     ).splitlines()
-    assert head.split() == ['swing', 'error', 'RMS', 'largest', 'N', 'm/rad', 'set']
+    assert head.split() == ['amplitude', 'error', 'RMS', 'largest', 'N', 'm/rad', 'set']
     degrees = f'{np.degrees(SWING):.1f}'
     each = [degrees, 'deg', '0.100', 'deg', '0.100', 'deg']
     assert soft.split() == ['soft', *each, '20.50', '20.00']

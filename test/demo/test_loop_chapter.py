@@ -73,7 +73,7 @@ def test_table_has_errors_and_the_hidden_next_to_the_identified_values(replay):
     friction = rows['coulomb_friction.level [N]']
     assert friction[2:] == ['12', '11.9', '11.7', 'to', '12.2']
     assert rows['pressure_lag.fill'] == ['pressure_lag.fill', '0.04']
-    assert rows['effect_found: the error fell to 1/30']
+    assert rows['effect_found: the RMS error fell to 1/30']
 
 
 def test_figure_shows_the_rig_and_both_models(replay):

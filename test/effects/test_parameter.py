@@ -76,8 +76,8 @@ DRAG = effect_with('air_drag', 'N s^2/m^2', outside=outside)
 
 def test_a_unit_without_a_counterpart_for_a_revolute_joint_is_refused():
     sentence = (
-        'effects.air_drag.size is in N s^2/m^2: what that is on a joint that turns is not '
-        'known; add the unit to TURNED in pam_ros/units.py'
+        'effects.air_drag.size is in N s^2/m^2: the unit for a revolute joint is not known; '
+        'add the unit to TURNED in pam_ros/units.py'
     )
     with pytest.raises(ParameterError) as error:
         DRAG.parameters(revolute=True)

@@ -18,7 +18,7 @@ from pam_ros.timing.ticker import Punctuality
 
 WELL = Received(age=0.01)
 NO_JOINT = 'joint_states has no joint pam'
-SILENCE = 'no command was given for 2.00 s, longer than command_timeout (1 s)'
+PAUSE = 'no command was given for 2.00 s, longer than command_timeout (1 s)'
 FALSE = 'joint_states has a position -1 m, which is beyond the travel of the joint'
 
 LASTS = 'the command is at a limit of pressure for more than 3 s'
@@ -46,8 +46,8 @@ def setup():
         (RUNNING, {'refusal': 'too far', 'refused': 1}, '', Level.OK, 'controlling'),
         (RUNNING, {'refusal': 'too far', 'is_refusal_new': True}, '', Level.WARN, 'too far'),
         (RUNNING, {'blindness': NO_JOINT}, '', Level.WARN, NO_JOINT),
-        (RUNNING, {'silence': SILENCE, 'silences': 1}, '', Level.OK, 'controlling'),
-        (RUNNING, {'silence': SILENCE, 'is_silence_new': True}, '', Level.WARN, SILENCE),
+        (RUNNING, {'pause': PAUSE, 'pauses': 1}, '', Level.OK, 'controlling'),
+        (RUNNING, {'pause': PAUSE, 'is_pause_new': True}, '', Level.WARN, PAUSE),
         (RUNNING, {'implausibility': FALSE}, '', Level.OK, 'controlling'),
         (
             RUNNING,
@@ -68,8 +68,14 @@ def setup():
             f'waits for joint_states: {NO_JOINT}',
         ),
         (BLIND, {}, '', Level.ERROR, 'joint_states has stopped: vents'),
-        (DISABLED, {}, '', Level.OK, 'disabled: commands nothing'),
-        (DISABLED, {}, 'the law gave no number', Level.ERROR, 'the law gave no number'),
+        (DISABLED, {}, '', Level.OK, 'disabled: sends no commands'),
+        (
+            DISABLED,
+            {},
+            'the law gave a pressure that is not finite',
+            Level.ERROR,
+            'the law gave a pressure that is not finite',
+        ),
     ],
 )
 def test_the_worst_of_the_control_is_reported(setup, state, received, fault, level, message):

@@ -55,11 +55,11 @@ def test_commands_without_a_subscriber_are_reported_once_if_that_lasts():
     health = TopicHealth('/left/pressure_command')
     *before, begins = look(health, LASTING, is_alone=True)
     assert before == [[]] * (LASTING - 1)
-    assert begins == [health.unheard]
-    assert health.unheard.startswith('commands on /left/pressure_command have no subscriber')
+    assert begins == [health.unreceived]
+    assert health.unreceived.startswith('commands on /left/pressure_command have no subscriber')
     assert look(health, 5, is_alone=True) == [[]] * 5
     found = topics([health], [1])
-    assert (found.level, found.message) == (Level.WARN, health.unheard)
+    assert (found.level, found.message) == (Level.WARN, health.unreceived)
     look(health, 1)
     assert topics([health], [1]).level == Level.OK
 

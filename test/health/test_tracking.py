@@ -37,7 +37,7 @@ class Motion:
         for t in np.arange(0.0, seconds, DT):
             self.terms.error, self.terms.cut = float(error(t)), float(cut(t))
             self.loop.time += DT
-            self.tracking.see(self.loop)
+            self.tracking.record(self.loop)
             warnings.append(self.tracking.warning)
         return warnings
 

@@ -11,7 +11,7 @@ from pam_ros.settings.scene import Scene
 from pam_ros.settings.tables import checked
 from pam_ros.simulator.plant import Plant
 
-FIRST = ['waits for commands on /pressure_command: the pressure stays']
+FIRST = ['waits for commands on /pressure_command: pressures do not change']
 SECOND = [*FIRST, 'commands are received on /pressure_command']
 STEPS = 1000  # a second
 
@@ -43,8 +43,8 @@ class Rig:
                 self.look()
 
     def look(self):
-        silence = commands(self.plant, 0).message if self.plant.is_silent.any() else ''
-        self.waits.look_for_commands(silence)
+        missing = commands(self.plant, 0).message if self.plant.has_timed_out.any() else ''
+        self.waits.look_for_commands(missing)
 
 
 @pytest.fixture
@@ -87,10 +87,17 @@ def test_commands_slower_than_the_timeout_are_reported_once(rig):
 def test_in_lockstep_a_controller_that_is_missed_and_back(rig, monkeypatch):
     now = 0
     monkeypatch.setattr(waits, 'steady_ns', lambda: now)
-    for missing in ('', 'waits for a controller since 1.2 s', 'waits since 2.2 s', '', '', ''):
+    for missing in (
+        '',
+        'waits for a controller, 1.2 s so far',
+        'waits for a controller, 2.2 s so far',
+        '',
+        '',
+        '',
+    ):
         now += 10**9
         rig.waits.look('', missing)
     assert rig.log.infos == [
-        'waits for a controller since 1.2 s',
+        'waits for a controller, 1.2 s so far',
         'commands are received: simulated time passes',
     ]

@@ -41,8 +41,8 @@ print(stop.is_made)
 """
 RAISED = """
 import os, signal
-from pam_ros.processes.interrupts import heed, held_back
-heed()
+from pam_ros.processes.interrupts import raise_on_signal, held_back
+raise_on_signal()
 try:
     with held_back():
         os.kill(os.getpid(), signal.{kind})

@@ -97,7 +97,7 @@ def test_what_does_not_go_together_is_refused(given, sentence):
         (0.0, 1.0, 'permitted with command_timeout 0 (1 s)'),
     ],
 )
-def test_the_longest_pause_is_given_in_words(timeout, seconds, words):
+def test_the_longest_interruption_has_a_text(timeout, seconds, words):
     settings = setup({'command_timeout': timeout}).settings
-    assert settings.longest_silence == seconds
-    assert settings.silence_limit == words
+    assert settings.longest_interruption == seconds
+    assert settings.interruption_limit == words

@@ -184,11 +184,11 @@ def test_a_lever_is_configured_by_its_geometry(kind, muscles):
         ({'muscles': ['a', 'b'], 'b.initial.pressure': 9e5}, 'b: initial.pressure = 900000'),
         (
             {'muscles': ['a', 'b'], 'b.initial.at_rest': False, 'b.initial.position': 0.5},
-            'b: initial.position = 0.5 m is not a length',
+            'b: initial.position = 0.5 m is not possible',
         ),
         (
             {'joint': 'antagonistic', 'initial.at_rest': False, 'initial.position': 5.0},
-            'initial.position = 5 rad is not a place of joint = antagonistic: give -3 to 3 rad',
+            'initial.position = 5 rad is not possible with joint = antagonistic: give -3 to 3 rad',
         ),
         ({'joint': 'lever', 'angle': 4.0}, 'angle = 4.0 is not allowed: give 0.1 to 3 rad'),
         ({'muscles': 'a'}, 'muscles = .a. is not allowed: give a list of texts'),

@@ -72,7 +72,7 @@ def test_values_of_a_muscle_are_defaults_only():
         ),
         (
             {'initial.at_rest': False, 'initial.position': 0.5},
-            r'initial.position = 0.5 m is not a length of a muscle of 0.4 m: give -0.08 to 0.38 m',
+            r'initial.position = 0.5 m is not possible with a muscle of 0.4 m: give -0.08 to 0.38',
         ),
         ({'publish_rate': 2000.0}, r'publish_rate = 2000 Hz is above physics_rate = 1000 Hz'),
         ({'mass': 1e-6}, 'does not resolve a mass'),

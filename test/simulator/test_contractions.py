@@ -25,7 +25,7 @@ def plant(**given):
 def test_an_event_has_the_largest_contraction_and_is_new_once():
     found = Contractions()
     for time, first in ((1.0, OVER), (1.1, 0.39), (1.2, 0.31)):
-        found.see(time, np.array([first, 0.3]), LIMITS)
+        found.record(time, np.array([first, 0.3]), LIMITS)
     assert found.report(1.2) == [Excess(0, pytest.approx(0.39), is_new=True)]
     assert found.report(1.5) == [Excess(0, pytest.approx(0.39), is_new=False)]
     assert found.report(1.2 + 2.0 * CALM) == []
@@ -34,7 +34,7 @@ def test_an_event_has_the_largest_contraction_and_is_new_once():
 
 def test_an_event_between_two_reports_is_reported():
     found = Contractions()
-    found.see(1.0, np.array([0.1, 0.39]), LIMITS)
+    found.record(1.0, np.array([0.1, 0.39]), LIMITS)
     assert found.report(50.0) == [Excess(1, pytest.approx(0.39), is_new=True)]
     assert found.report(51.0) == []
 
@@ -43,24 +43,24 @@ def test_a_load_that_swings_about_the_limit_is_one_event_and_a_later_one_another
     found = Contractions()
     for time in np.arange(0.0, 5.0, 0.01):
         swing = 0.25 + 0.02 * np.sin(2.0 * np.pi * 1.5 * time)
-        found.see(time, np.array([swing, 0.0]), LIMITS)
+        found.record(time, np.array([swing, 0.0]), LIMITS)
     assert found.count == 1
-    found.see(5.0 + 2.0 * CALM, np.array([OVER, 0.0]), LIMITS)
+    found.record(5.0 + 2.0 * CALM, np.array([OVER, 0.0]), LIMITS)
     assert found.count == 2
 
 
 def test_a_muscle_alone_is_judged_as_one_of_several():
     found = Contractions()
     for time, kappa in ((1.0, 0.25 + 0.9 * MARGIN), (2.0, OVER), (2.5, 0.39), (2.6, 0.2)):
-        found.see_one(time, kappa, 0.25)
+        found.record_one(time, kappa, 0.25)
     assert found.report(2.6) == [Excess(0, 0.39, is_new=True)]
     assert found.count == 1
 
 
 def test_within_the_limit_and_its_margin_there_is_none():
     found = Contractions()
-    found.see(1.0, LIMITS + 0.9 * MARGIN, LIMITS)
-    found.see(1.0, LIMITS - 0.5, LIMITS)
+    found.record(1.0, LIMITS + 0.9 * MARGIN, LIMITS)
+    found.record(1.0, LIMITS - 0.5, LIMITS)
     assert found.report(1.0) == []
     assert found.count == 0
 

@@ -81,9 +81,9 @@ def test_both_readings_of_one_muscle_are_equal():
 @pytest.mark.parametrize(
     ('value', 'applied', 'is_refused', 'word'),
     [
-        (math.nan, 300e3, True, 'nan is not a number'),
-        (math.inf, 300e3, True, 'inf is not a number'),
-        (-math.inf, 300e3, True, '-inf is not a number'),
+        (math.nan, 300e3, True, 'nan is not finite'),
+        (math.inf, 300e3, True, 'inf is not finite'),
+        (-math.inf, 300e3, True, '-inf is not finite'),
         (-5.0, 0.0, False, '-5 Pa is outside 0 to 600000'),
         (601e3, 600e3, False, '601000 Pa is outside 0 to 600000'),
     ],
@@ -105,20 +105,20 @@ def test_a_bad_command_is_clamped_or_refused_and_named(is_array, value, applied,
 
 
 @pytest.mark.parametrize(('on_timeout', 'left'), [('vent', 0.0), ('hold', 400e3)])
-def test_silence_vents_or_holds_its_muscle_alone_and_a_new_command_is_obeyed(on_timeout, left):
+def test_a_timeout_vents_or_holds_its_muscle_alone_and_a_new_command_is_followed(on_timeout, left):
     rig = plant(muscles=['a', 'b'], command_timeout=0.3, on_timeout=on_timeout, vent_time=0.0)
     rig.take_all([400e3, 300e3])
     for step in range(50, 1000, 50):
         rig.take(1, 300e3)
         rig.advance(step)
         is_late = rig.time > 0.3 + 1e-9
-        assert rig.is_silent.tolist() == [is_late, False]
+        assert rig.has_timed_out.tolist() == [is_late, False]
         rig.advance(step + 1)
         assert pressures(rig) == [left if is_late else 400e3, 300e3]
     rig.take(0, 200e3)
     rig.advance(1000)
-    assert rig.is_silent.tolist() == [False, False]
-    assert rig.silences == 1
+    assert rig.has_timed_out.tolist() == [False, False]
+    assert rig.timeouts == 1
     assert pressures(rig) == [200e3, 300e3]
 
 
@@ -178,7 +178,7 @@ def test_a_bad_command_does_not_reset_the_timeout():
     for step in range(10, 401, 10):
         rig.take(0, math.nan)
         rig.advance(step)
-    assert rig.is_silent.tolist() == [True]
+    assert rig.has_timed_out.tolist() == [True]
     assert pressures(rig) == [0.0]
 
 

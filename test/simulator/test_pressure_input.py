@@ -33,7 +33,7 @@ def test_what_is_applied_is_a_number_within_the_limits(values):
 @pytest.mark.parametrize(
     ('value', 'reason'),
     [
-        (math.nan, 'pressure command nan is not a number: the last valid one stays in force'),
+        (math.nan, 'pressure command nan is not finite: the last valid one remains active'),
         (-1.5, 'pressure command -1.5 Pa is outside 0 to 600000: clamped'),
         (7e5, 'pressure command 700000 Pa is outside 0 to 600000: clamped'),
     ],

@@ -31,8 +31,8 @@ class NodeParameters(Generic[T]):
     the object that the node uses, for a complete set of values; it raises PamError for values that
     do not fit together, and has no side effects. A set of changes is accepted or rejected as a
     whole, with the message of that error; *apply* is called with the new object. A whole number is
-    accepted as a float, and so is a text such as 1e-05, as which the command line sends that
-    number. ``values`` and ``built`` are the current ones.
+    accepted as a float, and so is a text such as 1e-05: the command line sends that number as a
+    text. ``values`` and ``built`` are the current ones.
 
     Raises PamError if the node was started with values that are not allowed.
     """
@@ -72,7 +72,7 @@ class NodeParameters(Generic[T]):
         known = [name for name in given(self._node) if self._node.has_parameter(name)]
         for name in refuse_mistyped(given(self._node), [*known, *self._table]):
             self._node.get_logger().warning(
-                shown(f'parameter {name} is not known here and not used')
+                shown(f'parameter {name} does not exist here and is not used')
             )
 
     def _to_float(self, parameters: list[RosParameter]) -> list[RosParameter]:

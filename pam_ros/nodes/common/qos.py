@@ -9,19 +9,19 @@ from rclpy.qos_overriding_options import QoSOverridingOptions
 
 DEPTH = 10
 # s of states that a simulator can send again. After a delay it publishes up to half a second of
-# states at once. This is more than the shared memory of the middleware holds until a recorder,
-# which is delayed by this, takes them. To send them again takes up to another second
+# states at once. This is more than the shared memory of the middleware holds until a recorder
+# takes them, which is delayed, too. Sending them again takes up to another second
 # (benchmarks.soak).
 KEPT = 2.0
-# Messages that each program can send again if time is simulated. It can pass faster than on the
-# wall: then some thousands are published while a recorder is delayed for a second.
+# Messages that each program can send again if time is simulated. It can pass faster than wall
+# time: then some thousands are published while a recorder is delayed for a second.
 KEPT_SIMULATED = 5000
 
 
 def states_depth(rate: float, *, is_simulated: bool) -> int:
     """Return how many states a simulator keeps that publishes them at *rate* in Hz.
 
-    *is_simulated* says that it makes the time itself.
+    *is_simulated* means that it generates the time itself.
     """
     return max(KEPT_SIMULATED if is_simulated else DEPTH, ceil(KEPT * rate))
 

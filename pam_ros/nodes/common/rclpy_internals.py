@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The parts of rclpy outside its public interface that this package uses: all are here.
 
-Each function states why no public way serves. Tried with rclpy 7.1.6 (Jazzy) and 9.1.2 (Kilted);
-with a version that changes one of these parts, ``test_rclpy_internals.py`` fails.
+Each function states why the public interface is not sufficient. Tried with rclpy 7.1.6 (Jazzy) and
+9.1.2 (Kilted); with a version that changes one of these parts, ``test_rclpy_internals.py`` fails.
 """
 
 from collections.abc import Iterator, Sequence
@@ -16,7 +16,7 @@ from rclpy.parameter import Parameter
 from rclpy.subscription import Subscription
 
 try:
-    # Experimental, but there is no other executor that costs as little.
+    # Experimental, but no other executor has as little overhead.
     from rclpy.experimental import EventsExecutor
 except ImportError:  # Jazzy before its patch release of 2025
     EventsExecutor = SingleThreadedExecutor
@@ -27,8 +27,8 @@ __all__ = ['EventsExecutor', 'declare_texts', 'messages_of', 'overrides_of']
 def overrides_of(node: Node) -> dict[str, Any]:
     """Return the values that *node* was started with, by the names that were given.
 
-    In public, rclpy shows a value only after a parameter of its name has been declared. An empty
-    list has no type in YAML and arrives as not set, which nothing else can be here.
+    The public interface returns a value only after a parameter of its name has been declared. An
+    empty list has no type in YAML and arrives as not set; no other value arrives like this.
     """
     overrides = node._parameter_overrides.items()
     return {name: [] if p.value is None else p.value for name, p in overrides}
@@ -47,10 +47,10 @@ def declare_texts(
 
 
 def messages_of(subscription: Subscription) -> Iterator[tuple[Any, dict[str, Any]]]:
-    """Yield all messages that have come, and what the middleware knows of each.
+    """Yield all messages that have arrived, each with the information of the middleware.
 
-    These are the stamps of source and reception and the numbers of the message. A callback of the
-    executors of this package does not get them, and costs a control loop time with each message.
+    This is the time of sending, the time of receipt and the sequence number. The executors of this
+    package do not pass it to a callback, and each callback would cost a control loop time.
     """
     handle = subscription.handle
     with handle:

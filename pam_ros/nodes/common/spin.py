@@ -39,7 +39,7 @@ BAD_INPUT = 2
 LAST_ANSWER = 4.0
 # s in which the middleware must shut down. It usually takes 0.1 s, but it may hang.
 LEAVING = 20.0
-LONGEST_WAIT = 0.1  # s in the executor, so that the node stops soon at any rate
+LONGEST_WAIT = 0.1  # s in the executor, so that the node stops soon even if its ticks are slow
 
 # What rclpy raises for an invalid command line. RuntimeError is raised for errors of rcl and for
 # unknown policies in overrides of QoS.
@@ -98,7 +98,7 @@ class TickingNode(Node, ABC):
         if is_negative:
             self.get_logger().warning(
                 f'/clock has a time of {message.clock.sec} s, which is not allowed: times below 0 '
-                'are left out',
+                'are ignored',
                 once=True,
             )
         return is_negative
@@ -132,7 +132,7 @@ def run(kind: type[TickingNode], stop: StopRequest, about: str) -> int:
                 prog=Path(sys.argv[0]).stem,
                 description=about,
                 formatter_class=argparse.RawDescriptionHelpFormatter,
-                epilog='All else is given with --ros-args: see the manual of ROS 2.',
+                epilog='Parameters and remappings follow --ros-args: see the manual of ROS 2.',
             )
             parser.add_argument(
                 '--version', action='version', version=VERSION_LINE, help=VERSION_HELP

@@ -15,7 +15,7 @@ from pam_ros.nodes.common.sampler import Sampler
 # Topics of a node that are sampled at a time: the start takes some 7 ms, then a sample below 1 ms.
 # Nodes that share more topics than these also share these.
 SAMPLED = 4
-UNKNOWN = '_NODE_NAME'  # start of the name that rmw gives to a node it does not know yet
+UNKNOWN = '_NODE_NAME'  # start of the name that rmw gives to a node it has not discovered yet
 
 
 class Watched(NamedTuple):
@@ -81,8 +81,10 @@ class _Topic:
         """Note the present state of the topic; return the sentences for the log."""
         nodes = self._publishing_nodes() if is_sampled else []
         has_several = self._has_several_senders(is_sampled=is_sampled)
-        is_unheard = self._watched.is_command and is_commanding and not self._has_subscriber()
-        return self.health.look(nodes, is_unheard, has_several)
+        lacks_subscriber = (
+            self._watched.is_command and is_commanding and not self._has_subscriber()
+        )
+        return self.health.look(nodes, lacks_subscriber, has_several)
 
     def stop_sampling(self) -> None:
         """Release the subscription that takes samples, if there is one."""
@@ -117,7 +119,7 @@ class _Topic:
 
 
 def _name_of(info: Any) -> str:
-    """Return the full name of a node, '' if it is not known yet."""
+    """Return the full name of a node, '' if it is not discovered yet."""
     if info.node_name.startswith(UNKNOWN):
         return ''
     return f'{info.node_namespace.rstrip("/")}/{info.node_name}'

@@ -16,11 +16,12 @@ from pam_ros.control.loop import BLIND, WAITING, Loop
 from pam_ros.control.plausibility import fault_of_pressure
 from pam_ros.nodes.common.stamps import stamp_of
 from pam_ros.settings.control import ControlSetup
+from pam_ros.timing.interruption import steady_ns
 from pam_ros.timing.pace import SECOND
-from pam_ros.timing.silence import steady_ns
 
 FRESH = SECOND  # ns by which a pressure may be older than the state at which control begins
-LONGEST = SECOND // 10  # most ns of waiting between two calls: if longer, this process was delayed
+# Most ns between two calls that count as waiting: in a longer time this process was delayed.
+LONGEST = SECOND // 10
 
 Subscribe = Callable[[type, str, Callable[..., None]], None]
 
@@ -37,7 +38,7 @@ class ChamberInput:
     ) -> None:
         """Use *subscribe*(type, topic, callback); *on_pressure* is called after each pressure.
 
-        *on_fault* is called with a sentence on a pressure that cannot be true.
+        *on_fault* is called with a sentence on a pressure that is not plausible.
         """
         self._on_pressure, self._on_fault = on_pressure, on_fault
         self._found: list[tuple[int, int, float] | None] = [None] * len(setup.muscles)

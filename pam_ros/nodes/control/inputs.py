@@ -11,7 +11,7 @@ from pam_ros.errors import RangeError
 from pam_ros.nodes.common.stamps import stamp_of
 
 
-class Sight(NamedTuple):
+class MeasuredState(NamedTuple):
     """A measured state: ns (0 without a stamp), m or rad, m/s or rad/s (None if not used)."""
 
     stamp: int
@@ -19,7 +19,7 @@ class Sight(NamedTuple):
     velocity: float | None
 
 
-def sight_of(message: JointState, joint: str, needs_velocity: bool) -> Sight:
+def measured_state(message: JointState, joint: str, needs_velocity: bool) -> MeasuredState:
     """Return the state of *joint*; raises RangeError if the message has no usable state of it."""
     try:
         i = message.name.index(joint)
@@ -37,4 +37,4 @@ def sight_of(message: JointState, joint: str, needs_velocity: bool) -> Sight:
             f'joint_states has {"no" if velocity is None else velocity} velocity for joint '
             f'{joint}, which velocity_source = measured needs'
         )
-    return Sight(stamp_of(message), position, velocity if needs_velocity else None)
+    return MeasuredState(stamp_of(message), position, velocity if needs_velocity else None)

@@ -25,19 +25,19 @@ from pam_ros.nodes.common.diagnostics import Diagnostics
 from pam_ros.nodes.common.node_parameters import NodeParameters, given
 from pam_ros.nodes.common.spin import TickingNode
 from pam_ros.nodes.control.chamber_input import ChamberInput
-from pam_ros.nodes.control.inputs import Sight, sight_of
+from pam_ros.nodes.control.inputs import MeasuredState, measured_state
 from pam_ros.nodes.control.intake import Intake
 from pam_ros.nodes.control.output import commands_of
 from pam_ros.nodes.control.rig_watch import RigWatch
 from pam_ros.nodes.control.state import StateTopic
 from pam_ros.nodes.control.topics import watch_topics
 from pam_ros.settings.control import ControlSetup, settings_of
+from pam_ros.timing.interruption import steady_ns
 from pam_ros.timing.pace import SECOND
-from pam_ros.timing.silence import steady_ns
 from pam_ros.timing.ticker import Ticker
 
 # s; if a step is later than this, messages that arrived meanwhile are received first.
-HELD_UP = 0.05
+LATE = 0.05
 WATCH_RATE = 20.0  # Hz at which timeouts are checked if time follows the states
 REPEAT = SECOND // 20  # ns after a command, after which it is sent again for a repeated state
 
@@ -70,8 +70,8 @@ class PamControl(TickingNode):
         self._intake = Intake(
             self,
             self._is_followed,
-            lambda: self._setup.settings.longest_silence,
-            self._begin_anew,
+            lambda: self._setup.settings.longest_interruption,
+            self._restart_after_pause,
         )
         self._shown = 0  # ROS time of the last message on ~/state, ns
         self._fault = ''
@@ -104,7 +104,7 @@ class PamControl(TickingNode):
         intake = self._intake
         intake.measure(JointState, 'joint_states', self._see)
         intake.subscribe(Float64, 'position_reference', self._take_reference)
-        # Raw: to convert its points to Python objects takes longer than commands may be delayed.
+        # Raw: converting its points to Python objects would delay commands for too long.
         intake.subscribe(JointTrajectory, 'joint_trajectory', self._take_trajectory, raw=True)
         self._chambers = ChamberInput(
             self._setup, intake.measure, self._begin, self._reports.leave_out
@@ -122,7 +122,7 @@ class PamControl(TickingNode):
         return WATCH_RATE if self._is_followed else self._setup.settings.rate
 
     def start(self) -> None:
-        """Start to count time: the creation of the node does not count as a silence."""
+        """Start to count time: the creation of the node does not count as an interruption."""
         line = start_line.of_controller(
             self._setup,
             self._given.values,
@@ -143,21 +143,21 @@ class PamControl(TickingNode):
             self._intake.mark(now)
             return
         settings = self._setup.settings
-        longest = max(min(0.5 * settings.state_timeout, HELD_UP), 3.0 / settings.rate) * SECOND
-        was_held_up = now - self._ticked > longest and not self._has_waited
-        self._ticked, self._has_waited = now, was_held_up
-        if not was_held_up:  # else messages that arrived meanwhile are received first
+        longest = max(min(0.5 * settings.state_timeout, LATE), 3.0 / settings.rate) * SECOND
+        was_late = now - self._ticked > longest and not self._has_waited
+        self._ticked, self._has_waited = now, was_late
+        if not was_late:  # else messages that arrived meanwhile are received first
             self._step(now / SECOND, self.get_clock().now().nanoseconds)
             self._intake.mark(now)
 
-    def _begin_anew(self, silent: int) -> None:
-        """Start again after a silence of *silent* ns: load and pressure may have changed."""
+    def _restart_after_pause(self, pause: int) -> None:
+        """Start again after *pause* ns without a command: load and pressure may have changed."""
         self._loop.forget()
         self._loop.pressures = None
         self._chambers.forget()
         self._stamp = None
         if self._loop.is_enabled:
-            self._reports.begin_anew(silent, self._setup.settings.silence_limit)
+            self._reports.restart(pause, self._setup.settings.interruption_limit)
 
     def _watch(self) -> None:
         if self._stamp is None:
@@ -172,7 +172,7 @@ class PamControl(TickingNode):
         """Return whether the newest state is not older than the timeout."""
         age = steady_ns() - self._seen
         if self._is_followed and self._stamp is not None:
-            # The lesser of two ages: /clock may arrive before the states that belong to it.
+            # The smaller of two ages: /clock may arrive before the states that belong to it.
             age = min(age, self.get_clock().now().nanoseconds - self._stamp)
         return age <= self._setup.settings.state_timeout * SECOND
 
@@ -194,13 +194,13 @@ class PamControl(TickingNode):
             pressures = loop.tick(time)
         except ArithmeticError:
             pressures = (float('nan'),)
-        self._tracking.see(loop)
+        self._tracking.record(loop)
         if pressures is None or self._intake.look():  # the process can be stopped here, too
             return
         if not all(map(isfinite, pressures)):
             loop.enable(False)  # the valve lowers the load after its timeout
             loop.pressures = None
-            self._fault = 'the law gave no number: disabled'
+            self._fault = 'the law gave a pressure that is not finite: disabled'
             self.get_logger().error(self._fault)
             return
         if loop.state == BLIND != before:
@@ -211,11 +211,11 @@ class PamControl(TickingNode):
         self._publish(pressures)
         if self._intake.look():
             # It was stopped while it published: the rig may have received the old command only
-            # now. A rig that vents meanwhile must not obey it; one that holds for ever still had
-            # this command.
+            # now. A rig that has begun to vent must not follow it; a rig without a timeout has
+            # kept this command anyway.
             timeout = self._setup.settings.command_timeout
             if timeout:
-                self._publish(loop.vented(pressures, self._intake.silent / SECOND - timeout))
+                self._publish(loop.vented(pressures, self._intake.pause / SECOND - timeout))
             return
         rate = self._setup.settings.state_rate
         # Slightly early counts as due, since the stamps of samples are rounded.
@@ -234,34 +234,36 @@ class PamControl(TickingNode):
     def _see(self, message: JointState) -> None:
         settings = self._setup.settings
         try:
-            sight = sight_of(message, settings.joint_name, settings.velocity_source == 'measured')
+            state = measured_state(
+                message, settings.joint_name, settings.velocity_source == 'measured'
+            )
         except RangeError as error:
             self._blindness = str(error)
             self.get_logger().warning(self._blindness, throttle_duration_sec=1.0)
             return
         self._blindness = ''
-        if sight.stamp and sight.stamp == self._stamp:
+        if state.stamp and state.stamp == self._stamp:
             self._see_again()
             return
-        passed = 0 if self._stamp is None else sight.stamp - self._stamp
+        passed = 0 if self._stamp is None else state.stamp - self._stamp
         if not self._is_followed:
-            self._stamp = sight.stamp
-            self._take_in(sight, steady_ns())
+            self._stamp = state.stamp
+            self._pass_on(state, steady_ns())
             return
         if passed < 0:
             self._loop.forget()  # simulated time starts again, and so does control
             self._chambers.forget()
-        elif self._loop.state == RUNNING and passed > settings.longest_silence * SECOND:
-            self._begin_anew(passed)
-        self._stamp = sight.stamp
-        self._take_in(sight, sight.stamp)
+        elif self._loop.state == RUNNING and passed > settings.longest_interruption * SECOND:
+            self._restart_after_pause(passed)
+        self._stamp = state.stamp
+        self._pass_on(state, state.stamp)
         self._prepare()
-        self._step(sight.stamp / SECOND, sight.stamp)
+        self._step(state.stamp / SECOND, state.stamp)
 
-    def _take_in(self, sight: Sight, time: int) -> None:
+    def _pass_on(self, state: MeasuredState, time: int) -> None:
         """Give the loop a state of *time* in ns by its clock, unless the state cannot be true."""
-        stamp = sight.stamp / SECOND if sight.stamp else None
-        reading = Reading(time / SECOND, sight.position, sight.velocity, stamp)
+        stamp = state.stamp / SECOND if state.stamp else None
+        reading = Reading(time / SECOND, state.position, state.velocity, stamp)
         fault = self._loop.see(reading)
         if not fault:
             self._seen, self._last = steady_ns(), reading
@@ -309,7 +311,7 @@ class PamControl(TickingNode):
     def _is_ready(self, topic: str) -> bool:
         is_ready = self._loop.state == RUNNING
         if not is_ready:
-            self._reports.refuse(f'{topic} is not taken: {self._trouble()}')
+            self._reports.refuse(f'{topic} is ignored: {self._trouble()}')
         return is_ready
 
     def _enable(self, request: SetBool.Request, response: SetBool.Response) -> SetBool.Response:

@@ -11,9 +11,10 @@ from rclpy.publisher import Publisher
 class RigWatch:
     """Detects that a new rig has started, before it can receive a command for the old one.
 
-    The node of a simulator is known some time before it subscribes. If a simulator was killed, a
-    check for new subscribers is too late: the new simulator uses the port of the old one, and
-    receives the messages that are still sent to it. If a rig ended properly, this check is enough.
+    The node of a simulator is discovered some time before it subscribes. If a simulator was
+    killed, a check for new subscribers is too late: the new simulator uses the port of the old
+    one, and receives the messages that are still sent to it. If a rig ended properly, this check
+    is enough.
     """
 
     def __init__(self, node: Node, states: str, publishers: Sequence[Publisher]) -> None:

@@ -100,14 +100,14 @@ class Client:
     def delivered(self, topic: str, patience: Duration) -> None:
         """Wait until all messages that were published on *topic* have arrived."""
         if not self._publishers[topic].wait_for_all_acked(patience):
-            raise PamError(f'what was published on {topic} has not arrived')
+            raise PamError(f'messages that were published on {topic} have not arrived')
 
     def call(self, kind: Any, service: str, **request: Any) -> Any:
         """Call a service and return its response; call a Trigger only once: it could act twice."""
         client = self.node.create_client(kind, service)
         self.until(client.service_is_ready, f'the service {service}')
-        asked = kind.Request(**request)
-        response = self.answer(lambda: client.call_async(asked), service, kind is not Trigger)
+        message = kind.Request(**request)
+        response = self.answer(lambda: client.call_async(message), service, kind is not Trigger)
         self.node.destroy_client(client)
         return response
 
@@ -118,12 +118,12 @@ class Client:
         *may_repeat*, *ask* is therefore called again when no answer arrives.
         """
         futures: list[Any] = []
-        asked = 0.0
+        called = 0.0
 
         def answered() -> Any:
-            nonlocal asked
-            if not futures or (may_repeat and monotonic() > asked + AGAIN):
-                asked = monotonic()
+            nonlocal called
+            if not futures or (may_repeat and monotonic() > called + AGAIN):
+                called = monotonic()
                 futures.append(ask())
             return next((future for future in futures if future.done()), None)
 

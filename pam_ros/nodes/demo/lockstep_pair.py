@@ -49,15 +49,15 @@ class LockstepPair:
         # Their /clock is in their namespace: no other node follows it.
         space, (kind, topic) = self._space, self._command
         where = ('-r', f'__ns:={space}', '-r', f'/clock:={space}/clock')
-        asked = ('-r', f'{topic}:=asked')
+        remap = ('-r', f'{topic}:=requested_command')
         sim = Program('pam_sim', *where, parameters=self._rig)
-        control = Program('pam_control', *where, *asked, parameters=self._controller)
+        control = Program('pam_control', *where, *remap, parameters=self._controller)
         self._programs = [self._stack.enter_context(one) for one in (sim, control)]
         self.client = self._stack.enter_context(Client(space, PATIENCE))
         self.states = self.client.collect(JointState, 'joint_states')
         self.terms = self.client.collect(JointState, 'pam_control/state')
         self._commands = self.client.node.create_publisher(kind, topic, 10)
-        self.client.node.create_subscription(kind, 'asked', self._pass_on, 10)
+        self.client.node.create_subscription(kind, 'requested_command', self._pass_on, 10)
         return self
 
     def __exit__(

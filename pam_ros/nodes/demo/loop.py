@@ -1,13 +1,12 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The whole procedure over topics: excite, record and identify a rig, then simulate it better.
+"""The whole procedure over topics: excite, record and identify a rig, then validate the model.
 
 ``pam_sim`` represents the rig, with effects that no other program is given. ``pam_excite`` plays
 its programme, ``pam_record`` writes a rosbag2, ``pam_identify`` finds the effects that the nominal
-model lacks.
-Then the rig runs once more with commands that were not used for the fit. Two simulators run next
-to it, one with the nominal model and one with ``identified.yaml``; all three receive the same
-commands at the same simulated times, since each runs in lockstep.
+model lacks. Then the rig runs once more with commands that were not used for the fit. Two
+simulators run next to it, one with the nominal model and one with ``identified.yaml``; all three
+receive the same commands at the same simulated times, since each runs in lockstep.
 """
 
 import json
@@ -31,7 +30,7 @@ from pam_ros.nodes.demo.client import Client
 from pam_ros.nodes.demo.lockstep_pair import PATIENCE
 from pam_ros.nodes.demo.recorded_rig import RecordedRig
 
-TURN = 0.1  # s between two looks at programs that run
+TURN = 0.1  # s between two checks of running programs
 EXCITATION: Mapping[str, Any] = {
     'muscle': loop.MUSCLE,
     'duration': 30.0,  # s, the shortest programme
@@ -48,7 +47,9 @@ def play(stage: Stage) -> None:
     """Excite, record, identify, replay; write the bags, the report, a plot and a table."""
     folder = stage.folder / 'loop'
     folder.mkdir(parents=True, exist_ok=True)
-    stage.say(f'Closing the loop: what does a rig have that {loop.MUSCLE} has not?')
+    stage.say(
+        f'Closing the loop: which effects of a rig does the nominal model {loop.MUSCLE} lack?'
+    )
     record(stage, folder, {'recording': loop.HIDDEN}, EXCITATION)
     stage.wrote(folder / 'recording')
     report = identify(stage, folder)

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """A simulated rig that is excited and recorded, each program a process, in lockstep.
 
-Simulated time waits for each command, and the recorder knows exactly when a command was sent.
-Therefore the recording does not depend on the load of the machine.
+Simulated time waits for each command, and the recorder determines exactly when a command was
+sent. Therefore the recording does not depend on the load of the machine.
 """
 
 from collections.abc import Mapping
@@ -18,13 +18,13 @@ from pam_ros.nodes.demo.client import Client
 from pam_ros.processes.children import Program
 
 RATE = 100.0  # states and commands per simulated second
-# With a time on /clock for each state, the recorder knows the time of each command exactly.
+# With a time on /clock for each state, the time of each command is recorded exactly.
 LOCKSTEP = {'time_mode': 'lockstep', 'publish_rate': RATE, 'clock_rate': RATE}
 LAST = 3  # lines that a failed program printed at its end
 
 
 class RecordedRig:
-    """``pam_sim``, ``pam_record`` and, once it is asked for, ``pam_excite`` in one namespace."""
+    """``pam_sim``, ``pam_record`` and, from :meth:`excite` on, ``pam_excite`` in one namespace."""
 
     def __init__(
         self,
@@ -46,8 +46,8 @@ class RecordedRig:
         self._running: list[Program] = []
         where = ('-r', f'__ns:={space}/rig', '-r', f'pressure_command:={self._command}')
         self._start('pam_sim', *where, parameters={**rig, **LOCKSTEP})
-        asked = ('-p', 'use_sim_time:=true', '--', self._states, '-o', str(bag))
-        self._recorder = self._start('pam_record', '-r', f'__ns:={space}', *asked)
+        given = ('-p', 'use_sim_time:=true', '--', self._states, '-o', str(bag))
+        self._recorder = self._start('pam_record', '-r', f'__ns:={space}', *given)
         # The recorder subscribes to topics with a publisher: without this one it would miss the
         # first commands.
         self._publisher = client.node.create_publisher(Float64, self._command, 1)
@@ -80,7 +80,8 @@ class RecordedRig:
 
     def excite(self, parameters: Mapping[str, Any]) -> None:
         """Start ``pam_excite`` with these parameters."""
-        self._client.node.destroy_publisher(self._publisher)  # it refuses a rig with another one
+        # pam_excite refuses to start if another node publishes commands.
+        self._client.node.destroy_publisher(self._publisher)
         where = ('-r', f'__ns:={self._space}', '-r', f'joint_states:={self._states}')
         given = {**parameters, 'use_sim_time': True}
         self._excite = self._start('pam_excite', *where, parameters=given)

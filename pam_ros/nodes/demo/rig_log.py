@@ -61,9 +61,9 @@ class RigLog:
     def run(self) -> PublishedRun:
         """Return all messages that arrived.
 
-        Floats carry no stamp, but the simulator publishes all topics together. While it waits for
-        a command no other message comes, so they match if they are counted from the end. A state
-        that was published again counts once. Raises PamError if a message was lost.
+        A Float64 has no stamp, but the simulator publishes all topics together. While it waits for
+        a command, no new state is published: messages match if they are counted from the end. A
+        state that was published again counts once. Raises PamError if a message was lost.
         """
         counts: list[int] = []
         while counts != (counts := [len(messages) for messages in self._topics]):

@@ -51,7 +51,7 @@ class PamExcite(TickingNode):
         self._is_dry = is_dry
         self._publisher: Any = None  # after the start
         self._pressure = 0.0  # last command
-        self._rest = round(LAST * self._now.settings.rate)  # remaining commands of 0 Pa
+        self._remaining = round(LAST * self._now.settings.rate)  # remaining commands of 0 Pa
         self._is_followed = bool(self.get_parameter('use_sim_time').value)
         self.keeps_wall_time = not self._is_followed
         self._stamp = 0.0  # ROS time of the newest joint state, s
@@ -81,13 +81,13 @@ class PamExcite(TickingNode):
         return cls(arguments.csv, arguments.dry_run)
 
     def start(self) -> None:
-        """Print the plan and look for the rig."""
+        """Print the plan and subscribe to the states of the rig."""
         super().start()
         print(self._now.plan(), flush=True)
         if self._is_dry:
             self.exit_code = 0
             return
-        self._tell_plan()
+        self._log_plan()
         self._begun = time.monotonic()
         self._received = self._begun  # steady time of the newest joint state, s
         self._seen = self._ros_time()  # its time by the clock of the programme, s
@@ -109,13 +109,13 @@ class PamExcite(TickingNode):
             qos_overriding_options=open_qos(),
         )
 
-    def _tell_plan(self) -> None:
+    def _log_plan(self) -> None:
         command, states = map(self.resolve_topic_name, ('pressure_command', 'joint_states'))
         settings, pace = self._now.settings, 'one for each joint state (use_sim_time is set)'
         if not self._is_followed:
             pace = f'at {settings.rate:g} Hz'
         self.get_logger().info(
-            f'plays pressures of {self._now.programme.duration:.1f} s; commands: {command}, '
+            f'plays a programme of {self._now.programme.duration:.1f} s; commands: {command}, '
             f'{pace}; states: {states}; begins {settings.countdown:g} s after the rig is found'
         )
 
@@ -132,18 +132,18 @@ class PamExcite(TickingNode):
             self._misread = f'joint_states has {len(names)} joints ({", ".join(names)}): choose '
             self._misread += 'one with the parameter joint_name'
         elif len(message.position) != len(names):
-            self._misread = 'joint_states carries no positions'
+            self._misread = 'joint_states has no positions'
         else:
             at = names.index(wanted) if wanted else 0
             before, self._received = self._stamp, time.monotonic()
             self._stamp = stamp_of(message) / SECOND if self._is_followed else 0.0
             self._seen = now = self._stamp or self._ros_time()
-            self._guard.see(message.position[at], now)
+            self._guard.record(message.position[at], now)
             if self._is_followed and self._do == self._play:
                 self._answer(now, is_again=bool(before) and self._stamp == before)
 
     def _answer(self, now: float, *, is_again: bool) -> None:
-        """Command at *now* s; a state that is received again gets the last command again."""
+        """Send the command of *now* s; answer a repeated state with the last command."""
         if not is_again:
             self._play_at(now)
         elif time.monotonic() - self._answered > REPEAT:
@@ -156,15 +156,15 @@ class PamExcite(TickingNode):
         if self._misread:
             self._refuse(self._misread)
             return
-        rivals = self._rivals()
-        if rivals and UNNAMED not in rivals:
-            self._refuse(f'{" and ".join(rivals)} commands pressures as well: stop it first')
+        others = self._other_nodes()
+        if others and UNNAMED not in others:
+            self._refuse(f'{" and ".join(others)} commands pressures as well: stop it first')
             return
         missing = {
             'pressure_command has no subscriber': not self._publisher.get_subscription_count(),
             'joint_states is not published': self._guard.position is None,
             'use_sim_time is set and /clock is not published': self._ros_time() == 0.0,
-            'another node commands pressures': bool(rivals),
+            'another node commands pressures': bool(others),
         }
         problems = ', '.join(text for text, is_so in missing.items() if is_so)
         self._absence.look(f'waits for the rig: {problems}' if problems else '', time.monotonic())
@@ -174,7 +174,7 @@ class PamExcite(TickingNode):
         elif time.monotonic() - self._begun > self._now.settings.patience:
             self._refuse(f'{problems}: is the rig running?')
 
-    def _rivals(self) -> list[str]:
+    def _other_nodes(self) -> list[str]:
         """Return the other nodes that publish pressure_command."""
         names = [
             info.node_namespace.rstrip('/') + '/' + info.node_name
@@ -204,11 +204,11 @@ class PamExcite(TickingNode):
         """Return the reason to stop, or ''."""
         now = self._ros_time()
         if self._is_followed:
-            silent = time.monotonic() - self._received
-            if silent > self._now.settings.patience:
-                return f'no joint_states for {silent:.1f} s, whatever /clock says'
-            # The lesser of two times: time may stop, and /clock may arrive before its states.
-            now = min(now, self._seen + silent)
+            age = time.monotonic() - self._received
+            if age > self._now.settings.patience:
+                return f'no joint_states for {age:.1f} s of wall time'
+            # The smaller of two times: time may stop, and /clock may arrive before its states.
+            now = min(now, self._seen + age)
         return self._misread or self._guard.problem(now)
 
     def _refuse(self, why: str) -> None:
@@ -271,13 +271,13 @@ class PamExcite(TickingNode):
 
     def _vent(self) -> None:
         """Send one command that lowers the pressure as fast as is allowed."""
-        self._command(self._let_out())
+        self._command(self._next_lower())
         if self._pressure == 0.0:
-            self._rest -= 1
-            if self._rest <= 0:
+            self._remaining -= 1
+            if self._remaining <= 0:
                 self.exit_code = STOPPED
 
-    def _let_out(self) -> float:
+    def _next_lower(self) -> float:
         settings = self._now.settings
         return max(self._pressure - settings.pressure_rate / settings.rate, 0.0)
 
@@ -286,13 +286,13 @@ class PamExcite(TickingNode):
         try:
             if self._pressure > 0.0:  # the node was requested to stop
                 self._bar.close()
-                print('pam_excite: asked to stop, venting', file=sys.stderr, flush=True)
+                print('pam_excite: stop requested, venting', file=sys.stderr, flush=True)
         finally:  # also if the output can no longer be printed
-            self._let_all_out()
+            self._vent_completely()
 
-    def _let_all_out(self) -> None:
+    def _vent_completely(self) -> None:
         while self._pressure > 0.0:
-            self._command(self._let_out())
+            self._command(self._next_lower())
             time.sleep(1.0 / self._now.settings.rate)
         if self._publisher:
             # What is not received before this process ends is lost.

@@ -32,7 +32,7 @@ KINDS = {
     JOINT_STATE: JointState,
 }
 LOOK = 5.0  # Hz, of the checks for missing messages
-SILENCE = 3.0  # s without a message after which the user is informed
+PATIENCE = 3.0  # s without a message after which the user is informed
 KEPT = 100  # messages of a topic while this program is busy: lost ones are not drawn
 BACK = 1.0  # s; if time goes back by more, it has started again; else messages are late
 
@@ -50,9 +50,9 @@ class PamPlot(TickingNode):
         self._origin: int | None = None  # ns, of the first message
         self._latest = 0  # ns
         self._note = ''
-        self._begun = self._heard = monotonic_ns()
+        self._begun = self._received = monotonic_ns()
         self._has_drawn = False
-        self._absence = Absence(self.get_logger(), 'receives messages', patience=SILENCE)
+        self._absence = Absence(self.get_logger(), 'receives messages', patience=PATIENCE)
         self._server = PageServer(self._look, options.port) if options.png is None else None
         # Best effort is compatible with every publisher, and none has to wait for this program.
         quality = QoSProfile(depth=KEPT, reliability=ReliabilityPolicy.BEST_EFFORT)
@@ -73,7 +73,7 @@ class PamPlot(TickingNode):
     def start(self) -> None:
         """Serve the page, and print its address."""
         super().start()
-        self._begun = self._heard = monotonic_ns()
+        self._begun = self._received = monotonic_ns()
         if self._server:
             self._server.start()
             print(f'open {self._server.address} in a browser; Ctrl-C ends it', flush=True)
@@ -82,7 +82,7 @@ class PamPlot(TickingNode):
 
     def _take(self, topic: str, message: Any) -> None:
         """Keep the numbers of a message, at the time of its receipt."""
-        self._heard = monotonic_ns()
+        self._received = monotonic_ns()
         now = self.get_clock().now().nanoseconds
         if now == 0:
             return  # simulated time that is not known yet
@@ -100,11 +100,13 @@ class PamPlot(TickingNode):
         """Check for missing messages; end if a PNG is complete or nothing was received in time."""
         now = monotonic_ns()
         has_time = not self._is_simulated or self.get_clock().now().nanoseconds > 0
-        is_silent = self._heard == self._begun or now - self._heard > SILENCE * SECOND
-        missing = self._missing() if is_silent or not has_time else ''
+        is_missing = self._received == self._begun or now - self._received > PATIENCE * SECOND
+        missing = self._missing() if is_missing or not has_time else ''
         self._absence.look(missing, now / SECOND)
         with self._lock:
-            self._note = missing if now - self._heard > SILENCE * SECOND or not has_time else ''
+            self._note = (
+                missing if now - self._received > PATIENCE * SECOND or not has_time else ''
+            )
             origin = self._origin
         options = self._options
         if options.png is None:

@@ -42,7 +42,7 @@ OF_JOINTS = (
 )
 LOOK = 5.0  # Hz, for new topics
 TAKE = 0.01  # s between two rounds of taking messages
-# ns that the recorder waits for what is missing, also at its end: the middleware sends a lost
+# ns that the recorder waits for missing messages, also at its end: the middleware sends a lost
 # message again after up to 3 s.
 PATIENCE = 5 * SECOND
 # ns. At the end, a topic with a longer period is not expected to have a later message, and no
@@ -63,7 +63,11 @@ def missing_topics(
     """
     has_joints = any(topic in found for topic in of_joints - of_muscle)
     own = of_joints if has_joints else of_muscle
-    return [name for name, asked in wanted.items() if name not in found and (asked or name in own)]
+    return [
+        name
+        for name, is_requested in wanted.items()
+        if name not in found and (is_requested or name in own)
+    ]
 
 
 class PamRecord(TickingNode):
@@ -103,7 +107,7 @@ class PamRecord(TickingNode):
             type=Path,
             metavar='DIR',
             default=Path(datetime.now().strftime('recording_%Y_%m_%d-%H_%M_%S')),
-            help='directory of the bag, to be made (default: recording_DATE-TIME)',
+            help='directory of the bag, which is created (default: recording_DATE-TIME)',
         )
 
     @classmethod
@@ -321,12 +325,12 @@ class PamRecord(TickingNode):
         lines = [f'{self._directory}: {self._writer.duration:.2f} s']
         for topic, count in sorted(self._writer.counts.items()):
             lost = self._recorded[topic].lost
-            note = f'  {lost} lost before they came here' if lost else ''
+            note = f'  {lost} lost before they were received' if lost else ''
             lines.append(
                 f'  {topic:<28} {count:>9} messages {self._writer.rate(topic):9.1f} Hz{note}'
             )
-        for topic, is_asked in self._wanted.items():
-            if topic not in self._writer.counts and is_asked:
+        for topic, is_requested in self._wanted.items():
+            if topic not in self._writer.counts and is_requested:
                 lines.append(f'  {topic:<28} was not published')
         if sys.stdout.isatty():
             print()

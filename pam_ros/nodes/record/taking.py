@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Subscriptions whose messages are taken from the middleware, not called back with."""
+"""Subscriptions whose messages are taken from the middleware, without callbacks."""
 
 from collections import deque
 from typing import Any
@@ -12,7 +12,7 @@ from rclpy.subscription import Subscription
 class Taken(CallbackGroup):
     """Subscriptions that no executor serves: their messages are taken by the recorder's thread.
 
-    The middleware keeps them until then and knows when each was received.
+    The middleware keeps them until then, with the time at which each was received.
     """
 
     def can_execute(self, entity: Any) -> bool:
@@ -67,4 +67,4 @@ class Recorded:
 
 
 def never(message: bytes) -> None:
-    """Stand in for the callback: messages are taken, not called back with."""
+    """Do nothing: a subscription needs a callback, but this one is never called."""

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The turns in lockstep: the simulator continues when all muscles were commanded."""
+"""Lockstep: the simulator continues when all muscles were commanded."""
 
 from time import monotonic_ns
 
@@ -29,7 +29,7 @@ class Turns:
     """
 
     def __init__(self, node: Node, muscles: int) -> None:
-        """Start without a command for any muscle."""
+        """Start without commands."""
         self._node, self._muscles = node, muscles
         self._topics: list[str] = []
         self._answered: set[int] = set()
@@ -45,7 +45,7 @@ class Turns:
     def begin(self) -> None:
         """Wait for commands from now on: the state was published."""
         self._answered.clear()
-        self._since = self._simulation = monotonic_ns()
+        self._since = self._published = monotonic_ns()
 
     def take(self, muscle: int | None) -> None:
         """Note the command of one muscle, or of all muscles (None)."""
@@ -77,9 +77,11 @@ class Turns:
         if monotonic_ns() - self._since < PATIENCE:
             return ''
         if not self._known:
-            return f'waits for a controller since {self.waited:.1f} s: no node commands'
+            return (
+                f'waits for a controller, {self.waited:.1f} s so far: no node publishes commands'
+            )
         left = self._muscles - len(self._answered)
-        return f'waits for commands since {self.waited:.1f} s: {left} of {self._muscles} missing'
+        return f'waits for commands, {self.waited:.1f} s so far: {left} of {self._muscles} missing'
 
     def must_repeat(self) -> bool:
         """Return whether to publish the state again now; to be called a few times per second."""
@@ -93,7 +95,7 @@ class Turns:
         if is_new or not known:
             self._has_answered = False
         now = monotonic_ns()
-        if self._has_answered or not (is_new or now - self._simulation > REPEAT):
+        if self._has_answered or not (is_new or now - self._published > REPEAT):
             return False
-        self._simulation = now
+        self._published = now
         return True

@@ -29,15 +29,15 @@ from pam_ros.processes.notice import notice
 from pam_ros.settings.scene import Scene, SimulationSetup
 from pam_ros.simulator.plant import BadCommand, OneReading, Plant, Reading
 from pam_ros.timing.grid import Grid
+from pam_ros.timing.interruption import Interruptions, steady_ns
 from pam_ros.timing.pace import CATCH_UP, SECOND
-from pam_ros.timing.silence import Silence, steady_ns
 from pam_ros.timing.ticker import Ticker
 
 SLICE = 5_000_000  # ns of simulation after which commands and services are handled
-GAP = 200_000  # ns for them if simulated time is as fast as possible
+GAP = 200_000  # ns for them when simulated time passes as fast as possible
 IDLE_RATE = 10.0  # Hz at which a simulator whose time stands still publishes its state
 FASTEST_TICK = 1000.0  # Hz
-LONG = 2.0  # s: longer than the loading of kernels that were compiled before
+LONG = 2.0  # s: more than it takes to load kernels that are already compiled
 
 
 class PamSim(TickingNode):
@@ -48,10 +48,10 @@ class PamSim(TickingNode):
         super().__init__('pam_sim')
         scene = Scene(given(self))
         self._given = NodeParameters(self, scene.table(), scene.build, self._change)
-        self._simulation = self._given.built
-        settings = self._simulation.settings
-        with notice(LONG, self._tell_of_compiling):
-            self._plant = Plant(self._simulation)
+        self._setup = self._given.built
+        settings = self._setup.settings
+        with notice(LONG, self._log_compiling):
+            self._plant = Plant(self._setup)
         self._is_lockstep = settings.time_mode == 'lockstep'
         self._is_followed = not settings.has_own_time
         self._time: FollowedTime | OwnTime
@@ -62,14 +62,14 @@ class PamSim(TickingNode):
         self.keeps_wall_time = self._is_followed and not self._time.follows_clock
         self._is_paused = False
         self._published = self._bad = 0
-        self._said: tuple[int, Reading | OneReading] | None = None
-        self._silence = Silence(steady_ns())
+        self._last: tuple[int, Reading | OneReading] | None = None
+        self._interruptions = Interruptions(steady_ns())
         self._samples = Grid(settings.physics_rate)
         self._clock_ticks = Grid(settings.physics_rate)
-        self._one = self._simulation.is_one
-        self._output = Output(self, self._simulation)
-        self._turns = Turns(self, len(self._simulation.muscles))
-        subscribe_commands(self, self._simulation, self._turns, self._command, self._command_all)
+        self._one = self._setup.is_one
+        self._output = Output(self, self._setup)
+        self._turns = Turns(self, len(self._setup.muscles))
+        subscribe_commands(self, self._setup, self._turns, self._command, self._command_all)
         self._begin()
         topic = self.resolve_topic_name('pressure_command' if self._one else 'pressure_commands')
         self._waits = Waits(self.get_logger(), self._plant, topic)
@@ -77,7 +77,7 @@ class PamSim(TickingNode):
         self.create_service(Trigger, '~/reset', self._reset)
         self.create_service(SetBool, '~/pause', self._pause)
         self.create_service(Trigger, '~/step', self._step)
-        self._topics = TopicWatch(self, watched_topics(self._simulation))
+        self._topics = TopicWatch(self, watched_topics(self._setup))
         self._diagnostics = Diagnostics(
             self,
             {
@@ -91,7 +91,7 @@ class PamSim(TickingNode):
         self._given.refuse_mistyped()
         self.ticker = Ticker(self._tick_rate)
 
-    def _tell_of_compiling(self) -> None:
+    def _log_compiling(self) -> None:
         self.get_logger().info(
             'this start takes longer: kernels that are not on disk are compiled first, which '
             'can take half a minute, once; python3 -m pam_ros.rig.warm compiles all of them'
@@ -100,14 +100,14 @@ class PamSim(TickingNode):
     def start(self) -> None:
         """Start simulated time now."""
         line = start_line.of_simulator(
-            self._simulation,
+            self._setup,
             self._given.values,
             self.resolve_topic_name,
             has_sim_time=self._time.follows_clock,
         )
         self.get_logger().info(line)
         super().start()
-        self._silence.mark(steady_ns())
+        self._interruptions.mark(steady_ns())
         self._time.align(0)
         self._begin()
         if self._is_lockstep:
@@ -115,16 +115,14 @@ class PamSim(TickingNode):
 
     def _begin_again(self) -> None:
         """Set the initial state again; the simulator's own time continues one period later."""
-        self._time.restart(
-            self._plant.step, round(SECOND / self._simulation.settings.publish_rate)
-        )
+        self._time.restart(self._plant.step, round(SECOND / self._setup.settings.publish_rate))
         self._begin()
 
     def _begin(self) -> None:
         """Set the initial state."""
         self._plant.begin()
         self._fault = ''
-        self._samples.begin(self._simulation.settings.publish_rate)
+        self._samples.begin(self._setup.settings.publish_rate)
         self._clock_ticks.begin(self._clock_rate)
         self._clock_step = -1  # the last one whose time was published on /clock
         self._turns.begin()
@@ -134,15 +132,15 @@ class PamSim(TickingNode):
     @property
     def _factor(self) -> float:
         """The desired speed of simulated time; 0 in lockstep, where commands set the pace."""
-        return 0.0 if self._is_lockstep else self._simulation.settings.speed_factor
+        return 0.0 if self._is_lockstep else self._setup.settings.speed_factor
 
     @property
     def _clock_rate(self) -> float:
-        return 0.0 if self._is_followed else self._simulation.settings.clock_rate
+        return 0.0 if self._is_followed else self._setup.settings.clock_rate
 
     @property
     def _tick_rate(self) -> float:
-        settings = self._simulation.settings
+        settings = self._setup.settings
         if self._is_followed:
             return settings.publish_rate
         if self._is_lockstep or self._is_paused:
@@ -153,7 +151,7 @@ class PamSim(TickingNode):
     def tick(self) -> None:
         """Simulate and publish all samples that are due; if time stops, repeat the last state."""
         self._look_for_stop()
-        self._silence.mark(steady_ns())
+        self._interruptions.mark(steady_ns())
         if self._is_paused:
             self._publish_again()
         elif self._is_lockstep:
@@ -179,10 +177,10 @@ class PamSim(TickingNode):
         again, so that their noise does not depend on the length of the pause.
         """
         if self._is_followed:
-            self._publish_here(self._time.now())
-        elif self._said:
+            self._publish_at(self._time.now())
+        elif self._last:
             self._output.publish_clock(self._time.now())
-            self._say(*self._said)
+            self._publish_reading(*self._last)
 
     def _run_to_now(self, ahead: float = 0.0) -> None:
         """Simulate the steps that are due within *ahead* steps, and publish each sample."""
@@ -223,8 +221,8 @@ class PamSim(TickingNode):
         """In lockstep, simulate to the next state: all muscles were commanded.
 
         If the last time on ``/clock`` is that of the state that was answered, it is published
-        again. A recorder then knows until when time stood still, and that the command was sent
-        before.
+        again. This shows a recorder until when time stood still, and that the command was sent
+        before it.
         """
         if self._clock_step == self._plant.step:
             self._output.publish_clock(self._time.now())
@@ -232,22 +230,22 @@ class PamSim(TickingNode):
 
     def _sample_from_here(self) -> None:
         """Let the next sample be due one period from now."""
-        self._samples.begin(self._simulation.settings.publish_rate, self._plant.step, 1)
+        self._samples.begin(self._setup.settings.publish_rate, self._plant.step, 1)
 
     # Outputs -------------------------------------------------------------------------------
 
     def _publish(self, stamp: int) -> None:
-        self._said = stamp, self._plant.read_one() if self._one else self._plant.read()
-        self._say(*self._said)
+        self._last = stamp, self._plant.read_one() if self._one else self._plant.read()
+        self._publish_reading(*self._last)
 
-    def _publish_here(self, stamp: int) -> None:
+    def _publish_at(self, stamp: int) -> None:
         """Publish while time stands still; pause if new parameters made the state invalid."""
         try:
             self._publish(stamp)
         except ArithmeticError as error:
             self._stop_at_fault(error)
 
-    def _say(self, stamp: int, reading: Reading | OneReading) -> None:
+    def _publish_reading(self, stamp: int, reading: Reading | OneReading) -> None:
         self._output.publish(stamp, reading)
         self._published += 1
 
@@ -256,7 +254,9 @@ class PamSim(TickingNode):
         time = self._plant.time
         self._begin_again()
         self._set_paused(True)
-        self._fault = f'the load is lost {time:.3f} s after the start, {error}: reset and paused'
+        self._fault = (
+            f'the state is invalid {time:.3f} s after the start, {error}: reset and paused'
+        )
         self.get_logger().error(self._fault)
 
     # Inputs --------------------------------------------------------------------------------
@@ -268,8 +268,8 @@ class PamSim(TickingNode):
         have sent them to vent. They are ignored: the last command before them remains active.
         """
         longest = max(CATCH_UP, round(3 * SECOND / self._tick_rate))
-        self._silence.find(steady_ns(), longest)
-        return self._is_followed and not self._is_paused and self._silence.is_settling
+        self._interruptions.find(steady_ns(), longest)
+        return self._is_followed and not self._is_paused and self._interruptions.is_settling
 
     def _command(self, muscle: int, message: Float64) -> None:
         if self._look_for_stop():
@@ -281,9 +281,9 @@ class PamSim(TickingNode):
     def _command_all(self, message: Float64MultiArray) -> None:
         if self._look_for_stop():
             return
-        wanted, count = len(self._simulation.muscles), len(message.data)
+        wanted, count = len(self._setup.muscles), len(message.data)
         if count != wanted:
-            reason = f'pressure_commands has {count} values for {wanted} muscles: nothing taken'
+            reason = f'pressure_commands has {count} values for {wanted} muscles: not used'
             self.get_logger().warning(reason, throttle_duration_sec=1.0)
             return
         self._run_to_command()
@@ -309,7 +309,7 @@ class PamSim(TickingNode):
     def _change(self, now: SimulationSetup) -> None:
         """Continue with other parameters."""
         self._run_to_now()
-        before, self._simulation = self._simulation.settings, now
+        before, self._setup = self._setup.settings, now
         self._plant.change(now)
         self._output.describe(now)
         settings = now.settings
@@ -323,7 +323,7 @@ class PamSim(TickingNode):
             self._clock_ticks.begin(self._clock_rate, sample=passed + 1)
         if self._tick_rate != self.ticker.rate:
             self.ticker.start(self._tick_rate, monotonic_ns())
-        self._silence.mark(steady_ns())  # compiling takes time: the process was not stopped
+        self._interruptions.mark(steady_ns())  # compiling takes time: the process was not stopped
 
     def _reset(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         self._begin_again()
@@ -341,7 +341,7 @@ class PamSim(TickingNode):
             self._turns.settle()
             self._fault = ''
         if request.data and not (self._is_paused or self._is_followed or self._is_lockstep):
-            self._publish_here(self._time.stamp(self._plant.step))  # to be repeated
+            self._publish_at(self._time.stamp(self._plant.step))  # to be repeated
         self._set_paused(request.data)
         response.success, response.message = True, 'paused' if request.data else 'running'
         return response
@@ -354,20 +354,20 @@ class PamSim(TickingNode):
     def _step(self, request: Trigger.Request, response: Trigger.Response) -> Trigger.Response:
         """Simulate ``step_periods`` periods with the present commands, and publish each."""
         if not self._is_paused:
-            response.message = 'time goes on: pause first'
+            response.message = 'simulated time is not paused: pause it first'
             return response
         response.success, response.message = self._step_periods()
-        self._silence.mark(steady_ns())  # it was busy, not stopped
+        self._interruptions.mark(steady_ns())  # it was busy, not stopped
         return response
 
     def _step_periods(self) -> tuple[bool, str]:
         """Simulate the periods of a step; return whether all are done, and the response's text."""
-        periods = self._simulation.settings.step_periods
+        periods = self._setup.settings.step_periods
         self._sample_from_here()
         for done in range(periods):
             if self.stop.is_made:
                 self.has_answered_at_end = True
-                return False, f'asked to stop: simulated {done} of {periods} periods'
+                return False, f'stop requested: simulated {done} of {periods} periods'
             if self._is_followed:
                 # The stamp of each sample is the time at which it is published.
                 self._time.align(self._samples.next)
@@ -400,7 +400,7 @@ class PamSim(TickingNode):
         self._onsets.look()
         if not self._is_paused:
             self._waits.look('' if done.has_clock else sim_health.NO_CLOCK, done.waits)
-        return sim_health.timing(self._simulation.settings, kept, done, self.scheduling)
+        return sim_health.timing(self._setup.settings, kept, done, self.scheduling)
 
     def _commands(self) -> Health:
         health = sim_health.commands(self._plant, self._bad)

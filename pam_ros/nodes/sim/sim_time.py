@@ -32,7 +32,7 @@ class FollowedTime:
 
     @property
     def lost(self) -> float:
-        """Simulated seconds that were never made up for."""
+        """Simulated seconds of delay that are not caught up."""
         return self._pace.lost
 
     def now(self) -> int:

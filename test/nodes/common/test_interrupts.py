@@ -13,7 +13,7 @@ CLIENT = """
 import os, signal, sys
 from std_msgs.msg import Float64
 from pam_ros.nodes.demo.client import Client
-from pam_ros.processes.interrupts import heed
+from pam_ros.processes.interrupts import raise_on_signal
 
 class Lost:
     def __del__(self):
@@ -21,7 +21,7 @@ class Lost:
             os.kill(os.getpid(), signal.SIGTERM)
         len([])
 
-heed()
+raise_on_signal()
 try:
     with Client() as client:
         client.node.create_subscription(Float64, 'here', lambda message: {act}, 10)

@@ -102,7 +102,7 @@ def test_one_file_is_for_both_programs(peer, tmp_path):
         assert 'not known here' not in sim.output
         # What is the simulator's alone is said to be so.
         (warning,) = (line for line in control.output.splitlines() if '[WARN]' in line)
-        assert 'extensor.initial.pressure is not known here' in warning
+        assert 'extensor.initial.pressure does not exist here' in warning
 
 
 @pytest.mark.at_any_pace

@@ -176,7 +176,7 @@ def test_a_signal_vents(rig, kind):
         program.interrupt(kind, 2)
         rig.until(lambda: not program.is_running, 'the end')
         assert program.wait() == 0
-        assert 'asked to stop, venting' in program.output
+        assert 'stop requested, venting' in program.output
         assert 'Traceback' not in program.output
     rig.until(lambda: rig.commands[-1] == 0.0, 'the last command')
     check_vented(rig.commands)
@@ -269,7 +269,7 @@ def test_a_joint_outside_its_window_is_not_started(rig):
     with excite() as program:
         rig.until(lambda: not program.is_running, 'the end')
         assert program.wait() == 1
-        assert 'stands at 200.0 mm' in program.output
+        assert 'is at 200.0 mm' in program.output
     assert rig.commands == []
 
 

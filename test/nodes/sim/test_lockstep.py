@@ -133,7 +133,7 @@ def test_without_its_controller_it_waits_with_a_warning_and_a_new_one_continues(
             got = [controller.answer(pressure_at(k)) for k in range(50)]
             first.until(lambda: last(controller.states, controller.time), 'the last state')
         diagnostics.clear()
-        peer.until(lambda: said('waits for a controller since'), 'word that one is missing')
+        peer.until(lambda: said('waits for a controller'), 'word that one is missing')
         with Peer() as second:
             controller = Controller(second)
             got += [controller.answer(pressure_at(k)) for k in range(50, 100)]
@@ -158,9 +158,9 @@ def test_a_signal_ends_a_long_step_with_an_answer(peer):
         assert sim.wait() == 0
         peer.until(answer.done, 'the answer')
     assert not answer.result().success
-    assert answer.result().message.startswith('asked to stop: simulated ')
+    assert answer.result().message.startswith('stop requested: simulated ')
     assert answer.result().message.endswith(' of 100000 periods')
-    # As many were simulated when it was asked to stop, and not all that were wanted.
+    # As many were simulated when the stop was requested, and not all that were wanted.
     assert stamp(states[-1]) < before + 100_000 * PERIOD
 
 

@@ -107,7 +107,7 @@ def test_parameters_of_others_are_warned_of_and_passed_over(peer):
     states = peer.collect(JointState, 'joint_states')
     with Program('pam_sim', parameters={'robot_name': 'arm'}) as sim:
         peer.more(states)
-        assert 'parameter robot_name is not known here' in sim.output
+        assert 'parameter robot_name does not exist here' in sim.output
 
 
 def test_two_in_namespaces_and_remapped_do_not_disturb_each_other(peer):

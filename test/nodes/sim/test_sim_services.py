@@ -112,8 +112,8 @@ def test_a_change_that_loses_the_load_where_time_stands_still_is_a_fault(peer):
         assert peer.call(SetBool, 'pam_sim/pause', data=True).success
         assert states[-1].position[0] > 0.05
         assert peer.set_one('pam_sim', l0=0.05).successful
-        peer.until(lambda: 'the load is lost' in sim.output, 'the fault')
+        peer.until(lambda: 'the state is invalid' in sim.output, 'the fault')
         peer.until(lambda: states[-1].position[0] < 0.05, 'the initial state')
         assert sim.is_running
-        assert sim.output.count('the load is lost') == 1
+        assert sim.output.count('the state is invalid') == 1
         assert sim.stop() == 0

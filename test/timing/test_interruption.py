@@ -1,13 +1,13 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Silences of a process, on clocks that the test turns by hand."""
+"""Interruptions of a process, on clocks that the test turns by hand."""
 
 import time
 
 import pytest
 
+from pam_ros.timing.interruption import PATIENCE, SETTLE, Interruptions, steady_ns
 from pam_ros.timing.pace import SECOND
-from pam_ros.timing.silence import PATIENCE, SETTLE, Silence, steady_ns
 
 MS = 1_000_000
 PERIOD = 2 * MS
@@ -21,24 +21,24 @@ class Bench:
 
     def __init__(self):
         self.now = 50 * SECOND
-        self.silence = Silence(self.now)
+        self.interruptions = Interruptions(self.now)
 
     def run(self, span):
         """Work, and receive what is measured; return which messages were old."""
         old = []
         for _ in range(span // PERIOD):
             self.now += PERIOD
-            assert not self.silence.find(self.now, LONGEST)
+            assert not self.interruptions.find(self.now, LONGEST)
             old.append(self.receive(self.now - DELAY))
-            self.silence.mark(self.now)
+            self.interruptions.mark(self.now)
         return old
 
     def receive(self, measured):
-        return self.silence.is_old('joint_states', measured + BEHIND, self.now)
+        return self.interruptions.is_old('joint_states', measured + BEHIND, self.now)
 
     def sleep(self, span):
         self.now += span
-        return self.silence.find(self.now, LONGEST)
+        return self.interruptions.find(self.now, LONGEST)
 
 
 @pytest.fixture
@@ -48,22 +48,22 @@ def bench():
     return bench
 
 
-def test_a_silence_is_found_once_with_its_length(bench):
+def test_an_interruption_is_found_once_with_its_length(bench):
     assert bench.sleep(LONGEST) == 0
     assert bench.sleep(1) == LONGEST + 1
     assert bench.sleep(10 * MS) == 0
 
 
-def test_a_silence_in_the_middle_of_the_work_is_found_once(bench):
+def test_an_interruption_in_the_middle_of_the_work_is_found_once(bench):
     begun = bench.now
     assert bench.sleep(3 * SECOND)
-    bench.silence.mark(begun)
+    bench.interruptions.mark(begun)
     assert bench.sleep(PERIOD) == 0
-    assert bench.silence.is_settling
+    assert bench.interruptions.is_settling
 
 
-def test_turns_without_work_are_one_silence(bench):
-    # It is held up twice, and between that it does no work: the rig received nothing all the time.
+def test_turns_without_work_are_one_interruption(bench):
+    # It is delayed twice, and does no work in between: no command was sent during all this time.
     assert bench.sleep(600 * MS) == 0
     assert bench.sleep(600 * MS) == 1200 * MS
 
@@ -83,16 +83,16 @@ def test_what_was_queued_is_old_and_what_is_measured_later_is_not(bench):
 
 def test_without_stamps_messages_are_new_when_the_queue_has_arrived(bench):
     bench.sleep(3 * SECOND)
-    assert bench.silence.is_old('pressures', 0, bench.now)
+    assert bench.interruptions.is_old('pressures', 0, bench.now)
     bench.run(SETTLE)
-    assert not bench.silence.is_old('pressures', 0, bench.now)
+    assert not bench.interruptions.is_old('pressures', 0, bench.now)
 
 
-def test_being_held_up_again_is_no_time_in_which_the_queue_arrives(bench):
+def test_while_it_is_delayed_again_no_time_passes_in_which_the_queue_arrives(bench):
     bench.sleep(3 * SECOND)
     assert bench.sleep(900 * MS) == 0
-    bench.silence.mark(bench.now)
-    assert bench.silence.is_old('pressures', 0, bench.now)
+    bench.interruptions.mark(bench.now)
+    assert bench.interruptions.is_old('pressures', 0, bench.now)
 
 
 def test_stamps_of_a_clock_that_was_set_back_are_not_old_for_ever(bench):
@@ -107,14 +107,14 @@ def test_clocks_that_part_slowly_are_followed(bench):
     # 200 ppm for an hour: the sensor's clock is 0.7 s behind what it was.
     for _ in range(3600):
         bench.now += SECOND
-        bench.silence.mark(bench.now)
+        bench.interruptions.mark(bench.now)
         behind = (bench.now - 51 * SECOND) // 5000
         assert not bench.receive(bench.now - DELAY - behind)
     bench.sleep(3 * SECOND)
     woke = bench.now
     bench.now += SETTLE
     for _ in range(SETTLE // (100 * MS)):
-        bench.silence.mark(bench.now)
+        bench.interruptions.mark(bench.now)
         bench.now += 100 * MS
     assert bench.receive(woke - 50 * MS - behind)
     assert not bench.receive(woke + 50 * MS - behind)
