@@ -181,4 +181,6 @@ def test_an_offset_of_the_ambient_pressure_is_reported(offset, is_reported):
     assert bool(sentences) is is_reported
     if sentences:
         assert "'NAME=pressure_Pa-101325'" in sentences[0]
-        assert sentences[0].startswith(f'{name} = {offset:.6g} Pa is minus the pressure of the air')
+        assert sentences[0].startswith(
+            f'{name} = {offset:.6g} Pa is minus the pressure of the air'
+        )

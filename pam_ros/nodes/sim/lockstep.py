@@ -73,14 +73,14 @@ class Turns:
 
     @property
     def complaint(self) -> str:
-        """A sentence on a long wait, '' if the wait is not long."""
-        if monotonic_ns() - self._since < PATIENCE:
+        """A sentence on a long wait for commands, '' if there is none."""
+        left = self._muscles - len(self._answered)
+        if not left or monotonic_ns() - self._since < PATIENCE:
             return ''
         if not self._known:
             return (
                 f'waits for a controller, {self.waited:.1f} s so far: no node publishes commands'
             )
-        left = self._muscles - len(self._answered)
         return f'waits for commands, {self.waited:.1f} s so far: {left} of {self._muscles} missing'
 
     def must_repeat(self) -> bool:
