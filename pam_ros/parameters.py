@@ -12,7 +12,7 @@ from dataclasses import dataclass, field, fields, replace
 from typing import Any, NamedTuple
 
 from pam_ros.arguments import refuse
-from pam_ros.units import turned_unit
+from pam_ros.units import revolute_unit
 
 _KEY = 'parameter'
 
@@ -43,10 +43,10 @@ class Parameter:
     above_low: bool = False
     revolute: OnRevolute | None = None
 
-    def turned(self, name: str) -> 'Parameter':
+    def for_revolute(self, name: str) -> 'Parameter':
         """Return the description of the parameter *name* for a revolute joint."""
         high = self.high if self.revolute is None else self.revolute.high
-        return replace(self, unit=turned_unit(self.unit, name), high=high, revolute=None)
+        return replace(self, unit=revolute_unit(self.unit, name), high=high, revolute=None)
 
     def allowed(self, kind: type = float) -> str:
         """Return a text about the allowed values of type *kind*, for an error message."""
@@ -118,7 +118,7 @@ def described(cls: type, *, revolute: bool = False) -> dict[str, tuple[type, Any
             about, default = item.metadata[_KEY], item.default
             if revolute:
                 default = default if about.revolute is None else about.revolute.default
-                about = about.turned(item.name)
+                about = about.for_revolute(item.name)
             table[item.name] = (type(item.default), default, about)
     return table
 

@@ -7,7 +7,7 @@ A force becomes a torque, and a length along the motion becomes an angle.
 
 from pam_ros.errors import ParameterError
 
-TURNED = {
+REVOLUTE = {
     'm': 'rad',
     'm/s': 'rad/s',
     'm/s^2': 'rad/s^2',
@@ -53,14 +53,14 @@ ARM_POWER = {
 }
 
 
-def turned_unit(unit: str, whose: str) -> str:
+def revolute_unit(unit: str, whose: str) -> str:
     """Return *unit* as it is for a revolute joint; raises ParameterError if it is not known.
 
     *whose* is the name of the parameter that has the unit.
     """
-    if unit not in TURNED:
+    if unit not in REVOLUTE:
         raise ParameterError(
             f'{whose} is in {unit}: the unit for a revolute joint is not known; add the '
-            'unit to TURNED in pam_ros/units.py'
+            'unit to REVOLUTE in pam_ros/units.py'
         )
-    return TURNED[unit]
+    return REVOLUTE[unit]

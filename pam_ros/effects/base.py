@@ -268,7 +268,7 @@ class Effect(ABC):
             raise ParameterError(f'effect {cls.name} has no strength parameter to be absent by')
         if not revolute:
             return found
-        return tuple(p.turned(EffectName(cls.name, p.name).flat) for p in found)
+        return tuple(p.for_revolute(EffectName(cls.name, p.name).flat) for p in found)
 
     @classmethod
     def acts_on_joint(cls) -> bool:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from typing import Any, ParamSpec
 
 from pam_ros.parameters import Parameter, field_about
-from pam_ros.units import turned_unit
+from pam_ros.units import revolute_unit
 
 P = ParamSpec('P')
 
@@ -30,12 +30,12 @@ class EffectParameter(Parameter):
     strength: bool = False
     sign: int = 0
 
-    def turned(self, name: str) -> 'EffectParameter':
+    def for_revolute(self, name: str) -> 'EffectParameter':
         """Return its description for a revolute joint, where a contraction becomes an angle.
 
         *name* is for the ParameterError that is raised if its unit has no counterpart there.
         """
-        unit = turned_unit(self.unit, name)
+        unit = revolute_unit(self.unit, name)
         if self.unit == 'fraction':
             return replace(self, unit=unit, low=-math.pi, high=math.pi)
         return replace(self, unit=unit)

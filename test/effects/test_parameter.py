@@ -14,7 +14,7 @@ from pam_ros.effects.parameter import start_from
 from pam_ros.errors import ParameterError
 from pam_ros.rig.simulation import Simulation
 from pam_ros.rig.standard_joints import single_muscle_joint
-from pam_ros.units import TURNED, turned_unit
+from pam_ros.units import REVOLUTE, revolute_unit
 from support.joint_models import lever, pair
 from support.made_effects import effect_with
 
@@ -42,7 +42,7 @@ def test_effects_on_a_joint_that_turns_have_its_units():
 @BY_EFFECT
 def test_nothing_else_about_them_differs(effect):
     for one, this in zip(effect.parameters(revolute=True), effect.parameters(), strict=True):
-        assert one.unit == TURNED[this.unit]
+        assert one.unit == REVOLUTE[this.unit]
         if this.unit != 'fraction':
             assert replace(one, unit=this.unit) == this
 
@@ -58,11 +58,11 @@ def test_no_unit_of_the_library_is_missing():
     """Of parameters and of hidden states, each of which is known where it is turned."""
     for effect in ON_LOAD:
         for p in (*effect.parameters(), *effect.states):
-            assert turned_unit(p.unit, p.name) == TURNED[p.unit]
+            assert revolute_unit(p.unit, p.name) == REVOLUTE[p.unit]
 
 
 def test_a_unit_turned_twice_has_a_meaning_only_where_it_stays():
-    stays = {unit for unit, other in TURNED.items() if unit == other}
+    stays = {unit for unit, other in REVOLUTE.items() if unit == other}
     assert stays == {'', 'kg', 's', '1/s', 'rad/s', 'Hz', 'Pa'}
 
 
@@ -77,7 +77,7 @@ DRAG = effect_with('air_drag', 'N s^2/m^2', outside=outside)
 def test_a_unit_without_a_counterpart_for_a_revolute_joint_is_refused():
     sentence = (
         'effects.air_drag.size is in N s^2/m^2: the unit for a revolute joint is not known; '
-        'add the unit to TURNED in pam_ros/units.py'
+        'add the unit to REVOLUTE in pam_ros/units.py'
     )
     with pytest.raises(ParameterError) as error:
         DRAG.parameters(revolute=True)
@@ -91,7 +91,7 @@ def test_a_unit_without_a_counterpart_for_a_revolute_joint_is_refused():
 
 @pytest.mark.slow
 def test_with_its_unit_named_it_acts_there(monkeypatch):
-    monkeypatch.setitem(TURNED, 'N s^2/m^2', 'N m s^2/rad^2')
+    monkeypatch.setitem(REVOLUTE, 'N s^2/m^2', 'N m s^2/rad^2')
     drag = effect_with('air_drag', 'N s^2/m^2', outside=outside)
     assert described(drag)['size'][0] == 'N m s^2/rad^2'
     joint = pair(load=[drag(size=0.3)], library=(drag,))

@@ -186,7 +186,7 @@ def test_of_several_loads_one_is_controlled_by_its_own_topic():
 
 # Units, ranges and defaults of a joint that turns ------------------------------------------------
 
-TURNED = {
+REVOLUTE = {
     'gains.bandwidth': ('1/s', 25.0, 200.0),
     'gains.fast_bandwidth': ('1/s', 50.0, 200.0),
     'gains.surface_bandwidth': ('rad/s', 8.0, 200.0),
@@ -224,9 +224,9 @@ STRAIGHT = {
 @pytest.mark.parametrize(
     ('kind', 'expected'),
     [
-        ('antagonistic', TURNED),
-        ('lever', TURNED),
-        ('crank', {k: v for k, v in TURNED.items() if not k.startswith('co_')}),
+        ('antagonistic', REVOLUTE),
+        ('lever', REVOLUTE),
+        ('crank', {k: v for k, v in REVOLUTE.items() if not k.startswith('co_')}),
         ('parallel', STRAIGHT),
         ('load', STRAIGHT),
     ],

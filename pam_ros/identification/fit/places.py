@@ -28,7 +28,7 @@ INITIAL = 'initial'  # the parameter for the memory of an effect at the start
 
 
 @dataclass(frozen=True)
-class Turned:
+class RevoluteScale:
     """A revolute joint: the mean arm of its muscles, and their mean length, both in m."""
 
     arm: float
@@ -55,21 +55,21 @@ class Place:
 
     ``muscles`` are the numbers of the muscles in which it acts, with the same parameters; none for
     an effect on the joint. ``names`` are the names of these muscles if the joint has several. For
-    an effect on a revolute joint, ``turned`` gives the sizes.
+    an effect on a revolute joint, ``revolute`` gives the sizes.
     """
 
     effect: type[Effect]
     muscles: tuple[int, ...]
     names: tuple[str, ...] = ()
-    turned: 'Turned | None' = None
+    revolute: 'RevoluteScale | None' = None
 
     @cached_property
     def parameters(self) -> tuple[EffectParameter, ...]:
         """The parameters of the effect, with their units and sizes at this place."""
-        if self.turned is None:
+        if self.revolute is None:
             return self.effect.parameters()
         return tuple(
-            replace(p, scale=self.turned.factor(plain.unit) * p.scale)
+            replace(p, scale=self.revolute.factor(plain.unit) * p.scale)
             for p, plain in zip(
                 self.effect.parameters(revolute=True), self.effect.parameters(), strict=True
             )
@@ -88,10 +88,10 @@ class Place:
     @cached_property
     def states(self) -> tuple[HiddenState, ...]:
         """The hidden states of the effect."""
-        if self.turned is None:
+        if self.revolute is None:
             return self.effect.states
         return tuple(
-            replace(s, spread=self.turned.factor(s.unit) * s.spread) for s in self.effect.states
+            replace(s, spread=self.revolute.factor(s.unit) * s.spread) for s in self.effect.states
         )
 
     def guess(self, t: Array, p: Array, position: Array, residual: Array) -> Starts:
@@ -101,14 +101,14 @@ class Place:
         """
         if self.effect.equations.guess is None:
             return ()
-        kappa = position if self.turned is None else self.turned.contraction(position)
+        kappa = position if self.revolute is None else self.revolute.contraction(position)
         return tuple(map(self._sized, self.effect.equations.guess(t, p, kappa, residual)))
 
     def _sized(self, values: Mapping[str, float]) -> dict[str, float]:
-        if self.turned is None:
+        if self.revolute is None:
             return dict(values)
         units = {p.name: p.unit for p in self.effect.parameters()}
-        return {name: self.turned.factor(units[name]) * value for name, value in values.items()}
+        return {name: self.revolute.factor(units[name]) * value for name, value in values.items()}
 
     @property
     def muscle(self) -> str:
@@ -194,19 +194,19 @@ def places_of(joint: Joint, muscles: Sequence[str] = ()) -> dict[str, Place]:
     every = tuple(range(len(joint.muscles)))
     found = []
     names = names_of_muscles(joint, muscles) if len(every) > 1 else ()
-    turned = turned_of(joint)
+    revolute = revolute_scale(joint)
     for effect in joint.library:
         if effect.acts_on_joint():
-            found.append(Place(effect, (), turned=turned))
+            found.append(Place(effect, (), revolute=revolute))
             continue
         found.append(Place(effect, every, names))
         found += [Place(effect, (i,), (name,)) for i, name in enumerate(names)]
     return {place.name: place for place in found}
 
 
-def turned_of(joint: Joint) -> Turned | None:
+def revolute_scale(joint: Joint) -> RevoluteScale | None:
     """Return the sizes for a revolute *joint*, None for a prismatic one."""
     if not joint.is_revolute:
         return None
     arm = float(np.mean(np.abs(statics.middle_arms(joint))))
-    return Turned(arm, float(np.mean([m.l0 for m in joint.muscles])))
+    return RevoluteScale(arm, float(np.mean([m.l0 for m in joint.muscles])))
