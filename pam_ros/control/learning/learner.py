@@ -35,7 +35,7 @@ from pam_ros.control.signals import Reference
 
 # Columns of the filter: the features; the sensitivity of the missing force to both time constants;
 # and efforts: the difference of the learned chambers from those of the law, the difference from
-# chambers without a lag, and the effort that both hypotheses see along the reference.
+# chambers without a lag, and the efforts that the two hypotheses give along the reference.
 _N = beside.COUNT
 _FILL, _VENT, _FROM_LAW, _FROM_NO_LAG, _PLAIN, _LAGGED, _COLUMNS = range(_N, _N + 7)
 _LAGS = slice(_FILL, _VENT + 1)  # of a column or of a parameter
@@ -95,7 +95,7 @@ class Learner:
         self.start(0.0, [0.0] * len(self._model.muscles), 0.0)
 
     def _begin(self) -> None:
-        """Begin without anything learned."""
+        """Begin without learned parameters."""
         spread, low, high = self._priors
         plain, noise = spread.copy(), self._tuning.noise
         plain[_LAGS] = 0.0
@@ -138,14 +138,14 @@ class Learner:
         self._limit_cycle.start()
 
     def _forget(self) -> None:
-        """Begin again without anything learned, from the present state."""
+        """Begin again without learned parameters, from the present state."""
         self._begin()
         self._restarts += 1
         self.start(self._observer.position, self._nominal, self._observer.disturbance)
 
     @property
     def learned(self) -> Learned:
-        """The learned parameters in numbers for people."""
+        """The learned parameters as figures for users."""
         weights, stroke = [float(one) for one in self._weights], self._features.stroke
         fill, vent = (self._share * float(one) for one in self._lagged.theta[_LAGS])
         return Learned(
@@ -184,7 +184,7 @@ class Learner:
 
     def _learned_force(self) -> tuple[float, float]:
         """Return the learned force along the reference and its rate; sets the lag to invert."""
-        if self.trust == 0.0:  # as for a long time in the beginning
+        if self.trust == 0.0:  # at the beginning, for a long time
             self.lag = (0.0, 0.0)
             return 0.0, 0.0
         weights, rates = self._weights, self._wanted.rates
@@ -293,7 +293,8 @@ class Learner:
         self._whole += share * ((unlearned - self._centre) ** 2 - self._whole)
         self._choose(span)
         forgotten = self._tuning.forgotten * span
-        # Early samples were taken under another estimate of the lag: they only give a direction.
+        # Early samples were taken with other estimates of the lag, so that they are only roughly
+        # right: the uncertainty of the lag grows faster at the beginning.
         early = self._tuning.early * span * exp(-self._moved / self._tuning.settled)
         by_parameter = np.array([forgotten] * _N + [forgotten + early] * 2)
         self._plain.update(phi, plain, forgotten)

@@ -4,8 +4,8 @@
 
 If a rig changes suddenly, for example by a dead time, a loop that was fast before may become
 unstable. The oscillation grows until the limits of pressure cut the command at both ends. Then
-nothing can be learned any more, because the pressures are not those that the law wants, and what
-was learned in the beginning of the oscillation, such as a long lag, keeps it going.
+nothing more can be learned, because the pressures are not those that the law wants, and parameters
+that were learned at the beginning of the oscillation, such as a long lag, sustain it.
 """
 
 from math import copysign, exp
@@ -14,7 +14,7 @@ from pam_ros.control.learning.learning_tuning import LearningTuning
 
 
 class LimitCycle:
-    """Averages for which share of the time the command is cut above and below."""
+    """Averages the shares of the time for which the command is cut above and below."""
 
     def __init__(self, tuning: LearningTuning) -> None:
         """Begin with a command that is not cut."""
