@@ -20,8 +20,8 @@ class CoContraction:
 
     co_contraction: float = parameter_field(
         0.0,
-        'stiffness that the muscles shall give the joint, until co_contraction_reference says '
-        'otherwise; 0: in the middle of what can be had at the middle of the reach',
+        'stiffness that the muscles give the joint until a value is received on '
+        'co_contraction_reference; 0: the middle of the range at the middle of the reach',
         'N/m',
         low=0.0,
         high=1e6,

@@ -72,15 +72,15 @@ class Gains(JointSettings):
     )
     fast_bandwidth: float = parameter_field(
         50.0,
-        'what the bandwidth grows to once learning has found that the pressure follows fast',
+        'bandwidth that is reached when learning has found that the pressure follows fast',
         '1/s',
         low=0.5,
         high=200.0,
     )
     surface_bandwidth: float = parameter_field(
         8.0,
-        'least natural frequency of the error on the sliding surface; where the spring of the '
-        'muscle gives more, that is left to it',
+        'least natural frequency of the error on the sliding surface; if the stiffness of the '
+        'joint gives a higher one, that one is used',
         'rad/s',
         low=0.1,
         high=200.0,
@@ -128,8 +128,8 @@ class Gains(JointSettings):
     )
     velocity_bandwidth: float = parameter_field(
         126.0,
-        'bandwidth of the velocity estimate, which lags what the model does not foresee by '
-        '2/velocity_bandwidth',
+        'bandwidth of the velocity estimate, which lags by 2/velocity_bandwidth in a motion that '
+        'the model does not predict',
         'rad/s',
         low=5.0,
         high=2000.0,
@@ -157,26 +157,26 @@ class Gains(JointSettings):
     )
     rejection: bool = parameter_field(
         True,
-        'whether the bandwidths rise while a disturbance moves a load that shall rest, as far as '
+        'whether the bandwidths rise while a disturbance moves a load that should rest, as far as '
         'the delay of the rig allows',
     )
     rejection_bandwidth: float = parameter_field(
         100.0,
-        'what the bandwidth of the disturbance observer rises to then',
+        'bandwidth of the disturbance observer at the highest level of rejection',
         'rad/s',
         low=0.01,
         high=1000.0,
     )
     rejection_surface: float = parameter_field(
         25.0,
-        'what the natural frequency of the error on the sliding surface rises to then',
+        'natural frequency of the error on the sliding surface at the highest level of rejection',
         'rad/s',
         low=0.1,
         high=200.0,
     )
     rejection_damping: float = parameter_field(
         1.0,
-        'damping ratio of the error on the sliding surface then',
+        'damping ratio of the error on the sliding surface at the highest level of rejection',
         '',
         low=0.05,
         high=5.0,
@@ -199,7 +199,7 @@ class Gains(JointSettings):
         if self.fast_bandwidth < self.bandwidth:
             raise ParameterError(
                 f'fast_bandwidth = {self.fast_bandwidth:g} 1/s is below bandwidth = '
-                f'{self.bandwidth:g} 1/s: it is what that grows to'
+                f'{self.bandwidth:g} 1/s, which grows to it'
             )
         if self.velocity_bandwidth < ORDER.spread * self.bandwidth:
             raise ParameterError(

@@ -20,7 +20,7 @@ class Limits:
     )
     pressure_high: float = parameter_field(
         5e6,
-        "highest gauge pressure that is commanded, where the muscle's p_max is not below it",
+        'highest gauge pressure that is commanded, but at most the p_max of the muscle',
         'Pa',
         low=0.0,
         high=5e6,
