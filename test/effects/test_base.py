@@ -67,7 +67,7 @@ def test_it_is_present_by_its_strengths():
 @pytest.mark.parametrize(
     ('given', 'sentence'),
     [
-        ({}, 'effect made acts nowhere: give it a function'),
+        ({}, 'effect made has no function: give it at least one'),
         (
             {'force': anywhere, 'outside': anywhere},
             'effect made acts in a muscle and on the joint (force, outside): make two',
@@ -75,7 +75,7 @@ def test_it_is_present_by_its_strengths():
         ({'drag': anywhere}, 'effect made has drag without outside'),
         (
             {'pressure': anywhere, 'treated': Compensation.PATH, 'has': (HiddenState('p', 'Pa'),)},
-            'effect made has hidden states, which Compensation.PATH does not follow: give lag',
+            'effect made has hidden states, which Compensation.PATH does not compute: give lag',
         ),
         ({'mass': 0.0}, 'mass = 0.0 is not a function: where a parameter of the effect has'),
     ],
