@@ -31,7 +31,7 @@ class JointPlace:
 
 
 class ControlModel:
-    """The nominal joint without memory: what holds at one instant.
+    """The nominal joint without memory: its equations at one instant.
 
     s is its coordinate, v its velocity, p the gauge pressures in the chambers in Pa, one a
     muscle. It includes the configured payload, length offset, slack, viscous damping and damping

@@ -22,7 +22,7 @@ PUSH = 1e6  # N: more than any muscle pushes; the slack effect reduces it to a s
 
 
 class MuscleModel:
-    """One muscle of the nominal joint without memory: what holds at one instant.
+    """One muscle of the nominal joint without memory: its equations at one instant.
 
     s is the joint's coordinate. It includes the effects without memory: length offset, slack,
     damping that depends on pressure. Its numbers do not change.

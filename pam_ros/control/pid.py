@@ -169,7 +169,7 @@ class Pid:
     def start(self, position: float, pressures: Pressures | None = None) -> None:
         """Start again at rest at *position*, under commands of *pressures* Pa if they are known.
 
-        Raises ParameterError as :meth:`pam_ros.control.signals.PositionLaw.start` says.
+        Raises ParameterError as :meth:`pam_ros.control.signals.PositionLaw.start`.
         """
         start_arguments(position, pressures, len(self._paths))
         static, signs = self._static(position), self._signs(position)

@@ -20,9 +20,15 @@ from math import exp
 import numpy as np
 
 from pam_ros.control.gains import Gains
-from pam_ros.control.learning import features as beside
 from pam_ros.control.learning.cascade import Cascade
-from pam_ros.control.learning.features import Features, FeatureTuning
+from pam_ros.control.learning.features import (
+    CONSTANT,
+    COUNT,
+    STRETCH,
+    STRIBECK,
+    Features,
+    FeatureTuning,
+)
 from pam_ros.control.learning.growth import Growth
 from pam_ros.control.learning.learned import Learned
 from pam_ros.control.learning.learning_tuning import LearningTuning
@@ -36,7 +42,7 @@ from pam_ros.control.signals import Reference
 # Columns of the filter: the features; the sensitivity of the missing force to both time constants;
 # and efforts: the difference of the learned chambers from those of the law, the difference from
 # chambers without a lag, and the efforts that the two hypotheses give along the reference.
-_N = beside.COUNT
+_N = COUNT
 _FILL, _VENT, _FROM_LAW, _FROM_NO_LAG, _PLAIN, _LAGGED, _COLUMNS = range(_N, _N + 7)
 _LAGS = slice(_FILL, _VENT + 1)  # of a column or of a parameter
 _UNKNOWNS = _VENT + 1
@@ -125,11 +131,11 @@ class Learner:
         self._nominal = pressures
         self._sensitivities = [_Sensitivity() for _ in pressures]
         for one in (self._plain, self._lagged):
-            one.forget(beside.CONSTANT, -disturbance)
+            one.forget(CONSTANT, -disturbance)
         # Three equal poles, like the observer's, for the features and for the difference in force
         # between the learned chamber and the nominal one.
         columns = [0.0] * _COLUMNS
-        columns[beside.CONSTANT] = 1.0
+        columns[CONSTANT] = 1.0
         self._filter = Cascade(columns)
         self._input = [0.0] * _COLUMNS
         self._centre, self._has_learned = 0.0, False
@@ -154,9 +160,9 @@ class Learner:
             noise=self._tuning.floor**0.5,
             explained=float(self._explained),
             weight=float(self.trust),
-            friction=sum(weights[: beside.STRIBECK]),
-            breakaway=weights[beside.STRIBECK],
-            stiffness=weights[beside.STRETCH] / stroke,
+            friction=sum(weights[:STRIBECK]),
+            breakaway=weights[STRIBECK],
+            stiffness=weights[STRETCH] / stroke,
             lag=None if self._lag_is_configured else (fill, vent),
             dropped_lag=self._dropped_lag,
             restarts=self._restarts,
@@ -189,7 +195,7 @@ class Learner:
             return 0.0, 0.0
         weights, rates = self._weights, self._wanted.rates
         force = rate = 0.0
-        for n in range(beside.CONSTANT):
+        for n in range(CONSTANT):
             weight = self.trust * weights[n]
             force += weight * self._wanted.values[n]
             rate += weight * rates[n]

@@ -44,7 +44,7 @@ class LearningTuning:
     judge: float = number(1.0, 's', 'average of prediction errors: half a period of control')
     centre: float = number(2.0, 's', 'average of the mean force: a period of control')
     convinced: float = number(
-        1.5, 's', 'of motion until what is learned is trusted to 63 %: control, valve lag'
+        1.5, 's', 'of motion until the learned parameters have 63 % of their weight: control, lag'
     )
     floor: float = number(1.0, 'N^2', 'missing force that explains nothing: that of the noise')
     worse: float = number(0.7, '', 'ratio of errors at which a lag is doubted: control, all')

@@ -28,8 +28,8 @@ class LimitCycle:
     def see(self, dt: float, cut: float) -> bool:
         """Return whether the command oscillates between its limits.
 
-        For the last *dt* s a limit has taken *cut* from the effort that the law wants, of any
-        sign; 0 if the command is within its limits.
+        In the last *dt* s a limit has cut off the part *cut* of the wanted effort, which may have
+        either sign; it is 0 if the command is within its limits.
         """
         tuning = self._tuning
         # Noise at a limit cuts the command for single steps only, on alternating sides.

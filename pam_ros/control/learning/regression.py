@@ -56,7 +56,7 @@ class Regression:
         self.covariance[parameter, parameter] = self._prior[parameter]
 
     def restart_from(self, other: 'Regression', parameters: slice) -> None:
-        """Go on from what *other* has found, with the prior of these *parameters*.
+        """Continue from the estimate of *other*, with the prior of these *parameters*.
 
         *other* keeps them at 0: its spread of them is 0.
         """
