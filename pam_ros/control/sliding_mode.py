@@ -22,10 +22,10 @@ and the wanted effort, with the estimated disturbance d^, is
 so that sigma' = -K sat(sigma / Phi) + (d^ - d) / J, with the consequences in
 :class:`pam_ros.control.gains.Gains`. k is the stiffness of the joint, with that of gravity, and c
 its damping. The pressures are the explicit inverse of the force law **at the reference**, not at
-the load (:mod:`.allocation`): tau(p, r) = tau(p, s) - k e. So the joint's own spring pulls the
-load to the reference, without noise and without lag, and -k e above accounts for it. If the gains
-require no higher w, w is the joint's own sqrt(k / J), and (w^2 J - k) e is 0. Antagonistic muscles
-have the stiffness as a second set-point, which does not move the coordinate.
+the load (:mod:`.allocation`): tau(p, r) - G(r) = tau(p, s) - G(s) - k e. So the joint's own spring
+pulls the load to the reference, without noise and without lag, and -k e above accounts for it. If
+the gains require no higher w, w is the joint's own sqrt(k / J), and (w^2 J - k) e is 0.
+Antagonistic muscles have the stiffness as a second set-point, which does not move the coordinate.
 
 While the reference rests, the bandwidths shrink as the goal is reached (:mod:`.rest.standstill`)
 and grow when a disturbance moves the load (:mod:`.rest.rejection`). A load that sticks and slips
