@@ -49,8 +49,8 @@ class LearningTuning:
     floor: float = number(1.0, 'N^2', 'missing force that explains nothing: that of the noise')
     worse: float = number(0.7, '', 'ratio of errors at which a lag is doubted: control, all')
     lost: float = number(0.6, '', 'ratio of errors at which it is reset to 0: control, friction')
-    doubt: float = number(0.5, 's', 'of motion with that ratio after which a lag is dropped')
-    restart: float = number(2.0, 's', 'of motion between two such resets')
+    doubt: float = number(0.5, 's', 'of motion below *worse* after which a lag is dropped')
+    restart: float = number(2.0, 's', 'of motion between two resets of the lag')
     blend: float = number(0.2, 's', 'from one hypothesis to the other: slow compared to the loop')
     grow: float = number(0.2, 's', 'time constant with which the bandwidth approaches its value')
     margin: float = number(
