@@ -1,3 +1,3 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What the package claims about speed and precision: one file per claim, each with main()."""
+"""Measure the claims of the package about speed and precision, each with main() of a file."""

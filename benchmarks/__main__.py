@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Run the benchmarks: ``python -m benchmarks`` for all, ``python -m benchmarks NAME...`` for some.
 
-Options of a benchmark come after its name, where it is the only one.
+If there is only one name, options of this benchmark may follow it.
 A benchmark is a module of this folder with a function ``main()`` that measures and prints its
 table; modules whose name starts with an underscore are their helpers. Each runs in a process of
-its own, so that none measures what another left behind.
+its own, so that it is not influenced by the others.
 """
 
 import subprocess
@@ -14,7 +14,7 @@ from itertools import takewhile
 from pathlib import Path
 
 HERE = Path(__file__).parent
-# The benchmark finds its options where a program has them.
+# The benchmark reads its options from sys.argv, like a program.
 RUN_ONE = (
     'import importlib, sys; sys.argv = sys.argv[1:]; '
     'importlib.import_module("benchmarks." + sys.argv[0]).main()'

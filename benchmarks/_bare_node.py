@@ -1,9 +1,9 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The least that a node can do which publishes what ``pam_sim`` does, and one that listens.
+"""A minimal node that publishes the same messages as ``pam_sim``, and one that receives them.
 
-``python -m benchmarks._bare_node timer|loop RATE`` publishes, with a timer of rclpy or in the loop
-that the nodes of this package run in; ``... listen SECONDS FILE`` takes the arrival times.
+``python -m benchmarks._bare_node timer|loop RATE`` publishes, with a timer of rclpy or in the same
+loop as the nodes of this package; ``... listen SECONDS FILE`` records the arrival times.
 """
 
 import gc
@@ -25,7 +25,7 @@ SETTLE = 2_000_000_000  # ns from the first message to the first that counts
 
 
 class BareNode(Node):
-    """Publishes the messages of ``pam_sim``, filled with nothing of interest."""
+    """Publishes the messages of ``pam_sim`` with arbitrary values."""
 
     def __init__(self) -> None:
         super().__init__('bare')
@@ -78,7 +78,7 @@ def publish(way: str, rate: float, stop: StopRequest) -> None:
 
 
 def listen(seconds: float, file: str, stop: StopRequest) -> None:
-    """Write what came on ``joint_states``, and say when it begins and ends to count.
+    """Record ``joint_states`` to *file*; print 'begin' and 'end' of the recorded time.
 
     Arrays (messages,): arrival in ns of the steady clock, stamp in ns, position.
     """
@@ -113,7 +113,7 @@ def listen(seconds: float, file: str, stop: StopRequest) -> None:
 
 
 def main() -> None:
-    """Do what the command line says."""
+    """Publish or listen, as the command line requires."""
     stop = StopRequest()
     rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
     if sys.argv[1] == 'listen':

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """A baseline: computed force with an extended-state observer, without switching or learning.
 
-The joint's effort is what gives the error e'' + 2 w e' + w^2 e = 0 by the nominal model, less the
-disturbance that the observer sees: feedback linearisation with active disturbance rejection (Han
+The effort is the one with which the error of the nominal model obeys e'' + 2 w e' + w^2 e = 0,
+minus the estimated disturbance: feedback linearisation with active disturbance rejection (Han
 2009; the triple pole of the observer after Gao 2003, "Scaling and bandwidth-parameterization").
 """
 
@@ -28,7 +28,7 @@ class ComputedForce:
         self._pressures: Pressures = ()
 
     def start(self, position: float, pressures: Pressures) -> None:
-        """Begin at rest; what the model lacks to explain it is the first disturbance."""
+        """Begin at rest; the force that the model lacks for this rest is the first disturbance."""
         model = self.model
         self._observer.start(position, model.gravity(position) - model.effort(pressures, position))
         self._pressures = pressures

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """A step and a sine over DDS in real time: ``pam_sim`` and ``pam_control`` as processes.
 
-Without sensor noise, since what ``pam_sim`` publishes then is where the load is. The step is one
-message on ``position_reference``; the sine is a stamped trajectory, so that it is known where the
-load is to be at the stamp of each joint state.
+There is no sensor noise, so that ``pam_sim`` publishes the true position of the load. The step is
+one message on ``position_reference``; the sine is a trajectory with a stamp, so that the desired
+position at the stamp of each joint state is known.
 """
 
 import math
@@ -30,7 +30,7 @@ SPACING = 0.05  # s between the points of the sine
 
 @dataclass(frozen=True)
 class Series:
-    """Since a motion was asked for: t s and error m (n,), pressure_t s and pressure Pa (k,)."""
+    """From the start of a motion: t s and error m (n,), pressure_t s and pressure Pa (k,)."""
 
     t: np.ndarray
     error: np.ndarray
@@ -42,7 +42,7 @@ class Pair:
     """Both programs in a namespace of this process, and a client that collects their messages."""
 
     def __init__(self, client: Client) -> None:
-        """Listen."""
+        """Subscribe to the states of both."""
         self.client = client
         self.states = client.collect(JointState, 'joint_states')
         self.terms = client.collect(JointState, 'pam_control/state')
@@ -54,7 +54,7 @@ class Pair:
         )
 
     def series(self, begin: float, duration: float, target) -> Series:
-        """Return what was from *begin* s on; *target* (s -> m) says where it was to be."""
+        """Return the series from *begin* s on; *target* (s -> m) is the desired position."""
         t = np.array([seconds(m) for m in self.states]) - begin
         y = np.array([m.position[0] for m in self.states])
         inside = (t > 0.0) & (t < duration)
@@ -85,12 +85,12 @@ def step_and_sine(
     step: tuple[float, float],
     sine: tuple[float, float, float],
 ) -> tuple[Series, Series]:
-    """Return what came of a *step* (m, s) and of a *sine* (m, Hz, s), by a law of pam_control."""
+    """Return the responses to a *step* (m, s) and a *sine* (m, Hz, s) with a law by name."""
     space = f'/control_{os.getpid()}'
     where = ('-r', f'__ns:={space}')
     rig = {'mass': MASS + payload, 'initial.pressure': PRESSURE}
     believed = {'mass': MASS, 'controller': controller}
-    # Nodes of other machines are not to take part.
+    # Keep out nodes of other machines.
     os.environ.setdefault('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
     with (
         Client(space) as client,

@@ -3,9 +3,9 @@
 """How often a 95 % interval contains the true value, for parameters of the same meaning.
 
 Most effects of the truth plant have other equations than those of the package, and so no common
-parameters. The table lists those that have. The constants of the muscle have the same meaning only
-where every effect of the rig has the same equations as in the package: what a leak loses, or the
-gain of a regulator, is else in the constants.
+parameters. The table lists those that have common ones. The constants of the muscle have the same
+meaning only if every effect of the rig has the same equations as in the package: otherwise they
+contain a part of the effects, such as the loss of a leak or the gain of a regulator.
 """
 
 from collections.abc import Callable, Mapping
@@ -37,7 +37,7 @@ def mean_delay(dead_time: float, t: Array) -> float:
     return float(np.mean(substeps[taken[is_taken]] - t[is_taken]))
 
 
-# The true value, of the parameters of the plant's effect and the stamps of the commands.
+# The true value as a function of the parameters of the plant's effect and the command stamps.
 SAME: dict[tuple[str, str], dict[str, Callable[[Values, Array], float]]] = {
     ('viscous_friction', 'linear'): {
         'effects.viscous_friction.coefficient': lambda v, _: v['viscous_ns_m'],

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Margins of the loop of the sliding-mode law, from its measured frequency response.
 
-The loop is cut where the command enters the rig: a small sine is added to the command, and the
-loop's gain is what the law answers to what the rig receives, with the sign of the feedback turned
+The loop is cut where the command enters the rig: a small sine is added to the command. The loop
+gain is the command of the law divided by the sum that the rig receives, with the sign reversed
 (Middlebrook 1975). So it is the gain of the running law and the running plant, around rest.
 """
 
@@ -25,7 +25,7 @@ FREQUENCIES = np.geomspace(1.0, 60.0, 48)  # Hz
 
 @dataclass(frozen=True)
 class Margins:
-    """Where the loop's gain is 1 for the last time, Hz; phase in degrees, delay s, gain dB."""
+    """Highest frequency of gain 1, Hz; margins of phase in degrees, delay in s, gain in dB."""
 
     crossover: float
     phase: float
@@ -41,7 +41,7 @@ class HeldLevel(Rejection):
         self.level = level
 
     def see(self, *seen: object, **more: object) -> None:
-        """See nothing."""
+        """Ignore all measurements."""
 
 
 def margins_of(level: float, plant: TruthPlant, joint: Joint) -> Margins:

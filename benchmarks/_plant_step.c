@@ -1,8 +1,8 @@
 // Copyright 2026 The pam_ros authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The paper's rig in plain C, as one would write it by hand: the yardstick of plant_step.py.
-// The same equations and the same scheme as pam_ros/rig/kernel.py, without places for effects.
+// The paper's rig in plain C, as one would write it by hand: the reference for plant_step.py.
+// The same equations and the same integrator as in pam_ros/rig/kernel.py, without effects.
 
 #include <math.h>
 

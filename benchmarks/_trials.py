@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Blind trials side by side: the options of the command line, the loop, a line for each trial."""
+"""Blind trials in parallel: the options of the command line, the loop, a line for each trial."""
 
 import argparse
 import json
@@ -26,7 +26,7 @@ def options(about: str | None, seeds: int) -> argparse.ArgumentParser:
 
 
 def chosen(given: argparse.Namespace, kinds: Iterable[str]) -> list[tuple[str, int]]:
-    """Return kind and seed of each trial that is asked for; *kinds* are those without --kinds."""
+    """Return kind and seed of each trial to be run; *kinds* are those without --kinds."""
     names = given.kinds.split(',') if given.kinds else [*kinds]
     seeds = range(given.first, given.first + given.seeds)
     return [(kind, seed) for seed in seeds for kind in names]
@@ -53,7 +53,7 @@ def run_all(
 
 
 def shares(names: Iterable[str], groups: Sequence[Sequence[bool]]) -> dict[str, float]:
-    """Return the share of what is true in each group, by the groups' names; NaN of no trial."""
+    """Return the share of true values in each group, by the groups' names; NaN without trials."""
     return {
         name: float(np.mean(group)) if group else float('nan')
         for name, group in zip(names, groups, strict=True)

@@ -1,11 +1,11 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Each law of each kind of joint from places all over its reach to all others, with three loads.
+"""Steps of each law on each kind of joint, between places all over its reach, with three loads.
 
-On the rig of the package as configured, with muscles that push as the law of force has it and with
-muscles that cannot push. Prints the largest error of the last 0.5 s of the 5 s after a step, and
-how far the joint goes beyond both ends of a step, as shares of the reach; fails where a law does
-not come to rest at its goal. Options: ``--places N`` (default 3).
+The rig is that of the package and equal to the nominal model, with muscles that can push according
+to the force law, and with muscles that cannot push. Prints the largest error in the last 0.5 s of
+the 5 s after a step, and how far the joint goes beyond both ends of a step, as shares of the
+reach; fails if a law does not come to rest at its goal. Options: ``--places N`` (default 3).
 """
 
 import argparse
@@ -22,7 +22,7 @@ from support.joint_grid import BEYOND, LOADS, REACHED, SLACK, nominal, visits
 
 
 def main() -> None:
-    """Run all, print a line for each, and say whether all came to rest."""
+    """Run all, print a line for each, and exit with an error if one did not come to rest."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument('--places', type=int, default=3)
     places = parser.parse_args().places

@@ -3,9 +3,10 @@
 """Position control on the truth plant: a 20 mm step and a 0.5 Hz sine, in simulated time.
 
 Both laws have one set of gains for all plants. Feedback is noisy (20 um) at 500 Hz; the target
-comes as samples at 100 Hz. The plants are those of ``test/truth``: own equations, own integrator.
-Then the same over DDS in real time, ``pam_sim`` and ``pam_control`` as processes, beside a
-simulated run as noiseless: the difference is what real time and the messages cost.
+is given as samples at 100 Hz. The plants are those of ``test/truth``, which have their own
+equations and integrator. Then the same is done over DDS in real time, with ``pam_sim`` and
+``pam_control`` as processes, and in a simulated run, both without noise: the difference is the
+influence of real time and messages.
 Options: ``--seeds N`` (default 3, the worst of them counts), ``--picture FILE``, ``--no-dds``,
 ``--mass KG`` (default 20; with another load, no limit is stated and nothing runs over DDS).
 """
@@ -45,7 +46,7 @@ CONTROLLERS = {'sliding mode': 'sliding_mode', 'PID': 'pid'}
 STEP, SWING = 12.0, 20.0  # s
 HEIGHT, SWAY, FREQUENCY = 0.02, 0.01, 0.5  # m, m, Hz
 SETTLED = 0.02 * HEIGHT  # m
-REST, JUDGED = 2.0, 4.0  # s at the end over which they are judged
+REST, JUDGED = 2.0, 4.0  # s at the end of the step and of the sine that are evaluated
 CALM = 3.0  # kPa
 MASS = 20.0  # kg
 
@@ -58,7 +59,8 @@ def figures(
 ) -> Figures:
     """Return error at rest and of the sine in mm, pressure moved in kPa, settling in s.
 
-    *t* is counted from the step; *rest_pressure* and *sine_error* are what is judged of them.
+    *t* is counted from the step; *rest_pressure* and *sine_error* are those parts of the series
+    that are evaluated.
     """
     off = np.flatnonzero((np.abs(step_error) > SETTLED) & (t > 0.0))
     return (
@@ -72,7 +74,7 @@ def figures(
 def trial(
     law: str, row: str, seed: int, noise: float = NOISE, mass: float = MASS
 ) -> tuple[Figures, Run, Run]:
-    """Return what was reached in simulated time, and both runs."""
+    """Return the figures in simulated time, and both runs."""
     name, effects, _, _ = ROWS[row]
     make, joint = LAWS[law], nominal(mass=mass, effects=effects)
 
@@ -86,7 +88,7 @@ def trial(
 
 
 def over_dds(law: str, payload: float) -> Figures:
-    """Return what was reached over DDS in real time."""
+    """Return the figures over DDS in real time."""
     from benchmarks._control_over_dds import step_and_sine
 
     step, sine = step_and_sine(
@@ -97,7 +99,7 @@ def over_dds(law: str, payload: float) -> Figures:
 
 
 def print_over_dds() -> None:
-    """Print both laws over DDS, each row beside the same in simulated time."""
+    """Print the figures of both laws in simulated time without noise and over DDS."""
     load = os.getloadavg()[0]
     print(f'over DDS in real time, no noise; load {load:.1f} on {os.cpu_count()} cores before')
     print(f'{"law, plant":<40}{"at rest mm":>12}{"sine mm RMS":>13}{"kPa":>8}{"settles":>10}')
@@ -151,7 +153,7 @@ def main() -> None:
             trials = [trial(law, row, seed, NOISE, given.mass) for seed in range(given.seeds)]
             worst = np.max([reached for reached, _, _ in trials], axis=0)
             runs[law].append(trials[0][1:])
-            # What is claimed is claimed of the sliding mode; PID is there to compare.
+            # The claims are for the sliding-mode law; PID is for comparison.
             at_rest, of_sine, verdict = '', '', ''
             if law == 'sliding mode' and given.mass == MASS:
                 at_rest, of_sine = f' <={rest:>5.2f}', f' <={sine:>5.2f}'

@@ -3,10 +3,10 @@
 """The time that one tick of the sliding-mode law takes, for one muscle, a pair and a crank.
 
 A closed loop at 500 Hz follows a sine of 0.5 Hz on a simulated joint; only the ticks are timed.
-One row has a valve lag that is not configured, so that the law uses what it learns. Claim: a tick
-takes at most a tenth of its period. The contestants take turns; each number is the median of its
-turns. The last column is relative to one evaluation of a muscle in plain Python, its force and
-its damping (``MuscleModel.pull``), which is timed once after each tick.
+One row has a valve lag that is not configured, so that the law uses its learned parameters. Claim:
+a tick takes at most a tenth of its period. All rows are measured in turn; each number is the
+median of the turns. The last column is relative to one evaluation of a muscle in plain Python, its
+force and its damping (``MuscleModel.pull``), which is timed once after each tick.
 """
 
 import os

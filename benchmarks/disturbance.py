@@ -1,13 +1,14 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What a push moves a load that is held, in simulated time on the truth plant.
+"""How far disturbing forces move a load that is held, in simulated time on the truth plant.
 
-20 kg on the DMSP-20, position with noise of 20 um at 500 Hz, one set of gains, nothing configured
-but where it says so; the plants are those of ``test/truth``: own equations, own integrator.
-Prints how many times less than at a held pressure a sine of 8 N moves the load, how long other
-disturbances move it, what unconfigured effects leave of that, and the margins of the linear loop;
-draws the compliance over the frequency. The baselines are PID, and a computed force with an
-extended-state observer (``benchmarks/_computed_force.py``).
+20 kg on the DMSP-20, position with noise of 20 um at 500 Hz, one set of gains; effects are
+configured only where this is stated. The plants are those of ``test/truth``, which have their own
+equations and integrator. Prints the ratio of the motion at a held pressure to the motion with a
+law, under a sine of 8 N; how long other disturbances move the load; the same ratio with
+unconfigured effects; and the margins of the linear loop. Draws the compliance over the frequency.
+The baselines are PID, and a computed force with an extended-state observer
+(``benchmarks/_computed_force.py``).
 Options: ``--seed N`` (default 0), ``--picture FILE``.
 """
 
@@ -39,7 +40,7 @@ LAWS = {'sliding mode': SlidingMode, 'PID': Pid, 'computed force': ComputedForce
 COLOURS = {'sliding mode': 'C0', 'PID': '0.6', 'computed force': 'C1'}
 FORCE, BEGIN, LASTS, JUDGED = 8.0, 1.0, 10.0, 4.0  # N, s
 FREQUENCIES = (0.3, 0.5, 0.7, 1.0, 1.4, 2.0, 2.5, 3.0, 4.0, 6.0, 8.0, 10.0, 15.0, 20.0)  # Hz
-LEAST = {0.5: 15.0, 1.0: 9.0, 2.0: 7.0, 3.0: 8.0}  # claimed of the sliding mode
+LEAST = {0.5: 15.0, 1.0: 9.0, 2.0: 7.0, 3.0: 8.0}  # Hz -> ratio, claims for the sliding-mode law
 LEAST_CONFIGURED = {0.5: 10.0, 1.0: 6.0, 2.0: 5.0, 3.0: 6.0}  # the same with a configured lag
 MOST = 1 / 1.6  # least of all frequencies
 HUNT = 0.05  # mm, most that a load may move after a push
@@ -101,7 +102,7 @@ def sine(frequency: float, end: float = np.inf) -> Callable[[float], float]:
 def hold(
     make: Any, plant: TruthPlant, effects: Any, seconds: float, push: Callable[[float], float]
 ) -> Run:
-    """Let a law hold the load where it rests."""
+    """Return the run in which a law holds the load at its rest position."""
     return close_loop(make(nominal(effects=effects)), plant, lambda t: 0.0, seconds, push=push)
 
 
@@ -134,13 +135,13 @@ def print_frequencies(seed: int) -> dict[str, np.ndarray]:
 
 
 def outside(run: Run, begin: float, end: float) -> float:
-    """Return how long after *begin* the load is farther than CLOSE from where it shall be, s."""
+    """Return the time in s after *begin* at which the error is above CLOSE for the last time."""
     off = run.t[(np.abs(run.error) > CLOSE) & (run.t > begin) & (run.t <= end)]
     return float(off[-1] - begin) if off.size else 0.0
 
 
 def dropping(plant: TruthPlant) -> Callable[[float], float]:
-    """Return a push of nothing that takes the payload off the *plant* at BEGIN."""
+    """Return a push of 0 N that removes the payload from the *plant* at BEGIN."""
 
     def push(t: float) -> float:
         if t >= BEGIN:
@@ -151,7 +152,7 @@ def dropping(plant: TruthPlant) -> Callable[[float], float]:
 
 
 def sagging(plant: TruthPlant) -> Callable[[float], float]:
-    """Return a push of nothing that lets the supply of the *plant* fall by 8 % with 4 s."""
+    """Return a push of 0 N with a supply of the *plant* that falls by 8 %, time constant 4 s."""
 
     def push(t: float) -> float:
         plant.parameters.regulator_gain = 1.0 - 0.08 * (1.0 - np.exp(-max(t - BEGIN, 0.0) / 4.0))
@@ -161,7 +162,7 @@ def sagging(plant: TruthPlant) -> Callable[[float], float]:
 
 
 def print_others(seed: int) -> None:
-    """Print how long, and how far, other disturbances move the load, and how it rests without."""
+    """Print how long and how far other disturbances move the load, and its error without them."""
     print('other disturbances, nominal: s until within 0.1 mm, largest error in mm; then without')
     print(
         'a push, nominal and with a lag of 20/28 ms not configured: largest error of the last 2 s'
@@ -195,7 +196,7 @@ def print_others(seed: int) -> None:
 
 
 def print_unconfigured(seed: int) -> None:
-    """Print what effects leave of the rejection, and whether the load is calm afterwards."""
+    """Print the rejection with unconfigured effects, and whether the load is calm afterwards."""
     print('sliding mode: held / law; largest error in mm 4 to 6 s after a push of 1 Hz and 8 s')
     heads = ''.join(f'{f"{f:g} Hz":>9}' for f in LEAST)
     print(f'{"plant":<28}{heads}{"after":>10}')
@@ -224,7 +225,7 @@ def print_margins() -> None:
 
 
 def draw(amplitudes: dict[str, np.ndarray], path: Path) -> None:
-    """Draw the compliance, and the rejection against the rig left alone."""
+    """Draw the compliance, and the rejection relative to a held pressure."""
     figure = Figure(figsize=(9, 3.6), layout='constrained')
     left, right = figure.subplots(1, 2, sharex=True)
     held = amplitudes['held']

@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """How long an identification takes, and how a single fit compares with plain scipy.
 
-It tries every effect of the library, for rigs that lack one or two of them. The fit is one
-candidate, a pressure lag: the nominal parameters, the start and the lag's two times, once by the
-package and once by ``scipy.integrate.solve_ivp`` inside ``scipy.optimize.least_squares``, as one
-would write it in an afternoon, on the same recording and from the same start.
+The identification tries every effect of the library, for nominal models that lack one or two of
+them. The fit is one candidate, a pressure lag: the nominal parameters, the start and the lag's two
+times, once by the package and once by a simple program with ``scipy.integrate.solve_ivp`` inside
+``scipy.optimize.least_squares``, on the same recording and from the same start.
 """
 
 import os
@@ -32,14 +32,14 @@ from pam_ros.rig.joint import Joint
 from pam_ros.rig.warm import warm
 
 START = {'fill': 0.02, 'vent': 0.02}
-# What is missing, s, Hz, s that it may take. The last takes longest of all pairs that are drawn.
+# Missing effects, s, Hz, aim in s. The last is the slowest of all pairs that the trials use.
 RUNS = (
     ('pressure_lag', 60.0, 1000.0, 4.0),
     ('pressure_lag', 80.0, 200.0, 4.0),
     ('hysteresis+dead_time', 60.0, 1000.0, 12.0),
     ('hysteresis+pressure_lag', 60.0, 1000.0, 12.0),
 )
-# The same of joints of two muscles.
+# The same for joints with two muscles.
 OF_JOINTS = (
     ('pressure_lag@one', 60.0, 1000.0, 8.0),
     ('hysteresis@both', 60.0, 1000.0, 40.0),

@@ -1,11 +1,11 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What more muscles cost: a step of 1, 8 and 64 of them, each alone with its load or in pairs.
+"""The time of a step of 1, 8 and 64 muscles, each alone with its load or in pairs.
 
-Claims: the time of a step grows with the number of muscles and no faster, and a muscle of a
-joint costs at most 1.3 times what one with a load of its own costs. All are called once for
-STEPS steps of 1 ms a muscle. The contestants take turns; each number is the median of its turns,
-in CPU time, which other programs on the machine change least.
+Claims: the time of a step grows at most in proportion to the number of muscles, and a muscle of a
+joint takes at most 1.3 times as long as one with its own load. All are called once for STEPS
+steps of 1 ms a muscle. All rigs are measured in turn; each number is the median of the turns, in
+CPU time, which depends least on other programs.
 """
 
 import os
@@ -24,11 +24,11 @@ from pam_ros.rig.simulation import Simulation
 from pam_ros.rig.standard_joints import single_muscle_joint
 from pam_ros.rig.transmissions import Pulley
 
-STEPS = 64_000  # of one muscle; fewer of many, so that each turn takes as long
+STEPS = 64_000  # of one muscle; with n muscles a share of 1/n, so that each turn takes as long
 STEP = 1e-3  # s
 TURNS = 15
 MUSCLES = (1, 8, 64)
-# An effect that is present but does nothing to speak of: the kernel steps all of the library.
+# An effect that is present but negligible: the kernel then computes all effects of the library.
 SLIGHT = [ViscousFriction(coefficient=1e-9)]
 
 
@@ -46,7 +46,7 @@ def rigs(effects: Sequence[Effect]) -> dict[str, Simulation]:
 
 
 def start(rig: Simulation) -> None:
-    """Let a rig begin anew where it has something to do."""
+    """Start a rig again away from its equilibrium, so that it moves."""
     still = np.zeros(len(rig.position))
     rig.reset(np.full(len(rig.pressure), 3e5), still, still)
 
@@ -65,7 +65,7 @@ def main() -> None:
             begin = time.thread_time()
             rig.advance(steps)
             spent = time.thread_time() - begin
-            if turn:  # the first warms
+            if turn:  # the first is a warm-up
                 took[key].append(spent / (steps * len(rig.pressure)) * 1e9)
     print(f'median of {TURNS} turns, load {os.getloadavg()[0]:.1f} on {os.cpu_count()} cores')
     print(f'{"muscles":24} {"effects":18} {"ns/step/muscle":>15} {"best":>8} {"of 1 alone":>11}')

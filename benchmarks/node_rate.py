@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""``pam_sim`` at 1000 Hz beside a bare node that publishes the same messages.
+"""``pam_sim`` at 1000 Hz compared with a minimal node that publishes the same messages.
 
 Claims: CPU time at most 1.3 times the bare node's, at least 999 messages a second over 30 s, and
 the 99th percentile of lateness at most 10 % above the bare node's. One subscriber process each.
@@ -20,10 +20,10 @@ RATE = 1000.0  # Hz
 SECONDS = 30.0
 TICK = os.sysconf('SC_CLK_TCK')
 BARE = [sys.executable, '-m', 'benchmarks._bare_node']
-# Nodes of other programs are not to take part.
+# Keep out nodes of other programs.
 NAMESPACE = ['--ros-args', '-r', f'__ns:=/node_rate_{os.getpid()}']
 PUBLISHERS = {
-    # rclpy's timer leaves out the periods that it is late for, so that its lateness means little.
+    # A timer of rclpy skips the periods for which it is late, so that its lateness means little.
     'bare node, rclpy timer': [*BARE, 'timer', str(RATE)],
     'bare node': [*BARE, 'loop', str(RATE)],
     'pam_sim': [

@@ -19,7 +19,7 @@ TIMES = 5
 
 
 def main() -> None:
-    """Start the simulator some times and print how long its first message took."""
+    """Start the simulator several times and print how long its first message took."""
     os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'] = 'LOCALHOST'
     namespace = f'/node_start_{os.getpid()}'
     warm()

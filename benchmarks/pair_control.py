@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """An antagonistic pair with angle and stiffness set, on the truth plant, in simulated time.
 
-A 0.5 Hz sine of 15 degrees, and at rest at 10 degrees steps of co-contraction. Both laws have one
-set of gains for all plants; feedback with noise of 0.02 degrees at 500 Hz, the target as samples
-at 100 Hz. The plants are those of ``test/truth/pair.py``: own equations, own integrator.
+The angle follows a sine of 15 degrees at 0.5 Hz; then it is held at 10 degrees during steps of the
+stiffness. Both laws have one set of gains for all plants; feedback has noise of 0.02 degrees at
+500 Hz, the target is given as samples at 100 Hz. The plants are those of ``test/truth/pair.py``,
+which have their own equations and integrator.
 Options: ``--seeds N`` (default 3, the worst of them counts).
 """
 
@@ -42,7 +43,7 @@ HELD = 3.0
 
 
 def sine(t: float) -> float:
-    """Return the swinging target."""
+    """Return the sine target in rad."""
     return SWING * sin(2.0 * pi * FREQUENCY * t)
 
 
@@ -52,7 +53,7 @@ def stiffness(t: float) -> float:
 
 
 def trial(law: str, row: str, seed: int) -> tuple[float, ...]:
-    """Return RMS and maximum of the sine, angle at rest and meanwhile, degrees; stiffness, %."""
+    """Return errors: sine RMS and maximum, at rest, during the steps, degrees; stiffness, %."""
     name, effects, _ = ROWS[row]
     make, joint = LAWS[law], nominal(effects)
     run = close_pair(make(joint), pair_plant(name, seed=seed), sine, SINE)
@@ -92,7 +93,7 @@ def main() -> None:
             rms, largest, rest, moved, off = np.max(
                 [trial(law, row, seed) for seed in range(given.seeds)], axis=0
             )
-            # What is claimed is claimed of the sliding mode; PID is there to compare.
+            # The claims are for the sliding-mode law; PID is for comparison.
             claim, verdict = '', ''
             if law == 'sliding mode':
                 claim, verdict = f' <={limit:>5.2f}', 'ok' if rms <= limit else 'SHORT'

@@ -1,10 +1,10 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""A step of the rig beside MuJoCo's and beside plain C, all called once for 100 000 steps of 1 ms.
+"""A step of the rig compared with MuJoCo and plain C, each called once for 100 000 steps of 1 ms.
 
 Claims: at least 30 times as many steps a second as MuJoCo's ``mj_step`` on a mass on one slide
-joint with RK4, and at most 1.5 times the time of the same equations in C (gcc -O2). The
-contestants take turns; each number is the median of its turns.
+joint with RK4, and at most 1.5 times the time of the same equations in C (gcc -O2). All are
+measured in turn; each number is the median of the turns.
 """
 
 import ctypes

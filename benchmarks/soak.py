@@ -1,10 +1,10 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""``pam_sim``, ``pam_control`` and ``pam_record`` of six topics at 1 kHz, for three minutes.
+"""Run ``pam_sim``, ``pam_control`` and ``pam_record`` of six topics at 1 kHz for three minutes.
 
 Claims: no message is lost on its way to the bag; the memory of each process stays within 1 % after
 its warm-up; stamps drift by less than 1 ms against the clock; less than one period in a thousand
-is overrun. ``--minutes 60`` is the soak of an hour. The exit code is 1 where a claim fails.
+is overrun. ``--minutes 60`` makes it a test of an hour. The exit code is 1 if a claim fails.
 """
 
 import argparse
@@ -25,14 +25,14 @@ from pam_ros.recording.bag_source import open_bag
 
 RATE = 1000.0  # Hz
 TOPICS = ('joint_states', 'pressure', 'force', 'stiffness', 'damping', 'pressure_command')
-STAMPED = TOPICS[0]  # on a grid of periods, so that its stamps tell what was published
+STAMPED = TOPICS[0]  # its stamps are multiples of the period, so that they show missing messages
 WARM_UP = 0.25  # share of the duration, at most LONGEST_WARM_UP
 LONGEST_WARM_UP = 300.0  # s
 LOOK = 2.0  # s between two looks at the memory
 MOST_GROWTH, MOST_DRIFT, MOST_OVERRUNS = 0.01, 1e-3, 1e-3  # share, s, share of the periods
 SUMMARY = re.compile(r'^  \S*/(\w+) +(\d+) messages +[\d.]+ Hz(?:  (\d+) lost)?', re.MULTILINE)
 
-Claim = tuple[str, str, bool]  # what, its figure, whether it is as claimed
+Claim = tuple[str, str, bool]  # its text, the measured figure, whether it holds
 
 
 def memory(program: Program) -> float:
@@ -43,7 +43,7 @@ def memory(program: Program) -> float:
 
 
 def overruns(arrays: list[DiagnosticArray]) -> dict[str, int]:
-    """Return how many overruns each node has told in ``/diagnostics``, from its first word on."""
+    """Return the overruns of each node since its first message in ``/diagnostics``."""
     found: dict[str, list[int]] = {}
     for array in arrays:
         for status in array.status:
@@ -81,9 +81,9 @@ def of_messages(output: str, stamped: np.ndarray) -> list[Claim]:
 
 
 def of_stamps(received: np.ndarray, stamped: np.ndarray) -> Claim:
-    """Return the claim of the drift: of the least delays at the beginning and at the end.
+    """Return the claim about the drift: the change of the least delay from beginning to end.
 
-    The least delay is that of a message that nothing held up, however busy the machine is.
+    The least delay is that of a message that did not have to wait, even on a busy machine.
     """
     delay = (received - stamped) * 1e-9
     part = max(len(delay) // 10, 1)
@@ -92,7 +92,7 @@ def of_stamps(received: np.ndarray, stamped: np.ndarray) -> Claim:
 
 
 def of_memory(name: str, seen: list[tuple[float, float]], duration: float) -> Claim:
-    """Return the claim of one process, from times in s and memory in kB."""
+    """Return the claim about one process, from times in s and memory in kB."""
     begin = min(WARM_UP * duration, LONGEST_WARM_UP)
     sizes = np.array([size for time, size in seen if time >= begin])
     growth = np.abs(sizes / sizes[0] - 1.0).max()
@@ -104,7 +104,7 @@ def of_memory(name: str, seen: list[tuple[float, float]], duration: float) -> Cl
 
 
 def run(duration: float, folder: Path) -> list[Claim]:
-    """Let all work for so many s; print the tables and return the claims."""
+    """Run all programs for *duration* s; print the tables and return the claims."""
     space = f'/soak_{os.getpid()}'
     where, bag = ('-r', f'__ns:={space}'), folder / 'bag'
     sim = {'publish_rate': RATE, 'physics_rate': RATE, 'initial.pressure': 300e3}
@@ -124,7 +124,7 @@ def run(duration: float, folder: Path) -> list[Claim]:
             for one in programs:
                 seen.setdefault(one.name, []).append((passed, memory(one)))
             client.work(min(LOOK, duration - passed))
-        # The recorder first: nothing is published meanwhile that it does not hear.
+        # The recorder stops first, while the others still publish, so that no message is missing.
         recorder.stop()
         late, output = overruns(arrays), recorder.output
     received, stamped = stamps(bag, space)
@@ -139,11 +139,11 @@ def run(duration: float, folder: Path) -> list[Claim]:
 
 
 def main() -> None:
-    """Measure, print the tables with the verdicts, and exit with 1 where a claim fails."""
+    """Measure, print the tables with the verdicts, and exit with 1 if a claim fails."""
     parser = argparse.ArgumentParser(prog='soak')
     parser.add_argument('--minutes', type=float, default=3.0, help='duration (default: 3)')
     minutes = parser.parse_args().minutes
-    # Nodes of other machines are not to take part.
+    # Keep out nodes of other machines.
     os.environ.setdefault('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
     load = os.getloadavg()[0]
     print(f'{minutes:g} min at {RATE:g} Hz; load {load:.1f} on {os.cpu_count()} cores before')

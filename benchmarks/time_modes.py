@@ -1,13 +1,14 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Time under control: how fast lockstep and scaled time are, and what 64 muscles cost.
+"""The speed of lockstep and scaled time, and the CPU time of 64 muscles in real time.
 
-Claims: lockstep with a controller as its own process over DDS at 500 Hz at least 10 times real
-time; scaled as fast as possible with 100 Hz publishing at least 50 times; 64 muscles at 1 kHz
-physics and 500 Hz publishing in real time below 60 % of a core, at 499 Hz or more, without
-overrun in 30 s, and the cost of one muscle more.
+Claims: lockstep with a controller in another process over DDS at 500 Hz is at least 10 times as
+fast as real time; scaled time, as fast as possible and published at 100 Hz, at least 50 times; 64
+muscles with physics at 1 kHz, published at 500 Hz in real time, need less than 60 % of a core, at
+499 Hz or more, without an overrun in 30 s. The CPU time of one more muscle is printed as well.
 
-The machine's other load slows all but CPU times: it is printed, and CPU times stand beside.
+Other programs on the machine slow everything except CPU times. So the load is printed, and CPU
+times next to the others.
 """
 
 import itertools
@@ -54,7 +55,7 @@ def end(process: subprocess.Popen[bytes]) -> None:
 
 
 def values(diagnostics: list[DiagnosticArray], name: str) -> dict[str, str]:
-    """Return what the simulator of this name published last of its timing."""
+    """Return the timing that the simulator of this name published last."""
     full = f'{NAMESPACE[1:]}/{name}: timing'
     found = (s for m in reversed(diagnostics) for s in m.status if s.name == full)
     status = next(found, None)
@@ -86,7 +87,7 @@ def lockstep(client: Client, diagnostics: list[DiagnosticArray], seconds: float)
 
 
 def scaled(client: Client, diagnostics: list[DiagnosticArray]) -> None:
-    """Print how fast time passes where nothing holds it."""
+    """Print how fast scaled time is without a limit of its speed."""
     for rate in (100.0, 500.0):
         name = f'scaled_{rate:.0f}'
         sim = simulator(name, time_mode='scaled', speed_factor=0.0, publish_rate=rate)
@@ -110,7 +111,7 @@ def scaled(client: Client, diagnostics: list[DiagnosticArray]) -> None:
 
 
 def many(client: Client, diagnostics: list[DiagnosticArray]) -> None:
-    """Print what muscles cost in real time."""
+    """Print the CPU time of different numbers of muscles in real time."""
     shares = []
     for kind, topic in (
         (JointState, 'joint_states'),

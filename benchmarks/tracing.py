@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Blind trials: how often the finder names the effect that is in a recording, and no other.
+"""Blind trials: how often the identification names the effect in a recording, and no other.
 
 Recordings come from the truth plant in ``test/truth``, which shares neither equations nor
 integrator with the package. Options: ``--seeds N`` (default 12) from ``--first N``, ``--kinds
@@ -48,7 +48,7 @@ TARGETS = {
 
 
 def nominal_model(trial: Trial) -> Joint:
-    """Return what the user of the trial believes."""
+    """Return the nominal model that the user of the trial has."""
     d = trial.nominal
     muscle = Muscle(
         *d.constants_si, pressure_unit='Pa', contraction_unit='fraction', zeta=d.zeta, l0=d.l0
@@ -57,7 +57,7 @@ def nominal_model(trial: Trial) -> Joint:
 
 
 def recording_of(trial: Trial) -> Recording:
-    """Return the recording of a trial as the finder gets it."""
+    """Return the recording of a trial for the identification."""
     r = trial.recording
     t = r.t_s - r.t_s[0]
     return Recording(
@@ -68,7 +68,7 @@ def recording_of(trial: Trial) -> Recording:
 
 @dataclass(frozen=True)
 class Job:
-    """A trial to be run, and of which draws it is."""
+    """A trial to be run, and the kind of draws (random rigs) that it belongs to."""
 
     kind: str
     seed: int
@@ -79,7 +79,7 @@ DRAWS = {'blind': blind_trial, 'wide': wide_trial}
 
 
 def run_trial(job: Job) -> dict[str, Any]:
-    """Run one trial and return a row of what was there and what was found."""
+    """Run one trial and return a row of the true effects and those that were found."""
     trial = DRAWS[job.draws](job.kind, job.seed)
     began = time.perf_counter()
     result = identify(nominal_model(trial), [recording_of(trial)])
@@ -101,7 +101,7 @@ def run_trial(job: Job) -> dict[str, Any]:
 
 
 def answer(found: Identification) -> dict[str, Any]:
-    """Return what a search found; errors are those over held-out samples."""
+    """Return the results of a search; errors are those over held-out samples."""
     nominal, retuned, augmented = found.stages
     return {
         'verdict': found.verdict,
@@ -117,7 +117,7 @@ def answer(found: Identification) -> dict[str, Any]:
 
 
 def is_right(row: dict[str, Any]) -> bool:
-    """Say whether a single effect was named first, or in a stated set of at most two."""
+    """Return whether a single effect was named first, or in a stated set of at most two."""
     if not row['found']:
         return False
     stated = [row['found'][0], *row['alternatives'][0]]
@@ -140,7 +140,7 @@ def pair_hits(row: dict[str, Any]) -> tuple[int, int]:
 
 
 def is_exact(row: dict[str, Any]) -> bool:
-    """Say whether the named effects are those that are there, and no others: none of noise."""
+    """Return whether exactly the true effects were named; with noise only: none."""
     left = [set(names) for names in row['accepted']]
     for name in row['found']:
         hit = next((truth for truth in left if name in truth), None)
@@ -151,7 +151,7 @@ def is_exact(row: dict[str, Any]) -> bool:
 
 
 def scores(rows: list[dict[str, Any]]) -> dict[str, float]:
-    """Return the figures that the targets are about."""
+    """Return the figures for the targets."""
     single = [r for r in rows if len(r['accepted']) == 1 and r['in_library']]
     noise = [r for r in rows if not r['accepted']]
     pairs = [r for r in rows if len(r['accepted']) == 2]
@@ -187,7 +187,7 @@ def report(rows: list[dict[str, Any]]) -> None:
 
 
 def main() -> None:
-    """Run the trials that the command line asks for, and print the scores."""
+    """Run the trials that the command line selects, and print the scores."""
     parser = _trials.options(__doc__, 12)
     parser.add_argument('--draws', choices=DRAWS, default='blind')
     given = parser.parse_args()

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Blind trials of joints: how often the finder names the effect, and the muscle that has it.
+"""Blind trials of joints: how often the identification names the effect, and where it acts.
 
 Recordings come from the truth pair in ``test/truth``, which shares neither equations nor
 integrator with the package. Options: ``--seeds N`` (default 3) from ``--first N``, ``--kinds
@@ -37,7 +37,7 @@ TARGETS = {
 
 
 def nominal_model(trial: PairTrial) -> Joint:
-    """Return what the user of the trial believes."""
+    """Return the nominal model that the user of the trial has."""
     d = trial.nominal
     muscle = Muscle(
         *d.constants_si, pressure_unit='Pa', contraction_unit='fraction', zeta=d.zeta, l0=d.l0
@@ -48,7 +48,7 @@ def nominal_model(trial: PairTrial) -> Joint:
 
 
 def recording_of(trial: PairTrial) -> Recording:
-    """Return the recording of a trial as the finder gets it."""
+    """Return the recording of a trial for the identification."""
     return Recording(
         f'{trial.kind} {trial.seed}', trial.t, trial.t, trial.commands, trial.angle,
         None, None, None, 'free', muscles=NAMES, unit='rad',
@@ -56,7 +56,7 @@ def recording_of(trial: PairTrial) -> Recording:
 
 
 def run_trial(job: tuple[str, int]) -> dict[str, Any]:
-    """Run one trial and return a row of what was there and what was found."""
+    """Run one trial and return a row of the true effect and those that were found."""
     trial = pair_trial(*job)
     began = time.perf_counter()
     found = identify(nominal_model(trial), [recording_of(trial)])
@@ -80,13 +80,13 @@ def run_trial(job: tuple[str, int]) -> dict[str, Any]:
 
 
 def place_of(name: str, on_joint: bool) -> tuple[str, str]:
-    """Return the effect of a place's name, and where that is: a muscle, 'both' or 'joint'."""
+    """Return the effect in the name of a place, and the place: a muscle, 'both' or 'joint'."""
     muscle, _, effect = name.rpartition('.')
     return effect, muscle or ('joint' if on_joint else 'both')
 
 
 def hits(row: dict[str, Any]) -> tuple[bool, bool]:
-    """Say whether the one effect was named, first or in a set of two, and with its place."""
+    """Return whether the effect was named, first or in a set of two, and also with its place."""
     if not row['found']:
         return False, False
     stated = [row['found'][0], *row['alternatives'][0]]
@@ -100,7 +100,7 @@ def hits(row: dict[str, Any]) -> tuple[bool, bool]:
 
 
 def scores(rows: list[dict[str, Any]]) -> dict[str, float]:
-    """Return the figures that the targets are about."""
+    """Return the figures for the targets."""
     single = [hits(r) for r in rows if r['accepted'] and r['in_library']]
     noise = [not r['found'] for r in rows if not r['accepted']]
     strange = [r['verdict'] == 'unexplained_structure' for r in rows if not r['in_library']]
@@ -109,7 +109,7 @@ def scores(rows: list[dict[str, Any]]) -> dict[str, float]:
 
 
 def main() -> None:
-    """Run the trials that the command line asks for, and print the scores."""
+    """Run the trials that the command line selects, and print the scores."""
     given = _trials.options(__doc__, 3).parse_args()
     rows = _trials.run_all(run_trial, _trials.chosen(given, PAIR_KINDS), given)
     _trials.print_scores(rows, scores(rows), TARGETS)

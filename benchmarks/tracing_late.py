@@ -1,11 +1,12 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Blind trials in which an effect begins in the middle: how often it is named, and its moment.
+"""Blind trials in which an effect begins during the recording: how often it is named, and when.
 
 Recordings come from the truth plant in ``test/truth``, which shares neither equations nor
-integrator with the package. A moment counts where it is within 1 s of the true one, or of the
-first time at which the effect has moved the load by three noises. Options: ``--seeds N`` (default
-3) from ``--first N``, ``--kinds a,b``, ``--jobs N``, ``--log FILE`` (one JSON line a trial).
+integrator with the package. The moment at which the effect begins counts as found within 1 s of
+the true one, or of the first time at which the effect has moved the load by three standard
+deviations of the noise. Options: ``--seeds N`` (default 3) from ``--first N``, ``--kinds a,b``,
+``--jobs N``, ``--log FILE`` (one JSON line a trial).
 """
 
 import os
@@ -31,7 +32,7 @@ TARGETS = {
 
 
 def run_trial(job: tuple[str, int]) -> dict[str, Any]:
-    """Run one trial and return a row of what was there and what was found."""
+    """Run one trial and return a row of the true effect and those that were found."""
     late = late_trial(*job)
     trial = late.trial
     began = time.perf_counter()
@@ -52,7 +53,7 @@ def run_trial(job: tuple[str, int]) -> dict[str, Any]:
 
 
 def is_near(row: dict[str, Any]) -> bool:
-    """Say whether the moment was found."""
+    """Return whether the moment was found."""
     since = row['since']
     return since is not None and any(
         abs(since[1] - time) <= NEAR for time in (row['onset'], row['shows'])
@@ -60,18 +61,18 @@ def is_near(row: dict[str, Any]) -> bool:
 
 
 def is_named(row: dict[str, Any]) -> bool:
-    """Say whether the effect was named, alone or in a set of two."""
+    """Return whether the effect was named, alone or in a set of two."""
     stated = [row['found'][0], *row['alternatives'][0]] if len(row['found']) == 1 else []
     return len(stated) <= 2 and bool({*stated} & {*row['accepted'][0]})
 
 
 def is_wrong(row: dict[str, Any]) -> bool:
-    """Say whether an effect was claimed that is not there."""
+    """Return whether an effect was named that is not there."""
     return bool(row['found']) and not is_named(row)
 
 
 def scores(rows: list[dict[str, Any]]) -> dict[str, float]:
-    """Return the figures that the targets are about."""
+    """Return the figures for the targets."""
     named = [is_named(r) and is_near(r) for r in rows]
     open_ones = [r['verdict'] == 'unexplained_structure' and is_near(r) for r in rows]
     inside = [
@@ -89,7 +90,7 @@ def scores(rows: list[dict[str, Any]]) -> dict[str, float]:
 
 
 def main() -> None:
-    """Run the trials that the command line asks for, and print the scores."""
+    """Run the trials that the command line selects, and print the scores."""
     given = _trials.options(__doc__, 3).parse_args()
     rows = _trials.run_all(run_trial, _trials.chosen(given, LATE), given)
     _trials.print_scores(rows, scores(rows), TARGETS)

@@ -267,7 +267,7 @@ def test_equal_stamps_are_good_for_a_run_and_not_where_there_is_a_gradient():
         't[2] = 0.01 s follows 0.01 s: give ascending stamps, no two of them equal'
     )
     assert refusal(simulate_held, ONE, [0.0], [3e5], [0.02]) == (
-        't has the shape (1,): give at least two stamps, or the velocity at the one'
+        't has the shape (1,): give at least two stamps, or one stamp and the velocity'
     )
 
 

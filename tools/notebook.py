@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Run the notebooks of docs/ and store what their cells print and draw: ``make notebook``.
 
-Nothing of the machine is stored, nor when it was run.
+Neither data about the machine nor the time of the run are stored.
 """
 
 import base64
@@ -20,9 +20,9 @@ from PIL import Image
 
 ROOT = Path(__file__).parents[1]
 NOTEBOOKS = sorted((ROOT / 'docs' / 'notebooks').glob('*.ipynb'))
-# What pyproject.toml ignores in tests, too: scipy before 1.12 warns of SLSQP's own rounding.
+# As in pyproject.toml for the tests: scipy before 1.12 warns of the rounding of its SLSQP solver.
 IGNORED = 'ignore:Values in x were outside bounds:RuntimeWarning'
-DEADLINE = 300  # s; bounds how long a cell that hangs may take
+DEADLINE = 300  # s; longest time of a cell
 METADATA = {
     'kernelspec': {'display_name': 'Python 3', 'language': 'python', 'name': 'python3'},
     'language_info': {'name': 'python'},
@@ -70,7 +70,7 @@ def executed(notebook: NotebookNode, folder: Path) -> NotebookNode:
 
 
 def clean(notebook: NotebookNode) -> NotebookNode:
-    """Remove from *notebook* what is none of its text, its outputs and their descriptions."""
+    """Remove all metadata from *notebook* except those of MyST-NB, and reduce its pictures."""
     notebook.metadata = nbformat.from_dict(METADATA)
     for cell in notebook.cells:
         cell.metadata = nbformat.from_dict(
@@ -86,7 +86,7 @@ def clean(notebook: NotebookNode) -> NotebookNode:
 
 
 def small(picture: str) -> str:
-    """Return a picture with 64 colours and without a word on what drew it, both PNG in base64."""
+    """Return a picture with 64 colours and without metadata; both are PNG in base64."""
     drawn = Image.open(io.BytesIO(base64.b64decode(picture))).convert('RGB')
     file = io.BytesIO()
     drawn.quantize(64, dither=Image.Dither.NONE).save(file, 'PNG', optimize=True)

@@ -17,7 +17,7 @@ def names(effects: tuple[str, ...]) -> str:
 
 
 def acts_on(effect: type[Effect]) -> str:
-    """Return in what it acts, and at which places of the kernel."""
+    """Return whether it acts on the joint or in a muscle, and at which places of the kernel."""
     places = ', '.join(effect.equations.places)
     return f'{"joint" if effect.acts_on_joint() else "muscle"}: {places}'
 

@@ -119,7 +119,7 @@ class OneSide(Allocation):
     def _taut(self, pressures: tuple[float, ...], s: float) -> Split:
         """Return *pressures* not below those at which the muscles become slack, if configured.
 
-        A lower pressure changes nothing, and would have to rise first before they pull again.
+        A lower pressure has no effect, and would have to rise first before they pull again.
         """
         if not self._may_be_slack:
             return Split(pressures, 0.0)
@@ -276,7 +276,7 @@ class TwoSides(Allocation):
     ) -> tuple[float, ...]:
         """Return the rates of the predicted pressures since the previous step.
 
-        So a limit that holds one of them lets the other one change faster.
+        If a limit holds one of them, the other one therefore changes faster.
         """
         ahead = self.split(foreseen, stiffness, s).pressures
         before, self._before = self._before or ahead, ahead
@@ -310,7 +310,7 @@ class TwoSides(Allocation):
                 'the load cannot be held anywhere: check the limits of pressure, the load, and '
                 'the mounting of the muscles (contraction_1, contraction_2)'
             )
-        # The range without gaps that is nearest to 0.
+        # The range without gaps that is nearest to the coordinate 0.
         middle = min((abs(s), k) for k, s in enumerate(places) if held[k])[1]
         first = last = middle
         while first > 0 and held[first - 1]:
@@ -342,6 +342,6 @@ def _ends(
 
 
 def allocation_of(model: ControlModel, limits: Limits) -> Allocation:
-    """Return how the muscles of a joint share what it wants."""
+    """Return the allocation for the muscles of a nominal joint."""
     signs = {muscle.arm(0.0) > 0.0 for muscle in model.muscles}
     return OneSide(model, limits) if len(signs) == 1 else TwoSides(model, limits)

@@ -8,7 +8,7 @@ from pam_ros.control.allocation import Allocation
 from pam_ros.control.reference.profile import Bounds, Rest
 from pam_ros.parameters import check_all, parameter_field
 
-RISE = 0.05  # s to reach the rate, and its slope: some three samples of a 50 Hz topic
+RISE = 0.05  # s, to reach the rate, and also its slope: some three samples of a 50 Hz topic
 
 
 @dataclass(frozen=True)
@@ -20,8 +20,8 @@ class CoContraction:
 
     co_contraction: float = parameter_field(
         0.0,
-        'stiffness that the muscles shall give the joint, until co_contraction_reference says '
-        'otherwise; 0: in the middle of what can be had at the middle of the reach',
+        'stiffness that the muscles give the joint until a value is received on '
+        'co_contraction_reference; 0: the middle of the range at the middle of the reach',
         'N/m',
         low=0.0,
         high=1e6,
@@ -40,7 +40,7 @@ class CoContraction:
         check_all(self)
 
     def wanted(self, allocation: Allocation) -> float:
-        """Return the stiffness for this joint; raises RangeError if it cannot have this stiffness.
+        """Return the stiffness for this joint; raises RangeError if it is not possible there.
 
         0 if the effort determines the stiffness.
         """

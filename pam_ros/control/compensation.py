@@ -5,7 +5,7 @@
 Friction, hysteresis and creep are fed forward: their equations, which are those of the
 simulator, are evaluated along the reference. Since only the reference drives them, they can
 neither destabilise the loop nor amplify noise. If the load does not follow the reference, the
-observer sees the difference.
+difference is part of the disturbance that the observer estimates.
 """
 
 from pam_ros.control.model import ControlModel, Pressures

@@ -21,14 +21,14 @@ class OrderTuning:
     spread: float = number(
         4.0,
         '',
-        'least ratio of velocity bandwidth and decay of the sliding variable: the two poles of '
-        'the estimate then lag the surface by a phase of 2 atan(1/4), 28 degrees',
+        'least ratio of velocity bandwidth to decay rate of the sliding variable: the two poles '
+        'of the estimate then cause a phase lag of 2 atan(1/4), 28 degrees, at this rate',
     )
     samples: float = number(
         1.5,
         '',
-        'largest velocity bandwidth times control period: the pole exp(-1.5) = 0.22 of the '
-        'estimate has forgotten a sample after three',
+        'largest velocity bandwidth times control period: with the pole exp(-1.5) = 0.22 of the '
+        'estimate, 1 % of the influence of a sample is left after three',
     )
 
 
@@ -44,13 +44,14 @@ class Gains(JointSettings):
     gains have these consequences:
 
     switching gain
-        K = disturbance_bound / m. Reaching condition (Slotine & Li 1991, section 7.1): d is
-        the part of the disturbance that the observer does not cancel. If |d| <=
-        disturbance_bound, then s s' < 0 outside the boundary layer, and s reaches it within
-        |s(0)| m / (disturbance_bound - |d|).
+        K = disturbance_bound / m. Reaching condition (Slotine & Li 1991, section 7.1): sigma is
+        the sliding variable, and d the part of the disturbance that the observer does not cancel.
+        If |d| < disturbance_bound, then sigma sigma' < 0 outside the boundary layer, and sigma
+        reaches it within |sigma(0)| m / (disturbance_bound - |d|).
     boundary width
-        Phi = K / bandwidth. Within the layer K sat(s / Phi) = bandwidth s, so that s decays at
-        *bandwidth* there. Boundedness: |s| <= Phi always, and |e| <= :meth:`error_bound`.
+        Phi = K / bandwidth. Within the layer K sat(sigma / Phi) = bandwidth sigma, so that sigma
+        decays at *bandwidth* there. Boundedness: |sigma| <= Phi from then on, and the error
+        |e| <= :meth:`error_bound`.
     super-twisting
         k1 = 1.5 sqrt(L), k2 = 1.1 L with L = disturbance_rate / m >= |d'| / m, the values of
         Levant (1998). k2 > L is necessary; Moreno & Osorio (2012) prove convergence in finite
@@ -71,15 +72,15 @@ class Gains(JointSettings):
     )
     fast_bandwidth: float = parameter_field(
         50.0,
-        'what the bandwidth grows to once learning has found that the pressure follows fast',
+        'bandwidth that is reached when learning has found that the pressure follows fast',
         '1/s',
         low=0.5,
         high=200.0,
     )
     surface_bandwidth: float = parameter_field(
         8.0,
-        'least natural frequency of the error on the sliding surface; where the spring of the '
-        'muscle gives more, that is left to it',
+        'least natural frequency of the error on the sliding surface; if the stiffness of the '
+        'joint gives a higher one, that one is used',
         'rad/s',
         low=0.1,
         high=200.0,
@@ -127,8 +128,8 @@ class Gains(JointSettings):
     )
     velocity_bandwidth: float = parameter_field(
         126.0,
-        'bandwidth of the velocity estimate, which lags what the model does not foresee by '
-        '2/velocity_bandwidth',
+        'bandwidth of the velocity estimate, which lags by 2/velocity_bandwidth in a motion that '
+        'the model does not predict',
         'rad/s',
         low=5.0,
         high=2000.0,
@@ -156,26 +157,26 @@ class Gains(JointSettings):
     )
     rejection: bool = parameter_field(
         True,
-        'whether the bandwidths rise while a disturbance moves a load that shall rest, as far as '
+        'whether the bandwidths rise while a disturbance moves a load that should rest, as far as '
         'the delay of the rig allows',
     )
     rejection_bandwidth: float = parameter_field(
         100.0,
-        'what the bandwidth of the disturbance observer rises to then',
+        'bandwidth of the disturbance observer at the highest level of rejection',
         'rad/s',
         low=0.01,
         high=1000.0,
     )
     rejection_surface: float = parameter_field(
         25.0,
-        'what the natural frequency of the error on the sliding surface rises to then',
+        'natural frequency of the error on the sliding surface at the highest level of rejection',
         'rad/s',
         low=0.1,
         high=200.0,
     )
     rejection_damping: float = parameter_field(
         1.0,
-        'damping ratio of the error on the sliding surface then',
+        'damping ratio of the error on the sliding surface at the highest level of rejection',
         '',
         low=0.05,
         high=5.0,
@@ -198,18 +199,18 @@ class Gains(JointSettings):
         if self.fast_bandwidth < self.bandwidth:
             raise ParameterError(
                 f'fast_bandwidth = {self.fast_bandwidth:g} 1/s is below bandwidth = '
-                f'{self.bandwidth:g} 1/s: it is what that grows to'
+                f'{self.bandwidth:g} 1/s, which grows to it'
             )
         if self.velocity_bandwidth < ORDER.spread * self.bandwidth:
             raise ParameterError(
                 f'velocity_bandwidth = {self.velocity_bandwidth:g} rad/s is too slow for '
                 f'bandwidth = {self.bandwidth:g} 1/s: give at least {ORDER.spread:g} times as '
-                'much, or the boundary layer is not kept'
+                'much, or the sliding variable leaves the boundary layer'
             )
         if self.observer and self.observer_bandwidth > self.bandwidth:
             raise ParameterError(
                 f'observer_bandwidth = {self.observer_bandwidth:g} rad/s is above bandwidth = '
-                f'{self.bandwidth:g} 1/s: the observer takes what the switching term leaves over '
+                f'{self.bandwidth:g} 1/s: the observer compensates what the switching term leaves '
                 'and must be slower'
             )
 
@@ -239,7 +240,7 @@ class Gains(JointSettings):
         return self.disturbance_bound / mass
 
     def boundary_width(self, mass: float) -> float:
-        """Return Phi in m/s: half the width of the boundary layer."""
+        """Return Phi in m/s, half the width of the boundary layer."""
         return self.switching_gain(mass) / self.bandwidth
 
     def super_twisting(self, mass: float) -> tuple[float, float]:
@@ -250,9 +251,9 @@ class Gains(JointSettings):
     def error_bound(self, disturbance: float, mass: float, frequency: float) -> float:
         """Return the largest error in m under any disturbance that stays within +-*disturbance*.
 
-        The surface has the natural *frequency* in rad/s. |s| <= disturbance / (m bandwidth) is
-        multiplied by the absolute area of the impulse response from s to e, whose transfer
-        function is p / (p^2 + 2 z w p + w^2).
+        The surface has the natural *frequency* w in rad/s and the damping ratio z. |sigma| <=
+        disturbance / (m bandwidth) is multiplied by the absolute area of the impulse response
+        from sigma to the error, whose transfer function is p / (p^2 + 2 z w p + w^2).
         """
         z, w = self.surface_damping, frequency
         if z < 1.0:

@@ -17,7 +17,7 @@ T = TypeVar('T', bound='JointSettings')
 class JointSettings:
     """Described parameters: in m and N for a prismatic joint, in rad and N m for a revolute one.
 
-    The constructor gives those of a prismatic joint; :meth:`for_joint` gives those of the kind
+    The constructor has the defaults of a prismatic joint; :meth:`for_joint` has those of the kind
     of the joint. Raises ParameterError for a value out of range.
     """
 
@@ -42,12 +42,12 @@ class JointSettings:
         """Raise ParameterError if these are settings for the other kind of joint."""
         if self.is_revolute is not revolute:
             own, other = (
-                ('turns (rad, N m)', 'slides (m, N)')
+                ('revolute (rad, N m)', 'prismatic one (m, N)')
                 if revolute
-                else ('slides (m, N)', 'turns (rad, N m)')
+                else ('prismatic (m, N)', 'revolute one (rad, N m)')
             )
             name = type(self).__name__
             raise ParameterError(
-                f'the joint {own} and {name} has the units of one that {other}: make it with '
+                f'the joint is {own} and {name} has the units of a {other}: make it with '
                 f'{name}.for_joint(joint, ...)'
             )

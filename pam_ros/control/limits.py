@@ -8,7 +8,7 @@ from pam_ros.errors import ParameterError, RangeError
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.parameters import check_all, parameter_field
 
-MARGIN = 0.02  # share of the range of pressure that is kept for control at both ends
+MARGIN = 0.02  # share of the range of pressure that is kept for control at each end
 
 
 @dataclass(frozen=True)
@@ -20,7 +20,7 @@ class Limits:
     )
     pressure_high: float = parameter_field(
         5e6,
-        "highest gauge pressure that is commanded, where the muscle's p_max is not below it",
+        'highest gauge pressure that is commanded, but at most the p_max of the muscle',
         'Pa',
         low=0.0,
         high=5e6,
@@ -69,7 +69,7 @@ class Limiter:
         self.last = min(max(pressure, self.low), self.high)
 
     def limit(self, wanted: float, dt: float) -> float:
-        """Return the pressure in Pa nearest to *wanted* that is allowed *dt* s after the last."""
+        """Return the allowed pressure in Pa nearest to *wanted*, *dt* s after the last one."""
         last, step = self.last, self.rate * dt
         self.last = clamp(clamp(wanted, last - step, last + step), self.low, self.high)
         return self.last
@@ -80,6 +80,6 @@ def refuse_unreachable(position: float, reach: tuple[float, float], unit: str = 
     low, high = reach
     if not low <= position <= high:
         raise RangeError(
-            f'reference {position:.6g} {unit} is out of reach: this rig holds its load at '
+            f'reference {position:.6g} {unit} is out of reach: this rig can hold its load at '
             f'{low:.4g} to {high:.4g} {unit}'
         )

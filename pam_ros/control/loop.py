@@ -20,8 +20,8 @@ WAITING, RUNNING, BLIND, DISABLED = 'waiting', 'running', 'blind', 'disabled'
 # Shortest step in periods, since a law divides by it, and longest step in s: during a longer one
 # nothing was controlled, and a law that took it as one step would overshoot.
 LEAST, MOST = 0.1, 0.1
-# s for which 0 Pa is commanded after venting, so that a lost message does not matter. After this
-# time a simulator or a valve that starts again must not receive the command for the old one.
+# s for which 0 Pa is commanded after venting, so that a lost message does not matter. It is short,
+# since a simulator or valve that is restarted must not receive the command for the former one.
 VENTING = 0.2
 
 
@@ -49,7 +49,7 @@ class Loop:
     time
         of the last step, s
     implausible
-        number of measurements that were left out as not plausible
+        number of measurements that were ignored as not plausible
     timeout, safe
         age in s of the newest measurement after which the loop is BLIND, and its command then
     lost
@@ -74,7 +74,7 @@ class Loop:
         self._seen: Reading | None = None
         self._is_new = False
         self.lost: float | None = None
-        self._left: Pressures = ()  # the pressures then, Pa
+        self._left: Pressures = ()  # the pressures at that time, Pa
         self._has_left = False  # whether the rig gets no more commands
         self.time = 0.0
 
@@ -93,15 +93,15 @@ class Loop:
     def see(self, reading: Reading) -> str:
         """Take in a measurement; return why it is not plausible, or '' if it is plausible.
 
-        A measurement is left out if it is not plausible or older than the last one. Control then
-        continues by the model, and after the timeout as without measurements.
+        A measurement is ignored if it is not plausible or not newer than the last one. Control
+        then continues by the model, and after the timeout as without measurements.
         """
         last = self._seen
         if last is not None and reading.time <= last.time:
             return ''
         passed = 0.0 if last is None else reading.time - last.time
         if last is not None and last.stamp is not None and reading.stamp is not None:
-            # Messages that were delayed arrive at once: their time of receipt says nothing.
+            # Delayed messages arrive together: their stamps, not their receipts, give the time.
             passed = max(reading.stamp - last.stamp, 0.0)
         fault = self.plausibility.fault_of(passed, reading.position, reading.velocity)
         if fault:

@@ -31,7 +31,7 @@ class JointPlace:
 
 
 class ControlModel:
-    """The nominal joint without memory: what holds at one instant.
+    """The nominal joint without memory: its equations at one instant.
 
     s is its coordinate, v its velocity, p the gauge pressures in the chambers in Pa, one a
     muscle. It includes the configured payload, length offset, slack, viscous damping and damping
@@ -73,8 +73,8 @@ class ControlModel:
     def at(self, s: float) -> JointPlace:
         """Return the muscles at the coordinate s.
 
-        Those of the last call are kept, since a step asks for its reference several times: they
-        depend on nothing but s.
+        Those of the last call are kept, since a step needs them several times at its reference:
+        they depend on nothing but s.
         """
         if s != self._place.s:
             self._place = JointPlace(self.muscles, s)
@@ -114,9 +114,9 @@ class ControlModel:
 
 
 def _drag(joint: Joint) -> float:
-    """Return the damping of the effects on the joint that are part of the model.
+    """Return the damping of the effects on the joint that are part of the inverted model.
 
-    They have no memory and are linear in the velocity.
+    These effects have no memory and are linear in the velocity.
     """
     drag, row = 0.0, joint.parameters()[at.JOINT].tolist()
     for effect in joint.present[at.JOINT]:

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """A muscle of a joint for a position law: force, stiffness, damping and their inverse.
 
-A step of a law asks for several of them at the same coordinate. So a :class:`MusclePlace` has what
-depends on the coordinate alone, above all the exponential of the force law, computed once.
+A step of a law needs several of them at the same coordinate. So a :class:`MusclePlace` stores the
+quantities that depend on the coordinate alone, above all the exponential of the force law.
 """
 
 from collections.abc import Callable
@@ -15,14 +15,14 @@ from pam_ros.muscle import law
 from pam_ros.rig import layout as at
 from pam_ros.rig.joint import Joint
 
-# The Python source of the force law: the steps of a controller must not wait for a compiler.
+# The force law in plain Python: the steps of a controller must not wait for a compiler.
 _force_at, _slope_at, _damping = plain(law.force_at), plain(law.slope_at), plain(law.damping)
 _gain_at, _pressure_at = plain(law.gain_at), plain(law.pressure_at)
-PUSH = 1e6  # N: more than any muscle pushes; what slack leaves of it is the force of a slack one
+PUSH = 1e6  # N: more than any muscle pushes; the slack effect reduces it to a slack muscle's force
 
 
 class MuscleModel:
-    """One muscle of the nominal joint without memory: what holds at one instant.
+    """One muscle of the nominal joint without memory: its equations at one instant.
 
     s is the joint's coordinate. It includes the effects without memory: length offset, slack,
     damping that depends on pressure. Its numbers do not change.
@@ -76,8 +76,8 @@ class MuscleModel:
     def pull(self, p: float, s: float, v: float, inertia: float) -> tuple[float, float]:
         """Return the effort and the damping that it gives the joint, with *inertia*, at s and v.
 
-        These are ``arm force`` and ``damping_on_joint`` of the place at s. An observer asks for
-        both at new coordinates several times a step, at each of them once: no place is created.
+        These are ``arm force`` and ``damping_on_joint`` of the place at s. An observer needs both
+        at several new coordinates a step, at each of them once: so no place is created.
         """
         i, numbers = self._i, self._numbers
         a1, a2, a3, a4, a5, a6, l0, zeta, at_zero = self._constants
@@ -153,7 +153,7 @@ class MusclePlace:
         _, a2, _, _, _, a6 = self._muscle.a
         return _pressure_at(self._e, force, self.gain, a2, a6)
 
-    # As the joint feels it ---------------------------------------------------------------------
+    # On the coordinate of the joint ------------------------------------------------------------
 
     def damping_on_joint(self, p: float, v: float, inertia: float) -> float:
         """Return the damping that it gives the joint, which moves at v.
@@ -168,7 +168,7 @@ class MusclePlace:
         return arm * arm * c
 
     def stiffness_on_joint(self, p: float, arm_slope: float) -> float:
-        """Return the stiffness that it gives the joint, N/m or N m/rad.
+        """Return the stiffness that it gives the joint, in N/m or N m/rad.
 
         *arm_slope* is the derivative of the arm over the coordinate.
         """

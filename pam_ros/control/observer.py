@@ -17,11 +17,11 @@ SUBSTEP = 1e-3  # s, longest: the physics step at which the model is known to be
 class Observer:
     """Position, velocity and disturbance of the load, from measured positions.
 
-    In m, m/s and N, or rad, rad/s and N m. The disturbance is the upward force that the model
-    lacks. The poles are real: two at the *velocity* bandwidth, one at the *disturbance* bandwidth,
-    both in rad/s and free to change at any step. In a motion that the model does not predict, the
-    velocity lags by 2/velocity s, the disturbance by 1/disturbance + 2/velocity s. In a motion
-    that the model predicts there is no lag.
+    In m, m/s and N, or rad, rad/s and N m. The disturbance is the effort in the positive direction
+    that the model lacks. The poles are real: two at the *velocity* bandwidth, one at the
+    *disturbance* bandwidth, both in rad/s and free to change at any step. In a motion that the
+    model does not predict, the velocity lags by 2/velocity s, the disturbance by 1/disturbance +
+    2/velocity s. In a motion that the model predicts there is no lag.
     """
 
     def __init__(self, model: ControlModel) -> None:
@@ -52,7 +52,7 @@ class Observer:
         self.disturbance += l3 * surprise * self.model.inertia
 
     def predict(self, dt: float, pressures: Pressures, known: float = 0.0) -> None:
-        """Advance by *dt* s with chambers at *pressures* Pa and a *known* upward force in N."""
+        """Advance by *dt* s with chambers at *pressures* Pa and a *known* effort on the load."""
         pull, inertia = self.model.pull, self.model.inertia
         steps = max(ceil(dt / SUBSTEP - 1e-6), 1)
         h = dt / steps

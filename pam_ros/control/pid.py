@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""A PID law with the same interface, as a comparison; it is simple-pid's, with additions."""
+"""A PID law with the interface of the sliding-mode law, for comparison; it uses simple-pid."""
 
 from dataclasses import dataclass
 from importlib import import_module
@@ -94,10 +94,10 @@ class PidGains(JointSettings):
 class Pid:
     """PID on the error, added to the pressures that hold the load at the reference.
 
-    The error is filtered twice at the same bandwidth, since its derivative would be noise. The
-    static part comes from the same model as that of the sliding-mode law: without it no PID
-    follows a muscle's curve. For antagonistic muscles the output is added to one side and
-    subtracted from the other, and the stiffness is that of the static part.
+    The error is filtered twice at the same bandwidth, to keep noise out of its derivative. The
+    static part comes from the same model as that of the sliding-mode law: without it a PID cannot
+    follow the nonlinear curve of a muscle. For antagonistic muscles the output is added to one
+    side and subtracted from the other, and the stiffness is that of the static part.
     """
 
     def __init__(
@@ -169,7 +169,7 @@ class Pid:
     def start(self, position: float, pressures: Pressures | None = None) -> None:
         """Start again at rest at *position*, under commands of *pressures* Pa if they are known.
 
-        Raises ParameterError as :meth:`pam_ros.control.signals.PositionLaw.start` says.
+        Raises ParameterError as :meth:`pam_ros.control.signals.PositionLaw.start`.
         """
         start_arguments(position, pressures, len(self._paths))
         static, signs = self._static(position), self._signs(position)
@@ -206,7 +206,7 @@ class Pid:
         static, gains = self._static(reference.position), self.allocation.gains(reference.position)
         signs = self._signs(reference.position)
         if position is not None:
-            # The range that the limits leave to the output: simple-pid stops its integral there.
+            # The limits leave this range to the output: simple-pid stops its integral at its ends.
             self._pid.output_limits = self._room(reference.position, static, signs)
             self._correct(reference.position, position)
         output = self._output
@@ -266,8 +266,8 @@ class Pid:
     ) -> tuple[float, float]:
         """Return the least and the greatest output at which one of the pressures can still change.
 
-        If the static part has a muscle at a limit already, only the others count. A muscle
-        that is slack at the reference is at a limit.
+        If a muscle is at a limit with the static part alone, only the others count. A muscle that
+        is slack at the reference is at a limit.
         """
         low, high = float('inf'), -float('inf')
         for limiter, path, sign, pressure, least in zip(

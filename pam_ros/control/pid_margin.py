@@ -51,13 +51,13 @@ class MarginTuning:
     lag: float = number(0.06, 's', 'of the pressure, not configured: as of the defaults')
     delay: float = number(0.003, 's', 'of the loop: a sample and a half at 500 Hz')
     slowest: float = number(
-        0.03, 'rad/s', 'frequency: a tenth of 1/s, by which errors go at least'
+        0.03, 'rad/s', 'lowest frequency: far below 1/s, the slowest decay of an error'
     )
-    quickest: float = number(2e4, 'rad/s', 'frequency: the loop is nothing beyond its filter')
-    frequencies: int = number(160, '', 'spaced evenly by ratio: 1.087, finer than a peak of 2.0')
+    quickest: float = number(2e4, 'rad/s', 'highest frequency: far above the filter, L is about 0')
+    frequencies: int = number(160, '', 'at a constant ratio of 1.088, finer than a peak of 2.0')
     halvings: int = number(7, '', 'down to 1/128 of the gains')
-    steps: int = number(2, '', 'shares in a halving: at most 1.41 times the next')
-    at_once: int = number(10, '', 'shares that are evaluated together: speed alone')
+    steps: int = number(2, '', 'shares in a halving: each is 1.41 times the next')
+    at_once: int = number(10, '', 'shares that are evaluated together: affects only the speed')
 
 
 TUNING = MarginTuning()
@@ -77,7 +77,7 @@ def share(gains: Sequence[float], plant: Plant) -> Share | None:
     x, late = _frequencies()
     kp, ki, kd, a = gains
     load = plant.inertia * x * x + plant.damping * x + plant.stiffness
-    # Both are multiplied by x, against the pole at 0, and divided by the filter of the loop.
+    # Both are multiplied by x, to remove the pole at 0, and divided by the filter of the loop.
     opened = x * load * ((x + a) / a) ** 2
     delayed = plant.gain * np.exp(-t.delay * x)
     even, integral = (kp + kd * x) * x * delayed, ki * delayed
@@ -113,7 +113,7 @@ def _frequencies() -> tuple[Any, Any]:
 
 @cache
 def _candidates() -> Any:
-    """Return shares (n, 2): first those with most of the integral gain, then those of all."""
+    """Return shares (n, 2), the greatest integral gain first, then the greatest share of all."""
     t = TUNING
     powers = np.arange(t.halvings * t.steps + 1)
     of_all, of_integral = (a.ravel() for a in np.meshgrid(powers, powers, indexing='ij'))

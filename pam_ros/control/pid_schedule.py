@@ -18,7 +18,7 @@ from pam_ros.errors import ParameterError, RangeError
 class ScheduleTuning:
     """Where the shares are found; between these places they are interpolated."""
 
-    places: int = number(17, '', 'along the reach: the stiffness changes by at most 1.6 between')
+    places: int = number(17, '', 'along the reach: from one to the next k changes at most by 1.6')
 
 
 TUNING = ScheduleTuning()
@@ -94,7 +94,7 @@ class Schedule:
         return Share(*(a + part * (b - a) for a, b in zip(one, two, strict=True)))
 
     def _between(self, stiffness: float) -> tuple[int, int, float]:
-        """Return the levels around a *stiffness*, and its distance from the first."""
+        """Return the levels around a *stiffness*, and its share of the distance between them."""
         levels = self._levels
         for i in range(len(levels) - 1):
             if stiffness < levels[i + 1]:

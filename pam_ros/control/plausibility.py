@@ -8,9 +8,9 @@ more than the force of the muscles can have moved the nominal inertia:
 
     |s - s_last| <= v (t + J) + a t^2 / 2 + n
 
-t is the time between the two measurements, and v the highest speed measured lately: v allows a
+t is the time between the two measurements, and v the highest speed measured recently: v allows a
 load to stop at once or to bounce back, and covers the noise of the sensor. J allows for jitter of
-the stamps, a is the greatest acceleration and n an allowance of one two-hundredth of the travel.
+the stamps, a is the greatest acceleration and n an allowance of 0.5 % of the travel.
 A measured velocity is plausible up to v + a (t + J).
 """
 
@@ -26,17 +26,15 @@ from pam_ros.rig import statics
 # Contraction beyond the permitted range that a load may reach: overshoot, and an offset of the
 # zero position.
 BEYOND = 0.1
-# Times the nominal acceleration: the load may be half as heavy, or pushed as hard from outside.
+# Times the nominal acceleration: for a load half as heavy, or pushed as strongly from outside.
 LIGHTER = 2.0
 # Of the permitted travel, at any time: five times the noise of the sensors in use.
 ALLOWANCE = 0.005
-JITTER = 0.01  # s of a stamp: one time slice of a loaded computer
-LATELY = 0.05  # s in which a measured speed is forgotten to 1/e
+JITTER = 0.01  # s, of a stamp: one time slice of a loaded computer
+LATELY = 0.05  # s, in which the influence of a measured speed falls to 1/e
 SHORTEST = 1e-3  # s between two measurements: times of receipt may be closer together
-OVERPRESSURE = (
-    1.25  # times the highest permitted pressure: what valves let pass and sensors err by
-)
-PLACES = 41  # at which the force over the travel is looked up
+OVERPRESSURE = 1.25  # times the highest permitted pressure: overshoot of valves, sensor errors
+PLACES = 41  # at which the force over the travel is evaluated
 
 
 @dataclass(frozen=True)
@@ -96,14 +94,14 @@ def fault_of_pressure(gauge: float, ambient: float, highest: float) -> str:
     most = OVERPRESSURE * highest
     if -ambient <= gauge <= most:
         return ''
-    return f'{gauge + ambient:.6g} Pa, where 0 to {most + ambient:.6g} Pa absolute can be'
+    return f'{gauge + ambient:.6g} Pa, but only 0 to {most + ambient:.6g} Pa absolute is possible'
 
 
 class Plausibility:
     """Separates plausible measurements from those that are not, one after the other.
 
-    The first position after :meth:`forget` is only compared with the travel. If the second one
-    does not fit it, either of them may be false: the second one then counts as the first, and
+    The first position after :meth:`forget` is only compared with the travel. If the second one is
+    too far from it, either of them may be false: the second one then counts as the first, and
     :attr:`is_first` is true again, so that a caller can start again.
     """
 
@@ -138,8 +136,8 @@ class Plausibility:
         fastest = self._speed + a * (passed + JITTER)
         if velocity is not None and not abs(velocity) <= fastest:
             return (
-                f'velocity {velocity:.4g} {unit}/s, where the joint can have reached '
-                f'{fastest:.3g} {unit}/s'
+                f'velocity {velocity:.4g} {unit}/s, but the joint can have reached '
+                f'{fastest:.3g} {unit}/s at most'
             )
         if self._last is None:
             self._begin(position)
@@ -153,7 +151,7 @@ class Plausibility:
                 return ''
             return (
                 f'position {position:.4g} {unit}, which is {moved:.3g} {unit} from the one '
-                f'{passed:.3g} s before, where the joint can have moved {most:.3g} {unit}'
+                f'{passed:.3g} s before, but the joint can have moved {most:.3g} {unit} at most'
             )
         self._last, self._is_confirmed = position, True
         self._speed = max(speed, moved / passed)

@@ -27,7 +27,7 @@ class Chamber:
         self.pressure = 0.0
 
     def follow(self, inflow: float, dt: float) -> float:
-        """Advance by *dt* s with *inflow* Pa upstream; return the mean pressure meanwhile."""
+        """Advance by *dt* s with *inflow* Pa upstream; return the mean pressure in this time."""
         before = self.pressure
         tau = self.fill if inflow > before else self.vent
         left = exp(-dt / tau) if tau > 1e-6 else 0.0
@@ -89,9 +89,9 @@ class PressurePath:
         """Return the command in Pa that brings the chamber to *pressure*, which changes at *rate*.
 
         The predicted part of *pressure* has the known *rate* in Pa/s. It is commanded in advance
-        by the delay of the path: dead time and lag, the lag down to ``quickest``. The rest of a
-        longer lag is compensated by ``u = p + r (p - chamber)``, which closes a loop with that
-        time constant around the lag.
+        by the delay of the path: dead time and lag, of the lag at most ``quickest``. The rest of
+        a longer lag is compensated by ``u = p + r (p - chamber)``, r = lag / quickest - 1, which
+        closes a loop with the time constant ``quickest`` around the lag.
         """
         chamber = self.chamber
         fill, vent, quickest = chamber.fill, chamber.vent, self.quickest

@@ -34,7 +34,7 @@ class Terms:
     position, velocity
         estimated position and velocity, m and m/s
     error
-        reference less position, m
+        reference minus position, m
     surface
         sliding variable, m/s; 0 where the law has none
     equivalent, switching, observer, learned
@@ -98,7 +98,7 @@ def step_arguments(
 ) -> tuple[float | None, float | None]:
     """Return position and velocity for a law's step: None if they are not finite.
 
-    A failed sensor reads NaN, and a law that took it in would return NaN for ever. Raises
+    A failed sensor reads NaN, and a law that used it would return NaN from then on. Raises
     ParameterError for a time step that is not above 0, since laws divide by it, and for a
     reference or an age that is not finite, since these do not come from a sensor.
     """
@@ -152,7 +152,7 @@ def term_names(muscles: int) -> tuple[str, ...]:
     """
     if muscles == 1:
         return TERMS
-    # These two come last: plots that show terms by number expect the others at their places.
+    # These two come last, so that the others keep their indices: plots may use indices.
     last = ('learned', 'rejection')
     return (
         *(name for name in TERMS if name not in last),
@@ -187,7 +187,7 @@ class PositionLaw(Protocol):
     def start(self, position: float, pressures: Pressures | None = None) -> None:
         """Start again with the load at *position* m, under commands of *pressures* Pa if known.
 
-        Then the first commands are these pressures. Raises ParameterError for numbers that are
+        The commands continue from these pressures. Raises ParameterError for numbers that are
         not finite, and if the number of pressures is not that of the muscles.
         """
 

@@ -12,7 +12,7 @@ integral action (Utkin & Shi 1996: there is no reaching phase from a bumpless st
 
     sigma = e' + int (2 z w e' + w^2 e) dt,
 
-and the wanted effort is
+and the wanted effort, with the estimated disturbance d^, is
 
     tau = J r'' + G(r) + c r' + losses          equivalent control, model along the reference
         + (2 z w J - c) e' + (w^2 J - k) e      feedback of the equivalent control
@@ -20,10 +20,11 @@ and the wanted effort is
         - d^                                    disturbance observer
 
 so that sigma' = -K sat(sigma / Phi) + (d^ - d) / J, with the consequences in
-:class:`pam_ros.control.gains.Gains`. The pressures are the explicit inverse of the force law **at
-the reference**, not at the load (:mod:`.allocation`): tau(p, r) = tau(p, s) - k e. So the joint's
-own spring pulls the load to the reference, without noise and without lag, and -k e above accounts
-for it. w is the joint's own sqrt(k / J) unless the gains ask for more; then (w^2 J - k) e is 0.
+:class:`pam_ros.control.gains.Gains`. k is the stiffness of the joint, with that of gravity, and c
+its damping. The pressures are the explicit inverse of the force law **at the reference**, not at
+the load (:mod:`.allocation`): tau(p, r) - G(r) = tau(p, s) - G(s) - k e. So the joint's own spring
+pulls the load to the reference, without noise and without lag, and -k e above accounts for it. If
+the gains require no higher w, w is the joint's own sqrt(k / J), and (w^2 J - k) e is 0.
 Antagonistic muscles have the stiffness as a second set-point, which does not move the coordinate.
 
 While the reference rests, the bandwidths shrink as the goal is reached (:mod:`.rest.standstill`)
@@ -75,11 +76,11 @@ class LawTuning:
     quickest: float = number(
         2.0,
         '',
-        'times its bandwidth that the velocity estimate grows to: beyond that the noise of the '
-        'pressure grows and the sine of control does not fall',
+        'largest factor on the bandwidth of the velocity estimate: beyond it the noise of the '
+        'pressure grows and the error of the sine of control does not fall',
     )
     stuck_rate: float = number(
-        30.0, 'N/s', 'at most with which a contact is loaded: control, friction at rest'
+        30.0, 'N/s', 'largest rate at which a contact is loaded: control, friction at rest'
     )
 
 
@@ -95,7 +96,7 @@ class SlidingMode:
     ) -> None:
         """Take the nominal joint, at rest in the middle of its reach; see :meth:`start`.
 
-        Only those of the joint's effects are used that have no onset. Raises ParameterError for
+        Of the joint's effects, only those without an onset are used. Raises ParameterError for
         gains of the other kind of joint (``Gains.for_joint``).
         """
         gains = Gains.for_joint(joint) if gains is None else gains
@@ -223,8 +224,8 @@ class SlidingMode:
 
         *reference* is the desired position now. *position* is the newest measurement in m or
         rad, taken *age* s ago, None if there was none since the last call. *velocity*, measured
-        in m/s or rad/s, is used if the gains say so. For numbers that are not finite see
-        :meth:`pam_ros.control.signals.PositionLaw.update`.
+        in m/s or rad/s, is used with ``use_measured_velocity`` of the gains. For numbers that are
+        not finite see :meth:`pam_ros.control.signals.PositionLaw.update`.
         """
         position, velocity = step_arguments(dt, reference, position, velocity, age)
         chambers = self._go_on(dt)
@@ -382,11 +383,11 @@ class SlidingMode:
         return inertia * term
 
     def _integrate(self, dt: float, effort: float, cut: float) -> None:
-        """Integrate the surface, and watch how the load responds to the wanted *effort*."""
+        """Integrate the surface, and observe how the load responds to the wanted *effort*."""
         standstill, inertia = self._standstill, self.model.inertia
         spring = self._square * self._error
         if standstill.stiffness > 1.0 and self._rejection.level == 0.0:
-            # Load the contact of a sticking load faster, but not faster than can be observed.
+            # Load the contact of a stuck load faster, but not faster than can be observed.
             most = max(abs(spring), self._tuning.stuck_rate / (inertia * self._bandwidth))
             spring = min(max(spring * standstill.stiffness, -most), most)
         growth = (self._decay * self._error_rate + spring) * dt

@@ -4,8 +4,8 @@
 
 from collections.abc import Callable
 
-PLACES = 400  # that are tested: a range that is shorter than their distance may be missed
-HALVINGS = 20  # of the distance between two places, to find an end of the range in it
+PLACES = 400  # intervals between tested coordinates: a range shorter than one may be missed
+HALVINGS = 20  # of an interval, to find the end of the range in it
 
 
 def stretch(

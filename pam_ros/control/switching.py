@@ -17,9 +17,9 @@ class SuperTwisting:
 
         s' = -k1 sqrt|s| sign s + w + d,    w' = -k2 sign s
 
-    The root is that of s at the end of the step, and sign s is replaced by s where a whole step
-    of w would overshoot (after the implicit schemes of Brogliato, Polyakov & Efimov 2020). At
-    rest w is -d of the step before, and |s| is the change of d since then, times dt.
+    The root is taken of s at the end of the step, and sign s is replaced by s / (k2 dt^2) where
+    a whole step of w would overshoot (after the implicit schemes of Brogliato, Polyakov & Efimov
+    2020). At rest w is -d of the step before, and |s| is the change of d since then, times dt.
     """
 
     def __init__(self) -> None:
@@ -29,7 +29,7 @@ class SuperTwisting:
     def step(self, s: float, dt: float, k1: float, k2: float, cut: float = 0.0) -> float:
         """Return the term in m/s^2 that acts against *s* m/s for the next *dt* s.
 
-        *cut* is the part of the last wanted effort that the limits cut off: w does not add to it.
+        *cut* is the part of the last wanted effort that the limits cut off; w does not add to it.
         """
         first = dt * k1
         root = 0.5 * (sqrt(first * first + 4.0 * abs(s)) - first)
@@ -39,7 +39,7 @@ class SuperTwisting:
 
 
 class Surface:
-    """The sliding variable s = e' + z with its integral part z, and what drives it to zero.
+    """The sliding variable s = e' + z with its integral part z, and its switching terms.
 
     ``value`` is s of the last step, ``integral`` is z, which the law integrates; both in m/s, or
     in rad/s for a revolute joint.
@@ -76,8 +76,9 @@ class Surface:
     def integrate(self, growth: float, cut: float) -> None:
         """Add *growth* m/s to the integral part, unless a limit would cut its effect.
 
-        Anti-windup: at a limit of the pressures, which *cut* some of the wanted effort, and beyond
-        the boundary layer, whose term is at its own limit, it may only change away from the limit.
+        Anti-windup: if limits of pressure *cut* a part of the wanted effort, or outside of the
+        boundary layer, where the switching term is at its limit, it may only change away from the
+        limit.
         """
         if growth * cut <= 0.0 and growth * self._excess <= 0.0:
             self.integral += growth

@@ -3,11 +3,12 @@
 """Tuning numbers of the control laws: each with its unit and its source.
 
 They are fields of frozen dataclasses, one for each part. Lengths and forces are those along the
-line of a muscle, so that they are valid for every joint: on a revolute one, a length is divided by
-the muscles' arm and a force multiplied by it (:func:`scaled`).
+line of a muscle, so that they are valid for every joint: for a joint, a length is divided by the
+mean arm of its muscles, and a force is multiplied by the sum of their arms (:func:`scaled`).
 
-Names of sources: *noise* is the noise of 20 um of the position in the benchmarks; ``control`` and
-``pair_control`` are benchmarks (``make bench ARGS=control``), with the row that decided.
+Names of sources: *noise* is the noise of 20 um of the position in the benchmarks; *control*,
+*pair_control* and *disturbance* are benchmarks (``make bench ARGS=control``), mostly followed by
+the row of their tables that decided.
 """
 
 from dataclasses import dataclass, field, fields, replace
@@ -39,7 +40,7 @@ class Number:
 
 
 def number(value: Any, unit: str, source: str) -> Any:
-    """Return a dataclass field with this value; *source* says where it comes from."""
+    """Return a dataclass field with this value; *source* states its meaning and its origin."""
     return field(default=value, metadata={'number': Number(unit, source)})
 
 
@@ -51,7 +52,7 @@ def numbers_of(cls: type) -> dict[str, tuple[Any, Number]]:
 def scaled(tuning: T, length: float, force: float) -> T:
     """Return *tuning* with lengths and forces in the joint's own units.
 
-    *length* is the coordinate for a metre of muscle, *force* the effort of a newton.
+    *length* is the coordinate per metre of muscle, *force* the effort if each muscle pulls 1 N.
     """
     changes = {}
     for name, (_, about) in numbers_of(type(tuning)).items():

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The interface of an effect: parameters, hidden states, and equations at the places of action.
+"""The interface of an effect: parameters, hidden states, and equations where it acts.
 
 An effect is one file with one dataclass, an :class:`Effect`; ``effects/__init__.py`` lists it. Its
 fields are its parameters. Its equations are plain scalar functions, compiled into the stepping
@@ -97,7 +97,7 @@ ONSET = EffectParameter(
 class HiddenState:
     """One hidden state of an effect, in SI.
 
-    ``spread`` is a standard deviation: of its value when a recording or a run begins, relative to
+    ``spread`` is the standard deviation of its value at the beginning of a recording or run from
     the value after a long rest. 0 means that it is always known, such as the last position.
     """
 
@@ -114,10 +114,10 @@ class EffectEquations:
     controller inverts a lag of the pressure, ``lag(q, j)`` returns the time constants of filling
     and venting in s.
 
-    ``guess(t, p, kappa, residual)`` returns additional sets of starting values for a fit. They
-    depend on the recording, such as a frequency or the position of a stop, so that constants
-    cannot replace them. The arguments are arrays (n,) in SI: kappa is the measured contraction,
-    NaN if it is not known, and the residual is the measured minus the simulated position or force.
+    ``guess(t, p, kappa, residual)`` returns additional sets of starting values for a fit, for
+    parameters whose starting values depend on the recording, such as a frequency or the position
+    of a stop. The arguments are arrays (n,) in SI: kappa is the measured contraction, NaN if it is
+    not known, and the residual is the measured minus the simulated position or force.
     """
 
     delay: Callable[..., float] | None = None
@@ -138,13 +138,13 @@ class EffectEquations:
             given = getattr(self, item.name)
             if given is not None and not callable(given):
                 raise ParameterError(
-                    f'{item.name} = {given!r} is not a function: where a parameter of the effect '
-                    'has its name, give the function another one'
+                    f'{item.name} = {given!r} is not a function: if a parameter of the effect has '
+                    'this name, rename the function'
                 )
 
     @cached_property
     def places(self) -> tuple[str, ...]:
-        """The places where it acts; cached, since each start of a simulation asks for them."""
+        """The places where it acts; cached, since each start of a simulation reads them."""
         return tuple(place for place in PLACES if getattr(self, place))
 
     # For controllers, of effects without memory. The parameters are q[j], q[j + 1], ...
@@ -177,11 +177,11 @@ class Effect(ABC):
     the stepping kernel. ``q[j]``, ``q[j + 1]``, ... are its own parameters in the order of its
     fields. ``states`` are its hidden states. ``compensation`` is how a controller compensates it.
     With ``moves_by_itself`` a load never comes to rest in its example. ``signature`` describes its
-    residual, ``experiment`` describes what to record to distinguish it from its nearest
-    ``rivals``. ``contains`` names the effects that it becomes if one of its parameters vanishes.
-    For each of them it maps parameters of that effect to those of its own with the same values.
-    ``needs_muscle`` means that a load moved by another force cannot have it, since there is no
-    braid, no bladder and no chamber.
+    trace in the residual, ``experiment`` what to record to distinguish it from the effects with
+    which it is confused most easily, its ``rivals``. ``contains`` names the effects that are
+    special cases of it. For each of them it maps the parameters of that effect to those of its own
+    with the same values. ``needs_muscle`` means that a load moved by another force cannot have it,
+    since there is no braid, no bladder and no chamber.
 
     Raises ParameterError for a value out of range.
     """
@@ -213,17 +213,18 @@ class Effect(ABC):
     @classmethod
     @abstractmethod
     def example(cls) -> 'Effect':
-        """Return it clearly present, for a muscle of 20 mm and 400 mm and a load of some 10 kg.
+        """Return it clearly present, for a muscle of 20 mm x 400 mm and a load of some 10 kg.
 
         This load comes to rest, except with ``moves_by_itself``.
         """
 
     def __init_subclass__(cls) -> None:
         """Raise ParameterError for equations without a place, in two rows, or not invertible."""
-        cls.__repr__ = Effect.__repr__  # type: ignore[method-assign]  # the dataclass keeps it
+        # The dataclass of the subclass does not replace it then.
+        cls.__repr__ = Effect.__repr__  # type: ignore[method-assign]
         acts = cls.equations.places
         if not acts:
-            raise ParameterError(f'effect {cls.name} acts nowhere: give it a function')
+            raise ParameterError(f'effect {cls.name} has no function: give it at least one')
         if 0 < sum(place in ON_JOINT for place in acts) < len(acts):
             raise ParameterError(
                 f'effect {cls.name} acts in a muscle and on the joint ({", ".join(acts)}): '
@@ -236,7 +237,7 @@ class Effect(ABC):
         if cls.states and cls.equations.lag is None and cls.compensation in WITHOUT_MEMORY:
             raise ParameterError(
                 f'effect {cls.name} has hidden states, which {cls.compensation} does not '
-                'follow: give lag, or Compensation.FEED_FORWARD or FEEDBACK'
+                'compute: give lag, or Compensation.FEED_FORWARD or FEEDBACK'
             )
 
     def __repr__(self) -> str:
@@ -265,7 +266,9 @@ class Effect(ABC):
             if isinstance(about, EffectParameter) and about is not ONSET
         )
         if not any(p.strength for p in found):
-            raise ParameterError(f'effect {cls.name} has no strength parameter to be absent by')
+            raise ParameterError(
+                f'effect {cls.name} has no strength parameter, whose 0 means that it is absent'
+            )
         if not revolute:
             return found
         return tuple(p.for_revolute(EffectName(cls.name, p.name).flat) for p in found)

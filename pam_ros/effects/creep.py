@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Creep and stress relaxation: parts of the muscle's elasticity act with a slow delay."""
+"""Creep and stress relaxation: parts of the muscle's elasticity act with a slow lag."""
 
 from dataclasses import dataclass
 from math import expm1

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""End stops: the load meets a stiff pad at the top, and another at the bottom."""
+"""End stops: a stiff pad at the upper end of the travel, and another at the lower end."""
 
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass

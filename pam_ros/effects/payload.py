@@ -14,7 +14,8 @@ from pam_ros.errors import ParameterError
 
 MASS = 0
 
-# The nominal mass can be too large, but some mass remains: other effects rely on it.
+# The true mass can be below the nominal one. Down to this share other effects, which use the
+# nominal inertia, stay stable.
 LEAST_SHARE = 0.2
 
 

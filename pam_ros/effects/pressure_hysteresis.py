@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Rate-independent hysteresis of braid and bladder over pressure: Maxwell slip.
 
-Braid and bladder rub when the muscle is filled or vented, whether its ends move or not, and the
-loop is so many Pa wide (Hunt et al. 2017).
+Braid and bladder rub against each other when the muscle is filled or vented, even if its ends do
+not move. The width of the loop is a pressure (Hunt et al. 2017).
 """
 
 from dataclasses import dataclass

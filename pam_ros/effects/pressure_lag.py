@@ -20,7 +20,7 @@ P_REFERENCE = 3e5  # Pa, at which the time constants hold for any choking
 
 @scalar
 def conductance(upstream: float, downstream: float) -> float:
-    """Return the flow from *upstream* to *downstream* (Pa, absolute); a choked one is *upstream*.
+    """Return the flow from *upstream* to *downstream*, Pa absolute; if choked, it is *upstream*.
 
     ISO 6358: an ellipse between the critical ratio and equal pressures.
     """

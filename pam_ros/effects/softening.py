@@ -10,7 +10,7 @@ from pam_ros.effects.base import Compensation, Effect, EffectEquations, HiddenSt
 from pam_ros.effects.parameter import effect_parameter, start_from, strength
 
 LIMIT, PER_PRESSURE, PER_CONTRACTION, PER_SECOND = range(4)
-# Hidden states; pressure and contraction with a play that suppresses noise.
+# Hidden states; pressure and contraction follow with a play (backlash) that suppresses noise.
 DAMAGE, PRESSURE, CONTRACTION = range(3)
 
 # Changes within +- these bands are noise of a sensor and not part of a cycle.

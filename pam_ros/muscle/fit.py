@@ -29,7 +29,7 @@ from pam_ros.muscle.muscle import Muscle
 
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
-# -a3 times the largest contraction of the map, stretched or shortened: published muscles have 8.
+# -a3 times the largest absolute contraction of the map; with published muscles it is 8.
 A3_RANGE = (0.2, 100.0)
 
 
@@ -169,9 +169,9 @@ class _Search:
         best = int(np.argmin(costs))
         if best in (0, len(trials) - 1):
             zeros = int(np.count_nonzero(self.force[~self.slack] == 0.0))
-            hint = f' ({zeros} readings of 0 N: is it slack there? Then say slack_at=0)'
+            hint = f' ({zeros} readings of 0 N: if the muscle is slack there, give slack_at=0)'
             raise ParameterError(
-                'the map does not determine a3: it shows no bend over contraction that the '
+                'the map does not determine a3: its curve over contraction shows no bend that the '
                 'exponential of the force law could explain; give more contractions'
                 + (hint if zeros > 1 else '')
             )

@@ -23,11 +23,11 @@ FAR_OFF = 20.0  # factor above or below the rated force at which the constants a
 class Muscle:
     """A fluidic muscle after Sárosi (2015).
 
-    Fields are given by the user, constants in the units of their source. Methods are SI: gauge
-    Pa, contraction as a fraction of l0, N, N/m; arrays of finite numbers broadcast, and anything
-    else raises ParameterError. Raises ParameterError if the constants are not valid for a muscle:
-    stiffness or pressure gain not positive somewhere in the working range (p_min..p_max,
-    kappa_min..kappa_max), or a force far from the rated one.
+    Fields are given by the user, constants in the units of their source. Methods use SI units:
+    gauge Pa, contraction as a fraction of l0, N, N/m; arrays of finite numbers broadcast, and
+    anything else raises ParameterError. The constructor raises ParameterError if the constants are
+    not valid for a muscle: stiffness or pressure gain not positive somewhere in the working range
+    (p_min..p_max, kappa_min..kappa_max), or a force far from the rated one.
 
     With a1 = a2 = a4 = 0 this is not a muscle but a force source a5 p + a6 that does not depend on
     the position: a drive whose input replaces the pressure, in its own unit.
@@ -77,7 +77,7 @@ class Muscle:
         if self.is_load_only:
             if self.zeta != 0.0:
                 raise ParameterError(
-                    f'zeta = {self.zeta:g} has no spring to refer to: a1, a2 and a4 are 0, so '
+                    f'zeta = {self.zeta:g} needs a muscle with stiffness: a1, a2 and a4 are 0, so '
                     'the force does not depend on contraction; give zeta 0'
                 )
             return
@@ -89,7 +89,8 @@ class Muscle:
             kappa = self._extremes_of_gain()
             self._refuse('pressure gain dF/dp', self.gain(kappa), 'N/Pa', 0.0 * kappa, kappa)
             strongest = float(self.force(self.p_max, 0.0))
-        # A wrong unit of pressure changes no sign, but the force by a factor of 100 or more.
+        # A wrong unit of pressure changes no sign, but it changes the force by a factor of 100 or
+        # more.
         if not self.force_max / FAR_OFF < strongest < self.force_max * FAR_OFF:
             raise ParameterError(
                 f'the constants a1..a6 give {strongest:.4g} N at p_max = {self.p_max / 1e3:g} kPa '
@@ -108,7 +109,7 @@ class Muscle:
         worst = np.unravel_index(np.argmin(values), values.shape)
         if not (values[worst] > 0.0 and np.all(np.isfinite(values))):
             raise ParameterError(
-                f'the constants a1..a6 make no working muscle: {what} = {values[worst]:.4g} '
+                f'the constants a1..a6 do not describe a muscle: {what} = {values[worst]:.4g} '
                 f'{unit} at {p[worst] / 1e3:g} kPa and contraction {kappa[worst]:g}; it must be '
                 'positive for p_min..p_max and kappa_min..kappa_max (are the units right?)'
             )
@@ -173,8 +174,8 @@ class Muscle:
         """Return the contraction at which (1) holds *load* N at *p* Pa.
 
         The search covers the branch of the law with positive stiffness, from kappa_min - 0.1 to
-        kappa_max + 0.25, at most 0.95: a light load rests beyond the rated contraction. Raises
-        RangeError if there is no such contraction.
+        kappa_max + 0.25, at most 0.95, since a light load rests beyond the rated contraction.
+        Raises RangeError if there is no such contraction.
         """
         p, load = number('p', p), number('load', load)
         low, high = self.kappa_min - 0.1, min(self.kappa_max + 0.25, 0.95)

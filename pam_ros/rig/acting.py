@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The times at which commands act on the muscles of a joint: stamps plus delays of the effects."""
+"""The times at which commands act in the muscles of a joint: stamps plus delays of the effects."""
 
 from collections.abc import Sequence
 

@@ -27,7 +27,7 @@ Function = Callable[..., Any]
 Offsets = tuple[tuple[type[Effect], int, int], ...]
 # Inner templates in the order in which they call each other, then the loops, which are cached.
 _INNER = (
-    'felt',
+    'effective_contraction',
     'share',
     'pull',
     'coefficient',

@@ -41,7 +41,7 @@ def co_contraction_pressures(
     if not low * (1.0 - 1e-9) <= stiffness <= high * (1.0 + 1e-9):
         raise RangeError(
             f'a stiffness of {stiffness:.6g} {geometry.effort_unit}/{geometry.unit} at '
-            f'{s:.4g} {geometry.unit} is out of reach: {low:.6g} to {high:.6g} can be had there'
+            f'{s:.4g} {geometry.unit} is out of reach: {low:.6g} to {high:.6g} is possible there'
         )
     tau = float(statics.weight(joint, s)) if effort is None else effort
     return pair.pressures(_line(joint, 0, s), _line(joint, 1, s), tau, stiffness)
@@ -53,9 +53,9 @@ def joint_stiffness_range(
     """Return the least and the greatest stiffness with which two muscles give *effort* at s.
 
     The default effort holds the load there. Within the range no muscle pushes (its force is at
-    least 0), and the pressures are within p_min and p_max. Raises RangeError if there is no such
-    pair of pressures, for two muscles that pull in the same direction with the same gains, whose
-    effort determines their stiffness, and if the joint does not have two muscles.
+    least 0), and the pressures are within p_min and p_max. Raises RangeError in three cases: there
+    is no such pair of pressures; the effort determines the stiffness, as for two equal muscles in
+    parallel; the joint does not have two muscles.
     """
     instance('joint', joint, Joint, 'a Joint')
     number('s', s)
@@ -70,13 +70,13 @@ def joint_stiffness_range(
     geometry = joint.transmission.equations
     unit = f'{tau:.4g} {geometry.effort_unit} at {s:.4g} {geometry.unit}'
     if pair.is_settled(one, two):
-        raise RangeError(f'the muscles have one stiffness for {unit}: there is none to choose')
+        raise RangeError(f'an effort of {unit} determines the stiffness: it cannot be chosen')
     within = _limits(joint, 0, one), _limits(joint, 1, two)
     low, high = pair.piece(one, two, tau, within)
     if low > high:
         raise RangeError(
             f'an effort of {unit} is out of reach: there are no pressures within p_min and '
-            'p_max that give it and leave no muscle pushing'
+            'p_max that give it without a muscle that pushes'
         )
     k1, k2 = sorted(pair.stiffness_at(one, two, tau, p) for p in (low, high))
     return k1, k2

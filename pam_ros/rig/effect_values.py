@@ -13,7 +13,7 @@ from pam_ros.errors import ParameterError
 
 
 def checked_effects(effects: Sequence[Effect]) -> tuple[Effect, ...]:
-    """Return *effects* as a tuple; raises ParameterError for other types and for two of a kind."""
+    """Return *effects* as a tuple; raises ParameterError for other types and duplicates."""
     found = sequence('effects', effects, Effect, 'an effect, such as PressureLag(fill=0.1)')
     for i, effect in enumerate(found):
         if any(type(effect) is type(other) for other in found[:i]):

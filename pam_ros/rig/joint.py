@@ -38,7 +38,7 @@ class Actuator:
     contraction: float = 0.0
 
     def __post_init__(self) -> None:
-        """Check what was given; the joint checks which effects there are."""
+        """Check the types; the joint checks whether the effects are allowed here."""
         instance('muscle', self.muscle, Muscle, 'a Muscle')
         object.__setattr__(self, 'effects', checked_effects(self.effects))
         number('contraction', self.contraction)
@@ -51,7 +51,7 @@ class Joint:
     ``actuators`` are the muscles in order. ``transmission`` connects them to the coordinate.
     ``load`` is what they move: a ``Mass`` by a ``Straight`` transmission, an ``Arm`` by a
     ``Pulley``, a ``Lever`` or a custom one. ``effects`` are those on the joint, such as friction,
-    in the joint's units. ``library`` are the effects that the kernel knows.
+    in the joint's units. ``library`` are the effects for which the kernel has places.
     :func:`pam_ros.single_muscle_joint` creates the paper's rig, one muscle on a mass.
 
     An effect with an ``onset`` in s, ``Leak(rate=0.1, onset=20.0)``, begins to act at this time
@@ -76,8 +76,8 @@ class Joint:
             raise ParameterError('a joint needs a muscle: actuators is empty')
         if self.load.equations.revolute is not self.transmission.equations.revolute:
             raise ParameterError(
-                f'{type(self.transmission).__name__} moves no {type(self.load).__name__}: a load '
-                'that slides needs a transmission in m, one that turns one in rad'
+                f'{type(self.transmission).__name__} cannot move {type(self.load).__name__}: a '
+                'prismatic load needs a transmission in m, a revolute load one in rad'
             )
         for effect in self.effects:
             self._check_place(effect, on_joint=True)
@@ -127,14 +127,14 @@ class Joint:
             if muscle.is_load_only:
                 raise ParameterError(
                     f'muscle {i + 1} of this joint has no stiffness: a1, a2 and a4 are 0, which '
-                    'is for one muscle on a mass'
+                    'is only allowed for one muscle on a mass'
                 )
         if not statics.is_direct(self):
             low, high = statics.span(self)
             if low >= high:
                 raise ParameterError(
-                    'the muscles of this joint are never within kappa_min and kappa_max '
-                    'together: correct contraction_1, contraction_2 or the lengths l0'
+                    'the muscles of this joint are never within kappa_min and kappa_max at the '
+                    'same time: correct contraction_1, contraction_2 or the lengths l0'
                 )
         try:
             for p in itertools.product(*((m.p_min, m.p_max) for m in self.muscles)):
@@ -247,8 +247,8 @@ class Joint:
     def active(self) -> tuple[type[Effect], ...]:
         """The effects that the kernel computes: the whole library if one is present, else none.
 
-        So each kind of joint has two machine codes, without effects and with all effects, and not
-        one for each subset.
+        So only two kernels are compiled for each kind of joint, without effects and with all
+        effects, and not one for each subset.
         """
         return self.library if any(self.present) else ()
 

@@ -145,7 +145,7 @@ def fall_of(s: float, m: float, inertia: float, q: Row, j: int) -> float:
     return acceleration
 
 
-def felt(s: float, i: int, q: Row) -> float:
+def effective_contraction(s: float, i: int, q: Row) -> float:
     """Return the effective contraction of muscle i at the coordinate s."""
     y = q[MUSCLE + i, AT_ZERO] + travel_of(s, i, q[JOINT], TRANSMISSION)
     kappa: float = contraction_chain(y * (1.0 / q[MUSCLE + i, L0]), q[MUSCLE + i])
@@ -194,7 +194,7 @@ def net_force(
     r = MUSCLE + i
     arm = arm_of(s, i, q[JOINT], TRANSMISSION)
     w = arm * v
-    kappa = felt(s, i, q)
+    kappa = effective_contraction(s, i, q)
     e = exp(q[r, A3] * kappa)
     force = pull(kappa, e, w, p, t, h, x[r], xn[r], q[r])
     return force - coefficient(kappa, e, w, p, share(arm, inertia), q[r]) * w
@@ -343,7 +343,7 @@ def outputs(x: Row, xn: Row, q: Row, t: float, out: Row, joint_out: Row) -> None
             xn[a, r, WIDTH + START] = p
             arm = arm_of(s, i, q[a, JOINT], TRANSMISSION)
             w = arm * v
-            kappa = felt(s, i, q[a])
+            kappa = effective_contraction(s, i, q[a])
             e = exp(q[a, r, A3] * kappa)
             force = pull(kappa, e, w, p, t, 0.0, x[a, r], xn[a, r], q[a, r])
             slope = slope_at(e, p, q[a, r, A1], q[a, r, A2], q[a, r, A3], q[a, r, A4])

@@ -40,7 +40,7 @@ class LoadEquations:
 
 
 class Load(ABC):
-    """The parameters of a load: its mass in kg, and what else its equations need."""
+    """The parameters of a load: its mass in kg, and the other numbers of its equations."""
 
     equations: ClassVar[LoadEquations]
     mass: float

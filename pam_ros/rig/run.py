@@ -162,6 +162,6 @@ def _warn_low(name: str, pressure: Array, joint: Joint) -> None:
 def _rate(t: Array, position: Array) -> Array:
     """Return the gradient of the *position* (n,) over the stamps t."""
     if t.size < 2:
-        refuse_shape('t', t, 'at least two stamps, or the velocity at the one')
+        refuse_shape('t', t, 'at least two stamps, or one stamp and the velocity')
     rate: Array = np.gradient(position, t)
     return rate

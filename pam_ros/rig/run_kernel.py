@@ -22,7 +22,7 @@ from pam_ros.rig.kernel import (
     coefficient,
     delay_chain,
     drag_chain,
-    felt,
+    effective_contraction,
     inertia_of,
     keep_memories,
     mass_chain,
@@ -146,7 +146,7 @@ def simulate_held(
                     p_in = p[late, i] + gone * (p[late + 1, i] - p[late, i])
                 here, speed = s[last] + part * (s[n] - s[last]), v[last] + part * (v[n] - v[last])
                 x[r, P] = pressure_chain(p_in, now, h, x[r], xn[r], q[r])
-                kappa = felt(here, i, q)
+                kappa = effective_contraction(here, i, q)
                 e = exp(q[r, A3] * kappa)
                 w = arm_of(here, i, q[JOINT], TRANSMISSION) * speed
                 force = pull(kappa, e, w, x[r, P], now, h, x[r], xn[r], q[r])
@@ -160,7 +160,7 @@ def simulate_held(
                         x[JOINT, c] = xn[JOINT, c]
             arm = arm_of(s[n], i, q[JOINT], TRANSMISSION)
             w = arm * v[n]
-            kappa = felt(s[n], i, q)
+            kappa = effective_contraction(s[n], i, q)
             e = exp(q[r, A3] * kappa)
             c_end = coefficient(kappa, e, w, x[r, P], share(arm, inertia), q[r])
             out[n, RUN_P + 2 * i] = x[r, P]

@@ -50,7 +50,7 @@ def start_muscle(
     """
     row, own = at.MUSCLE + i, q[at.MUSCLE + i]
     y = position(layout, q, x, i)
-    kappa = felt_contraction(layout, q, i, y)
+    kappa = effective_contraction(layout, q, i, y)
     for effect in effects:
         if effect.acts_on_joint():
             continue
@@ -97,13 +97,13 @@ def begin_effects(
     for i, effects in enumerate(in_muscles):
         row, own = at.MUSCLE + i, q[at.MUSCLE + i]
         y = position(layout, q, x, i)
-        kappa = felt_contraction(layout, q, i, y)
+        kappa = effective_contraction(layout, q, i, y)
         for effect in effects:
             _rest(layout, effect, x[row], own, float(x[row, at.P]), kappa, y)
     start_joint(layout, q, x, on_joint)
 
 
-def felt_contraction(layout: Layout, q: Array, i: int, y: float) -> float:
+def effective_contraction(layout: Layout, q: Array, i: int, y: float) -> float:
     """Return the effective contraction of muscle i with its end at y m."""
     own = q[at.MUSCLE + i]
     kappa = y / float(own[at.L0])

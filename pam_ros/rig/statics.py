@@ -87,8 +87,8 @@ def pull(joint: Mechanism, p: ArrayLike, s: ArrayLike) -> Any:
 def stiffness(joint: Mechanism, p: ArrayLike, s: ArrayLike) -> Any:
     """Return the stiffness K of the joint by its muscles; *s* may be an array.
 
-    Two muscles set it by co-contraction. The sum of this and the :func:`weight_stiffness` returns
-    the joint to its equilibrium.
+    With two muscles it can be set by co-contraction. The sum of this and :func:`weight_stiffness`
+    returns the joint to its equilibrium.
     """
     total: Any = 0
     for i, pressure in enumerate(each(joint, p)):
@@ -174,7 +174,7 @@ def equilibrium(joint: Mechanism, p: ArrayLike) -> float:
         pressures = ' and '.join(f'{pressure / 1e3:g}' for pressure in each(joint, p))
         geometry = joint.transmission.equations
         raise RangeError(
-            f'no equilibrium: with {pressures} kPa the effort left over is {net[0]:.4g} '
+            f'no equilibrium: with {pressures} kPa the resulting effort is {net[0]:.4g} '
             f'{geometry.effort_unit} at {s[0]:.4g} {geometry.unit} and {net[-1]:.4g} at '
             f'{s[-1]:.4g}'
         )
@@ -194,7 +194,7 @@ def equilibrium(joint: Mechanism, p: ArrayLike) -> float:
 
 
 def is_direct(joint: Mechanism) -> bool:
-    """Return whether the coordinate is the contraction of one muscle, in m."""
+    """Return whether the coordinate is the shortening of one muscle from its length at rest."""
     return isinstance(joint.transmission, Straight) and joint.at_zero == (0.0,)
 
 

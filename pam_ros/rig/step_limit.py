@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The longest step for a joint, from how far it can swing and how stiff its muscles become."""
+"""The longest step for a joint, from the range of its motion and the stiffness of its muscles."""
 
 import itertools
 import math
@@ -130,7 +130,7 @@ def _deepest(muscle: Muscle, weight: float) -> float:
 
 
 def _stiffest(joint: Joint) -> float:
-    """Return the largest stiffness within the joint's travel and where the joint swings to."""
+    """Return the largest stiffness within the joint's travel and the range that it swings to."""
     s = np.linspace(*statics.span(joint, BELOW, ABOVE), POINTS)
     far = np.zeros(POINTS, dtype=bool)
     k = np.zeros(POINTS)

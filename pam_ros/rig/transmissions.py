@@ -76,7 +76,7 @@ class Transmission:
 # Straight --------------------------------------------------------------------------------------
 
 
-def _way(s: float, i: int, q: Row, j: int) -> float:
+def _same(s: float, i: int, q: Row, j: int) -> float:
     """Return s: the load moves with the muscles' ends."""
     return s
 
@@ -101,7 +101,7 @@ class Straight(Transmission):
     """The muscles' ends are fixed to the load and all move with it."""
 
     equations: ClassVar = TransmissionEquations(
-        'straight', False, 0, travel=_way, arm=_one, arm_slope=_none, coordinate=_back
+        'straight', False, 0, travel=_same, arm=_one, arm_slope=_none, coordinate=_back
     )
 
 

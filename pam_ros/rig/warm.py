@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Compile the kernels and keep them on disk, so that nodes start quickly: run it at set-up."""
+"""Compile the kernels and keep them on disk, so that nodes start quickly; run during set-up."""
 
 import logging
 import time

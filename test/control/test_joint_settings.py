@@ -39,8 +39,8 @@ def test_values_are_checked_in_the_units_of_the_joint():
         Shape.for_joint(single_muscle_joint(), max_velocity=50.0)
 
 
-SLIDES = 'the joint slides .m, N. and {} has the units of one that turns .rad, N m.'
-TURNS = 'the joint turns .rad, N m. and {} has the units of one that slides .m, N.'
+SLIDES = 'the joint is prismatic .m, N. and {} has the units of a revolute one .rad, N m.'
+TURNS = 'the joint is revolute .rad, N m. and {} has the units of a prismatic one .m, N.'
 
 
 @pytest.mark.parametrize(

@@ -83,8 +83,8 @@ def test_a_jump_is_true_as_far_as_the_joint_can_have_moved():
     gate.fault_of(0.02, 0.05)
     fault = gate.fault_of(0.02, 0.0711)
     assert fault == (
-        'position 0.0711 m, which is 0.0211 m from the one 0.02 s before, where the joint can '
-        'have moved 0.021 m'
+        'position 0.0711 m, which is 0.0211 m from the one 0.02 s before, but the joint can '
+        'have moved 0.021 m at most'
     )
     assert gate.fault_of(0.02, 0.0709) == ''
     # It may stop at once, or go on at 1.045 m/s.
@@ -121,7 +121,7 @@ def test_a_measured_velocity_is_held_against_what_can_have_been_reached():
     gate.fault_of(0.002, 0.05, 0.0)
     gate.fault_of(0.002, 0.05, 0.0)
     assert gate.fault_of(0.002, 0.05, 1.3) == (
-        'velocity 1.3 m/s, where the joint can have reached 1.2 m/s'
+        'velocity 1.3 m/s, but the joint can have reached 1.2 m/s at most'
     )
     assert 'velocity nan' in gate.fault_of(0.002, 0.05, math.nan)
     assert gate.fault_of(0.002, 0.05, -1.1) == ''
@@ -149,7 +149,7 @@ def test_no_chamber_holds_less_than_a_vacuum_or_much_more_than_is_permitted(gaug
     fault = fault_of_pressure(gauge, 100e3, 600e3)
     assert (fault == '') == is_true
     if not is_true:
-        assert fault.endswith(' Pa, where 0 to 850000 Pa absolute can be')
+        assert fault.endswith(' Pa, but only 0 to 850000 Pa absolute is possible')
 
 
 # Real motions ------------------------------------------------------------------------------------

@@ -67,7 +67,7 @@ def test_it_is_present_by_its_strengths():
 @pytest.mark.parametrize(
     ('given', 'sentence'),
     [
-        ({}, 'effect made acts nowhere: give it a function'),
+        ({}, 'effect made has no function: give it at least one'),
         (
             {'force': anywhere, 'outside': anywhere},
             'effect made acts in a muscle and on the joint (force, outside): make two',
@@ -75,9 +75,9 @@ def test_it_is_present_by_its_strengths():
         ({'drag': anywhere}, 'effect made has drag without outside'),
         (
             {'pressure': anywhere, 'treated': Compensation.PATH, 'has': (HiddenState('p', 'Pa'),)},
-            'effect made has hidden states, which Compensation.PATH does not follow: give lag',
+            'effect made has hidden states, which Compensation.PATH does not compute: give lag',
         ),
-        ({'mass': 0.0}, 'mass = 0.0 is not a function: where a parameter of the effect has'),
+        ({'mass': 0.0}, 'mass = 0.0 is not a function: if a parameter of the effect has'),
     ],
 )
 def test_a_class_that_could_never_act_or_be_inverted_is_refused(given, sentence):
@@ -106,7 +106,7 @@ def test_a_library_holds_classes():
 
 
 def test_a_parameter_with_the_name_of_a_place_hides_no_function():
-    with pytest.raises(ParameterError, match='is not a function: where a parameter'):
+    with pytest.raises(ParameterError, match='is not a function: if a parameter'):
 
         class Hidden(effect_with(outside=anywhere)):
             pressure: float = strength('hides the function', high=1.0, scale=0.1)

@@ -180,7 +180,7 @@ REFUSED = [
     ((P, KAPPA, 500.0 - 10.0 * KAPPA), {}, 'the map does not determine'),
     ((0.0 * P + 3.0, KAPPA, law(3.0, KAPPA, *TRUE)), {}, 'the map does not determine the six con'),
     ((P[:2], KAPPA[:2], F[:2]), {}, 'the map does not determine'),
-    (SHORTENED, {}, '(63 readings of 0 N: is it slack there? Then say slack_at=0)'),
+    (SHORTENED, {}, '(63 readings of 0 N: if the muscle is slack there, give slack_at=0)'),
 ]
 
 

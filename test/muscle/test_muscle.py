@@ -101,7 +101,7 @@ REFUSED = [
     ({'a6': float('inf')}, '^a6 = inf is not allowed'),
     ({'p_min': 1.0}, '^p_min = 1.0 is not allowed: give -101325 to 0 Pa$'),
     ({'pressure_unit': 'psi'}, "^pressure_unit = 'psi' is not allowed: give one of Pa, kPa, bar$"),
-    (LOAD_ONLY | {'zeta': 0.15}, r'^zeta = 0.15 has no spring to refer to: a1, a2 and a4 are 0'),
+    (LOAD_ONLY | {'zeta': 0.15}, r'^zeta = 0.15 needs a muscle with stiffness: a1, a2'),
 ]
 
 
@@ -131,7 +131,7 @@ def test_the_check_finds_what_a_fine_grid_finds(a1, a2, a3, a4, a5):
     if works and 100.0 < a1 * 6.0 + a2 + a5 * 6.0 - 263.69185 < 4e4:
         Muscle(**constants, force_max=2000.0)
     elif not works:
-        with pytest.raises(ParameterError, match='make no working muscle'):
+        with pytest.raises(ParameterError, match='do not describe a muscle'):
             Muscle(**constants, force_max=2000.0)
 
 

@@ -97,9 +97,9 @@ REFUSED = [
     ({'actuators': ()}, 'a joint needs a muscle: actuators is empty'),
     (
         {'load': Mass()},
-        'Pulley moves no Mass: a load that slides needs a transmission in m, one that turns one',
+        'Pulley cannot move Mass: a prismatic load needs a transmission in m, a revolute load',
     ),
-    ({'transmission': Straight()}, 'Straight moves no Arm: a load that slides needs'),
+    ({'transmission': Straight()}, 'Straight cannot move Arm: a prismatic load needs'),
     (
         {'effects': RUB, 'library': (Payload,)},
         'effects.coulomb_friction is not known: give one of payload',
@@ -119,8 +119,8 @@ REFUSED = [
     ),
     (
         {'actuators': (Actuator(contraction=0.6), Actuator(contraction=0.1))},
-        'the muscles of this joint are never within kappa_min and kappa_max together: '
-        'correct contraction_1, contraction_2 or the lengths l0',
+        'the muscles of this joint are never within kappa_min and kappa_max at the same '
+        'time: correct contraction_1, contraction_2 or the lengths l0',
     ),
     (
         {'load': Mass(mass=9000.0), 'transmission': Straight()},

@@ -85,19 +85,19 @@ def test_what_is_out_of_reach_is_refused_with_a_sentence():
         co_contraction_pressures(joint, 0.3, 500.0)
     low, high = joint_stiffness_range(joint, 0.3)
     assert str(error.value) == (
-        f'a stiffness of 500 N m/rad at 0.3 rad is out of reach: {low:.6g} to {high:.6g} can be '
-        'had there'
+        f'a stiffness of 500 N m/rad at 0.3 rad is out of reach: {low:.6g} to {high:.6g} is '
+        'possible there'
     )
     with pytest.raises(RangeError) as error:
         co_contraction_pressures(joint, 0.3, 20.0, 100.0)
     assert str(error.value) == (
         'an effort of 100 N m at 0.3 rad is out of reach: there are no pressures within p_min '
-        'and p_max that give it and leave no muscle pushing'
+        'and p_max that give it without a muscle that pushes'
     )
     with pytest.raises(RangeError) as error:
         joint_stiffness_range(parallel(60.0, BOTH_LONG), 0.02)
     assert str(error.value) == (
-        'the muscles have one stiffness for 588.4 N at 0.02 m: there is none to choose'
+        'an effort of 588.4 N at 0.02 m determines the stiffness: it cannot be chosen'
     )
     with pytest.raises(RangeError) as error:
         joint_stiffness_range(single_muscle_joint(), 0.02)

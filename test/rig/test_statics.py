@@ -132,7 +132,7 @@ def test_a_joint_without_an_equilibrium_reports_the_remaining_force():
             self.transmission, self.load = joint.transmission, joint.load
             self.moved_mass, self.inertia = 1000.0 * joint.moved_mass, 1000.0 * joint.inertia
 
-    with pytest.raises(RangeError, match=r'no equilibrium: with 0 and 0 kPa the effort left over'):
+    with pytest.raises(RangeError, match=r'no equilibrium: with 0 and 0 kPa the resulting effort'):
         statics.equilibrium(Heavy(parallel(50.0)), 0.0)
 
 

@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Forces of a muscle and its guide that the model may lack, as features of the motion.
 
-Friction and hysteresis are a sum of play elements (Maxwell slip; generalised
-Prandtl-Ishlinskii). Each is a spring that slips at its reach. Together they form any hysteresis
-loop that starts again at each reversal. The first element, with a reach of a few micrometres, is
-dry friction; Stribeck's additional friction at rest is added to it. An error of the nominal
-stiffness is a force over position.
+Friction and hysteresis are a sum of elastic elements that slip (Maxwell slip, a generalised
+Prandtl-Ishlinskii model): each is a spring that slips when its deflection exceeds its reach.
+Together they approximate any hysteresis loop that starts again at each reversal. The first
+element, with a reach of 50 um, is dry friction; Stribeck's additional friction at rest is added
+to it. An error of the nominal stiffness is a force over position.
 """
 
 from dataclasses import dataclass
@@ -14,7 +14,7 @@ from math import exp
 
 from pam_ros.control.tuning import number
 
-COUNT = 8  # play elements and the three others
+COUNT = 8  # elements that slip, and the three others
 STRIBECK, STRETCH, CONSTANT = COUNT - 3, COUNT - 2, COUNT - 1  # indices of these three
 
 
@@ -25,14 +25,14 @@ class FeatureTuning:
     reaches: tuple[float, ...] = number(
         (50e-6, 250e-6, 0.8e-3, 2e-3, 5e-3),
         'm',
-        'ways until the play elements slip: from 2.5 times the noise to half of the largest swing '
-        'of control, in steps of a factor 2.5 to 5',
+        'displacements at which the elements slip: from 2.5 times the noise to half of the '
+        'largest swing of control, in steps of a factor 2.5 to 5',
     )
     stribeck_speed: float = number(
         0.01, 'm/s', 'default of effects.coulomb_friction.stribeck_speed'
     )
     stroke: float = number(
-        0.01, 'm', 'motion that a difference of stiffness is counted over: the swing of control'
+        0.01, 'm', 'displacement over which an error of stiffness counts: the swing of control'
     )
     spreads: tuple[float, ...] = number(
         (20.0, 20.0, 20.0, 20.0, 20.0, 10.0, 15.0, 100.0),
@@ -43,7 +43,7 @@ class FeatureTuning:
     lows: tuple[float, ...] = number(
         (0.0, 0.0, 0.0, 0.0, 0.0, -5.0, -30.0, -300.0),
         'N',
-        'play elements resist the motion; a stiffness may be off in either direction by 3 N a mm',
+        'elements resist the motion; the error of stiffness may have both signs, up to 3 N/mm',
     )
     highs: tuple[float, ...] = number(
         (60.0, 60.0, 60.0, 60.0, 60.0, 30.0, 30.0, 300.0),
@@ -55,9 +55,9 @@ class FeatureTuning:
 class Features:
     """The features along one motion; a feature times its weight is a force in N.
 
-    ``values`` have no unit: at most 1 in size, except for the position in strokes; ``rates`` are
-    their change per second in the last step. All features are forces against the motion or forces
-    that grow with the position: the muscles must overcome them.
+    ``values`` have no unit: -1 to 1, except for the position in strokes; ``rates`` are their
+    change per second in the last step. All features are forces against the motion or forces that
+    grow with the position: the muscles must overcome them.
     """
 
     def __init__(self, tuning: FeatureTuning) -> None:

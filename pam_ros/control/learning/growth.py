@@ -2,11 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """The bandwidth of the loop: it grows as far as the lag of the pressure allows.
 
-A fast loop needs to know that the pressure follows fast. There are two ways to know it. What was
-learned explains the force that the nominal model lacks, so that no other lag is in it. Or no force
-is missing, as on a rig whose friction is configured, and the motion was fast enough to show how
-long the lag is: the variance of its estimate has fallen. Then the bandwidth grows only as far as
-the error asks for it, because a fast loop turns the noise of the sensor into pressure.
+A fast loop requires that the pressure follows fast. There are two kinds of evidence for that.
+Either the learned parameters explain the force that the nominal model lacks, so that it contains
+no other lag. Or no force is missing, as on a rig whose friction is configured, and the motion was
+fast enough to show how long the lag is: the variance of its estimate has fallen. In the second
+case the bandwidth grows only as far as the error requires, because a fast loop turns the noise of
+the sensor into pressure.
 """
 
 from math import sqrt
@@ -25,19 +26,19 @@ class Growth:
         self.start()
 
     def start(self) -> None:
-        """Begin to watch the error."""
+        """Begin to average the error."""
         self._square = self._asked = 0.0
 
     def see(self, dt: float, error: float, negligible: float) -> None:
-        """Take in the *error* for *dt* s; what is below *negligible* asks for nothing."""
+        """Take in the *error* for *dt* s; one below *negligible* requires no faster loop."""
         self._square += min(dt / self._tuning.judge, 1.0) * (error * error - self._square)
         self._asked = min(max(sqrt(self._square) / negligible - 1.0, 0.0), 1.0)
 
     def follow(self, dt: float, lag: float, explained: float, known: float) -> None:
-        """Approach for *dt* s what a *lag* in s allows.
+        """Approach for *dt* s the bandwidth that a *lag* in s allows.
 
-        *explained* and *known*, 0 to 1: what the learned parameters explain of the missing force,
-        and what of the uncertainty of the lag the motion has removed.
+        *explained* is the share of the missing force that the learned parameters explain, *known*
+        the share of the uncertainty of the lag that the motion has removed; both are 0 to 1.
         """
         low, high = self.gains.bandwidth, self.gains.fast_bandwidth
         weight = max(explained, self._asked * known)

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What a law has learned from the motion, in numbers for people."""
+"""The results of learning from the motion, as figures for users."""
 
 from dataclasses import dataclass
 
@@ -17,9 +17,9 @@ class Learned:
         force in N that changes with the motion and that the nominal model lacks, RMS over the
         last seconds of motion
     noise
-        force in N below which it counts as noise
+        RMS force in N that is attributed to noise and cannot be explained
     explained
-        share of the square of this force that the learned parameters predict, 0 to 1
+        share of the square of ``missing`` that the learned parameters predict, 0 to 1
     weight
         0 to 1, with which the feed-forward uses them
     friction
@@ -33,9 +33,10 @@ class Learned:
         time constants in s of the pressure while filling and while venting, without the weight;
         0 where the motion is predicted better without a lag. None if a lag is configured
     dropped_lag
-        the lag that was used before and is used no more, None if there is none
+        the lag that was used before and is no longer used, None if there is none
     restarts
-        how often everything was forgotten because the command oscillated between its limits
+        how often all learned parameters were reset because the command oscillated between its
+        limits
     """
 
     motion: float

@@ -20,9 +20,15 @@ from math import exp
 import numpy as np
 
 from pam_ros.control.gains import Gains
-from pam_ros.control.learning import features as beside
 from pam_ros.control.learning.cascade import Cascade
-from pam_ros.control.learning.features import Features, FeatureTuning
+from pam_ros.control.learning.features import (
+    CONSTANT,
+    COUNT,
+    STRETCH,
+    STRIBECK,
+    Features,
+    FeatureTuning,
+)
 from pam_ros.control.learning.growth import Growth
 from pam_ros.control.learning.learned import Learned
 from pam_ros.control.learning.learning_tuning import LearningTuning
@@ -35,8 +41,8 @@ from pam_ros.control.signals import Reference
 
 # Columns of the filter: the features; the sensitivity of the missing force to both time constants;
 # and efforts: the difference of the learned chambers from those of the law, the difference from
-# chambers without a lag, and the effort that both hypotheses see along the reference.
-_N = beside.COUNT
+# chambers without a lag, and the efforts that the two hypotheses give along the reference.
+_N = COUNT
 _FILL, _VENT, _FROM_LAW, _FROM_NO_LAG, _PLAIN, _LAGGED, _COLUMNS = range(_N, _N + 7)
 _LAGS = slice(_FILL, _VENT + 1)  # of a column or of a parameter
 _UNKNOWNS = _VENT + 1
@@ -95,7 +101,7 @@ class Learner:
         self.start(0.0, [0.0] * len(self._model.muscles), 0.0)
 
     def _begin(self) -> None:
-        """Begin without anything learned."""
+        """Begin without learned parameters."""
         spread, low, high = self._priors
         plain, noise = spread.copy(), self._tuning.noise
         plain[_LAGS] = 0.0
@@ -125,11 +131,11 @@ class Learner:
         self._nominal = pressures
         self._sensitivities = [_Sensitivity() for _ in pressures]
         for one in (self._plain, self._lagged):
-            one.forget(beside.CONSTANT, -disturbance)
+            one.forget(CONSTANT, -disturbance)
         # Three equal poles, like the observer's, for the features and for the difference in force
         # between the learned chamber and the nominal one.
         columns = [0.0] * _COLUMNS
-        columns[beside.CONSTANT] = 1.0
+        columns[CONSTANT] = 1.0
         self._filter = Cascade(columns)
         self._input = [0.0] * _COLUMNS
         self._centre, self._has_learned = 0.0, False
@@ -138,14 +144,14 @@ class Learner:
         self._limit_cycle.start()
 
     def _forget(self) -> None:
-        """Begin again without anything learned, from the present state."""
+        """Begin again without learned parameters, from the present state."""
         self._begin()
         self._restarts += 1
         self.start(self._observer.position, self._nominal, self._observer.disturbance)
 
     @property
     def learned(self) -> Learned:
-        """The learned parameters in numbers for people."""
+        """The learned parameters as figures for users."""
         weights, stroke = [float(one) for one in self._weights], self._features.stroke
         fill, vent = (self._share * float(one) for one in self._lagged.theta[_LAGS])
         return Learned(
@@ -154,9 +160,9 @@ class Learner:
             noise=self._tuning.floor**0.5,
             explained=float(self._explained),
             weight=float(self.trust),
-            friction=sum(weights[: beside.STRIBECK]),
-            breakaway=weights[beside.STRIBECK],
-            stiffness=weights[beside.STRETCH] / stroke,
+            friction=sum(weights[:STRIBECK]),
+            breakaway=weights[STRIBECK],
+            stiffness=weights[STRETCH] / stroke,
             lag=None if self._lag_is_configured else (fill, vent),
             dropped_lag=self._dropped_lag,
             restarts=self._restarts,
@@ -184,12 +190,12 @@ class Learner:
 
     def _learned_force(self) -> tuple[float, float]:
         """Return the learned force along the reference and its rate; sets the lag to invert."""
-        if self.trust == 0.0:  # as for a long time in the beginning
+        if self.trust == 0.0:  # at the beginning, for a long time
             self.lag = (0.0, 0.0)
             return 0.0, 0.0
         weights, rates = self._weights, self._wanted.rates
         force = rate = 0.0
-        for n in range(beside.CONSTANT):
+        for n in range(CONSTANT):
             weight = self.trust * weights[n]
             force += weight * self._wanted.values[n]
             rate += weight * rates[n]
@@ -293,7 +299,8 @@ class Learner:
         self._whole += share * ((unlearned - self._centre) ** 2 - self._whole)
         self._choose(span)
         forgotten = self._tuning.forgotten * span
-        # Early samples were taken under another estimate of the lag: they only give a direction.
+        # Early samples were taken with other estimates of the lag, so that they are only roughly
+        # right: the uncertainty of the lag grows faster at the beginning.
         early = self._tuning.early * span * exp(-self._moved / self._tuning.settled)
         by_parameter = np.array([forgotten] * _N + [forgotten + early] * 2)
         self._plain.update(phi, plain, forgotten)

@@ -18,10 +18,10 @@ class LearningTuning:
         'that its noise stays below that of the law',
     )
     every: float = number(
-        0.01, 's', 'between two samples of the regressions: they see what the fast observer passes'
+        0.01, 's', 'between two samples of the regressions: enough for the fast observer'
     )
     noise: float = number(
-        1.0, 'N^2', 'variance of the missing force, of the fast observer with the noise'
+        1.0, 'N^2', 'variance of the missing force from the fast observer by the noise of position'
     )
     forgotten: float = number(
         0.02,
@@ -32,35 +32,35 @@ class LearningTuning:
     early: float = number(
         0.3,
         '1/s',
-        'the same of a lag in the beginning, whose sensitivities change with itself (Ljung & '
-        'Soderstrom 1983, section 5.5): pair_control, lag, has errors 1.5 times as large without, '
-        'and control, all, with three times as much',
+        'additional share for a lag at the beginning, since its sensitivities depend on its '
+        'estimate (Ljung & Soderstrom 1983, section 5.5): without it pair_control, lag, has '
+        'errors 1.5 times as large, and so has control, all, with three times as much',
     )
     settled: float = number(
-        2.0, 's', 'of motion in which that falls to 1/e: longer costs control, friction'
+        2.0, 's', 'of motion in which it falls to 1/e: if longer, control, friction is worse'
     )
     lag_spread: float = number(0.05, 's', 'expected lag: servo valves have 20 to 130 ms')
-    lag_high: float = number(0.2, 's', 'largest lag that is inverted: slower ones are no control')
+    lag_high: float = number(0.2, 's', 'largest lag that is inverted: longer ones prevent control')
     judge: float = number(1.0, 's', 'average of prediction errors: half a period of control')
     centre: float = number(2.0, 's', 'average of the mean force: a period of control')
     convinced: float = number(
-        1.5, 's', 'of motion until what is learned is trusted to 63 %: control, valve lag'
+        1.5, 's', 'of motion until the learned parameters have 63 % of their weight: control, lag'
     )
     floor: float = number(1.0, 'N^2', 'missing force that explains nothing: that of the noise')
     worse: float = number(0.7, '', 'ratio of errors at which a lag is doubted: control, all')
-    lost: float = number(0.6, '', 'ratio of errors at which it is sought anew: control, friction')
-    doubt: float = number(0.5, 's', 'of motion for which it must be doubted to be dropped')
-    restart: float = number(2.0, 's', 'of motion between two searches for a lag')
-    blend: float = number(0.2, 's', 'from one hypothesis to the other: slow beside the loop')
-    grow: float = number(0.2, 's', 'in which the bandwidth follows what the lag allows')
+    lost: float = number(0.6, '', 'ratio of errors at which it is reset to 0: control, friction')
+    doubt: float = number(0.5, 's', 'of motion below *worse* after which a lag is dropped')
+    restart: float = number(2.0, 's', 'of motion between two resets of the lag')
+    blend: float = number(0.2, 's', 'from one hypothesis to the other: slow compared to the loop')
+    grow: float = number(0.2, 's', 'time constant with which the bandwidth approaches its value')
     margin: float = number(
-        3.0, '', 'times a lag that make a decay time: a phase margin of some 60 degrees'
+        3.0, '', 'ratio of the decay time 1/bandwidth to a lag: a phase margin of some 60 degrees'
     )
     cut: float = number(0.02, 's', 'filter of the side on which the command is cut: ten samples')
     unstable: float = number(
         0.15,
         '',
-        'share of a second for which the command is cut on either side in an oscillation: it has '
-        'a quarter to a third, and a step that is cut for 0.15 s at both ends has less',
+        'share of the time for which the command is cut on each side in an oscillation: it has a '
+        'quarter to a third there, and less after a step that is cut for 0.15 s on each side',
     )
     most: float = number(200.0, 'N', 'that is fed forward at most: the disturbance bound')

@@ -4,8 +4,8 @@
 
 If a rig changes suddenly, for example by a dead time, a loop that was fast before may become
 unstable. The oscillation grows until the limits of pressure cut the command at both ends. Then
-nothing can be learned any more, because the pressures are not those that the law wants, and what
-was learned in the beginning of the oscillation, such as a long lag, keeps it going.
+nothing more can be learned, because the pressures are not those that the law wants, and parameters
+that were learned at the beginning of the oscillation, such as a long lag, sustain it.
 """
 
 from math import copysign, exp
@@ -14,7 +14,7 @@ from pam_ros.control.learning.learning_tuning import LearningTuning
 
 
 class LimitCycle:
-    """Averages for which share of the time the command is cut above and below."""
+    """Averages the shares of the time for which the command is cut above and below."""
 
     def __init__(self, tuning: LearningTuning) -> None:
         """Begin with a command that is not cut."""
@@ -28,8 +28,8 @@ class LimitCycle:
     def see(self, dt: float, cut: float) -> bool:
         """Return whether the command oscillates between its limits.
 
-        For the last *dt* s a limit has taken *cut* from the effort that the law wants, of any
-        sign; 0 if the command is within its limits.
+        In the last *dt* s a limit has cut off the part *cut* of the wanted effort, which may have
+        either sign; it is 0 if the command is within its limits.
         """
         tuning = self._tuning
         # Noise at a limit cuts the command for single steps only, on alternating sides.

@@ -7,7 +7,7 @@ its bounds, the others would not follow, and the prediction would be wrong by mo
 any parameter. Therefore the estimate without bounds is kept, and the parameters are its nearest
 point within the bounds in the metric of its covariance: the most likely ones there (Simon 2010,
 "Kalman filtering with state constraints", section 2.3). This quadratic programme is solved by
-Hildreth's method (1957), which begins with the last multipliers.
+Hildreth's method (1957), which begins with the multipliers of the previous sample.
 """
 
 from collections.abc import Sequence
@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from pam_ros.control.limits import clamp
 
 Array = NDArray[np.float64]
-SWEEPS = 20  # at most, over all parameters; the next sample goes on where they end
+SWEEPS = 20  # at most, over all parameters; the next sample continues from their end
 CLOSE = 1e-3  # standard deviations: smaller changes of a parameter end the sweeps
 
 
@@ -35,7 +35,7 @@ class Regression:
 
     *spread* (n,) are the standard deviations of the prior of theta, *low* and *high* (n,) its
     physical limits, *noise* the variance of y. A parameter with a spread of 0 does not change.
-    ``theta`` is a list, since a controller asks for it much more often than it takes in a sample.
+    ``theta`` is a list, since a controller reads it much more often than it takes in a sample.
     """
 
     def __init__(self, spread: Array, low: Array, high: Array, noise: float) -> None:
@@ -56,7 +56,7 @@ class Regression:
         self.covariance[parameter, parameter] = self._prior[parameter]
 
     def restart_from(self, other: 'Regression', parameters: slice) -> None:
-        """Go on from what *other* has found, with the prior of these *parameters*.
+        """Continue from the estimate of *other*, with the prior of these *parameters*.
 
         *other* keeps them at 0: its spread of them is 0.
         """
@@ -81,7 +81,7 @@ class Regression:
         gain = direction / (self._noise + float(row @ direction))
         self._free += gain * (error + float(row @ (np.array(self.theta) - self._free)))
         self.covariance -= gain[:, None] * direction
-        # A view: functions that fill a diagonal take as long as all of the above.
+        # A view, since functions that fill a diagonal take as long as everything above.
         diagonal = self.covariance.reshape(-1)[:: len(phi) + 1]
         np.minimum(diagonal + forgotten * self._prior, self._prior, out=diagonal)
         self.theta = self._within_bounds(diagonal.tolist())

@@ -21,7 +21,7 @@ INSTANT = 1e-6  # s
 
 
 class ReferenceGenerator:
-    """Makes a smooth reference of target positions and trajectories, as ``pam_control`` does.
+    """Makes a smooth reference from target positions and trajectories, as ``pam_control`` does.
 
     A target that jumps is approached within the bounds of *shape*; a target that moves smoothly
     from call to call is followed without lag. ``reach`` has the lowest and the highest position

@@ -60,7 +60,7 @@ def advance(state: tuple[float, float, float], jerk: float, t: float) -> tuple[f
     )
 
 
-def _ways(
+def _via_peak(
     state: tuple[float, float, float], peak: float, bounds: Bounds
 ) -> tuple[list[Piece], list[Piece], float]:
     """Return the pieces to a *peak* velocity and from there to rest, and their end position."""
@@ -75,15 +75,14 @@ def _ways(
 def to_rest(state: tuple[float, float, float], bounds: Bounds) -> list[Piece]:
     """Return the pieces from *state* (m, m/s, m/s^2) to rest at 0."""
     for peak in (bounds.velocity, -bounds.velocity):
-        to, back, end = _ways(state, peak, bounds)
+        to, back, end = _via_peak(state, peak, bounds)
         if end * peak <= 0.0:
-            # The bound does not suffice to reach the goal: the rest is covered at the peak
-            # velocity.
+            # The motion ends before the goal: the missing distance is covered at this velocity.
             return [*to, Piece(0.0, -end / peak), *back]
     low, high = -bounds.velocity, bounds.velocity
     for _ in range(HALVINGS):
         peak = 0.5 * (low + high)
-        to, back, end = _ways(state, peak, bounds)
+        to, back, end = _via_peak(state, peak, bounds)
         low, high = (peak, high) if end < 0.0 else (low, peak)
     return [*to, *back]
 

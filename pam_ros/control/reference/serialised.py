@@ -2,12 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """A trajectory_msgs/JointTrajectory, read from its bytes.
 
-As Python objects the points cost some 10 µs each before one is used, and a controller sends no
-command meanwhile. Points of equal layout, as those of one planner are, follow each other at equal
+To create the points as Python objects takes some 10 µs each, and meanwhile a controller sends no
+command. Points of equal layout, such as those of one planner, follow each other at equal
 distances in the bytes, and are read as arrays.
 
-OMG's CDR: values are aligned to their size, counted from after the first four bytes, which give
-the byte order; a sequence is its length and its values, without padding if it is empty.
+Encoding: Common Data Representation (CDR) of the OMG. The first four bytes give the byte order.
+Values are aligned to their size, counted from the byte after these four. A sequence is its length
+and its values, without padding if it is empty.
 """
 
 from typing import NamedTuple
@@ -23,7 +24,7 @@ MOST_POINTS = 100_000  # of one trajectory: so many delay a command by some 0.2 
 WORD = 4  # bytes; every value of the message begins at a multiple of them
 KINDS = ('positions', 'velocities', 'accelerations', 'effort')
 USED = KINDS[:3]
-LENGTHS, TIME = slice(0, len(KINDS)), 2 * len(KINDS)  # columns of the places of points
+LENGTHS, TIME = slice(0, len(KINDS)), 2 * len(KINDS)  # columns of the array of places
 ORDERS = {b'\0\0': '>', b'\0\1': '<'}
 CUT_OFF = 'joint_trajectory is cut off: its bytes end before its last point'
 
@@ -42,8 +43,8 @@ class Sent(NamedTuple):
 def read_trajectory(data: bytes, joint: str) -> Sent:
     """Return the trajectory for *joint* in the message *data*.
 
-    Raises RangeError if the message is not for the joint, has points without a position of it,
-    has more than MOST_POINTS points, or is not such a message.
+    Raises RangeError if the message is not for the joint, has points without a position of the
+    joint or more than MOST_POINTS points, or is not a trajectory.
     """
     order = ORDERS.get(data[:2])
     if order is None:

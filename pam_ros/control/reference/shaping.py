@@ -25,17 +25,17 @@ class StreamTuning:
         80.0, 'rad/s', 'of the tracker: a sine of 0.5 Hz is followed to 6e-5 of its amplitude'
     )
     per_sample: float = number(
-        1.5, '', 'rad of the tracker a sample at most: as of the velocity estimate'
+        1.5, '', 'rad of the tracker a sample at most: as for the velocity estimate'
     )
     rough: float = number(
-        4.0, '', 'times the bound of acceleration that samples of a stream may be off by'
+        4.0, '', 'times the bound of acceleration: largest deviation of a sample of a stream'
     )
     pause: float = number(
-        0.12, 's', 'without a sample after which the next is a new target: one at 10 Hz and jitter'
+        0.12, 's', 'after which the next sample is a new target: a period of 10 Hz, and jitter'
     )
-    least_interval: float = number(1e-4, 's', 'for samples that come at once')
+    least_interval: float = number(1e-4, 's', 'assumed for samples that arrive together')
     missed: float = number(4.0, '', 'intervals without a sample after which a stream has ended')
-    least_missed: float = number(0.05, 's', 'and at least so long: a late turn of a busy machine')
+    least_missed: float = number(0.05, 's', 'the least such time: a delay of a busy machine')
 
 
 STREAM = StreamTuning()
@@ -84,9 +84,9 @@ class Tracker:
 
     An alpha-beta-gamma filter with three equal poles at ``StreamTuning.quick``. It follows a
     constant acceleration without error, and a sine of amplitude A and w rad/s with an error of
-    A (w / quick)^3. A sample that no acceleration within *bounds* explains is a jump: the target
-    is at rest there. If a second sample in a row is unexplained, but within the bound of
-    velocity, it is the second sample of a motion.
+    A (w / quick)^3. A sample that needs more acceleration than ``StreamTuning.rough`` times that
+    of *bounds* is a jump: the target is at rest there. If the next sample is another one, but
+    within the bound of velocity, it is the second sample of a motion.
     """
 
     def __init__(self, bounds: Bounds) -> None:
@@ -162,7 +162,7 @@ class Shaper:
         self.reference = Reference(position)
 
     def set_shape(self, shape: Shape) -> None:
-        """Continue within other bounds; the present approach keeps its own."""
+        """Continue within other bounds; the present approach keeps the former ones."""
         self.shape = shape
         self._tracker.bounds = shape.bounds
 
@@ -174,8 +174,9 @@ class Shaper:
     def join(self, target: Reference) -> None:
         """Let the target continue from the motion *target*, which is that of a trajectory.
 
-        The reference takes its acceleration at once, as at all points of a trajectory: an approach
-        within the bounds of jerk could go beyond the reach after a quick beginning.
+        The acceleration of the reference becomes that of *target* at once, as at all points of a
+        trajectory: an approach within the bound of jerk could go beyond the reach if the
+        trajectory begins quickly.
         """
         self._set_out(target.position, target.velocity, self.reference.acceleration)
 
@@ -212,7 +213,7 @@ class Shaper:
         self._set_out(position, 0.0, 0.0)
 
     def stop(self) -> None:
-        """Let the target rest at the place where the reference can stop soonest."""
+        """Let the target rest at the position at which the reference can stop soonest."""
         _, velocity, acceleration, _ = self.reference
         state: tuple[float, ...] = (self.reference.position, velocity, acceleration)
         for jerk, duration in change(velocity, acceleration, 0.0, self.shape.bounds):

@@ -13,7 +13,7 @@ from pam_ros.errors import RangeError
 
 
 class ReferenceSource:
-    """Makes one reference of all targets that are set; the newest target counts."""
+    """Makes one reference from all targets that are set; the newest target counts."""
 
     def __init__(self, shape: Shape, reach: tuple[float, float], unit: str = 'm') -> None:
         """Make it for a load that can be held within *reach* (lowest, highest), in *unit*.
@@ -83,8 +83,8 @@ class ReferenceSource:
     def follow(self, dt: float, late: float = 0.0) -> Reference:
         """Return the reference after another *dt* s.
 
-        If *late* s passed before that without a call, the trajectory continued, as those of other
-        joints that move with it; the reference catches up within the bounds.
+        *late* s passed before that without a step. The trajectory continued in this time, as those
+        of the other joints of the robot do; the reference catches up within the bounds.
         """
         if self._trajectory is None:
             self._shaper.follow(dt)

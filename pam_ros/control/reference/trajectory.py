@@ -10,7 +10,7 @@ from pam_ros.control.limits import refuse_unreachable
 from pam_ros.control.reference.points import Floats, Point, Points
 from pam_ros.control.signals import Reference
 
-CHECKS = 32  # parts of a piece between which the reach is checked
+CHECKS = 32  # parts of a piece; the reach is checked where they meet
 BLOCK = 1024  # pieces that are checked at once: their numbers stay in the cache
 
 
@@ -73,8 +73,8 @@ def _pieces(points: Points) -> Floats:
     if not points.has_acceleration[1:].all():
         return np.ascontiguousarray(CubicHermiteSpline(t, y, v).c.T)
     # The polynomial of fifth order with the given values, first and second derivatives at both
-    # ends; b is the error of the Taylor polynomial from the first end at the second, for all
-    # three.
+    # ends. b0, b1, b2 are the errors of these three at the second end for the Taylor polynomial
+    # about the first end.
     h = np.diff(t)
     begin, end = slice(None, -1), slice(1, None)
     b0 = y[end] - (y[begin] + h * (v[begin] + 0.5 * h * a[begin]))

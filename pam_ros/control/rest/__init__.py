@@ -1,3 +1,3 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The behaviour of the law while the reference rests: calm, stiction, disturbances."""
+"""The behaviour of the law while the reference rests: standstill, stiction, disturbances."""

@@ -1,12 +1,12 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Detect from the error alone that a loop oscillates by itself.
+"""Detect from the error alone that a loop is unstable and oscillates.
 
 A delay that the model does not have makes a fast loop oscillate at about its own bandwidth, with
 an amplitude that does not fall. A disturbance from outside is slower, or its response decays. So
 the error is divided into swings from one reversal to the next, as in rainflow counting. Successive
 swings that are quick and do not fall are an oscillation. Stability observers of haptic devices
-look for the same in windows of the spectrum (Ryu, Song, Kang & Kim 2008), which takes several
+detect the same in windows of the spectrum (Ryu, Song, Kang & Kim 2008), which takes several
 periods; this method takes one and a half.
 """
 
@@ -22,14 +22,14 @@ class OscillationTuning:
 
     swings: int = number(3, '', 'in turn that are an oscillation: a damped response has two')
     lasting: float = number(
-        0.75, '', 'least ratio of a swing to the one before: one that decays with z > 0.09'
+        0.75, '', 'least ratio of a swing to the one before: it excludes damping ratios above 0.09'
     )
     quick: float = number(
         0.9,
         '',
         'times the bandwidth of the loop: slower swings are those of a disturbance; with the '
-        'lag of 50/70 ms of disturbance, which is not configured, they are 1.1 to 1.3 times as '
-        'quick',
+        'unconfigured lag of 50/70 ms in the benchmark disturbance, swings are 1.1 to 1.3 times '
+        'as quick as the loop',
     )
 
 
@@ -49,8 +49,8 @@ class Oscillation:
         """Start again at this *error*, without swings."""
         self.quiet = 0.0
         self._side = 1.0  # direction of the present swing
-        self._turned = self._extreme = error  # at the last reversal, and the farthest since
-        self._lasted = self._reached = 0.0  # time since the reversal: now, and at the farthest
+        self._turned = self._extreme = error  # error at the last reversal, and the extreme since
+        self._lasted = self._reached = 0.0  # time since the reversal: now, and at the extreme
         self._was_cut = False
         self._swings, self._swing = 0, 0.0
 
@@ -59,9 +59,9 @@ class Oscillation:
     ) -> bool:
         """Take in the *error* for *dt* s; return whether it completes an oscillation.
 
-        Reversals of less than *least* are noise, swings of less than twice that are small;
-        *bandwidth* is that of the loop in rad/s. While a limit cuts the command (*is_cut*), an
-        oscillation is slower, so that each swing counts as quick.
+        Reversals of less than *least* are noise, and swings of less than twice *least* do not
+        count; *bandwidth* is that of the loop in rad/s. While a limit cuts the command (*is_cut*),
+        an oscillation is slower, so that each swing counts as quick.
         """
         self.quiet += dt
         self._lasted += dt
@@ -74,7 +74,7 @@ class Oscillation:
         return False
 
     def _turn(self, error: float, least: float, bandwidth: float) -> bool:
-        """End a swing at the farthest error; return whether it completes an oscillation."""
+        """End a swing at its extreme error; return whether it completes an oscillation."""
         tuning = self._tuning
         swing, lasted = abs(self._extreme - self._turned), self._reached
         is_quick = self._was_cut or lasted < pi / (tuning.quick * bandwidth)

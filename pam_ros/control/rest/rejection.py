@@ -15,9 +15,9 @@ highest level. While the load is disturbed without such an oscillation, the high
 again, to below the level of the last oscillation.
 
 After a motion of the reference the error is at first that of friction and hysteresis, which
-:mod:`.standstill` and :mod:`.stiction` remove. The level begins to act when the error was within
-the noise for a moment, or when the load is shaken: a shaken load moves all the time in both
-directions, while a load that sticks and slips moves for short times only.
+:mod:`.standstill` and :mod:`.stiction` remove. The level begins to act when the error has been
+below that of a disturbance for a moment, or when the load is shaken: a shaken load moves all the
+time in both directions, while a load that sticks and slips moves for short times only.
 """
 
 from dataclasses import dataclass
@@ -37,44 +37,44 @@ class RejectionTuning:
         2.0, '', 'rest tolerances that are no disturbance: beyond the 1.5 that stiction leaves'
     )
     noises: float = number(
-        1.0, '', 'noises of the position that are none: five times what the filter passes'
+        1.0, '', 'noises of the position that are none either: five times what the filter passes'
     )
     full: float = number(
-        2.0, '', 'times that error: error from which on the level is the highest; disturbance'
+        2.0, '', 'times the larger of both: error of the highest level; disturbance'
     )
     release: float = number(0.5, 's', 'in which the level falls: half a period of 1 Hz')
     memory: float = number(0.5, 's', 'average of the noise of the position: 250 samples')
-    known: int = number(25, '', 'positions from which on that is known, to 15 %')
+    known: int = number(25, '', 'positions after which this noise is known to 15 %')
     first: float = number(
         12.3,
         'rad/s',
         'bandwidth of the observer at the highest level before anything is known of the delay: '
-        'the loop is still stable with the lag of 50/70 ms of disturbance, which is not '
-        'configured',
+        'the loop is still stable with the unconfigured lag of 50/70 ms in the benchmark '
+        'disturbance',
     )
     climb: float = number(
         0.25, '1/s', 'by which the highest level rises: an oscillation is found before it is large'
     )
-    quiet: float = number(0.6, 's', 'without a quick swing before it rises: five of them')
+    quiet: float = number(0.6, 's', 'without a quick swing before it rises: five swings long')
     lower: float = number(
         0.6, '', 'times the highest level after an oscillation: disturbance, lag'
     )
     below: float = number(
-        0.85, '', 'times the level of an oscillation that is reached again: disturbance, lag'
+        0.85, '', 'times the level of an oscillation: bound of the next rise; disturbance, lag'
     )
-    least: float = number(0.1, '', 'that the highest level is lowered to: stable with those lags')
-    forget: float = number(0.02, '1/s', 'by which it rises then: a rig changes in minutes')
+    least: float = number(0.1, '', 'lowest value of the highest level: stable with those lags')
+    forget: float = number(0.02, '1/s', 'by which that bound rises: a rig changes in minutes')
     calm: float = number(
-        0.6, 's', 'of no error that end a motion: two rests between pushes against stiction'
+        0.6, 's', 'without an error until a motion has ended: two rests between stiction pushes'
     )
     place: float = number(
-        0.05, 's', 'filter of the error that tells a load which moves: a slip lasts as long'
+        0.05, 's', 'filter of the error, for detecting that the load moves: a slip lasts as long'
     )
     shake: float = number(
-        2.5, 's', 'average of its moving: longer than a loop with a lag rings; pair_control, lag'
+        2.5, 's', 'average of this motion: longer than a loop with a lag rings; pair_control, lag'
     )
     shaken: float = number(
-        0.7, '', 'share of the time that a shaken load moves; control, friction has a third'
+        0.7, '', 'share of the time for which a shaken load moves; a third in control, friction'
     )
 
 
@@ -159,7 +159,7 @@ class Rejection:
             self.level = min(self.level, self.highest)
 
     def _follow(self, dt: float, size: float) -> None:
-        """Let the levels follow an error of *size* times the least error of a disturbance."""
+        """Adapt the levels to an error of *size* times the least error of a disturbance."""
         tuning = self._tuning
         wanted = self.highest * min(max((size - 1.0) / (tuning.full - 1.0), 0.0), 1.0)
         if wanted >= self.level:
@@ -174,7 +174,7 @@ class Rejection:
             self.highest = min(self.highest + tuning.climb * dt, self._bound)
 
     def _see_noise(self, dt: float, measured: float) -> None:
-        """Average the squares of second differences: for white noise, six times its variance."""
+        """Average the squares of second differences: for white noise six times its variance."""
         first, second = self._last
         self._last = second, measured
         self._seen += 1
@@ -186,7 +186,7 @@ class Rejection:
         self._variance += share * (difference * difference / 6.0 - self._variance)
 
     def _begin_rest(self) -> None:
-        """Begin to watch the error after a motion; until that error has gone the level is 0."""
+        """Begin to evaluate the error after a motion; the level is 0 until this error has gone."""
         self.level, self._acts = 0.0, False
         self._calm = self._moving = self._direction = 0.0
         self._place = self._error

@@ -1,8 +1,8 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""What changes while the reference rests: less bandwidth at the goal, and slow loads in stiction.
+"""Changes while the reference rests: less bandwidth at the goal, faster loading of a stuck load.
 
-A motion needs all the bandwidth there is. A load that rests at its goal needs almost none, and any
+A motion needs the full bandwidth. A load that rests at its goal needs almost none, and any
 bandwidth turns the noise of the sensor into pressure. A load that sticks short of its goal acts as
 a spring some hundred times as stiff as the muscle: an integral tuned for the muscle would take
 minutes to load it. So the apparent stiffness of the load is measured here.
@@ -31,7 +31,7 @@ class StandstillTuning:
         2.5, '', 'times the tolerance: error at which the full bandwidth acts; control, at rest'
     )
     slow: float = number(0.2, 's', 'filter of the slopes of force and position: a period of 4 Hz')
-    memory: float = number(0.3, 's', 'average of what the slopes show')
+    memory: float = number(0.3, 's', 'average of the products of the slopes')
     doubt: float = number(
         1.5, 'N', 'change of force below which nothing is concluded: control, friction at rest'
     )

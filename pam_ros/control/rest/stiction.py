@@ -23,7 +23,7 @@ class StictionTuning:
     """How stick-slip is distinguished from other motion, and how pushes are made."""
 
     tolerance: float = number(
-        1.5, '', 'rest tolerances that a load which sticks and slips may be off: control, friction'
+        1.5, '', 'rest tolerances that a load which sticks may be off the goal: control, friction'
     )
     loose_displacement: float = number(
         60e-6,
@@ -32,26 +32,26 @@ class StictionTuning:
         'beyond the default presliding of 10 um',
     )
     loose_speed: float = number(
-        4e-3, 'm/s', 'speed that does, above the noise of the filtered one: control, friction'
+        4e-3, 'm/s', 'speed of a slip, above the noise of the filtered speed: control, friction'
     )
-    see: float = number(0.008, 's', 'filter of the place: four samples at 500 Hz')
+    see: float = number(0.008, 's', 'filter of the position: four samples at 500 Hz')
     see_speed: float = number(0.012, 's', 'filter of the speed: six samples')
-    anchor: float = number(0.3, 's', 'filter of the sticking place: longer than a slip lasts')
-    rest: float = number(0.06, 's', 'filter of the place at rest: 30 samples')
-    turns: int = number(3, '', 'breaks in turn that make a hunt: fewer may be a disturbance')
+    anchor: float = number(0.3, 's', 'filter of the sticking position: longer than a slip lasts')
+    rest: float = number(0.06, 's', 'filter of the position at rest: 30 samples')
+    turns: int = number(3, '', 'breaks in turn that are a limit cycle: fewer may be a disturbance')
     lasting: float = number(0.5, '', 'least ratio of the last break to the first one')
     dwell: float = number(0.08, 's', 'at rest before a slip that is a break: control, friction')
-    calm: float = number(0.25, 's', 'after a push until the load is looked at: a period of 4 Hz')
-    quick: float = number(2.0, '1/s', 'loading in breaking forces a second, up to *near* of it')
-    careful: float = number(0.6, '1/s', 'loading from there: control, friction at rest')
+    calm: float = number(0.25, 's', 'after a push until the error is evaluated: a period of 4 Hz')
+    quick: float = number(2.0, '1/s', 'loading in breaking forces a second, up to *near* of one')
+    careful: float = number(0.6, '1/s', 'loading beyond that: control, friction at rest')
     near: float = number(0.75, '', 'breaking forces up to which loading is quick')
     too_much: float = number(2.0, '', 'breaking forces at which the friction has changed')
     reaction: float = number(
-        0.03, 's', 'between a speed and its end when a push is taken back, until it is learned'
+        0.03, 's', 'for which a slide continues after a push is removed: first value, then learned'
     )
-    longest_reaction: float = number(0.3, 's', 'that is learned at most: a period of 4 Hz')
+    longest_reaction: float = number(0.3, 's', 'largest learned value: a period of 4 Hz')
     patience: int = number(6, '', 'pushes after which the tolerance doubles')
-    relapse: float = number(1.6, '', 'tolerances that a load may drift once it was within one')
+    relapse: float = number(1.6, '', 'tolerances up to which a load at its goal may drift')
     stuck: float = number(2.0, '', 'stiffness, in muscles, that counts as sticking')
 
 
@@ -159,7 +159,7 @@ class Stiction:
         )
         self._force += self._side * rate * self._breaking * dt
         if loaded > self._tuning.too_much * self._breaking:
-            self.start()  # the friction has changed: back to the law
+            self.start()  # the friction has changed: the law continues
 
     def _end_push(self) -> None:
         self._force, self._side, self._is_loose = self._middle, 0.0, False
@@ -167,7 +167,7 @@ class Stiction:
         self._pushes += 1
 
     def _rest(self, dt: float) -> None:
-        """Let the load come to rest, learn how far it slid, and push again if necessary."""
+        """Wait until the load rests, learn how long it slid, and push again if necessary."""
         self._calm += dt
         if self._calm < self._tuning.calm:
             self._anchor = self._mean = self._x

@@ -70,7 +70,7 @@ def test_a_point_at_the_start_takes_its_place():
         ([Point(1.0, math.nan)], 'not finite'),
         ([Point(1.0, 0.03), Point(1.0, 0.04)], 'point 1 of the trajectory is at 1 s'),
         ([Point(-1.0, 0.03)], 'point 0 of the trajectory is at -1 s'),
-        ([Point(1.0, 0.2)], 'out of reach: this rig holds its load at -0.01 to 0.1 m'),
+        ([Point(1.0, 0.2)], 'out of reach: this rig can hold its load at -0.01 to 0.1 m'),
         ([Point(1.0, 0.09, 0.3), Point(2.0, 0.02, 0.0)], 'out of reach'),
     ],
 )
