@@ -107,7 +107,7 @@ class CoulombFriction(Effect):
     )
     stribeck_speed: float = effect_parameter(
         0.01,
-        'speed at which the surplus at rest has fallen to 1/e',
+        'speed at which the additional friction at rest has fallen to 1/e',
         'm/s',
         low=1e-4,
         high=10.0,
@@ -118,7 +118,7 @@ class CoulombFriction(Effect):
     )
     asymmetry: float = effect_parameter(
         0.0,
-        'friction upwards less that downwards, relative to their sum',
+        'upward minus downward friction, relative to their sum',
         low=-1.0,
         high=1.0,
         scale=0.1,
@@ -132,9 +132,11 @@ class CoulombFriction(Effect):
     source: ClassVar = (
         'Coulomb, Stribeck; Prandtl element for presliding; Dupont et al. 2002 on drift'
     )
-    signature: ClassVar = 'residual force that jumps with the sign of velocity; rests in the turns'
+    signature: ClassVar = (
+        'residual force that jumps with the sign of velocity; standstill at reversals'
+    )
     experiment: ClassVar = (
-        'slow triangles and micro-reversals: the force turns over within micrometres'
+        'slow triangles and micro-reversals: the force reverses within micrometres'
     )
     compensation: ClassVar = Compensation.FEED_FORWARD
     states: ClassVar = (

@@ -94,12 +94,10 @@ class Creep(Effect):
     spread: float = effect_parameter(
         1.0, 'ratio of the slow and fast time to their mean', low=1.0, high=100.0, scale=2.0
     )
-    balance: float = effect_parameter(
-        0.5, 'part that the slow time has', low=0.0, high=1.0, scale=0.3
-    )
+    balance: float = effect_parameter(0.5, 'share of the slow part', low=0.0, high=1.0, scale=0.3)
 
     name: ClassVar = 'creep'
-    text: ClassVar = 'force, stiffness and pressure of which a part acts late'
+    text: ClassVar = 'parts of force, stiffness and pressure gain that act with a lag'
     source: ClassVar = 'Standard linear solid; Minh et al. 2012 for a fluidic muscle'
     signature: ClassVar = (
         'drift after steps that slows down: of length under load, of force at constant length'

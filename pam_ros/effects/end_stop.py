@@ -111,7 +111,7 @@ class EndStop(Effect):
 
     name: ClassVar = 'end_stop'
     text: ClassVar = 'stiff one-sided pads at the ends of the travel'
-    source: ClassVar = 'Hunt & Crossley 1975; maker: at most 25 % contraction'
+    source: ClassVar = 'Hunt & Crossley 1975; manufacturer: at most 25 % contraction'
     signature: ClassVar = 'residual only beyond a position, pushing back'
     experiment: ClassVar = 'touch it slowly, and touch it with another load'
     compensation: ClassVar = Compensation.FEEDBACK

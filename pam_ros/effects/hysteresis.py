@@ -136,7 +136,7 @@ class Hysteresis(Effect):
     )
     initial: float = effect_parameter(
         0.0,
-        'where the loops stand at the start; 1: as after a long motion up, -1: down',
+        'state of the loops at the start; 1: as after a long motion up, -1: down',
         low=-1.0,
         high=1.0,
         scale=0.5,

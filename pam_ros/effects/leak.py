@@ -83,7 +83,7 @@ class Leak(Effect):
     )
     reopening: float = effect_parameter(
         2e3,
-        'change of the command that refills a closed chamber but for 1/e',
+        'change of the command that removes the loss of a closed chamber except for 1/e',
         'Pa',
         low=1.0,
         high=1e5,
@@ -99,7 +99,7 @@ class Leak(Effect):
     )
     vent: float = effect_parameter(
         0.0,
-        'time constant of venting beside an open valve; 0: at once',
+        'time constant of venting through the open valve; 0: at once',
         's',
         low=0.0,
         high=10.0,
@@ -119,7 +119,7 @@ class Leak(Effect):
         'Isothermal chamber with a laminar leak; refill through the conductance of the valve'
     )
     signature: ClassVar = (
-        'pressure that sinks while the command rests, and is back after its next change'
+        'pressure that falls while the command is constant, and is restored by its next change'
     )
     experiment: ClassVar = 'long holds at a high pressure with the pressure measured'
     compensation: ClassVar = Compensation.FEEDBACK

@@ -29,7 +29,7 @@ class LengthOffset(Effect):
     )
 
     name: ClassVar = 'length_offset'
-    text: ClassVar = 'contraction that the muscle feels beside the one that is measured'
+    text: ClassVar = 'constant difference between the effective and the measured contraction'
     source: ClassVar = 'Rest length and clamping differ between specimens; affine sensor model'
     signature: ClassVar = (
         'residual proportional to the stiffness: the whole curve moved along contraction'

@@ -105,7 +105,7 @@ class PeriodicDisturbance(Effect):
     source: ClassVar = 'Harmonic disturbance; linear in its sine and cosine amplitudes'
     signature: ClassVar = 'a narrow line in the spectrum of the residual'
     experiment: ClassVar = (
-        'a rest at constant pressure: what is left moves by itself; log the supply'
+        'a rest at constant pressure shows it alone; record the supply pressure, too'
     )
     compensation: ClassVar = Compensation.FEEDBACK
     moves_by_itself: ClassVar = True

@@ -33,7 +33,7 @@ class PressureDependentDamping(Effect):
     )
 
     name: ClassVar = 'pressure_dependent_damping'
-    text: ClassVar = 'damping proportional to pressure, inflating and deflating apart'
+    text: ClassVar = 'damping proportional to pressure, separate for inflation and deflation'
     source: ClassVar = 'Reynolds et al. 2003; Serres et al. 2009'
     signature: ClassVar = 'residual over velocity whose slope grows with pressure'
     experiment: ClassVar = 'a chirp at several pressures: the decay is faster at the higher one'

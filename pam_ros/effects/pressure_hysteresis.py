@@ -80,7 +80,7 @@ class PressureHysteresis(Effect):
     )
     initial: float = effect_parameter(
         0.0,
-        'where the loop stands at the start; 1: as after a long rise of pressure, -1: a fall',
+        'state of the loop at the start; 1: as after a long rise of pressure, -1: a fall',
         low=-1.0,
         high=1.0,
         scale=0.5,

@@ -110,7 +110,7 @@ class PressureLag(Effect):
     )
     choking: float = effect_parameter(
         0.0,
-        'how far flows depend on the pressures beside the valve; 1: as an orifice, ISO 6358',
+        'dependence of flows on the pressures at the valve; 1: as an orifice, ISO 6358',
         low=0.0,
         high=1.0,
         scale=0.3,
@@ -125,9 +125,9 @@ class PressureLag(Effect):
     )
 
     name: ClassVar = 'pressure_lag'
-    text: ClassVar = 'first-order lag of the chamber behind the command, filling and venting apart'
+    text: ClassVar = 'first-order lag of the chamber pressure, separate for filling and venting'
     source: ClassVar = 'ISO 6358 orifice, linear below choking; 20 to 130 ms with servo valves'
-    signature: ClassVar = 'phase that rolls off with frequency; rounded answers to steps'
+    signature: ClassVar = 'phase that rolls off with frequency; rounded step responses'
     experiment: ClassVar = 'steps up and down with the pressure measured, or a chirp'
     compensation: ClassVar = Compensation.PATH
     states: ClassVar = (HiddenState('pressure', 'Pa', 2e4),)

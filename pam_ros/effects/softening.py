@@ -57,11 +57,11 @@ class Softening(Effect):
     """Force that falls with cycles or with time and saturates."""
 
     limit: float = strength(
-        'share of the pull that is lost in the end', low=-0.5, high=0.9, scale=0.05, sign=1
+        'share of the force that is finally lost', low=-0.5, high=0.9, scale=0.05, sign=1
     )
     per_pressure: float = effect_parameter(
         0.0,
-        'approach to the limit for each Pa that the pressure moves, up or down',
+        'approach to the limit for each Pa of change of pressure, up or down',
         '1/Pa',
         low=0.0,
         high=1e-3,
@@ -69,7 +69,7 @@ class Softening(Effect):
     )
     per_contraction: float = effect_parameter(
         0.0,
-        'approach to the limit for each unit of contraction that the muscle goes, up or down',
+        'approach to the limit for each unit of travelled contraction, up or down',
         '1/fraction',
         low=0.0,
         high=1e3,

@@ -184,7 +184,7 @@ def result_of(recordings, test, nominal, retuned, augmented, verdict, findings=(
         tuple(segments),
         tuple(test_segments),
         ('the position covers 11 % of the stroke',),
-        'slow triangles and micro-reversals: the force turns over within micrometres',
+        'slow triangles and micro-reversals: the force reverses within micrometres',
         tuple(recordings),
         tuple(test),
         None,
