@@ -81,19 +81,19 @@ def page(
         recordings=rows.recordings(content),
         configuration=rows.configuration(source),
         warnings=warnings_of(result, source),
-        inputs=_inputs(result, source),
+        inputs=inputs_of(result, source),
         content=content,
         source=source,
         no_file=no_file,
     )
 
 
-def _inputs(result: Identification, source: Provenance) -> str:
+def inputs_of(result: Identification, source: Provenance) -> str:
     """Return the names of the signals that a free run receives."""
     if result.quantity == 'force':
         return 'pressure and length'
-    commanded = all(one.command is not None for one in source.recordings)
-    return 'command' if commanded else 'measured pressure'
+    names = {True: 'command', False: 'measured pressure'}
+    return ' or '.join(dict.fromkeys(names[one.command is not None] for one in source.recordings))
 
 
 def curves_of(result: Identification, runs: list[Run]) -> list[Curve]:

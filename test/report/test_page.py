@@ -12,7 +12,7 @@ import pytest
 
 from pam_ros.effects import EFFECTS
 from pam_ros.report.numbers import numbers, to_json
-from pam_ros.report.page import VERDICTS, curves_of, not_excluded, page, warnings_of
+from pam_ros.report.page import VERDICTS, curves_of, inputs_of, not_excluded, page, warnings_of
 from pam_ros.report.runs import runs_of
 from pam_ros.report.wording import Scale
 from pam_ros.rig.standard_joints import single_muscle_joint
@@ -179,6 +179,17 @@ def test_load_without_a_muscle_has_an_input_and_a_position(friction, friction_pa
     assert 'Against the input' in html
     assert 'Against position' in html
     assert 'contraction, %' not in html
+
+
+def test_the_input_of_a_free_run_is_named(tested):
+    result, source = tested[:2]
+    assert inputs_of(result, source) == 'command'
+    (*others, last) = source.recordings
+    measured = replace(last, command=None, command_t=None)
+    assert inputs_of(result, replace(source, recordings=(measured,))) == 'measured pressure'
+    both = replace(source, recordings=(*others, last, measured))
+    assert inputs_of(result, both) == 'command or measured pressure'
+    assert inputs_of(replace(result, quantity='force'), both) == 'pressure and length'
 
 
 def test_each_warning_is_shown_once_with_its_recording(tested):
