@@ -228,7 +228,7 @@ def test_disabled_it_commands_nothing_and_enabled_it_holds_the_load_where_it_is(
         rig.tell_until(lambda: watch.arrays, 'the diagnostics')
         assert not watch.commands
         watch.refer(0.07)
-        watch.status(lambda s: 'not taken: disabled' in s.message, 'the refusal')
+        watch.status(lambda s: 'is ignored: disabled' in s.message, 'the refusal')
         assert watch.peer.call(SetBool, ENABLE, data=True).success
         rig.tell_until(lambda: watch.commands, 'commands', 0.055)
         assert watch.begin() == pytest.approx(0.055)

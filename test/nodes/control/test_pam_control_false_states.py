@@ -115,7 +115,7 @@ def test_control_does_not_begin_at_a_pressure_that_cannot_be(watch, false):
 
         peer.until(began, 'control')
         first = watch.commands[0].data
-        assert f'pressure has {false:.6g} Pa, where 0 to ' in control.output
+        assert f'pressure has {false:.6g} Pa, but only 0 to ' in control.output
         assert 1e5 < first < 5e5  # that which holds the configured load at 60 mm
         status = watch.status(lambda s: 'pressure has ' in s.message, 'the warning')
         assert status.level == DiagnosticStatus.WARN

@@ -99,7 +99,7 @@ def test_one_file_is_for_both_programs(peer, tmp_path):
         (dim,) = watch.commands[-1].layout.dim
         assert dim.label == 'flexor,extensor'
         assert watch.peer.get('pam_control', 'extensor.l0', 'radius') == [0.2, 0.05]
-        assert 'not known here' not in sim.output
+        assert 'does not exist here' not in sim.output
         # What is the simulator's alone is said to be so.
         (warning,) = (line for line in control.output.splitlines() if '[WARN]' in line)
         assert 'extensor.initial.pressure does not exist here' in warning

@@ -74,7 +74,7 @@ def test_a_rig_that_has_begun_to_vent_does_not_jump(watch, seconds, on_timeout):
         reference = again()[0].position[watch.names.index('reference')]
         assert reference == pytest.approx(held[0], abs=BUMP)
 
-        status = watch.status(lambda s: values(s)[COUNTER] == '1', 'the silence')
+        status = watch.status(lambda s: values(s)[COUNTER] == '1', 'the interruption')
         assert 'no command was given for' in values(status)['last silence']
         assert control.output.count('control starts again from the present position') == 1
         # A new reference is approached within the shape, as from the start.

@@ -158,7 +158,7 @@ def test_pause_step_and_reset_in_scaled_time(peer, factor):
         peer.more(states, 5)
         refused = peer.call(Trigger, 'pam_sim/step')
         assert not refused.success
-        assert 'pause first' in refused.message
+        assert 'pause it first' in refused.message
         assert peer.call(SetBool, 'pam_sim/pause', data=True).success
 
         def stands():
