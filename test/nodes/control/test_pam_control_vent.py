@@ -62,7 +62,7 @@ def test_a_rig_that_starts_meanwhile_does_not_obey(watch, kind):
     assert lowest > 0.98 * RIG['initial.pressure']
 
 
-# A law that gives no number, which no input makes it give.
+# A law that gives NaN, which no input makes it give.
 GIVES_NAN = """
 from math import nan
 from pam_ros.cli.pam_control import main
@@ -80,14 +80,14 @@ main()
 """
 
 
-def test_a_law_without_a_number_is_disabled_and_the_load_let_down(watch):
+def test_a_law_that_gives_nan_is_disabled_and_the_load_is_lowered(watch):
     peer = watch.peer
     states = peer.collect(JointState, 'joint_states')
     with Program('pam_sim', parameters=RIG):
         process = subprocess.Popen([sys.executable, '-c', GIVES_NAN])
         try:
-            status = watch.status(lambda s: 'no number' in s.message, 'the fault')
-            peer.until(lambda: states[-1].position[0] < 0.01, 'the load let down')
+            status = watch.status(lambda s: 'not finite' in s.message, 'the fault')
+            peer.until(lambda: states[-1].position[0] < 0.01, 'the load at its lower end')
         finally:
             process.send_signal(signal.SIGINT)
             assert process.wait(60.0) == 0
