@@ -19,10 +19,10 @@ load it publishes ``pressure_commands`` (std_msgs/Float64MultiArray), or
 ``<muscle>/pressure_command`` for each muscle (muscle_topics). With antagonistic and lever it also
 subscribes to ``co_contraction_reference`` (std_msgs/Float64): stiffness of the joint in N m/rad.
 
-Contraction is positive: the load moves up. Parameters are described by
-``ros2 param describe /pam_control <name>``. Control starts at the present position. A reference
-that is out of reach is refused, and the last one remains. If no joint_states arrive for
-state_timeout seconds, the muscle vents within vent_time, or its pressure is held (on_timeout).
+Contraction is positive: the load moves up. ``pam_control --parameters`` describes the parameters.
+Control starts at the present position. A reference that is out of reach is refused, and the last
+one remains. If no joint_states arrive for state_timeout seconds, the muscle vents within
+vent_time, or its pressure is held (on_timeout).
 """
 
 from pam_ros.cli.start import start_node

@@ -24,11 +24,10 @@ Services
     ``~/pause`` (std_srvs/SetBool): stop simulated time; the state is still published
     ``~/step`` (std_srvs/Trigger): while paused, simulate step_periods periods
 
-Contraction is positive: the load moves up. Parameters are described by
-``ros2 param describe /pam_sim <name>``. Time is real, scaled or in lockstep (time_mode). A
-pressure command outside p_min..p_max is clamped. One that is not finite is rejected, and the
-last valid one remains. If no command arrives for command_timeout seconds, the muscle
-vents within vent_time (on_timeout).
+Contraction is positive: the load moves up. ``pam_sim --parameters`` describes the parameters.
+Time is real, scaled or in lockstep (time_mode). A pressure command outside p_min..p_max is
+clamped. One that is not finite is rejected, and the last valid one remains. If no command arrives
+for command_timeout seconds, the muscle vents within vent_time (on_timeout).
 """
 
 from pam_ros.cli.start import start_node

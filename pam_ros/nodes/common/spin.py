@@ -8,6 +8,7 @@ rclpy skips the ticks that it is late for, and costs more (``benchmarks/node_rat
 
 import argparse
 import gc
+import os
 import re
 import sys
 from abc import ABC, abstractmethod
@@ -26,6 +27,7 @@ from rclpy.utilities import remove_ros_args
 from rosgraph_msgs.msg import Clock
 
 from pam_ros.errors import PamError, shown
+from pam_ros.nodes.common.parameter_list import parameter_list
 from pam_ros.nodes.common.rclpy_internals import EventsExecutor
 from pam_ros.processes.ends import end_within
 from pam_ros.processes.priority import NORMAL, prefer_real_time
@@ -52,12 +54,14 @@ class TickingNode(Node, ABC):
     A node whose work is finished sets ``exit_code``; the others run until they are stopped. With
     ``keeps_wall_time`` a node has a higher priority than other programs if the system permits it.
     With ``has_answered_at_end`` it was stopped during a service, whose client reads the response.
+    A node with ``has_parameters`` has parameters of its own, which ``--parameters`` lists.
     """
 
     ticker: Ticker
     exit_code: int | None = None
     keeps_wall_time = False
     has_answered_at_end = False
+    has_parameters = True
     stop: StopRequest  # long tasks check it meanwhile
     scheduling = NORMAL
 
@@ -137,11 +141,26 @@ def run(kind: type[TickingNode], stop: StopRequest, about: str) -> int:
             parser.add_argument(
                 '--version', action='version', version=VERSION_LINE, help=VERSION_HELP
             )
+            if kind.has_parameters:
+                parser.add_argument(
+                    '--parameters',
+                    nargs='?',
+                    const='',
+                    metavar='TEXT',
+                    help='print the parameters with TEXT in their names, or all, and end',
+                )
             kind.add_arguments(parser)
             arguments = parser.parse_args(remove_ros_args(sys.argv)[1:])
+            part = arguments.parameters if kind.has_parameters else None
+            if part is not None:
+                # Running programs must not take this node for another simulator or controller.
+                os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'] = 'OFF'
             rclpy.init(args=sys.argv, signal_handler_options=SignalHandlerOptions.NO)
             node = kind.of_arguments(arguments)
             node.stop = stop
+            if part is not None:
+                print(parameter_list(node, part))
+                return 0
         except REFUSALS as error:
             print(f'{parser.prog}: {sentence(error)}', file=sys.stderr)
             return BAD_INPUT

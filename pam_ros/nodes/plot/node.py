@@ -40,6 +40,8 @@ BACK = 1.0  # s; if time goes back by more, it has started again; else messages 
 class PamPlot(TickingNode):
     """The node; its name is hidden, so that other programs do not count it as part of the rig."""
 
+    has_parameters = False
+
     def __init__(self, options: Options) -> None:
         """Subscribe, and listen on the port of the page unless a PNG file is requested."""
         super().__init__('_pam_plot')

@@ -73,6 +73,8 @@ def missing_topics(
 class PamRecord(TickingNode):
     """The recorder node."""
 
+    has_parameters = False
+
     def __init__(self, directory: Path, topics: Sequence[str]) -> None:
         """Create the bag in *directory*; record the topics of a rig and *topics*."""
         super().__init__('pam_record')
