@@ -103,7 +103,7 @@ class CoulombFriction(Effect):
 
     level: float = strength('friction while it slides', 'N', high=1e4, scale=5.0)
     breakaway: float = strength(
-        'friction at rest; counts where it is above the level', 'N', high=1e4, scale=5.0
+        'friction at rest; used if it is above the level', 'N', high=1e4, scale=5.0
     )
     stribeck_speed: float = effect_parameter(
         0.01,

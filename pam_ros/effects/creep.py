@@ -79,16 +79,16 @@ class Creep(Effect):
     """Delayed parts of force, stiffness and pressure."""
 
     force: float = strength(
-        'share of a change of force that comes late; negative: surplus that relaxes',
+        'share of a change of force that is delayed; negative: an excess that relaxes',
         low=-0.9,
         high=0.9,
         scale=0.05,
     )
     stiffness: float = strength(
-        'force per contraction that resists a quick move and relaxes', 'N', high=1e5, scale=500.0
+        'force per contraction that resists a quick motion and relaxes', 'N', high=1e5, scale=500.0
     )
     pressure: float = strength(
-        'share of a change of pressure whose pull comes late', low=-0.9, high=0.9, scale=0.02
+        'share of a change of pressure whose force is delayed', low=-0.9, high=0.9, scale=0.02
     )
     time: float = effect_parameter(5.0, 'mean time constant', 's', low=0.1, high=1e4, scale=5.0)
     spread: float = effect_parameter(

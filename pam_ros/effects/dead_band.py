@@ -41,7 +41,9 @@ def pressure(p: float, t: float, h: float, x: Row, i: int, xn: Row, q: Row, j: i
 class DeadBand(Effect):
     """Threshold of the pressure, below which the bladder or the valve does nothing."""
 
-    band: float = strength('pressure up to which nothing happens', 'Pa', high=2e5, scale=2e4)
+    band: float = strength(
+        'threshold of the pressure; below it the muscle gets none', 'Pa', high=2e5, scale=2e4
+    )
     width: float = effect_parameter(
         2e3,
         'pressure on either side of the corner over which the effect sets in',

@@ -20,7 +20,7 @@ def late(q: Row, j: int) -> float:
 class DeadTime(Effect):
     """Transport delay between command and pressure."""
 
-    delay: float = strength('time by which commands act late', 's', high=1.0, scale=0.01)
+    delay: float = strength('delay of the commands', 's', high=1.0, scale=0.01)
 
     name: ClassVar = 'dead_time'
     text: ClassVar = 'transport delay between command and pressure'

@@ -29,7 +29,7 @@ class Payload(Effect):
     """Mass of the load in addition to the nominal one."""
 
     mass: float = strength(
-        'mass that comes on top, negative when the load is lighter',
+        'additional mass of the load; negative: the load is lighter',
         'kg',
         low=-1e3,
         high=1e3,

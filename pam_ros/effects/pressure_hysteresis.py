@@ -66,14 +66,14 @@ class PressureHysteresis(Effect):
     )
     slip_onset: float = effect_parameter(
         0.0,
-        'share of it at which the first one slips; 1: all at once',
+        'share of slip_width at which the first one slips; 1: all at once',
         low=0.0,
         high=1.0,
         scale=0.3,
     )
     slip_ratio: float = effect_parameter(
         EVEN,
-        'growth of the gaps between their thresholds; 1: equal gaps, 1/slip_onset: geometric',
+        'growth of the gaps between the thresholds; 1: equal gaps, 1/slip_onset: geometric',
         low=EVEN,
         high=MOST,
         scale=10.0,

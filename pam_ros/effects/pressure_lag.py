@@ -106,7 +106,7 @@ class PressureLag(Effect):
         scale=1e6,
     )
     fastest_vent: float = effect_parameter(
-        1e9, 'fastest fall of pressure, likewise', 'Pa/s', low=1e3, high=1e9, scale=1e6
+        1e9, 'fastest fall of pressure, in the same way', 'Pa/s', low=1e3, high=1e9, scale=1e6
     )
     choking: float = effect_parameter(
         0.0,
@@ -117,7 +117,7 @@ class PressureLag(Effect):
     )
     supply: float = effect_parameter(
         8e5,
-        'gauge pressure in front of the valve, which counts with choking',
+        'gauge supply pressure of the valve, used with choking',
         'Pa',
         low=1e5,
         high=3e6,

@@ -69,7 +69,7 @@ class Muscle:
     force_max: float = parameter_field(
         1500.0, 'rated lifting force', 'N', low=0.0, high=1e5, above_low=True
     )
-    source: str = parameter_field('', 'where the constants come from', live=False)
+    source: str = parameter_field('', 'source of the constants', live=False)
 
     def __post_init__(self) -> None:
         """Check every field, then the muscle that they describe."""

@@ -10,6 +10,8 @@ from support.harness import Program
 
 pytestmark = [pytest.mark.at_any_pace, pytest.mark.usefixtures('domain')]
 
+DEPTH = 'qos_overrides./force.publisher.depth'
+
 
 def listed(name, *words, **given):
     """Return exit code and output of a program that lists its parameters."""
@@ -44,6 +46,7 @@ def test_each_parameter_is_listed_with_value_description_unit_and_range():
         assert text.startswith(about.text)
         assert not about.unit or f'[{about.unit}]' in text
         assert ('only at the start' in text) is not about.live
+    assert not any('qos_overrides' in name for name in found)
     assert found['mass'] == (20.0, 'mass of the load [kg]; above 0 and at most 10000 kg')
 
 
@@ -53,6 +56,7 @@ def test_each_parameter_is_listed_with_value_description_unit_and_range():
         ('pam_sim', {'joint': 'crank', 'crank': 0.06}, 'crank'),
         ('pam_control', {'joint': 'crank', 'crank': 0.06}, 'crank'),
         ('pam_excite', {'pressure_max': 3.5e5}, 'pressure_max'),
+        ('pam_sim', {DEPTH: 7}, DEPTH),
     ],
 )
 def test_a_part_of_the_names_selects_them_and_values_are_those_that_are_given(name, given, part):
