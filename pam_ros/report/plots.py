@@ -133,7 +133,7 @@ def _correlation(
         _narrow(
             'spectrum',
             'Spectrum of the residual',
-            'Dashed line: the noise alone.',
+            'Pale line: the noise alone.',
             residual_plots.spectrum(runs, curves, scale, result.noise),
         ),
         _narrow(
@@ -206,8 +206,8 @@ def _against(
         _narrow(
             'directions',
             'Rising and falling input',
-            'Solid: rising input. Dashed: falling input. A distance between the two lines is a '
-            'loop that the model lacks.',
+            'Triangles up: rising input. Triangles down: falling input. A distance between the '
+            'two lines is a loop that the model lacks.',
             residual_plots.by_direction(runs, curves, scale, pressure, input_label),
         )
     )

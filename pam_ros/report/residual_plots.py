@@ -78,7 +78,7 @@ def spectrum(runs: list[Run], curves: list[Curve], scale: Scale, noise: Noise) -
         ax.plot(*_log_thinned(f, scale.factor * density), **curve.look)
     if noise.sigma > 0.0:
         floor = scale.factor * diagnostics.noise_density(noise.sigma, noise.rho, period, f)
-        ax.plot(f, floor, color=style.NOISE, linestyle=(0, (5, 2)))
+        ax.plot(f, floor, **style.NOISE_LINE)
     ax.set_xscale('log')
     ax.set_yscale('log')
     style.log_axis(ax.xaxis)
@@ -137,12 +137,13 @@ def by_direction(
     still = STILL * float(np.ptp(x)) / pressure.factor
     for curve in curves:
         e = scale.factor * np.concatenate(_thinned(runs, curve.stage, period))
-        for is_rising, line in ((True, 'solid'), (False, (0, (3, 2)))):
+        for is_rising, marker in ((True, '^'), (False, 'v')):
             chosen = slope > still if is_rising else slope < -still
             if np.count_nonzero(chosen) < 2 * FEWEST:
                 continue
             at, mean, _, _ = binned(x[chosen], e[chosen], BINS // 2)
-            ax.plot(at, mean, color=style.COLOURS[curve.stage], linestyle=line)
+            face = curve.look['color'] if is_rising else 'white'
+            ax.plot(at, mean, **curve.look, marker=marker, markerfacecolor=face, markersize=5)
     ax.axhline(0.0, color=style.FAINT, linewidth=0.7)
     ax.set_title(f'residual, {scale.unit}')
     ax.set_xlabel(label)

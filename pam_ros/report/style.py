@@ -29,6 +29,8 @@ MEASURED = '#9aa4af'
 COLOURS = ('#c8500a', '#b8860b', '#0b62a8')
 DASHES: tuple[Any, ...] = ((0, (4, 1.5)), (0, (1.5, 1)), 'solid')
 NOISE = '#7a4fa3'
+# The noise is pale in each plot, as a band or as a line: line styles distinguish the models.
+NOISE_LINE: dict[str, Any] = {'color': NOISE, 'linewidth': 4.0, 'alpha': 0.35}
 HELD_OUT = '#eef3f8'
 SINCE = '#b3124a'
 

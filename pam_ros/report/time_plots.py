@@ -157,7 +157,7 @@ def errors(
             )  # fmt: skip
     if noise > 0.0:
         reached.append(scale.factor * noise)
-        ax.axvline(scale.factor * noise, color=style.NOISE, linewidth=1.4, linestyle=(0, (5, 2)))
+        ax.axvline(scale.factor * noise, **style.NOISE_LINE)
     ax.set_ylim(-0.6, len(sizes) - 0.4)
     ax.set_yticks([])
     ax.spines['left'].set_visible(False)

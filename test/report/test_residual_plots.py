@@ -65,7 +65,8 @@ def test_rising_and_falling_are_distinguished(loop_run):
     up, down = lines(figure)[:2]
     assert np.median(up.get_ydata()) == pytest.approx(1.0, abs=0.01)
     assert np.median(down.get_ydata()) == pytest.approx(-1.0, abs=0.01)
-    assert up.get_linestyle() != down.get_linestyle()
+    assert (up.get_marker(), down.get_marker()) == ('^', 'v')
+    assert up.get_linestyle() == down.get_linestyle()  # that of the model
     assert np.ptp(up.get_xdata()) > 150.0
 
 
