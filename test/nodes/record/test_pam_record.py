@@ -221,7 +221,6 @@ def test_a_recorder_that_is_held_up_has_what_the_simulator_published_meanwhile(p
     assert np.ptp(counts) < 100  # all began at about the same time
 
 
-@pytest.mark.at_any_pace
 def test_a_recorder_that_was_held_up_at_its_end_has_what_was_published_until_then(peer, tmp_path):
     """What the middleware lost meanwhile is sent again later: the recorder waits for it."""
     bag = tmp_path / 'rig'
