@@ -54,6 +54,8 @@ class Loop:
         age in s of the newest measurement after which the loop is BLIND, and its command then
     lost
         time in s from which the loop vents, None if it does not vent
+    is_received
+        whether the rig receives the commands; venting is suspended while it does not
     vent_time
         s in which VENT lowers the pressures to 0 Pa, all in proportion: antagonistic muscles
         keep the ratio of their pressures
@@ -74,7 +76,9 @@ class Loop:
         self._seen: Reading | None = None
         self._is_new = False
         self.lost: float | None = None
+        self.is_received = True
         self._left: Pressures = ()  # the pressures at that time, Pa
+        self._vented = self._looked = 0.0  # s of venting since then, and the time of the last step
         self._has_left = False  # whether the rig gets no more commands
         self.time = 0.0
 
@@ -173,10 +177,13 @@ class Loop:
             return self.pressures
         if self.lost is None:
             self.lost, self._left = now, self.pressures
-        passed = now - self.lost
-        self.pressures = self.vented(self._left, passed)
-        is_over = self._has_left or passed > self.vent_time + VENTING
-        return None if is_over else self.pressures
+            self._vented, self._looked = 0.0, now
+        if self.is_received:
+            self._vented += now - self._looked
+        self._looked = now
+        self.pressures = self.vented(self._left, self._vented)
+        is_over = self._has_left or self._vented > self.vent_time + VENTING
+        return self.pressures if self.is_received and not is_over else None
 
     def vented(self, pressures: Pressures, time: float) -> Pressures:
         """Return the pressures in Pa that remain of *pressures* after *time* s of venting."""

@@ -153,6 +153,22 @@ def test_it_vents_slowly_and_in_proportion(loop):
     assert loop.tick(3.5 + 1.1 * VENTING) is None
 
 
+def test_venting_is_suspended_while_the_rig_receives_no_commands(loop):
+    loop.safe, loop.vent_time = VENT, 2.0
+    loop.law.update = lambda *_: (300e3,)
+    loop.see(Reading(1.0, 0.05))
+    loop.tick(1.0)
+    assert loop.tick(1.5) == (300e3,)
+    assert loop.tick(2.0) == pytest.approx((225e3,))
+    loop.is_received = False
+    assert loop.tick(2.1) is None
+    assert loop.tick(9.0) is None
+    loop.is_received = True
+    assert loop.tick(9.2) == pytest.approx((195e3,))
+    assert loop.tick(10.5) == (0.0,)
+    assert loop.tick(10.5 + 1.1 * VENTING) is None
+
+
 def test_seen_again_while_it_vents_it_begins_at_the_pressure_that_is_left(loop):
     loop.safe, loop.vent_time = VENT, 2.0
     loop.see(Reading(1.0, 0.05))

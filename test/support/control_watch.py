@@ -110,6 +110,7 @@ class Watch:
     def begin(self):
         """Wait until it controls; return where it holds the load."""
         self.peer.more(self.terms, 3)
+        self.peer.until(lambda: self.commands, 'a command')
         return self.latest('reference')
 
 

@@ -190,6 +190,9 @@ class PamControl(TickingNode):
     def _step(self, time: float, stamp: int) -> None:
         """Send a command at *time* in s, by the clock of the loop; *stamp* is ROS time in ns."""
         loop, before = self._loop, self._loop.state
+        # If time follows the states, so many commands are kept that they are confirmed too late.
+        is_checked = loop.lost is not None and not self._is_followed
+        loop.is_received = not is_checked or self._rig.is_received()
         try:
             pressures = loop.tick(time)
         except ArithmeticError:

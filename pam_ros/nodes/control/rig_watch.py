@@ -4,17 +4,27 @@
 
 from collections.abc import Sequence
 
+from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.publisher import Publisher
+
+from pam_ros.timing.interruption import steady_ns
+from pam_ros.timing.pace import SECOND
+
+# ns without a moment at which all commands were acknowledged, after which the rig does not receive
+# them. A rig acknowledges a command within some ms, and no program starts in so short a time.
+PATIENCE = SECOND // 5
+AT_ONCE = Duration()
 
 
 class RigWatch:
     """Detects that a new rig has started, before it can receive a command for the old one.
 
-    The node of a simulator is discovered some time before it subscribes. If a simulator was
-    killed, a check for new subscribers is too late: the new simulator uses the port of the old
-    one, and receives the messages that are still sent to it. If a rig ended properly, this check
-    is enough.
+    If a rig ends properly, the middleware sends its commands to no one any more, and a new rig
+    receives commands only after it was discovered. If a rig is killed, the middleware does not
+    know it for some 20 s and continues to send. A new rig can use the same port, and it can then
+    receive these messages before it is discovered. But a rig that was killed acknowledges
+    nothing, so that commands can stop before a new one starts.
     """
 
     def __init__(self, node: Node, states: str, publishers: Sequence[Publisher]) -> None:
@@ -23,6 +33,7 @@ class RigWatch:
         self._names: set[tuple[str, str]] = set()
         self._fewest = [0, 0]
         self._since: float | None = None
+        self._acknowledged = 0  # steady time, ns
 
     def is_new(self, since: float) -> bool:
         """Return whether another rig has started since the time *since* in s, when venting began.
@@ -34,10 +45,21 @@ class RigWatch:
             found = self._node.get_publishers_info_by_topic(self._states)
             self._names = {(info.node_name, info.node_namespace) for info in found}
             self._since, self._fewest = since, self._count()
+            self._acknowledged = steady_ns()
             return False
         now = self._count()
         self._fewest = [min(pair) for pair in zip(self._fewest, now, strict=True)]
         return now != self._fewest
+
+    def is_received(self) -> bool:
+        """Return whether all reliable subscribers have acknowledged the commands recently.
+
+        Best-effort subscribers acknowledge nothing, and count as if they had received all.
+        """
+        now = steady_ns()
+        if all(one.wait_for_all_acked(AT_ONCE) for one in self._publishers):
+            self._acknowledged = now
+        return now - self._acknowledged <= PATIENCE
 
     def _count(self) -> list[int]:
         nodes = self._node.get_node_names_and_namespaces()

@@ -2,13 +2,17 @@
 # SPDX-License-Identifier: Apache-2.0
 """A rig that has come in the place of the one that is vented: its node, or its subscriber."""
 
+import os
+import signal
+
 import pytest
 import rclpy
+from rclpy.qos import QoSProfile, ReliabilityPolicy
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64
 
 from pam_ros.nodes.control.rig_watch import RigWatch
-from support.harness import Peer
+from support.harness import Peer, Program
 
 
 @pytest.fixture
@@ -68,3 +72,34 @@ def test_a_node_of_the_same_name_is_another_rig_before_it_subscribes(peer, publi
     for node, context in zip((first, second), contexts, strict=True):
         node.destroy_node()
         rclpy.shutdown(context=context)
+
+
+def test_a_rig_whose_process_stands_still_receives_nothing(peer, publisher, watch):
+    def is_received():
+        known = watch.is_received()
+        if known:
+            publisher.publish(Float64(data=1e5))
+        peer.work(0.002)
+        return known
+
+    with Program('pam_sim') as sim:
+        peer.until(lambda: publisher.get_subscription_count() == 1, 'the rig')
+        assert not watch.is_new(1.0)
+        # In all longer than the time after which it would not receive.
+        assert sum(is_received() for _ in range(300)) > 200
+        os.kill(sim.process.pid, signal.SIGSTOP)
+        peer.until(lambda: not is_received(), 'missing confirmations')
+        os.kill(sim.process.pid, signal.SIGCONT)
+        peer.until(is_received, 'commands again')
+
+
+def test_a_subscriber_that_confirms_nothing_counts_as_a_rig_that_receives(peer, publisher, watch):
+    best_effort = QoSProfile(depth=10, reliability=ReliabilityPolicy.BEST_EFFORT)
+    with Peer() as rig:
+        rig.node.create_subscription(Float64, 'pressure_command', print, best_effort)
+        peer.until(lambda: publisher.get_subscription_count() == 1, 'the rig')
+        assert not watch.is_new(1.0)
+        for _ in range(10):
+            publisher.publish(Float64(data=1e5))
+            peer.work(0.05)  # in all longer than the time after which it would not receive
+            assert watch.is_received()
