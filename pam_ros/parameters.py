@@ -29,9 +29,10 @@ class Parameter:
     """Description of one parameter, without its value.
 
     ``low`` and ``high`` are inclusive and in ``unit``; ``None`` means unbounded.
-    ``choices`` lists the allowed values of a string. ``live`` is true if the parameter can be
-    changed while a node runs. ``above_low`` makes the lower bound exclusive. ``revolute`` gives
-    the default and the highest value for a revolute joint, if they are different numbers.
+    ``choices`` lists the allowed values of a string, or of each string in a list. ``live`` is true
+    if the parameter can be changed while a node runs. ``above_low`` makes the lower bound
+    exclusive. ``revolute`` gives the default and the highest value for a revolute joint, if they
+    are different numbers.
     """
 
     text: str
@@ -51,7 +52,7 @@ class Parameter:
     def allowed(self, kind: type = float) -> str:
         """Return a text about the allowed values of type *kind*, for an error message."""
         if self.choices:
-            return 'one of ' + ', '.join(self.choices)
+            return ('a list of ' if kind is tuple else 'one of ') + ', '.join(self.choices)
         if kind in (bool, str, tuple):
             return {bool: 'true or false', str: 'a text', tuple: 'a list of texts'}[kind]
         whole = 'a whole number' if kind is int else ''
@@ -76,7 +77,7 @@ class Parameter:
 
     def _is_text(self, value: Any, kind: type) -> bool:
         if kind is tuple:
-            return isinstance(value, list | tuple) and all(isinstance(v, str) for v in value)
+            return isinstance(value, list | tuple) and all(self._is_text(v, str) for v in value)
         return isinstance(value, str) and (not self.choices or value in self.choices)
 
     def _fits(self, value: Any, kind: type) -> bool:

@@ -7,6 +7,7 @@ from pathlib import Path
 from pam_ros.effects import EFFECTS
 from pam_ros.effects.base import ONSET, Effect
 from pam_ros.effects.parameter import EffectParameter
+from pam_ros.excitation.command import command_line
 
 GUIDE = Path(__file__).parents[1] / 'docs' / 'effects.md'
 
@@ -25,15 +26,23 @@ def acts_on(effect: type[Effect]) -> str:
 def effects_table(library: tuple[type[Effect], ...] = EFFECTS) -> str:
     """Return the table of effects in Markdown."""
     rows = [
-        '| effect | what it is | acts on | source | trace in the residual | mistaken for | '
-        'distinguished by | a controller |',
-        '|---|---|---|---|---|---|---|---|',
+        '| effect | what it is | acts on | source | trace in the residual | a controller |',
+        '|---|---|---|---|---|---|',
     ]
     rows += [
         f'| `{e.name}` | {e.text} | {acts_on(e)} | {e.source} | {e.signature} | '
-        f'{names(e.rivals)} | {e.experiment} | {e.compensation.value} |'
+        f'{e.compensation.value} |'
         for e in library
     ]
+    return '\n'.join(rows)
+
+
+def experiments_table(library: tuple[type[Effect], ...] = EFFECTS) -> str:
+    """Return the table of experiments in Markdown, each with its command if there is one."""
+    rows = ['| effect | mistaken for | distinguished by | command |', '|---|---|---|---|']
+    for e in library:
+        command = '-' if e.excitation is None else f'`{command_line(e.excitation)}`'
+        rows.append(f'| `{e.name}` | {names(e.rivals)} | {e.experiment} | {command} |')
     return '\n'.join(rows)
 
 
@@ -53,8 +62,12 @@ def _row(effect: str, p: EffectParameter) -> str:
 
 
 def with_tables(text: str, library: tuple[type[Effect], ...] = EFFECTS) -> str:
-    """Return the guide *text* with both tables as they must be."""
-    tables = {'effects': effects_table(library), 'parameters': parameters_table(library)}
+    """Return the guide *text* with all tables as they must be."""
+    tables = {
+        'effects': effects_table(library),
+        'experiments': experiments_table(library),
+        'parameters': parameters_table(library),
+    }
     for name, table in tables.items():
         marks = f'<!-- {name} -->', f'<!-- /{name} -->'
         begin = text.index(marks[0]) + len(marks[0])

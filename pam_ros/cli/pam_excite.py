@@ -3,8 +3,8 @@
 """``pam_excite``: play a safe pressure programme that excites the effects of a muscle.
 
 Steps with holds, a slow triangle with minor loops, the same range four times as fast, a
-multisine, chirps at three mean pressures, and the first steps once more; about 85 s. The plan
-is printed before it starts.
+multisine, chirps at three mean pressures, and the first steps once more; about 85 s. Some of
+them are played with ``segments``. The plan is printed before it starts.
 
 Publishes
     ``pressure_command`` (std_msgs/Float64): Pa gauge
@@ -14,9 +14,9 @@ Subscribes
 Commands at ``rate``; with use_sim_time it answers each joint state with one command instead.
 Stops and vents when the joint leaves contraction_min..contraction_max, when no ``joint_states``
 arrive for ``silence`` seconds, and on Ctrl-C, SIGTERM, SIGHUP (the terminal is closed) and
-SIGQUIT. Limits, length and seed are parameters (``pam_excite --parameters``); those of the muscle
-(``-p muscle:=dmsp_20_400n``, or a parameter file) apply as well. Exit code 0 at the end or after
-such a signal, 1 if it stopped or could not start, 2 for invalid parameters.
+SIGQUIT. Limits, length, segments and seed are parameters (``pam_excite --parameters``); the limits
+of the muscle (``-p muscle:=dmsp_20_400n``, or a parameter file) apply as well. Exit code 0 at the
+end or after such a signal, 1 if it stopped or could not start, 2 for invalid parameters.
 """
 
 from pam_ros.cli.start import start_node

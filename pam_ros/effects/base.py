@@ -178,10 +178,12 @@ class Effect(ABC):
     fields. ``states`` are its hidden states. ``compensation`` is how a controller compensates it.
     With ``moves_by_itself`` a load never comes to rest in its example. ``signature`` describes its
     trace in the residual, ``experiment`` what to record to distinguish it from the effects with
-    which it is confused most easily, its ``rivals``. ``contains`` names the effects that are
-    special cases of it. For each of them it maps the parameters of that effect to those of its own
-    with the same values. ``needs_muscle`` means that a load moved by another force cannot have it,
-    since there is no braid, no bladder and no chamber.
+    which it is confused most easily, its ``rivals``. ``excitation`` has the parameters with which
+    ``pam_excite`` plays this experiment; it is None if no segment of ``pam_excite`` does.
+    ``contains`` names the effects that are special cases of it. For each of them it maps the
+    parameters of that effect to those of its own with the same values. ``needs_muscle`` means that
+    a load moved by another force cannot have it, since there is no braid, no bladder and no
+    chamber.
 
     Raises ParameterError for a value out of range.
     """
@@ -191,6 +193,7 @@ class Effect(ABC):
     source: ClassVar[str]
     signature: ClassVar[str]
     experiment: ClassVar[str]
+    excitation: ClassVar[Mapping[str, Any] | None] = None
     compensation: ClassVar[Compensation]
     equations: ClassVar[EffectEquations]
     states: ClassVar[tuple[HiddenState, ...]] = ()

@@ -135,9 +135,8 @@ class CoulombFriction(Effect):
     signature: ClassVar = (
         'residual force that jumps with the sign of velocity; standstill at reversals'
     )
-    experiment: ClassVar = (
-        'slow triangles and micro-reversals: the force reverses within micrometres'
-    )
+    experiment: ClassVar = 'slow triangles with minor loops: the force reverses within micrometres'
+    excitation: ClassVar = {'segments': ('slow_triangle', 'fast_triangle'), 'duration': 300.0}
     compensation: ClassVar = Compensation.FEED_FORWARD
     states: ClassVar = (
         HiddenState('contact force', 'N', 5.0),

@@ -103,6 +103,7 @@ class Creep(Effect):
         'drift after steps that slows down: of length under load, of force at constant length'
     )
     experiment: ClassVar = 'holds of several minutes after steps, up and down'
+    excitation: ClassVar = {'segments': ('steps',), 'duration': 1200.0}
     compensation: ClassVar = Compensation.FEED_FORWARD
     states: ClassVar = tuple(
         HiddenState(f'{which} {of}', unit, 0.0 if which == 'last' else spread)

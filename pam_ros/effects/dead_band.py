@@ -58,6 +58,7 @@ class DeadBand(Effect):
     source: ClassVar = 'Klute and Hannaford 2000 (bladder inside the braid); valves with overlap'
     signature: ClassVar = 'residual that grows up to the threshold, and is then constant'
     experiment: ClassVar = 'slow ramps from no pressure up, at two loads'
+    excitation: ClassVar = {'segments': ('slow_triangle',), 'pressure_min': 0.0}
     compensation: ClassVar = Compensation.PATH
     rivals: ClassVar = ('pressure_offset', 'slack')
     # Above the band it is an offset of the other sign.

@@ -31,6 +31,7 @@ class DeadTime(Effect):
     experiment: ClassVar = (
         'steps recorded at 500 Hz or more, or a chirp up to the corner of the lag'
     )
+    excitation: ClassVar = {'segments': ('steps', 'chirps'), 'rate': 500.0, 'frequency_max': 20.0}
     compensation: ClassVar = Compensation.PATH
     rivals: ClassVar = ('pressure_lag',)
     equations: ClassVar = EffectEquations(delay=late)

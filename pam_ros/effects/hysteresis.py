@@ -147,6 +147,7 @@ class Hysteresis(Effect):
     source: ClassVar = 'Dahl 1968; Wen 1976; Minh et al. 2011 (Maxwell slip)'
     signature: ClassVar = 'loops over contraction whose area does not depend on the speed'
     experiment: ClassVar = 'slow triangles at two rates with minor loops'
+    excitation: ClassVar = {'segments': ('slow_triangle', 'fast_triangle'), 'duration': 300.0}
     compensation: ClassVar = Compensation.FEED_FORWARD
     states: ClassVar = (
         HiddenState('loop', '', 0.5),

@@ -35,8 +35,9 @@ class LengthOffset(Effect):
         'residual proportional to the stiffness: the whole curve moved along contraction'
     )
     experiment: ClassVar = (
-        'static points over the whole range at two pressures, or the rest length measured'
+        'static points over the whole range with two loads, or the rest length measured'
     )
+    excitation: ClassVar = {'segments': ('steps',)}
     compensation: ClassVar = Compensation.MODEL
     rivals: ClassVar = ('pressure_offset', 'payload')
     needs_muscle: ClassVar = True

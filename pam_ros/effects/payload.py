@@ -43,6 +43,7 @@ class Payload(Effect):
     experiment: ClassVar = (
         'steps that make the load swing, or a force cell, or the load on a balance'
     )
+    excitation: ClassVar = {'segments': ('steps', 'chirps')}
     compensation: ClassVar = Compensation.MODEL
     rivals: ClassVar = ('pressure_offset', 'length_offset')
     equations: ClassVar = EffectEquations(mass=moved)

@@ -107,6 +107,7 @@ class PeriodicDisturbance(Effect):
     experiment: ClassVar = (
         'a rest at constant pressure shows it alone; record the supply pressure, too'
     )
+    excitation: ClassVar = {'segments': ('steps',), 'pressure_min': 199e3, 'pressure_max': 200e3}
     compensation: ClassVar = Compensation.FEEDBACK
     moves_by_itself: ClassVar = True
     equations: ClassVar = EffectEquations(pressure=pressure, force=force, guess=guess)

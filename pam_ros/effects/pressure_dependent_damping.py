@@ -37,6 +37,7 @@ class PressureDependentDamping(Effect):
     source: ClassVar = 'Reynolds et al. 2003; Serres et al. 2009'
     signature: ClassVar = 'residual over velocity whose slope grows with pressure'
     experiment: ClassVar = 'a chirp at several pressures: the decay is faster at the higher one'
+    excitation: ClassVar = {'segments': ('chirps',)}
     compensation: ClassVar = Compensation.MODEL
     rivals: ClassVar = ('viscous_friction', 'creep')
     needs_muscle: ClassVar = True

@@ -93,6 +93,7 @@ class PressureHysteresis(Effect):
         'loops over pressure, also at constant length, whose area does not depend on the speed'
     )
     experiment: ClassVar = 'slow triangles at two rates with minor loops, once at constant length'
+    excitation: ClassVar = {'segments': ('slow_triangle', 'fast_triangle'), 'duration': 300.0}
     compensation: ClassVar = Compensation.FEED_FORWARD
     states: ClassVar = (
         HiddenState('pressure', 'Pa'),

@@ -129,6 +129,7 @@ class PressureLag(Effect):
     source: ClassVar = 'ISO 6358 orifice, linear below choking; 20 to 130 ms with servo valves'
     signature: ClassVar = 'phase that rolls off with frequency; rounded step responses'
     experiment: ClassVar = 'steps up and down with the pressure measured, or a chirp'
+    excitation: ClassVar = {'segments': ('steps', 'chirps')}
     compensation: ClassVar = Compensation.PATH
     states: ClassVar = (HiddenState('pressure', 'Pa', 2e4),)
     rivals: ClassVar = ('dead_time', 'leak')

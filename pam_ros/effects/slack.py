@@ -96,6 +96,7 @@ class Slack(Effect):
     experiment: ClassVar = (
         'vent the muscle at constant lengths beyond 10 % contraction with a force cell'
     )
+    excitation: ClassVar = {'segments': ('slow_triangle',), 'pressure_min': 0.0}
     compensation: ClassVar = Compensation.MODEL
     rivals: ClassVar = ('end_stop',)
     needs_muscle: ClassVar = True

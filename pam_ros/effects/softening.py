@@ -84,6 +84,7 @@ class Softening(Effect):
     source: ClassVar = 'Mullins effect of the bladder; measured -2.9 % in ten cycles; warming'
     signature: ClassVar = 'gain that drifts over the record, most in its first cycles'
     experiment: ClassVar = 'the first segment repeated at the end, and again after a rest'
+    excitation: ClassVar = {}
     compensation: ClassVar = Compensation.FEEDBACK
     states: ClassVar = (
         HiddenState('damage', '', 0.5),

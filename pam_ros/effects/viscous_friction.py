@@ -41,6 +41,7 @@ class ViscousFriction(Effect):
         'residual force proportional to velocity at every pressure and contraction'
     )
     experiment: ClassVar = 'a chirp at two pressures: the decay is the same at both'
+    excitation: ClassVar = {'segments': ('chirps',)}
     compensation: ClassVar = Compensation.MODEL
     rivals: ClassVar = ('pressure_dependent_damping',)
     equations: ClassVar = EffectEquations(outside=outside, drag=outside)

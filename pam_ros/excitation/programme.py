@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pam_ros.errors import PamError
-from pam_ros.excitation import waves
+from pam_ros.excitation.segments import SEGMENTS
 from pam_ros.excitation.settings import Excitation
 
 Array = NDArray[np.float64]
@@ -61,29 +61,16 @@ class Programme:
 def programme(settings: Excitation) -> Programme:
     """Return the programme of *settings*; equal settings give bitwise equal programmes.
 
-    Vented, ramp in, steps with holds, a slow triangle with minor loops, the same range four
-    times as fast, a multisine, chirps at three mean pressures, the first two fifths of the steps
-    again (which show warming and wear), ramp out, vented. All is within the limit of the rate
+    Vented, ramp in, the segments of the settings in their order, ramp out, vented. The segments
+    share the duration: each is longer if there are fewer. All is within the limit of the rate
     and, between the ramps in and out, within the limits of pressure.
     """
-    rng = np.random.default_rng(settings.seed)
     rate = settings.rate
-    time = settings.duration - 2.0 * REST - 7.0 * RAMP
-    first = waves.steps(rate, 0.30 * time, rng)
-    slow = waves.triangle(rate, 0.24 * time, rng, minor_loops=True)
-    # The plain triangle has less than half the path length: this makes it four times as fast.
-    fast = waves.triangle(rate, 0.0275 * time, rng, minor_loops=False)
-    sines = waves.multisine(rate, 0.15 * time, rng, settings.frequency_max)
-    chirps = waves.chirp(rate, 0.16 * time, settings.frequency_max)
-    again = first[: first.size * 2 // 5]
-    parts: list[tuple[str, Array, str]] = [
-        ('steps with holds', first, 'lag, dead time, damping, creep'),
-        ('slow triangle', slow, 'hysteresis, friction, the static law'),
-        ('fast triangle', fast, 'hysteresis against creep'),
-        ('multisine', sines, 'the whole range of frequencies'),
-        ('chirps', chirps, 'damping over pressure, lag against dead time, mass'),
-        ('first steps again', again, 'softening, warming, drift'),
-    ]
+    time = settings.duration - 2.0 * REST - (len(settings.segments) + 1) * RAMP
+    # Of this time, each segment has its share if all are played.
+    time *= sum(s.share for s in SEGMENTS.values()) / sum(
+        SEGMENTS[n].share for n in settings.segments
+    )
     levels: list[Array] = []
     segments: list[Segment] = []
     count = 0
@@ -97,9 +84,14 @@ def programme(settings: Excitation) -> Programme:
         count += pressure.size
 
     add('vented', np.zeros(round(REST * rate)), 'the state to start from')
-    for name, wave, text in parts:
+    rng = np.random.default_rng(settings.seed)
+    for name in settings.segments:
+        kind = SEGMENTS[name]
+        # The steps that are repeated have the levels of the first ones.
+        source = np.random.default_rng(settings.seed) if name == 'steps_again' else rng
+        wave = kind.wave(rate, kind.share * time, source, settings.frequency_max)
         pressure = low + span * wave
-        add(name, np.concatenate((_ramp(last, pressure[0], rate), pressure)), text)
+        add(name, np.concatenate((_ramp(last, pressure[0], rate), pressure)), kind.text)
         last = float(pressure[-1])
     out = np.concatenate((_ramp(last, 0.0, rate), np.zeros(round(REST * rate))))
     add('ramp out, vented', out, '')

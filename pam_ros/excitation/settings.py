@@ -5,6 +5,7 @@
 from dataclasses import dataclass, replace
 
 from pam_ros.errors import ParameterError
+from pam_ros.excitation.segments import SEGMENTS
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.parameters import check_all, parameter_field
 
@@ -54,6 +55,12 @@ class Excitation:
     duration: float = parameter_field(
         85.0, 'length of the whole programme', 's', low=30.0, high=3600.0, live=False
     )
+    segments: tuple[str, ...] = parameter_field(
+        tuple(SEGMENTS),
+        'segments of the programme in their order; they share the duration',
+        choices=tuple(SEGMENTS),
+        live=False,
+    )
     frequency_max: float = parameter_field(
         8.0, 'highest frequency of multisine and chirp', 'Hz', low=0.5, high=100.0, live=False
     )
@@ -93,6 +100,10 @@ class Excitation:
                 raise ParameterError(
                     f'{low} = {getattr(self, low):g} is not below {high} = {getattr(self, high):g}'
                 )
+        if not self.segments or len(set(self.segments)) < len(self.segments):
+            raise ParameterError(
+                f'segments = {list(self.segments)} must name at least one segment, each once'
+            )
         if self.frequency_max > self.rate / 10.0:
             raise ParameterError(
                 f'frequency_max = {self.frequency_max:g} Hz needs at least ten commands a '

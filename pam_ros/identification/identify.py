@@ -126,10 +126,12 @@ def identify(
         ),
     )
     notify(1.0, 'done')
+    text, command = next_experiment(answer, model)
     return replace(
         answer,
         sentence=sentence(answer, lacking),
-        next_experiment=next_experiment(answer, model.library),
+        next_experiment=text,
+        next_command=command,
     )
 
 
@@ -158,6 +160,7 @@ def _answer(
         test=tuple(tests),
         warnings=(),
         next_experiment='',
+        next_command='',
         recordings=tuple(recordings),
         test_recordings=tuple(test),
         since=None,

@@ -4,18 +4,28 @@
 
 from collections.abc import Mapping, Sequence
 from math import sqrt
+from typing import NamedTuple
 
 import numpy as np
 
-from pam_ros.effects.base import Effect
+from pam_ros.excitation.command import command_line
 from pam_ros.identification.data.segment import Segment
 from pam_ros.identification.fit.places import effect_of, spelled
 from pam_ros.identification.result import Estimate, Identification
 from pam_ros.identification.search.criteria import Criteria
 from pam_ros.identification.search.search import Search
 from pam_ros.recording.quantities import ATMOSPHERE
+from pam_ros.rig.joint import Joint
+from pam_ros.rig.statics import is_direct
 
 WEATHER = 6e3  # Pa; change of the air pressure by weather and up to 500 m of altitude
+
+
+class NextExperiment(NamedTuple):
+    """What to record next, and the command that plays it, '' if there is none."""
+
+    text: str
+    command: str = ''
 
 
 def too_little(segments: Sequence[Segment], noise: float, criteria: Criteria) -> str:
@@ -128,27 +138,44 @@ def of_absolute_pressures(parameters: Mapping[str, Estimate], signal: str) -> li
     ]
 
 
-def next_experiment(answer: Identification, library: tuple[type[Effect], ...]) -> str:
-    """Return which recording would resolve what *answer* leaves open."""
-    known = {e.name: e.experiment for e in library}
+def next_experiment(answer: Identification, model: Joint) -> NextExperiment:
+    """Return which recording of the rig of *model* would resolve what *answer* leaves open."""
+    known = {e.name: e for e in model.library}
+    # pam_excite monitors the position of a load that hangs on one muscle.
+    can_excite = is_direct(model) and not model.is_driven
     if answer.verdict == 'insufficient_data':
-        return 'Record a minute or more with pam_excite over the whole range of pressure.'
+        return NextExperiment(
+            'Record a minute or more over the whole range of pressure.',
+            command_line({}) if can_excite else '',
+        )
     if answer.verdict == 'effect_found':
         first = next((e for e in answer.effects if e.alternatives), answer.effects[0])
+        chosen, what = known[effect_of(first.name)], 'To confirm ' + spelled(first.name)
         if first.alternatives:
             rivals = ', '.join(map(spelled, (first.name, *first.alternatives)))
-            return f'To distinguish between {rivals}, record: {known[effect_of(first.name)]}.'
-        return f'To confirm {spelled(first.name)}, record: {known[effect_of(first.name)]}.'
-    if answer.verdict == 'unexplained_structure':
+            what = f'To distinguish between {rivals}'
+        text = f'{what}, record: {chosen.experiment}.'
+    elif answer.verdict == 'unexplained_structure':
         tried = [c for c in answer.candidates if c.gain > 0.0 and c.effect in answer.tested]
-        if tried:
-            best = max(tried, key=lambda c: c.gain).effect
-            return (
-                f'{spelled(best)} lowers the error most, but not enough; to see what remains with '
-                f'it, record: {known[effect_of(best)]}, with force and pressure measured.'
+        if not tried:
+            return NextExperiment(
+                'Record force and pressure together with the position, slowly and fast.'
             )
-        return 'Record force and pressure together with the position, slowly and fast.'
-    return 'Repeat the recording on another day, or with another load, to confirm the verdict.'
+        best = max(tried, key=lambda c: c.gain).effect
+        chosen = known[effect_of(best)]
+        text = (
+            f'{spelled(best)} lowers the error most, but not enough; to see what remains with '
+            f'it, record: {chosen.experiment}, with force and pressure measured.'
+        )
+    else:
+        return NextExperiment(
+            'Repeat the recording on another day, or with another load, to confirm the verdict.'
+        )
+    if not can_excite:
+        return NextExperiment(text)
+    if chosen.excitation is None:
+        return NextExperiment(f'{text} pam_excite has no segment for it.')
+    return NextExperiment(text, command_line(chosen.excitation))
 
 
 def time_of(since: Estimate) -> str:

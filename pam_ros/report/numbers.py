@@ -18,7 +18,7 @@ from pam_ros.report.runs import STAGES, Run, sizes
 
 # The first number increases when a key is removed or changes its meaning, the second when a key
 # is added.
-SCHEMA_VERSION = '2.5'
+SCHEMA_VERSION = '2.6'
 
 Table = dict[str, Any]
 
@@ -45,6 +45,7 @@ def numbers(result: Identification, runs: list[Run], source: Provenance) -> Tabl
         'data': _data(runs, source),
         'warnings': list(result.warnings),
         'next_experiment': result.next_experiment,
+        'next_command': result.next_command,
         'provenance': _provenance(result, source),
     }
 

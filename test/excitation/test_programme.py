@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from pam_ros.compiled import HAVE_NUMBA
 from pam_ros.errors import PamError
-from pam_ros.excitation.programme import limit_rate, plan, programme, write_csv
+from pam_ros.excitation.programme import RAMP, limit_rate, plan, programme, write_csv
 from pam_ros.excitation.settings import Excitation
 from pam_ros.rig.run import simulate
 from pam_ros.rig.standard_joints import single_muscle_joint
@@ -52,12 +52,12 @@ def test_the_default_takes_its_stated_duration():
     assert made.pressure.max() == pytest.approx(450e3)
     assert [segment.name for segment in made.segments] == [
         'vented',
-        'steps with holds',
-        'slow triangle',
-        'fast triangle',
+        'steps',
+        'slow_triangle',
+        'fast_triangle',
         'multisine',
         'chirps',
-        'first steps again',
+        'steps_again',
         'ramp out, vented',
     ]
 
@@ -67,7 +67,7 @@ def test_the_fast_triangle_is_four_times_as_fast():
     parts = {s.name: made.pressure[s.start : s.stop] for s in made.segments}
     slow, fast = (
         np.percentile(np.abs(np.diff(parts[name])), 80)
-        for name in ('slow triangle', 'fast triangle')
+        for name in ('slow_triangle', 'fast_triangle')
     )
     assert fast / slow == pytest.approx(4.0, rel=0.05)
 
@@ -76,8 +76,8 @@ def test_the_first_steps_come_again_just_so():
     made = programme(Excitation())
     parts = {s.name: made.pressure[s.start : s.stop] for s in made.segments}
     ramp = 300  # commands: 1.5 s
-    again = parts['first steps again'][ramp:]
-    np.testing.assert_allclose(again, parts['steps with holds'][ramp : ramp + again.size])
+    again = parts['steps_again'][ramp:]
+    np.testing.assert_allclose(again, parts['steps'][ramp : ramp + again.size])
     assert again.size > 1500
 
 
@@ -92,6 +92,46 @@ def test_the_default_keeps_the_papers_rig_within_the_default_window(seed):
     # It goes nearly everywhere, too.
     assert moved.min() < 0.0
     assert moved.max() > 0.85 * chosen.contraction_max
+
+
+@pytest.mark.parametrize('duration', [30.0, 85.0, 1200.0])
+@pytest.mark.parametrize(
+    'names', [('chirps', 'steps'), ('steps_again',), ('fast_triangle', 'multisine')]
+)
+def test_chosen_segments_share_the_duration_in_their_order(names, duration):
+    all_six, made = (
+        programme(Excitation()),
+        programme(Excitation(segments=names, duration=duration)),
+    )
+    assert [s.name for s in made.segments] == ['vented', *names, 'ramp out, vented']
+    assert made.duration == pytest.approx(duration, rel=0.01)
+
+    def lengths(one):
+        return {s.name: s.stop - s.start - round(RAMP * one.rate) for s in one.segments}
+
+    usual, longer = lengths(all_six), lengths(made)
+    first, last = names[0], names[-1]
+    assert longer[last] / longer[first] == pytest.approx(usual[last] / usual[first], rel=0.01)
+
+
+def test_the_longest_hold_of_the_steps_alone_is_a_part_of_their_duration():
+    """3 of 17 parts: the two long holds count three times among thirteen."""
+    made = programme(Excitation(segments=('steps',), duration=1200.0))
+    at_top = np.count_nonzero(made.pressure == made.pressure.max()) / made.rate
+    assert at_top == pytest.approx(3.0 / 17.0 * 1195.0, rel=0.01)
+
+
+def test_repeated_steps_alone_have_the_levels_of_the_first_steps():
+    both = programme(Excitation(segments=('steps', 'steps_again'), seed=2))
+    alone = programme(Excitation(segments=('steps_again',), seed=2))
+
+    def levels(one, k):
+        part = one.pressure[one.segments[k].start + 300 : one.segments[k].stop]
+        return part[1:][np.diff(part) == 0.0]
+
+    found = np.unique(levels(both, 2))
+    np.testing.assert_array_equal(np.unique(levels(alone, 1)), found)
+    assert found.size == 5
 
 
 def test_the_same_settings_give_the_same_bits():
@@ -121,7 +161,7 @@ def test_the_plan_has_times_levels_and_speeds():
     text = plan(programme(chosen), chosen)
     lines = text.splitlines()
     assert len(lines) == 10
-    assert 'steps with holds' in lines[2]
+    assert lines[2].startswith('steps ')
     assert '450 kPa' in lines[2]
     assert 'hysteresis' in lines[3]
     assert lines[-1].startswith('total 8')

@@ -18,6 +18,10 @@ from pam_ros.muscle.muscle import Muscle
         ({'pressure_rate': 0.0}, ['pressure_rate']),
         ({'rate': 50.0}, ['frequency_max = 8 Hz', 'rate = 50 Hz']),
         ({'seed': -1}, ['seed']),
+        ({'segments': ('steps', 'chirp')}, ['segments', 'a list of steps, slow_triangle']),
+        ({'segments': 'steps'}, ["segments = 'steps'", 'a list of steps, slow_triangle']),
+        ({'segments': ()}, ['segments = []', 'at least one segment']),
+        ({'segments': ('steps', 'steps')}, ["['steps', 'steps']", 'each once']),
         ({'pressure_max': float('nan')}, ['pressure_max']),
     ],
 )

@@ -21,7 +21,12 @@ from pam_ros.identification.verdict import (
     too_little,
     verdict,
 )
+from pam_ros.muscle.muscle import Muscle
+from pam_ros.rig.loads import Mass
+from pam_ros.rig.standard_joints import antagonistic_joint, single_muscle_joint
 from support import bench_truth, results
+
+DRIVE = Muscle(a1=0.0, a2=0.0, a3=0.0, a4=0.0, a5=1.0, a6=0.0, pressure_unit='Pa', zeta=0.0)
 
 
 def with_errors(model, errors):
@@ -123,12 +128,14 @@ def test_each_verdict_has_its_sentence_and_its_next_experiment(name):
     assert all(part in text for part in there)
     if name == 'effect_found':
         assert all(effect.name in text for effect in answer.effects)
-    library = answer.stages[0].model.library
-    experiment = next_experiment(answer, library)
+    model = answer.stages[0].model
+    experiment, command = next_experiment(answer, model)
     assert 'ecord' in experiment
     if name == 'effect_found':
-        by_name = {e.name: e.experiment for e in library}
+        by_name = {e.name: e.experiment for e in model.library}
         assert any(by_name[effect.name] in experiment for effect in answer.effects)
+    is_known = name in ('effect_found', 'unexplained_structure', 'insufficient_data')
+    assert command.startswith('pam_excite') == is_known
 
 
 @pytest.mark.parametrize(
@@ -159,17 +166,35 @@ def test_rivals_are_distinguished_by_the_experiment_of_the_effect():
     first = replace(answer.effects[0], alternatives=('slack', 'leak'))
     answer = replace(answer, effects=(first, *answer.effects[1:]))
     assert f'{first.name} (or slack or leak)' in sentence(answer, '')
-    text = next_experiment(answer, answer.stages[0].model.library)
+    text = next_experiment(answer, answer.stages[0].model).text
     assert text.startswith(f'To distinguish between {first.name}, slack, leak, record: ')
 
 
 def test_without_a_named_effect_the_nearest_one_decides_what_to_record():
     answer = replace(results.friction_result()[0], verdict='unexplained_structure')
-    library = answer.stages[0].model.library
+    model = answer.stages[0].model
     best = max(answer.candidates, key=lambda c: c.gain)
-    assert next_experiment(answer, library).startswith(f'{best.effect} lowers the error most')
+    assert next_experiment(answer, model).text.startswith(f'{best.effect} lowers the error most')
     none = replace(answer, candidates=())
-    assert next_experiment(none, library).startswith('Record force and pressure')
+    assert next_experiment(none, model).text.startswith('Record force and pressure')
+
+
+def test_an_experiment_that_no_segment_plays_has_no_command():
+    answer = replace(results.friction_result()[0], verdict='effect_found')
+    answer = replace(answer, effects=(replace(answer.effects[0], name='end_stop'),))
+    text, command = next_experiment(answer, answer.stages[0].model)
+    assert text.endswith('. pam_excite has no segment for it.')
+    assert command == ''
+
+
+@pytest.mark.parametrize(
+    'model', [antagonistic_joint(), single_muscle_joint(DRIVE, Mass(mount='horizontal'))]
+)
+def test_a_rig_that_is_not_excited_by_its_position_has_no_command(model):
+    answer = replace(results.friction_result()[0], verdict='effect_found')
+    text, command = next_experiment(answer, model)
+    assert 'pam_excite' not in text
+    assert command == ''
 
 
 @pytest.mark.parametrize(

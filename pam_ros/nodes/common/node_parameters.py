@@ -129,7 +129,7 @@ def describe(about: Parameter, kind: type) -> ParameterDescriptor:
     descriptor = ParameterDescriptor(description=about.text + unit, read_only=not about.live)
     bounded = about.low is not None or about.high is not None
     if about.choices or bounded:
-        descriptor.additional_constraints = about.allowed()
+        descriptor.additional_constraints = about.allowed(tuple if kind is tuple else float)
     if about.low is not None and about.high is not None:
         if kind is float:
             descriptor.floating_point_range = [

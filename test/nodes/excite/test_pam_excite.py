@@ -4,6 +4,7 @@
 
 import os
 import pty
+import shlex
 import signal
 import subprocess
 import sys
@@ -15,6 +16,8 @@ from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64
 
+from pam_ros.effects import EFFECTS
+from pam_ros.excitation.command import command_line
 from pam_ros.excitation.programme import programme
 from pam_ros.excitation.settings import Excitation
 from support.ends import check_refusals
@@ -126,7 +129,7 @@ def test_the_plan_alone(peer, tmp_path):
     with excite({'seed': 5}, '--dry-run', '--csv', str(file)) as program:
         assert program.wait() == 0
         output = program.output
-    assert 'steps with holds' in output
+    assert '\nslow_triangle ' in output
     assert 'seed 5' in output
     assert 'outside -16.0 to 100.0 mm' in output
     assert 'the nominal model would move from' in output
@@ -136,6 +139,18 @@ def test_the_plan_alone(peer, tmp_path):
         table['pressure_command_Pa'], programme(Excitation(seed=5)).pressure
     )
     assert commands == []
+
+
+@pytest.mark.at_any_pace
+def test_the_command_lines_that_effects_propose_are_accepted():
+    for effect in EFFECTS:
+        if effect.excitation:
+            program, *arguments = shlex.split(command_line(effect.excitation))
+            command = [sys.executable, '-m', f'pam_ros.cli.{program}', '--dry-run', *arguments]
+            output = subprocess.check_output(command, text=True, timeout=120)
+            played = [line.split()[0] for line in output.splitlines()[2:]]
+            segments = effect.excitation.get('segments', ())
+            assert tuple(played[: len(segments)]) == segments
 
 
 @pytest.mark.at_any_pace
