@@ -1,8 +1,13 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
 
-VENV := .venv
+# Which wheels of ROS: those of each distribution have an environment of their own.
+DISTRO := jazzy
+VENV := $(if $(filter jazzy,$(DISTRO)),.venv,.venv/$(DISTRO))
 PY := $(VENV)/bin/python
+ifeq ($(wildcard requirements/ros-$(DISTRO).txt),)
+$(error DISTRO=$(DISTRO) is not known: it must be jazzy or kilted)
+endif
 
 # A ROS that the user's shell has sourced must not mix with the wheels of the environment.
 unexport PYTHONPATH PYTHONHOME LD_LIBRARY_PATH _ROS_WHEELS_BOOTSTRAP_COMPLETE
@@ -28,10 +33,12 @@ help:
 	@echo 'make notebook   run docs/notebooks/ again, and store what the cells print and draw'
 	@echo 'make bench      the speed claims, measured on this machine (ARGS=plant_step for one)'
 	@echo 'make clean      remove what these commands made'
-	@echo 'The first of them sets up the environment $(VENV); PYTHON=python3.12 chooses its Python.'
+	@echo 'The first of them sets up the environment $(VENV); PYTHON=python3.12 chooses its Python,'
+	@echo 'and DISTRO=kilted the ROS of make test, make demo and make bench: jazzy, if not given.'
 
 environment:
-	@tools/environment --package $(VENV) requirements/ros.txt requirements/lint.txt requirements/bench.txt
+	@tools/environment --package $(VENV) requirements/ros-$(DISTRO).txt requirements/colcon.txt \
+	  requirements/lint.txt requirements/bench.txt
 
 # Compile the stepping kernels into their cache, so that nodes start at once.
 warm: environment
@@ -70,8 +77,8 @@ lint: environment
 
 # An environment of its own, so that no other command has to wait for Sphinx.
 docs:
-	@tools/environment $(VENV)-docs requirements/docs.txt
-	$(VENV)-docs/bin/python -m sphinx -W --keep-going -q -E -c docs . build/docs
+	@tools/environment .venv-docs requirements/docs.txt
+	.venv-docs/bin/python -m sphinx -W --keep-going -q -E -c docs . build/docs
 	@echo 'build/docs/index.html is the start page.'
 
 tables: environment
@@ -84,6 +91,6 @@ bench: warm
 	$(PY) -m benchmarks $(ARGS)
 
 clean:
-	rm -rf $(VENV) $(VENV)-docs demo build install log *.egg-info
+	rm -rf .venv .venv-docs demo build install log *.egg-info
 	rm -rf .hypothesis .mypy_cache .pytest_cache .ruff_cache
 	find . -name __pycache__ -type d -prune -exec rm -rf {} +

@@ -12,6 +12,7 @@ import scipy
 from hypothesis import settings
 
 from pam_ros.compiled import HAVE_NUMBA
+from support.distribution import PROFILE
 from support.domain import DISCOVERY, NOT_CLAIMED, claimed
 
 # Fixtures of tests that start nodes, and of those that need still more: a browser, a shell without
@@ -37,7 +38,7 @@ def pytest_configure(config):
     # What is LOCALHOST here is given in the profile: the ROS layer would choose shared memory.
     os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'] = 'SUBNET'
     os.environ.pop('ROS_STATIC_PEERS', None)
-    os.environ['FASTRTPS_DEFAULT_PROFILES_FILE'] = str(DISCOVERY)
+    os.environ[PROFILE] = str(DISCOVERY)
     os.environ['ROS_PYTHON_CHECK_FIELDS'] = '1'
     os.environ['MPLBACKEND'] = 'Agg'
     # For workers and programs: threads of linear algebra that wait for each other on cores that

@@ -9,6 +9,7 @@ import pytest
 from pam_ros.report.write import write_report
 from pam_ros.settings.files import read
 from support import results
+from support.distribution import IS_JAZZY
 from support.harness import Program
 from support.ros2param import dump, load, values_of
 
@@ -98,6 +99,14 @@ def test_former_names_of_parameters_start_a_node_with_a_warning(peer, tmp_path, 
 SHIPPED = sorted(p for p in CONFIG.rglob('*.yaml') if 'ros__parameters' in p.read_text())
 
 
+def can_load(path):
+    """Return whether ``ros2 param load`` sends anything of a file.
+
+    Since Kilted it does not send what is under a name with a wildcard, as /**/pam_sim.
+    """
+    return IS_JAZZY or '\n/**:\n' in path.read_text()
+
+
 @pytest.fixture(scope='module')
 def identified(tmp_path_factory):
     """Return the parameter file of an identification."""
@@ -112,20 +121,21 @@ def check_load(peer, node, path, *, of_another=False):
     They are set one after the other: of another muscle, some make no rig together with what is
     not set yet, and have a reason, too.
     """
-    refused = load(peer, node, path)
-    values, given = values_of(peer, node), read(path, node[1:])
+    answers = load(peer, node, path)
+    values = values_of(peer, node)
+    given = {name: value for name, value in read(path, node[1:]).items() if name in answers}
     shown = peer.describe(node, *(name for name in given if name in values))
     fixed = {description.name for description in shown if description.read_only}
     assert given
     for name, value in given.items():
         if name not in values:
-            assert 'undeclared' in refused[name]
+            assert 'undeclared' in answers[name]
         elif name in fixed:
-            assert refused[name] == f'Trying to set a read-only parameter: {name}.'
-        elif of_another and name in refused:
-            assert 'type' not in refused[name]
+            assert answers[name] == f'Trying to set a read-only parameter: {name}.'
+        elif of_another and answers[name]:
+            assert 'type' not in answers[name]
         else:
-            assert name not in refused, refused
+            assert answers[name] == '', answers
             assert values[name] == value
     return fixed
 
@@ -137,7 +147,8 @@ def test_what_is_written_loads_into_a_running_node(peer, tmp_path, identified, p
     with Program(program, parameters={'muscle': 'dmsp_20_400n'}) as running:
         wait_for(peer, running)
         others = {'pam_sim': 'control.yaml', 'pam_control': 'sim.yaml'}
-        for path in (*(p for p in SHIPPED if p.name != others[program]), identified):
+        files = [p for p in SHIPPED if p.name != others[program] and can_load(p)]
+        for path in (*files, identified):
             check_load(peer, node, path, of_another=True)
         # As a text that is a number for ROS alone.
         assert peer.set_one(node, zeta='1e-05').successful

@@ -17,6 +17,8 @@ from pathlib import Path
 from time import monotonic, sleep
 from xml.etree import ElementTree
 
+from support.distribution import PROFILE
+
 DISCOVERY = Path(__file__).with_name('discovery.xml')
 DOMAINS = range(1, 101)  # 0 is everybody's; above 100 the ports meet Linux' ephemeral ones
 PATIENCE = 10.0  # s that the programs of a test may take to end once they were stopped
@@ -62,8 +64,7 @@ def programs_in(domain: int) -> list[int]:
         except OSError:  # it has ended meanwhile, or is another user's
             continue
         if wanted in variables and any(
-            one.startswith(b'FASTRTPS_DEFAULT_PROFILES_FILE=')
-            and one.endswith(os.fsencode(DISCOVERY.name))
+            one.startswith(os.fsencode(PROFILE)) and one.endswith(os.fsencode(DISCOVERY.name))
             for one in variables
         ):
             found.append(int(folder.name))

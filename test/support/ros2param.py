@@ -3,7 +3,7 @@
 """What ``ros2 param dump`` and ``ros2 param load`` do, over the same services of rclpy."""
 
 import yaml
-from rclpy.parameter import parameter_dict_from_yaml_file, parameter_value_to_python
+from rclpy.parameter import parameter_value_to_python
 from rclpy.parameter_client import AsyncParameterClient
 
 
@@ -34,18 +34,22 @@ def dump(peer, node):
 
 
 def load(peer, node, path):
-    """Load a file as ``ros2 param load`` does; return name -> reason of what is not taken.
+    """Load a file as ``ros2 param load`` does; return name -> reason, '' of what is taken.
 
-    All that are sent are answered: else the command ends in a traceback.
+    All that are sent are answered: else the command ends in a traceback. Since Kilted it does not
+    send what is under a name with a wildcard, as /**/pam_sim.
     """
-    sent = parameter_dict_from_yaml_file(str(path), use_wildcard=True)
     client = _client(peer, node)
+    set_parameters, sent = client.set_parameters, []
+
+    def note(parameters, *more, **named):
+        sent[:] = [parameter.name for parameter in parameters]
+        return set_parameters(parameters, *more, **named)
+
+    client.set_parameters = note
     results = peer.answer(
         lambda: client.load_parameter_file(str(path), use_wildcard=True), f'{node}/set_parameters'
     ).results
-    refused = {}
-    for name, result in zip(sent, results, strict=True):
-        if not result.successful:
-            assert result.reason, name
-            refused[name] = result.reason
-    return refused
+    answers = dict(zip(sent, results, strict=True))
+    assert all(bool(result.reason) != result.successful for result in answers.values()), answers
+    return {name: result.reason for name, result in answers.items()}

@@ -15,11 +15,11 @@ import pytest
 from sensor_msgs.msg import JointState
 
 from support import domain as domains
+from support.distribution import PROFILE
 from support.domain import DOMAINS, claimed, heard_domains, ports_of, programs_in
 from support.harness import DEADLINE, Program
 
 HERE = Path(__file__).parents[2]
-PROFILE = 'FASTRTPS_DEFAULT_PROFILES_FILE'
 # Once it reads the line, it claims a domain again and again, of all that there are always the
 # first that it can have, and notes it in a file that must not be there yet.
 CLAIM_OFTEN = """
@@ -250,7 +250,8 @@ def test_nodes_of_others_in_the_same_domain_are_not_received(domain, peer, monke
 def uses_shared_memory(pid):
     """Say whether a process holds a file of Fast DDS's shared memory open."""
     files = Path(f'/proc/{pid}/fd').iterdir()
-    return any(os.path.realpath(file).startswith('/dev/shm/fastrtps') for file in files)
+    names = ('/dev/shm/fastrtps', '/dev/shm/fastdds')
+    return any(os.path.realpath(file).startswith(names) for file in files)
 
 
 @pytest.mark.at_any_pace
