@@ -91,8 +91,10 @@ def check_make(words):
     assert re.search(rf'^{target}:', makefile, re.MULTILINE), f'make {target}'
     for word in rest:
         name, _, value = word.partition('=')
-        assert name == 'ARGS', word
-        if target == 'bench':
+        assert name in ('ARGS', 'DISTRO'), word
+        if name == 'DISTRO':
+            assert (ROOT / 'requirements' / f'ros-{value}.txt').is_file()
+        elif target == 'bench':
             check_benchmarks(value.split())
         else:
             # Options of pytest stand next to the paths.
