@@ -135,7 +135,8 @@ def test_it_is_in_identification_control_and_page(found):
     _, known = found
     assert known['unknown'] == ['effects.choked_valve.slowness']
     assert known['feedback'] == ['choked_valve']
-    (row,) = known['rows']
-    assert 'ISO 6358, sonic flow' in row
+    of_effect, of_experiment = known['rows']
+    assert 'ISO 6358, sonic flow' in of_effect
+    assert of_experiment.endswith("| `pam_excite --ros-args -p segments:='[steps]'` |")
     (parameter,) = known['parameters']
     assert 'time for each Pa of change' in parameter
