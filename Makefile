@@ -18,7 +18,7 @@ export ROS_AUTOMATIC_DISCOVERY_RANGE := LOCALHOST
 export PYTHON
 
 .DEFAULT_GOAL := help
-.PHONY: help environment warm demo test test-fast test-oldest test-all faults lint docs tables
+.PHONY: help environment warm demo test test-fast test-oldest test-all faults lint docs pages
 .PHONY: notebook bench clean
 
 help:
@@ -29,7 +29,7 @@ help:
 	@echo 'make faults     each fault of a node 20 times, and 1500 examples of generated input'
 	@echo 'make lint       style and types'
 	@echo 'make docs       the pages and the public names as a site: build/docs/index.html'
-	@echo 'make tables     write the tables of docs/effects.md again, from the library of effects'
+	@echo 'make pages      write the pages of the effects again: their tables, texts and pictures'
 	@echo 'make notebook   run docs/notebooks/ again, and store what the cells print and draw'
 	@echo 'make bench      the speed claims, measured on this machine (ARGS=plant_step for one)'
 	@echo 'make clean      remove what these commands made'
@@ -81,8 +81,8 @@ docs:
 	.venv-docs/bin/python -m sphinx -W --keep-going -q -E -c docs . build/docs
 	@echo 'build/docs/index.html is the start page.'
 
-tables: environment
-	$(PY) tools/tables.py
+pages: warm
+	$(PY) tools/effect_pages.py
 
 notebook: warm
 	$(PY) tools/notebook.py

@@ -58,6 +58,8 @@ NAVIGATION = {
         'Change log <CHANGELOG>',
     ),
 }
+# The pages below that of the effects.
+EFFECTS = [f'/docs/effects/{effect.name}' for effect in pam_ros.EFFECTS]
 START = 'README'
 
 project = 'pam_ros'
@@ -65,7 +67,7 @@ version = release = pam_ros.__version__
 extensions = ['sphinx.ext.autodoc', 'myst_nb']
 root_doc = START
 include_patterns = ['*.md', '*.rst', 'docs/*.md', 'docs/*.rst', 'docs/tutorials/*.md']
-include_patterns += ['docs/notebooks/*.ipynb']
+include_patterns += ['docs/effects/*.md', 'docs/notebooks/*.ipynb']
 nb_execution_mode = 'off'  # a test has run the cells, whose outputs are stored
 myst_heading_anchors = 6  # every heading can be linked to, by the name that it has on GitHub
 python_maximum_signature_line_length = 80
@@ -117,11 +119,15 @@ def reference() -> str:
     return '\n'.join(parts)
 
 
+def listed(pages, *options: str) -> str:
+    """Return the list of *pages* as Markdown that is not shown on a page itself."""
+    return '\n'.join(['```{toctree}', ':hidden:', *options, '', *pages, '```', ''])
+
+
 def navigation() -> str:
-    """Return the lists of pages as Markdown that is not shown on the start page itself."""
+    """Return the lists of pages at the side."""
     return '\n'.join(
-        '\n'.join(['```{toctree}', ':hidden:', f':caption: {caption}', '', *pages, '```', ''])
-        for caption, pages in NAVIGATION.items()
+        listed(pages, f':caption: {caption}') for caption, pages in NAVIGATION.items()
     )
 
 
@@ -129,6 +135,9 @@ def add_to_source(app, name, content):
     """Add what the repository need not show to the source of a page."""
     if name == START:
         content[0] += '\n' + navigation()
+    if name == 'docs/effects':
+        after = '<!-- /effects -->\n'
+        content[0] = content[0].replace(after, f'{after}\n{listed(EFFECTS)}\n')
     if name == 'docs/api':
         content[0] += '\n' + reference()
 

@@ -175,15 +175,16 @@ class Effect(ABC):
 
     As for loads, an effect is a dataclass of its parameters and equations that are compiled into
     the stepping kernel. ``q[j]``, ``q[j + 1]``, ... are its own parameters in the order of its
-    fields. ``states`` are its hidden states. ``compensation`` is how a controller compensates it.
-    With ``moves_by_itself`` a load never comes to rest in its example. ``signature`` describes its
-    trace in the residual, ``experiment`` what to record to distinguish it from the effects with
-    which it is confused most easily, its ``rivals``. ``excitation`` has the parameters with which
-    ``pam_excite`` plays this experiment; it is None if no segment of ``pam_excite`` does.
-    ``contains`` names the effects that are special cases of it. For each of them it maps the
-    parameters of that effect to those of its own with the same values. ``needs_muscle`` means that
-    a load moved by another force cannot have it, since there is no braid, no bladder and no
-    chamber.
+    fields. ``equation`` is what its page shows of the equations, with the parameters by their
+    names; the index ``in`` marks a value without the effect. ``states`` are its hidden states.
+    ``compensation`` is how a controller compensates it. With ``moves_by_itself`` a load never
+    comes to rest in its example. ``signature`` describes its trace in the residual, ``experiment``
+    what to record to distinguish it from the effects with which it is confused most easily, its
+    ``rivals``. ``excitation`` has the parameters with which ``pam_excite`` plays this experiment;
+    it is None if no segment of ``pam_excite`` does. ``contains`` names the effects that are
+    special cases of it. For each of them it maps the parameters of that effect to those of its
+    own with the same values. ``needs_muscle`` means that a load moved by another force cannot have
+    it, since there is no braid, no bladder and no chamber.
 
     Raises ParameterError for a value out of range.
     """
@@ -191,6 +192,7 @@ class Effect(ABC):
     name: ClassVar[str]
     text: ClassVar[str]
     source: ClassVar[str]
+    equation: ClassVar[str]
     signature: ClassVar[str]
     experiment: ClassVar[str]
     excitation: ClassVar[Mapping[str, Any] | None] = None

@@ -132,6 +132,12 @@ class CoulombFriction(Effect):
     source: ClassVar = (
         'Coulomb, Stribeck; Prandtl element for presliding; Dupont et al. 2002 on drift'
     )
+    equation: ClassVar = (
+        'F = F_in - R,  with -(1 - asymmetry) L <= R <= (1 + asymmetry) L\n'
+        'L = level + per_pressure p + max(breakaway - level, 0) exp(-(v / stribeck_speed)^2)\n'
+        'Between these limits R is the force of a spring, L / presliding, with a damper.\n'
+        'At a limit the contact slides.'
+    )
     signature: ClassVar = (
         'residual force that jumps with the sign of velocity; standstill at reversals'
     )

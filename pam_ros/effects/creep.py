@@ -99,6 +99,13 @@ class Creep(Effect):
     name: ClassVar = 'creep'
     text: ClassVar = 'parts of force, stiffness and pressure gain that act with a lag'
     source: ClassVar = 'Standard linear solid; Minh et al. 2012 for a fluidic muscle'
+    equation: ClassVar = (
+        "F = F_in - force (F_in - F_in') - stiffness (κ - κ') - pressure dF/dp (p - p')\n"
+        'A prime marks the slow follower of a value x, the mean of two first-order lags:\n'
+        "x' = (1 - balance) x1 + balance x2\n"
+        'dx1/dt = (x - x1) spread / time\n'
+        'dx2/dt = (x - x2) / (spread time)'
+    )
     signature: ClassVar = (
         'drift after steps that slows down: of length under load, of force at constant length'
     )

@@ -2,8 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Dead band: below a threshold of the pressure, the bladder or the valve does nothing.
 
-With this effect the pressure of a muscle is the one that acts on its braid. If the bladder has
-the threshold, a sensor in the chamber does not measure this pressure.
+A recording of commands cannot distinguish a valve that gives no pressure below a threshold from a
+bladder that must be inflated before it acts on the braid. In both cases the pressure that is
+published is the one that acts in the muscle. A sensor in the chamber of a muscle whose bladder has
+the threshold measures more than that, by the width of the band: do not connect it to
+``pam_control``.
 """
 
 from dataclasses import dataclass
@@ -56,6 +59,10 @@ class DeadBand(Effect):
     name: ClassVar = 'dead_band'
     text: ClassVar = 'threshold of the pressure, below which the bladder or the valve does nothing'
     source: ClassVar = 'Klute and Hannaford 2000 (bladder inside the braid); valves with overlap'
+    equation: ClassVar = (
+        'p = max(p_in - band, 0)\n'
+        'The corner is rounded by a parabola over +-width, but at most over +-band.'
+    )
     signature: ClassVar = 'residual that grows up to the threshold, and is then constant'
     experiment: ClassVar = 'slow ramps from no pressure up, at two loads'
     excitation: ClassVar = {'segments': ('slow_triangle',), 'pressure_min': 0.0}

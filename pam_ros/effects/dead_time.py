@@ -25,6 +25,7 @@ class DeadTime(Effect):
     name: ClassVar = 'dead_time'
     text: ClassVar = 'transport delay between command and pressure'
     source: ClassVar = 'Wave travel in the tube, switching time of the valve, computing time'
+    equation: ClassVar = 'p(t) = u(t - delay), with the command u'
     signature: ClassVar = (
         'phase that falls in proportion to frequency; nothing moves after a step for a time'
     )

@@ -112,6 +112,10 @@ class EndStop(Effect):
     name: ClassVar = 'end_stop'
     text: ClassVar = 'stiff one-sided pads at the ends of the travel'
     source: ClassVar = 'Hunt & Crossley 1975; manufacturer: at most 25 % contraction'
+    equation: ClassVar = (
+        'F = F_in - max(k d (1 + damping v), 0)  with d = y - upper l0 > 0,  k = stiffness\n'
+        'F = F_in + max(k d (1 - damping v), 0)  with d = lower l0 - y > 0,  k = lower_stiffness'
+    )
     signature: ClassVar = 'residual only beyond a position, pushing back'
     experiment: ClassVar = 'touch it slowly, and touch it with another load'
     compensation: ClassVar = Compensation.FEEDBACK

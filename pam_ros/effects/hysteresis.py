@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Rate-independent hysteresis of braid and bladder over contraction.
 
-There are two operators, since measured loops have different shapes, and each of them may be
-absent. Minor loops of the operator of Bouc and Wen drift until they reach the major loop. With
-Maxwell's slip elements every minor loop is closed, and all turning points are stored.
+The loop is one of force over contraction: a muscle of constant length does not show it. There are
+two operators, since measured loops have different shapes, and each of them may be absent. Minor
+loops of the operator of Bouc and Wen drift until they reach the major loop. With Maxwell's slip
+elements every minor loop is closed, and all turning points are stored.
 """
 
 from dataclasses import dataclass
@@ -12,7 +13,7 @@ from math import exp, expm1, log1p
 from typing import ClassVar
 
 from pam_ros.effects.base import Compensation, Effect, EffectEquations, HiddenState, Row, Starts
-from pam_ros.effects.maxwell_slip import ELEMENTS, EVEN, MOST, slipped, strains
+from pam_ros.effects.maxwell_slip import ELEMENTS, EQUATION, EVEN, MOST, slipped, strains
 from pam_ros.effects.parameter import effect_parameter, start_from, strength
 
 (
@@ -145,6 +146,15 @@ class Hysteresis(Effect):
     name: ClassVar = 'hysteresis'
     text: ClassVar = 'rate-independent hysteresis of braid and bladder over contraction'
     source: ClassVar = 'Dahl 1968; Wen 1976; Minh et al. 2011 (Maxwell slip)'
+    equation: ClassVar = (
+        'F = F_in - g (amplitude z + slip m)\n'
+        'g = max(1 + pressure_growth (p / 300 kPa - 1), 0)\n'
+        'Bouc-Wen, with s = sign(dκ/dt):\n'
+        '  dz/dκ = (1 - s z) / width            while s z > 0\n'
+        '  dz/dκ = (1 - unloading s z) / width  while s z < 0\n'
+        f'Maxwell slip over x = κ:\n{EQUATION}\n'
+        'At the start: z = e_n / d_n = initial'
+    )
     signature: ClassVar = 'loops over contraction whose area does not depend on the speed'
     experiment: ClassVar = 'slow triangles at two rates with minor loops'
     excitation: ClassVar = {'segments': ('slow_triangle', 'fast_triangle'), 'duration': 300.0}

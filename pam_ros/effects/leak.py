@@ -118,6 +118,13 @@ class Leak(Effect):
     source: ClassVar = (
         'Isothermal chamber with a laminar leak; refill through the conductance of the valve'
     )
+    equation: ClassVar = (
+        'p_in > p:  dp/dt = min((p_in - p) / refill, supply) - rate p\n'
+        'p_in < p:  dp/dt = (p_in - p) / vent - rate p,  or p = p_in at once with vent = 0\n'
+        'With refill = 0 the valve is closed while p_in is constant: dp/dt = -rate p.\n'
+        'A change of p_in by dp_in multiplies the loss p_in - p by exp(-|dp_in| / reopening).\n'
+        'At the start: p = (1 - lost) p_in / (1 + rate refill)'
+    )
     signature: ClassVar = (
         'pressure that falls while the command is constant, and is restored by its next change'
     )

@@ -31,6 +31,7 @@ class LengthOffset(Effect):
     name: ClassVar = 'length_offset'
     text: ClassVar = 'constant difference between the effective and the measured contraction'
     source: ClassVar = 'Rest length and clamping differ between specimens; affine sensor model'
+    equation: ClassVar = 'κ = κ_measured + offset'
     signature: ClassVar = (
         'residual proportional to the stiffness: the whole curve moved along contraction'
     )

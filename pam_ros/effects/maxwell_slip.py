@@ -15,6 +15,13 @@ from pam_ros.effects.base import Row
 ELEMENTS = 10
 EVEN = 1.0  # ratio for equal gaps between the thresholds
 MOST = 2.5e3  # largest ratio
+# In the symbols of the parameters of both effects, over their displacement x.
+EQUATION = (
+    f'  m = mean(e_n / d_n) of {ELEMENTS} elements, with de_n/dt = dx/dt within |e_n| <= d_n\n'
+    '  d_n = slip_width (slip_onset + (1 - slip_onset) r_n)\n'
+    '  r_n = (slip_ratio^c_n - 1) / (slip_ratio - 1), or c_n with slip_ratio = 1\n'
+    f'  c_n = (n - 0.5) / {ELEMENTS}'
+)
 
 
 @scalar

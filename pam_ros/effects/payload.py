@@ -39,6 +39,7 @@ class Payload(Effect):
     name: ClassVar = 'payload'
     text: ClassVar = 'mass of the load in addition to the nominal one'
     source: ClassVar = 'Newton: weight and inertia alike'
+    equation: ClassVar = 'm = max(m_in + mass, m_in / 5)'
     signature: ClassVar = 'constant residual force, and inertia: a slower oscillation'
     experiment: ClassVar = (
         'steps that make the load swing, or a force cell, or the load on a balance'

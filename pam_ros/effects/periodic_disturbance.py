@@ -103,6 +103,11 @@ class PeriodicDisturbance(Effect):
         'sinusoid in the force between muscle and load, or ripple of the supply pressure'
     )
     source: ClassVar = 'Harmonic disturbance; linear in its sine and cosine amplitudes'
+    equation: ClassVar = (
+        'F = F_in + force_sin sin(w t) + force_cos cos(w t)\n'
+        'p = p_in + pressure_sin sin(w t) + pressure_cos cos(w t)\n'
+        'w = 2 π frequency'
+    )
     signature: ClassVar = 'a narrow line in the spectrum of the residual'
     experiment: ClassVar = (
         'a rest at constant pressure shows it alone; record the supply pressure, too'

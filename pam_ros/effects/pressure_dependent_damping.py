@@ -35,6 +35,10 @@ class PressureDependentDamping(Effect):
     name: ClassVar = 'pressure_dependent_damping'
     text: ClassVar = 'damping proportional to pressure, separate for inflation and deflation'
     source: ClassVar = 'Reynolds et al. 2003; Serres et al. 2009'
+    equation: ClassVar = (
+        'c = c_in + inflating p  while the muscle shortens\n'
+        'c = c_in + deflating p  while it lengthens'
+    )
     signature: ClassVar = 'residual over velocity whose slope grows with pressure'
     experiment: ClassVar = 'a chirp at several pressures: the decay is faster at the higher one'
     excitation: ClassVar = {'segments': ('chirps',)}

@@ -3,14 +3,15 @@
 """Rate-independent hysteresis of braid and bladder over pressure: Maxwell slip.
 
 Braid and bladder rub against each other when the muscle is filled or vented, even if its ends do
-not move. The width of the loop is a pressure (Hunt et al. 2017).
+not move: a muscle of constant length shows this loop as well. Its width is a pressure (Hunt et al.
+2017).
 """
 
 from dataclasses import dataclass
 from typing import ClassVar
 
 from pam_ros.effects.base import Compensation, Effect, EffectEquations, HiddenState, Row, Starts
-from pam_ros.effects.maxwell_slip import ELEMENTS, EVEN, MOST, slipped, strains
+from pam_ros.effects.maxwell_slip import ELEMENTS, EQUATION, EVEN, MOST, slipped, strains
 from pam_ros.effects.parameter import effect_parameter, start_from, strength
 from pam_ros.effects.rows import A1, A3, A4, A5
 from pam_ros.muscle.law import gain
@@ -89,6 +90,11 @@ class PressureHysteresis(Effect):
     name: ClassVar = 'pressure_hysteresis'
     text: ClassVar = 'rate-independent hysteresis of braid and bladder over pressure'
     source: ClassVar = 'Hunt et al. 2017; Minh et al. 2011 (Maxwell slip)'
+    equation: ClassVar = (
+        'F = F_in - slip dF/dp m\n'
+        f'Maxwell slip over x = p:\n{EQUATION}\n'
+        'At the start: e_n / d_n = initial'
+    )
     signature: ClassVar = (
         'loops over pressure, also at constant length, whose area does not depend on the speed'
     )

@@ -127,6 +127,14 @@ class PressureLag(Effect):
     name: ClassVar = 'pressure_lag'
     text: ClassVar = 'first-order lag of the chamber pressure, separate for filling and venting'
     source: ClassVar = 'ISO 6358 orifice, linear below choking; 20 to 130 ms with servo valves'
+    equation: ClassVar = (
+        'dp/dt = g (p_in - p) / T\n'
+        'T = fill while p_in > p, otherwise vent\n'
+        '-g fastest_vent <= dp/dt <= g fastest\n'
+        'g = 1 + choking (Q(p) / Q(300 kPa) - 1)\n'
+        'Q(p) is the flow of ISO 6358 with the critical pressure ratio 0.35:\n'
+        'from the supply while the chamber fills, into the atmosphere while it vents.'
+    )
     signature: ClassVar = 'phase that rolls off with frequency; rounded step responses'
     experiment: ClassVar = 'steps up and down with the pressure measured, or a chirp'
     excitation: ClassVar = {'segments': ('steps', 'chirps')}

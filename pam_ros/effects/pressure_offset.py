@@ -28,6 +28,7 @@ class PressureOffset(Effect):
     name: ClassVar = 'pressure_offset'
     text: ClassVar = 'offset and gain error of the pressure regulator or sensor'
     source: ClassVar = 'Affine sensor model'
+    equation: ClassVar = 'p = (1 + gain) p_in + offset'
     signature: ClassVar = 'residual proportional to dF/dp, to p dF/dp for the gain'
     experiment: ClassVar = (
         'a second pressure sensor at the muscle, or its force over pressure at two lengths'

@@ -90,6 +90,10 @@ class Slack(Effect):
     name: ClassVar = 'slack'
     text: ClassVar = 'no push: below its threshold pressure a shortened muscle goes slack'
     source: ClassVar = 'Tension-only tendon with a toe; threshold pressure: Martens & Boblan 2017'
+    equation: ClassVar = (
+        'F = F_in + share (max(F_in, -push) - F_in)\n'
+        'The corner is rounded by a parabola over +-toe. Beyond it, c = (1 - share) c_in.'
+    )
     signature: ClassVar = (
         'residual only where the model would push: high contraction, low pressure'
     )

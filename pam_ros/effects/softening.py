@@ -82,6 +82,11 @@ class Softening(Effect):
     name: ClassVar = 'softening'
     text: ClassVar = 'pull that falls with cycles or with time and saturates'
     source: ClassVar = 'Mullins effect of the bladder; measured -2.9 % in ten cycles; warming'
+    equation: ClassVar = (
+        'F = (1 - limit (1 - exp(-d))) F_in\n'
+        'dd/dt = per_pressure |dp/dt| + per_contraction |dκ/dt| + per_second\n'
+        'Changes of p within +-5 kPa and of κ within +-0.002 are noise and do not count.'
+    )
     signature: ClassVar = 'gain that drifts over the record, most in its first cycles'
     experiment: ClassVar = 'the first segment repeated at the end, and again after a rest'
     excitation: ClassVar = {}

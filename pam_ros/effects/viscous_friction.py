@@ -37,6 +37,7 @@ class ViscousFriction(Effect):
     name: ClassVar = 'viscous_friction'
     text: ClassVar = 'viscous friction of the guide'
     source: ClassVar = 'Newtonian friction; the coefficient depends on the rig'
+    equation: ClassVar = 'F = F_in - coefficient v'
     signature: ClassVar = (
         'residual force proportional to velocity at every pressure and contraction'
     )

@@ -20,7 +20,7 @@ ROOT = Path(__file__).parents[2]
 PARTS = ('pam_ros', 'config', 'docs', 'tools')
 NEW, LINE = Path('pam_ros/effects/choked_valve.py'), Path('pam_ros/effects/__init__.py')
 ASKED = """
-import json, runpy, sys
+import json, sys
 sys.modules['numba'] = None  # some steps as plain Python take less than to compile the kernel
 import numpy as np
 from pam_ros.control.compensation import left_to_feedback
@@ -43,9 +43,11 @@ other = simulate(
 )
 (new,) = (effect for effect in EFFECTS if effect.name == 'choked_valve')
 place = places_of(joint)[new.name]
-tables = runpy.run_path('tools/tables.py')
-text = tables['with_tables'](tables['GUIDE'].read_text())
-cell = '| **`effects.choked_valve.'
+sys.path.insert(0, 'tools')
+import effect_pages
+from types import SimpleNamespace
+text = effect_pages.with_tables(effect_pages.GUIDE.read_text())
+page = effect_pages.page(new, SimpleNamespace(rms=1.0, largest=2.0))
 print(json.dumps({
     'library': [effect.name for effect in EFFECTS],
     'arrangements': [
@@ -56,8 +58,8 @@ print(json.dumps({
     'candidates': [effect.name for effect in single_muscle_joint().library],
     'unknown': [u.name for u in effect_unknowns(joint, place, place.example)],
     'feedback': list(left_to_feedback(joint)),
-    'rows': [line for line in text.splitlines() if line.startswith('| `choked_valve')],
-    'parameters': [line for line in text.splitlines() if line.startswith(cell)],
+    'rows': [line for line in text.splitlines() if line.startswith('| [`choked_valve')],
+    'page': page.splitlines(),
 }))
 """
 
@@ -136,7 +138,12 @@ def test_it_is_in_identification_control_and_page(found):
     assert known['unknown'] == ['effects.choked_valve.slowness']
     assert known['feedback'] == ['choked_valve']
     of_effect, of_experiment = known['rows']
-    assert 'ISO 6358, sonic flow' in of_effect
-    assert of_experiment.endswith("| `pam_excite --ros-args -p segments:='[steps]'` |")
-    (parameter,) = known['parameters']
+    assert 'ramps of pressure after steps' in of_effect
+    assert of_experiment.endswith('pressure measured: a lag takes as long for both |')
+    page = known['page']
+    assert page[0] == '# choked_valve'
+    assert '- Source: ISO 6358, sonic flow.' in page
+    assert 'dp/dt = sign(p_in - p) / slowness until p = p_in' in page
+    assert "$ ros2 run pam_ros pam_excite --ros-args -p segments:='[steps]'" in page
+    (parameter,) = (line for line in page if line.startswith('| **`effects.choked_valve.'))
     assert 'time for each Pa of change' in parameter

@@ -273,8 +273,10 @@ def test_links_lead_somewhere(page):
 
 
 def test_every_page_is_in_the_index():
-    index = DOCS / 'README.md'
+    """The pages of the effects are in the index of the effects."""
+    index, of_effects = DOCS / 'README.md', DOCS / 'effects.md'
     listed = {(DOCS / target.partition('#')[0]).resolve() for target in links(index)}
+    listed |= {(DOCS / target).resolve() for target in links(of_effects) if '#' not in target}
     assert set(PAGES) - {index} <= listed
 
 
@@ -294,7 +296,10 @@ def test_files_that_a_page_names_exist_or_are_written(page):
         assert here or any(one in sources() for one in texts), name
 
 
-@pytest.mark.parametrize('picture', sorted((ROOT / 'docs' / 'images').iterdir()), ids=str)
+PICTURES = sorted(path for path in (DOCS / 'images').rglob('*') if path.is_file())
+
+
+@pytest.mark.parametrize('picture', PICTURES, ids=lambda path: path.name)
 def test_pictures_are_small_and_shown(picture):
     assert picture.suffix == '.png'
     assert picture.stat().st_size < LARGEST

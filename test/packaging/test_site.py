@@ -14,7 +14,7 @@ from html.parser import HTMLParser
 import pytest
 
 import pam_ros
-from support.pages import DOCS, PAGES, ROOT, anchors
+from support.pages import DOCS, PAGES, ROOT, anchors, text_of
 
 SITE = ROOT / 'build' / 'docs'
 SOURCES = ('.md', '.rst', '.ipynb')
@@ -32,7 +32,7 @@ def listed(settings):
     entries = [settings['START']]
     for pages in settings['NAVIGATION'].values():
         entries += [re.sub(r'.*<(.*)>', r'\1', page) for page in pages]
-    return entries
+    return [*entries, *(page.lstrip('/') for page in settings['EFFECTS'])]
 
 
 def source_of(entry):
@@ -51,6 +51,15 @@ def test_pages_are_among_the_sources(settings):
     patterns = settings['include_patterns']
     found = {path for pattern in patterns for path in ROOT.glob(pattern)}
     assert {source_of(entry) for entry in listed(settings)} <= found
+
+
+def test_the_pages_of_the_effects_are_listed_after_their_table(settings):
+    text = [text_of(DOCS / 'effects.md')]
+    settings['add_to_source'](None, 'docs/effects', text)
+    (lines,) = re.findall(
+        r'<!-- /effects -->\n\n```\{toctree\}\n:hidden:\n\n(.*?)```', text[0], re.S
+    )
+    assert lines.split() == settings['EFFECTS']
 
 
 def test_every_public_name_is_in_the_reference(settings):
