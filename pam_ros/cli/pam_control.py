@@ -12,6 +12,8 @@ Publishes
     ``/diagnostics`` (diagnostic_msgs/DiagnosticArray), once a second
 Services
     ``~/enable`` (std_srvs/SetBool): control from the present position on, or send no commands
+Actions, if control_msgs is installed
+    ``~/follow_joint_trajectory`` (control_msgs/FollowJointTrajectory): with tolerances and result
 
 The same law serves every kind of ``joint``: load (one muscle, the default), parallel,
 antagonistic, lever and crank. The last three are revolute: rad instead of m. With any joint but

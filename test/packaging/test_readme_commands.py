@@ -184,6 +184,14 @@ def check(words):
     elif words[:3] == ['ros2', 'service', 'call']:
         services = {'pause': 'SetBool', 'step': 'Trigger', 'reset': 'Trigger'}
         assert words[4] == f'std_srvs/srv/{services[words[3].removeprefix("/pam_sim/")]}'
+    elif words[:3] == ['ros2', 'action', 'send_goal']:
+        name, kind, goal = words[4:]
+        assert words[3] == '--feedback'
+        assert name == '/pam_control/follow_joint_trajectory'
+        assert kind == 'control_msgs/action/FollowJointTrajectory'
+        fields = (ROOT / 'test/interfaces' / f'{kind}.action').read_text(encoding='utf-8')
+        for field in yaml.safe_load(goal):
+            assert re.search(rf' {field}$', fields.partition('---')[0], re.MULTILINE)
     elif words[:3] == ['ros2', 'topic', 'pub']:
         topics = dict.fromkeys(
             ('/pressure_command', '/position_reference', '/co_contraction_reference'), 'Float64'

@@ -25,6 +25,7 @@ class ReferenceSource:
         self._shaper = Shaper(shape)
         self._trajectory: Trajectory | None = None
         self._since = 0.0
+        self.targets = 0  # how many have been set: whoever set one knows whether it still counts
         self._start = 0.5 * (reach[0] + reach[1]) if isfinite(reach[0]) else 0.0
 
     @property
@@ -47,6 +48,7 @@ class ReferenceSource:
         self._trajectory = None
         self._start = position
         self._shaper.start(position)
+        self.targets += 1
 
     def set_shape(self, shape: Shape) -> None:
         """Continue within other bounds; ParameterError as for a new one."""
@@ -61,19 +63,24 @@ class ReferenceSource:
         if self._trajectory is not None:
             self._leave()
         self._shaper.take(position, ago)
+        self.targets += 1
 
-    def play(self, points: Points, wait: float = 0.0) -> None:
+    def stop(self) -> None:
+        """Come to rest as soon as the bounds allow."""
+        self._leave()
+        self.targets += 1
+
+    def play(self, points: Points, wait: float = 0.0) -> Trajectory:
         """Follow *points* after *wait* s, or from a place between them if *wait* is negative.
 
-        Without points, stop at the present place. Raises RangeError for points that give no
-        motion within reach; then nothing changes.
+        Returns the trajectory through them. Raises RangeError for points that give no motion
+        within reach; then nothing changes.
         """
-        if not points.count:
-            self._leave()
-            return
         trajectory = Trajectory(self.reference, points, self.reach, self.unit)
         self._trajectory, self._since = trajectory, -wait
         self._shaper.join(trajectory.at(self._since))
+        self.targets += 1
+        return trajectory
 
     def _leave(self) -> None:
         """Come to rest as soon as the bounds allow."""

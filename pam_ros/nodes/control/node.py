@@ -12,7 +12,9 @@ from trajectory_msgs.msg import JointTrajectory
 
 from pam_ros.control.loop import BLIND, RUNNING, WAITING, Loop, Reading, warm_up
 from pam_ros.control.plausibility import Plausibility, bounds_of
+from pam_ros.control.reference.points import Points
 from pam_ros.control.reference.serialised import read_trajectory
+from pam_ros.control.reference.trajectory import Trajectory
 from pam_ros.control.signals import Pressures, term_names
 from pam_ros.errors import RangeError
 from pam_ros.health import controller as control_health
@@ -25,6 +27,7 @@ from pam_ros.nodes.common.diagnostics import Diagnostics
 from pam_ros.nodes.common.node_parameters import NodeParameters, given
 from pam_ros.nodes.common.spin import TickingNode
 from pam_ros.nodes.control.chamber_input import ChamberInput
+from pam_ros.nodes.control.follow import Follow
 from pam_ros.nodes.control.inputs import MeasuredState, measured_state
 from pam_ros.nodes.control.intake import Intake
 from pam_ros.nodes.control.output import commands_of
@@ -86,6 +89,14 @@ class PamControl(TickingNode):
             'topics': self._topics.health,
         }
         self._diagnostics = Diagnostics(self, parts)
+        self._goals = Follow(
+            self,
+            self._loop,
+            lambda: self._setup,
+            self._follow,
+            self._trouble,
+            self._reports.reject,
+        )
         self._given.refuse_mistyped()
         self.ticker = Ticker(self._tick_rate)
 
@@ -140,6 +151,7 @@ class PamControl(TickingNode):
         self._prepare()
         if self._is_followed:
             self._watch()
+            self._goals.update()
             self._intake.mark(now)
             return
         settings = self._setup.settings
@@ -148,6 +160,7 @@ class PamControl(TickingNode):
         self._ticked, self._has_waited = now, was_late
         if not was_late:  # else messages that arrived meanwhile are received first
             self._step(now / SECOND, self.get_clock().now().nanoseconds)
+            self._goals.update()
             self._intake.mark(now)
 
     def _restart_after_pause(self, pause: int) -> None:
@@ -262,6 +275,7 @@ class PamControl(TickingNode):
         self._pass_on(state, state.stamp)
         self._prepare()
         self._step(state.stamp / SECOND, state.stamp)
+        self._goals.update()
 
     def _pass_on(self, state: MeasuredState, time: int) -> None:
         """Give the loop a state of *time* in ns by its clock, unless the state cannot be true."""
@@ -300,9 +314,26 @@ class PamControl(TickingNode):
             return
         try:
             begin, points = read_trajectory(message, self._setup.settings.joint_name)
-            self._loop.source.play(points, self._wait_for(begin) if begin else 0.0)
+            if points.count:
+                self._play(begin, points)
+            else:
+                self._loop.source.stop()
         except RangeError as error:
             self._reports.refuse(str(error))
+
+    def _play(self, begin: int, points: Points) -> tuple[Trajectory, float]:
+        """Follow *points* from the ROS time *begin* in ns, 0 for now; also return when, in s."""
+        wait = self._wait_for(begin) if begin else 0.0
+        return self._loop.source.play(points, wait), self._loop.time + wait
+
+    def _follow(self, message: bytes) -> tuple[Trajectory, float]:
+        """Follow the trajectory of a goal, which must not be over already."""
+        begin, points = read_trajectory(message, self._setup.settings.joint_name)
+        points.refuse_bad()
+        over = -self._wait_for(begin) - points.times[-1] if begin else 0.0
+        if over > 0.0:
+            raise RangeError(f'the trajectory ended {over:.4g} s ago')
+        return self._play(begin, points)
 
     def _wait_for(self, begin: int) -> float:
         """Return the time in s from the last step of the loop to the ROS time *begin* in ns."""
@@ -347,7 +378,8 @@ class PamControl(TickingNode):
             self.ticker.start(self._tick_rate, monotonic_ns())
 
     def finish(self) -> None:
-        """Release the samplers of the topics."""
+        """Release the action and the samplers of the topics."""
+        self._goals.close()
         self._topics.close()
 
     # Health --------------------------------------------------------------------------------

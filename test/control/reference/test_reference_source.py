@@ -93,11 +93,11 @@ def test_a_step_waits_while_nobody_looks():
     assert source.reference == other.follow(DT)
 
 
-def test_an_empty_trajectory_stops():
+def test_a_trajectory_can_be_stopped():
     source = a_source()
     source.play(Points.of([Point(2.0, 0.08)]))
     follow(source, 1.0)
-    source.play(Points.of([]))
+    source.stop()
     path = follow(source, 1.0)
     assert path[-1, 1] == 0.0
     assert path[-1, 0] < 0.07
@@ -115,3 +115,21 @@ def test_what_cannot_be_is_refused_and_changes_nothing():
     assert source.is_on_trajectory
     follow(source, 2.5)
     assert source.reference.position == pytest.approx(0.05)
+
+
+def test_each_target_is_counted():
+    source = a_source()
+    seen = [source.targets]
+    for set_one in (
+        lambda: source.set_target(0.05),
+        lambda: source.play(Points.of([Point(1.0, 0.05)])),
+        source.stop,
+        lambda: source.start(0.03),
+    ):
+        set_one()
+        seen.append(source.targets)
+    assert len(set(seen)) == len(seen)
+    follow(source, 2.0)
+    with pytest.raises(RangeError):
+        source.set_target(0.5)
+    assert source.targets == seen[-1]

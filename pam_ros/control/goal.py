@@ -1,0 +1,127 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""A trajectory as a goal: whether a joint keeps to its path, and whether it reaches its end.
+
+The rules are those of ``control_msgs/FollowJointTrajectory``, and where it leaves a choice, those
+of the ``joint_trajectory_controller`` of ros2_control.
+"""
+
+from dataclasses import dataclass
+from enum import Enum
+from math import isfinite
+from typing import NamedTuple
+
+from pam_ros.control.reference.trajectory import Trajectory
+from pam_ros.control.signals import Reference
+from pam_ros.errors import RangeError
+
+ANY = -1.0  # a tolerance that permits every error, as 0 does: no other default is configured
+
+
+class Outcome(Enum):
+    """How a goal ends by itself."""
+
+    REACHED = 'the end is reached'
+    OFF_PATH = 'the tolerance of the path is violated'
+    MISSED = 'the tolerance of the end is violated'
+
+
+class Verdict(NamedTuple):
+    """How a goal ended, and a sentence with the numbers that decided it."""
+
+    outcome: Outcome
+    text: str
+
+
+@dataclass(frozen=True)
+class Tolerance:
+    """Largest errors of position and velocity, in m and m/s or rad and rad/s.
+
+    0 and -1 permit every error. Raises RangeError for other values that are not above 0.
+    """
+
+    position: float = 0.0
+    velocity: float = 0.0
+
+    def __post_init__(self) -> None:
+        """Check both values."""
+        for name in ('position', 'velocity'):
+            value = getattr(self, name)
+            if not (isfinite(value) and (value >= 0.0 or value == ANY)):
+                raise RangeError(
+                    f'a tolerance of the {name} of {value:g} is not allowed: give a number above '
+                    '0, or 0 or -1 for none'
+                )
+
+    def excess(self, error: Reference, unit: str) -> str:
+        """Return which error is larger than it, in words with its *unit*; '' for none."""
+        checks = (
+            ('position', error.position, self.position, unit),
+            ('velocity', error.velocity, self.velocity, f'{unit}/s'),
+        )
+        for name, value, most, of in checks:
+            if most > 0.0 and not abs(value) <= most:
+                return f'the error of the {name} is {value:.4g} {of}, more than {most:g} {of}'
+        return ''
+
+
+@dataclass(frozen=True)
+class Tolerances:
+    """What a goal asks for: *path* holds from the start of its trajectory to its end.
+
+    From its end on, the goal is reached as soon as *end* holds, and missed if it does not within
+    *leeway* s; with 0 s there is no limit. Raises RangeError for a leeway below 0.
+    """
+
+    path: Tolerance = Tolerance()
+    end: Tolerance = Tolerance()
+    leeway: float = 0.0
+
+    def __post_init__(self) -> None:
+        """Check the leeway."""
+        if not self.leeway >= 0.0:
+            raise RangeError(
+                f'a goal_time_tolerance of {self.leeway:g} s is not allowed: give 0 or more'
+            )
+
+
+class Goal:
+    """A trajectory that begins at *start* s, by the clock of the loop that follows it.
+
+    Its coordinate is in *unit*, m or rad.
+    """
+
+    def __init__(self, trajectory: Trajectory, start: float, unit: str, asked: Tolerances) -> None:
+        """Make it with the tolerances that are *asked* for."""
+        self._trajectory, self._start, self._unit, self._asked = trajectory, start, unit, asked
+
+    def since(self, now: float) -> float:
+        """Return the time in s since the start of the trajectory, negative before it."""
+        return now - self._start
+
+    def target(self, now: float) -> Reference:
+        """Return the desired state at *now* s, without an approach to the trajectory."""
+        return self._trajectory.at(self.since(now))
+
+    def judge(self, now: float, position: float, velocity: float) -> Verdict | None:
+        """Return how the goal ends at *now* s with the joint in this state; None if it goes on."""
+        since, target = self.since(now), self.target(now)
+        error = Reference(target.position - position, target.velocity - velocity)
+        over = since - self._trajectory.duration
+        if over < 0.0:
+            excess = self._asked.path.excess(error, self._unit) if since >= 0.0 else ''
+            return (
+                Verdict(Outcome.OFF_PATH, f'{excess}, {since:.3g} s after the start')
+                if excess
+                else None
+            )
+        excess = self._asked.end.excess(error, self._unit)
+        if not excess:
+            return Verdict(
+                Outcome.REACHED, f'reached {over:.3g} s after the end of the trajectory'
+            )
+        if self._asked.leeway and over > self._asked.leeway:
+            return Verdict(
+                Outcome.MISSED, f'{excess}, {over:.3g} s after the end of the trajectory'
+            )
+        return None
