@@ -19,11 +19,11 @@ ANY = -1.0  # a tolerance that permits every error, as 0 does: no other default 
 
 
 class Outcome(Enum):
-    """How a goal ends by itself."""
+    """How a goal ends by itself, with the name of its ``error_code`` in the result."""
 
-    REACHED = 'the end is reached'
-    OFF_PATH = 'the tolerance of the path is violated'
-    MISSED = 'the tolerance of the end is violated'
+    REACHED = 'SUCCESSFUL'
+    OFF_PATH = 'PATH_TOLERANCE_VIOLATED'
+    MISSED = 'GOAL_TOLERANCE_VIOLATED'
 
 
 class Verdict(NamedTuple):
@@ -108,20 +108,16 @@ class Goal:
         since, target = self.since(now), self.target(now)
         error = Reference(target.position - position, target.velocity - velocity)
         over = since - self._trajectory.duration
+        if since < 0.0:
+            return None
         if over < 0.0:
-            excess = self._asked.path.excess(error, self._unit) if since >= 0.0 else ''
-            return (
-                Verdict(Outcome.OFF_PATH, f'{excess}, {since:.3g} s after the start')
-                if excess
-                else None
-            )
+            excess = self._asked.path.excess(error, self._unit)
+            text = f'{excess}, {since:.3g} s after the start'
+            return Verdict(Outcome.OFF_PATH, text) if excess else None
+        after = f'{over:.3g} s after the end of the trajectory'
         excess = self._asked.end.excess(error, self._unit)
         if not excess:
-            return Verdict(
-                Outcome.REACHED, f'reached {over:.3g} s after the end of the trajectory'
-            )
+            return Verdict(Outcome.REACHED, f'reached {after}')
         if self._asked.leeway and over > self._asked.leeway:
-            return Verdict(
-                Outcome.MISSED, f'{excess}, {over:.3g} s after the end of the trajectory'
-            )
+            return Verdict(Outcome.MISSED, f'{excess}, {after}')
         return None

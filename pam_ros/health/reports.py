@@ -27,15 +27,17 @@ class Reports:
 
     def refuse(self, reason: str) -> None:
         """Report why a reference or a trajectory is refused."""
-        self._refusal, self._is_refusal_new = reason, True
-        self._refused += 1
+        self._count_refusal(reason)
         self._logger.warning(reason, throttle_duration_sec=1.0)
 
     def reject(self, reason: str) -> None:
         """Report why a goal of the action is rejected: each one is logged, for they are few."""
+        self._count_refusal(reason)
+        self._logger.warning(reason)
+
+    def _count_refusal(self, reason: str) -> None:
         self._refusal, self._is_refusal_new = reason, True
         self._refused += 1
-        self._logger.warning(reason)
 
     def leave_out(self, what: str) -> None:
         """Report that a measurement cannot be true and is not used."""

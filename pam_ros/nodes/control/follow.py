@@ -27,12 +27,6 @@ from pam_ros.timing.pace import SECOND
 
 NAME = 'follow_joint_trajectory'
 FEEDBACK = 0.05  # s between two messages of feedback, as in the joint_trajectory_controller
-# What a result says besides SUCCESSFUL, by the outcome of a goal.
-CODES = {
-    Outcome.REACHED: 'SUCCESSFUL',
-    Outcome.OFF_PATH: 'PATH_TOLERANCE_VIOLATED',
-    Outcome.MISSED: 'GOAL_TOLERANCE_VIOLATED',
-}
 
 try:
     FollowJointTrajectory: Any = import_module('control_msgs.action').FollowJointTrajectory
@@ -201,7 +195,7 @@ class Follow:
             if outcome is Outcome.OFF_PATH:
                 loop.source.stop()
             how = 'succeed' if outcome is Outcome.REACHED else 'abort'
-            self._end(how, CODES[outcome], text)
+            self._end(how, outcome.value, text)
         elif now - self._shown >= FEEDBACK:
             self._shown = now
             actual = Reference(terms.position, terms.velocity)
