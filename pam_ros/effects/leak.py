@@ -9,11 +9,12 @@ from typing import ClassVar
 from pam_ros.effects.base import Compensation, Effect, EffectEquations, HiddenState, Row, Starts
 from pam_ros.effects.parameter import effect_parameter, start_from, strength
 
-RATE, REFILL, REOPENING, SUPPLY, VENT, LOST = range(6)
+RATE, REFILL, SUPPLY, VENT = range(4)
 CHAMBER, UPSTREAM = range(2)  # hidden states: the pressures in the chamber and of p_in
 
 SHORTEST = 1e-6  # s; faster than the refill of any rig: treated as immediate
 LEAST = 1e-12  # 1/s; a leak that takes thousands of years is ignored
+REOPENING = 2e3  # Pa; a change of p_in that removes the loss of a closed chamber except for 1/e
 
 
 def pressure(p: float, t: float, h: float, x: Row, i: int, xn: Row, q: Row, j: int) -> float:
@@ -24,7 +25,7 @@ def pressure(p: float, t: float, h: float, x: Row, i: int, xn: Row, q: Row, j: i
     the fully open valve. Above p_in dp/dt = (p_in - p) / V - r p with V = vent; with V = 0 the
     chamber vents at once, since an exhaust needs no supply. With T = 0 the valve is closed between
     changes of p_in: the chamber follows p_in less its loss, dp/dt = -r p, and every change of p_in
-    by reopening restores all but 1/e of the loss.
+    by REOPENING restores all but 1/e of the loss.
     """
     r = q[j + RATE]
     if r < LEAST:
@@ -53,17 +54,15 @@ def pressure(p: float, t: float, h: float, x: Row, i: int, xn: Row, q: Row, j: i
         rest = p * fill / (fill + r)
         xn[i + CHAMBER] = rest + (now - rest) * exp(-left * (fill + r)) if left > 0.0 else now
     else:
-        lost = (x[i + UPSTREAM] - x[i + CHAMBER]) * exp(
-            -abs(p - x[i + UPSTREAM]) / q[j + REOPENING]
-        )
+        lost = (x[i + UPSTREAM] - x[i + CHAMBER]) * exp(-abs(p - x[i + UPSTREAM]) / REOPENING)
         xn[i + CHAMBER] = (p - lost) * exp(-h * r)
     xn[i + UPSTREAM] = p
     return xn[i + CHAMBER]
 
 
 def start(q: Row, j: int, p: float, kappa: float, y: float) -> tuple[float, ...]:
-    """Return the balance of leak and refill, less the share that is lost at the start."""
-    return ((1.0 - q[j + LOST]) * p / (1.0 + q[j + RATE] * q[j + REFILL]), p)
+    """Return the balance of leak and refill."""
+    return (p / (1.0 + q[j + RATE] * q[j + REFILL]), p)
 
 
 @dataclass(frozen=True)
@@ -81,14 +80,6 @@ class Leak(Effect):
         high=10.0,
         scale=0.1,
     )
-    reopening: float = effect_parameter(
-        2e3,
-        'change of the command that removes the loss of a closed chamber except for 1/e',
-        'Pa',
-        low=1.0,
-        high=1e5,
-        scale=2e3,
-    )
     supply: float = effect_parameter(
         1e9,
         'fastest change of pressure by refilling, where the valve is fully open',
@@ -105,13 +96,6 @@ class Leak(Effect):
         high=10.0,
         scale=0.05,
     )
-    lost: float = effect_parameter(
-        0.0,
-        'share of the pressure that is lost already when a run begins',
-        low=0.0,
-        high=1.0,
-        scale=0.05,
-    )
 
     name: ClassVar = 'leak'
     text: ClassVar = 'chamber that loses pressure with time'
@@ -122,8 +106,7 @@ class Leak(Effect):
         'p_in > p:  dp/dt = min((p_in - p) / refill, supply) - rate p\n'
         'p_in < p:  dp/dt = (p_in - p) / vent - rate p,  or p = p_in at once with vent = 0\n'
         'With refill = 0 the valve is closed while p_in is constant: dp/dt = -rate p.\n'
-        'A change of p_in by dp_in multiplies the loss p_in - p by exp(-|dp_in| / reopening).\n'
-        'At the start: p = (1 - lost) p_in / (1 + rate refill)'
+        f'A change of p_in by dp_in multiplies p_in - p by exp(-|dp_in| / {REOPENING:g} Pa).'
     )
     signature: ClassVar = (
         'pressure that falls while the command is constant, and is restored by its next change'
@@ -143,7 +126,6 @@ class Leak(Effect):
         return (
             start_from(cls, rate=0.003),
             start_from(cls, rate=0.03),
-            start_from(cls, rate=0.03, lost=0.05),
             start_from(cls, rate=0.3, refill=0.1),
             start_from(cls, rate=0.3, refill=0.1, vent=0.05),
             start_from(cls, rate=0.3, refill=0.7, vent=0.05),

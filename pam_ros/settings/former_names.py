@@ -3,13 +3,14 @@
 """Names that parameters had in former versions: files that have them still load.
 
 Version 0.1.0 had the hysteresis over pressure in the effect ``hysteresis``, and described the
-thresholds of Maxwell slip by how they crowd near 0.
+thresholds of Maxwell slip by how they crowd near 0. Some of its parameters are constants now.
 """
 
 from collections.abc import Mapping
 from typing import Any
 
 from pam_ros.arguments import refuse
+from pam_ros.effects.leak import REOPENING
 from pam_ros.effects.names import GROUP, EffectName, parsed
 
 FORMER, NOW = 'hysteresis', 'pressure_hysteresis'
@@ -23,19 +24,30 @@ MOVED = {
 SHARED = ('initial', 'onset')  # parameters that both parts have
 CROWDING = {'slip_crowding': 'slip_ratio', 'pressure_crowding': 'slip_ratio'}
 MOST_CROWDING = 0.98
+# Parameters that nothing needed, and what they always are now.
+CONSTANT = {
+    EffectName('leak', 'lost'): 0.0,
+    EffectName('leak', 'reopening'): REOPENING,
+}
 
 
 def renamed(values: Mapping[str, Any]) -> tuple[dict[str, Any], str]:
     """Return flat *values* with their present names, and a sentence on former ones, '' if none.
 
     The value of a present name is used before that of a former one. Names of one muscle, with its
-    name before a dot, are treated as common ones are. Raises ParameterError for a former value out
-    of range.
+    name before a dot, are treated as common ones are. A parameter that is a constant now is left
+    out, and the sentence names a value that differs from it. Raises ParameterError for a former
+    value out of range.
     """
     found: dict[str, Any] = {}
     changes = []
     is_split = False
     for name, value in values.items():
+        constant = _constant(name)
+        if constant is not None:
+            if value != constant:
+                changes.append(f'{name} = {value} is ignored: it is always {constant:g}')
+            continue
         new, now = _at_present(name, value)
         if new == name:
             found[name] = value
@@ -58,6 +70,12 @@ def _split(name: str) -> tuple[str, EffectName] | None:
     head, dot, rest = ('', '', name) if name.startswith(f'{GROUP}.') else name.partition('.')
     own = parsed(rest)
     return None if own is None else (head + dot, own)
+
+
+def _constant(name: str) -> float | None:
+    """Return what a former parameter always is now, None if it is no such parameter."""
+    of = _split(name)
+    return None if of is None else CONSTANT.get(of[1])
 
 
 def _at_present(name: str, value: Any) -> tuple[str, Any]:

@@ -38,24 +38,10 @@ def test_closed_valve_loses_pressure_until_the_command_changes(step):
     )
 
 
-@pytest.mark.parametrize('refill', [0.0, 0.25])
-def test_a_chamber_that_has_lost_pressure_before_the_run(refill):
-    rate, lost, u0 = 0.4, 0.2, 5e4
-    t = np.linspace(0.0, 1.0, 101)
-    leak = {'rate': rate, 'refill': refill, 'lost': lost}
-    run = simulate(bench.cart(Leak(**leak), mass=1e4), t, [0.0], [u0], position=0.0)
-    if refill:
-        rest = u0 / (1.0 + rate * refill)
-        expected = rest * (1.0 - lost * np.exp(-t * (1.0 / refill + rate)))
-    else:
-        expected = (1.0 - lost) * u0 * np.exp(-rate * t)
-    np.testing.assert_allclose(run.pressure, expected, rtol=1e-12)
-
-
 def test_small_change_gives_back_a_part_of_the_loss():
-    rate, u0, du = 0.2, 2e4, 1e3
+    rate, u0, du = 0.2, 2e4, 2e3
     t = np.array([0.0, 1.0, 1.5])
-    leak = Leak(rate=rate, reopening=1e3)
+    leak = Leak(rate=rate)
     run = simulate(bench.cart(leak, mass=1e4), t, [0.0, 1.0], [u0, u0 + du], position=0.0)
     lost = u0 * (1.0 - np.exp(-rate))
     expected = (u0 + du - lost / np.e) * np.exp(-0.5 * rate)

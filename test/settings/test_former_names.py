@@ -7,7 +7,7 @@ import logging
 import numpy as np
 import pytest
 
-from pam_ros.effects import Hysteresis, PressureHysteresis
+from pam_ros.effects import Hysteresis, Leak, PressureHysteresis
 from pam_ros.effects.maxwell_slip import ELEMENTS
 from pam_ros.errors import ParameterError
 from pam_ros.rig.standard_joints import single_muscle_joint
@@ -94,6 +94,22 @@ def test_a_crowding_out_of_range_is_refused_by_its_former_name(value):
         renamed({'effects.hysteresis.slip_crowding': value})
 
 
+@pytest.mark.parametrize('of', ['', 'flexor.'])
+def test_a_parameter_that_is_a_constant_now_is_left_out(of):
+    constants = {'leak.lost': 0.0, 'leak.reopening': 2e3}
+    same = {f'{of}effects.{name}': value for name, value in constants.items()}
+    assert renamed({**same, 'mass': 20.0}) == ({'mass': 20.0}, '')
+
+
+@pytest.mark.parametrize('value', [0.3, 'many'])
+def test_another_value_of_a_constant_is_named(value):
+    name = 'effects.leak.lost'
+    assert renamed({name: value, 'effects.leak.rate': 0.1}) == (
+        {'effects.leak.rate': 0.1},
+        f'former names of parameters: {name} = {value} is ignored: it is always 0',
+    )
+
+
 @pytest.fixture
 def file(tmp_path):
     def made(values):
@@ -115,6 +131,15 @@ def test_a_file_makes_the_joint_with_both_effects_and_one_warning(file, caplog):
     assert joints[1] == joints[0]
     (message,) = caplog.messages
     assert message.startswith(f'{path}: former names of parameters: effects.hysteresis.pressure')
+
+
+def test_a_file_with_a_former_parameter_makes_the_joint_of_its_constant(file, caplog):
+    path = file({'effects.leak.rate': 0.1, 'effects.leak.reopening': 3e3})
+    with caplog.at_level(logging.WARNING, 'pam_ros'):
+        joint = load_joint(path)
+    assert joint.actuators[0].effects == (Leak(rate=0.1),)
+    (message,) = caplog.messages
+    assert message.endswith('effects.leak.reopening = 3000.0 is ignored: it is always 2000')
 
 
 def test_a_file_with_a_former_value_out_of_range_is_refused_with_its_name(file):
