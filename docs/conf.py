@@ -39,6 +39,7 @@ NAVIGATION = {
         'docs/report',
         'docs/time',
         'docs/ros2_control',
+        'docs/security',
     ),
     'Physics': (
         'docs/model',

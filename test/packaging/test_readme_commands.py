@@ -46,10 +46,13 @@ OF_OTHERS = (
     'ros2 bag',
     'ros2 run plotjuggler plotjuggler',
     'ros2 run topic_tools transform',
+    'ros2 security generate_artifacts',
     'ros2 topic echo',
     'rosdep install',
     'source install/setup.bash',
 )
+OF_SECURITY = '(ENABLE|STRATEGY|KEYSTORE|ENCLAVE_OVERRIDE)'
+SETTING = re.compile(rf'(ROS_DOMAIN_ID|ROS_SECURITY_{OF_SECURITY})=.')
 PROGRAMS = sorted(path.stem for path in (ROOT / 'pam_ros' / 'cli').glob('pam_*.py'))
 FILE = re.compile(r'[\w./*<>-]+\.(css|csv|html|json|md|png|py|rst|toml|txt|xml|yaml)')
 # What the tutorials have their readers write.
@@ -206,7 +209,10 @@ def check(words):
 @each_page
 def test_commands_exist(page):
     for words in commands(page):
-        check(words)
+        if words[0] == 'export':
+            assert all(SETTING.match(word) for word in words[1:])
+        else:
+            check(words[1:] if SETTING.match(words[0]) else words)
 
 
 @each_page

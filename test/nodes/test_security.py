@@ -1,0 +1,205 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""The policy for ROS security: it permits what the programs use, no more and no less."""
+
+import shutil
+import subprocess
+from collections import defaultdict
+from contextlib import ExitStack
+from fnmatch import fnmatchcase
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+from sensor_msgs.msg import JointState
+from std_msgs.msg import Float64
+
+from support.bags import contents
+from support.harness import Program
+from support.interfaces import built
+
+POLICY = Path(__file__).parents[2] / 'config' / 'security' / 'pam_ros.policy.xml'
+PAIR = {'joint': 'antagonistic'}
+SEPARATE = {'muscles': ['left', 'right'], 'muscle_topics': True, 'time_mode': 'scaled'}
+# Rigs in namespaces of their own, with the programs and parameters by which they use everything.
+RIGS = {
+    'one': {'pam_sim': {}, 'pam_control': {}},
+    'pair': {'pam_sim': PAIR, 'pam_control': {**PAIR, 'use_sim_time': True}},
+    'separate': {'pam_sim': SEPARATE, 'pam_control': {**PAIR, 'muscle_topics': True}},
+    'excited': {'pam_excite': {'use_sim_time': True}},
+    'drawn': {'pam_plot': {'use_sim_time': True}},
+}
+NODES = {'pam_plot': '_pam_plot'}  # the names of nodes, where they are not those of the programs
+NO_KEYS = (
+    'the command ros2 security, which makes keys, is not installed: that a stranger is not heard '
+    'was not tried'
+)
+NO_PLUGINS = (
+    'the middleware was built without its security plugins: that a stranger is not heard was not '
+    'tried'
+)
+
+
+def permitted(path):
+    """Return the rules of an enclave: (kind, verb) -> expressions of absolute names.
+
+    Names are resolved as by the template from which ``ros2 security`` makes permissions.
+    """
+    found = defaultdict(set)
+    (profile,) = ElementTree.parse(POLICY).findall(f'.//enclave[@path="{path}"]/profiles/profile')
+    for rules in profile:
+        ((verb, value),) = rules.attrib.items()
+        assert value == 'ALLOW'
+        for rule in rules:
+            name = rule.text.replace('~', f'/{profile.get("node")}')
+            found[rules.tag, verb].add(name if name.startswith('/') else f'/{name}')
+    return found
+
+
+def used(peer, program, namespace):
+    """Return what a running program publishes, subscribes and answers, without its namespace."""
+    node, name = peer.node, NODES.get(program, program)
+    if (name, f'/{namespace}') not in node.get_node_names_and_namespaces():
+        return {}
+    getters = {
+        ('topics', 'publish'): node.get_publisher_names_and_types_by_node,
+        ('topics', 'subscribe'): node.get_subscriber_names_and_types_by_node,
+        ('services', 'reply'): node.get_service_names_and_types_by_node,
+    }
+    return {
+        rule: {one.removeprefix(f'/{namespace}') for one, _ in get(name, f'/{namespace}')}
+        for rule, get in getters.items()
+    }
+
+
+def test_programs_use_what_the_policy_permits_and_all_of_it(peer, tmp_path):
+    unused = {name: permitted(f'/{name}') for rig in RIGS.values() for name in rig}
+    unused['pam_record'] = permitted('/pam_record')
+    del unused['pam_control']['actions', 'execute']  # the next test
+    denied = set()
+
+    def look():
+        for namespace, programs in rigs.items():
+            for program in programs:
+                for rule, names in used(peer, program, namespace).items():
+                    able = permitted(f'/{program}')[rule]
+                    for name in names:
+                        through = {one for one in able if fnmatchcase(name, one)}
+                        unused[program][rule] -= through
+                        if not through:
+                            denied.add((program, *rule, name))
+        return not any(rules for of in unused.values() for rules in of.values())
+
+    rigs = {
+        namespace: [*programs, *(['pam_record'] if 'pam_sim' in programs else [])]
+        for namespace, programs in RIGS.items()
+    }
+    with ExitStack() as running:
+        for namespace, programs in RIGS.items():
+            place = ('-r', f'__ns:=/{namespace}')
+            for program, parameters in programs.items():
+                running.enter_context(Program(program, *place, parameters=parameters))
+            if 'pam_sim' in programs:
+                bag = ('--', '-o', str(tmp_path / namespace))
+                running.enter_context(
+                    Program('pam_record', *place, '-p', 'use_sim_time:=true', *bag)
+                )
+        peer.until(look, 'the use of all that is permitted')
+        look()
+    assert denied == set()
+
+
+def test_the_action_of_the_controller_is_permitted(peer, tmp_path, monkeypatch):
+    for name, value in built('control_msgs', tmp_path).items():
+        monkeypatch.setenv(name, value)
+    (action,) = permitted('/pam_control')['actions', 'execute']
+    parts = {
+        ('services', 'reply'): {f'{action}/_action/{one}_goal' for one in ('send', 'cancel')}
+        | {f'{action}/_action/get_result'},
+        ('topics', 'publish'): {f'{action}/_action/{one}' for one in ('feedback', 'status')},
+    }
+    with Program('pam_control', '-r', '__ns:=/one'):
+
+        def is_complete():
+            now = used(peer, 'pam_control', 'one')
+            return now and all(now[rule] >= names for rule, names in parts.items())
+
+        peer.until(is_complete, 'the action')
+        for rule, names in used(peer, 'pam_control', 'one').items():
+            able = permitted('/pam_control')[rule]
+            others = {name for name in names if not any(fnmatchcase(name, one) for one in able)}
+            assert others == parts.get(rule, set())
+
+
+def test_the_operator_may_call_what_the_programs_answer():
+    rules = permitted('/operator')
+    for program in ('pam_sim', 'pam_control', 'pam_excite'):
+        answered = permitted(f'/{program}')['services', 'reply']
+        assert answered
+        for name in answered:
+            assert any(fnmatchcase(name, one) for one in rules['services', 'request']), name
+    assert rules['actions', 'call'] == permitted('/pam_control')['actions', 'execute']
+    # A person gives references to the controller, and no pressures past it.
+    assert not any(name.endswith('command') for name in rules['topics', 'publish'])
+
+
+def secured(monkeypatch, keys):
+    monkeypatch.setenv('ROS_SECURITY_ENABLE', 'true')
+    monkeypatch.setenv('ROS_SECURITY_STRATEGY', 'Enforce')
+    if keys is None:
+        monkeypatch.delenv('ROS_SECURITY_KEYSTORE', raising=False)
+    else:
+        monkeypatch.setenv('ROS_SECURITY_KEYSTORE', str(keys))
+
+
+@pytest.mark.usefixtures('domain')
+@pytest.mark.parametrize('name', ['pam_sim', 'pam_control', 'pam_excite', 'pam_record'])
+def test_a_program_without_keys_ends_with_one_sentence(name, tmp_path, monkeypatch):
+    secured(monkeypatch, tmp_path)
+    with Program(name, '--enclave', f'/{name}') as program:
+        assert program.wait() == 2
+        (line,) = program.output.splitlines()
+    assert line.startswith(f'{name}: ')
+    assert str(tmp_path) in line
+    assert [*tmp_path.iterdir()] == []
+
+
+@pytest.mark.usefixtures('domain')
+def test_security_without_a_keystore_names_the_variable(monkeypatch):
+    secured(monkeypatch, None)
+    with Program('pam_sim', '--enclave', '/pam_sim') as program:
+        assert program.wait() == 2
+        assert program.output == (
+            'pam_sim: ROS_SECURITY_KEYSTORE is not set: give the folder of the keys, or no '
+            'security\n'
+        )
+
+
+def test_a_stranger_is_not_heard_and_sees_nothing(peer, tmp_path, monkeypatch):
+    if shutil.which('ros2') is None:
+        pytest.skip(NO_KEYS)
+    keys, bag = tmp_path / 'keys', tmp_path / 'bag'
+    make = ('ros2', 'security', 'generate_artifacts', '-k', str(keys), '-p', str(POLICY))
+    made = subprocess.run(make, capture_output=True, text=True, timeout=120.0, check=False)
+    if 'invalid choice' in made.stderr:
+        pytest.skip(NO_KEYS)
+    assert made.returncode == 0, made.stderr
+    states = peer.collect(JointState, 'joint_states')
+    commands = peer.node.create_publisher(Float64, 'pressure_command', 10)
+    secured(monkeypatch, keys)
+    with (
+        Program('pam_sim', '--enclave', '/pam_sim') as rig,
+        Program('pam_record', '--enclave', '/pam_record', '--', '-o', str(bag)) as recorder,
+    ):
+        for _ in range(50):
+            commands.publish(Float64(data=300e3))
+            peer.work(0.1)
+        if not rig.is_running and 'security' in rig.output.lower():
+            pytest.skip(NO_PLUGINS)
+        assert (rig.stop(), recorder.stop()) == (0, 0), rig.output + recorder.output
+    seen = contents(bag)
+    assert '/pressure_command' not in seen
+    positions = [message.position[0] for _, message in seen['/joint_states']]
+    assert len(positions) > 500
+    assert max(positions) - min(positions) < 1e-6
+    assert states == []
