@@ -24,7 +24,7 @@ MOVED = {
 SHARED = ('initial', 'onset')  # parameters that both parts have
 CROWDING = {'slip_crowding': 'slip_ratio', 'pressure_crowding': 'slip_ratio'}
 MOST_CROWDING = 0.98
-# Parameters that nothing needed, and what they always are now.
+# Parameters that no recording of a real rig asks for, and what they always are now.
 CONSTANT = {
     EffectName('leak', 'lost'): 0.0,
     EffectName('leak', 'reopening'): REOPENING,

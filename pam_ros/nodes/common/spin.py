@@ -211,7 +211,8 @@ def sentence(error: Exception) -> str:
     )
     text = re.sub(r"^\['(-.*)'\]$", r'unknown ROS arguments: \1', text)
     text = text.replace('failed to initialize rcl: ', '')
-    if text == 'error not set' and not os.environ.get('ROS_SECURITY_KEYSTORE'):
-        # With security, rcl has no text for this.
+    is_secure = os.environ.get('ROS_SECURITY_ENABLE') == 'true'
+    if text == 'error not set' and is_secure and not os.environ.get('ROS_SECURITY_KEYSTORE'):
+        # rcl has no text for this.
         text = 'ROS_SECURITY_KEYSTORE is not set: give the folder of the keys, or no security'
     return shown(' '.join(text.split()))
