@@ -4,33 +4,23 @@
 
 The loop is one of force over contraction: a muscle of constant length does not show it. There are
 two operators, since measured loops have different shapes, and each of them may be absent. Minor
-loops of the operator of Bouc and Wen drift until they reach the major loop. With Maxwell's slip
-elements every minor loop is closed, and all turning points are stored.
+loops of Dahl's operator, which is that of Bouc and Wen with equal loading and unloading, drift
+until they reach the major loop. With Maxwell's slip elements every minor loop is closed, and all
+turning points are stored.
 """
 
 from dataclasses import dataclass
-from math import exp, expm1, log1p
+from math import exp
 from typing import ClassVar
 
 from pam_ros.effects.base import Compensation, Effect, EffectEquations, HiddenState, Row, Starts
 from pam_ros.effects.maxwell_slip import ELEMENTS, EQUATION, EVEN, MOST, slipped, strains
 from pam_ros.effects.parameter import effect_parameter, start_from, strength
 
-(
-    AMPLITUDE,
-    WIDTH,
-    UNLOADING,
-    SLIP,
-    SLIP_WIDTH,
-    SLIP_ONSET,
-    SLIP_RATIO,
-    PRESSURE_GROWTH,
-    INITIAL,
-) = range(9)
+AMPLITUDE, WIDTH, SLIP, SLIP_WIDTH, SLIP_ONSET, SLIP_RATIO, INITIAL = range(7)
 
 # Hidden states; the strains of the elements follow.
 LOOP, LAST_KAPPA, STRAINS = range(3)
-P_REFERENCE = 3e5  # Pa, at which the growth with pressure has no influence
 
 
 def force(
@@ -46,12 +36,10 @@ def force(
     q: Row,
     j: int,
 ) -> float:
-    """Return f - g(p) (A z + B m), with z and m in -1..1, integrated exactly.
+    """Return f - (A z + B m), with z and m in -1..1, integrated exactly.
 
-    Bouc-Wen (n = 1) over l = |kappa|/W, u = z sign(dkappa): du/dl = 1 - u on loading, u > 0,
-    and 1 - a u on unloading, u < 0. A is the amplitude, W the width, a unloading: 1 is Dahl's
-    law, 0 has elastic unloading. m is Maxwell slip, of height B = slip. g = 1 + G (p / 300 kPa -
-    1), G = pressure_growth, not negative.
+    Dahl: over l = |kappa|/W, u = z sign(dkappa) follows du/dl = 1 - u. A is the amplitude, W the
+    width. m is Maxwell slip, of height B = slip.
     """
     if q[j + AMPLITUDE] == 0.0 and q[j + SLIP] == 0.0:
         return f
@@ -60,22 +48,13 @@ def force(
     rub = 0.0
     if q[j + AMPLITUDE] != 0.0:
         side = 1.0 if ds > 0.0 else -1.0
-        left = abs(ds) / q[j + WIDTH]
-        u = x[i + LOOP] * side
-        if u < 0.0:
-            a = max(q[j + UNLOADING], 1e-9)
-            down = min(left, log1p(-a * u) / a)
-            u = u * exp(-a * down) - expm1(-a * down) / a
-            left -= down
-        if left > 0.0:
-            u = 1.0 + (u - 1.0) * exp(-left)
-        xn[i + LOOP] = u * side
+        xn[i + LOOP] = side + (x[i + LOOP] - side) * exp(-abs(ds) / q[j + WIDTH])
         rub = q[j + AMPLITUDE] * xn[i + LOOP]
     if q[j + SLIP] != 0.0:
         rub += q[j + SLIP] * slipped(
             ds, q[j + SLIP_WIDTH], q[j + SLIP_ONSET], q[j + SLIP_RATIO], x, i + STRAINS, xn
         )
-    return f - max(1.0 + q[j + PRESSURE_GROWTH] * (p / P_REFERENCE - 1.0), 0.0) * rub
+    return f - rub
 
 
 def start(q: Row, j: int, p: float, kappa: float, y: float) -> tuple[float, ...]:
@@ -89,21 +68,14 @@ def start(q: Row, j: int, p: float, kappa: float, y: float) -> tuple[float, ...]
 class Hysteresis(Effect):
     """Rate-independent hysteresis of braid and bladder over contraction."""
 
-    amplitude: float = strength('half height of the loop, Bouc-Wen', 'N', high=1e3, scale=10.0)
+    amplitude: float = strength('half height of the loop, Dahl', 'N', high=1e3, scale=10.0)
     width: float = effect_parameter(
         0.01,
-        'contraction over which the Bouc-Wen loop approaches its height',
+        'contraction over which the loop of Dahl approaches its height',
         'fraction',
         low=5e-4,
         high=10.0,
         scale=0.01,
-    )
-    unloading: float = effect_parameter(
-        1.0,
-        'shape of Bouc-Wen unloading: 1 as loading (Dahl), 0 elastic',
-        low=0.0,
-        high=1.0,
-        scale=0.5,
     )
     slip: float = strength('half height of the loop, Maxwell slip', 'N', high=1e3, scale=10.0)
     slip_width: float = effect_parameter(
@@ -128,13 +100,6 @@ class Hysteresis(Effect):
         high=MOST,
         scale=10.0,
     )
-    pressure_growth: float = effect_parameter(
-        0.0,
-        'growth of the loop with pressure around 300 kPa; 1: in proportion',
-        low=-1.0,
-        high=1.0,
-        scale=0.5,
-    )
     initial: float = effect_parameter(
         0.0,
         'state of the loops at the start; 1: as after a long motion up, -1: down',
@@ -145,13 +110,11 @@ class Hysteresis(Effect):
 
     name: ClassVar = 'hysteresis'
     text: ClassVar = 'rate-independent hysteresis of braid and bladder over contraction'
-    source: ClassVar = 'Dahl 1968; Wen 1976; Minh et al. 2011 (Maxwell slip)'
+    source: ClassVar = 'Dahl 1968; Minh et al. 2011 (Maxwell slip)'
     equation: ClassVar = (
-        'F = F_in - g (amplitude z + slip m)\n'
-        'g = max(1 + pressure_growth (p / 300 kPa - 1), 0)\n'
-        'Bouc-Wen, with s = sign(dκ/dt):\n'
-        '  dz/dκ = (1 - s z) / width            while s z > 0\n'
-        '  dz/dκ = (1 - unloading s z) / width  while s z < 0\n'
+        'F = F_in - (amplitude z + slip m)\n'
+        'Dahl, with s = sign(dκ/dt):\n'
+        '  dz/dκ = (1 - s z) / width\n'
         f'Maxwell slip over x = κ:\n{EQUATION}\n'
         'At the start: z = e_n / d_n = initial'
     )
@@ -174,7 +137,7 @@ class Hysteresis(Effect):
         """Return the values from which a fit begins."""
         return (
             start_from(cls, amplitude=5.0, width=0.003, initial=0.0),
-            start_from(cls, amplitude=10.0, width=0.03, unloading=0.5, initial=0.0),
+            start_from(cls, amplitude=10.0, width=0.03, initial=0.0),
             start_from(cls, slip=5.0, slip_width=0.01, initial=0.0),
             start_from(cls, slip=10.0, slip_width=0.05, initial=0.0),
             start_from(

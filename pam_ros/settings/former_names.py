@@ -28,6 +28,8 @@ MOST_CROWDING = 0.98
 CONSTANT = {
     EffectName('leak', 'lost'): 0.0,
     EffectName('leak', 'reopening'): REOPENING,
+    EffectName('hysteresis', 'unloading'): 1.0,
+    EffectName('hysteresis', 'pressure_growth'): 0.0,
 }
 
 

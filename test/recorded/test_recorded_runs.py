@@ -102,6 +102,13 @@ def test_a_drive_without_a_muscle_runs_as_ever():
     compare('free/drive', columns(simulate(drive, cases.stamps(), at, u * 1e-5 - 3, position=0.0)))
 
 
+def test_the_law_of_dahl_runs_as_ever_but_for_roundings():
+    at, u = cases.commands()
+    dahl = single_muscle_joint(Muscle(), Mass(20.0), effects_of_0_1_0(cases.DAHL))
+    run = simulate(dahl, cases.stamps(), at, u, position=0.05, velocity=0.01)
+    compare('free/dahl', columns(run), to_the_bit=False)
+
+
 @BY_RIG
 def test_a_held_muscle_pulls_as_ever(name):
     t = cases.stamps()

@@ -96,7 +96,12 @@ def test_a_crowding_out_of_range_is_refused_by_its_former_name(value):
 
 @pytest.mark.parametrize('of', ['', 'flexor.'])
 def test_a_parameter_that_is_a_constant_now_is_left_out(of):
-    constants = {'leak.lost': 0.0, 'leak.reopening': 2e3}
+    constants = {
+        'leak.lost': 0.0,
+        'leak.reopening': 2e3,
+        'hysteresis.unloading': 1.0,
+        'hysteresis.pressure_growth': 0.0,
+    }
     same = {f'{of}effects.{name}': value for name, value in constants.items()}
     assert renamed({**same, 'mass': 20.0}) == ({'mass': 20.0}, '')
 

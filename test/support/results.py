@@ -250,7 +250,7 @@ def crowded_result():
     warning = 'pressure_command has only 3 levels: poor excitation, curvature cannot be seen'
     recordings = [replace(recording, warnings=(warning,)) for recording in recordings]
     tiny = Estimate(-1.2345678e-9, -3.1415926e5, 1e4, 'N/(bar percent)', at_bound=True)
-    values = dict.fromkeys(('level', 'breakaway', 'stribeck_speed', 'pressure_growth'), tiny)
+    values = dict.fromkeys(('level', 'breakaway', 'stribeck_speed', 'per_pressure'), tiny)
     reason = 'explains with its own parameter what re-tuning explains only by constants far away '
     findings = [
         Finding(effect.name, values, ('pressure_dependent_damping', 'hysteresis'), 3 * reason)
