@@ -303,6 +303,10 @@ class Effect(ABC):
         """
         return {}
 
+    def fed_forward(self) -> 'Effect':
+        """Return it as a controller feeds it forward: as it is, unless a part must be left out."""
+        return self
+
     @property
     def row(self) -> tuple[float, ...]:
         """Its own parameters in order, as in q."""

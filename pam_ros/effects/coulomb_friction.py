@@ -1,8 +1,13 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Coulomb and Stribeck friction of the guide, with true sticking of the load."""
+"""Coulomb and Stribeck friction of the guide, with true sticking of the load.
 
-from dataclasses import dataclass
+A controller feeds forward the friction of a load that slides. The additional friction at rest has
+gone as soon as the load moves; fed forward along the reference, which moves on while the load
+sticks, it comes too late and makes the load slip.
+"""
+
+from dataclasses import dataclass, replace
 from math import exp, hypot, sqrt
 from typing import ClassVar
 
@@ -161,6 +166,10 @@ class CoulombFriction(Effect):
             start_from(cls, level=5.0, breakaway=8.0, stribeck_speed=0.01),
             start_from(cls, level=10.0, breakaway=13.0, stribeck_speed=0.02),
         )
+
+    def fed_forward(self) -> Effect:
+        """Return it without the additional friction at rest."""
+        return replace(self, breakaway=0.0)
 
     @classmethod
     def example(cls) -> Effect:

@@ -48,13 +48,17 @@ def test_losses_along_a_motion_are_what_the_rig_pulls_less():
     np.testing.assert_allclose(found[5:], expected[5:], atol=0.6)
 
 
-def test_friction_turns_over_with_the_motion():
-    losses = losses_of(single_muscle_joint(effects=[CoulombFriction(level=15.0)]))
+@pytest.mark.parametrize('speed', [0.05, 1e-3])
+@pytest.mark.parametrize('breakaway', [0.0, 25.0])
+def test_friction_turns_over_with_the_motion_and_is_that_of_a_load_that_slides(breakaway, speed):
+    friction = CoulombFriction(level=15.0, breakaway=breakaway, stribeck_speed=0.01)
+    losses = losses_of(single_muscle_joint(effects=[friction]))
     losses.start(0.05, (300e3,))
+    step = speed * DT
     for n in range(100):
-        up = losses.follow(DT, Reference(0.05 + 1e-4 * n, 0.05), (300e3,))
+        up = losses.follow(DT, Reference(0.05 + step * n, speed), (300e3,))
     for n in range(100):
-        down = losses.follow(DT, Reference(0.06 - 1e-4 * n, -0.05), (300e3,))
+        down = losses.follow(DT, Reference(0.05 + step * (100 - n), -speed), (300e3,))
     assert up == pytest.approx(15.0)
     assert down == pytest.approx(-15.0)
     assert losses.effort == down

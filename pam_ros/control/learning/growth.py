@@ -3,8 +3,8 @@
 """The bandwidth of the loop: it grows as far as the lag of the pressure allows.
 
 A fast loop requires that the pressure follows fast. There are two kinds of evidence for that.
-Either the learned parameters explain the force that the nominal model lacks, so that it contains
-no other lag. Or no force is missing, as on a rig whose friction is configured, and the motion was
+Either the effects that are learned and those that are fed forward explain the force that a model
+without them lacks, so that it contains no other lag. Or no force is missing, and the motion was
 fast enough to show how long the lag is: the variance of its estimate has fallen. In the second
 case the bandwidth grows only as far as the error requires, because a fast loop turns the noise of
 the sensor into pressure.
@@ -37,8 +37,9 @@ class Growth:
     def follow(self, dt: float, lag: float, explained: float, known: float) -> None:
         """Approach for *dt* s the bandwidth that a *lag* in s allows.
 
-        *explained* is the share of the missing force that the learned parameters explain, *known*
-        the share of the uncertainty of the lag that the motion has removed; both are 0 to 1.
+        *explained* is the share of the force of all effects that those learned and those fed
+        forward explain, *known* the share of the uncertainty of the lag that the motion has
+        removed; both are 0 to 1.
         """
         low, high = self.gains.bandwidth, self.gains.fast_bandwidth
         weight = max(explained, self._asked * known)

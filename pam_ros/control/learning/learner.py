@@ -41,9 +41,10 @@ from pam_ros.control.signals import Reference
 
 # Columns of the filter: the features; the sensitivity of the missing force to both time constants;
 # and efforts: the difference of the learned chambers from those of the law, the difference from
-# chambers without a lag, and the efforts that the two hypotheses give along the reference.
+# chambers without a lag, the efforts that the two hypotheses give along the reference, and those
+# of configured effects.
 _N = COUNT
-_FILL, _VENT, _FROM_LAW, _FROM_NO_LAG, _PLAIN, _LAGGED, _COLUMNS = range(_N, _N + 7)
+_FILL, _VENT, _FROM_LAW, _FROM_NO_LAG, _PLAIN, _LAGGED, _CONFIGURED, _COLUMNS = range(_N, _N + 8)
 _LAGS = slice(_FILL, _VENT + 1)  # of a column or of a parameter
 _UNKNOWNS = _VENT + 1
 
@@ -59,6 +60,24 @@ class _Sensitivity:
         share = 1.0 - exp(-dt / (tau if tau > dt else dt))
         self.fill += share * ((-rate if fills else 0.0) - self.fill)
         self.vent += share * ((0.0 if fills else -rate) - self.vent)
+
+
+class _Variance:
+    """Variance of a force about its running mean, N^2."""
+
+    def __init__(self) -> None:
+        self.value = 1.0
+        self.start()
+
+    def start(self) -> None:
+        """Begin to average at the next force: an offset is no evidence of another effect."""
+        self._centre: float | None = None
+
+    def see(self, force: float, centring: float, share: float) -> None:
+        """Take in a *force*, with its shares in the mean and in the variance."""
+        centre = force if self._centre is None else self._centre
+        self._centre = centre = centre + centring * (force - centre)
+        self.value += share * ((force - centre) ** 2 - self.value)
 
 
 class Learner:
@@ -109,12 +128,14 @@ class Learner:
         self._lagged = Regression(spread, low, high, noise)
         self.trust = 0.0
         self.lag = (0.0, 0.0)
-        self._plain_error = self._lagged_error = self._whole = 1.0
+        self._plain_error = self._lagged_error = 1.0
         self._plain_miss = self._lagged_miss = 1.0
         self._moved = self._restarted = 0.0
         self._prefers_lag = False
         self._dropped_lag: tuple[float, float] | None = None
-        self._share = self._explained = self._known = 0.0
+        self._share = self._explained = self._understood = self._known = 0.0
+        # Of the force that is neither learned nor configured, and of that with what is configured.
+        self._missing, self._total = _Variance(), _Variance()
 
     def start(self, position: float, pressures: Pressures, disturbance: float) -> None:
         """Start again: the load rests at *position*, the chambers are at *pressures* Pa.
@@ -138,7 +159,8 @@ class Learner:
         columns[CONSTANT] = 1.0
         self._filter = Cascade(columns)
         self._input = [0.0] * _COLUMNS
-        self._centre, self._has_learned = 0.0, False
+        self._missing.start()
+        self._total.start()
         self._waited = self._doubt = 0.0
         self.growth.start()
         self._limit_cycle.start()
@@ -156,7 +178,7 @@ class Learner:
         fill, vent = (self._share * float(one) for one in self._lagged.theta[_LAGS])
         return Learned(
             motion=self._moved,
-            missing=float(self._whole) ** 0.5,
+            missing=float(self._missing.value) ** 0.5,
             noise=self._tuning.floor**0.5,
             explained=float(self._explained),
             weight=float(self.trust),
@@ -182,8 +204,8 @@ class Learner:
         self._input[_LAGGED] = dot(values, self._lagged.theta)
         self._share += dt / self._tuning.blend * (self._prefers_lag - self._share)
         force, rate = self._learned_force()
-        explained = 0.0 if self._lag_is_configured else self.trust
-        self.growth.follow(dt, max(self._lagged.theta[_LAGS]), explained, self._known)
+        understood = 0.0 if self._lag_is_configured else self._understood
+        self.growth.follow(dt, max(self._lagged.theta[_LAGS]), understood, self._known)
         if abs(force) > most:
             return (most if force > 0.0 else -most), 0.0
         return force, rate
@@ -238,6 +260,7 @@ class Learner:
         the load *moves* and the limits of pressure have *cut* nothing from the wanted effort.
         """
         self._filter.follow(dt, self._tuning.fast, self._input)
+        self._input[_CONFIGURED] = losses
         if self._limit_cycle.see(dt, cut) and self._moved > 0.0:
             self._forget()
         if moves and cut == 0.0:
@@ -292,11 +315,9 @@ class Learner:
         self._lagged_error += share * (lagged * lagged - self._lagged_error)
         self._plain_miss += share * ((as_nominal - filtered[_PLAIN]) ** 2 - self._plain_miss)
         self._lagged_miss += share * ((missing - filtered[_LAGGED]) ** 2 - self._lagged_miss)
-        if not self._has_learned:
-            # The offset of an unmodelled load is no evidence of another effect.
-            self._centre, self._has_learned = unlearned, True
-        self._centre += min(span / self._tuning.centre, 1.0) * (unlearned - self._centre)
-        self._whole += share * ((unlearned - self._centre) ** 2 - self._whole)
+        centring = min(span / self._tuning.centre, 1.0)
+        self._missing.see(unlearned, centring, share)
+        self._total.see(unlearned + filtered[_CONFIGURED], centring, share)
         self._choose(span)
         forgotten = self._tuning.forgotten * span
         # Early samples were taken with other estimates of the lag, so that they are only roughly
@@ -324,13 +345,17 @@ class Learner:
         if is_lost and not is_used and self._moved - self._restarted > tuning.restart:
             self._restart_lagged()
         error = self._lagged_miss if self._prefers_lag else self._plain_miss
-        explained = 1.0 - (error + tuning.floor) / (self._whole + 1e-9)
         practice = 1.0 - exp(-((self._moved / tuning.convinced) ** 2))
-        self._explained = max(explained, 0.0)
+        self._explained = self._share_explained(error, self._missing)
         self.trust = min(1.25 * self._explained, 1.0) * practice
+        self._understood = min(1.25 * self._share_explained(error, self._total), 1.0) * practice
         # Errors above the assumed noise make the lag less certain.
         excess = max(self._lagged_error / tuning.noise, 1.0)
         self._known = max(1.0 - excess * self._lagged.uncertainty(_LAGS), 0.0) * practice
+
+    def _share_explained(self, error: float, force: _Variance) -> float:
+        """Return the share of a *force* that is explained with a mean square *error*."""
+        return max(1.0 - (error + self._tuning.floor) / (force.value + 1e-9), 0.0)
 
     def _restart_lagged(self) -> None:
         """Restart the hypothesis with a lag from the one without, with a lag of 0."""

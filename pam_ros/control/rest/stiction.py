@@ -92,8 +92,8 @@ class Stiction:
         slipped = self._has_slipped()
         if not self.is_active:
             self._stuck = self._stuck or stiffness > self._tuning.stuck
-            if slipped:
-                towards_goal = self._v * self._anchor < 0.0
+            if slipped or self._has_slid_past():
+                towards_goal = (self._x - self._anchor) * self._anchor < 0.0
                 if self._stuck and self._dwelt > self._tuning.dwell and towards_goal:
                     self._note_break(force)
                 self._anchor, self._dwelt = self._x, 0.0
@@ -122,9 +122,14 @@ class Stiction:
             and displacement * self._v > 0.0
         )
 
+    def _has_slid_past(self) -> bool:
+        """Return whether a slow slide has brought the load past its goal."""
+        displacement = self._x - self._anchor
+        return abs(displacement) > self._tuning.loose_displacement and self._x * self._anchor < 0.0
+
     def _note_break(self, force: float) -> None:
         """Record a break; begin to push at the third one in a limit cycle that lasts."""
-        side = copysign(1.0, self._v)
+        side = copysign(1.0, self._x - self._anchor)
         self._stuck = False
         if self._breaks and self._breaks[-1][0] == side:
             self._breaks.clear()

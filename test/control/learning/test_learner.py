@@ -9,12 +9,13 @@ from pam_ros.control.gains import Gains
 from pam_ros.control.learning.learning_tuning import LearningTuning
 from pam_ros.control.sliding_mode import SlidingMode
 from pam_ros.effects import CoulombFriction
-from support.closed_loop import LAG, step_target
+from support.closed_loop import LAG, close_loop, nominal, sine_target, step_target, truth
 from support.kinds import EACH_KIND, ONE, PAIR, rms
 from truth.effects import effect
 
 pytestmark = pytest.mark.needs_numba
 
+FRICTION = (CoulombFriction(level=15.0, breakaway=25.0, stribeck_speed=0.01),)
 ARMS = {ONE: 1.0, PAIR: 0.08}  # of all muscles together, m on a joint that turns
 
 
@@ -99,14 +100,33 @@ def test_a_configured_lag_leaves_nothing_to_learn(kind):
 
 
 @pytest.mark.slow
-def test_configured_friction_is_not_learned_again():
-    friction = [CoulombFriction(level=15.0, breakaway=25.0, stribeck_speed=0.01)]
-    _, run = swung(ONE, 'friction', effects=friction)
-    assert np.max(np.abs(run.terms['learned'][run.last(6.0)])) < 5.0
-    # The motion has shown that the pressure follows fast, so that the loop is fast, too.
-    assert run.terms['bandwidth'][-1] > 30.0
+def test_of_configured_friction_only_the_part_at_rest_is_learned():
+    law, run = swung(ONE, 'friction', effects=FRICTION)
+    assert law.learned.friction < 5.0
+    assert 5.0 < law.learned.breakaway < 15.0
+    assert np.max(np.abs(run.terms['learned'][run.last(6.0)])) < 15.0
+    # What is fed forward explains the motion, so that the loop is fast, too.
+    assert run.terms['bandwidth'][-1] > 40.0
     _, learned = swung(ONE, 'friction')
-    assert rms(ONE, run) < rms(ONE, learned) < 0.15
+    assert rms(ONE, run) < 0.8 * rms(ONE, learned) < 0.12
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize('mass', [5.0, 10.0])
+def test_configured_friction_of_a_light_load_is_no_worse_than_learned(mass):
+    errors = {}
+    for effects in ((), FRICTION):
+        law = SlidingMode(nominal(mass=mass, effects=effects))
+        run = close_loop(law, truth('friction', mass=mass, seed=5), sine_target(0.01, 0.5), 16.0)
+        errors[effects] = np.sqrt(np.mean(run.error[run.last(4.0)] ** 2))
+    assert errors[FRICTION] < 1.1 * errors[()] < 0.7e-3
+
+
+@pytest.mark.slow
+def test_a_lag_that_nobody_configured_is_learned_beside_configured_friction():
+    law, run = swung(ONE, 'all', 20.0, effects=FRICTION)
+    assert 0.02 < 0.5 * sum(law.learned.lag) < 0.09
+    assert rms(ONE, run) < 1.0
 
 
 @pytest.mark.slow

@@ -47,11 +47,11 @@ class Block:
         self.x += self.slides * dt
 
 
-def hunt(block, stiction, seconds):
+def hunt(block, stiction, seconds, gain=60e3):
     """Integrate the error like any law, until the pushes take over; return whether they did."""
     force, took_over = block.middle, False
     for _ in range(round(seconds / DT)):
-        force -= 60e3 * block.x * DT
+        force -= gain * block.x * DT
         pushed = stiction.follow(DT, -block.x, force, 20.0)
         if pushed is not None:
             took_over, force = True, pushed
@@ -65,6 +65,17 @@ def test_pushes_end_a_hunt_at_the_goal_with_nothing_pulling():
     assert took_over
     assert abs(block.x) < 2.5 * 20e-6
     assert force == pytest.approx(block.middle, abs=5.0)
+
+
+@pytest.mark.parametrize('speed', [1e-3, 2e-3])
+def test_a_hunt_whose_slips_are_slow_is_ended_too(speed):
+    block, stiction = Block(x=-0.2e-3, speed=speed), Stiction(TOLERANCE, TUNING)
+    assert speed < TUNING.loose_speed
+    took_over, force = hunt(block, stiction, 40.0, gain=200e3)
+    assert took_over
+    assert abs(block.x) < 2.5 * 20e-6
+    # Force and position are taken at the goal, where it slides: a third of what breaks it loose.
+    assert force == pytest.approx(block.middle, abs=block.breaks / 3.0)
 
 
 def test_a_load_that_follows_is_left_alone():
