@@ -89,10 +89,8 @@ def trial(
 
     step = close_loop(make(joint), plant(), step_target(HEIGHT), STEP)
     sine = close_loop(make(joint), plant(), sine_target(SWAY, frequency), SWING)
-    pressure, error = (
-        step.pressure[step.last(REST)],
-        sine.error[sine.last(max(JUDGED, 1.0 / frequency))],
-    )
+    pressure = step.pressure[step.last(REST)]
+    error = sine.error[sine.last(max(JUDGED, 1.0 / frequency))]
     return figures(step.t - 1.0, step.error, pressure, error), step, sine
 
 

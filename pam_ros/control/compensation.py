@@ -8,8 +8,6 @@ neither destabilise the loop nor amplify noise. If the load does not follow the 
 difference is part of the disturbance that the observer estimates.
 """
 
-from dataclasses import replace
-
 from pam_ros.control.model import ControlModel, Pressures
 from pam_ros.control.signals import Reference
 from pam_ros.effects.base import Compensation, Effect
@@ -28,17 +26,6 @@ def left_to_feedback(joint: Joint) -> tuple[str, ...]:
     )
 
 
-def _as_fed_forward(joint: Joint) -> Joint:
-    """Return *joint* with its effects as a controller feeds them forward."""
-    actuators = tuple(
-        replace(actuator, effects=tuple(effect.fed_forward() for effect in actuator.effects))
-        for actuator in joint.actuators
-    )
-    return replace(
-        joint, actuators=actuators, effects=tuple(effect.fed_forward() for effect in joint.effects)
-    )
-
-
 class Losses:
     """The effort that configured effects with a feed-forward take along the reference.
 
@@ -47,7 +34,8 @@ class Losses:
 
     def __init__(self, model: ControlModel) -> None:
         """Take those effects that are present in the nominal joint."""
-        self._model, joint = model, _as_fed_forward(model.joint)
+        self._model = model
+        joint = model.joint.with_effects(lambda effects: [one.fed_forward() for one in effects])
         self._layout, self._q = joint.layout, joint.parameters()
         self._placed = [
             [

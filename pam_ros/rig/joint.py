@@ -3,7 +3,7 @@
 """A joint: its load, its muscles, the transmission that connects them, and the effects."""
 
 import itertools
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -182,6 +182,13 @@ class Joint:
         """Inertia of the coordinate in kg or kg m^2, with the moved mass."""
         return self.load.equations.inertia(self.moved_mass, self.load.numbers, 0)
 
+    def with_effects(self, changed: Callable[[Sequence[Effect]], Sequence[Effect]]) -> 'Joint':
+        """Return the joint with the effects that *changed* makes of those in each place."""
+        actuators = tuple(
+            replace(actuator, effects=changed(actuator.effects)) for actuator in self.actuators
+        )
+        return replace(self, actuators=actuators, effects=changed(self.effects))
+
     # When effects begin ------------------------------------------------------------------------
 
     @cached_property
@@ -195,10 +202,7 @@ class Joint:
 
     def _at(self, time: float) -> 'Joint':
         """Return the joint with the effects that act at *time* s, with their onsets set to 0."""
-        actuators = tuple(
-            replace(actuator, effects=begun(actuator.effects, time)) for actuator in self.actuators
-        )
-        return replace(self, actuators=actuators, effects=begun(self.effects, time))
+        return self.with_effects(lambda effects: begun(effects, time))
 
     @property
     def at_start(self) -> 'Joint':

@@ -93,7 +93,7 @@ class Stiction:
         if not self.is_active:
             self._stuck = self._stuck or stiffness > self._tuning.stuck
             if slipped or self._has_slid_past():
-                towards_goal = (self._x - self._anchor) * self._anchor < 0.0
+                towards_goal = self._displacement * self._anchor < 0.0
                 if self._stuck and self._dwelt > self._tuning.dwell and towards_goal:
                     self._note_break(force)
                 self._anchor, self._dwelt = self._x, 0.0
@@ -114,22 +114,28 @@ class Stiction:
         if abs(self._v) < 0.5 * self._tuning.loose_speed:
             self._dwelt += dt
 
+    @property
+    def _displacement(self) -> float:
+        """Displacement in m from where the load has stuck."""
+        return self._x - self._anchor
+
+    @property
+    def _is_displaced(self) -> bool:
+        """Whether the load is farther from there than a contact bends."""
+        return abs(self._displacement) > self._tuning.loose_displacement
+
     def _has_slipped(self) -> bool:
-        displacement = self._x - self._anchor
-        return (
-            abs(displacement) > self._tuning.loose_displacement
-            and abs(self._v) > self._tuning.loose_speed
-            and displacement * self._v > 0.0
-        )
+        """Return whether the load slips fast."""
+        is_fast = abs(self._v) > self._tuning.loose_speed
+        return self._is_displaced and is_fast and self._displacement * self._v > 0.0
 
     def _has_slid_past(self) -> bool:
         """Return whether a slow slide has brought the load past its goal."""
-        displacement = self._x - self._anchor
-        return abs(displacement) > self._tuning.loose_displacement and self._x * self._anchor < 0.0
+        return self._is_displaced and self._x * self._anchor < 0.0
 
     def _note_break(self, force: float) -> None:
         """Record a break; begin to push at the third one in a limit cycle that lasts."""
-        side = copysign(1.0, self._x - self._anchor)
+        side = copysign(1.0, self._displacement)
         self._stuck = False
         if self._breaks and self._breaks[-1][0] == side:
             self._breaks.clear()
