@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 from rclpy.action import ActionServer, CancelResponse, GoalResponse
 from rclpy.action.server import ServerGoalHandle
 from rclpy.node import Node
+from rclpy.qos import QoSProfile
 from rclpy.serialization import serialize_message
 from rclpy.task import Future
 from trajectory_msgs.msg import JointTrajectoryPoint
@@ -27,6 +28,7 @@ from pam_ros.timing.pace import SECOND
 
 NAME = 'follow_joint_trajectory'
 FEEDBACK = 0.05  # s between two messages of feedback, as in the joint_trajectory_controller
+KEPT = 1000  # messages of feedback for a client that is late: in lockstep they come fast
 
 try:
     FollowJointTrajectory: Any = import_module('control_msgs.action').FollowJointTrajectory
@@ -77,6 +79,7 @@ class Follow:
                 goal_callback=self._consider,
                 handle_accepted_callback=self._accept,
                 cancel_callback=lambda handle: CancelResponse.ACCEPT,
+                feedback_pub_qos_profile=QoSProfile(depth=KEPT),
             )
 
     def close(self) -> None:
