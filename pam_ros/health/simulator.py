@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """The health that ``pam_sim`` publishes on ``/diagnostics``."""
 
+import math
 from collections.abc import Sequence
+from itertools import compress
 from typing import NamedTuple
-
-import numpy as np
 
 from pam_ros.health.health import Health, Level
 from pam_ros.settings.scene import SimulationSetup
@@ -20,8 +20,8 @@ NO_CLOCK = 'waits for /clock (use_sim_time is set)'
 def commands(plant: Plant, last: int) -> Health:
     """Return the health of the commands; *last* is the muscle with the latest invalid one."""
     inputs = plant.inputs
-    commanded = plant.commanded_at[~np.isnan(plant.commanded_at)]
-    age = plant.time - float(commanded.min()) if commanded.size else None
+    commanded = [last for last in plant.commanded_at if not math.isnan(last)]
+    age = plant.time - min(commanded) if commanded else None
     values = {
         'command age (s)': age,
         'last command (Pa)': inputs[0].last if len(inputs) == 1 else None,
@@ -32,16 +32,15 @@ def commands(plant: Plant, last: int) -> Health:
     }
     if len(inputs) > 1:
         del values['last command (Pa)']
-        values['muscles commanded'] = int(commanded.size)
+        values['muscles commanded'] = len(commanded)
     if age is None:
         return Health(Level.OK, 'no command yet', values)
-    if np.any(plant.has_timed_out):
+    if any(plant.has_timed_out):
         did = {'vent': 'vented', 'hold': 'held'}[plant.setup.settings.on_timeout]
         whose = ''
         if len(inputs) > 1:
-            late = np.flatnonzero(plant.has_timed_out)
-            names = [plant.setup.muscle_names[i] for i in late[:5]]
-            whose = f' for {", ".join(names)}' + (' and others' if len(late) > 5 else '')
+            late = list(compress(plant.setup.muscle_names, plant.has_timed_out))
+            whose = f' for {", ".join(late[:5])}' + (' and others' if len(late) > 5 else '')
         return Health(Level.WARN, f'no command{whose} for {age:.3g} s: {did}', values)
     return Health(Level.OK, 'commanded', values)
 

@@ -30,7 +30,7 @@ def of_simulator(
     muscles = _muscles(values, setup.muscles, setup.muscle_names, others)
     loads = listed(_load(joint) for joint in joints)
     names = listed(setup.muscle_names)
-    if setup.is_one:
+    if not setup.has_arrays:
         rig = f'the muscle {muscles} with a load of {loads}'
     elif settings.joint == LOAD.name:
         count = len(setup.muscle_names)
@@ -39,17 +39,14 @@ def of_simulator(
         whose = 'the joint' if len(joints) == 1 else f'{len(joints)} joints'
         rig = f'{whose} {listed(setup.joint_names)} ({settings.joint}) with the muscles {names} '
         rig += f'({muscles}) and a load of {loads}'
-    commands = [resolve('pressure_command' if setup.is_one else 'pressure_commands')]
-    if settings.muscle_topics and not setup.is_one:
-        commands += [resolve(f'{name}/pressure_command') for name in setup.muscle_names]
     time = settings.time_mode
     if time == 'scaled':
         time += f' with speed_factor {settings.speed_factor:g}'
     elif has_sim_time:
         time += ' following /clock'
     return shown(
-        f'simulates {rig}; commands: {listed(commands)}; states: {resolve("joint_states")} at '
-        f'{settings.publish_rate:g} Hz; time_mode: {time}'
+        f'simulates {rig}; commands: {listed(map(resolve, setup.command_topics))}; states: '
+        f'{resolve("joint_states")} at {settings.publish_rate:g} Hz; time_mode: {time}'
     )
 
 

@@ -2,9 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The lines in the log of ``pam_sim`` about a clock and about commands that are missing."""
 
+import math
 from typing import Any
-
-import numpy as np
 
 from pam_ros.health.absence import Absence
 from pam_ros.health.health import Level
@@ -41,7 +40,7 @@ class Waits:
         Both waits are measured in simulated time, like the timeout.
         """
         plant = self._plant
-        is_commanded = not np.all(np.isnan(plant.commanded_at))
+        is_commanded = not all(map(math.isnan, plant.commanded_at))
         first = (
             '' if is_commanded else f'waits for commands on {self._topic}: pressures do not change'
         )

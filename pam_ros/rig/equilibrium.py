@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from pam_ros.arguments import instance, one_each
+from pam_ros.rig import layout as at
 from pam_ros.rig import statics
 from pam_ros.rig.bind import bind
 from pam_ros.rig.joint import Joint
@@ -49,7 +50,8 @@ def held(joint: Joint, p: ArrayLike) -> Callable[[float], float]:
     layout, q, pressures = joint.layout, joint.parameters(), statics.each(joint, p)
     outputs = bind(layout, joint.active).outputs
     scratch = layout.scratch()[None]
-    out, joint_out = np.zeros((1, layout.muscles, 4)), np.zeros((1, 3))
+    out = np.zeros((1, layout.muscles, at.OUTPUTS))
+    joint_out = np.zeros((1, at.JOINT_OUTPUTS))
 
     def acceleration(s: float) -> float:
         x = start_state(layout, q, pressures, s, 0.0)

@@ -45,17 +45,13 @@ class Group:
         self._queue = np.zeros((n, self.muscles, QUEUE_LENGTH))
         self._count = np.zeros((n, self.muscles), dtype=np.int64)
         self._done = np.zeros_like(self._count)
-        self.out = np.zeros((n, self.muscles, 4))
-        self.joint_out = np.zeros((n, 3))
+        self.out = np.zeros((n, self.muscles, at.OUTPUTS))
+        self.joint_out = np.zeros((n, at.JOINT_OUTPUTS))
         self._bind()
 
     def _bind(self) -> None:
         active = max((joint.active for joint in self.joints), key=len)
         self._kernel = bind(self.layout, active)
-        # Python reads lists of numbers faster than arrays.
-        self._of_joints = self.q[:, at.JOINT].tolist()
-        self._at_zero = self.q[:, at.MUSCLE :, at.AT_ZERO].tolist()
-        self._l0 = self.q[:, at.MUSCLE :, at.L0].tolist()
 
     def _declare(self, joints: Sequence[Joint]) -> None:
         self.joints: tuple[Joint, ...] = tuple(joints)
@@ -143,16 +139,3 @@ class Group:
     def look(self, time: float) -> None:
         """Fill ``out`` and ``joint_out`` by ``outputs`` of the kernel."""
         self._kernel.outputs(self.x, self._scratch, self.q, time, self.out, self.joint_out)
-
-    @property
-    def contraction(self) -> Array:
-        """Contractions as fractions, (joints x muscles,)."""
-        j, travel = self.layout.transmission_at, self.layout.transmission.travel
-        found = [
-            (zero + travel(s, i, q, j)) / l0
-            for s, q, zeros, lengths in zip(
-                self.s.tolist(), self._of_joints, self._at_zero, self._l0, strict=True
-            )
-            for i, (zero, l0) in enumerate(zip(zeros, lengths, strict=True))
-        ]
-        return np.array(found)

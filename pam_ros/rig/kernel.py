@@ -328,9 +328,10 @@ def advance(
 def outputs(x: Row, xn: Row, q: Row, t: float, out: Row, joint_out: Row) -> None:
     """Fill *out* for each joint and muscle, and *joint_out* for each joint.
 
-    out (joints, muscles, 4): force N, stiffness N/m, damping N s/m, acceleration of the muscle's
-    end m/s^2. The stiffness is -dF/dkappa / l0 of the force law (2) at the effective contraction.
-    joint_out (joints, 3): effort, stiffness and acceleration of the coordinate.
+    out (joints, muscles, OUTPUTS): force N, stiffness N/m, damping N s/m, acceleration m/s^2 of
+    the muscle's end, and contraction as a fraction of the length at rest, which effects do not
+    change. The stiffness is -dF/dkappa / l0 of the force law (2) at the effective contraction.
+    joint_out (joints, JOINT_OUTPUTS): effort, stiffness and acceleration of the coordinate.
     """
     for a in range(x.shape[0]):
         s, v = x[a, JOINT, S], x[a, JOINT, V]
@@ -350,6 +351,8 @@ def outputs(x: Row, xn: Row, q: Row, t: float, out: Row, joint_out: Row) -> None
             k = -slope / q[a, r, L0]
             out[a, i, 0], out[a, i, 1] = force, k
             out[a, i, 2] = coefficient(kappa, e, w, p, share(arm, inertia), q[a, r])
+            y = q[a, r, AT_ZERO] + travel_of(s, i, q[a, JOINT], TRANSMISSION)
+            out[a, i, 4] = y / q[a, r, L0]
             total += arm * force
             turn = arm_slope_of(s, i, q[a, JOINT], TRANSMISSION) * force
             stiffness += arm * arm * k - turn

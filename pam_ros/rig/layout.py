@@ -42,6 +42,9 @@ AT_ZERO, MUSCLE_EFFECTS = L0 + 1, L0 + 2
 # middle and at the end of a step.
 START, MIDDLE, END = 0, 1, 2
 WORK = 3
+# Outputs of a muscle: force, stiffness, damping, acceleration of its end, contraction; of a joint:
+# effort, stiffness, acceleration.
+OUTPUTS, JOINT_OUTPUTS = 5, 3
 # Columns of a run: coordinate, velocity, then pressure and force of each muscle.
 RUN_S, RUN_V, RUN_P, RUN_F = 0, 1, 2, 3
 

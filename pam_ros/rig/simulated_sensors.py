@@ -61,6 +61,8 @@ class SimulatedSensors:
         t = simulation.time
         position, velocity = simulation.position, simulation.velocity
         pressure, force = simulation.pressure, simulation.muscle_outputs().force
+        if self.of_joints.is_ideal and self._are_direct:
+            return SensorReadings(position, velocity, force, pressure, force)
         effort, _, acceleration = simulation.joint_outputs()
         if self.of_joints.is_ideal:
             return SensorReadings(position, velocity, effort, pressure, force)

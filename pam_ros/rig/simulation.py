@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from pam_ros.arguments import number, one_each, refuse, sequence
 from pam_ros.errors import ParameterError
+from pam_ros.rig import layout as at
 from pam_ros.rig.equilibrium import equilibrium
 from pam_ros.rig.group import Group
 from pam_ros.rig.joint import Joint
@@ -175,7 +176,8 @@ class Simulation:
     @property
     def contraction(self) -> Array:
         """Contraction as a fraction of the length at rest (muscles,)."""
-        return _joined([group.contraction for group in self._groups])
+        self._look()
+        return self._contraction
 
     @property
     def pressure(self) -> Array:
@@ -185,7 +187,7 @@ class Simulation:
     def muscle_outputs(self) -> MuscleOutputs:
         """Return force, stiffness, damping and acceleration of each muscle."""
         self._look()
-        return MuscleOutputs(*_joined([group.out.reshape(-1, 4) for group in self._groups]).T)
+        return self._muscle_outputs
 
     def joint_outputs(self) -> JointOutputs:
         """Return effort, stiffness and acceleration of each joint."""
@@ -196,6 +198,9 @@ class Simulation:
         if not self._has_looked:
             for group in self._groups:
                 group.look(self.time)
+            out = _joined([group.out.reshape(-1, at.OUTPUTS) for group in self._groups]).T
+            self._muscle_outputs = MuscleOutputs(*out[:4])
+            self._contraction: Array = out[4]
             self._has_looked = True
 
 

@@ -13,6 +13,7 @@ from pam_ros.cached_property import cached_property
 from pam_ros.errors import ParameterError
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig import statics
+from pam_ros.rig.arrangements import LOAD
 from pam_ros.rig.equilibrium import equilibrium
 from pam_ros.rig.joint import Joint
 from pam_ros.rig.sensors import Sensors
@@ -136,19 +137,42 @@ class SimulationSetup:
         return all(map(statics.is_direct, self.joints))
 
     @property
-    def is_one(self) -> bool:
-        """Whether the rig is a single muscle on a mass."""
-        return len(self.muscles) == 1 and self.are_direct
+    def has_arrays(self) -> bool:
+        """Whether there are topics with arrays for all muscles: not of one muscle on a mass."""
+        return len(self.muscles) > 1 or not self.are_direct
+
+    @property
+    def muscle_prefixes(self) -> tuple[str, ...]:
+        """What the names of each muscle's own topics begin with; empty if there are none."""
+        if not self.has_arrays:
+            return ('',)
+        return tuple(f'{n}/' for n in self.muscle_names) if self.settings.muscle_topics else ()
+
+    @property
+    def muscle_joints(self) -> tuple[str, ...]:
+        """Names of the joints of the muscles, in the muscles' own topics; empty if they share one.
+
+        A muscle with its own load is the only one of its joint.
+        """
+        if not self.has_arrays:
+            return self.joint_names
+        return self.muscle_names if self.settings.joint == LOAD.name else ()
+
+    @property
+    def command_topics(self) -> tuple[str, ...]:
+        """The topics of commands: that for all muscles, then those of each muscle."""
+        own = tuple(f'{prefix}pressure_command' for prefix in self.muscle_prefixes)
+        return ('pressure_commands', *own) if self.has_arrays else own
 
     @cached_property
-    def reach(self) -> Array:
+    def reach(self) -> tuple[float, ...]:
         """Contraction at which the length of each muscle is 0; inf for a plain force source."""
-        return np.array([np.inf if m.is_load_only else 1.0 for m in self.muscles])
+        return tuple(np.inf if m.is_load_only else 1.0 for m in self.muscles)
 
     @cached_property
-    def rated(self) -> Array:
+    def rated(self) -> tuple[float, ...]:
         """Largest permitted contraction of each muscle; inf for a plain force source."""
-        return np.array([np.inf if m.is_load_only else m.kappa_max for m in self.muscles])
+        return tuple(np.inf if m.is_load_only else m.kappa_max for m in self.muscles)
 
     @cached_property
     def limits(self) -> Array:

@@ -2,11 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Detect muscles that contract beyond their permitted contraction, and by how much."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
-
-import numpy as np
-from numpy.typing import NDArray
 
 # Contraction beyond kappa_max that is not yet an event. For a muscle of 400 mm this is 2 mm, the
 # uncertainty of the zero of the contraction when a muscle is mounted.
@@ -43,19 +41,11 @@ class Contractions:
         """Forget the events, but not their count: simulated time starts again."""
         self._events.clear()
 
-    def record_one(self, time: float, contraction: float, limit: float) -> None:
-        """Record the contraction of a single muscle at *time* s; it and *limit* are fractions."""
-        if contraction - limit > MARGIN:
-            self._note(time, 0, contraction)
-
-    def record(
-        self, time: float, contraction: NDArray[np.float64], limits: NDArray[np.float64]
-    ) -> None:
-        """Record the contractions (muscles,) at *time* in s; they and *limits* are fractions."""
-        is_beyond = contraction - limits > MARGIN
-        if is_beyond.any():
-            for muscle in np.flatnonzero(is_beyond).tolist():
-                self._note(time, muscle, float(contraction[muscle]))
+    def record(self, time: float, contractions: Sequence[float], limits: Sequence[float]) -> None:
+        """Record the contractions of all muscles and their *limits*, fractions, at *time* in s."""
+        for muscle, (contraction, limit) in enumerate(zip(contractions, limits, strict=True)):
+            if contraction - limit > MARGIN:
+                self._note(time, muscle, contraction)
 
     def _note(self, time: float, muscle: int, contraction: float) -> None:
         event = self._events.get(muscle)

@@ -3,7 +3,7 @@
 """The simulated rig with its valves and sensors, step by step: all of ``pam_sim`` except ROS."""
 
 import math
-from dataclasses import dataclass
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -17,7 +17,6 @@ from pam_ros.simulator.pressure_input import PressureInput
 from pam_ros.simulator.venting import Venting
 
 Array = NDArray[np.float64]
-OneReading = tuple[float, float, float, float, float, float]  # see Plant.read_one
 FINE = 1e-3  # s of simulated time for which a venting valve keeps a pressure
 
 
@@ -29,20 +28,20 @@ class BadCommand(NamedTuple):
     is_refused: bool  # else clamped
 
 
-@dataclass(frozen=True)
-class Reading:
+class Reading(NamedTuple):
     """The readings of the sensors, and the exact stiffness and damping of the muscles.
 
-    Values of joints are (joints,) in m or rad, values of muscles are (muscles,), all SI.
+    Values of joints are (joints,) in m or rad, values of muscles are (muscles,), all SI. They are
+    lists, since Python computes with lists of a few numbers faster than with arrays.
     """
 
-    position: Array
-    velocity: Array
-    effort: Array
-    pressure: Array
-    force: Array
-    stiffness: Array
-    damping: Array
+    position: list[float]
+    velocity: list[float]
+    effort: list[float]
+    pressure: list[float]
+    force: list[float]
+    stiffness: list[float]
+    damping: list[float]
 
 
 class Plant:
@@ -70,9 +69,11 @@ class Plant:
         self.step = 0
         self._ordered = pressures.copy()  # Pa, the last commands of the valves
         # Simulated time of each muscle's last valid command, NaN before the first one.
-        self.commanded_at = np.full(len(pressures), np.nan)
-        self.has_timed_out = np.zeros(len(pressures), dtype=bool)
-        self._deadline = math.inf  # simulated time at which the next timeout is reached
+        self.commanded_at = [math.nan] * len(pressures)
+        self.has_timed_out = [False] * len(pressures)
+        # Simulated time at which to look for timeouts, never after the next one. It is not moved
+        # by every command, which would take as long as the command itself.
+        self._deadline = math.inf
         self._venting = Venting()
 
     @property
@@ -106,41 +107,28 @@ class Plant:
 
     # Valves ----------------------------------------------------------------------------------
 
-    def take(self, muscle: int, value: float) -> BadCommand | None:
-        """Command one muscle in Pa; return the problem of the command, or None."""
-        given = self.inputs[muscle]
-        pressure = given.take(value)
-        if pressure is None:
-            return self._bad(muscle, is_refused=True)
-        self._venting.end(muscle)
-        self._order(muscle, pressure)
-        self.commanded_at[muscle] = self._simulation.time
-        self.has_timed_out[muscle] = False
-        self._set_deadline()
-        return None if pressure == value else self._bad(muscle)
-
-    def _bad(self, muscle: int, *, is_refused: bool = False) -> BadCommand:
-        whose = f'{self.setup.muscle_names[muscle]}: ' if len(self.inputs) > 1 else ''
-        return BadCommand(muscle, whose + self.inputs[muscle].reason, is_refused)
-
-    def take_all(self, values: list[float]) -> BadCommand | None:
-        """Command all muscles in Pa; return the problem of the last bad command, or None.
+    def take(self, pressures: Sequence[float], muscles: Sequence[int]) -> BadCommand | None:
+        """Command these *muscles* in Pa; return the problem of the last bad command, or None.
 
         A refused value leaves its muscle unchanged; a value outside the limits is clamped.
         """
-        bad, now, ordered = None, self._simulation.time, self._ordered
-        for i, (given, value) in enumerate(zip(self.inputs, values, strict=True)):
-            pressure = given.take(value)
+        bad, now = None, self._simulation.time
+        for i, value in zip(muscles, pressures, strict=True):
+            pressure = self.inputs[i].take(value)
             if pressure != value:
                 bad = self._bad(i, is_refused=pressure is None)
             if pressure is not None:
                 self._venting.end(i)
-                ordered[i] = pressure
+                self._order(i, pressure)
                 self.commanded_at[i] = now
                 self.has_timed_out[i] = False
-        self._simulation.command(ordered)
-        self._set_deadline()
+        if self._deadline == math.inf:
+            self._set_deadline()
         return bad
+
+    def _bad(self, muscle: int, *, is_refused: bool) -> BadCommand:
+        whose = f'{self.setup.muscle_names[muscle]}: ' if len(self.inputs) > 1 else ''
+        return BadCommand(muscle, whose + self.inputs[muscle].reason, is_refused)
 
     def _order(self, muscle: int, pressure: float) -> None:
         self._ordered[muscle] = pressure
@@ -152,13 +140,15 @@ class Plant:
 
     def _set_deadline(self) -> None:
         timeout = self.setup.settings.command_timeout
-        if len(self.commanded_at) == 1:
-            last = self.commanded_at.item()
-            is_watched = timeout and not (math.isnan(last) or self.has_timed_out.item())
-            self._deadline = last + timeout if is_watched else math.inf
+        if not timeout:
+            self._deadline = math.inf
             return
-        last = self.commanded_at[~np.isnan(self.commanded_at) & ~self.has_timed_out]
-        self._deadline = float(last.min()) + timeout if timeout and last.size else math.inf
+        watched = [
+            last
+            for last, is_late in zip(self.commanded_at, self.has_timed_out, strict=True)
+            if not (is_late or math.isnan(last))
+        ]
+        self._deadline = min(watched) + timeout if watched else math.inf
 
     def _time_out(self) -> None:
         settings = self.setup.settings
@@ -180,42 +170,30 @@ class Plant:
 
     # Sensors ---------------------------------------------------------------------------------
 
-    def read_one(self) -> OneReading:
-        """Return position, velocity, pressure, force, stiffness and damping of a single muscle.
-
-        Raises ArithmeticError if the muscle is out of its reach, or its force or velocity is not
-        finite.
-        """
-        simulation = self._simulation
-        force, stiffness, damping, acceleration = (
-            column.item() for column in simulation.muscle_outputs()
-        )
-        position, velocity = simulation.position.item(), simulation.velocity.item()
-        pressure = simulation.pressure.item()
-        l0 = self.setup.muscles[0].l0
-        reach = self.setup.reach.item() * l0
-        if not (abs(position) < reach and math.isfinite(force + velocity)):
-            raise ArithmeticError(f"the position {position:g} m is out of the muscle's reach")
-        self.contractions.record_one(simulation.time, position / l0, self.setup.rated.item())
-        sensors = self._sensors.of_joints
-        if not sensors.is_ideal:
-            sample = np.array([[position], [velocity], [pressure], [force], [acceleration]])
-            reading = sensors.read(simulation.time, sample)
-            position, velocity, pressure, force = reading[:, 0].tolist()
-        return position, velocity, pressure, force, stiffness, damping
-
     def read(self) -> Reading:
         """Return the readings of all sensors.
 
         Raises ArithmeticError if a muscle is out of its reach, or a force or velocity is not
         finite.
         """
-        simulation = self._simulation
-        force, stiffness, damping, _ = simulation.muscle_outputs()
-        contraction = simulation.contraction
-        is_there = np.abs(contraction) < self.setup.reach
-        if not (np.all(is_there) and np.isfinite(np.sum(force) + np.sum(simulation.velocity))):
-            lost = self.setup.muscle_names[int(np.argmin(is_there))]
-            raise ArithmeticError(f'{lost} is out of its reach')
-        self.contractions.record(simulation.time, contraction, self.setup.rated)
-        return Reading(*self._sensors.read(), stiffness, damping)
+        simulation, setup = self._simulation, self.setup
+        contractions = simulation.contraction.tolist()
+        for name, kappa, limit in zip(setup.muscle_names, contractions, setup.reach, strict=True):
+            if not abs(kappa) < limit:  # or not a number
+                percent = f'{100.0 * kappa:g} %'
+                raise ArithmeticError(f'{name} is out of its reach, contracted by {percent}')
+        position, velocity, effort, pressure, force = self._sensors.read()
+        outputs = simulation.muscle_outputs()
+        reading = Reading(
+            position.tolist(),
+            velocity.tolist(),
+            effort.tolist(),
+            pressure.tolist(),
+            force.tolist(),
+            outputs.stiffness.tolist(),
+            outputs.damping.tolist(),
+        )
+        if not math.isfinite(sum(reading.force) + sum(reading.velocity)):
+            raise ArithmeticError('a force or a velocity is not finite')
+        self.contractions.record(simulation.time, contractions, setup.rated)
+        return reading

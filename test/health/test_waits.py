@@ -38,12 +38,12 @@ class Rig:
         while self.plant.step < end:
             self.plant.advance(self.plant.step + STEPS // 10)
             if self.plant.step % STEPS in commands_at:
-                self.plant.take(0, 1e5)
+                self.plant.take([1e5], [0])
             if self.plant.step % STEPS == 0:
                 self.look()
 
     def look(self):
-        missing = commands(self.plant, 0).message if self.plant.has_timed_out.any() else ''
+        missing = commands(self.plant, 0).message if any(self.plant.has_timed_out) else ''
         self.waits.look_for_commands(missing)
 
 

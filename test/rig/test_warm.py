@@ -33,7 +33,7 @@ for kind in ARRANGEMENTS:
         given = {'joint': kind.name, **effects}
         scene = Scene(given)
         plant = Plant(scene.build(checked(scene.table(), given)))
-        plant.take(0, 2e5)
+        plant.take([2e5], [0])
         plant.advance(10)
         plant.read()
 t, p = np.array([0.0, 0.01]), np.array([1e5, 2e5])

@@ -29,7 +29,10 @@ def built(**given):
 
 def test_a_scene_of_one_muscle_is_unchanged():
     now = built(mass=12.0, joint_name='arm')
-    assert (now.joint_names, now.muscle_names, now.is_one) == (('arm',), ('arm',), True)
+    assert (now.joint_names, now.muscle_names) == (('arm',), ('arm',))
+    assert not now.has_arrays
+    assert now.command_topics == ('pressure_command',)
+    assert now.muscle_joints == ('arm',)
     assert now.joints[0].load.mass == 12.0
 
 
@@ -166,7 +169,9 @@ def test_a_lever_is_configured_by_its_geometry(kind, muscles):
     assert joint.moved_mass == joint.load.mass + 0.2
     assert now.joint_names == ('elbow',)
     assert len(now.muscle_names) == muscles
-    assert not now.is_one
+    assert now.has_arrays
+    assert now.command_topics == ('pressure_commands',)
+    assert now.muscle_prefixes == now.muscle_joints == ()
     np.testing.assert_array_equal(now.initial[1], [equilibrium(joint, 2e5)])
 
 

@@ -49,14 +49,6 @@ def test_a_load_that_swings_about_the_limit_is_one_event_and_a_later_one_another
     assert found.count == 2
 
 
-def test_a_muscle_alone_is_judged_as_one_of_several():
-    found = Contractions()
-    for time, kappa in ((1.0, 0.25 + 0.9 * MARGIN), (2.0, OVER), (2.5, 0.39), (2.6, 0.2)):
-        found.record_one(time, kappa, 0.25)
-    assert found.report(2.6) == [Excess(0, 0.39, is_new=True)]
-    assert found.count == 1
-
-
 def test_within_the_limit_and_its_margin_there_is_none():
     found = Contractions()
     found.record(1.0, LIMITS + 0.9 * MARGIN, LIMITS)
@@ -67,7 +59,7 @@ def test_within_the_limit_and_its_margin_there_is_none():
 
 def test_a_contraction_beyond_the_limit_is_reported_with_muscle_value_and_limit():
     rig = plant(mass=1.0, initial__pressure=600e3)
-    kappa = rig.read_one()[0] / rig.setup.muscles[0].l0
+    kappa = rig.read().position[0] / rig.setup.muscles[0].l0
     assert kappa > 0.26
     health = contraction(rig, rig.contractions.report(rig.time))
     assert health.level == Level.WARN
@@ -87,7 +79,7 @@ def test_of_several_muscles_the_one_beyond_its_own_limit_is_reported():
 
 def test_a_reset_begins_without_events():
     rig = plant(mass=1.0, initial__pressure=600e3)
-    rig.read_one()
+    rig.read()
     rig.begin()
     assert rig.contractions.report(rig.time) == []
     assert contraction(rig, []).level == Level.OK

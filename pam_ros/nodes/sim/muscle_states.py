@@ -4,14 +4,14 @@
 
 from array import array
 from collections.abc import Sequence
+from itertools import chain
 
-import numpy as np
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
 from sensor_msgs.msg import JointState
 
 from pam_ros.nodes.common.qos import open_qos
-from pam_ros.simulator.plant import OneReading, Reading
+from pam_ros.simulator.plant import Reading
 from pam_ros.timing.pace import SECOND
 
 QUANTITIES = ('force', 'stiffness', 'damping', 'pressure')
@@ -28,9 +28,6 @@ class MuscleStates:
         """Create the publisher on *node*."""
         names = [f'{muscle}/{quantity}' for muscle in muscles for quantity in QUANTITIES]
         self._message = JointState(name=names, position=array('d', bytes(8 * len(names))))
-        self._values = self._message.position
-        # A view of the message's memory, one row for each muscle.
-        self._rows = np.frombuffer(self._values).reshape(len(muscles), len(QUANTITIES))
         self._publisher = node.create_publisher(
             JointState, 'muscle_states', QoSProfile(depth=depth), qos_overriding_options=open_qos()
         )
@@ -39,16 +36,10 @@ class MuscleStates:
         """Set the frame in the header; the message has no variance."""
         self._message.header.frame_id = frame
 
-    def publish(self, stamp: int, reading: Reading | OneReading, ambient: float) -> None:
-        """Publish one state of the given ROS time in ns; pressures with *ambient* Pa added."""
+    def publish(self, stamp: int, reading: Reading, absolute: Sequence[float]) -> None:
+        """Publish one state of the given ROS time in ns; *absolute* are the pressures in Pa."""
         header = self._message.header.stamp
         header.sec, header.nanosec = divmod(stamp, SECOND)
-        if isinstance(reading, Reading):
-            rows = self._rows
-            rows[:, 0], rows[:, 1] = reading.force, reading.stiffness
-            rows[:, 2], rows[:, 3] = reading.damping, reading.pressure + ambient
-        else:
-            values = self._values
-            _, _, pressure, values[0], values[1], values[2] = reading
-            values[3] = pressure + ambient
+        rows = zip(reading.force, reading.stiffness, reading.damping, absolute, strict=True)
+        self._message.position[:] = array('d', chain.from_iterable(rows))
         self._publisher.publish(self._message)

@@ -1,6 +1,8 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The topics on which a simulated muscle publishes its state."""
+"""The topics on which each simulated muscle publishes its state."""
+
+from collections.abc import Sequence
 
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
@@ -8,26 +10,53 @@ from sensor_msgs.msg import FluidPressure, JointState
 from std_msgs.msg import Float64
 
 from pam_ros.nodes.common.qos import open_qos
-from pam_ros.simulator.plant import OneReading
+from pam_ros.simulator.plant import Reading
 from pam_ros.timing.pace import SECOND
 
+# Position, velocity, absolute pressure, force, stiffness and damping of a muscle.
+Row = tuple[float, float, float, float, float, float]
 
-class Telemetry:
-    """Publishes the state of one muscle; each message is created once and filled again."""
+
+class MuscleTelemetry:
+    """Publishes the state of each muscle, on topics of its own."""
 
     def __init__(
-        self,
-        node: Node,
-        depth: int,
-        joint: str,
-        below: str = '',
-        *,
-        has_joint: bool = True,
+        self, node: Node, depth: int, prefixes: Sequence[str], joints: Sequence[str]
     ) -> None:
-        """Create the publishers on *node*; *joint* is the name of the joint, if there is one.
+        """Create the publishers on *node*; each keeps *depth* messages.
 
-        *below* is the prefix of the names of the topics; each publisher keeps *depth* messages.
+        The names of a muscle's topics begin with its prefix. *joints* are the names of the joints
+        that the muscles move, one each; empty if they share one.
         """
+        self._have_joints = bool(joints)
+        names = joints if joints else [''] * len(prefixes)
+        self._each = [
+            _OneMuscle(node, depth, prefix, joint)
+            for prefix, joint in zip(prefixes, names, strict=True)
+        ]
+
+    def describe(self, frame: str, variance: float) -> None:
+        """Set the frame in the headers, and the variance of the pressures in Pa^2."""
+        for muscle in self._each:
+            muscle.describe(frame, variance)
+
+    def publish(self, stamp: int, reading: Reading, absolute: Sequence[float]) -> None:
+        """Publish one state of the given ROS time in ns; *absolute* are the pressures in Pa."""
+        position, velocity = reading.position, reading.velocity
+        if not self._have_joints:
+            position = velocity = [0.0] * len(self._each)
+        of_muscles = absolute, reading.force, reading.stiffness, reading.damping
+        for muscle, row in zip(
+            self._each, zip(position, velocity, *of_muscles, strict=True), strict=True
+        ):
+            muscle.publish(stamp, row)
+
+
+class _OneMuscle:
+    """Publishes the state of one muscle; each message is created once and filled again."""
+
+    def __init__(self, node: Node, depth: int, below: str, joint: str) -> None:
+        """Create the publishers on *node*, without ``joint_states`` if *joint* is empty."""
         self._joint = JointState(name=[joint], position=[0.0], velocity=[0.0], effort=[0.0])
         self._fluid = FluidPressure(header=self._joint.header)
         self._float = Float64()
@@ -38,7 +67,7 @@ class Telemetry:
                 kind, below + name, QoSProfile(depth=depth), qos_overriding_options=open_qos()
             )
 
-        self._joint_states = publisher(JointState, 'joint_states') if has_joint else None
+        self._joint_states = publisher(JointState, 'joint_states') if joint else None
         self._pressure = publisher(FluidPressure, 'pressure')
         self._force = publisher(Float64, 'force')
         self._stiffness = publisher(Float64, 'stiffness')
@@ -49,15 +78,15 @@ class Telemetry:
         self._joint.header.frame_id = frame
         self._fluid.variance = variance
 
-    def publish(self, stamp: int, reading: OneReading, ambient: float) -> None:
-        """Publish one state of the given ROS time in ns; the pressure with *ambient* Pa added."""
-        position, velocity, pressure, force, stiffness, damping = reading
+    def publish(self, stamp: int, row: Row) -> None:
+        """Publish one state of the given ROS time in ns."""
+        position, velocity, pressure, force, stiffness, damping = row
         self._stamp.sec, self._stamp.nanosec = divmod(stamp, SECOND)
         joint, value = self._joint, self._float
         if self._joint_states:
             joint.position[0], joint.velocity[0], joint.effort[0] = position, velocity, force
             self._joint_states.publish(joint)
-        self._fluid.fluid_pressure = pressure + ambient
+        self._fluid.fluid_pressure = pressure
         self._pressure.publish(self._fluid)
         value.data = force
         self._force.publish(value)

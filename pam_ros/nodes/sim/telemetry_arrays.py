@@ -1,18 +1,16 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The topics on which several muscles publish their state: arrays, and topics of each muscle."""
+"""The topics on which several muscles publish their state in arrays."""
 
 from array import array
 from collections.abc import Sequence
 
-import numpy as np
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64MultiArray, MultiArrayDimension
 
 from pam_ros.nodes.common.qos import open_qos
-from pam_ros.nodes.sim.telemetry import Telemetry
 from pam_ros.simulator.plant import Reading
 from pam_ros.timing.pace import SECOND
 
@@ -27,9 +25,6 @@ class ArrayTelemetry:
         self._joint = JointState(name=list(joints))
         for name in ('position', 'velocity', 'effort'):
             setattr(self._joint, name, array('d', bytes(8 * len(joints))))
-        # Views of the messages' memory, which are filled without a loop over Python numbers.
-        states = self._joint.position, self._joint.velocity, self._joint.effort
-        self._states = [np.frombuffer(each) for each in states]
 
         def publisher(kind: type, name: str):
             return node.create_publisher(
@@ -45,56 +40,21 @@ class ArrayTelemetry:
                 MultiArrayDimension(label=','.join(muscles), size=size, stride=size)
             ]
             publish = publisher(Float64MultiArray, name).publish
-            self._arrays.append((publish, message, np.frombuffer(message.data)))
+            self._arrays.append((publish, message))
 
     def describe(self, frame: str, variance: float) -> None:
         """Set the frame in the header; an array has no variance."""
         self._joint.header.frame_id = frame
 
-    def publish(self, stamp: int, reading: Reading, ambient: float) -> None:
-        """Publish one state of the given ROS time in ns; pressures with *ambient* Pa added."""
-        header = self._joint.header.stamp
-        header.sec, header.nanosec = divmod(stamp, SECOND)
-        position, velocity, effort = self._states
-        position[:], velocity[:] = reading.position, reading.velocity
-        effort[:] = reading.effort
-        self._publish_states(self._joint)
-        quantities = reading.pressure + ambient, reading.force, reading.stiffness, reading.damping
-        for (publish, message, memory), values in zip(self._arrays, quantities, strict=True):
-            memory[:] = values
+    def publish(self, stamp: int, reading: Reading, absolute: Sequence[float]) -> None:
+        """Publish one state of the given ROS time in ns; *absolute* are the pressures in Pa."""
+        joint = self._joint
+        joint.header.stamp.sec, joint.header.stamp.nanosec = divmod(stamp, SECOND)
+        joint.position[:] = array('d', reading.position)
+        joint.velocity[:] = array('d', reading.velocity)
+        joint.effort[:] = array('d', reading.effort)
+        self._publish_states(joint)
+        quantities = absolute, reading.force, reading.stiffness, reading.damping
+        for (publish, message), values in zip(self._arrays, quantities, strict=True):
+            message.data[:] = array('d', values)
             publish(message)
-
-
-class MuscleTelemetry:
-    """Publishes for each muscle the topics of a single muscle, below its name.
-
-    For a muscle with a load of its own this includes ``joint_states``.
-    """
-
-    def __init__(
-        self, node: Node, depth: int, muscles: Sequence[str], *, have_loads: bool
-    ) -> None:
-        """Create the publishers on *node*; the joint of a load has the name of its muscle."""
-        self._each = [
-            Telemetry(node, depth, name, f'{name}/', has_joint=have_loads) for name in muscles
-        ]
-        self._have_loads = have_loads
-
-    def describe(self, frame: str, variance: float) -> None:
-        """Set the frame in the headers, and the variance of the pressures in Pa^2."""
-        for telemetry in self._each:
-            telemetry.describe(frame, variance)
-
-    def publish(self, stamp: int, reading: Reading, ambient: float) -> None:
-        """Publish one state of the given ROS time in ns; pressures with *ambient* Pa added."""
-        nothing = np.zeros_like(reading.force)
-        position, velocity = nothing, nothing
-        if self._have_loads:
-            position, velocity = reading.position, reading.velocity
-        rows = zip(
-            *(position.tolist(), velocity.tolist(), reading.pressure.tolist()),
-            *(reading.force.tolist(), reading.stiffness.tolist(), reading.damping.tolist()),
-            strict=True,
-        )
-        for telemetry, values in zip(self._each, rows, strict=True):
-            telemetry.publish(stamp, values, ambient)

@@ -19,20 +19,13 @@ def watched_topics(setup: SimulationSetup) -> list[Watched]:
     found = [Watched(JointState, 'joint_states', tuple(setup.joint_names))]
     if settings.has_own_time:
         found.append(Watched(Clock, '/clock'))
-    if setup.is_one:
-        return [*found, *_muscle()]
-    found.append(Watched(Float64MultiArray, 'pressure_commands'))
-    found.append(Watched(Float64MultiArray, 'pressures'))
-    if settings.muscle_topics:
-        for name in setup.muscle_names:
-            found += _muscle(f'{name}/')
-            if settings.joint == 'load':
-                found.append(Watched(JointState, f'{name}/joint_states', (name,)))
+    if setup.has_arrays:
+        found.append(Watched(Float64MultiArray, 'pressure_commands'))
+        found.append(Watched(Float64MultiArray, 'pressures'))
+    for prefix in setup.muscle_prefixes:
+        found.append(Watched(Float64, f'{prefix}pressure_command'))
+        found.append(Watched(FluidPressure, f'{prefix}pressure'))
+    if setup.has_arrays and setup.muscle_prefixes:
+        for name in setup.muscle_joints:
+            found.append(Watched(JointState, f'{name}/joint_states', (name,)))
     return found
-
-
-def _muscle(below: str = '') -> list[Watched]:
-    return [
-        Watched(Float64, f'{below}pressure_command'),
-        Watched(FluidPressure, f'{below}pressure'),
-    ]

@@ -1,8 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The simulator's own time: on clocks that the test turns by hand, and scaled over DDS."""
-
-import sys
+"""The simulator's own time over DDS: scaled."""
 
 import numpy as np
 import pytest
@@ -12,85 +10,13 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64
 from std_srvs.srv import SetBool, Trigger
 
-from pam_ros.nodes.sim import sim_time
-from pam_ros.nodes.sim.sim_time import FIRST, OwnTime
 from pam_ros.rig.simulation import Simulation
 from pam_ros.rig.standard_joints import single_muscle_joint
-from pam_ros.timing.pace import CATCH_UP, SECOND
+from pam_ros.simulator.modes import FIRST
+from pam_ros.timing.pace import SECOND
 from support.harness import Program, lose_nothing
 
 MS = SECOND // 1000
-
-
-class Wall:
-    """A steady clock that the test turns."""
-
-    def __init__(self):
-        self.now = 5 * SECOND
-
-    def __call__(self):
-        return self.now
-
-
-@pytest.fixture
-def wall(monkeypatch):
-    wall = Wall()
-    monkeypatch.setattr(sim_time, 'monotonic_ns', wall)
-    return wall
-
-
-@pytest.mark.parametrize('factor', [0.1, 1.0, 7.5, 100.0])
-def test_steps_are_due_by_the_factor(wall, factor):
-    time, step = OwnTime(1000.0, factor), 0
-    for _ in range(100):
-        wall.now += 10 * MS
-        step = time.due(step)
-    assert step == pytest.approx(1000.0 * factor, abs=1.0)
-    assert time.lost == 0.0
-    # The next one is due when it says, and not before.
-    wall.now = time.steady_time(step + 1) - 1000
-    assert time.due(step) == step
-    wall.now += 2000
-    assert time.due(step) == step + 1
-
-
-def test_without_a_pace_all_is_due(wall):
-    time = OwnTime(1000.0, 0.0)
-    assert time.due(3) == sys.maxsize
-    assert time.steady_time(1000) == wall.now
-
-
-def test_another_factor_acts_from_now_on(wall):
-    time = OwnTime(1000.0, 1.0)
-    wall.now += 100 * MS
-    step = time.due(0)
-    assert step == 100
-    time.factor = 20.0
-    time.align(step)
-    assert time.due(step) == step
-    wall.now += 10 * MS
-    assert time.due(step) == step + 200
-
-
-def test_periods_that_are_too_late_are_skipped_and_reported(wall):
-    time = OwnTime(1000.0, 2.0)
-    wall.now += 3 * SECOND
-    step = time.due(0)
-    assert step == 2 * 1000 * CATCH_UP // SECOND
-    assert time.lost == pytest.approx(2.0 * 2.5)
-    assert time.due(step) == step
-
-
-def test_stamps_are_steps_and_never_go_back(wall):
-    time = OwnTime(1000.0, 1.0)
-    assert time.stamp(0) == FIRST
-    assert time.stamp(2000) == FIRST + 2 * SECOND
-    time.restart(2500, 2 * MS)
-    assert time.stamp(0) == FIRST + 2502 * MS
-    assert time.now() == FIRST + 2502 * MS
-
-
-# Over DDS ------------------------------------------------------------------------------------
 
 SCALED = {'time_mode': 'scaled', 'command_timeout': 0.0, **lose_nothing()}
 RELEASED = {'initial.at_rest': False, 'initial.position': 0.0, 'initial.pressure': 6e5}

@@ -1,11 +1,9 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Lockstep: the simulator continues when all muscles were commanded."""
+"""Lockstep: which muscles were commanded since the last state, and which nodes command them."""
 
+from collections.abc import Callable, Sequence
 from time import monotonic_ns
-
-from rclpy.node import Node
-from rclpy.subscription import Subscription
 
 from pam_ros.timing.pace import SECOND
 
@@ -28,73 +26,64 @@ class Turns:
     one counts.
     """
 
-    def __init__(self, node: Node, muscles: int) -> None:
-        """Start without commands."""
-        self._node, self._muscles = node, muscles
-        self._topics: list[str] = []
+    def __init__(
+        self,
+        muscles: int,
+        publishers: Callable[[], frozenset[bytes]],
+        steady: Callable[[], int] = monotonic_ns,
+    ) -> None:
+        """Start without commands.
+
+        *publishers* returns an identification of each node that publishes commands at present,
+        and *steady* the time in ns of a clock that never jumps.
+        """
+        self._muscles, self._publishers, self._steady = muscles, publishers, steady
         self._answered: set[int] = set()
         self._known: frozenset[bytes] = frozenset()
         self._has_answered = False
         self._settled = 0  # steady time until which answers are collected, ns
         self.begin()
 
-    def watch(self, subscription: Subscription) -> None:
-        """Look for controllers among the publishers of this subscription's topic."""
-        self._topics.append(subscription.topic_name)
-
     def begin(self) -> None:
         """Wait for commands from now on: the state was published."""
         self._answered.clear()
-        self._since = self._published = monotonic_ns()
+        self._since = self._published = self._steady()
 
-    def take(self, muscle: int | None) -> None:
-        """Note the command of one muscle, or of all muscles (None)."""
+    def take(self, muscles: Sequence[int]) -> None:
+        """Note that these muscles were commanded."""
         if not self._has_answered:
             self.settle()
         self._has_answered = True
-        if muscle is None:
-            self._answered.update(range(self._muscles))
-        else:
-            self._answered.add(muscle)
+        self._answered.update(muscles)
 
     def settle(self) -> None:
         """Collect commands for SETTLE ns, since more than one may arrive."""
-        self._settled = monotonic_ns() + SETTLE
+        self._settled = self._steady() + SETTLE
 
     @property
     def is_complete(self) -> bool:
         """Whether all muscles were commanded, and no other command for this state is expected."""
-        return len(self._answered) == self._muscles and monotonic_ns() >= self._settled
-
-    @property
-    def waited(self) -> float:
-        """Seconds since the state was published."""
-        return (monotonic_ns() - self._since) / SECOND
+        return len(self._answered) == self._muscles and self._steady() >= self._settled
 
     @property
     def complaint(self) -> str:
         """A sentence on a long wait for commands, '' if there is none."""
-        left = self._muscles - len(self._answered)
-        if not left or monotonic_ns() - self._since < PATIENCE:
+        left, waited = self._muscles - len(self._answered), self._steady() - self._since
+        if not left or waited < PATIENCE:
             return ''
+        so_far = f'{waited / SECOND:.1f} s so far'
         if not self._known:
-            return (
-                f'waits for a controller, {self.waited:.1f} s so far: no node publishes commands'
-            )
-        return f'waits for commands, {self.waited:.1f} s so far: {left} of {self._muscles} missing'
+            return f'waits for a controller, {so_far}: no node publishes commands'
+        return f'waits for commands, {so_far}: {left} of {self._muscles} missing'
 
     def must_repeat(self) -> bool:
         """Return whether to publish the state again now; to be called a few times per second."""
-        known = frozenset(
-            bytes(info.endpoint_gid)
-            for topic in self._topics
-            for info in self._node.get_publishers_info_by_topic(topic)
-        )
+        known = self._publishers()
         is_new = bool(known - self._known)
         self._known = known
         if is_new or not known:
             self._has_answered = False
-        now = monotonic_ns()
+        now = self._steady()
         if self._has_answered or not (is_new or now - self._published > REPEAT):
             return False
         self._published = now
