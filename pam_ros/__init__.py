@@ -21,6 +21,8 @@ if TYPE_CHECKING:
     from pam_ros.control.reference.shaping import Shape
     from pam_ros.control.signals import Reference
     from pam_ros.control.sliding_mode import SlidingMode
+    from pam_ros.devices.sensors import Sensors
+    from pam_ros.devices.simulated_sensors import SensorReadings, SimulatedSensors
     from pam_ros.effects import EFFECTS
     from pam_ros.effects.base import Effect
     from pam_ros.errors import PamError
@@ -44,8 +46,6 @@ if TYPE_CHECKING:
     from pam_ros.rig.joint import Actuator, Joint
     from pam_ros.rig.loads import Arm, Load, LoadEquations, Mass
     from pam_ros.rig.run import Trajectory, simulate, simulate_held
-    from pam_ros.rig.sensors import Sensors
-    from pam_ros.rig.simulated_sensors import SensorReadings, SimulatedSensors
     from pam_ros.rig.simulation import JointOutputs, MuscleOutputs, Simulation
     from pam_ros.rig.standard_joints import antagonistic_joint, single_muscle_joint
     from pam_ros.rig.transmissions import (
@@ -122,6 +122,8 @@ _PLACES = {
     'control.reference.shaping': ('Shape',),
     'control.signals': ('Reference',),
     'control.sliding_mode': ('SlidingMode',),
+    'devices.sensors': ('Sensors',),
+    'devices.simulated_sensors': ('SensorReadings', 'SimulatedSensors'),
     'effects': ('EFFECTS',),
     'effects.base': ('Effect',),
     'errors': ('PamError',),
@@ -140,8 +142,6 @@ _PLACES = {
     'rig.joint': ('Actuator', 'Joint'),
     'rig.loads': ('Arm', 'Load', 'LoadEquations', 'Mass'),
     'rig.equilibrium': ('equilibrium',),
-    'rig.sensors': ('Sensors',),
-    'rig.simulated_sensors': ('SensorReadings', 'SimulatedSensors'),
     'rig.simulation': ('JointOutputs', 'MuscleOutputs', 'Simulation'),
     'rig.run': ('Trajectory', 'simulate', 'simulate_held'),
     'rig.standard_joints': ('antagonistic_joint', 'single_muscle_joint'),

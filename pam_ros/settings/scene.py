@@ -10,13 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pam_ros.cached_property import cached_property
+from pam_ros.devices.sensors import Sensors
 from pam_ros.errors import ParameterError
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig import statics
 from pam_ros.rig.arrangements import LOAD
 from pam_ros.rig.equilibrium import equilibrium
 from pam_ros.rig.joint import Joint
-from pam_ros.rig.sensors import Sensors
 from pam_ros.rig.step_limit import check_step
 from pam_ros.settings.rig import RigParameters
 from pam_ros.settings.sim import SimSettings, Start

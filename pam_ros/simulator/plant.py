@@ -9,12 +9,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from pam_ros.rig.simulated_sensors import SimulatedSensors
+from pam_ros.devices.pressure_input import PressureInput
+from pam_ros.devices.simulated_sensors import SimulatedSensors
+from pam_ros.devices.venting import Venting
 from pam_ros.rig.simulation import Simulation
 from pam_ros.settings.scene import SimulationSetup
 from pam_ros.simulator.contractions import Contractions
-from pam_ros.simulator.pressure_input import PressureInput
-from pam_ros.simulator.venting import Venting
 
 Array = NDArray[np.float64]
 FINE = 1e-3  # s of simulated time for which a venting valve keeps a pressure

@@ -30,7 +30,7 @@ FLOORS = (
     ('pam_ros.muscle',),
     ('pam_ros.effects', 'pam_ros.excitation'),
     ('pam_ros.rig',),
-    ('pam_ros.control', 'pam_ros.identification'),
+    ('pam_ros.control', 'pam_ros.devices', 'pam_ros.identification'),
     ('pam_ros.settings',),
     ('pam_ros.report', 'pam_ros.simulator'),
     ('pam_ros.demo', 'pam_ros.health', 'pam_ros.plot'),

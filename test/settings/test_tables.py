@@ -8,12 +8,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from pam_ros.devices.sensors import Sensors
 from pam_ros.effects import EFFECTS
 from pam_ros.errors import ParameterError
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig.arrangements import ARRANGEMENTS, LOAD
 from pam_ros.rig.loads import Mass
-from pam_ros.rig.sensors import Sensors
 from pam_ros.settings.nominal import NominalJoint
 from pam_ros.settings.rig import RigParameters
 from pam_ros.settings.tables import (

@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from pam_ros.devices.sensors import FORCE, POSITION, PRESSURE, VELOCITY, Feedback, Sensors
 from pam_ros.errors import ParameterError
-from pam_ros.rig.sensors import FORCE, POSITION, PRESSURE, VELOCITY, Feedback, Sensors
 
 H = 2e-3  # s between samples, as at 500 Hz
 OMEGA = 28.0  # rad/s, the paper's pendulum

@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from pam_ros.devices.pressure_input import PressureInput
 from pam_ros.muscle.muscle import Muscle
-from pam_ros.simulator.pressure_input import PressureInput
 
 MUSCLE = Muscle()
 

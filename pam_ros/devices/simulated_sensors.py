@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pam_ros.arguments import instance
+from pam_ros.devices.sensors import Feedback, Sensors
 from pam_ros.rig import statics
-from pam_ros.rig.sensors import Feedback, Sensors
 from pam_ros.rig.simulation import Simulation
 
 Array = NDArray[np.float64]

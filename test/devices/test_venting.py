@@ -4,7 +4,7 @@
 
 import pytest
 
-from pam_ros.simulator.venting import Venting
+from pam_ros.devices.venting import Venting
 
 
 def venting(**pressures):
