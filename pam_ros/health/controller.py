@@ -30,7 +30,7 @@ class Received(NamedTuple):
 
 def values_of(loop: Loop, setup: ControlSetup, age: float | None) -> dict[str, Any]:
     """Return the state of the loop in numbers; *age* is that of the joint states in s."""
-    terms, law, unit = loop.law.terms, loop.law, setup.unit
+    terms, law, unit = loop.law.terms, loop.law, setup.law.unit
     is_running = loop.state == RUNNING
     values = {
         'state': loop.state,
@@ -40,13 +40,13 @@ def values_of(loop: Loop, setup: ControlSetup, age: float | None) -> dict[str, A
         'command (Pa)': shown(loop.pressures),
         'saturated': terms.saturated if is_running else None,
         'on a trajectory': loop.source.is_on_trajectory if is_running else None,
-        f'lowest reference ({unit})': setup.reach[0],
-        f'highest reference ({unit})': setup.reach[1],
+        f'lowest reference ({unit})': setup.law.reach[0],
+        f'highest reference ({unit})': setup.law.reach[1],
         'age of joint_states (s)': age,
         'implausible joint_states': loop.implausible,
     }
     if setup.settings.controller == 'sliding_mode':
-        gains, inertia = setup.gains, setup.joint.inertia
+        gains, inertia = setup.law.gains, setup.law.joint.inertia
         values[f'half width of the boundary layer ({unit}/s)'] = gains.boundary_width(inertia)
         # The surface never has a lower natural frequency than surface_bandwidth.
         values[f'largest error within the disturbance bound ({unit})'] = gains.error_bound(
@@ -54,7 +54,7 @@ def values_of(loop: Loop, setup: ControlSetup, age: float | None) -> dict[str, A
         )
         values['rejection level'] = terms.rejection if is_running else None
         values['highest rejection level'] = terms.highest_rejection if is_running else None
-    feedback = left_to_feedback(setup.joint)
+    feedback = left_to_feedback(setup.law.joint)
     if feedback:
         values['configured, without feedforward'] = ', '.join(feedback)
     if law.allocation.can_stiffen:

@@ -57,14 +57,14 @@ def of_controller(
 
     *has_sim_time* is whether it answers joint states.
     """
-    settings, joint = setup.settings, setup.joint
+    settings, joint = setup.settings, setup.law.joint
     others = (settings.joint_name,) if len(setup.muscles) == 1 else setup.muscles
     muscles = _muscles(values, joint.muscles, setup.muscles, others)
     pace = f'at {settings.rate:g} Hz'
     if has_sim_time:
         pace = 'one for each joint state (use_sim_time is set)'
     references = [resolve('position_reference'), resolve('joint_trajectory')]
-    if setup.can_stiffen:
+    if setup.law.can_stiffen:
         references.append(resolve('co_contraction_reference'))
     line = (
         f'controls the joint {settings.joint_name} ({settings.joint}; muscle {muscles}; load of '

@@ -6,36 +6,25 @@ Muscles, joints and their effects have the same parameters as in ``pam_sim``, so
 file can be used for both programs.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from math import isfinite, nan
 from typing import Any, ClassVar
 
-import numpy as np
-
-from pam_ros.cached_property import cached_property
-from pam_ros.control.allocation import allocation_of
 from pam_ros.control.co_contraction import CoContraction
 from pam_ros.control.gains import Gains
 from pam_ros.control.limits import Limits
 from pam_ros.control.loop import HOLD, VENT
-from pam_ros.control.model import ControlModel
-from pam_ros.control.pid import Pid, PidGains
-from pam_ros.control.pressure_path import PressurePath
+from pam_ros.control.pid import PidGains
 from pam_ros.control.reference.shaping import Shape
-from pam_ros.control.reference.source import ReferenceSource
-from pam_ros.control.signals import PositionLaw, Pressures, Reference
-from pam_ros.control.sliding_mode import SlidingMode
+from pam_ros.control.setup import LawSetup
 from pam_ros.errors import ParameterError
 from pam_ros.parameters import check_all, parameter_field
 from pam_ros.rig.arrangements import ARRANGEMENTS, LOAD
-from pam_ros.rig.joint import Joint
 from pam_ros.settings.rig import RigParameters
 from pam_ros.settings.sim import SimSettings, Start
 from pam_ros.settings.tables import Table, Values, build, table_of
 
 MEASURED = 'use_measured_velocity'  # the gain that velocity_source sets
-TRIALS = 3  # updates of a law, after which its command must be finite
 LEAST_PERIODS = 3  # of rate for which the rig must at least keep the last command
 # s of interruption after which control starts again if command_timeout is 0
 LONGEST_INTERRUPTION = 1.0
@@ -198,24 +187,12 @@ class ControlParameters(RigParameters):
         limits = build(Limits, values, 'limits.')
         shape = build(Shape, values, 'shape.', is_revolute=is_revolute)
         co_contraction = build(CoContraction, values)
-        allocation = allocation_of(ControlModel(joint), limits)
-        gains.check(allocation, 1.0 / settings.rate)
-        co_contraction.wanted(allocation)
-        setup = ControlSetup(
-            joint,
-            settings,
-            gains,
-            pid,
-            limits,
-            shape,
-            co_contraction,
-            allocation.reach,
-            allocation.can_stiffen,
-            self.muscles[n * (k or 0) : n * (k or 0) + n],
-            has_topics,
+        law = LawSetup(
+            *(settings.controller, joint, gains, pid, limits, shape, co_contraction),
+            period=1.0 / settings.rate,
         )
-        setup.check_law()
-        return setup
+        names = self.muscles[n * (k or 0) : n * (k or 0) + n]
+        return ControlSetup(settings, law, names, has_topics)
 
     def _controlled(self, name: str, *, has_topics: bool) -> int | None:
         """Return the index of the controlled joint; None for a muscle with common values only."""
@@ -235,26 +212,13 @@ class ControlParameters(RigParameters):
 class ControlSetup:
     """All settings of the node, checked against each other.
 
-    ``reach`` is the range of the coordinate in which the load can be held. ``can_stiffen`` is
-    whether the stiffness can be chosen in addition to the position.
+    ``muscles`` are the names of the muscles that ``law`` commands.
     """
 
-    joint: Joint
     settings: ControlSettings
-    gains: Gains
-    pid: PidGains
-    limits: Limits
-    shape: Shape
-    co_contraction: CoContraction
-    reach: tuple[float, float]
-    can_stiffen: bool
+    law: LawSetup
     muscles: tuple[str, ...]
     muscle_topics: bool
-
-    @property
-    def unit(self) -> str:
-        """Unit of the coordinate."""
-        return self.joint.transmission.equations.unit
 
     @property
     def has_arrays(self) -> bool:
@@ -280,64 +244,6 @@ class ControlSetup:
         if self.muscle_topics:
             return tuple(f'{muscle}/{one}' for muscle in self.muscles)
         return (one,)
-
-    def make_law(self) -> PositionLaw:
-        """Return a new law, which must be started before use."""
-        if self.settings.controller == 'pid':
-            return Pid(self.joint, self.pid, self.limits, self.co_contraction)
-        return SlidingMode(self.joint, self.gains, self.limits, self.co_contraction)
-
-    def check_law(self) -> None:
-        """Raise ParameterError if the law cannot be created, or if its command is not finite.
-
-        Each parameter can be within its range while the combination of them overflows.
-        """
-        low, high = self.reach
-        middle = 0.5 * (low + high) if isfinite(low) and isfinite(high) else 0.0
-        law = self.make_law()
-        try:
-            with np.errstate(all='ignore'):
-                law.start(middle)
-                for _ in range(TRIALS):
-                    command = law.update(1.0 / self.settings.rate, Reference(middle), middle)
-        except ArithmeticError:
-            command = (nan,)
-        if not all(map(isfinite, command)):
-            raise ParameterError(
-                'the law gives no finite pressure with these parameters: one of them is too large '
-                'or too close to 0, such as the mass or inertia of the load'
-            )
-
-    def make_reference_source(self) -> ReferenceSource:
-        """Return a new reference generator, which must be started before use."""
-        return ReferenceSource(self.shape, self.reach, self.unit)
-
-    def command_at(self, chambers: Sequence[float]) -> Pressures:
-        """Return the commands in Pa at which the chambers stay at these gauge pressures in Pa."""
-        return tuple(
-            path.command_at_rest(chamber)
-            for path, chamber in zip(self._paths, chambers, strict=True)
-        )
-
-    @cached_property
-    def _paths(self) -> tuple[PressurePath, ...]:
-        return tuple(PressurePath(self.joint, i, 1.0) for i in range(len(self.muscles)))
-
-    def take_over(self, law: PositionLaw, before: 'ControlSetup') -> None:
-        """Let *law*, created by *before*, continue with the gains and stiffness of this setup."""
-        if not isinstance(law, SlidingMode):
-            return
-        if self.gains != before.gains:
-            law.set_gains(self.gains)
-        if self.co_contraction != before.co_contraction:
-            law.set_co_contraction(self.co_contraction)
-
-    def needs_new_law(self, before: 'ControlSetup') -> bool:
-        """Return whether the changes since *before* cannot be applied to a running law."""
-        is_pid = self.settings.controller == 'pid'
-        return (self.settings.controller, self.joint, self.pid, self.limits) != (
-            *(before.settings.controller, before.joint, before.pid, before.limits),
-        ) or (is_pid and self.co_contraction != before.co_contraction)
 
 
 def settings_of(given: Values) -> tuple[Table, Callable[[dict[str, Any]], ControlSetup]]:

@@ -30,8 +30,10 @@ def setup_of(**given):
 
 
 def loop_of(setup):
-    law = setup.make_law()
-    return Loop(law, setup.make_reference_source(), 0.002, Plausibility(bounds_of(law.allocation)))
+    law = setup.law.make_law()
+    return Loop(
+        law, setup.law.make_reference_source(), 0.002, Plausibility(bounds_of(law.allocation))
+    )
 
 
 @pytest.fixture(scope='module')

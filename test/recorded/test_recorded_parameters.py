@@ -91,7 +91,7 @@ def by_pam_sim():
 
 def by_pam_control():
     table, build = settings_of({})
-    return build(checked(table, read(IDENTIFIED, 'pam_control'))).joint
+    return build(checked(table, read(IDENTIFIED, 'pam_control'))).law.joint
 
 
 def by_preset():
@@ -105,7 +105,7 @@ def by_preset():
 def by_preset_of_control():
     given = {'muscle': str(IDENTIFIED)}
     table, build = settings_of(given)
-    return build(checked(table, given)).joint
+    return build(checked(table, given)).law.joint
 
 
 READERS = [by_pam_sim, by_pam_control, by_preset, by_preset_of_control]

@@ -86,14 +86,14 @@ def test_a_controller(given):
         return
     table, found, setup = made
     check_range(table, found)
-    middle = 0.5 * (setup.reach[0] + setup.reach[1])
+    middle = 0.5 * (setup.law.reach[0] + setup.law.reach[1])
     assert math.isfinite(middle)
-    law = setup.make_law()
+    law = setup.law.make_law()
     law.start(middle)
     period = 1.0 / setup.settings.rate
     for _ in range(3):
         pressures = law.update(period, Reference(middle), middle)
-    for pressure, muscle in zip(pressures, setup.joint.muscles, strict=True):
+    for pressure, muscle in zip(pressures, setup.law.joint.muscles, strict=True):
         assert muscle.p_min <= pressure <= muscle.p_max
 
 

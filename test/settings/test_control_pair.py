@@ -49,10 +49,10 @@ def test_the_file_lists_joint_and_settings_with_their_defaults():
 @pytest.mark.parametrize('muscle', MUSCLES)
 def test_a_pair_of_every_muscle_can_be_controlled(muscle):
     now = setup(muscle=muscle, gains__disturbance_bound=2.0)
-    low, high = now.reach
+    low, high = now.law.reach
     assert low < 0.0 < high
-    assert isinstance(now.make_law(), SlidingMode)
-    assert now.can_stiffen
+    assert isinstance(now.law.make_law(), SlidingMode)
+    assert now.law.can_stiffen
 
 
 def test_a_joint_of_one_muscle_is_unchanged():
@@ -60,8 +60,8 @@ def test_a_joint_of_one_muscle_is_unchanged():
     assert 'co_contraction' not in table
     assert 'radius' not in table
     now = build(checked(table, {}))
-    assert not now.can_stiffen
-    assert (now.unit, len(now.muscles), now.has_arrays) == ('m', 1, False)
+    assert not now.law.can_stiffen
+    assert (now.law.unit, len(now.muscles), now.has_arrays) == ('m', 1, False)
 
 
 def test_both_programs_make_the_same_joint_of_the_same_values():
@@ -77,14 +77,14 @@ def test_both_programs_make_the_same_joint_of_the_same_values():
     scene = Scene(given)
     (simulated,) = scene.build(checked(scene.table(), given)).joints
     table, build = settings_of(given)
-    assert build(checked(table, given)).joint == simulated
+    assert build(checked(table, given)).law.joint == simulated
 
 
 def test_of_several_joints_one_is_controlled():
     now = setup(**FOUR, joint_name='elbow', muscle_topics=True, d__l0=0.5)
     assert now.muscles == ('c', 'd')
     assert now.settings.joint_name == 'elbow'
-    assert [m.l0 for m in now.joint.muscles] == [0.4, 0.5]
+    assert [m.l0 for m in now.law.joint.muscles] == [0.4, 0.5]
 
 
 @pytest.mark.parametrize(
@@ -99,13 +99,13 @@ def test_of_several_joints_one_is_controlled():
     ],
 )
 def test_only_another_joint_or_other_limits_need_a_new_law(change, needs):
-    assert setup(**change).needs_new_law(setup()) == needs
+    assert setup(**change).law.needs_new_law(setup().law) == needs
 
 
 def test_gains_and_stiffness_are_taken_over():
     before, now = setup(), setup(gains__bandwidth=20.0, co_contraction=33.0)
-    law = before.make_law()
-    now.take_over(law, before)
+    law = before.law.make_law()
+    now.law.take_over(law, before.law)
     assert law.gains.bandwidth == 20.0
     for _ in range(400):
         law._stiffness.follow(2e-3)
@@ -137,14 +137,14 @@ def test_a_stiffness_that_cannot_be_had_is_refused_with_the_range():
 def test_the_baseline_is_for_a_pair_too():
     pytest.importorskip('simple_pid', reason='the baseline needs simple-pid')
     now = setup(controller='pid', co_contraction=30.0)
-    law = now.make_law()
+    law = now.law.make_law()
     assert isinstance(law, Pid)
     assert law.gains == PidGains.revolute()
     law.start(0.1)
     assert law.model.stiffness(law.terms.pressures, 0.1) == pytest.approx(30.0)
     # It takes another stiffness as a new law, as it takes the place of another one.
-    assert now.needs_new_law(setup(co_contraction=30.0))
-    assert setup(controller='pid', co_contraction=33.0).needs_new_law(now)
+    assert now.law.needs_new_law(setup(co_contraction=30.0).law)
+    assert setup(controller='pid', co_contraction=33.0).law.needs_new_law(now.law)
     with pytest.raises(RangeError, match='co-contraction 90 N m/rad'):
         setup(controller='pid', co_contraction=90.0)
 
@@ -161,10 +161,10 @@ def test_the_baseline_is_for_a_pair_too():
 )
 def test_each_kind_of_joint_can_be_controlled(kind, muscles, unit, can_stiffen, has_arrays):
     now = setup(joint=kind)
-    assert (len(now.muscles), now.unit) == (muscles, unit)
-    assert (now.can_stiffen, now.has_arrays) == (can_stiffen, has_arrays)
-    assert now.reach[0] < now.reach[1]
-    assert isinstance(now.make_law(), SlidingMode)
+    assert (len(now.muscles), now.law.unit) == (muscles, unit)
+    assert (now.law.can_stiffen, now.has_arrays) == (can_stiffen, has_arrays)
+    assert now.law.reach[0] < now.law.reach[1]
+    assert isinstance(now.law.make_law(), SlidingMode)
     table, _ = settings_of({'joint': kind})
     assert ('co_contraction' in table) is can_stiffen
     topics = setup(joint=kind, muscle_topics=True).command_topics
@@ -175,7 +175,7 @@ def test_of_several_loads_one_is_controlled_by_its_own_topic():
     names = {'joint': 'load', 'muscles': ('left', 'right'), 'muscle_topics': True}
     now = setup(**names, joint_name='right', right__mass=12.0)
     assert (now.muscles, now.settings.joint_name) == (('right',), 'right')
-    assert now.joint.load.mass == 12.0
+    assert now.law.joint.load.mass == 12.0
     assert now.command_topics == ('right/pressure_command',)
     assert now.pressure_topics == ('right/pressure',)
     with pytest.raises(

@@ -43,21 +43,21 @@ def test_control_yaml_lists_all_but_the_rig_and_the_gains_with_its_defaults():
 def test_every_muscle_of_the_package_can_be_controlled(muscle):
     mass = 5.0 if muscle == 'dmsp_10' else 20.0
     now = setup({'mass': mass}, muscle)
-    low, high = now.reach
-    l0 = now.joint.muscle.l0
-    assert now.joint.muscle.kappa_min * l0 <= low < high <= now.joint.muscle.kappa_max * l0
+    low, high = now.law.reach
+    l0 = now.law.joint.muscle.l0
+    assert now.law.joint.muscle.kappa_min * l0 <= low < high <= now.law.joint.muscle.kappa_max * l0
 
 
 def test_the_source_of_the_velocity_is_a_gain():
-    assert setup({'velocity_source': 'measured'}).gains.use_measured_velocity
-    assert not setup({}).gains.use_measured_velocity
+    assert setup({'velocity_source': 'measured'}).law.gains.use_measured_velocity
+    assert not setup({}).law.gains.use_measured_velocity
     assert 'gains.use_measured_velocity' not in table({})
 
 
 def test_the_law_is_chosen():
-    assert isinstance(setup({}).make_law(), SlidingMode)
+    assert isinstance(setup({}).law.make_law(), SlidingMode)
     pytest.importorskip('simple_pid', reason='the baseline needs simple-pid')
-    assert isinstance(setup({'controller': 'pid'}).make_law(), Pid)
+    assert isinstance(setup({'controller': 'pid'}).law.make_law(), Pid)
 
 
 @pytest.mark.parametrize(
@@ -72,7 +72,7 @@ def test_the_law_is_chosen():
     ],
 )
 def test_only_another_rig_or_other_limits_need_a_new_law(change, needs):
-    assert setup(change).needs_new_law(setup({})) == needs
+    assert setup(change).law.needs_new_law(setup({}).law) == needs
 
 
 @pytest.mark.parametrize(

@@ -96,7 +96,7 @@ class ChamberInput:
             for one in self._found
             if one and (abs(stamp - one[0]) if stamp and one[0] else now - one[1]) <= FRESH
         ]
-        loop.chambers = setup.command_at(fresh) if len(fresh) == len(self._found) else None
+        loop.chambers = setup.law.command_at(fresh) if len(fresh) == len(self._found) else None
         self._waited = self._waited + min(now - self._looked, LONGEST) if is_seen() else 0
         self._looked = now
         is_early = self._waited < setup.settings.pressure_wait * SECOND
@@ -105,7 +105,7 @@ class ChamberInput:
     def _leave_out_faults(self, setup: ControlSetup) -> None:
         ambient = setup.settings.ambient_pressure
         for muscle, one in enumerate(self._found):
-            highest = setup.joint.muscles[muscle].p_max
+            highest = setup.law.joint.muscles[muscle].p_max
             fault = fault_of_pressure(one[2] - ambient, ambient, highest) if one else ''
             if fault:
                 self._found[muscle] = None

@@ -116,7 +116,7 @@ class Follow:
         )
         # Last, since the joint begins to move.
         trajectory, start = self._play(serialize_message(request.trajectory))
-        return Goal(trajectory, start, self._setup().unit, asked)
+        return Goal(trajectory, start, self._setup().law.unit, asked)
 
     def _tolerance(self, given: Any, others: Collection[str]) -> Tolerance:
         """Return the tolerance of the joint among those that are *given* for it and *others*."""

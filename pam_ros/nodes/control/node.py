@@ -85,7 +85,7 @@ class PamControl(TickingNode):
         parts = {
             'timing': self._timing,
             'control': self._control,
-            'learning': lambda: learning(self._loop.law.learned, self._setup.unit),
+            'learning': lambda: learning(self._loop.law.learned, self._setup.law.unit),
             'topics': self._topics.health,
         }
         self._diagnostics = Diagnostics(self, parts)
@@ -102,11 +102,10 @@ class PamControl(TickingNode):
 
     def _make_loop(self) -> Loop:
         setup = self._setup
-        law, period = setup.make_law(), 1.0 / setup.settings.rate
-        warm_up(law, setup.reach, period)
-        loop = Loop(
-            law, setup.make_reference_source(), period, Plausibility(bounds_of(law.allocation))
-        )
+        law, period = setup.law.make_law(), setup.law.period
+        warm_up(law, setup.law.reach, period)
+        source = setup.law.make_reference_source()
+        loop = Loop(law, source, period, Plausibility(bounds_of(law.allocation)))
         _protect(loop, setup)
         loop.enable(setup.settings.start_enabled)
         return loop
@@ -120,7 +119,7 @@ class PamControl(TickingNode):
         self._chambers = ChamberInput(
             self._setup, intake.measure, self._begin, self._reports.leave_out
         )
-        if self._setup.can_stiffen:
+        if self._setup.law.can_stiffen:
             intake.subscribe(Float64, 'co_contraction_reference', self._take_co_contraction)
         self._states = StateTopic(self, term_names(len(self._setup.muscles)))
         self._commands = commands_of(self, self._setup)
@@ -365,15 +364,15 @@ class PamControl(TickingNode):
         before, self._setup = self._setup, now
         loop, settings = self._loop, now.settings
         _protect(loop, now)
-        loop.period = 1.0 / settings.rate
-        if now.needs_new_law(before):
-            law = now.make_law()
-            warm_up(law, now.reach, loop.period)
-            loop.change(law, now.make_reference_source())
+        loop.period = now.law.period
+        if now.law.needs_new_law(before.law):
+            law = now.law.make_law()
+            warm_up(law, now.law.reach, loop.period)
+            loop.change(law, now.law.make_reference_source())
             loop.plausibility.bounds = bounds_of(law.allocation)
         else:
-            now.take_over(loop.law, before)
-            loop.source.set_shape(now.shape)
+            now.law.take_over(loop.law, before.law)
+            loop.source.set_shape(now.law.shape)
         if before.settings.rate != settings.rate:
             self.ticker.start(self._tick_rate, monotonic_ns())
 

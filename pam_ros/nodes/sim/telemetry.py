@@ -13,9 +13,6 @@ from pam_ros.nodes.common.qos import open_qos
 from pam_ros.simulator.plant import Reading
 from pam_ros.timing.pace import SECOND
 
-# Position, velocity, absolute pressure, force, stiffness and damping of a muscle.
-Row = tuple[float, float, float, float, float, float]
-
 
 class MuscleTelemetry:
     """Publishes the state of each muscle, on topics of its own."""
@@ -45,11 +42,10 @@ class MuscleTelemetry:
         position, velocity = reading.position, reading.velocity
         if not self._have_joints:
             position = velocity = [0.0] * len(self._each)
-        of_muscles = absolute, reading.force, reading.stiffness, reading.damping
-        for muscle, row in zip(
-            self._each, zip(position, velocity, *of_muscles, strict=True), strict=True
-        ):
-            muscle.publish(stamp, row)
+        force, stiffness, damping = reading.force, reading.stiffness, reading.damping
+        for i, muscle in enumerate(self._each):
+            of_muscle = absolute[i], force[i], stiffness[i], damping[i]
+            muscle.publish(stamp, position[i], velocity[i], *of_muscle)
 
 
 class _OneMuscle:
@@ -78,9 +74,17 @@ class _OneMuscle:
         self._joint.header.frame_id = frame
         self._fluid.variance = variance
 
-    def publish(self, stamp: int, row: Row) -> None:
-        """Publish one state of the given ROS time in ns."""
-        position, velocity, pressure, force, stiffness, damping = row
+    def publish(
+        self,
+        stamp: int,
+        position: float,
+        velocity: float,
+        pressure: float,
+        force: float,
+        stiffness: float,
+        damping: float,
+    ) -> None:
+        """Publish one state of the ROS time *stamp* in ns; *pressure* is absolute."""
         self._stamp.sec, self._stamp.nanosec = divmod(stamp, SECOND)
         joint, value = self._joint, self._float
         if self._joint_states:

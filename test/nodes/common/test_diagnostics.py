@@ -37,8 +37,10 @@ def test_no_value_of_a_controller_names_the_type_of_a_number(kind, effect):
     given = {'joint': kind, **effect}
     table, build = settings_of(given)
     setup = build(checked(table, given))
-    law = setup.make_law()
-    loop = Loop(law, setup.make_reference_source(), 0.002, Plausibility(bounds_of(law.allocation)))
+    law = setup.law.make_law()
+    loop = Loop(
+        law, setup.law.make_reference_source(), 0.002, Plausibility(bounds_of(law.allocation))
+    )
     loop.pressures = loop.law.update(0.002, Reference(0.01, velocity=0.5), 0.01)
     health = control(loop, setup, Received(), '')
     shown = [text(value) for value in health.values.values()]
