@@ -37,6 +37,7 @@ from pam_ros.rig.layout import (
     A5,
     A6,
     AT_ZERO,
+    CONTRACTION,
     END,
     JOINT,
     JOINT_EFFECTS,
@@ -352,7 +353,7 @@ def outputs(x: Row, xn: Row, q: Row, t: float, out: Row, joint_out: Row) -> None
             out[a, i, 0], out[a, i, 1] = force, k
             out[a, i, 2] = coefficient(kappa, e, w, p, share(arm, inertia), q[a, r])
             y = q[a, r, AT_ZERO] + travel_of(s, i, q[a, JOINT], TRANSMISSION)
-            out[a, i, 4] = y / q[a, r, L0]
+            out[a, i, CONTRACTION] = y / q[a, r, L0]
             total += arm * force
             turn = arm_slope_of(s, i, q[a, JOINT], TRANSMISSION) * force
             stiffness += arm * arm * k - turn

@@ -44,7 +44,7 @@ START, MIDDLE, END = 0, 1, 2
 WORK = 3
 # Outputs of a muscle: force, stiffness, damping, acceleration of its end, contraction; of a joint:
 # effort, stiffness, acceleration.
-OUTPUTS, JOINT_OUTPUTS = 5, 3
+CONTRACTION, OUTPUTS, JOINT_OUTPUTS = 4, 5, 3
 # Columns of a run: coordinate, velocity, then pressure and force of each muscle.
 RUN_S, RUN_V, RUN_P, RUN_F = 0, 1, 2, 3
 

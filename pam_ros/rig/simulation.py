@@ -177,7 +177,8 @@ class Simulation:
     def contraction(self) -> Array:
         """Contraction as a fraction of the length at rest (muscles,)."""
         self._look()
-        return self._contraction
+        found: Array = self._out[at.CONTRACTION].copy()
+        return found
 
     @property
     def pressure(self) -> Array:
@@ -187,7 +188,7 @@ class Simulation:
     def muscle_outputs(self) -> MuscleOutputs:
         """Return force, stiffness, damping and acceleration of each muscle."""
         self._look()
-        return self._muscle_outputs
+        return MuscleOutputs(*self._out[: at.CONTRACTION].copy())
 
     def joint_outputs(self) -> JointOutputs:
         """Return effort, stiffness and acceleration of each joint."""
@@ -198,9 +199,8 @@ class Simulation:
         if not self._has_looked:
             for group in self._groups:
                 group.look(self.time)
-            out = _joined([group.out.reshape(-1, at.OUTPUTS) for group in self._groups]).T
-            self._muscle_outputs = MuscleOutputs(*out[:4])
-            self._contraction: Array = out[4]
+            out = [group.out.reshape(-1, at.OUTPUTS) for group in self._groups]
+            self._out: Array = _joined(out).T
             self._has_looked = True
 
 
