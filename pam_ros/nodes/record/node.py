@@ -219,8 +219,10 @@ class PamRecord(TickingNode):
     def _take(self, *, is_last: bool = False) -> None:
         """Take all messages that have arrived; write those with a known time, or all if *is_last*.
 
-        The simulated time of a message is the time on ``/clock`` when it was sent. The time when
-        it is taken is later; the faster time is simulated, the greater is this delay.
+        The time of a message is the time when it was sent. On the clock of the recorder it is
+        known if the topic has one publisher; else it is the time of receipt. In simulated time it
+        is the time on ``/clock`` when the message was sent. The time when it is taken is later;
+        the faster time is simulated, the greater is this delay.
         """
         for topic, recorded in self._recorded.items():
             for data, info in messages_of(recorded.subscription):
@@ -231,6 +233,8 @@ class PamRecord(TickingNode):
                 else:
                     if self._is_simulated or not received:
                         received = sent = self.get_clock().now().nanoseconds
+                    elif sent and topic in self._sole:
+                        received = recorded.sending.at(sent, received)
                     self._writer.write(recorded.channel, received, sent, data)
                 recorded.count_lost(info['publication_sequence_number'], topic in self._sole)
         if self._clock_subscription:

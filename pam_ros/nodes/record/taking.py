@@ -8,6 +8,8 @@ from typing import Any
 from rclpy.callback_groups import CallbackGroup
 from rclpy.subscription import Subscription
 
+from pam_ros.recording.sending_time import SendingTime
+
 
 class Taken(CallbackGroup):
     """Subscriptions that no executor serves: their messages are taken by the recorder's thread.
@@ -34,6 +36,7 @@ class Recorded:
         self.subscription, self.channel = subscription, channel
         self.last_number: int | None = None
         self.lost = 0
+        self.sending = SendingTime()
         self._count = 0
         self._first_sent = self._last_sent = 0
         # Taken, but simulated time is not yet known: data, system time of sending, time taken, ns.
