@@ -18,14 +18,15 @@ export ROS_AUTOMATIC_DISCOVERY_RANGE := LOCALHOST
 export PYTHON
 
 .DEFAULT_GOAL := help
-.PHONY: help environment warm demo test test-fast test-oldest test-all faults lint docs pages
+.PHONY: help environment warm demo test test-fast test-all platforms faults lint docs pages
 .PHONY: notebook bench clean
 
 help:
 	@echo 'make demo       the experiment of the paper, controllers and the closed loop, over ROS topics: see demo/'
 	@echo 'make test       the tests (make test ARGS="test/muscle -x" for some)'
 	@echo 'make test-fast  those of them that start no node and build nothing'
-	@echo 'make test-all   before a release: the tests, the oldest libraries, the demonstration'
+	@echo 'make test-all   before a release: the tests, the demonstration, trials that are drawn'
+	@echo 'make platforms  each Python and ROS that this machine can run, and the oldest libraries'
 	@echo 'make faults     each fault of a node 20 times, and 1500 examples of generated input'
 	@echo 'make lint       style and types'
 	@echo 'make docs       the pages and the public names as a site: build/docs/index.html'
@@ -58,12 +59,13 @@ endif
 test-fast: warm
 	$(PY) -m pytest -n auto --dist loadfile -m 'pure and not slow' $(ARGS)
 
-# The pure rooms with the oldest numpy and scipy that are supported, without numba and ROS.
-test-oldest: environment
-	$(PY) -m pytest test/packaging/test_oldest.py
-
 test-all: test
 	$(PY) -m pytest -m release
+
+# An environment of its own, without a ROS that those of the platforms would inherit.
+platforms:
+	@tools/environment .venv/nox requirements/nox.txt
+	.venv/nox/bin/nox $(ARGS)
 
 # What a user, a machine or a disk can do to the programs, many times; prints each jump of the load.
 faults: warm
