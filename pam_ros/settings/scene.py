@@ -15,7 +15,6 @@ from pam_ros.errors import ParameterError
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig import statics
 from pam_ros.rig.arrangements import LOAD
-from pam_ros.rig.equilibrium import equilibrium
 from pam_ros.rig.joint import Joint
 from pam_ros.rig.step_limit import check_step
 from pam_ros.settings.rig import RigParameters
@@ -178,22 +177,3 @@ class SimulationSetup:
     def limits(self) -> Array:
         """Least and largest pressure in Pa of each muscle, (2, muscles)."""
         return np.array([[m.p_min for m in self.muscles], [m.p_max for m in self.muscles]])
-
-    @cached_property
-    def initial(self) -> tuple[Array, Array, Array]:
-        """Pressures in Pa, then positions (m, rad) and velocities of the joints, at the start."""
-        pressures = iter(self.pressures)
-        positions, velocities = [], []
-        rests: dict[tuple[int, tuple[float, ...]], float] = {}
-        for joint, start in zip(self.joints, self.starts, strict=True):
-            p = tuple(next(pressures) for _ in joint.muscles)
-            if start.at_rest:
-                key = id(joint), p
-                if key not in rests:
-                    rests[key] = equilibrium(joint.at_start, p)
-                positions.append(rests[key])
-                velocities.append(0.0)
-            else:
-                positions.append(start.position)
-                velocities.append(start.velocity)
-        return np.array(self.pressures), np.array(positions), np.array(velocities)

@@ -15,6 +15,7 @@ from pam_ros.devices.venting import Venting
 from pam_ros.rig.simulation import Simulation
 from pam_ros.settings.scene import SimulationSetup
 from pam_ros.simulator.contractions import Contractions
+from pam_ros.simulator.initial import initial_state
 
 Array = NDArray[np.float64]
 FINE = 1e-3  # s of simulated time for which a venting valve keeps a pressure
@@ -62,7 +63,7 @@ class Plant:
     def begin(self) -> None:
         """Set the initial state; the noise starts again."""
         setup = self.setup
-        pressures, positions, velocities = setup.initial
+        pressures, positions, velocities = initial_state(setup)
         self._simulation.reset(pressures, positions, velocities)
         self._sensors = SimulatedSensors(self._simulation, setup.sensors)
         self.contractions.forget()

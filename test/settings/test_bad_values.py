@@ -20,6 +20,7 @@ from pam_ros.settings.control import settings_of
 from pam_ros.settings.nominal import nominal_joint
 from pam_ros.settings.scene import Scene
 from pam_ros.settings.tables import checked, override, rig_table
+from pam_ros.simulator.initial import initial_state
 from support.bad_values import ANY, TEXTS, YAML_TRAPS, fits, values
 
 KINDS = [kind.name for kind in ARRANGEMENTS]
@@ -106,7 +107,7 @@ def test_a_simulator(given):
     table, found, simulation = made
     check_range(table, found)
     with suppress(PamError):  # a load that rests nowhere
-        assert all(np.all(np.isfinite(each)) for each in simulation.initial)
+        assert all(np.all(np.isfinite(each)) for each in initial_state(simulation))
 
 
 @ROOMY

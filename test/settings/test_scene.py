@@ -2,13 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Several muscles and joints put together from flat parameters, as a whole."""
 
-import numpy as np
 import pytest
 
 from pam_ros.errors import ParameterError
-from pam_ros.rig.equilibrium import equilibrium
 from pam_ros.rig.joint import Joint
-from pam_ros.rig.standard_joints import single_muscle_joint
 from pam_ros.rig.transmissions import Lever, Pulley
 from pam_ros.settings.files import write
 from pam_ros.settings.nominal import nominal_joint
@@ -121,11 +118,6 @@ def test_of_a_preset_a_pair_takes_the_muscle_and_not_its_load():
 def test_equal_muscles_are_one_joint():
     now = built(muscles=[f'm{i}' for i in range(64)], m3__mass=9.0)
     assert len({id(joint) for joint in now.joints}) == 2
-    pressure, position, velocity = now.initial
-    assert pressure.shape == position.shape == velocity.shape == (64,)
-    at_rest = [equilibrium(single_muscle_joint(), 0.0)] * 64
-    at_rest[3] = equilibrium(now.joints[3], 0.0)
-    np.testing.assert_array_equal(position, at_rest)
 
 
 def test_effects_of_a_pair_are_where_they_act():
@@ -143,13 +135,6 @@ def test_effects_of_a_pair_are_where_they_act():
     assert pair.load.hanging_at == 0.2
 
 
-def test_a_pair_starts_at_rest_under_its_own_pressures():
-    now = built(joint='antagonistic', initial__pressure=2e5, pam_1__initial__pressure=3e5)
-    pressure, position, _ = now.initial
-    np.testing.assert_array_equal(pressure, [3e5, 2e5])
-    assert position[0] == equilibrium(now.joints[0], (3e5, 2e5)) > 0.0
-
-
 @pytest.mark.parametrize(('kind', 'muscles'), [('lever', 2), ('crank', 1)])
 def test_a_lever_is_configured_by_its_geometry(kind, muscles):
     now = built(
@@ -158,7 +143,6 @@ def test_a_lever_is_configured_by_its_geometry(kind, muscles):
         crank=0.05,
         angle=1.6,
         contraction_1=0.08,
-        initial__pressure=2e5,
         effects__end_stop__upper=0.9,
         elbow__effects__payload__mass=0.2,
     )
@@ -172,7 +156,6 @@ def test_a_lever_is_configured_by_its_geometry(kind, muscles):
     assert now.has_arrays
     assert now.command_topics == ('pressure_commands',)
     assert now.muscle_prefixes == now.muscle_joints == ()
-    np.testing.assert_array_equal(now.initial[1], [equilibrium(joint, 2e5)])
 
 
 @pytest.mark.parametrize(

@@ -12,6 +12,7 @@ from pam_ros.settings.braid import BRAID
 from pam_ros.settings.files import read
 from pam_ros.settings.scene import Scene
 from pam_ros.settings.tables import checked, rig_table
+from pam_ros.simulator.initial import initial_state
 
 CONFIG = Path(__file__).parents[2] / 'config'
 MUSCLES = sorted(path.stem for path in (CONFIG / 'muscles').glob('*.yaml'))
@@ -41,7 +42,7 @@ ONE_MUSCLE = [path for path in RIGS if 'joint' not in read(path)]
 @pytest.mark.parametrize('name', [*MUSCLES, *map(str, ONE_MUSCLE)])
 def test_every_muscle_and_rig_of_the_package_can_be_simulated(name):
     now = built({'muscle': name})
-    ((pressure,), (position,), (velocity,)) = now.initial
+    ((pressure,), (position,), (velocity,)) = initial_state(now)
     assert (pressure, velocity) == (0.0, 0.0)
     (joint,) = now.joints
     if not joint.muscle.is_load_only:
@@ -84,4 +85,4 @@ def test_what_does_not_go_together_is_refused(given, sentence):
 
 
 def test_a_position_out_of_reach_matters_only_where_it_is_used():
-    assert built({'initial.position': 0.5}).initial[1][0] < 0.1
+    assert initial_state(built({'initial.position': 0.5}))[1][0] < 0.1
