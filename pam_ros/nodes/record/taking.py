@@ -34,6 +34,7 @@ class Recorded:
 
     def __init__(self, subscription: Subscription, channel: int) -> None:
         self.subscription, self.channel = subscription, channel
+        self.is_sole = False  # whether it has only one publisher
         self.last_number: int | None = None
         self.lost = 0
         self.sending = SendingTime()
@@ -60,11 +61,11 @@ class Recorded:
             return False
         return self._last_sent - self._first_sent <= period * (self._count - 1)
 
-    def count_lost(self, number: int | None, is_sole: bool) -> None:
+    def count_lost(self, number: int | None) -> None:
         """Count the messages between the last number of its one publisher and *number*."""
         if number is None:
             return
-        if is_sole and self.last_number is not None and number > self.last_number:
+        if self.is_sole and self.last_number is not None and number > self.last_number:
             self.lost += number - self.last_number - 1
         self.last_number = number
 
