@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from pam_ros.control.loop import RUNNING, VENT, Loop, Reading
-from pam_ros.control.pid import Pid
 from pam_ros.control.plausibility import Plausibility, bounds_of
 from pam_ros.control.reference.shaping import Shape
 from pam_ros.control.reference.source import ReferenceSource
 from pam_ros.control.sliding_mode import SlidingMode
 from pam_ros.settings.control import ControlSettings
+from support.baseline import pid
 from support.closed_loop import close_loop, nominal, sine_target, truth
 
 PERIOD, RATE = 0.002, 500.0
@@ -41,19 +41,19 @@ def largest_error(law, name, target, delay):
     return 1e3 * np.max(np.abs(run.error[then]))
 
 
-@pytest.mark.parametrize(('law', 'most'), [(SlidingMode, 0.1), (Pid, 1.0)])
+@pytest.mark.parametrize(('law', 'most'), [(SlidingMode, 0.1), pid(1.0)])
 @pytest.mark.parametrize('plant', ['nominal', 'friction', 'lag'])
 def test_a_load_that_is_held_stays_where_it_is(law, most, plant):
     assert largest_error(law, plant, lambda t: 0.0, DELAY) < most
 
 
-@pytest.mark.parametrize(('law', 'most'), [(SlidingMode, 0.2), (Pid, 4.0)])
+@pytest.mark.parametrize(('law', 'most'), [(SlidingMode, 0.2), pid(4.0)])
 def test_a_moving_reference_is_followed_by_the_model(law, most):
     """The reference moves by up to 13 mm meanwhile."""
     assert largest_error(law, 'nominal', sine_target(0.01, 0.5), DELAY) < most
 
 
-@pytest.mark.parametrize('law', [SlidingMode, Pid])
+@pytest.mark.parametrize('law', [SlidingMode, pid()])
 def test_the_loop_neither_vents_nor_restarts(law):
     settings, plant = ControlSettings(), truth('nominal', seed=3)
     law = law(nominal())

@@ -10,7 +10,6 @@ import pytest
 
 from pam_ros.control.gains import SUPER_TWISTING, Gains
 from pam_ros.control.limits import Limits
-from pam_ros.control.pid import Pid
 from pam_ros.control.signals import Reference
 from pam_ros.control.sliding_mode import SlidingMode
 from pam_ros.effects import Payload, Slack
@@ -24,6 +23,7 @@ from pam_ros.rig.simulation import Simulation
 from pam_ros.rig.standard_joints import single_muscle_joint
 from pam_ros.rig.transmissions import Pulley
 from support import closed_loop, pair_loop
+from support.baseline import pid
 from support.bench import cart
 from support.joint_loop import JOINTS
 from support.joint_models import pair
@@ -272,7 +272,7 @@ def test_a_stiffness_that_the_angle_does_not_permit_is_reduced_and_restored():
     assert np.max(np.abs(errors)) < 0.2 * DEGREE
 
 
-@pytest.mark.parametrize('law', [SlidingMode, Pid])
+@pytest.mark.parametrize('law', [SlidingMode, pid()])
 def test_an_effect_that_begins_later_is_not_known_to_the_law(law):
     """It holds the load that is there at the start; without the onset it would hold another."""
     weights = [Payload(mass=5.0)]
@@ -287,7 +287,7 @@ def test_an_effect_that_begins_later_is_not_known_to_the_law(law):
     assert plain != loaded
 
 
-@pytest.mark.parametrize('law', [SlidingMode, Pid])
+@pytest.mark.parametrize('law', [SlidingMode, pid()])
 @pytest.mark.parametrize('gap', [0.03, 0.01])
 def test_the_load_leaves_a_stop_that_is_not_configured_when_the_reference_goes_back(law, gap):
     """The stop has some 1e6 N/m and loses no energy; the reference jumps without shaping."""
