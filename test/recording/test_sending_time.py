@@ -12,10 +12,12 @@ START = 10**18
 LEAST = 80 * US  # delay of transmission
 
 
-def times_of(sent, received):
+def times_of(sent, received, together=1):
+    """Return the times of messages of which so many are taken *together*."""
     time = SendingTime()
-    pairs = zip(map(int, sent), map(int, received), strict=True)
-    return np.array([time.at(*pair) for pair in pairs])
+    pairs = list(zip(map(int, sent), map(int, received), strict=True))
+    batches = [pairs[i : i + together] for i in range(0, len(pairs), together)]
+    return np.array([one for batch in batches for one in time.of(batch)])
 
 
 def sent_at(rate=500, duration=30.0):
@@ -71,14 +73,28 @@ def test_a_clock_of_the_recorder_that_is_set_is_followed():
     assert (times_of(sent, received) == received).all()
 
 
-def test_a_first_message_that_was_sent_again_does_not_change_the_times_of_the_others():
+def test_a_first_message_that_was_sent_again_has_its_time_by_those_after_it():
     sent = sent_at()
     received = sent + LEAST
-    received[0] += 3 * SECOND
-    times = times_of(sent, received)
-    assert (times[1:] == received[1:]).all()
-    assert times[0] == received[0]
+    received[0] += 2 * SECOND
+    assert (times_of(sent, received, together=1001) == sent + LEAST).all()
+
+
+def test_times_are_in_the_order_of_sending_when_receipts_are_not():
+    """The first messages are taken late; those after a lost one had arrived without a delay."""
+    sent = sent_at(10_000, 1.0)
+    received = sent + LEAST
+    received[:300] = received[300]
+    for together in (1, 100, 1000):
+        times = times_of(sent, received, together)
+        assert (np.diff(times) >= 0).all()
+        assert (times[600:] == received[600:]).all()
+        assert (times <= received).all()
 
 
 def test_the_first_message_has_the_time_of_its_receipt():
-    assert SendingTime().at(START, START + 7 * SECOND) == START + 7 * SECOND
+    assert SendingTime().of([(START, START + 7 * SECOND)]) == [START + 7 * SECOND]
+
+
+def test_no_messages_have_no_times():
+    assert SendingTime().of([]) == []

@@ -120,18 +120,7 @@ class Intake:
         the faster time is simulated, the greater is this delay.
         """
         for recorded in self._recorded.values():
-            for data, info in messages_of(recorded.subscription):
-                received, sent = info['received_timestamp'], info['source_timestamp']
-                recorded.count(sent)
-                if self._is_simulated and sent:
-                    recorded.waiting.append((data, sent, monotonic_ns()))
-                else:
-                    if self._is_simulated or not received:
-                        received = sent = self._now()
-                    elif sent and recorded.is_sole:
-                        received = recorded.sending.at(sent, received)
-                    self._writer.write(recorded.channel, received, sent, data)
-                recorded.count_lost(info['publication_sequence_number'])
+            self._take_from(recorded)
         if self._clock:
             for message, info in messages_of(self._clock):
                 if not self._refuses_time(message):
@@ -139,6 +128,26 @@ class Intake:
                     self._time.tell(info['source_timestamp'], now)
         for recorded in self._recorded.values():
             self._write_waiting(recorded, is_last)
+
+    def _take_from(self, recorded: Recorded) -> None:
+        """Take the messages of a topic; write them, or let them wait for simulated time."""
+        taken = list(messages_of(recorded.subscription))
+        stamps = [(info['source_timestamp'], info['received_timestamp']) for _, info in taken]
+        has_both = all(sent and received for sent, received in stamps)
+        if recorded.is_sole and has_both and not self._is_simulated:
+            times = recorded.sending.of(stamps)
+        else:
+            times = [received for _, received in stamps]
+        for (data, info), (sent, _), time in zip(taken, stamps, times, strict=True):
+            recorded.count(sent)
+            recorded.count_lost(info['publication_sequence_number'])
+            if self._is_simulated and sent:
+                recorded.waiting.append((data, sent, monotonic_ns()))
+            elif self._is_simulated or not time:
+                now = self._now()
+                self._writer.write(recorded.channel, now, now, data)
+            else:
+                self._writer.write(recorded.channel, time, sent, data)
 
     def _write_waiting(self, recorded: Recorded, is_last: bool) -> None:
         """Write the messages of a topic before the first one whose time is not known yet."""
