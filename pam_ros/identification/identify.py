@@ -26,7 +26,13 @@ from pam_ros.identification.result import Estimate, Finding, Identification, Sta
 from pam_ros.identification.search.criteria import BUDGET, CRITERIA
 from pam_ros.identification.search.final import Final, final
 from pam_ros.identification.search.levels import apart
-from pam_ros.identification.search.onset import Moment, moment, search_since, shares_after
+from pam_ros.identification.search.onset import (
+    Moment,
+    moment,
+    moment_after,
+    search_since,
+    shares_after,
+)
 from pam_ros.identification.search.search import Progress, Search, alternatives, search
 from pam_ros.identification.search.setting import Setting, elsewhere
 from pam_ros.identification.search.stages import at_place, onset_of, stages
@@ -109,8 +115,11 @@ def identify(
         notify(0.9, 'fitting the chosen models in full')
         ends = final(found)
         answer = _answer(found, ends, tests, recordings, test)
-    name = verdict(found, *(stage.held_error for stage in answer.stages[:2]))
-    name = 'insufficient_data' if lacking else name
+        name = verdict(found, *(stage.held_error for stage in answer.stages))
+        name = 'insufficient_data' if lacking else name
+        if name == 'unexplained_structure' and found.best.effects and found.setting is setting:
+            # A model with effects explains more than the re-tuned one, which may fail earlier.
+            since = moment_after(found.best) or since
     answer = replace(
         answer,
         verdict=name,
@@ -169,7 +178,7 @@ def _answer(
 
 
 def _since(verdict: str, found: Search, ends: Final, since: Moment | None) -> Estimate | None:
-    """Return the time in s from which the effects act, or the re-tuned model fails."""
+    """Return the time in s from which the effects act, or the best model fails."""
     if verdict == 'effect_found':
         return onset_of(ends.augmented) if found.setting.onset is not None else None
     if verdict != 'unexplained_structure' or since is None:

@@ -98,7 +98,7 @@ class Identification:
     ``recordings`` were fitted, ``test_recordings`` were not; ``segments`` and ``test`` are their
     gapless stretches. Without test recordings a part of each recording was held out instead.
     ``since`` is the time in s, on the clock of the recording, at which the effects begin to act,
-    or from which the re-tuned model fails; None if this is the case from the start.
+    or from which the best model fails; None if this is the case from the start.
     ``next_command`` is the command that plays the next experiment, '' if there is none.
     ``uncertain`` are the given standard deviations of nominal values, by parameter.
     :func:`pam_ros.save_report` and :func:`pam_ros.save_parameters` write it to files.

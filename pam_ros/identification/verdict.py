@@ -14,6 +14,7 @@ from pam_ros.identification.fit.places import effect_of, spelled
 from pam_ros.identification.result import Estimate, Identification
 from pam_ros.identification.search.criteria import Criteria
 from pam_ros.identification.search.search import Search
+from pam_ros.identification.search.setting import Setting
 from pam_ros.recording.quantities import ATMOSPHERE
 from pam_ros.rig.joint import Joint
 from pam_ros.rig.statics import is_direct
@@ -56,24 +57,41 @@ def explains(found: Search) -> bool:
     *fit* or on *choose*.
     """
     setting, errors, before = found.setting, found.best.errors, found.retuned.errors
-    now = [setting.above(e) for e in (errors.fit, errors.choose)]
     if not found.best.effects:
-        return min(now) <= setting.noise
-    whole = [setting.above(e) for e in (before.fit, before.choose)]
-    # A remaining error up to the noise cannot be detected, and counts as small enough.
-    fit, choose = (
-        b / max(a, setting.noise / setting.criteria.left) for b, a in zip(now, whole, strict=True)
-    )
+        return min(setting.above(errors.fit), setting.above(errors.choose)) <= setting.noise
+    fit = _left(setting, before.fit, errors.fit)
+    choose = _left(setting, before.choose, errors.choose)
     return max(fit, sqrt(fit * choose)) <= setting.criteria.left
 
 
-def verdict(found: Search, nominal: float, retuned: float) -> str:
+def _left(setting: Setting, before: float, now: float) -> float:
+    """Return the share of an error above the noise that is left: it was *before*, and is *now*.
+
+    An error up to the noise cannot be detected, and counts as small enough.
+    """
+    least = setting.noise / setting.criteria.left
+    return setting.above(now) / max(setting.above(before), least)
+
+
+def is_refuted(found: Search, retuned: float, augmented: float) -> bool:
+    """Return whether the judging data contradict the effects of a search: they explain too little.
+
+    *retuned* and *augmented* are the errors over these data, in m, rad or N, without and with the
+    effects. False if there are no such data.
+    """
+    explained = 1.0 - _left(found.setting, retuned, augmented)
+    return bool(found.best.effects) and explained < found.setting.criteria.left
+
+
+def verdict(found: Search, nominal: float, retuned: float, augmented: float) -> str:
     """Return the verdict on data that are sufficient for one.
 
-    *nominal* and *retuned* are the errors of these models over the judging data, in m, rad or N.
+    *nominal*, *retuned* and *augmented* are the errors of these models over the judging data, in
+    m, rad or N.
     """
     if found.best.effects:
-        return 'effect_found' if explains(found) else 'unexplained_structure'
+        is_right = explains(found) and not is_refuted(found, retuned, augmented)
+        return 'effect_found' if is_right else 'unexplained_structure'
     # Nothing is missing only if data that no fit has used are explained as well as the rest.
     level = max(found.setting.noise, found.best.errors.fit, found.best.errors.choose)
     if not explains(found) or retuned**2 - level**2 > level**2:
@@ -113,7 +131,7 @@ def sentence(answer: Identification, lacking: str) -> str:
     since = ''
     if answer.since is not None:
         since = (
-            f' It begins in the middle: the re-tuned model explains the recording up to '
+            f' It begins in the middle: the best model explains the recording up to '
             f'{time_of(answer.since)}, but not after this time.'
         )
     return (

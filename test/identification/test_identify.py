@@ -138,6 +138,18 @@ def test_what_begins_at_the_end_has_a_moment_and_no_name():
     assert found.since.value == pytest.approx(26.0, abs=0.2)
 
 
+@pytest.mark.parametrize('onset', [22.5, 31.0])
+def test_effects_that_a_later_one_contradicts_are_not_named(onset):
+    """A lag explains what is fitted; then a load is taken off."""
+    taken = effect('payload', payload_kg=-6.0)
+    recording = bench_truth.late(taken, onset, before=(effect('pressure_lag'),))
+    found = identify(bench_truth.nominal(off=OFF), [recording])
+    assert (found.verdict, found.effects) == ('unexplained_structure', ())
+    assert found.since.value == pytest.approx(onset, abs=1.0)
+    assert found.since.low <= onset <= found.since.high
+    assert 'the best model explains the recording up to' in found.sentence
+
+
 def test_without_test_recordings_the_last_quarter_judges():
     lag = effect('pressure_lag')
     found = identify(bench_truth.nominal(), [bench_truth.free(lag, seed=5, duration=20.0)])

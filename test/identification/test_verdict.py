@@ -77,20 +77,41 @@ def test_of_what_is_not_fitted_more_may_be_left_where_the_fit_leaves_less(found)
 
 def test_without_an_effect_more_than_noise_is_structure_and_constants_may_be_wrong(found):
     bare, noise = ended(replace(found, best=found.retuned), 1.3, 1.3), found.setting.noise
-    assert verdict(bare, 1.04 * noise, noise) == 'no_missing_effect'
-    assert verdict(bare, 1.06 * noise, noise) == 'parameters_wrong'
-    assert verdict(ended(bare, 1.5, 1.5), noise, noise) == 'unexplained_structure'
+    assert verdict(bare, 1.04 * noise, noise, noise) == 'no_missing_effect'
+    assert verdict(bare, 1.06 * noise, noise, noise) == 'parameters_wrong'
+    assert verdict(ended(bare, 1.5, 1.5), noise, noise, noise) == 'unexplained_structure'
 
 
 def test_nothing_is_missing_only_if_the_held_out_data_show_it(found):
     """A drift may begin after the parts that the search sees."""
     bare, noise = ended(replace(found, best=found.retuned), 1.0, 1.0), found.setting.noise
-    assert verdict(bare, 1.3 * noise, 1.3 * noise) == 'no_missing_effect'
-    assert verdict(bare, 1.5 * noise, 1.5 * noise) == 'unexplained_structure'
+    assert verdict(bare, *3 * (1.3 * noise,)) == 'no_missing_effect'
+    assert verdict(bare, *3 * (1.5 * noise,)) == 'unexplained_structure'
 
 
 def test_an_effect_that_explains_is_found_whatever_retuning_is_worth(found):
-    assert verdict(ended(found, 1.0, 33.0), nominal=40.0, retuned=33.0) == 'effect_found'
+    noise = found.setting.noise
+    errors = 40.0 * noise, 33.0 * noise, 1.0 * noise
+    assert verdict(ended(found, 1.0, 33.0), *errors) == 'effect_found'
+
+
+@pytest.mark.parametrize(
+    ('retuned', 'augmented', 'is_found'),
+    [
+        (33.0, 23.0, True),  # 0.70 of the error above the noise is left
+        (33.0, 23.2, False),
+        (33.0, 33.0, False),
+        (2.0, 2.5, True),  # the effect does not act there, and both explain nearly all
+        (2.0, 2.6, False),
+        (np.nan, np.nan, True),  # no data judge
+    ],
+)
+def test_effects_that_the_judging_data_contradict_are_not_found(
+    found, retuned, augmented, is_found
+):
+    noise = found.setting.noise
+    name = verdict(ended(found, 1.0, 33.0), 40.0 * noise, retuned * noise, augmented * noise)
+    assert name == ('effect_found' if is_found else 'unexplained_structure')
 
 
 @pytest.mark.parametrize(('duration', 'is_enough'), [(4.9, False), (5.2, True)])

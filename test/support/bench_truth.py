@@ -39,9 +39,12 @@ def free(*effects, name='truth.csv', **settings):
     return recording_of(record(effects, **{'rate': 100.0, 'duration': 30.0, **settings}), name)
 
 
-def late(one, onset, seed=0, duration=40.0, rate=100.0, noise=20e-6):
-    """Return the recording of a free load of 20 kg on which an effect begins at *onset* s."""
-    plant = TruthPlant(mass=MASS, sensor=Sensor(noise=noise), seed=seed)
+def late(one, onset, seed=0, duration=40.0, rate=100.0, noise=20e-6, before=()):
+    """Return the recording of a free load of 20 kg on which an effect begins at *onset* s.
+
+    The effects *before* act from the start.
+    """
+    plant = TruthPlant(mass=MASS, effects=before, sensor=Sensor(noise=noise), seed=seed)
     low, high = working_range(plant.constants, MASS)
     rng = np.random.default_rng([seed, 4])
     u = PROGRAMMES['mixture'](rate, duration, low, high, rng)

@@ -24,7 +24,7 @@ from pam_ros.identification.fit.problem import Problem
 from pam_ros.identification.fit.solve import begun, least_squares, settled
 from pam_ros.identification.fit.unknowns import OF_RUNS
 from pam_ros.identification.search.search import Progress, Search, search
-from pam_ros.identification.search.setting import Model, Setting, rms
+from pam_ros.identification.search.setting import Model, Setting, elsewhere, rms
 from pam_ros.identification.search.starts import without_idle
 
 Array = NDArray[np.float64]
@@ -35,7 +35,7 @@ ITERATIONS = 8  # of these fits; each begins at the result of the one before
 
 @dataclass(frozen=True)
 class Moment:
-    """The time in s, with a 95 % interval, up to which the re-tuned model explains a recording."""
+    """The time in s, with a 95 % interval, up to which a model explains a recording."""
 
     time: float
     low: float
@@ -49,14 +49,45 @@ def moment(setting: Setting) -> Moment | None:
     the continuation tests the model.
     """
     runs = _runs(setting)
-    if not runs or setting.drifts or runs[0].kind != 'free':
+    if not runs:
         return None
     whole = setting.problem_of(runs, setting.step)
-    t = np.concatenate([s.t for s in runs])
-    edges = t[0] + (t[-1] - t[0]) * np.arange(FIRST, BLOCKS + 1) / BLOCKS
+    edges = _edges(runs)[FIRST:]
     if _count(runs[0], edges[0]) < FEWEST:
         return None
     known = _fitted(whole, edges[0], np.zeros(len(whole.unknowns)), setting)
+    return _moment(whole, edges, known, setting)
+
+
+def moment_after(model: Model) -> Moment | None:
+    """Return the time after the fitted part from which a model fails, None if there is none.
+
+    It is evaluated for the same recordings as :func:`moment`.
+    """
+    setting = model.setting
+    runs = _runs(setting)
+    if not runs:
+        return None
+    whole, known = elsewhere(model.nearest, runs)
+    end = max(float(part.segment.t[part.fit][-1]) for part in setting.parts if part.fit.any())
+    edges = _edges(runs)
+    later = edges[edges > end]
+    return _moment(whole, np.concatenate([[end], later]), known, setting) if later.size else None
+
+
+def _edges(runs: Sequence[Segment]) -> Array:
+    """Return the ends of the blocks of a recording in s, from its start on."""
+    first, last = runs[0].t[0], runs[-1].t[-1]
+    edges: Array = first + (last - first) * np.arange(BLOCKS + 1) / BLOCKS
+    return edges
+
+
+def _moment(whole: Problem, edges: Array, known: Array, setting: Setting) -> Moment | None:
+    """Return the time from which the model of *whole* fails in blocks between *edges* in s.
+
+    *known* are its unknowns, fitted to the samples before the first edge.
+    """
+    t = np.concatenate([s.t for s in whole.segments])
     found = _failing(whole, t, edges, known, setting)
     if found is None:
         return None
@@ -74,10 +105,15 @@ def moment(setting: Setting) -> Moment | None:
 
 
 def _runs(setting: Setting) -> list[Segment]:
-    """Return the stretches of a single recording in their order, thinned; none of several."""
+    """Return the stretches of a single recording in their order, thinned; none of several.
+
+    None either of a load without a spring, and of one that a machine holds.
+    """
     segments = sorted((part.segment for part in setting.parts), key=lambda s: float(s.t[0]))
     names = {s.name for s in segments}
     if len(names) > 1 or any(a.t[-1] >= b.t[0] for a, b in pairwise(segments)):
+        return []
+    if setting.drifts or segments[0].kind != 'free':
         return []
     runs = [thinned(s, setting.period) for s in segments]
     return [s for s in runs if s.t.size >= FEWEST]
