@@ -49,16 +49,19 @@ class Parameter:
         high = self.high if self.revolute is None else self.revolute.high
         return replace(self, unit=revolute_unit(self.unit, name), high=high, revolute=None)
 
-    def allowed(self, kind: type = float) -> str:
-        """Return a text about the allowed values of type *kind*, for an error message."""
+    def allowed(self, kind: type = float, *, is_number: bool = True) -> str:
+        """Return a text about the allowed values of type *kind*, for an error message.
+
+        For a value that is no number, *is_number* is false, and the text says that one is needed.
+        """
         if self.choices:
             return ('a list of ' if kind is tuple else 'one of ') + ', '.join(self.choices)
         if kind in (bool, str, tuple):
             return {bool: 'true or false', str: 'a text', tuple: 'a list of texts'}[kind]
-        whole = 'a whole number' if kind is int else ''
+        whole = 'a whole number' if kind is int else '' if is_number else 'a number'
         unit = f' {self.unit}' if self.unit else ''
         if self.low is None and self.high is None:
-            return whole or 'a finite number'
+            return whole if kind is int else 'a finite number'
         if self.high is None:
             bounds = f'{"above" if self.above_low else "at least"} {self.low:g}{unit}'
         elif self.low is None:
@@ -72,7 +75,7 @@ class Parameter:
     def check(self, name: str, value: Any, kind: type) -> Any:
         """Return *value* as *kind*, or raise ParameterError with the name and allowed values."""
         if not self._fits(value, kind):
-            refuse(name, value, self.allowed(kind))
+            refuse(name, value, self.allowed(kind, is_number=_is_number(value)))
         return kind(value)
 
     def _is_text(self, value: Any, kind: type) -> bool:
@@ -83,9 +86,9 @@ class Parameter:
     def _fits(self, value: Any, kind: type) -> bool:
         if kind in (str, tuple):
             return self._is_text(value, kind)
-        if kind is bool or isinstance(value, bool):
-            return kind is bool and isinstance(value, bool)
-        if not isinstance(value, numbers.Real):  # includes those of numpy
+        if kind is bool:
+            return isinstance(value, bool)
+        if not _is_number(value):
             return False
         try:
             number = float(value)
@@ -96,6 +99,11 @@ class Parameter:
         low, high = self.low, self.high
         low_fits = low is None or number > low or (number == low and not self.above_low)
         return low_fits and (high is None or number <= high)
+
+
+def _is_number(value: Any) -> bool:
+    """Return whether *value* is a real number, of numpy, too; true and false are none."""
+    return isinstance(value, numbers.Real) and not isinstance(value, bool)
 
 
 def parameter_field(default: Any, text: str, unit: str = '', **kwargs: Any) -> Any:

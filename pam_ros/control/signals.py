@@ -99,19 +99,30 @@ def step_arguments(
     """Return position and velocity for a law's step: None if they are not finite.
 
     A failed sensor reads NaN, and a law that used it would return NaN from then on. Raises
-    ParameterError for a time step that is not above 0, since laws divide by it, and for a
-    reference or an age that is not finite, since these do not come from a sensor.
+    ParameterError for a time step that is not above 0, since laws divide by it, for a reference or
+    an age that is not finite, since these do not come from a sensor, and for other types.
     """
-    if not (isfinite(dt) and dt > 0.0):
-        refuse('dt', dt, 'a finite time above 0 s')
-    if not all(map(isfinite, reference)):
-        refuse('reference', reference, 'finite numbers')
-    if not isfinite(age):
-        refuse('age', age, 'a finite time in s')
-    if position is not None and not isfinite(position):
-        position = None
-    if velocity is not None and not isfinite(velocity):
-        velocity = None
+    if not isinstance(reference, Reference):
+        refuse('reference', reference, 'a Reference, such as Reference(0.05)')
+    try:
+        if not (isfinite(dt) and dt > 0.0):
+            refuse('dt', dt, 'a finite time above 0 s')
+        if not all(map(isfinite, reference)):
+            refuse('reference', reference, 'finite numbers')
+        if not isfinite(age):
+            refuse('age', age, 'a finite time in s')
+        if position is not None and not isfinite(position):
+            position = None
+        if velocity is not None and not isfinite(velocity):
+            velocity = None
+    except TypeError:
+        # Looked for only now, since checks of types would cost each step of a law.
+        desired = {f'reference.{name}': value for name, value in reference._asdict().items()}
+        given = {'dt': dt, 'position': position, 'velocity': velocity, 'age': age}
+        for name, value in {**desired, **given}.items():
+            if value is not None:
+                number(name, value)
+        raise
     return position, velocity
 
 

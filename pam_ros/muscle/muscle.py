@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from pam_ros.arguments import alike, array, number
+from pam_ros.arguments import alike, array, number, refuse
 from pam_ros.cached_property import cached_property
 from pam_ros.errors import ParameterError, RangeError
 from pam_ros.muscle import law
@@ -137,6 +137,8 @@ class Muscle:
     def damping(self, p: ArrayLike, kappa: ArrayLike, mass: ArrayLike) -> Array:
         """Return c in N s/m for a load of *mass* kg: equation (4), sign corrected."""
         p, kappa, mass = alike(p=p, kappa=kappa, mass=mass)
+        if (mass < 0.0).any():
+            refuse('mass', float(mass.min()), 'at least 0 kg')
         return _array(law.damping_v(self.stiffness(p, kappa), mass, self.zeta))
 
     def gain(self, kappa: ArrayLike) -> Array:

@@ -166,6 +166,11 @@ def _read_table(path: Path) -> _Table:
     if len(header) > 1 and header[-1] == '':
         header = header[:-1]  # a separator at the end of each line
         rows = [row[:-1] if len(row) > len(header) and row[-1] == '' else row for row in rows]
+    if len(header) == 1 and len(header[0].split()) > 1:
+        raise RecordingError(
+            f'{path.name} has one column, {header[0]!r}: the first line that is not a comment (#, '
+            '% or //) names the columns; separate them by commas, semicolons or tabs'
+        )
     if all(_is_number(cell) for cell in header):
         raise RecordingError(
             f'{path.name} has no line with column names: its first row is {_named(header)}; name '
@@ -182,6 +187,8 @@ def _read_table(path: Path) -> _Table:
             raise RecordingError(
                 f'{path.name}, line {line}: {len(row)} cells for {len(header)} columns'
             )
+    if not rows:
+        raise RecordingError(f'{path.name} has the names of columns, and no row of numbers')
     return _Table(header, rows, lines, separator != ',', notes)
 
 

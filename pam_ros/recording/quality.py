@@ -119,7 +119,8 @@ def _warn_direction(recording: Recording, inputs: Sequence[Input]) -> list[str]:
         return []
     return [
         f'position falls where {inputs[0].name} rises: a shorter muscle has a greater position; '
-        "change its sign with --column 'NAME=position_m*-1'"
+        "change its sign with --column 'NAME=position_mm*-1+OFFSET', where NAME is the column, mm "
+        'its unit and OFFSET what it gives where the muscle has its length at rest'
     ]
 
 

@@ -17,6 +17,7 @@ from pam_ros.rig.changes import changes_of, refuse_onsets, run_over
 from pam_ros.rig.equilibrium import equilibrium
 from pam_ros.rig.joint import Joint
 from pam_ros.rig.start import disturb, start_state
+from pam_ros.rig.statics import refuse_start
 from pam_ros.rig.step_limit import check_step
 
 Array = NDArray[np.float64]
@@ -60,8 +61,9 @@ def simulate(
     with an onset begins to act at this time on the time axis of t. Samples are the state before a
     command or an onset of the same stamp has acted. Steps are at most *step* s and never extend
     across a command or an onset. Raises ParameterError if *step* is too long for the joint, if
-    shapes do not fit, stamps go back, a number is not finite, or *hidden* has an effect that the
-    joint lacks. Warns of commands that seem to be in kPa or bar.
+    shapes do not fit, stamps go back, a number is not finite, the muscles cannot have *position*,
+    or *hidden* has an effect that the joint lacks. Warns of commands that seem to be in kPa or
+    bar.
     """
     step = number('step', step)
     check_step(instance('joint', joint, Joint, 'a Joint'), step)
@@ -76,7 +78,11 @@ def simulate(
         command[max(np.searchsorted(command_t + delay, t[0]) - 1, 0), i]
         for i, delay in enumerate(delays)
     ]
-    s = equilibrium(start, first) if position is None else number('position', position)
+    if position is None:
+        s = equilibrium(start, first)
+    else:
+        s = number('position', position)
+        refuse_start('position', s, joint)
     x = start_state(layout, q, first, s, velocity)
     if hidden:
         disturb(layout, q, x, first, hidden, start.all_present)
@@ -102,7 +108,7 @@ def simulate_held(
     This is the force that a machine measures which moves the actuator: muscle force - damping -
     friction while it shortens, and muscle force + damping + friction while it lengthens. A payload
     and end stops are not included. Raises ParameterError if an effect has an onset, shapes do not
-    fit, stamps do not ascend, or a number is not finite.
+    fit, stamps do not ascend, a number is not finite, or the muscles cannot have a position.
     """
     instance('joint', joint, Joint, 'a Joint')
     refuse_onsets(joint, 'simulate_held')
@@ -110,6 +116,8 @@ def simulate_held(
         refuse('step', step, 'more than 0 s')
     t = stamps('t', t, strict=True)
     position = along('position', position, 't', t.size)
+    for end in (position.min(), position.max()):
+        refuse_start('position', float(end), joint)
     v = _rate(t, position) if velocity is None else along('velocity', velocity, 't', t.size)
     q, layout = joint.parameters(), joint.layout
     pressure = by_muscle('pressure', pressure, 't', t.size, layout.muscles)

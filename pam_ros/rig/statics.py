@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from pam_ros.compiled import broadcast
-from pam_ros.errors import RangeError
+from pam_ros.errors import ParameterError, RangeError
 from pam_ros.muscle import law
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig.loads import Load
@@ -30,6 +30,7 @@ from pam_ros.rig.transmissions import Straight, Transmission
 BAR = 1e5  # Pa
 BEYOND = 0.1, 0.25  # contraction below and above the rated range that is searched for equilibria
 LONGEST = 0.95  # largest contraction that is considered for any muscle
+START = (-0.2, LONGEST)  # range of contractions in which a simulation may start
 _on_arrays = cache(broadcast)
 
 
@@ -144,6 +145,33 @@ def coordinate(joint: Mechanism, i: int, kappa: float) -> float:
     """Return the coordinate at which muscle i has the contraction *kappa*."""
     y = kappa * joint.muscles[i].l0 - joint.at_zero[i]
     return joint.transmission.equations.coordinate(y, i, joint.transmission.numbers, 0)
+
+
+def start_range(joint: Mechanism) -> tuple[float, float]:
+    """Return the least and the greatest position, m or rad, at which a simulation may start.
+
+    Between them the contractions of all muscles are within ``START``.
+    """
+    ends = [
+        sorted(coordinate(joint, i, kappa) for kappa in START) for i in range(len(joint.muscles))
+    ]
+    return max(low for low, _ in ends), min(high for _, high in ends)
+
+
+def refuse_start(name: str, position: float, joint: Mechanism) -> None:
+    """Raise ParameterError for a *position*, m or rad, at which no simulation may start.
+
+    Without a spring every position is allowed.
+    """
+    is_driven = is_direct(joint) and joint.muscles[0].is_load_only
+    low, high = start_range(joint)
+    if not (is_driven or low <= position <= high):
+        unit = joint.transmission.equations.unit
+        whose = f'a muscle of {joint.muscles[0].l0:g} m' if is_direct(joint) else 'this joint'
+        raise ParameterError(
+            f'{name} = {position:g} {unit} is not possible with {whose}: give {low:g} to '
+            f'{high:g} {unit}'
+        )
 
 
 def line(joint: Mechanism, i: int, s: ArrayLike) -> tuple[Any, Any, Any, Any]:

@@ -12,12 +12,12 @@ from pam_ros.cached_property import cached_property
 from pam_ros.effects.base import Effect
 from pam_ros.effects.names import EffectName
 from pam_ros.parameters import Parameter
+from pam_ros.rig import statics
 from pam_ros.rig.arrangements import ARRANGEMENTS, LOAD, Arrangement
 from pam_ros.rig.joint import Joint
 from pam_ros.settings.files import find, read_any
 from pam_ros.settings.load import only_joint, read_scene
 from pam_ros.settings.rig import KINDS, RigParameters
-from pam_ros.settings.scene import reach_of
 from pam_ros.settings.tables import Table, flat, listed, mountings, override, rig_table
 
 
@@ -42,7 +42,7 @@ class NominalJoint:
     @property
     def reach(self) -> tuple[float, float] | None:
         """The positions, m or rad, that all muscles allow; None for one muscle on a mass."""
-        return None if self.kind is LOAD else reach_of(self.joint)
+        return None if self.kind is LOAD else statics.start_range(self.joint)
 
     def text(self, name: str) -> str:
         """Return the description of the parameter with a flat *name*; empty if it is unknown."""

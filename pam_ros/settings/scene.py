@@ -23,20 +23,6 @@ from pam_ros.settings.tables import Table, Values, build, table_of
 
 Array = NDArray[np.float64]
 
-START = (-0.2, 0.95)  # range of contractions in which a simulation may start
-
-
-def reach_of(joint: Joint) -> tuple[float, float]:
-    """Return the least and the greatest position, m or rad, at which a simulation may start.
-
-    Between them the contractions of all muscles are within ``START``.
-    """
-    ends = [
-        sorted(statics.coordinate(joint, i, kappa) for kappa in START)
-        for i in range(len(joint.muscles))
-    ]
-    return max(low for low, _ in ends), min(high for _, high in ends)
-
 
 class Scene(RigParameters):
     """The muscles and joints that are simulated, and their parameters."""
@@ -113,7 +99,7 @@ class SimulationSetup:
         return f'{name}: ' if len(self.joints) > 1 else ''
 
     def _check_position(self, joint: Joint, position: float, whose: str) -> None:
-        low, high = reach_of(joint)
+        low, high = statics.start_range(joint)
         unit = joint.transmission.equations.unit
         if statics.is_direct(joint):
             what = f'a muscle of {joint.muscle.l0:g} m'

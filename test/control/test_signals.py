@@ -4,6 +4,7 @@
 
 from math import inf, nan
 
+import numpy as np
 import pytest
 
 from pam_ros.control.pid import Pid
@@ -63,6 +64,14 @@ def test_a_measurement_that_is_not_finite_is_none(law, joint, failed):
         ('reference = ', (DT, Reference(nan), BEGIN)),
         ('reference = ', (DT, Reference(0.06, inf), BEGIN)),
         ('age = nan', (DT, GOAL, BEGIN, None, nan)),
+        ("dt = '2'", ('2', GOAL, BEGIN)),
+        ('reference = 0.06', (DT, 0.06, BEGIN)),
+        ('reference = ', (DT, (0.06, 0.0, 0.0, 0.0), BEGIN)),
+        ("reference.position = 'a'", (DT, Reference('a'), BEGIN)),
+        ('reference.velocity = ', (DT, Reference(0.06, [0.0]), BEGIN)),
+        ('position = ', (DT, GOAL, np.array([BEGIN, BEGIN]))),
+        ("velocity = '0'", (DT, GOAL, BEGIN, '0')),
+        ('age = ', (DT, GOAL, BEGIN, None, [0.0])),
     ],
 )
 def test_an_impossible_step_is_refused_and_changes_nothing(law, joint, name, arguments):

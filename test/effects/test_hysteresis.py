@@ -114,8 +114,8 @@ def test_load_on_a_muscle_with_hysteresis_against_an_adaptive_solver():
 @pytest.mark.parametrize('effect', [DAHL, SLIP, {**SLIP, 'slip_ratio': 10.0}])
 @pytest.mark.parametrize('side', [1.0, -1.0])
 def test_loops_can_start_as_a_long_motion_has_left_them(effect, side):
-    far = np.linspace(0.0, side * 0.4, 401) + 0.1
-    back = np.linspace(0.1 + side * 0.4, 0.1, 51)
+    far = np.linspace(0.15 - side * 0.22, 0.15 + side * 0.22, 401)
+    back = np.linspace(0.15 + side * 0.22, 0.15, 51)
     come = loop(effect, np.concatenate([far, back]))[401:]
     put = loop({**effect, 'initial': side}, back)
     np.testing.assert_allclose(put, come, atol=1e-6)

@@ -161,3 +161,9 @@ def test_stiffest_and_softest_are_at_the_corners():
     corners = k[np.ix_([0, -1], [0, -1])]
     assert k.min() == corners.min()
     assert k.max() == corners.max()
+
+
+def test_there_is_no_damping_of_a_negative_mass():
+    assert MUSCLE.damping(3e5, 0.1, 0.0) == 0.0
+    with pytest.raises(ParameterError, match=r'^mass = -20\.0 is not allowed: give at least 0 kg'):
+        MUSCLE.damping(3e5, 0.1, [20.0, -20.0])

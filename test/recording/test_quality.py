@@ -197,5 +197,7 @@ def test_a_force_that_is_always_the_same():
 
 def test_a_position_with_the_opposite_sign():
     turned = recording(position=0.12 - recording().position)
-    assert only(turned).startswith('position falls where pressure_command rises')
+    warning = only(turned)
+    assert warning.startswith('position falls where pressure_command rises')
+    assert "--column 'NAME=position_mm*-1+OFFSET'" in warning
     assert check(recording(position=0.05 + 1e-3 * np.sin(40.0 * T))) == ()  # of no direction

@@ -2,16 +2,19 @@
 # SPDX-License-Identifier: Apache-2.0
 """Joints at rest against roots, differences and searches over equations of their own."""
 
+import re
+
 import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from pam_ros.errors import RangeError
+from pam_ros.errors import ParameterError, RangeError
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.rig import statics
 from pam_ros.rig.equilibrium import equilibrium
 from pam_ros.rig.joint import Actuator, Joint
 from pam_ros.rig.loads import Mass
+from pam_ros.rig.run import simulate, simulate_held
 from pam_ros.rig.simulation import Simulation
 from pam_ros.rig.standard_joints import single_muscle_joint
 from support import joints, paper
@@ -174,3 +177,42 @@ def test_the_span_is_where_both_muscles_have_permissible_lengths():
     assert kappa[0, 1] == pytest.approx(0.25)
     assert kappa[1, 1] == pytest.approx(-0.04)
     assert statics.span(parallel(50.0, BOTH_LONG), 0.1, 0.9) == pytest.approx((-0.056, 0.38))
+
+
+# Where a simulation may start --------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ('joint', 'position', 'sentence'),
+    [
+        (
+            single_muscle_joint(),
+            64.0,
+            '64 m is not possible with a muscle of 0.4 m: give -0.08 to',
+        ),
+        (single_muscle_joint(), -0.09, '-0.09 m is not possible with a muscle of 0.4 m'),
+        (pair(), 45.0, '45 rad is not possible with this joint: give -'),
+        (lever(), 20.0, '20 rad is not possible with this joint: give -'),
+    ],
+)
+def test_a_position_that_the_muscles_cannot_have_is_no_start(joint, position, sentence):
+    low, high = statics.start_range(joint)
+    simulation, t = Simulation([joint]), np.linspace(0.0, 0.1, 11)
+    pressures = np.full((1, len(joint.muscles)), 2e5)
+    starts = (
+        lambda s: simulation.reset(2e5, s, 0.0),
+        lambda s: simulate(joint, t, [0.0], pressures, position=s),
+        lambda s: simulate_held(joint, t, np.repeat(pressures, t.size, 0), np.full(t.size, s)),
+    )
+    for start in starts:
+        with pytest.raises(ParameterError, match=f'^position = {re.escape(sentence)}'):
+            start(position)
+        for end in (low, high):
+            start(end)
+
+
+def test_a_load_without_a_spring_may_start_anywhere():
+    source = Muscle(a1=0.0, a2=0.0, a3=0.0, a4=0.0, a5=1.0, a6=0.0, pressure_unit='Pa', zeta=0.0)
+    rail = Simulation([single_muscle_joint(source, Mass(mass=2.0, mount='horizontal'))])
+    rail.reset(0.0, 64.0, 0.0)
+    assert rail.position == 64.0
