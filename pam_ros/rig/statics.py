@@ -158,16 +158,16 @@ def start_range(joint: Mechanism) -> tuple[float, float]:
     return max(low for low, _ in ends), min(high for _, high in ends)
 
 
-def refuse_start(name: str, position: float, joint: Mechanism) -> None:
+def refuse_start(name: str, position: float, joint: Mechanism, kind: str = 'this joint') -> None:
     """Raise ParameterError for a *position*, m or rad, at which no simulation may start.
 
-    Without a spring every position is allowed.
+    Without a spring every position is allowed. The sentence calls a joint *kind*.
     """
     is_driven = is_direct(joint) and joint.muscles[0].is_load_only
     low, high = start_range(joint)
     if not (is_driven or low <= position <= high):
         unit = joint.transmission.equations.unit
-        whose = f'a muscle of {joint.muscles[0].l0:g} m' if is_direct(joint) else 'this joint'
+        whose = f'a muscle of {joint.muscles[0].l0:g} m' if is_direct(joint) else kind
         raise ParameterError(
             f'{name} = {position:g} {unit} is not possible with {whose}: give {low:g} to '
             f'{high:g} {unit}'

@@ -93,23 +93,12 @@ class SimulationSetup:
                 )
         for joint, start, name in zip(self.joints, self.starts, self.joint_names, strict=True):
             if not (start.at_rest or joint.is_driven):
-                self._check_position(joint, start.position, self._whose(name))
+                what = f'{self._whose(name)}initial.position'
+                kind = f'joint = {self.settings.joint}'
+                statics.refuse_start(what, start.position, joint, kind)
 
     def _whose(self, name: str) -> str:
         return f'{name}: ' if len(self.joints) > 1 else ''
-
-    def _check_position(self, joint: Joint, position: float, whose: str) -> None:
-        low, high = statics.start_range(joint)
-        unit = joint.transmission.equations.unit
-        if statics.is_direct(joint):
-            what = f'a muscle of {joint.muscle.l0:g} m'
-        else:
-            what = f'joint = {self.settings.joint}'
-        if not low <= position <= high:
-            raise ParameterError(
-                f'{whose}initial.position = {position:g} {unit} is not possible with {what}: give '
-                f'{low:g} to {high:g} {unit}'
-            )
 
     @cached_property
     def muscles(self) -> tuple[Muscle, ...]:

@@ -13,13 +13,14 @@ from pam_ros.nodes.common.rclpy_internals import messages_of
 from pam_ros.nodes.record.taking import Recorded
 from pam_ros.recording.bag_metadata import BagTopic
 from pam_ros.recording.bag_writer import BagWriter
+from pam_ros.recording.sending_time import LIMIT
 from pam_ros.recording.simulated_time import SimulatedTime
 from pam_ros.timing.pace import SECOND
 
 TAKE = 0.01  # s between two rounds of taking messages
 # ns that the recorder waits for missing messages, also at its end: the middleware sends a lost
 # message again after up to 3 s.
-PATIENCE = 5 * SECOND
+PATIENCE = LIMIT
 # ns. At the end, a topic with a longer period is not expected to have a later message, and no
 # time on /clock is missing that would be so little later than the last one.
 STILL = SECOND // 10
