@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Long recordings, which are split into files: flat, whole and in order, however they end."""
 
+import gc
 import os
 import shutil
 import signal
@@ -10,6 +11,7 @@ import sys
 import tracemalloc
 from pathlib import Path
 
+import numpy as np
 import pytest
 import yaml
 from mcap.reader import make_reader
@@ -116,19 +118,23 @@ def test_without_metadata_the_files_are_read_in_their_order(tmp_path, short_file
 
 
 def test_memory_does_not_grow_from_file_to_file(tmp_path, monkeypatch):
-    """At the same place of each file; the index of one file takes some ten times the limit."""
+    """At the same place of each file; the index of one file takes some 25 times the limit.
+
+    The median, since Python itself fills tables of its own in the first files and now and then.
+    """
     monkeypatch.setattr(bag_writer, 'CHUNKS', 32)
     recorder = Recorder(tmp_path / 'bag')
     recorder.seal(40)
+    taken = []
     tracemalloc.start()
     try:
-        recorder.seal(32)
-        first, _ = tracemalloc.get_traced_memory()
-        recorder.seal(4 * 32)
-        last, _ = tracemalloc.get_traced_memory()
+        for _ in range(16):
+            recorder.seal(32)
+            gc.collect()
+            taken.append(tracemalloc.get_traced_memory()[0])
     finally:
         tracemalloc.stop()
-    assert last - first < 5000
+    assert np.median(np.diff(taken)) < 2000
     recorder.writer.close()
 
 
