@@ -129,6 +129,7 @@ class Progress:
 def run(given: argparse.Namespace, command: str) -> str:
     """Run the identification of the command line, write the report, return a summary line."""
     from pam_ros.compiled import HAVE_NUMBA
+    from pam_ros.identification.data.checked import Bounds
     from pam_ros.identification.data.segment import require_joint
     from pam_ros.identification.identify import identify
     from pam_ros.recording.inputs import refuse_copies, refuse_idle
@@ -145,21 +146,19 @@ def run(given: argparse.Namespace, command: str) -> str:
     model = nominal.joint
     uncertain = {**uncertain_values(given.params), **dict(map(_deviation, given.uncertain))}
     mapping = read_mapping(given.column, given.mapping)
-    p_max = [muscle.p_max for muscle in model.muscles]
-    # The length converts a contraction to a position; a known force on a load has no length.
-    has_length = nominal.reach is None and not model.is_driven
+    bounds = Bounds.of(model)
     recordings, test = (
         [
             read_recording(
                 path,
                 mapping,
                 given.kind,
-                model.muscle.l0 if has_length else None,
-                p_max[0] if len(p_max) == 1 else p_max,
+                bounds.l0,
+                bounds.p_max,
                 given.namespace,
                 nominal.recorded_muscles,
                 model.transmission.equations.unit,
-                nominal.reach,
+                bounds.reach,
             )
             for path in paths
         ]

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from pam_ros.arguments import instance, sequence
 from pam_ros.errors import RecordingError
+from pam_ros.identification.data.checked import checked
 from pam_ros.identification.data.noise import Noise, noise_of, step_of
 from pam_ros.identification.data.parts import Part, parts_of
 from pam_ros.identification.data.segment import (
@@ -76,7 +77,8 @@ def identify(
     of load, transmission and mounting that are not in it keep their nominal values.
 
     Raises RecordingError if there are no recordings, if two are the same, if they do not fit
-    together, have no output or are too short for any fit. Raises ParameterError for objects of
+    together, have no output, cannot be right (in another unit, for example) or are too short for
+    any fit. Raises ParameterError for objects of
     another type, for a model with an onset and for an uncertain parameter that the model does not
     have.
     """
@@ -88,6 +90,7 @@ def identify(
     notify: Progress = progress or (lambda share, text: None)
     require_one_kind([*recordings, *test])
     require_joint([*recordings, *test], model)
+    recordings, test = ([checked(one, model) for one in given] for given in (recordings, test))
     refuse_copies([*recordings, *test])
     uncertain = {} if uncertain is None else uncertain
     spread_unknowns(model, recordings[0].muscles, uncertain)  # raises errors before the long fit

@@ -105,14 +105,25 @@ class Recording:
         if self.command_t is not None:
             checked['command_t'] = at = stamps('command_t', self.command_t)
             checked['command'] = self._along('command', self.command, 'command_t', at.size)
-        gaps = array('gaps', self.gaps)
-        if gaps.size and (gaps.ndim != 2 or gaps.shape[1] != 2):
-            refuse_shape('gaps', gaps, '(k, 2), from and to of each in s')
+            if at[0] > t[0]:
+                raise ParameterError(
+                    f'command_t[0] = {at[0]} s is after t[0] = {t[0]} s: give the command that '
+                    'acts at the first sample, too'
+                )
+        self._check_gaps()
         instance('warnings', self.warnings, Sequence, 'texts')
         if number('command_spread', self.command_spread) < 0.0:
             refuse('command_spread', self.command_spread, 'at least 0 s')
         for name, value in checked.items():
             object.__setattr__(self, name, value)
+
+    def _check_gaps(self) -> None:
+        gaps = array('gaps', self.gaps)
+        if gaps.size and (gaps.ndim != 2 or gaps.shape[1] != 2):
+            refuse_shape('gaps', gaps, '(k, 2), from and to of each in s')
+        edges = gaps.ravel()
+        if (np.diff(edges)[::2] <= 0.0).any() or (np.diff(edges) < 0.0).any():
+            refuse('gaps', self.gaps, 'from and to of each in s, in the order of time')
 
     def _check_muscles(self) -> None:
         muscles = sequence('muscles', self.muscles, str, 'the name of a muscle')
@@ -154,8 +165,13 @@ class Recording:
         return [self.part(i, j) for i, j in pairwise(edges) if j > i]
 
     def part(self, start: int, stop: int) -> 'Recording':
-        """Return samples start..stop-1 with the commands that are active in them."""
+        """Return samples start..stop-1 with the commands that are active in them.
+
+        Raises ParameterError if there is no sample.
+        """
         t = self.t[start:stop]
+        if not t.size:
+            refuse('start, stop', (start, stop), f'a slice of {self.t.size} samples, not empty')
         changes: dict[str, Any] = {
             name: None if value is None else value[start:stop]
             for name in OUTPUTS
@@ -179,8 +195,11 @@ class Recording:
         linearly between its samples, and each interval of at most *step* s gets its mean, so that
         the zero-order hold adds no delay.
 
-        Raises RecordingError if neither was recorded.
+        Raises RecordingError if neither was recorded, and ParameterError for a *step* that is not
+        positive.
         """
+        if number('step', step) <= 0.0:
+            refuse('step', step, 'a number of s above 0')
         if self.command_t is not None and self.command is not None:
             return self.command_t, self.command
         if self.pressure is None:

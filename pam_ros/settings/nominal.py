@@ -12,7 +12,6 @@ from pam_ros.cached_property import cached_property
 from pam_ros.effects.base import Effect
 from pam_ros.effects.names import EffectName
 from pam_ros.parameters import Parameter
-from pam_ros.rig import statics
 from pam_ros.rig.arrangements import ARRANGEMENTS, LOAD, Arrangement
 from pam_ros.rig.joint import Joint
 from pam_ros.settings.files import find, read_any
@@ -38,11 +37,6 @@ class NominalJoint:
     def recorded_muscles(self) -> tuple[str, ...]:
         """The names of the muscles in recordings; empty for one muscle on a mass."""
         return () if self.kind is LOAD else self.muscles
-
-    @property
-    def reach(self) -> tuple[float, float] | None:
-        """The positions, m or rad, that all muscles allow; None for one muscle on a mass."""
-        return None if self.kind is LOAD else statics.start_range(self.joint)
 
     def text(self, name: str) -> str:
         """Return the description of the parameter with a flat *name*; empty if it is unknown."""

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pam_ros.errors import RecordingError
+from pam_ros.errors import ParameterError, RecordingError
 from pam_ros.recording.recording import Recording
 
 
@@ -94,3 +94,27 @@ def test_a_measured_pressure_drives_without_delay():
 def test_nothing_drives():
     with pytest.raises(RecordingError, match='neither pressure_command nor pressure'):
         recording(np.arange(5.0)).drive(1e-3)
+
+
+def test_the_first_command_acts_at_the_first_sample():
+    with pytest.raises(
+        RecordingError, match=r'made: command_t\[0\] = 0.5 s is after t\[0\] = 0.0'
+    ):
+        recording(np.arange(5.0), [0.5], [1e5])
+
+
+@pytest.mark.parametrize(
+    'gaps', [[(2.0, 1.0)], [(1.0, 1.0)], [(2.0, 3.0), (0.0, 1.0)], [(0.0, 2.0), (1.0, 3.0)]]
+)
+def test_gaps_are_in_the_order_of_time(gaps):
+    with pytest.raises(RecordingError, match=r'gaps = .* give from and to of each'):
+        replace(recording(np.arange(5.0)), gaps=gaps)
+    replace(recording(np.arange(5.0)), gaps=[(0.0, 1.0), (1.0, 3.0)])
+
+
+def test_a_part_without_samples_and_a_step_of_nothing():
+    one = recording(np.arange(5.0), pressure=np.zeros(5))
+    with pytest.raises(ParameterError, match=r'start, stop = \(5, 5\) is not allowed'):
+        one.part(5, 5)
+    with pytest.raises(ParameterError, match=r'step = 0\.0 is not allowed'):
+        one.drive(0.0)

@@ -58,14 +58,6 @@ def test_the_uncertainty_of_a_parameter():
     assert nominal_joint('dmsp_20_400n').unit('effects.coulomb_friction.level') == 'N'
 
 
-def test_reach_is_where_the_muscles_have_a_length():
-    assert nominal_joint('dmsp_20_400n').reach is None
-    low, high = nominal_joint(ANTAGONISTIC, ['radius=0.05', 'contraction_1=0.05']).reach
-    # Contractions of -0.2 to 0.95 of 0.4 m at a radius of 0.05 m, from 0.05 and 0.1 at angle 0.
-    assert low == pytest.approx(-0.25 * 0.4 / 0.05)
-    assert high == pytest.approx(0.3 * 0.4 / 0.05)
-
-
 @pytest.mark.parametrize(
     ('overrides', 'sentence'),
     [
