@@ -13,7 +13,7 @@ from pam_ros.control.plausibility import Plausibility
 from pam_ros.control.reference.points import Point, Points
 from pam_ros.control.reference.source import ReferenceSource
 from pam_ros.control.reference.trajectory import Trajectory
-from pam_ros.control.signals import PositionLaw, Pressures, Reference
+from pam_ros.control.signals import LONGEST, PositionLaw, Pressures, Reference
 
 HOLD, VENT = 'hold', 'vent'
 WAITING, RUNNING, BLIND, DISABLED = 'waiting', 'running', 'blind', 'disabled'
@@ -155,7 +155,9 @@ class Loop:
             position, velocity = reading.position, reading.velocity
             self._is_new = False
         reference = self.source.follow(dt, passed - dt)
-        self.pressures = self.law.update(dt, reference, position, velocity, now - reading.time)
+        # Only that of a new reading counts, which is late if the program was stopped.
+        age = min(max(now - reading.time, -LONGEST), LONGEST)
+        self.pressures = self.law.update(dt, reference, position, velocity, age)
         return self.pressures
 
     def _start(self, reading: Reading, now: float) -> None:

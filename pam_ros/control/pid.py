@@ -119,7 +119,7 @@ class Pid:
         gains = PidGains.for_joint(joint) if gains is None else gains
         limits = Limits() if limits is None else limits
         wanted = CoContraction() if co_contraction is None else co_contraction
-        joint = instance('joint', joint, Joint, 'a Joint').at_start
+        self.joint = joint = instance('joint', joint, Joint, 'a Joint').at_start
         self.gains = instance('gains', gains, PidGains, 'PidGains')
         instance('limits', limits, Limits, 'Limits')
         instance('co_contraction', wanted, CoContraction, 'a CoContraction')
@@ -171,7 +171,7 @@ class Pid:
 
         Raises ParameterError as :meth:`pam_ros.control.signals.PositionLaw.start`.
         """
-        start_arguments(position, pressures, len(self._paths))
+        start_arguments(self.joint, position, pressures)
         static, signs = self._static(position), self._signs(position)
         for limiter, pressure in zip(self._limiters, pressures or static, strict=True):
             limiter.start(pressure)
@@ -201,7 +201,7 @@ class Pid:
         is kept: the reference minus an old position is not an error. For numbers that are not
         finite see :meth:`pam_ros.control.signals.PositionLaw.update`.
         """
-        position, _ = step_arguments(dt, reference, position, velocity, age)
+        position, _ = step_arguments(self.joint, dt, reference, position, velocity, age)
         self._waited += dt
         static, gains = self._static(reference.position), self.allocation.gains(reference.position)
         signs = self._signs(reference.position)

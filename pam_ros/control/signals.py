@@ -10,6 +10,8 @@ from typing import NamedTuple, Protocol
 from pam_ros.arguments import array, number, refuse, refuse_shape
 from pam_ros.control.allocation import Allocation
 from pam_ros.control.learning.learned import Learned
+from pam_ros.rig.joint import Joint
+from pam_ros.rig.statics import refuse_start
 
 Pressures = tuple[float, ...]  # gauge Pa, one a muscle
 
@@ -89,33 +91,43 @@ class Terms:
         return float(getattr(self, name))
 
 
+LONGEST = 1.0  # s: of a step, and between a measurement and the step; laws run every few ms
+
+
 def step_arguments(
+    joint: Joint,
     dt: float,
     reference: Reference,
     position: float | None,
     velocity: float | None,
     age: float,
 ) -> tuple[float | None, float | None]:
-    """Return position and velocity for a law's step: None if they are not finite.
+    """Return position and velocity for the step of a law for *joint*: None if they are not finite.
 
     A failed sensor reads NaN, and a law that used it would return NaN from then on. Raises
-    ParameterError for a time step that is not above 0, since laws divide by it, for a reference or
-    an age that is not finite, since these do not come from a sensor, and for other types.
+    ParameterError as in :meth:`PositionLaw.update`.
     """
     if not isinstance(reference, Reference):
         refuse('reference', reference, 'a Reference, such as Reference(0.05)')
+    low, high = joint.start_range
+    # A load can move beyond the range for a moment, but not by the length of it.
+    low, high = low - (high - low), high + (high - low)
     try:
-        if not (isfinite(dt) and dt > 0.0):
-            refuse('dt', dt, 'a finite time above 0 s')
+        if not 0.0 < dt <= LONGEST:
+            refuse('dt', dt, f'a time above 0 s and up to {LONGEST:g} s')
         if not all(map(isfinite, reference)):
             refuse('reference', reference, 'finite numbers')
-        if not isfinite(age):
-            refuse('age', age, 'a finite time in s')
-        if position is not None and not isfinite(position):
+        if not low <= reference.position <= high:
+            refuse_start('reference.position', reference.position, joint)
+        if not -LONGEST <= age <= LONGEST:
+            refuse('age', age, f'a time in s, at most {LONGEST:g} s')
+        if position is not None and not low <= position <= high:
+            if isfinite(position):
+                refuse_start('position', position, joint)
             position = None
         if velocity is not None and not isfinite(velocity):
             velocity = None
-    except TypeError:
+    except (TypeError, ValueError):
         # Looked for only now, since checks of types would cost each step of a law.
         desired = {f'reference.{name}': value for name, value in reference._asdict().items()}
         given = {'dt': dt, 'position': position, 'velocity': velocity, 'age': age}
@@ -126,12 +138,12 @@ def step_arguments(
     return position, velocity
 
 
-def start_arguments(position: float, pressures: Sequence[float] | None, muscles: int) -> None:
-    """Raise ParameterError unless a law for this number of *muscles* can start here."""
-    number('position', position)
+def start_arguments(joint: Joint, position: float, pressures: Sequence[float] | None) -> None:
+    """Raise ParameterError unless a law for *joint* can start here."""
+    refuse_start('position', number('position', position), joint)
     if pressures is None:
         return
-    given = array('pressures', pressures)
+    given, muscles = array('pressures', pressures), len(joint.muscles)
     if given.shape != (muscles,):
         refuse_shape('pressures', given, f'({muscles},), gauge Pa of each muscle, or None')
 
@@ -198,8 +210,9 @@ class PositionLaw(Protocol):
     def start(self, position: float, pressures: Pressures | None = None) -> None:
         """Start again with the load at *position* m, under commands of *pressures* Pa if known.
 
-        The commands continue from these pressures. Raises ParameterError for numbers that are
-        not finite, and if the number of pressures is not that of the muscles.
+        The commands continue from these pressures. Raises ParameterError for a position that the
+        muscles cannot have, for numbers that are not finite, and if the number of pressures is
+        not that of the muscles.
         """
 
     def update(
@@ -215,6 +228,8 @@ class PositionLaw(Protocol):
         *reference* is the desired position now. *position* is the newest measurement in m,
         taken *age* s ago, None if there was none since the last call; *velocity* is the
         measured one in m/s, if there is one. A measurement that is not finite is ignored.
-        Raises ParameterError, and changes nothing, for a *dt* that is not above 0 and for a
-        reference or an age that is not finite.
+        Raises ParameterError, and changes nothing, for a *dt* that is not above 0 s or is above
+        1 s, for a measurement that was taken more than 1 s before or after now, for a reference
+        that is not finite, and for positions far from those that the muscles can have: in mm or
+        degrees, for example.
         """

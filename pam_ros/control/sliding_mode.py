@@ -170,7 +170,7 @@ class SlidingMode:
         :meth:`pam_ros.control.signals.PositionLaw.start`.
         """
         model = self.model
-        start_arguments(position, pressures, len(model.muscles))
+        start_arguments(self.joint, position, pressures)
         if pressures is None:
             goal = self._stiffness.goal
             chambers = self.allocation.split(model.gravity(position), goal, position).pressures
@@ -227,7 +227,7 @@ class SlidingMode:
         in m/s or rad/s, is used with ``use_measured_velocity`` of the gains. For numbers that are
         not finite see :meth:`pam_ros.control.signals.PositionLaw.update`.
         """
-        position, velocity = step_arguments(dt, reference, position, velocity, age)
+        position, velocity = step_arguments(self.joint, dt, reference, position, velocity, age)
         chambers = self._go_on(dt)
         self._take_in(dt, reference, position, age)
         effort, foreseen, rate = self._wanted_effort(dt, reference, velocity, chambers)

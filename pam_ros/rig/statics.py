@@ -150,8 +150,11 @@ def coordinate(joint: Mechanism, i: int, kappa: float) -> float:
 def start_range(joint: Mechanism) -> tuple[float, float]:
     """Return the least and the greatest position, m or rad, at which a simulation may start.
 
-    Between them the contractions of all muscles are within ``START``.
+    Between them the contractions of all muscles are within ``START``. Without a spring every
+    position is allowed.
     """
+    if is_direct(joint) and joint.muscles[0].is_load_only:
+        return -np.inf, np.inf
     ends = [
         sorted(coordinate(joint, i, kappa) for kappa in START) for i in range(len(joint.muscles))
     ]
@@ -161,11 +164,10 @@ def start_range(joint: Mechanism) -> tuple[float, float]:
 def refuse_start(name: str, position: float, joint: Mechanism, kind: str = 'this joint') -> None:
     """Raise ParameterError for a *position*, m or rad, at which no simulation may start.
 
-    Without a spring every position is allowed. The sentence calls a joint *kind*.
+    The sentence calls a joint *kind*.
     """
-    is_driven = is_direct(joint) and joint.muscles[0].is_load_only
     low, high = start_range(joint)
-    if not (is_driven or low <= position <= high):
+    if not low <= position <= high:
         unit = joint.transmission.equations.unit
         whose = f'a muscle of {joint.muscles[0].l0:g} m' if is_direct(joint) else kind
         raise ParameterError(

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What goes into each law: measurements that fail, and arguments that make no step."""
 
+import re
 from math import inf, nan
 
 import numpy as np
@@ -61,9 +62,12 @@ def test_a_measurement_that_is_not_finite_is_none(law, joint, failed):
         ('dt = -0.002', (-DT, GOAL, BEGIN)),
         ('dt = nan', (nan, GOAL, BEGIN)),
         ('dt = inf', (inf, GOAL, BEGIN)),
+        ('dt = 2', (2, GOAL, BEGIN)),  # ms
         ('reference = ', (DT, Reference(nan), BEGIN)),
         ('reference = ', (DT, Reference(0.06, inf), BEGIN)),
         ('age = nan', (DT, GOAL, BEGIN, None, nan)),
+        ('age = 4', (DT, GOAL, BEGIN, None, 4)),  # ms
+        ('age = -4', (DT, GOAL, BEGIN, None, -4)),
         ("dt = '2'", ('2', GOAL, BEGIN)),
         ('reference = 0.06', (DT, 0.06, BEGIN)),
         ('reference = ', (DT, (0.06, 0.0, 0.0, 0.0), BEGIN)),
@@ -79,6 +83,36 @@ def test_an_impossible_step_is_refused_and_changes_nothing(law, joint, name, arg
     with pytest.raises(ParameterError, match=f'^{name}.* is not allowed: give '):
         one.update(*arguments)
     assert goes_on_alike(one, twin)
+
+
+@EACH_LAW
+@EACH_JOINT
+@pytest.mark.parametrize('position', [57.0, -57.0, 1e30])
+def test_a_position_that_no_muscle_can_have_is_refused_and_changes_nothing(law, joint, position):
+    """In mm or degrees, for example."""
+    one, twin = twins(law, joint)
+    for name, call in (
+        ('position', lambda: one.update(DT, GOAL, position)),
+        ('reference.position', lambda: one.update(DT, Reference(position), BEGIN)),
+        ('position', lambda: one.start(position)),
+    ):
+        sentence = re.escape(f'{name} = {position:g} ')
+        with pytest.raises(ParameterError, match=f'^{sentence}.* is not possible with'):
+            call()
+    assert goes_on_alike(one, twin)
+
+
+@EACH_LAW
+@EACH_JOINT
+@pytest.mark.parametrize('side', [0, 1])
+def test_a_goal_where_muscles_can_be_but_not_go_gives_a_limit_of_the_pressure(law, joint, side):
+    one, _ = twins(law, joint)
+    goal, muscle = joint.start_range[side], joint.muscles[0]
+    assert not one.allocation.reach[0] <= goal <= one.allocation.reach[1]
+    for n in range(500):
+        pressures = one.update(DT, Reference(goal), BEGIN + 1e-6 * n)
+        assert all(muscle.p_min <= p <= muscle.p_max for p in pressures)
+    assert one.terms.saturated
 
 
 @EACH_LAW

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from pam_ros.identification.fit.uncertain import spread_unknowns
-from pam_ros.rig.statics import start_range
 from pam_ros.settings.nominal import nominal_joint, uncertain_values
 
 RADIUS, BRAID, END, LENGTH, WHEEL = 8.5e-3, np.radians(20.0), 1.25, 0.185, 0.015
@@ -40,7 +39,7 @@ def test_both_muscles_have_the_initial_contraction_in_the_middle(elbow):
         moved = side * WHEEL * 0.845 / LENGTH
         assert actuator.contraction + moved == pytest.approx(0.15, abs=1e-4)
     assert elbow.muscles == ('agonist', 'antagonist')
-    low, high = start_range(elbow.joint)
+    low, high = elbow.joint.start_range
     assert low < -0.5
     assert high > 2.0
 

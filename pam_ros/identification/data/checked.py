@@ -8,7 +8,7 @@ from pam_ros.recording.direction import with_contraction_positive
 from pam_ros.recording.quality import check
 from pam_ros.recording.recording import Recording
 from pam_ros.rig.joint import Joint
-from pam_ros.rig.statics import is_direct, start_range
+from pam_ros.rig.statics import is_direct
 
 
 @dataclass(frozen=True)
@@ -32,7 +32,7 @@ class Bounds:
             # A known force on a load, which replaces a muscle, has no length.
             l0=joint.muscle.l0 if is_single and not joint.is_driven else None,
             p_max=tuple(muscle.p_max for muscle in joint.muscles),
-            reach=None if is_single else start_range(joint),
+            reach=None if is_single else joint.start_range,
         )
 
 
