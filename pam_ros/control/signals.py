@@ -11,7 +11,7 @@ from pam_ros.arguments import array, number, refuse, refuse_shape
 from pam_ros.control.allocation import Allocation
 from pam_ros.control.learning.learned import Learned
 from pam_ros.rig.joint import Joint
-from pam_ros.rig.statics import refuse_start
+from pam_ros.rig.statics import refuse_position
 
 Pressures = tuple[float, ...]  # gauge Pa, one a muscle
 
@@ -109,7 +109,7 @@ def step_arguments(
     """
     if not isinstance(reference, Reference):
         refuse('reference', reference, 'a Reference, such as Reference(0.05)')
-    low, high = joint.start_range
+    low, high = joint.position_range
     # A load can move beyond the range for a moment, but not by the length of it.
     low, high = low - (high - low), high + (high - low)
     try:
@@ -118,12 +118,12 @@ def step_arguments(
         if not all(map(isfinite, reference)):
             refuse('reference', reference, 'finite numbers')
         if not low <= reference.position <= high:
-            refuse_start('reference.position', reference.position, joint)
+            refuse_position('reference.position', reference.position, joint)
         if not -LONGEST <= age <= LONGEST:
             refuse('age', age, f'a time in s, at most {LONGEST:g} s')
         if position is not None and not low <= position <= high:
             if isfinite(position):
-                refuse_start('position', position, joint)
+                refuse_position('position', position, joint)
             position = None
         if velocity is not None and not isfinite(velocity):
             velocity = None
@@ -140,7 +140,7 @@ def step_arguments(
 
 def start_arguments(joint: Joint, position: float, pressures: Sequence[float] | None) -> None:
     """Raise ParameterError unless a law for *joint* can start here."""
-    refuse_start('position', number('position', position), joint)
+    refuse_position('position', number('position', position), joint)
     if pressures is None:
         return
     given, muscles = array('pressures', pressures), len(joint.muscles)

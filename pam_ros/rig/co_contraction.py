@@ -20,11 +20,14 @@ def joint_stiffness(joint: Joint, p: ArrayLike, s: ArrayLike) -> Any:
     """Return the stiffness of the joint at s by its muscles, without that of gravity.
 
     p: gauge Pa, (muscles,) or one number for all. s: m or rad, a number or an array; the result
-    in N/m or N m/rad has the same shape. Raises ParameterError for a p of another shape, and for
-    numbers that are not finite.
+    in N/m or N m/rad has the same shape. Raises ParameterError for a p of another shape, for
+    numbers that are not finite, and for an s that the muscles cannot have.
     """
     muscles = len(instance('joint', joint, Joint, 'a Joint').actuators)
-    return statics.stiffness(joint, one_each('p', p, muscles, 'muscle'), array('s', s))
+    places = array('s', s)
+    for end in (places.min(), places.max()) if places.size else ():
+        statics.refuse_position('s', float(end), joint)
+    return statics.stiffness(joint, one_each('p', p, muscles, 'muscle'), places)
 
 
 def co_contraction_pressures(
@@ -33,7 +36,7 @@ def co_contraction_pressures(
     """Return the pressures at which two muscles give *effort* and *stiffness* at s.
 
     The default effort holds the load there. Raises RangeError if the stiffness is outside
-    :func:`joint_stiffness_range`.
+    :func:`joint_stiffness_range`, and the errors of that function.
     """
     low, high = joint_stiffness_range(joint, s, effort)
     number('stiffness', stiffness)
@@ -55,10 +58,11 @@ def joint_stiffness_range(
     The default effort holds the load there. Within the range no muscle pushes (its force is at
     least 0), and the pressures are within p_min and p_max. Raises RangeError in three cases: there
     is no such pair of pressures; the effort determines the stiffness, as for two equal muscles in
-    parallel; the joint does not have two muscles.
+    parallel; the joint does not have two muscles. Raises ParameterError for numbers that are not
+    finite and for an s that the muscles cannot have.
     """
     instance('joint', joint, Joint, 'a Joint')
-    number('s', s)
+    statics.refuse_position('s', number('s', s), joint)
     if effort is not None:
         number('effort', effort)
     if len(joint.muscles) != 2:

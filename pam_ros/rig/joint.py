@@ -159,9 +159,9 @@ class Joint:
         return statics.is_direct(self) and self.muscles[0].is_load_only
 
     @cached_property
-    def start_range(self) -> tuple[float, float]:
+    def position_range(self) -> tuple[float, float]:
         """The positions, m or rad, at which all muscles have a length: least and greatest."""
-        return statics.start_range(self)
+        return statics.position_range(self)
 
     @cached_property
     def muscles(self) -> tuple[Muscle, ...]:

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from pam_ros.arguments import along, array, instance, number, refuse, refuse_shape, stamps
+from pam_ros.errors import ParameterError
 from pam_ros.rig import layout as at
 from pam_ros.rig.acting import delays_of
 from pam_ros.rig.bind import bind
@@ -17,7 +18,7 @@ from pam_ros.rig.changes import changes_of, refuse_onsets, run_over
 from pam_ros.rig.equilibrium import equilibrium
 from pam_ros.rig.joint import Joint
 from pam_ros.rig.start import disturb, start_state
-from pam_ros.rig.statics import refuse_start
+from pam_ros.rig.statics import refuse_position
 from pam_ros.rig.step_limit import check_step
 
 Array = NDArray[np.float64]
@@ -62,7 +63,8 @@ def simulate(
     command or an onset of the same stamp has acted. Steps are at most *step* s and never extend
     across a command or an onset. Raises ParameterError if *step* is too long for the joint, if
     shapes do not fit, stamps go back, a number is not finite, the muscles cannot have *position*,
-    or *hidden* has an effect that the joint lacks. Warns of commands that seem to be in kPa or
+    commands are so high that the motion is not finite, or *hidden* has an effect that the joint
+    lacks. Warns of commands that seem to be in kPa or
     bar.
     """
     step = number('step', step)
@@ -82,13 +84,13 @@ def simulate(
         s = equilibrium(start, first)
     else:
         s = number('position', position)
-        refuse_start('position', s, joint)
+        refuse_position('position', s, joint)
     x = start_state(layout, q, first, s, velocity)
     if hidden:
         disturb(layout, q, x, first, hidden, start.all_present)
     kernel, changes = bind(layout, joint.active), changes_of(joint, float(t[0]))
     out = run_over(kernel, layout, x, t, q, changes, command_t, command, step, forces=True)
-    return trajectory(t, out)
+    return trajectory(t, out, joint, 'command', command)
 
 
 def simulate_held(
@@ -108,7 +110,8 @@ def simulate_held(
     This is the force that a machine measures which moves the actuator: muscle force - damping -
     friction while it shortens, and muscle force + damping + friction while it lengthens. A payload
     and end stops are not included. Raises ParameterError if an effect has an onset, shapes do not
-    fit, stamps do not ascend, a number is not finite, or the muscles cannot have a position.
+    fit, stamps do not ascend, a number is not finite, the muscles cannot have a position, or
+    pressures are so high that a force is not finite.
     """
     instance('joint', joint, Joint, 'a Joint')
     refuse_onsets(joint, 'simulate_held')
@@ -117,7 +120,7 @@ def simulate_held(
     t = stamps('t', t, strict=True)
     position = along('position', position, 't', t.size)
     for end in (position.min(), position.max()):
-        refuse_start('position', float(end), joint)
+        refuse_position('position', float(end), joint)
     v = _rate(t, position) if velocity is None else along('velocity', velocity, 't', t.size)
     q, layout = joint.parameters(), joint.layout
     pressure = by_muscle('pressure', pressure, 't', t.size, layout.muscles)
@@ -127,11 +130,21 @@ def simulate_held(
     bind(layout, joint.active).simulate_held(
         x, layout.scratch(), q, t, pressure, position, v, step, out
     )
-    return trajectory(t, out)
+    return trajectory(t, out, joint, 'pressure', pressure)
 
 
-def trajectory(t: Array, out: Array) -> Trajectory:
-    """Return the columns of a run by name."""
+def trajectory(t: Array, out: Array, joint: Joint, name: str, pressure: Array) -> Trajectory:
+    """Return the columns of a run by name; refuse one that is not finite.
+
+    The *pressure* in Pa that was its input is called *name* in the sentence.
+    """
+    is_finite = np.isfinite(out).all(axis=1)
+    if not is_finite.all():
+        p_max = max(muscle.p_max for muscle in joint.muscles)
+        raise ParameterError(
+            f'the motion is not finite from {t[np.argmin(is_finite)]:g} s on: {name} reaches '
+            f'{np.max(np.abs(pressure)):g} Pa, and p_max is {p_max:g} Pa'
+        )
     p, f = out[:, at.RUN_P :: 2], out[:, at.RUN_F :: 2]
     if p.shape[1] == 1:
         p, f = p[:, 0], f[:, 0]

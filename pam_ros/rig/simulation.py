@@ -17,7 +17,7 @@ from pam_ros.rig.equilibrium import equilibrium
 from pam_ros.rig.group import Group
 from pam_ros.rig.joint import Joint
 from pam_ros.rig.layout import Layout
-from pam_ros.rig.statics import refuse_start
+from pam_ros.rig.statics import refuse_position
 from pam_ros.rig.step_limit import check_step
 
 Array = NDArray[np.float64]
@@ -127,7 +127,7 @@ class Simulation:
         s = one_each('position', position, len(self.joints), 'joint')
         v = one_each('velocity', velocity, len(self.joints), 'joint')
         for joint, start in zip(self.joints, s.tolist(), strict=True):
-            refuse_start('position', start, joint)
+            refuse_position('position', start, joint)
         self._k = a = m = 0
         for group in self._groups:
             n = len(group.joints)

@@ -147,8 +147,8 @@ def coordinate(joint: Mechanism, i: int, kappa: float) -> float:
     return joint.transmission.equations.coordinate(y, i, joint.transmission.numbers, 0)
 
 
-def start_range(joint: Mechanism) -> tuple[float, float]:
-    """Return the least and the greatest position, m or rad, at which a simulation may start.
+def position_range(joint: Mechanism) -> tuple[float, float]:
+    """Return the least and the greatest position, m or rad, that the muscles can have.
 
     Between them the contractions of all muscles are within ``START``. Without a spring every
     position is allowed.
@@ -161,12 +161,14 @@ def start_range(joint: Mechanism) -> tuple[float, float]:
     return max(low for low, _ in ends), min(high for _, high in ends)
 
 
-def refuse_start(name: str, position: float, joint: Mechanism, kind: str = 'this joint') -> None:
+def refuse_position(
+    name: str, position: float, joint: Mechanism, kind: str = 'this joint'
+) -> None:
     """Raise ParameterError for a *position*, m or rad, at which no simulation may start.
 
     The sentence calls a joint *kind*.
     """
-    low, high = start_range(joint)
+    low, high = position_range(joint)
     if not low <= position <= high:
         unit = joint.transmission.equations.unit
         whose = f'a muscle of {joint.muscles[0].l0:g} m' if is_direct(joint) else kind

@@ -13,6 +13,7 @@ A file contains a table for each node name, ``/**`` for all nodes, with dotted o
 
 import logging
 import os
+import re
 import tempfile
 from collections.abc import Iterator, Mapping
 from functools import cache
@@ -120,6 +121,29 @@ def read_any(path: Path, node: str) -> dict[str, Value]:
     if sentence:
         _warn(f'{path}: {sentence}')
     return values
+
+
+def lacking(path: Path, node: str) -> str:
+    """Return a sentence if *path* has no parameters for the node with this full name, else ''.
+
+    Table names are matched as in ROS: ``*`` stands for one part of a name, ``**`` for any number.
+    Raises ParameterError if the file cannot be read or is not a parameter file.
+    """
+    content = read_yaml(path)
+    if not isinstance(content, dict | None):
+        raise ParameterError(f'{path} is not a parameter file: give one with a table {TABLE}')
+    tables = dict.fromkeys(name for name, _ in _tables(content))
+    if any(_pattern(name).fullmatch(node) for name in tables):
+        return ''
+    found = f'those that it has are for {", ".join(tables)}' if tables else f'it has no {TABLE}'
+    return f'{path} has no parameters for {node} and is not used: {found}'
+
+
+def _pattern(name: str) -> re.Pattern[str]:
+    """Return a pattern of the full names of nodes that a table with this *name* is for."""
+    parts = name.strip('/').split('/')
+    each = [{'*': '[^/]+', '**': '.*'}.get(part, re.escape(part)) for part in parts]
+    return re.compile('/' + '/'.join(each).replace('.*/', '(.*/)?'))
 
 
 @cache

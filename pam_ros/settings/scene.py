@@ -95,7 +95,7 @@ class SimulationSetup:
             if not (start.at_rest or joint.is_driven):
                 what = f'{self._whose(name)}initial.position'
                 kind = f'joint = {self.settings.joint}'
-                statics.refuse_start(what, start.position, joint, kind)
+                statics.refuse_position(what, start.position, joint, kind)
 
     def _whose(self, name: str) -> str:
         return f'{name}: ' if len(self.joints) > 1 else ''

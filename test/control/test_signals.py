@@ -107,7 +107,7 @@ def test_a_position_that_no_muscle_can_have_is_refused_and_changes_nothing(law, 
 @pytest.mark.parametrize('side', [0, 1])
 def test_a_goal_where_muscles_can_be_but_not_go_gives_a_limit_of_the_pressure(law, joint, side):
     one, _ = twins(law, joint)
-    goal, muscle = joint.start_range[side], joint.muscles[0]
+    goal, muscle = joint.position_range[side], joint.muscles[0]
     assert not one.allocation.reach[0] <= goal <= one.allocation.reach[1]
     for n in range(500):
         pressures = one.update(DT, Reference(goal), BEGIN + 1e-6 * n)

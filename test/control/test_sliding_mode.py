@@ -174,7 +174,7 @@ def test_an_arm_that_hangs_on_vented_muscles_stays_where_it_is(hanging_at):
 )
 def test_commands_stay_within_limits_of_pressure_and_rate(joint):
     law = SlidingMode(joint, Gains.for_joint(joint), Limits(100e3, 400e3, 1e6))
-    (low, high), ends = law.allocation.reach, joint.start_range  # which is wider
+    (low, high), ends = law.allocation.reach, joint.position_range  # which is wider
     law.start(0.5 * (low + high))
     rng, last = np.random.default_rng(0), law.terms.pressures
     noise, seen = (1e-2 if joint.is_revolute else 1e-3), []

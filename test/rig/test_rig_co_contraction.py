@@ -8,9 +8,13 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from scipy.optimize import brentq
 
-from pam_ros.errors import RangeError
+from pam_ros.errors import ParameterError, RangeError
 from pam_ros.rig import statics
-from pam_ros.rig.co_contraction import co_contraction_pressures, joint_stiffness_range
+from pam_ros.rig.co_contraction import (
+    co_contraction_pressures,
+    joint_stiffness,
+    joint_stiffness_range,
+)
 from pam_ros.rig.equilibrium import equilibrium
 from pam_ros.rig.standard_joints import single_muscle_joint
 from support import joints
@@ -118,3 +122,18 @@ def test_a_lever_chooses_its_stiffness_as_a_pair_does(angle):
         assert (next(ends) - next(ends)) / (2.0 * h) == pytest.approx(-wanted, rel=1e-6)
         # By the effort that holds it, the angle is where it rests.
         assert equilibrium(joint, bar * BAR) == pytest.approx(angle, abs=1e-8)
+
+
+@pytest.mark.parametrize(
+    'call',
+    [
+        lambda s: joint_stiffness(pair(), 3e5, s),
+        lambda s: joint_stiffness(pair(), 3e5, [0.1, s]),
+        lambda s: joint_stiffness_range(pair(), s),
+        lambda s: co_contraction_pressures(pair(), s, 60.0),
+    ],
+    ids=['stiffness', 'of several', 'range', 'pressures'],
+)
+def test_an_angle_in_degrees_is_refused(call):
+    with pytest.raises(ParameterError, match=r'^s = 17 rad is not possible with this joint: give'):
+        call(17.0)

@@ -390,3 +390,13 @@ def test_pressures_that_may_be_meant_are_not_warned_of():
     joint = single_muscle_joint(Muscle(), Mass(mass=5.0))
     for command in (0.0, 700.0, 3e5):  # warnings are errors here
         simulate(joint, [0.0, 0.1], [0.0, 0.05], [0.0, command])
+
+
+def test_commands_too_high_for_a_finite_motion_are_refused_with_a_sentence():
+    t = np.arange(0.0, 2.0, 0.01)
+    with pytest.raises(ParameterError) as error:
+        simulate(single_muscle_joint(), t, [0.0, 1.0], [3e5, 1e300])
+    assert str(error.value) == (
+        'the motion is not finite from 1.01 s on: command reaches 1e+300 Pa, and p_max is 600000 '
+        'Pa'
+    )

@@ -196,7 +196,7 @@ def test_the_span_is_where_both_muscles_have_permissible_lengths():
     ],
 )
 def test_a_position_that_the_muscles_cannot_have_is_no_start(joint, position, sentence):
-    low, high = statics.start_range(joint)
+    low, high = statics.position_range(joint)
     simulation, t = Simulation([joint]), np.linspace(0.0, 0.1, 11)
     pressures = np.full((1, len(joint.muscles)), 2e5)
     starts = (

@@ -14,7 +14,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from pam_ros.errors import ParameterError
-from pam_ros.settings.files import find, read, read_known, share, write
+from pam_ros.settings.files import find, lacking, read, read_known, share, write
 
 ROOT = Path(__file__).parents[2]
 MUSCLES = sorted(path.stem for path in (ROOT / 'config' / 'muscles').glob('*.yaml'))
@@ -69,6 +69,40 @@ def test_what_is_no_parameter_file_is_refused_by_name(file, text, sentence):
     with pytest.raises(ParameterError, match=sentence) as caught:
         read(path)
     assert str(path) in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ('table', 'node', 'has'),
+    [
+        ('/**', '/pam_sim', True),
+        ('/**', '/left/arm/pam_sim', True),
+        ('pam_sim', '/pam_sim', True),
+        ('/pam_sim', '/pam_sim', True),
+        ('pam_sim', '/left/pam_sim', False),
+        ('/left/pam_sim', '/left/pam_sim', True),
+        ('/left/*', '/left/pam_sim', True),
+        ('/*', '/left/pam_sim', False),
+        ('/*/pam_sim', '/left/pam_sim', True),
+        ('/**/pam_sim', '/pam_sim', True),
+        ('/**/pam_sim', '/left/arm/pam_sim', True),
+        ('/**/pam_sim', '/left/pam_sim_2', False),
+        ('pam_control', '/pam_sim', False),
+    ],
+)
+def test_for_which_nodes_a_table_is(file, table, node, has):
+    path = file(f'"{table}": {{ros__parameters: {{mass: 7}}}}')
+    sentence = f'{path} has no parameters for {node} and is not used: those that it has are for '
+    assert lacking(path, node).startswith(sentence) is not has
+    assert (lacking(path, node) == '') is has
+
+
+def test_a_nested_table_and_a_file_without_one(file):
+    nested = file('left: {pam_sim: {ros__parameters: {mass: 7}}}')
+    assert lacking(nested, '/left/pam_sim') == ''
+    assert lacking(nested, '/pam_sim').endswith('those that it has are for /left/pam_sim')
+    assert lacking(file(''), '/pam_sim').endswith('it has no ros__parameters')
+    with pytest.raises(ParameterError, match='is not a parameter file: give one with a table ros'):
+        lacking(file('t,command_Pa\n0.0,1e5\n'), '/pam_sim')
 
 
 def test_a_missing_or_unreadable_file_is_refused(tmp_path):

@@ -39,7 +39,7 @@ def test_both_muscles_have_the_initial_contraction_in_the_middle(elbow):
         moved = side * WHEEL * 0.845 / LENGTH
         assert actuator.contraction + moved == pytest.approx(0.15, abs=1e-4)
     assert elbow.muscles == ('agonist', 'antagonist')
-    low, high = elbow.joint.start_range
+    low, high = elbow.joint.position_range
     assert low < -0.5
     assert high > 2.0
 

@@ -32,7 +32,7 @@ class Bounds:
             # A known force on a load, which replaces a muscle, has no length.
             l0=joint.muscle.l0 if is_single and not joint.is_driven else None,
             p_max=tuple(muscle.p_max for muscle in joint.muscles),
-            reach=None if is_single else joint.start_range,
+            reach=None if is_single else joint.position_range,
         )
 
 

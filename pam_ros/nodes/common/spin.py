@@ -13,6 +13,7 @@ import re
 import sys
 from abc import ABC, abstractmethod
 from collections.abc import Callable
+from itertools import pairwise
 from pathlib import Path
 from time import monotonic_ns, sleep
 from typing import Any
@@ -32,6 +33,7 @@ from pam_ros.nodes.common.rclpy_internals import EventsExecutor
 from pam_ros.processes.ends import end_within
 from pam_ros.processes.priority import NORMAL, prefer_real_time
 from pam_ros.processes.stop import StopRequest
+from pam_ros.settings.files import lacking
 from pam_ros.timing.ticker import Ticker
 from pam_ros.version import VERSION_HELP, VERSION_LINE
 
@@ -161,6 +163,8 @@ def run(kind: type[TickingNode], stop: StopRequest, about: str) -> int:
             if part is not None:
                 print(parameter_list(node, part))
                 return 0
+            if kind.has_parameters:
+                _warn_of_unused_files(node)
         except REFUSALS as error:
             print(f'{parser.prog}: {sentence(error)}', file=sys.stderr)
             return BAD_INPUT
@@ -185,6 +189,14 @@ def run(kind: type[TickingNode], stop: StopRequest, about: str) -> int:
                 node.destroy_node()
             rclpy.try_shutdown()
     return node.exit_code or 0
+
+
+def _warn_of_unused_files(node: TickingNode) -> None:
+    """Warn of parameter files of the command line that have none for *node*: rcl does not."""
+    files = [file for word, file in pairwise(sys.argv) if word == '--params-file']
+    for file in files:
+        if text := lacking(Path(file), node.get_fully_qualified_name()):
+            node.get_logger().warning(shown(text))
 
 
 def spin(node: TickingNode, executor: Executor, stop: StopRequest) -> None:

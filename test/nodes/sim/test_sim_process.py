@@ -86,6 +86,7 @@ BAD_FILES = [
     ('/**:\n  ros__parameters:\n    mass: [1, a]\n', ['bad.yaml']),
     ('pam_sim:\n  mass: 20\n', ['bad.yaml']),
     ('/**: [\n', ['bad.yaml']),
+    ('t,pressure_command_Pa\n0.0,1e5\n', ['bad.yaml is not a parameter file']),
     ('pam_sim:\n  ros__parameters:\n    damping_ratio: 1\n    zetta: 0.1\n', ['zeta']),
 ]
 
@@ -108,6 +109,19 @@ def test_parameters_of_others_are_warned_of_and_passed_over(peer):
     with Program('pam_sim', parameters={'robot_name': 'arm'}) as sim:
         peer.more(states)
         assert 'parameter robot_name does not exist here' in sim.output
+
+
+def test_a_parameter_file_of_other_nodes_is_warned_of(peer, tmp_path):
+    states = peer.collect(JointState, 'joint_states')
+    file = tmp_path / 'others.yaml'
+    file.write_text('pam_sim: {ros__parameters: {mass: 5.0}}\n')
+    with Program('pam_sim', '-r', '__node:=plant', '--params-file', str(file)) as sim:
+        peer.more(states)
+        assert 'others.yaml has no parameters for /plant and is not used' in sim.output
+        assert 'those that it has are for /pam_sim' in sim.output
+    with Program('pam_sim', '--params-file', str(file)) as sim:
+        peer.more(states)
+        assert 'others.yaml' not in sim.output
 
 
 def test_two_in_namespaces_and_remapped_do_not_disturb_each_other(peer):
