@@ -101,8 +101,8 @@ def identify(
     parts = parts_of(recordings, *shares)
     if not any(part.is_fitted for part in parts):
         raise RecordingError(
-            f'recording {recordings[0].name} is too short for a fit: it lasts '
-            f'{recordings[0].duration:.3g} s; at least {CRITERIA.duration:g} s are needed'
+            f'recording {recordings[0].name} is too short for a fit: its stretches between gaps '
+            'have too few samples'
         )
     with ThreadPoolExecutor(min(os.cpu_count() or 1, THREADS)) as pool:
         muscles = recordings[0].muscles
@@ -120,9 +120,12 @@ def identify(
         answer = _answer(found, ends, tests, recordings, test)
         name = verdict(found, *(stage.held_error for stage in answer.stages))
         name = 'insufficient_data' if lacking else name
+        explaining: Sequence[str] = ()
         if name == 'unexplained_structure' and found.best.effects and found.setting is setting:
             # A model with effects explains more than the re-tuned one, which may fail earlier.
-            since = moment_after(found.best) or since
+            after = moment_after(found.best)
+            if after is not None:
+                since, explaining = after, found.best.effects
     answer = replace(
         answer,
         verdict=name,
@@ -141,7 +144,7 @@ def identify(
     text, command = next_experiment(answer, model)
     return replace(
         answer,
-        sentence=sentence(answer, lacking),
+        sentence=sentence(answer, lacking, explaining),
         next_experiment=text,
         next_command=command,
     )

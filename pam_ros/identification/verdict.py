@@ -100,10 +100,11 @@ def verdict(found: Search, nominal: float, retuned: float, augmented: float) -> 
     return 'no_missing_effect' if is_same else 'parameters_wrong'
 
 
-def sentence(answer: Identification, lacking: str) -> str:
+def sentence(answer: Identification, lacking: str, explaining: Sequence[str] = ()) -> str:
     """Return the verdict of *answer* with its numbers, as one paragraph of plain sentences.
 
-    *lacking* is what :func:`too_little` returned.
+    *lacking* is what :func:`too_little` returned, *explaining* are the effects with which the
+    model explains a recording up to a moment; none for the re-tuned model.
     """
     if answer.verdict == 'insufficient_data':
         return f'The data cannot support a verdict: {lacking}.'
@@ -130,9 +131,10 @@ def sentence(answer: Identification, lacking: str) -> str:
         )
     since = ''
     if answer.since is not None:
+        model = f'model with {" and ".join(map(spelled, explaining))}'
         since = (
-            f' It begins in the middle: the best model explains the recording up to '
-            f'{time_of(answer.since)}, but not after this time.'
+            f' It begins in the middle: the {model if explaining else "re-tuned model"} explains '
+            f'the recording up to {time_of(answer.since)}, but not after this time.'
         )
     return (
         'Something is missing that no effect of the library explains: the error on held-out data '

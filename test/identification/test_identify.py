@@ -88,9 +88,10 @@ def test_a_few_seconds_support_no_verdict():
 
 def test_a_recording_without_enough_samples_for_a_fit_is_refused():
     whole = bench_truth.free(duration=6.0)
-    short = replace(whole, t=whole.t[:20], position=whole.position[:20])
-    with pytest.raises(RecordingError, match=r'truth\.csv is too short for a fit: it lasts 0\.19'):
-        identify(bench_truth.nominal(), [short])
+    edges = whole.t[10::10]
+    gaps = replace(whole, gaps=tuple(zip(edges - 0.01, edges, strict=True)))
+    with pytest.raises(RecordingError, match=r'truth\.csv is too short for a fit: its stretches'):
+        identify(bench_truth.nominal(), [gaps])
 
 
 def test_what_begins_in_the_middle_is_named_with_its_moment():
@@ -147,7 +148,7 @@ def test_effects_that_a_later_one_contradicts_are_not_named(onset):
     assert (found.verdict, found.effects) == ('unexplained_structure', ())
     assert found.since.value == pytest.approx(onset, abs=1.0)
     assert found.since.low <= onset <= found.since.high
-    assert 'the best model explains the recording up to' in found.sentence
+    assert 'the model with pressure_lag explains the recording up to' in found.sentence
 
 
 def test_without_test_recordings_the_last_quarter_judges():

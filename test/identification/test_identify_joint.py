@@ -108,7 +108,7 @@ def test_recordings_of_another_joint_are_refused(lag):
     single = Recording('one', trial.t, trial.t, trial.commands[:, 0], np.sin(trial.t))
     with pytest.raises(RecordingError, match='one is a recording of 1 muscle'):
         identify(antagonistic_joint(), [single])
-    idle = replace(given, name='idle', command=0.0 * trial.commands + 2e5)
+    idle = replace(given, name='idle', command=np.where([True, False], 2e5, trial.commands))
     with pytest.raises(
         RecordingError, match=r'idle: agonist.pressure_command is constant at 2000'
     ):

@@ -178,8 +178,11 @@ def test_an_effect_that_begins_in_the_middle_has_its_onset():
     answer = replace(results.friction_result()[0], since=since)
     found = sentence(replace(answer, verdict='effect_found'), '')
     assert 'lacks coulomb_friction (or hysteresis) from 12.50 s (12.40 to 12.60 s) on: ' in found
-    unknown = sentence(replace(answer, verdict='unexplained_structure'), '')
-    assert 'up to 12.50 s (12.40 to 12.60 s), but not after this time.' in unknown
+    answer = replace(answer, verdict='unexplained_structure')
+    until = 'explains the recording up to 12.50 s (12.40 to 12.60 s), but not after this time.'
+    assert f'the re-tuned model {until}' in sentence(answer, '')
+    two = 'creep', 'flexor.pressure_lag'
+    assert f'the model with creep and pressure_lag of flexor {until}' in sentence(answer, '', two)
 
 
 def test_rivals_are_distinguished_by_the_experiment_of_the_effect():
