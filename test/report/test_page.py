@@ -161,7 +161,7 @@ def test_what_the_data_cannot_show_is_listed_with_the_experiment_to_record(held)
 def test_page_without_candidates_states_it(clean):
     result, source, runs = clean
     html = rendered((replace(result, candidates=(), next_experiment=''), source, runs))
-    assert 'None: the data do not allow it.' in html
+    assert 'None was tried.' in html
     assert 'None is needed for this verdict.' in html
 
 
