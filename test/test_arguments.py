@@ -40,6 +40,7 @@ from pam_ros import (
     write_csv,
 )
 from pam_ros.effects import Creep, PressureLag, ViscousFriction
+from support.baseline import needs_simple_pid
 
 ONE = single_muscle_joint()
 STRAND = Actuator(contraction=0.1)
@@ -524,8 +525,8 @@ def test_an_object_of_a_wrong_kind_is_refused_with_a_sentence_that_names_it(name
     assert 'give' in sentence
 
 
+@needs_simple_pid
 def test_pid_refuses_objects_of_a_wrong_kind():
-    pytest.importorskip('simple_pid', reason='the baseline needs simple-pid')
     assert refusal(Pid, Muscle()).startswith('joint = Muscle(')
     assert refusal(Pid, ONE, Gains()).startswith('gains = Gains(')
     assert refusal(Pid, ONE, None, 6e5).startswith('limits = 600000.0')

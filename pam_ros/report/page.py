@@ -136,8 +136,8 @@ def not_excluded(result: Identification, scale: Scale) -> list[str]:
         sentences.append(f'Effects that stay below the noise floor of {floor} could be present.')
     elif result.verdict == 'parameters_wrong':
         sentences.append(
-            'An effect that is equivalent to a change of the parameters could be present: a payload '
-            'changes the weight as the mass does, a pressure offset changes the force as a6 does.'
+            'An effect that is equivalent to a change of the parameters could be present: a '
+            'payload changes the weight as the mass does, a pressure offset the force as a6 does.'
         )
     elif result.verdict == 'unexplained_structure':
         sentences.append(

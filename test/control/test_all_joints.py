@@ -9,21 +9,19 @@ import numpy as np
 import pytest
 
 from pam_ros.control.gains import Gains
-from pam_ros.control.pid import Pid
 from pam_ros.control.signals import Reference
 from pam_ros.control.sliding_mode import SlidingMode
 from pam_ros.rig.arrangements import ARRANGEMENTS
+from support.baseline import pid
 from support.joint_grid import BEYOND, REACHED, SLACK, nominal, visits
 from support.joint_loop import close_joint
 
 pytestmark = pytest.mark.needs_numba
-LAWS = pytest.mark.parametrize('law', [Pid, SlidingMode], ids=lambda law: law.__name__)
+LAWS = pytest.mark.parametrize('law', [pid(), SlidingMode], ids=lambda law: law.__name__)
 KINDS = [kind.name for kind in ARRANGEMENTS]
 
 
 def check(law, kind, load, effects, places):
-    if law is Pid:
-        pytest.importorskip('simple_pid', reason='the PID law needs simple-pid')
     joint = nominal(kind, load, effects)
     for visit in visits(law(joint), joint, places):
         assert visit.error < REACHED[law.__name__], visit
@@ -45,8 +43,6 @@ def test_a_crank_reaches_them_with_other_loads_and_a_muscle_that_cannot_push(law
 @LAWS
 def test_an_arm_that_hangs_on_a_slack_muscle_does_not_wind_it_up(law):
     """The law takes the muscle for one that pushes, and is asked to push for 7 s."""
-    if law is Pid:
-        pytest.importorskip('simple_pid', reason='the PID law needs simple-pid')
     pushing, slack = nominal('crank'), nominal('crank', effects=SLACK)
     run = close_joint(
         law(pushing),

@@ -15,11 +15,12 @@ from pam_ros.effects import Payload
 from pam_ros.errors import RangeError
 from pam_ros.rig import statics
 from pam_ros.rig.standard_joints import single_muscle_joint
+from support.baseline import needs_simple_pid
 from support.closed_loop import step_target
 from support.joint_loop import JOINTS, close_joint
 from support.kinds import EACH_KIND, ONE, PAIR, at_end, rms
 
-pytest.importorskip('simple_pid', reason='the PID law needs simple-pid')
+pytestmark = needs_simple_pid
 DT = 2e-3
 
 

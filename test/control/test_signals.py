@@ -8,11 +8,11 @@ from math import inf, nan
 import numpy as np
 import pytest
 
-from pam_ros.control.pid import Pid
 from pam_ros.control.signals import Reference
 from pam_ros.control.sliding_mode import SlidingMode
 from pam_ros.errors import ParameterError, RangeError
 from pam_ros.rig.standard_joints import single_muscle_joint
+from support.baseline import pid
 from support.joint_models import pair
 
 DT = 2e-3
@@ -20,7 +20,7 @@ GOAL = Reference(0.06)
 BEGIN = 0.055
 
 
-EACH_LAW = pytest.mark.parametrize('law', [SlidingMode, Pid])
+EACH_LAW = pytest.mark.parametrize('law', [SlidingMode, pid()])
 EACH_JOINT = pytest.mark.parametrize(
     'joint', [single_muscle_joint(), pair()], ids=['one muscle', 'pair']
 )
@@ -28,8 +28,6 @@ EACH_JOINT = pytest.mark.parametrize(
 
 def twins(law, joint):
     """Return two equal laws in the middle of a motion."""
-    if law is Pid:
-        pytest.importorskip('simple_pid', reason='the PID law needs simple-pid')
     found = law(joint), law(joint)
     for one in found:
         one.start(BEGIN)

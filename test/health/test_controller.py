@@ -15,6 +15,7 @@ from pam_ros.health.health import Level
 from pam_ros.settings.control import settings_of
 from pam_ros.settings.tables import checked
 from pam_ros.timing.ticker import Punctuality
+from support.baseline import needs_simple_pid
 
 WELL = Received(age=0.01)
 NO_JOINT = 'joint_states has no joint pam'
@@ -150,7 +151,7 @@ def test_commands_are_a_number_of_one_muscle_and_all_of_several():
         assert shown == (commands if len(commands) > 1 else commands[0])
 
 
-def test_the_bounds_of_the_surface_are_shown_and_pid_has_none():
+def test_the_bounds_of_the_surface_are_shown():
     values = values_of(mass=20.0)
     width = 200.0 / (20.0 * 14.0)
     assert values['half width of the boundary layer (m/s)'] == pytest.approx(width)
@@ -161,13 +162,15 @@ def test_the_bounds_of_the_surface_are_shown_and_pid_has_none():
     area = trapezoid(np.abs(answer), t)
     bound = 'largest error within the disturbance bound (m)'
     assert values[bound] == pytest.approx(width * area, rel=1e-3)
-    pytest.importorskip('simple_pid', reason='the baseline needs simple-pid')
-    assert bound not in values_of(controller='pid')
 
 
-def test_the_levels_of_rejection_are_shown_and_pid_has_none():
+def test_the_levels_of_rejection_are_shown():
     values = values_of(mass=20.0)
     assert values['rejection level'] == 0.0
     assert values['highest rejection level'] == 0.0  # no step was made
-    pytest.importorskip('simple_pid', reason='the baseline needs simple-pid')
-    assert 'rejection level' not in values_of(controller='pid')
+
+
+@needs_simple_pid
+def test_pid_has_neither():
+    values = values_of(controller='pid')
+    assert not {'rejection level', 'largest error within the disturbance bound (m)'} & {*values}

@@ -9,6 +9,7 @@ from pam_ros.control.gains import SUPER_TWISTING, Gains
 from pam_ros.control.pid import Pid, PidGains
 from pam_ros.control.sliding_mode import SlidingMode
 from recorded.platform import compare
+from support.baseline import needs_simple_pid
 from support.closed_loop import LAG, close_loop, nominal, sine_target, step_target, truth
 
 pytestmark = pytest.mark.needs_numba
@@ -39,6 +40,6 @@ def test_a_configured_lag_is_compensated_as_ever():
     check('sliding mode declared lag', law, 'lag', 'sine')
 
 
+@needs_simple_pid
 def test_the_pid_law_controls_as_ever():
-    pytest.importorskip('simple_pid', reason='the PID law needs simple-pid')
     check('pid all', Pid(nominal(), PidGains()), 'all', 'sine')

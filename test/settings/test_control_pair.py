@@ -18,6 +18,7 @@ from pam_ros.settings.control import settings_of
 from pam_ros.settings.files import read
 from pam_ros.settings.scene import Scene
 from pam_ros.settings.tables import checked, joint_table, table_of
+from support.baseline import needs_simple_pid
 
 CONFIG = Path(__file__).parents[2] / 'config'
 MUSCLES = sorted(path.stem for path in (CONFIG / 'muscles').glob('*.yaml'))
@@ -134,8 +135,8 @@ def test_a_stiffness_that_cannot_be_had_is_refused_with_the_range():
 # PID, and joints of other kinds ------------------------------------------------------------------
 
 
+@needs_simple_pid
 def test_the_baseline_is_for_a_pair_too():
-    pytest.importorskip('simple_pid', reason='the baseline needs simple-pid')
     now = setup(controller='pid', co_contraction=30.0)
     law = now.law.make_law()
     assert isinstance(law, Pid)

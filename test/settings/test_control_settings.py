@@ -13,6 +13,7 @@ from pam_ros.settings.braid import BRAID
 from pam_ros.settings.control import settings_of
 from pam_ros.settings.files import read
 from pam_ros.settings.tables import checked, rig_table
+from support.baseline import needs_simple_pid
 
 CONFIG = Path(__file__).parents[2] / 'config'
 MUSCLES = sorted(path.stem for path in (CONFIG / 'muscles').glob('*.yaml'))
@@ -54,9 +55,12 @@ def test_the_source_of_the_velocity_is_a_gain():
     assert 'gains.use_measured_velocity' not in table({})
 
 
-def test_the_law_is_chosen():
+def test_the_law_is_the_sliding_mode_unless_another_is_chosen():
     assert isinstance(setup({}).law.make_law(), SlidingMode)
-    pytest.importorskip('simple_pid', reason='the baseline needs simple-pid')
+
+
+@needs_simple_pid
+def test_the_baseline_is_chosen():
     assert isinstance(setup({'controller': 'pid'}).law.make_law(), Pid)
 
 
