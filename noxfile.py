@@ -71,4 +71,4 @@ def oldest(session: nox.Session) -> None:
     """Test all that needs no nodes with the oldest numpy and scipy, without numba and ROS."""
     install(session, '-r', 'requirements/oldest.txt')
     rooms = [f'--ignore=test/{room}' for room in NOT_PURE]
-    session.run('python', '-m', 'pytest', 'test', '-n', 'auto', '-p', 'no:cacheprovider', *rooms)
+    session.run('python', '-m', 'pytest', *WITHOUT_NODES, '-p', 'no:cacheprovider', *rooms)

@@ -7,6 +7,7 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 import pytest
 
+from pam_ros.compiled import HAVE_NUMBA
 from pam_ros.identification.data.parts import parts_of
 from pam_ros.identification.fit.solve import solved
 from pam_ros.identification.search.criteria import BUDGET, CRITERIA
@@ -50,6 +51,8 @@ def recording():
 @pytest.fixture(scope='package')
 def found(recording, pool):
     """Return a search of it that has found the lag."""
+    if not HAVE_NUMBA:
+        pytest.skip('a search takes too long as plain Python')
     return found_in([recording], pool)
 
 

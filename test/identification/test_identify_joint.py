@@ -40,8 +40,13 @@ def recording(trial, **changes):
 
 
 @pytest.fixture(scope='module')
-def lag():
-    trial = pair_trial('pressure_lag@one', SEED)
+def trial():
+    """Return an elbow with a lag in one of its muscles."""
+    return pair_trial('pressure_lag@one', SEED)
+
+
+@pytest.fixture(scope='module')
+def lag(trial):
     return trial, identify(nominal(trial), [recording(trial)])
 
 
@@ -98,8 +103,7 @@ def test_specimens_and_noise_alone_have_no_effect():
     assert found.stages[1].held_error < CRITERIA.complete * trial.noise
 
 
-def test_recordings_of_another_joint_are_refused(lag):
-    trial, _ = lag
+def test_recordings_of_another_joint_are_refused(trial):
     given = recording(trial)
     with pytest.raises(RecordingError, match=r'a recording of 2 muscle\(s\), and the joint has 1'):
         identify(single_muscle_joint(), [given])
@@ -120,8 +124,7 @@ def test_recordings_of_another_joint_are_refused(lag):
         identify(nominal(trial), [given, swapped])
 
 
-def test_a_nominal_joint_with_an_onset_is_refused(lag):
-    trial, _ = lag
+def test_a_nominal_joint_with_an_onset_is_refused(trial):
     late = replace(nominal(trial), effects=[ViscousFriction(coefficient=1, onset=9)])
     with pytest.raises(ParameterError) as error:
         identify(late, [recording(trial)])

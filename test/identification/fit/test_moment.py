@@ -92,6 +92,7 @@ def test_where_the_cost_is_smooth_the_interval_is_that_of_the_jacobian():
 
 
 @pytest.mark.slow
+@pytest.mark.needs_numba
 def test_intervals_hold_the_truth():
     inside = []
     for seed in range(40):
