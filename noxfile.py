@@ -35,7 +35,7 @@ SMOKE = (
     'test/nodes/test_parameter_files.py',
 )
 # What needs ROS, and the truth plant: it is not a part of the package, and is tested only once.
-NOT_PURE = ('nodes', 'packaging', 'truth')
+NOT_PURE = ('faults', 'nodes', 'packaging', 'truth')
 
 
 def install(session: nox.Session, *arguments: str) -> None:
@@ -71,4 +71,4 @@ def oldest(session: nox.Session) -> None:
     """Test all that needs no nodes with the oldest numpy and scipy, without numba and ROS."""
     install(session, '-r', 'requirements/oldest.txt')
     rooms = [f'--ignore=test/{room}' for room in NOT_PURE]
-    session.run('python', '-m', 'pytest', *WITHOUT_NODES, '-p', 'no:cacheprovider', *rooms)
+    session.run('python', '-m', 'pytest', 'test', *WITHOUT_NODES, *rooms)
