@@ -39,6 +39,7 @@ from scipy.stats import norm
 from scipy.stats import t as student
 
 from pam_ros.identification.fit.discrepancy import Discrepancy
+from pam_ros.identification.fit.slopes import product
 from pam_ros.identification.fit.solve import Solution
 
 Array = NDArray[np.float64]
@@ -74,7 +75,7 @@ def covariance(known: Solution, process: Discrepancy) -> Array:
         parts = zip(problem.stamps(), problem.by_run(slope), strict=True)
         spread = np.concatenate([process.times(t, part) for t, part in parts])
         whitened = problem.whitened(known.r, problem.whitenings(process))
-        scatter = float(np.mean(whitened**2)) / s**2 * (slope.T @ spread)
+        scatter = float(np.mean(whitened**2)) / s**2 * product(slope, spread)
         inverse = inverse @ (scatter + np.eye(problem.prior.size)) @ inverse
     return np.asarray(inverse * np.outer(problem.prior, problem.prior))
 
@@ -89,7 +90,7 @@ def block_variances(known: Solution) -> tuple[Array, Array]:
     found = np.zeros(len(root))
     for block in blocks(known):
         own = slope[block] @ root
-        values, vectors = np.linalg.eigh(own.T @ own)
+        values, vectors = np.linalg.eigh(product(own, own))
         change = vectors.T @ (own.T @ known.whitened[block]) / s
         change /= np.sqrt(np.maximum(1.0 - values, LEAST))
         found += (root @ (vectors @ change)) ** 2
@@ -118,4 +119,5 @@ def _scaled(known: Solution) -> tuple[Array, Array, float]:
     problem = known.problem
     s = float(np.sqrt(np.mean(known.whitened**2)))
     slope = problem.whitened(known.jacobian * problem.prior, known.whitenings) / s
-    return slope, np.linalg.inv(slope.T @ slope + np.eye(problem.prior.size)), s
+    inverse = np.linalg.inv(product(slope, slope) + np.eye(problem.prior.size))
+    return slope, np.asarray(inverse, dtype=float), s

@@ -35,7 +35,7 @@ from numpy.typing import NDArray
 from scipy.optimize import minimize
 
 from pam_ros.identification.fit.discrepancy import WHITE, Discrepancy, deviance
-from pam_ros.identification.fit.slopes import Slopes
+from pam_ros.identification.fit.slopes import Slopes, product
 
 Array = NDArray[np.float64]
 
@@ -93,12 +93,12 @@ def most_likely(
 
     def score_of(discrepancy: Discrepancy) -> float:
         maps = [discrepancy.whitening(stamps) for stamps in t]
-        gram = np.zeros((1 + z.size, 1 + z.size))
+        normal = np.zeros((1 + z.size, 1 + z.size))
         for whitening, part, place in zip(maps, parts, places, strict=True):
             white = whitening(part)
-            gram[np.ix_(place, place)] += white.T @ white
+            normal[np.ix_(place, place)] += product(white, white)
         log_det = sum(w.log_det for w in maps)
-        return _score(residuals.size, gram[0, 0], gram[1:, 1:], z, prior) + log_det
+        return _score(residuals.size, normal[0, 0], normal[1:, 1:], z, prior) + log_det
 
     period = float(np.median(np.concatenate([np.diff(stamps) for stamps in t])))
     span = max(float(stamps[-1] - stamps[0]) for stamps in t)

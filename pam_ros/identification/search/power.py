@@ -48,19 +48,20 @@ def power(model: Model, place: Place, setting: Setting) -> float:
             np.diag(1.0 / known.problem.prior),
         ]
     )
-    return max(_fall(model, place, start, slopes, setting) for start in starts)
+    basis = np.linalg.qr(slopes)[0]
+    return max(_fall(model, place, start, basis, setting) for start in starts)
 
 
 def _fall(
-    model: Model, place: Place, start: Mapping[str, float], slopes: Array, setting: Setting
+    model: Model, place: Place, start: Mapping[str, float], basis: Array, setting: Setting
 ) -> float:
+    """Return how much an effect from *start* on changes what the *basis* (n, k) cannot give."""
     known = model.solution
     problem, added = with_effect(known.problem, setting.joint, place, start)
     u = np.clip(np.concatenate([known.u, added]), *problem.bounds)
     change = known.problem.whitened(problem.residuals(u) - known.r, known.whitenings) / known.noise
     whole = np.concatenate([change, np.zeros(known.u.size)])
-    made_up = slopes @ np.linalg.lstsq(slopes, whole, rcond=None)[0]
-    return float(np.sum((whole - made_up) ** 2))
+    return float(np.sum((whole - basis @ (basis.T @ whole)) ** 2))
 
 
 def _reason(effect: type[Effect], size: float, is_held: bool) -> str:

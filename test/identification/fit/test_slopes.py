@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from pam_ros.identification.fit.discrepancy import Discrepancy
-from pam_ros.identification.fit.slopes import Slopes
+from pam_ros.identification.fit.slopes import Slopes, product
 
 SIZES = (40, 25, 60)  # samples of the runs
 # Two common unknowns, and one or two of each run: columns need not be in the order of the runs.
@@ -68,3 +68,14 @@ def test_what_moves_only_another_run_changes_no_slope_of_this_one(parts):
     for n in (0, 1):
         np.testing.assert_array_equal(after.blocks[n], slopes.blocks[n])
     assert np.all(after.blocks[2][:, 1] != slopes.blocks[2][:, 1])
+
+
+@pytest.mark.parametrize(
+    'shape', [(3, 2, 1), (50_000, 5, 3), (10, 600, 500), (0, 2, 2), (7, 0, 2)]
+)
+def test_a_product_by_parts_is_the_product(shape):
+    """With fewer and more rows than a part has, and with parts of a single row."""
+    rows, k, m = shape
+    random = np.random.default_rng(1)
+    a, b = random.normal(size=(rows, k)), random.normal(size=(rows, m))
+    np.testing.assert_allclose(product(a, b), a.T @ b, rtol=0.0, atol=1e-9)

@@ -66,7 +66,9 @@ def test_the_last_one_has_the_effect_and_the_others_have_not(three):
 
 def test_stamps_of_another_clock_are_no_lag(recording, pool):
     """Commands that acted 0.7 ms before they were stamped: the lag is found all the same."""
-    late = replace(recording, command_t=recording.command_t + 0.7e-3)
+    stamped = recording.command_t + 0.7e-3
+    stamped[0] = recording.command_t[0]  # the command that acts at the first sample
+    late = replace(recording, command_t=stamped)
 
     def lag_of(one):
         found = found_in([one], pool)
