@@ -154,7 +154,7 @@ def run(given: argparse.Namespace, command: str) -> str:
                 mapping,
                 given.kind,
                 bounds.l0,
-                bounds.p_max,
+                bounds.p_max if len(bounds.p_max) > 1 else bounds.p_max[0],
                 given.namespace,
                 nominal.recorded_muscles,
                 model.transmission.equations.unit,

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from pam_ros.arguments import instance, sequence
 from pam_ros.errors import RecordingError
+from pam_ros.identification.command_times import of_command_times
 from pam_ros.identification.data.checked import checked
 from pam_ros.identification.data.noise import Noise, noise_of, step_of
 from pam_ros.identification.data.parts import Part, parts_of
@@ -37,7 +38,7 @@ from pam_ros.identification.search.onset import (
 from pam_ros.identification.search.search import Progress, Search, alternatives, search
 from pam_ros.identification.search.setting import Setting, elsewhere
 from pam_ros.identification.search.stages import at_place, onset_of, stages
-from pam_ros.identification.search.table import candidates, reason_for
+from pam_ros.identification.search.table import candidates, is_instead_of_constants, reason_for
 from pam_ros.identification.structure import Structure, structure_of
 from pam_ros.identification.verdict import (
     next_experiment,
@@ -147,6 +148,7 @@ def identify(
         sentence=sentence(answer, lacking, explaining),
         next_experiment=text,
         next_command=command,
+        warnings=(*answer.warnings, *of_command_times(answer)),
     )
 
 
@@ -228,6 +230,7 @@ def _findings(found: Search, last: Stage) -> tuple[Finding, ...]:
             at_place(last.parameters, places[name]),
             alternatives(found, name),
             reason_for(found, name),
+            is_instead_of_constants(found, name),
         )
         for name in found.best.effects
     )

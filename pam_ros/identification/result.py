@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from pam_ros.identification.data.noise import Noise
 from pam_ros.identification.data.segment import Segment
+from pam_ros.identification.fit.places import effect_of, muscle_of, place_of
 from pam_ros.identification.structure import Structure
 from pam_ros.recording.recording import Recording
 from pam_ros.rig.joint import Joint
@@ -83,12 +84,16 @@ class Candidate:
 
 @dataclass(frozen=True)
 class Finding:
-    """An effect that the nominal model lacks, and the effects that could replace it."""
+    """An effect that the nominal model lacks, and the effects that could replace it.
+
+    ``or_constants`` is whether constants a1..a6 far from the nominal ones could replace it, too.
+    """
 
     name: str
     parameters: dict[str, Estimate]
     alternatives: tuple[str, ...]
     reason: str
+    or_constants: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -129,6 +134,18 @@ class Identification:
         recordings = (*self.recordings, *self.test_recordings)
         before = {warning for recording in recordings for warning in recording.warnings}
         return tuple(warning for warning in self.warnings if warning not in before)
+
+    @property
+    def added(self) -> tuple[str, ...]:
+        """The names of the places of the effects that were added to the last model.
+
+        If an effect is alike in all muscles, each muscle still has its own initial value of the
+        effect. These are not counted as further places.
+        """
+        found = dict.fromkeys(place_of(name) for name in self.stages[-1].parameters)
+        return tuple(
+            name for name in found if name and not (muscle_of(name) and effect_of(name) in found)
+        )
 
     @property
     def untestable(self) -> tuple[str, ...]:

@@ -117,7 +117,15 @@ def sentence(answer: Identification, lacking: str, explaining: Sequence[str] = (
             for e in answer.effects
         )
         it = 'it' if len(answer.effects) == 1 else 'them'
-        since = '' if answer.since is None else f' from {time_of(answer.since)} on'
+        since = '' if answer.since is None else f' from {moment_of(answer)} on'
+        doubtful = [spelled(e.name) for e in answer.effects if e.or_constants]
+        if doubtful:
+            return (
+                f'The model lacks {names}{since}: the error on held-out data is {augmented} with '
+                f'{it}, {retuned} re-tuned and {nominal} nominal. Instead of '
+                f'{" and ".join(doubtful)}, constants far from the nominal ones explain the data '
+                f'as well. {floor}'
+            )
         return (
             f'The model lacks {names}{since}: with {it} the error on held-out data falls from '
             f'{retuned} re-tuned ({nominal} nominal) to {augmented}. {floor}'
@@ -133,13 +141,16 @@ def sentence(answer: Identification, lacking: str, explaining: Sequence[str] = (
     if answer.since is not None:
         model = f'model with {" and ".join(map(spelled, explaining))}'
         since = (
-            f' It begins in the middle: the {model if explaining else "re-tuned model"} explains '
-            f'the recording up to {time_of(answer.since)}, but not after this time.'
+            f' The {model if explaining else "re-tuned model"} explains the recording up to '
+            f'{moment_of(answer)}, but not after this time: something begins there, or the motion '
+            'begins to show it.'
         )
+    added = f' with {" and ".join(map(spelled, answer.added))}' if answer.added else ''
+    before = f' ({retuned} re-tuned)' if added else ''
     return (
         'Something is missing that no effect of the library explains: the error on held-out data '
-        f'is {augmented}, and {100 * answer.structure.ceiling:.0f} % of the variance of the '
-        'residual can be predicted from pressure, position, velocity and time.'
+        f'is {augmented}{added}{before}, and {100 * answer.structure.ceiling:.0f} % of the '
+        'variance of the residual can be predicted from pressure, position, velocity and time.'
         f'{since} {floor}'
     )
 
@@ -168,7 +179,15 @@ def next_experiment(answer: Identification, model: Joint) -> NextExperiment:
             'Record a minute or more over the whole range of pressure.',
             command_line({}) if can_excite else '',
         )
-    if answer.verdict == 'effect_found':
+    doubtful = next((e for e in answer.effects if e.or_constants), None)
+    if answer.verdict == 'effect_found' and doubtful is not None:
+        chosen = known[effect_of(doubtful.name)]
+        text = (
+            f'To distinguish between {spelled(doubtful.name)} and other constants, record: '
+            f'{chosen.experiment}. If the constants are known with less accuracy than usual, '
+            'state it: --uncertain a2=10%, and so on for a1 to a6.'
+        )
+    elif answer.verdict == 'effect_found':
         first = next((e for e in answer.effects if e.alternatives), answer.effects[0])
         chosen, what = known[effect_of(first.name)], 'To confirm ' + spelled(first.name)
         if first.alternatives:
@@ -176,7 +195,8 @@ def next_experiment(answer: Identification, model: Joint) -> NextExperiment:
             what = f'To distinguish between {rivals}'
         text = f'{what}, record: {chosen.experiment}.'
     elif answer.verdict == 'unexplained_structure':
-        tried = [c for c in answer.candidates if c.gain > 0.0 and c.effect in answer.tested]
+        able = [c for c in answer.candidates if c.effect in answer.tested]
+        tried = [c for c in able if c.gain > 0.0 and c.score_fall > 0.0]
         if not tried:
             return NextExperiment(
                 'Record force and pressure together with the position, slowly and fast.'
@@ -204,6 +224,13 @@ def time_of(since: Estimate) -> str:
     places = int(np.clip(np.ceil(1.0 - np.log10(max(width, 1e-9))), 0, 3))
     value, low, high = (f'{x:.{places}f}' for x in (since.value, since.low, since.high))
     return f'{value} s ({low} to {high} s)'
+
+
+def moment_of(answer: Identification) -> str:
+    """Return the moment of *answer*, with its reference if the file has another time axis."""
+    assert answer.since is not None
+    is_shifted = any(recording.origin for recording in answer.recordings)
+    return time_of(answer.since) + (' after the first sample' if is_shifted else '')
 
 
 def _size(value: float, unit: str) -> str:

@@ -87,6 +87,7 @@ def assemble(
         kind=kind,
         muscles=names,
         unit=unit,
+        origin=origin,
     )
     if command is not None:
         first = max(int(np.searchsorted(command.t, origin, side='right')) - 1, 0)

@@ -63,6 +63,9 @@ class Recording:
         column for each, (m, muscles) and (n, muscles), and there is no ``force``.
     ``unit``
         Of the position: ``m``, or ``rad`` for a revolute joint.
+    ``origin``
+        Time in s of the stamp 0 in the file: on the time axis of a CSV file, or since the first
+        message of a bag.
     """
 
     name: str
@@ -80,6 +83,7 @@ class Recording:
     command_spread: float = 0.0
     muscles: tuple[str, ...] = ()
     unit: str = 'm'
+    origin: float = 0.0
 
     def __post_init__(self) -> None:
         """Check that the arrays match each other, and store them as arrays."""
@@ -112,6 +116,7 @@ class Recording:
                 )
         self._check_gaps()
         instance('warnings', self.warnings, Sequence, 'texts')
+        number('origin', self.origin)
         if number('command_spread', self.command_spread) < 0.0:
             refuse('command_spread', self.command_spread, 'at least 0 s')
         for name, value in checked.items():

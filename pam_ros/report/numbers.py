@@ -18,7 +18,7 @@ from pam_ros.report.runs import STAGES, Run, sizes
 
 # The first number increases when a key is removed or changes its meaning, the second when a key
 # is added.
-SCHEMA_VERSION = '2.6'
+SCHEMA_VERSION = '2.7'
 
 Table = dict[str, Any]
 
@@ -73,6 +73,7 @@ def _effect(finding: Finding) -> Table:
         'muscle': muscle_of(finding.name) or None,
         'parameters': _estimates(finding.parameters),
         'alternatives': list(finding.alternatives),
+        'or_constants': finding.or_constants,
         'reason': finding.reason,
     }
 
@@ -149,6 +150,7 @@ def _recording(recording: Recording, role: str) -> Table:
         'role': role,
         'kind': recording.kind,
         'samples': recording.t.size,
+        'origin': recording.origin,
         'duration': recording.duration,
         'rate': 1.0 / period,
         'jitter': float(np.std(regular)),

@@ -13,7 +13,6 @@ from pam_ros.report import plots, rows, style
 from pam_ros.report.numbers import Table
 from pam_ros.report.provenance import Provenance
 from pam_ros.report.runs import STAGES, Run
-from pam_ros.report.summary import added
 from pam_ros.report.time_plots import Curve
 from pam_ros.report.wording import (
     Scale,
@@ -98,7 +97,7 @@ def inputs_of(result: Identification, source: Provenance) -> str:
 
 def curves_of(result: Identification, runs: list[Run]) -> list[Curve]:
     """Return the models that differ, the nominal one first, each with its label."""
-    names = [name_in_words(name) for name in added(result)]
+    names = [name_in_words(name) for name in result.added]
     effects = listed(names) or 'configured effects'
     if len(effects) > LONGEST_LABEL:
         effects = f'{len(names)} effects'
@@ -131,6 +130,11 @@ def not_excluded(result: Identification, scale: Scale) -> list[str]:
         else:
             sentences.append(
                 f'No other effect of the library explains these data as well as {name}.'
+            )
+        if finding.or_constants:
+            sentences.append(
+                f'Instead of {name}, constants a1 to a6 far from the nominal ones explain these '
+                'data as well.'
             )
     if result.verdict == 'no_missing_effect':
         sentences.append(f'Effects that stay below the noise floor of {floor} could be present.')

@@ -128,7 +128,7 @@ def test_what_no_effect_explains_has_its_moment_too():
     assert (found.verdict, found.effects) == ('unexplained_structure', ())
     assert found.since.value == pytest.approx(15.0, abs=0.5)
     assert found.since.low - 0.1 <= 15.0 <= found.since.high
-    assert 'begins in the middle' in found.sentence
+    assert 'The re-tuned model explains the recording up to' in found.sentence
 
 
 def test_what_begins_at_the_end_has_a_moment_and_no_name():
@@ -148,7 +148,7 @@ def test_effects_that_a_later_one_contradicts_are_not_named(onset):
     assert (found.verdict, found.effects) == ('unexplained_structure', ())
     assert found.since.value == pytest.approx(onset, abs=1.0)
     assert found.since.low <= onset <= found.since.high
-    assert 'the model with pressure_lag explains the recording up to' in found.sentence
+    assert 'The model with pressure_lag explains the recording up to' in found.sentence
 
 
 def test_without_test_recordings_the_last_quarter_judges():

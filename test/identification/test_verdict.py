@@ -179,10 +179,44 @@ def test_an_effect_that_begins_in_the_middle_has_its_onset():
     found = sentence(replace(answer, verdict='effect_found'), '')
     assert 'lacks coulomb_friction (or hysteresis) from 12.50 s (12.40 to 12.60 s) on: ' in found
     answer = replace(answer, verdict='unexplained_structure')
-    until = 'explains the recording up to 12.50 s (12.40 to 12.60 s), but not after this time.'
-    assert f'the re-tuned model {until}' in sentence(answer, '')
+    until = 'explains the recording up to 12.50 s (12.40 to 12.60 s), but not after this time:'
+    assert f'The re-tuned model {until}' in sentence(answer, '')
     two = 'creep', 'flexor.pressure_lag'
-    assert f'the model with creep and pressure_lag of flexor {until}' in sentence(answer, '', two)
+    assert f'The model with creep and pressure_lag of flexor {until}' in sentence(answer, '', two)
+
+
+def test_an_effect_that_far_constants_could_replace_is_named_with_this_reservation():
+    answer = results.friction_result()[0]
+    answer = replace(answer, effects=(replace(answer.effects[0], or_constants=True),))
+    text = sentence(answer, '')
+    assert text.startswith('The model lacks coulomb_friction (or hysteresis): the error on held')
+    assert 'Instead of coulomb_friction, constants far from the nominal ones explain' in text
+    assert all(f'{1e3 * stage.held_error:.3g} mm' in text for stage in answer.stages)
+    experiment = next_experiment(answer, answer.stages[0].model).text
+    assert experiment.startswith('To distinguish between coulomb_friction and other constants, ')
+    assert '--uncertain a2=10%' in experiment
+
+
+def test_an_error_that_no_effect_explains_is_that_of_a_model_which_is_named():
+    answer = replace(results.friction_result()[0], effects=(), verdict='unexplained_structure')
+    before, now = (f'{1e3 * stage.held_error:.3g} mm' for stage in answer.stages[1:])
+    assert f'is {now} with coulomb_friction ({before} re-tuned), and' in sentence(answer, '')
+
+
+def test_a_moment_is_since_the_first_sample_if_the_file_has_another_time_axis():
+    answer = replace(results.friction_result()[0], since=Estimate(12.5, 12.4, 12.6, 's'))
+    late = [replace(one, origin=31.5) for one in answer.recordings]
+    assert ' from 12.50 s (12.40 to 12.60 s) on: ' in sentence(answer, '')
+    text = sentence(replace(answer, recordings=tuple(late)), '')
+    assert ' from 12.50 s (12.40 to 12.60 s) after the first sample on: ' in text
+
+
+def test_no_experiment_is_proposed_for_an_effect_that_raises_the_score():
+    answer = replace(results.friction_result()[0], effects=(), verdict='unexplained_structure')
+    worse = [replace(c, gain=0.5, score_fall=-1.0) for c in answer.candidates]
+    answer = replace(answer, candidates=tuple(worse))
+    text = next_experiment(answer, answer.stages[0].model).text
+    assert text.startswith('Record force and pressure together with the position')
 
 
 def test_rivals_are_distinguished_by_the_experiment_of_the_effect():

@@ -76,12 +76,14 @@ def test_the_first_sample_is_time_zero():
     late = {name: Series(one.source, one.t + 1.7e9, one.value) for name, one in free().items()}
     one = assemble('log', late, [])
     assert one.t[0] == 0.0
+    assert one.origin == 1.7e9
     np.testing.assert_allclose(one.t, T, atol=1e-6)
     np.testing.assert_allclose(one.command_t, [0.0, 5.0], atol=1e-6)
 
 
 def test_samples_before_the_first_command_are_left_out():
     one = assemble('log', free(pressure_command=signal('u', [1e5, 2e5], [0.995, 5.0])), [])
+    assert one.origin == pytest.approx(1.0)
     assert one.t.size == 900
     np.testing.assert_allclose(one.command_t, [-0.005, 4.0])
     assert one.warnings == ('the first 0.995 s have no command yet and are left out',)

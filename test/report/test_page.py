@@ -157,6 +157,14 @@ def test_what_the_data_cannot_show_is_listed_with_the_experiment_to_record(held)
     assert 'these data cannot show it; record: touch it slowly' in html
 
 
+def test_constants_that_could_replace_an_effect_are_not_excluded(friction):
+    result = friction[0]
+    finding = replace(result.effects[0], or_constants=True)
+    sentences = not_excluded(replace(result, effects=(finding,)), Scale(1e3, 'mm'))
+    assert any('constants a1 to a6 far from the nominal ones' in one for one in sentences)
+    assert not any('a1 to a6' in one for one in not_excluded(result, Scale(1e3, 'mm')))
+
+
 @pytest.mark.slow
 def test_page_without_candidates_states_it(clean):
     result, source, runs = clean

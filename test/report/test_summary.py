@@ -5,7 +5,7 @@
 from dataclasses import replace
 
 from pam_ros.identification.result import Estimate
-from pam_ros.report.summary import added, last_line
+from pam_ros.report.summary import last_line
 
 
 def test_line_has_verdict_and_errors(friction):
@@ -38,8 +38,8 @@ def test_force_is_in_newtons(held):
 
 def test_added_effects_are_those_that_were_not_configured(friction):
     result, _, _ = friction
-    assert added(result) == ['coulomb_friction']
-    assert added(replace(result, stages=3 * result.stages[:1])) == []
+    assert result.added == ('coulomb_friction',)
+    assert replace(result, stages=3 * result.stages[:1]).added == ()
 
 
 def test_an_effect_in_all_muscles_is_one_though_each_has_its_own_start(friction):
@@ -49,4 +49,4 @@ def test_an_effect_in_all_muscles_is_one_though_each_has_its_own_start(friction)
     names = ['effects.hysteresis.slip', 'agonist.effects.leak.rate']
     starts = [f'{muscle}.effects.hysteresis.initial' for muscle in ('agonist', 'antagonist')]
     stage = replace(last, parameters=dict.fromkeys([*names, *starts], estimate))
-    assert added(replace(result, stages=(*before, stage))) == ['hysteresis', 'agonist.leak']
+    assert replace(result, stages=(*before, stage)).added == ('hysteresis', 'agonist.leak')

@@ -392,6 +392,7 @@ def test_pressures_that_may_be_meant_are_not_warned_of():
         simulate(joint, [0.0, 0.1], [0.0, 0.05], [0.0, command])
 
 
+@pytest.mark.needs_numba  # plain Python warns of the overflow
 def test_commands_too_high_for_a_finite_motion_are_refused_with_a_sentence():
     t = np.arange(0.0, 2.0, 0.01)
     with pytest.raises(ParameterError) as error:

@@ -131,17 +131,31 @@ def _changed(ratio: float) -> str:
 
 def reason_for(found: Search, name: str) -> str:
     """Return why an effect is in the best model, compared with the best model without it."""
+    return _why(found.best, _without(name, found), found)
+
+
+def is_instead_of_constants(found: Search, name: str) -> bool:
+    """Return whether the best model without this effect explains as much, by far constants."""
     best = found.best
-    step = best.solution.problem.step
-    return _why(best, best_with({*best.effects} - {name}, step, found), found)
+    return _avoids_strain(best, _without(name, found), found)
+
+
+def _without(name: str, found: Search) -> Model:
+    step = found.best.solution.problem.step
+    return best_with({*found.best.effects} - {name}, step, found)
+
+
+def _avoids_strain(model: Model, parent: Model, found: Search) -> bool:
+    criteria = found.setting.criteria
+    lowers = parent.strain - model.strain >= criteria.strain
+    return _gain(model, parent) < criteria.gain and lowers
 
 
 def _why(model: Model, parent: Model, found: Search) -> str:
     """Return why the effect of a chosen model was chosen."""
     fall = f'lowers the score by {parent.score - model.score:.0f}'
     gain = _gain(model, parent)
-    criteria = found.setting.criteria
-    if gain < criteria.gain and parent.strain - model.strain >= criteria.strain:
+    if _avoids_strain(model, parent, found):
         return (
             f'{fall}: explains by its own parameters what re-tuning explains only by constants '
             'far from the nominal ones'

@@ -22,6 +22,7 @@ from pam_ros.identification.search.search import (
     with_more,
 )
 from pam_ros.identification.search.setting import Errors, Setting
+from pam_ros.identification.search.table import is_instead_of_constants
 from pam_ros.identification.verdict import explains
 from support import bench_truth
 from support.searches import found_in
@@ -129,6 +130,7 @@ def test_a_payload_that_retuning_hides_is_found_by_the_strain_of_the_constants()
     assert found.best.errors.fit == pytest.approx(found.retuned.errors.fit, rel=0.02)
     assert found.retuned.strain > found.best.strain + CRITERIA.strain
     assert found.best.solution.value('effects.payload.mass') == pytest.approx(3.0, abs=0.3)
+    assert is_instead_of_constants(found, 'payload')
     assert explains(found)
 
 

@@ -11,7 +11,7 @@ from scipy.stats import chi2
 from pam_ros.identification.search.criteria import CRITERIA
 from pam_ros.identification.search.moves import with_each
 from pam_ros.identification.search.search import Search
-from pam_ros.identification.search.table import candidates, reason_for
+from pam_ros.identification.search.table import candidates, is_instead_of_constants, reason_for
 
 pytestmark = [pytest.mark.slow, pytest.mark.needs_numba]
 NAMES = ['pressure_lag', 'dead_time', 'viscous_friction', 'end_stop']
@@ -37,6 +37,10 @@ def test_there_is_a_row_for_each_effect_on_top_of_each_model(table):
     }
     assert len(table) == 5
     assert [len(row.parents) for row in table] == [0, 0, 0, 0, 1]
+
+
+def test_other_constants_could_not_replace_a_lag(search):
+    assert not is_instead_of_constants(search, 'pressure_lag')
 
 
 def test_numbers_are_those_of_the_models(table, search, retuned):
