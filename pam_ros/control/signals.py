@@ -109,22 +109,18 @@ def step_arguments(
     """
     if not isinstance(reference, Reference):
         refuse('reference', reference, 'a Reference, such as Reference(0.05)')
-    low, high = joint.position_range
-    # A load can move beyond the range for a moment, but not by the length of it.
-    low, high = low - (high - low), high + (high - low)
     try:
         if not 0.0 < dt <= LONGEST:
             refuse('dt', dt, f'a time above 0 s and up to {LONGEST:g} s')
         if not all(map(isfinite, reference)):
             refuse('reference', reference, 'finite numbers')
-        if not low <= reference.position <= high:
-            refuse_position('reference.position', reference.position, joint)
+        _refuse_far('reference.position', reference.position, joint)
         if not -LONGEST <= age <= LONGEST:
             refuse('age', age, f'a time in s, at most {LONGEST:g} s')
-        if position is not None and not low <= position <= high:
-            if isfinite(position):
-                refuse_position('position', position, joint)
+        if position is not None and not isfinite(position):
             position = None
+        if position is not None:
+            _refuse_far('position', position, joint)
         if velocity is not None and not isfinite(velocity):
             velocity = None
     except (TypeError, ValueError):
@@ -140,12 +136,22 @@ def step_arguments(
 
 def start_arguments(joint: Joint, position: float, pressures: Sequence[float] | None) -> None:
     """Raise ParameterError unless a law for *joint* can start here."""
-    refuse_position('position', number('position', position), joint)
+    _refuse_far('position', number('position', position), joint)
     if pressures is None:
         return
     given, muscles = array('pressures', pressures), len(joint.muscles)
     if given.shape != (muscles,):
         refuse_shape('pressures', given, f'({muscles},), gauge Pa of each muscle, or None')
+
+
+def _refuse_far(name: str, position: float, joint: Joint) -> None:
+    """Raise ParameterError for a position far from those that the muscles of *joint* can have.
+
+    A load can move beyond their range for a moment, but not by the length of this range.
+    """
+    low, high = joint.position_range
+    if not low - (high - low) <= position <= high + (high - low):
+        refuse_position(name, position, joint)
 
 
 # What a plot shows, in this order: m, m/s, N, Pa, 1/s (or rad, N m); saturated is 0 or 1, and
@@ -210,9 +216,9 @@ class PositionLaw(Protocol):
     def start(self, position: float, pressures: Pressures | None = None) -> None:
         """Start again with the load at *position* m, under commands of *pressures* Pa if known.
 
-        The commands continue from these pressures. Raises ParameterError for a position that the
-        muscles cannot have, for numbers that are not finite, and if the number of pressures is
-        not that of the muscles.
+        The commands continue from these pressures. Raises ParameterError for a position far from
+        those that the muscles can have, for numbers that are not finite, and if the number of
+        pressures is not that of the muscles.
         """
 
     def update(

@@ -79,9 +79,8 @@ def identify(
 
     Raises RecordingError if there are no recordings, if two are the same, if they do not fit
     together, have no output, cannot be right (in another unit, for example) or are too short for
-    any fit. Raises ParameterError for objects of
-    another type, for a model with an onset and for an uncertain parameter that the model does not
-    have.
+    any fit. Raises ParameterError for objects of another type, for a model with an onset and for
+    an uncertain parameter that the model does not have.
     """
     refuse_onsets(instance('model', model, Joint, 'a Joint'), 'a nominal joint')
     recordings = sequence('recordings', recordings, Recording, 'a Recording')
