@@ -56,7 +56,11 @@ def test_the_bag_of_a_joint_is_a_recording_of_it(peer, tmp_path):
         assert recorder.wait() == 0
         output = recorder.output
     found = read_recording(
-        bag, muscles=nominal.recorded_muscles, unit='rad', p_max=6e5, reach=nominal.reach
+        bag,
+        muscles=nominal.recorded_muscles,
+        unit='rad',
+        p_max=6e5,
+        reach=nominal.joint.position_range,
     )
     assert (found.muscles, found.unit) == (('flexor', 'extensor'), 'rad')
     np.testing.assert_array_equal(found.command, COMMANDS)
