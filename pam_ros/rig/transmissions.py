@@ -21,6 +21,10 @@ from typing import Any, ClassVar
 
 from pam_ros.parameters import check_all, parameter_field
 
+# Least radius, crank and distance of an anchor, m: far below any that is built. Products of
+# lengths that are smaller by many decades are 0 in floating-point numbers.
+LEAST = 1e-4
+
 Row = Any  # float64 row; numba's and numpy's types differ, both index to float
 
 
@@ -130,9 +134,7 @@ def _turned(travel: float, i: int, q: Row, j: int) -> float:
 class Pulley(Transmission):
     """A pulley that the muscles rotate by belts or chains."""
 
-    radius: float = parameter_field(
-        0.04, 'radius of the pulley', 'm', low=0.0, high=1.0, above_low=True
-    )
+    radius: float = parameter_field(0.04, 'radius of the pulley', 'm', low=LEAST, high=1.0)
 
     equations: ClassVar = TransmissionEquations(
         'pulley', True, 1, travel=_belt, arm=_radius, arm_slope=_none, coordinate=_turned
@@ -194,15 +196,10 @@ class Lever(Transmission):
     """A lever that the muscles rotate at a crank, so that their arms change with the angle."""
 
     crank: float = parameter_field(
-        0.04, 'distance of the attachment from the pivot', 'm', low=0.0, high=1.0, above_low=True
+        0.04, 'distance of the attachment from the pivot', 'm', low=LEAST, high=1.0
     )
     anchor: float = parameter_field(
-        0.45,
-        'distance of the fixed end of the muscle from the pivot',
-        'm',
-        low=0.0,
-        high=20.0,
-        above_low=True,
+        0.45, 'distance of the fixed end of the muscle from the pivot', 'm', low=LEAST, high=20.0
     )
     angle: float = parameter_field(
         0.5 * pi, 'angle between crank and anchor at coordinate 0', 'rad', low=0.1, high=3.0

@@ -90,7 +90,7 @@ def test_types_in_signatures_are_short(settings):
 def test_fields_of_a_dataclass_are_described(settings):
     lines = ['An arm.']
     settings['complete'](None, 'class', '', pam_ros.Pulley, None, lines)
-    assert ':param radius: radius of the pulley, m (above 0 and at most 1 m)' in lines
+    assert ':param radius: radius of the pulley, m (0.0001 to 1 m)' in lines
 
 
 def test_site_has_no_second_text_of_a_page():

@@ -55,7 +55,7 @@ def test_both_take_a_library():
 @pytest.mark.parametrize(
     ('given', 'sentence'),
     [
-        ({'radius': 0.0}, r'radius = 0\.0 is not allowed: give above 0 and at most 1 m'),
+        ({'radius': 0.0}, r'radius = 0\.0 is not allowed: give 0.0001 to 1 m'),
         ({'contraction': (0.1, 0.1, 0.1)}, 'contraction'),
         ({'load': Mass()}, 'Pulley cannot move Mass'),
         ({'antagonist': 0.04}, r'muscle = 0\.04'),

@@ -163,9 +163,9 @@ def test_a_lever_with_a_far_anchor_is_a_pulley_for_small_angles():
 @pytest.mark.parametrize(
     ('transmission', 'fields', 'sentence'),
     [
-        (Pulley, {'radius': 0.0}, 'radius = 0.0 is not allowed: give above 0 and at most 1 m'),
-        (Lever, {'crank': 0.0}, 'crank = 0.0 is not allowed: give above 0 and at most 1 m'),
-        (Lever, {'anchor': -0.1}, 'anchor = -0.1 is not allowed: give above 0 and at most 20 m'),
+        (Pulley, {'radius': 0.0}, 'radius = 0.0 is not allowed: give 0.0001 to 1 m'),
+        (Lever, {'crank': 0.0}, 'crank = 0.0 is not allowed: give 0.0001 to 1 m'),
+        (Lever, {'anchor': -0.1}, 'anchor = -0.1 is not allowed: give 0.0001 to 20 m'),
         (Lever, {'angle': 0.0}, 'angle = 0.0 is not allowed: give 0.1 to 3 rad'),
         (Lever, {'angle': math.nan}, 'angle = nan is not allowed: give 0.1 to 3 rad'),
     ],

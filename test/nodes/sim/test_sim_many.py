@@ -281,7 +281,7 @@ REFUSED = [
     (['-p', 'joint:=knee'], ['knee', 'antagonistic']),
     (['-p', 'time_mode:=fast'], ['fast', 'lockstep']),
     (['-p', 'speed_factor:=0.05'], ['speed_factor = 0.05', '0.1 or more']),
-    (['-p', 'joint:=antagonistic', '-p', 'radius:=0.0'], ['radius', 'above 0']),
+    (['-p', 'joint:=antagonistic', '-p', 'radius:=0.0'], ['radius', '0.0001 to 1 m']),
 ]
 
 
