@@ -9,6 +9,7 @@ import gc
 import sys
 from importlib import import_module
 from itertools import takewhile
+from pathlib import Path
 from typing import NoReturn
 
 from pam_ros.cli.help_text import help_text
@@ -16,6 +17,11 @@ from pam_ros.processes.ends import ignore_ends
 from pam_ros.processes.outputs import guard_outputs
 from pam_ros.processes.stop import StopRequest
 from pam_ros.version import VERSION_LINE
+
+NEEDS_ROS = (
+    'rclpy, the Python library of ROS 2, is not installed for this Python: if ROS 2 is installed, '
+    'source its setup file first, such as /opt/ros/jazzy/setup.bash'
+)
 
 
 def start_node(module: str, name: str, about: str | None) -> NoReturn:
@@ -30,8 +36,14 @@ def start_node(module: str, name: str, about: str | None) -> NoReturn:
         sys.exit(0)
     # Imported objects stay: garbage collection of them would take a fifth of the start time.
     gc.disable()
-    spin = import_module('pam_ros.nodes.common.spin')
-    node = getattr(import_module(module), name)
+    try:
+        spin = import_module('pam_ros.nodes.common.spin')
+        node = getattr(import_module(module), name)
+    except ModuleNotFoundError as error:
+        if error.name != 'rclpy':
+            raise
+        print(f'{Path(sys.argv[0]).stem}: {NEEDS_ROS}', file=sys.stderr)
+        sys.exit(1)
     try:
         code = spin.run(node, stop, help_text(about))
     finally:

@@ -6,6 +6,7 @@ import ast
 import re
 import subprocess
 import sys
+from importlib import import_module
 from pathlib import Path
 
 import pytest
@@ -49,8 +50,14 @@ def test_version(program, arguments):
     )
 
 
+def is_node(program):
+    return hasattr(import_module(f'pam_ros.cli.{program}'), 'start_node')
+
+
 @pytest.mark.parametrize('program', PROGRAMS)
 def test_help(program):
+    if is_node(program):
+        pytest.importorskip('rclpy')
     done = subprocess.run(
         [sys.executable, '-m', f'pam_ros.cli.{program}', '--help'],
         capture_output=True,
@@ -61,3 +68,14 @@ def test_help(program):
     assert f'\n{program}: ' in done.stdout
     assert '--version' in done.stdout
     assert not MARKUP.search(done.stdout)
+
+
+@pytest.mark.parametrize('program', [*filter(is_node, PROGRAMS)])
+def test_a_node_without_ros_ends_with_a_sentence(program):
+    done = subprocess.run(
+        [sys.executable, '-c', WITHOUT_ROS, program], capture_output=True, text=True, check=False
+    )
+    assert (done.returncode, done.stdout) == (1, '')
+    assert done.stderr.startswith(f'{program}: rclpy')
+    assert 'setup.bash' in done.stderr
+    assert done.stderr.count('\n') == 1
