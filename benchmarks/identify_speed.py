@@ -8,10 +8,6 @@ times, once by the package and once by a simple program with ``scipy.integrate.s
 ``scipy.optimize.least_squares``, on the same recording and from the same start.
 """
 
-import os
-
-os.environ.setdefault('OPENBLAS_NUM_THREADS', '1')
-
 import time
 from concurrent.futures import ThreadPoolExecutor
 
