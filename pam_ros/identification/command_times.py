@@ -19,10 +19,9 @@ def of_command_times(answer: Identification) -> list[str]:
     """
     if answer.verdict != 'unexplained_structure' or answer.quantity != 'position':
         return []
-    recordings = [one for one in answer.recordings if _is_in_rows(one)]
-    if len(recordings) < len(answer.recordings):
+    if not all(_is_in_rows(recording) for recording in answer.recordings):
         return []
-    period = max(recording.period for recording in recordings)
+    period = max(recording.period for recording in answer.recordings)
     last = answer.stages[-1]
     rates = [
         np.gradient(run, segment.t)
@@ -30,7 +29,7 @@ def of_command_times(answer: Identification) -> list[str]:
     ]
     speed = float(np.sqrt(np.mean(np.concatenate(rates) ** 2)))
     expected = speed * period / np.sqrt(3.0)
-    if not last.held_error <= MOST * expected:
+    if last.held_error > MOST * expected:
         return []
     return [
         'each row has a command: if it is the last one before the sample, its time is known to '

@@ -195,8 +195,11 @@ def next_experiment(answer: Identification, model: Joint) -> NextExperiment:
             what = f'To distinguish between {rivals}'
         text = f'{what}, record: {chosen.experiment}.'
     elif answer.verdict == 'unexplained_structure':
-        able = [c for c in answer.candidates if c.effect in answer.tested]
-        tried = [c for c in able if c.gain > 0.0 and c.score_fall > 0.0]
+        tried = [
+            c
+            for c in answer.candidates
+            if c.effect in answer.tested and c.gain > 0.0 and c.score_fall > 0.0
+        ]
         if not tried:
             return NextExperiment(
                 'Record force and pressure together with the position, slowly and fast.'
