@@ -300,7 +300,7 @@ class SlidingMode:
             self._waited = 0.0
         self._seen = observer.position if position is None else position
         if gains.learning:
-            learner.see(dt, waited, position, reference.position, rejection.least)
+            learner.see(dt, waited, position, reference.position, rejection.least_error)
 
     def _wanted_effort(
         self, dt: float, reference: Reference, velocity: float | None, chambers: Pressures

@@ -83,7 +83,7 @@ class _Variance:
 class Learner:
     """The learned parameters, and the feed-forward that results from them.
 
-    trust
+    weight
         0 to 1: the weight with which the learned parameters are used
     lag
         (fill, vent) in s: the lag to be inverted, if no lag is configured
@@ -126,7 +126,7 @@ class Learner:
         plain[_LAGS] = 0.0
         self._plain = Regression(plain, low, high, noise)
         self._lagged = Regression(spread, low, high, noise)
-        self.trust = 0.0
+        self.weight = 0.0
         self.lag = (0.0, 0.0)
         self._plain_error = self._lagged_error = 1.0
         self._plain_miss = self._lagged_miss = 1.0
@@ -181,7 +181,7 @@ class Learner:
             missing=float(self._missing.value) ** 0.5,
             noise=self._tuning.floor**0.5,
             explained=float(self._explained),
-            weight=float(self.trust),
+            weight=float(self.weight),
             friction=sum(weights[:STRIBECK]),
             breakaway=weights[STRIBECK],
             stiffness=weights[STRETCH] / stroke,
@@ -212,17 +212,17 @@ class Learner:
 
     def _learned_force(self) -> tuple[float, float]:
         """Return the learned force along the reference and its rate; sets the lag to invert."""
-        if self.trust == 0.0:  # at the beginning, for a long time
+        if self.weight == 0.0:  # at the beginning, for a long time
             self.lag = (0.0, 0.0)
             return 0.0, 0.0
         weights, rates = self._weights, self._wanted.rates
         force = rate = 0.0
         for n in range(CONSTANT):
-            weight = self.trust * weights[n]
-            force += weight * self._wanted.values[n]
-            rate += weight * rates[n]
-        used = self.trust * self._share
-        self.lag = (used * weights[_FILL], used * weights[_VENT])
+            used = self.weight * weights[n]
+            force += used * self._wanted.values[n]
+            rate += used * rates[n]
+        share = self.weight * self._share
+        self.lag = (share * weights[_FILL], share * weights[_VENT])
         return force, rate
 
     def see(
@@ -328,7 +328,7 @@ class Learner:
         self._lagged.update(phi, lagged, by_parameter)
 
     def _choose(self, span: float) -> None:
-        """Select a hypothesis, restart one that has diverged, and find the trust."""
+        """Select a hypothesis, restart one that has diverged, and find the weight."""
         tuning = self._tuning
         is_worse = self._plain_error < tuning.worse * self._lagged_error
         self._doubt = self._doubt + span if is_worse else 0.0
@@ -347,7 +347,7 @@ class Learner:
         error = self._lagged_miss if self._prefers_lag else self._plain_miss
         practice = 1.0 - exp(-((self._moved / tuning.convinced) ** 2))
         self._explained = self._share_explained(error, self._missing)
-        self.trust = min(1.25 * self._explained, 1.0) * practice
+        self.weight = min(1.25 * self._explained, 1.0) * practice
         self._understood = min(1.25 * self._share_explained(error, self._total), 1.0) * practice
         # Errors above the assumed noise make the lag less certain.
         excess = max(self._lagged_error / tuning.noise, 1.0)

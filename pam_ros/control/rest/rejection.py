@@ -121,7 +121,7 @@ class Rejection:
         return sqrt(self._variance)
 
     @property
-    def least(self) -> float:
+    def least_error(self) -> float:
         """The least error that counts as a disturbance of the load."""
         tuning = self._tuning
         return max(tuning.tolerances * self.gains.rest_tolerance, tuning.noises * self.noise)
@@ -145,7 +145,7 @@ class Rejection:
         if moves or not self.gains.rejection:
             self._begin_rest()
             return
-        least = self.least
+        least = self.least_error
         if self._seen < tuning.known:
             return
         if not self._acts:
