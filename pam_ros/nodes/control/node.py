@@ -42,6 +42,9 @@ from pam_ros.timing.ticker import Ticker
 # s; if a step is later than this, messages that arrived meanwhile are received first.
 LATE = 0.05
 WATCH_RATE = 20.0  # Hz at which timeouts are checked if time follows the states
+# ns between commands that vent. A rig that is discovered between the check for a new one and the
+# command receives the command: the fewer commands, the less likely.
+VENT_PERIOD = SECOND // 100
 REPEAT = SECOND // 20  # ns after a command, after which it is sent again for a repeated state
 
 
@@ -222,6 +225,8 @@ class PamControl(TickingNode):
             self._look_for_states()
         if loop.lost is not None and self._rig.is_new(loop.lost):
             loop.leave()
+            return
+        if is_checked and steady_ns() - self._answered < VENT_PERIOD:
             return
         self._publish(pressures)
         if self._intake.look():

@@ -67,6 +67,18 @@ def test_a_rig_that_starts_meanwhile_does_not_obey(watch, kind):
     assert lowest > 0.98 * RIG['initial.pressure']
 
 
+def test_few_commands_are_sent_while_it_vents(watch):
+    """A rig that is discovered between the check for a new one and a command receives it."""
+    rig = Simulation(watch.peer)
+    given = {'state_timeout': 0.2, 'vent_time': 2.0, 'rate': 500.0}
+    with Program('pam_control', parameters=given):
+        rig.tell_until(lambda: len(watch.terms) > 10, 'control')
+        held = watch.commands[-1].data
+        watch.peer.until(lambda: watch.commands[-1].data == 0.0, 'a command of 0 Pa')
+    vents = [one.data for one in watch.commands if 0.0 < one.data < 0.99 * held]
+    assert 20 < len(vents) <= 2.0 * 100.0  # a busy machine may leave some out
+
+
 # A law that gives NaN, which no input makes it give.
 GIVES_NAN = """
 from math import nan
