@@ -43,8 +43,9 @@ from pam_ros.timing.ticker import Ticker
 LATE = 0.05
 WATCH_RATE = 20.0  # Hz at which timeouts are checked if time follows the states
 # ns between commands that vent. A rig that is discovered between the check for a new one and the
-# command receives the command: the fewer commands, the less likely.
-VENT_PERIOD = SECOND // 100
+# command receives the command: the fewer commands, the less likely. It is a little less than
+# 10 ms, so that jitter leaves out no command at a rate of 100 Hz.
+VENT_PERIOD = 9 * SECOND // 1000
 REPEAT = SECOND // 20  # ns after a command, after which it is sent again for a repeated state
 
 
@@ -207,6 +208,8 @@ class PamControl(TickingNode):
         loop, before = self._loop, self._loop.state
         # If time follows the states, so many commands are kept that they are confirmed too late.
         is_checked = loop.lost is not None and not self._is_followed
+        if is_checked and steady_ns() - self._answered < VENT_PERIOD:
+            return
         loop.is_received = not is_checked or self._rig.is_received()
         try:
             pressures = loop.tick(time)
@@ -225,8 +228,6 @@ class PamControl(TickingNode):
             self._look_for_states()
         if loop.lost is not None and self._rig.is_new(loop.lost):
             loop.leave()
-            return
-        if is_checked and steady_ns() - self._answered < VENT_PERIOD:
             return
         self._publish(pressures)
         if self._intake.look():

@@ -76,7 +76,7 @@ def test_few_commands_are_sent_while_it_vents(watch):
         held = watch.commands[-1].data
         watch.peer.until(lambda: watch.commands[-1].data == 0.0, 'a command of 0 Pa')
     vents = [one.data for one in watch.commands if 0.0 < one.data < 0.99 * held]
-    assert 20 < len(vents) <= 2.0 * 100.0  # a busy machine may leave some out
+    assert 20 < len(vents) <= 2.0 / 0.009  # a busy machine may leave some out
 
 
 # A law that gives NaN, which no input makes it give.
