@@ -39,6 +39,7 @@ ROWS = {
     'friction, configured': ('friction', FRICTION, 0.03, 0.15),
     'valve lag 50/70 ms': ('lag', (), 0.03, 0.25),
     'valve lag, configured': ('lag', LAG, 0.01, 0.05),
+    'dead time 80 ms': ('dead time', (), 0.03, 1.5),
     'all, and 10 ms dead time': ('all', (), 0.06, 0.6),
 }
 LAWS = {'sliding mode': SlidingMode, 'PID': Pid}

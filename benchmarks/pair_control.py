@@ -32,6 +32,7 @@ ROWS = {
     'valve lag 20/30 ms': ('quick lag', (), 0.1),
     'valve lag 50/70 ms': ('lag', (), 0.06),
     'the same, configured': ('lag', LAG, 0.03),
+    'dead time 40 ms': ('dead time', (), 0.6),
     'hysteresis 15 N each': ('hysteresis', (), 0.06),
     'all, and 10 ms dead time': ('all', (), 0.2),
 }

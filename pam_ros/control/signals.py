@@ -51,6 +51,8 @@ class Terms:
         decay rate of the sliding variable in use, 1/s
     rejection, highest_rejection
         level at which disturbances are rejected, 0 to 1, and the present upper limit of it
+    feedback
+        share of the feedback gains in use, lower after an oscillation of the loop
     cut
         part of the wanted force that a limit of pressure or of its rate cuts off
     """
@@ -71,6 +73,7 @@ class Terms:
     bandwidth: float = 0.0
     rejection: float = 0.0
     highest_rejection: float = 0.0
+    feedback: float = 1.0
     cut: float = 0.0
 
     @property

@@ -28,7 +28,8 @@ the gains require no higher w, w is the joint's own sqrt(k / J), and (w^2 J - k)
 Antagonistic muscles have the stiffness as a second set-point, which does not move the coordinate.
 
 While the reference rests, the bandwidths shrink as the goal is reached (:mod:`.rest.standstill`)
-and grow when a disturbance moves the load (:mod:`.rest.rejection`). A load that sticks and slips
+and grow when a disturbance moves the load (:mod:`.rest.rejection`). A loop that oscillates gets
+lower feedback gains (:mod:`.gain_reduction`). A load that sticks and slips
 is pushed to its goal (:mod:`.rest.stiction`). The law learns from the motion (:mod:`.learning`),
 and configured effects are compensated (:mod:`.compensation`, :mod:`.pressure_path`).
 
@@ -44,6 +45,7 @@ from pam_ros.arguments import instance
 from pam_ros.control.allocation import allocation_of
 from pam_ros.control.co_contraction import CoContraction, StiffnessReference
 from pam_ros.control.compensation import Losses
+from pam_ros.control.gain_reduction import GainReduction, ReductionTuning
 from pam_ros.control.gains import SUPER_TWISTING, Gains
 from pam_ros.control.learning.features import FeatureTuning
 from pam_ros.control.learning.learned import Learned
@@ -53,7 +55,7 @@ from pam_ros.control.limits import Limiter, Limits
 from pam_ros.control.model import ControlModel
 from pam_ros.control.observer import Observer
 from pam_ros.control.pressure_path import PressurePath
-from pam_ros.control.rest.oscillation import OscillationTuning
+from pam_ros.control.rest.oscillation import Oscillation, OscillationTuning
 from pam_ros.control.rest.rejection import Rejection, RejectionTuning
 from pam_ros.control.rest.standstill import Standstill, StandstillTuning
 from pam_ros.control.rest.stiction import Stiction, StictionTuning
@@ -133,6 +135,7 @@ class SlidingMode:
         )
         self._stiction = Stiction(gains.rest_tolerance, scaled(StictionTuning(), length, force))
         self._rejection = Rejection(gains, RejectionTuning(), OscillationTuning())
+        self._reduction = GainReduction(ReductionTuning(), Oscillation(OscillationTuning()))
         self._surface = Surface()
         self._stiffness = StiffnessReference(
             wanted.wanted(self.allocation), wanted.co_contraction_rate
@@ -147,6 +150,7 @@ class SlidingMode:
         for path in self._paths:
             path.quickest = gains.pressure_time
         self._standstill.tolerance = gains.rest_tolerance
+        self._reduction.reset()
 
     def set_co_contraction(self, wanted: CoContraction) -> None:
         """Approach another stiffness, or at another rate; raises RangeError out of reach."""
@@ -190,6 +194,7 @@ class SlidingMode:
         self._standstill.start()
         self._stiction.start()
         self._rejection.start()
+        self._reduction.start()
         self._pushed: float | None = None
         self._surface.start()
         self.allocation.start()
@@ -283,19 +288,23 @@ class SlidingMode:
         scale = gains.rest_factor + (1.0 - gains.rest_factor) * self._standstill.factor
         growth = learner.growth.bandwidth / gains.bandwidth if gains.learning else 1.0
         scale *= growth
+        fast = min(scale, self._tuning.quickest) * gains.velocity_bandwidth
+        share = self._reduction.share
+        scale *= share
         rejection = self._rejection
         stiffens = self.allocation.can_stiffen and self._stiffness.is_moving
         moves = self._standstill.is_moving or stiffens
         rejection.see(dt, error, position, moves=moves, is_cut=self.terms.saturated)
-        self._bandwidth = rejection.between(scale * gains.bandwidth, gains.bandwidth)
+        self._bandwidth = rejection.between(scale * gains.bandwidth, share * gains.bandwidth)
         waited = self._waited
         if position is not None:
-            fast = min(scale, self._tuning.quickest) * gains.velocity_bandwidth
             observer.correct(
                 position,
                 waited,
                 rejection.between(fast, gains.velocity_bandwidth),
-                rejection.between(scale * gains.observer_bandwidth, gains.rejection_bandwidth),
+                rejection.between(
+                    scale * gains.observer_bandwidth, share * gains.rejection_bandwidth
+                ),
             )
             self._waited = 0.0
         self._seen = observer.position if position is None else position
@@ -312,6 +321,11 @@ class SlidingMode:
         self._k = k = model.stiffness(chambers, s) + model.gravity_stiffness(s)
         c = model.damping(chambers, s, v)
         self._find_surface(c)
+        rejection = self._rejection
+        if rejection.level == 0.0 or rejection.is_least:
+            # Before that, an oscillation lowers the highest level of the rejection.
+            bandwidth, least = sqrt(self._square), rejection.least_error
+            self._reduction.see(dt, rejection.error, v, least, bandwidth)
         if velocity is None or not gains.use_measured_velocity:
             velocity = observer.velocity
         self._error, self._error_rate = s - observer.position, v - velocity
@@ -338,7 +352,8 @@ class SlidingMode:
         terms.equivalent = foreseen + lost + shaping
         terms.switching, terms.observer, terms.learned = switching, taken, learned
         terms.bandwidth = self._bandwidth
-        terms.rejection, terms.highest_rejection = self._rejection.level, self._rejection.highest
+        terms.rejection, terms.highest_rejection = rejection.level, rejection.highest
+        terms.feedback = self._reduction.share
         wanted = terms.equivalent + switching + taken + learned
         return wanted, foreseen + self._lost, rate + learned_rate
 
@@ -348,8 +363,13 @@ class SlidingMode:
         square = max(self._k / inertia, gains.surface_bandwidth * gains.surface_bandwidth)
         decay = max(2.0 * gains.surface_damping * sqrt(square), c / inertia)
         level, quick = self._rejection.level, gains.rejection_surface
-        self._square = square + level * (max(quick * quick, square) - square)
-        self._decay = decay + level * (max(2.0 * gains.rejection_damping * quick, decay) - decay)
+        square += level * (max(quick * quick, square) - square)
+        decay += level * (max(2.0 * gains.rejection_damping * quick, decay) - decay)
+        share = self._reduction.share
+        # Without feedback the error has the dynamics of the joint itself.
+        own, passive = max(self._k, 0.0) / inertia, c / inertia
+        self._square = share * square + (1.0 - share) * own
+        self._decay = share * decay + (1.0 - share) * passive
 
     def _push(self, dt: float, reference: Reference, effort: float) -> float:
         """Return the effort to apply: pushes where the load sticks and slips, else *effort*."""
@@ -375,7 +395,9 @@ class SlidingMode:
         """Return the switching effort; sets the sliding variable."""
         gains, inertia, surface = self.gains, self.model.inertia, self._surface
         if gains.switching == SUPER_TWISTING:
+            share = self._reduction.share
             k1, k2 = gains.super_twisting(inertia)
+            k1, k2 = share * k1, share * share * k2
             term = surface.twist(self._error_rate, dt, k1, k2, self.terms.cut)
         else:
             term = surface.drive(self._error_rate, self._bandwidth, gains.switching_gain(inertia))

@@ -12,6 +12,13 @@ from pam_ros.settings.control import ControlSetup
 from pam_ros.timing.ticker import Punctuality
 
 
+MOSTLY = 0.5  # share of the feedback gains below which a loop is clearly slower
+OSCILLATED = (
+    'the loop oscillated: {:.0%} of the feedback gains are in use. Usual causes are a dead time or '
+    'a lag of the valve that is not configured, or a vibration from outside'
+)
+
+
 class Received(NamedTuple):
     """The messages that a controller has received, and their faults."""
 
@@ -54,6 +61,7 @@ def values_of(loop: Loop, setup: ControlSetup, age: float | None) -> dict[str, A
         )
         values['rejection level'] = terms.rejection if is_running else None
         values['highest rejection level'] = terms.highest_rejection if is_running else None
+        values['share of the feedback gains'] = terms.feedback if is_running else None
     feedback = left_to_feedback(setup.law.joint)
     if feedback:
         values['configured, without feedforward'] = ', '.join(feedback)
@@ -108,6 +116,9 @@ def control(loop: Loop, setup: ControlSetup, received: Received, fault: str) -> 
         return Health(Level.WARN, received.blindness, values)
     if state == RUNNING and received.tracking:
         return Health(Level.WARN, received.tracking, values)
+    share = loop.law.terms.feedback
+    if state == RUNNING and share < MOSTLY:
+        return Health(Level.WARN, OSCILLATED.format(share), values)
     return Health(Level.OK, why or 'controlling', values)
 
 

@@ -168,9 +168,22 @@ def test_the_levels_of_rejection_are_shown():
     values = values_of(mass=20.0)
     assert values['rejection level'] == 0.0
     assert values['highest rejection level'] == 0.0  # no step was made
+    assert values['share of the feedback gains'] == 1.0
 
 
 @needs_simple_pid
 def test_pid_has_neither():
     values = values_of(controller='pid')
     assert not {'rejection level', 'largest error within the disturbance bound (m)'} & {*values}
+
+
+@pytest.mark.parametrize(('share', 'level'), [(0.6, Level.OK), (0.34, Level.WARN)])
+def test_a_loop_that_oscillated_is_a_warning_while_its_gains_are_low(setup, share, level):
+    loop = loop_of(setup)
+    loop.state = RUNNING
+    loop.law.terms.feedback = share
+    shown = control(loop, setup, WELL, '')
+    assert shown.level == level
+    assert shown.values['share of the feedback gains'] == share
+    if level == Level.WARN:
+        assert '34% of the feedback gains' in shown.message

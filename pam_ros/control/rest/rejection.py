@@ -101,7 +101,7 @@ class Rejection:
         """Start again at rest at the goal, without knowledge of the delay."""
         self.level, self.highest = 0.0, self._first_level()
         self._bound = 1.0
-        self._error = 0.0
+        self.error = 0.0
         self._last = (0.0, 0.0)  # the last two positions
         self._seen, self._variance = 0, 0.0
         self._begin_rest()
@@ -114,6 +114,11 @@ class Rejection:
             return 1.0
         first = log(max(self._tuning.first / calm, 1.0)) / log(full / calm)
         return min(max(first, self._tuning.least), 1.0)
+
+    @property
+    def is_least(self) -> bool:
+        """Whether the highest level is as low as it may be."""
+        return self.highest <= self._tuning.least
 
     @property
     def noise(self) -> float:
@@ -141,7 +146,7 @@ class Rejection:
         tuning = self._tuning
         if measured is not None:
             self._see_noise(dt, measured)
-        self._error += (1.0 - exp(-dt / tuning.window)) * (error - self._error)
+        self.error += (1.0 - exp(-dt / tuning.window)) * (error - self.error)
         if moves or not self.gains.rejection:
             self._begin_rest()
             return
@@ -151,9 +156,9 @@ class Rejection:
         if not self._acts:
             self._see_rest(dt, least)
             return
-        self._follow(dt, abs(self._error) / least)
+        self._follow(dt, abs(self.error) / least)
         surface = self.gains.rejection_surface
-        if self._oscillation.see(dt, self._error, least, surface, is_cut=is_cut):
+        if self._oscillation.see(dt, self.error, least, surface, is_cut=is_cut):
             self._bound = max(tuning.below * self.highest, tuning.least)
             self.highest = max(tuning.lower * self.highest, tuning.least)
             self.level = min(self.level, self.highest)
@@ -189,15 +194,15 @@ class Rejection:
         """Begin to evaluate the error after a motion; the level is 0 until this error has gone."""
         self.level, self._acts = 0.0, False
         self._calm = self._moving = self._direction = 0.0
-        self._place = self._error
-        self._oscillation.start(self._error)
+        self._place = self.error
+        self._oscillation.start(self.error)
 
     def _see_rest(self, dt: float, least: float) -> None:
         """Find out whether the motion has ended, or the load is shaken."""
         tuning = self._tuning
-        self._calm = self._calm + dt if abs(self._error) < least else 0.0
-        self._place += (1.0 - exp(-dt / tuning.place)) * (self._error - self._place)
-        offset = self._error - self._place
+        self._calm = self._calm + dt if abs(self.error) < least else 0.0
+        self._place += (1.0 - exp(-dt / tuning.place)) * (self.error - self._place)
+        offset = self.error - self._place
         side = 0.0 if abs(offset) < least else copysign(1.0, offset)
         share = 1.0 - exp(-dt / tuning.shake)
         self._moving += share * (abs(side) - self._moving)

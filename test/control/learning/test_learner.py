@@ -211,8 +211,7 @@ def test_a_loop_that_a_sudden_dead_time_makes_unstable_forgets_and_comes_to_rest
     """What was learned before lets the loop be too fast; the command goes from limit to limit."""
     law, _ = swung(ONE, 'friction')
     assert law.learned.restarts == 0
-    late = (effect('dead_time', dead_time_s=0.04),)
-    run = ONE.close(law, ONE.truth(late, seed=6), ONE.step, 8.0)
+    run = ONE.close(law, ONE.truth('dead time', seed=6), ONE.step, 10.0)
     assert (np.min(run.pressure), np.max(run.pressure)) == (0.0, 600e3)
     assert law.learned.restarts == 1
     assert np.max(np.abs(run.error[run.last(2.0)])) < law.gains.rest_tolerance

@@ -1,0 +1,96 @@
+# Copyright 2026 The pam_ros authors
+# SPDX-License-Identifier: Apache-2.0
+"""Reduce the feedback gains of a loop that oscillates.
+
+A delay that the model does not have, such as that of a long hose, limits the gains: with higher
+ones the loop oscillates. The delay itself is not known, but the oscillation can be detected
+(:mod:`.rest.oscillation`). Each one that is detected lowers the share of the feedback gains in
+use. Without feedback the joint follows the model with its own stiffness and damping, which is
+stable with any delay. Therefore a small enough share ends the oscillation. Afterwards the share
+rises again, to below the one at which the loop oscillated.
+
+If the oscillation lasts although hardly any feedback is left, its cause is outside the loop, such
+as a vibration, and the share may rise to 1.
+
+An error that follows the motion of the reference is no oscillation of the loop. Therefore only
+swings of the error count that are at least as large as the motion of the reference in the same
+time.
+"""
+
+from dataclasses import dataclass
+from math import exp, pi
+
+from pam_ros.control.rest.oscillation import Oscillation
+from pam_ros.control.tuning import number
+
+
+@dataclass(frozen=True)
+class ReductionTuning:
+    """How the share of the gains falls and rises."""
+
+    lower: float = number(0.6, '', 'times the share after an oscillation: as for the level')
+    below: float = number(0.85, '', 'times the share of an oscillation: bound of the next rise')
+    least: float = number(
+        0.05, '', 'lowest share: one muscle and a pair are stable with a dead time of 0.12 s'
+    )
+    rise: float = number(0.1, '1/s', 'by which the share rises: slower than oscillations grow')
+    quiet: float = number(1.0, 's', 'without a quick swing before it rises: three periods')
+    forget: float = number(0.003, '1/s', 'by which that bound rises: a rig changes in minutes')
+    swung: float = number(
+        1.0,
+        '',
+        'least swing of the error, divided by the distance that the reference moves in half a '
+        'period: with 0.5, a light load that sticks and slips counts; control, friction, 5 kg',
+    )
+    memory: float = number(0.3, 's', 'in which the speed of the reference is forgotten: a period')
+
+
+class GainReduction:
+    """The share of the feedback gains in use.
+
+    share
+        1 (all of them) to the least share
+
+    Errors are in m, or in rad for a revolute joint.
+    """
+
+    def __init__(self, tuning: ReductionTuning, oscillation: Oscillation) -> None:
+        """Begin with the full gains."""
+        self._tuning, self._oscillation = tuning, oscillation
+        self.start()
+        self.reset()
+
+    def start(self) -> None:
+        """Begin again without an error; the share remains, because the delay does."""
+        self._speed = 0.0
+        self._oscillation.start(0.0)
+
+    def reset(self) -> None:
+        """Use the full gains again, because they are other ones."""
+        self.share = self._bound = 1.0
+
+    def see(self, dt: float, error: float, speed: float, least: float, bandwidth: float) -> None:
+        """Take in the *error* for *dt* s.
+
+        *speed* is that of the reference per second, *least* the least error that counts, and
+        *bandwidth* that of the loop in rad/s.
+        """
+        tuning = self._tuning
+        self._speed = max(abs(speed), self._speed * exp(-dt / tuning.memory))
+        moved = self._speed * pi / bandwidth  # in half a period of the loop
+        # Only swings of at least twice the given error count as an oscillation.
+        counted = max(least, 0.5 * tuning.swung * moved)
+        if self._oscillation.see(dt, error, counted, bandwidth, is_cut=False):
+            self._lower()
+            return
+        self._bound = min(self._bound + tuning.forget * dt, 1.0)
+        if self._oscillation.quiet > tuning.quiet and self.share < self._bound:
+            self.share = min(self.share + tuning.rise * dt, self._bound)
+
+    def _lower(self) -> None:
+        tuning = self._tuning
+        if self.share > tuning.least:
+            self._bound = max(tuning.below * self.share, tuning.least)
+            self.share = max(tuning.lower * self.share, tuning.least)
+        else:
+            self._bound = 1.0  # the cause is outside the loop
