@@ -73,7 +73,7 @@ def test_a_joint_in_a_namespace_and_a_load_that_slides(tmp_path):
 
 
 def test_a_namespace_that_is_not_there(tmp_path):
-    with pytest.raises(RecordingError, match='^bag has no /left/joint_states: it has /right/'):
+    with pytest.raises(RecordingError, match=r'^bag has no /left/joint_states: it has /right/'):
         read(tmp_path, topics('/right'), namespace='left')
 
 

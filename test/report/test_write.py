@@ -188,7 +188,7 @@ def test_a_file_is_refused_and_an_empty_or_new_folder_taken(tmp_path):
 @pytest.mark.parametrize('name', ['report', 'new/below'])
 def test_a_folder_that_the_system_refuses_is_noticed_before(name):
     # The permissions of /proc allow root to make a folder there, and the system refuses it.
-    with pytest.raises(PamError, match='cannot be made: .* /proc'):
+    with pytest.raises(PamError, match=r'cannot be made: .* /proc'):
         check_folder(Path('/proc') / name)
 
 
