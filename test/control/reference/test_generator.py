@@ -94,7 +94,8 @@ def test_what_is_refused_leaves_the_former_target():
         ('update', [0.0], 'dt = 0.0 is not allowed'),
         ('set_trajectory', [[1.0, 1.0], [0.05, 0.06]], 'no two of them equal'),
         ('set_trajectory', [[1.0], [0.05, 0.06]], 'position has the shape'),
-        ('set_trajectory', [[1.0], [1.0]], 'out of reach'),
+        ('set_trajectory', [[1.0], [1.0]], 'position 1 m of point 0 of the trajectory is out of'),
+        ('set_trajectory', [[1.0, 1.2], [0.09, 0.05]], 'between its start and point 0, is out of'),
         ('set_trajectory', [[-1.0], [0.05]], 'times must begin at 0 or later'),
         ('set_trajectory', [[1.0], [0.05], None, [0.0]], 'velocity = None is not allowed'),
     ):
