@@ -8,6 +8,7 @@ import shlex
 import signal
 import subprocess
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -26,6 +27,7 @@ from support.harness import Program
 pytestmark = pytest.mark.usefixtures('domain')
 
 SHORT = {'duration': 30.0, 'countdown': 0.0}
+ANTAGONISTIC = Path(__file__).parents[3] / 'config' / 'antagonistic.yaml'
 LONGEST = 0.1  # s without a command for which the pressure may change at once
 PATIENT = {**SHORT, 'silence': 30.0}  # a busy machine may keep the rig of the test quiet
 # Its standard input becomes the terminal that sends it SIGHUP.
@@ -306,7 +308,10 @@ def test_bad_arguments_end_it_with_a_sentence(tmp_path):
         ({'pressure_min': 5e5}, ['pressure_min = 500000', 'pressure_max = 450000']),
         ({'presure_max': 4e5}, ['presure_max', 'pressure_max']),
         ({'muscle': 'dmsp_99'}, ['dmsp_99']),
+        ({'joint': 'antagonistic'}, ['joint = antagonistic', 'excites only one muscle']),
     ]
     csv = ['--', '--csv', str(tmp_path / 'nowhere' / 'plan.csv')]
     runs = [([*ros_arguments(given), '--'], named) for given, named in refused]
+    file = ['--params-file', str(ANTAGONISTIC), '--', '--dry-run']
+    runs.append((file, ['joint = antagonistic', 'excites only one muscle']))
     check_refusals('pam_excite', [*runs, (csv, ['cannot be written'])])
