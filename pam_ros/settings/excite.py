@@ -9,6 +9,7 @@ from typing import Any
 from pam_ros.errors import ParameterError
 from pam_ros.excitation.programme import Programme, plan, programme
 from pam_ros.excitation.settings import Excitation
+from pam_ros.parameters import Parameter
 from pam_ros.rig.arrangements import LOAD
 from pam_ros.rig.joint import Joint
 from pam_ros.rig.run import simulate
@@ -17,6 +18,14 @@ from pam_ros.settings.files import find, read, read_known
 from pam_ros.settings.rig import KINDS, RigParameters
 from pam_ros.settings.sim import MUSCLE
 from pam_ros.settings.tables import Table, Values, build, rig_table, table_of, with_defaults
+
+JOINT: Table = {
+    'joint': (
+        str,
+        LOAD.name,
+        Parameter('the joint that is excited: one muscle that moves a mass', choices=(LOAD.name,)),
+    )
+}
 
 
 @dataclass(frozen=True)
@@ -57,7 +66,7 @@ def table(given: Values = MappingProxyType({})) -> Table:
     describe a joint other than one muscle on a mass.
     """
     _refuse_joint(given)
-    live = {**MUSCLE, **BRAID, **rig_table(), **table_of(Excitation)}
+    live = {**JOINT, **MUSCLE, **BRAID, **rig_table(), **table_of(Excitation)}
     plain: Table = {
         name: (kind, default, replace(about, live=False))
         for name, (kind, default, about) in live.items()
