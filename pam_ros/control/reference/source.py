@@ -4,7 +4,7 @@
 
 from math import isfinite
 
-from pam_ros.control.limits import refuse_unreachable
+from pam_ros.control.limits import range_text, refuse_unreachable
 from pam_ros.control.reference.points import Points
 from pam_ros.control.reference.shaping import Shape, Shaper
 from pam_ros.control.reference.trajectory import Trajectory
@@ -58,7 +58,10 @@ class ReferenceSource:
     def set_target(self, position: float, ago: float = 0.0) -> None:
         """Take a target in m that was set *ago* s ago; raises RangeError out of reach."""
         if not isfinite(position):
-            raise RangeError(f'reference {position} is not a valid position')
+            raise RangeError(
+                f'reference {position} is not a valid position: '
+                f'{range_text(self.reach, self.unit)}'
+            )
         refuse_unreachable(position, self.reach, self.unit)
         if self._trajectory is not None:
             self._leave()
