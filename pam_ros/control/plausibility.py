@@ -99,9 +99,7 @@ def fault_of_pressure(absolute: float, ambient: float, permitted: tuple[float, f
     if low <= absolute <= high:
         return ''
     question = ' (is it in kPa?)' if low <= 1e3 * absolute <= high else ''
-    return (
-        f'{absolute:.6g} Pa, but only {low:.6g} to {high:.6g} Pa absolute is possible{question}'
-    )
+    return f'{absolute:.6g} Pa, but only {low:.6g} to {high:.6g} Pa absolute is possible{question}'
 
 
 class Plausibility:
