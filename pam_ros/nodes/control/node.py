@@ -378,7 +378,9 @@ class PamControl(TickingNode):
         if now.law.needs_new_law(before.law):
             law = now.law.make_law()
             warm_up(law, now.law.reach, loop.period)
-            loop.change(law, now.law.make_reference_source())
+            sentence = loop.change(law, now.law.make_reference_source())
+            if sentence:
+                self._reports.reject(sentence)
             loop.plausibility.bounds = bounds_of(law.allocation)
         else:
             now.law.take_over(loop.law, before.law)
