@@ -4,7 +4,8 @@
 
 Steps with holds, a slow triangle with minor loops, the same range four times as fast, a
 multisine, chirps at three mean pressures, and the first steps once more; about 85 s. Some of
-them are played with ``segments``. The plan is printed before it starts.
+them are played with ``segments``. The plan is printed before it starts. Only one muscle that moves
+a mass can be excited, and no joint of several muscles.
 
 Publishes
     ``pressure_command`` (std_msgs/Float64): Pa gauge

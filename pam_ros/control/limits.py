@@ -79,7 +79,14 @@ def refuse_unreachable(position: float, reach: tuple[float, float], unit: str = 
     """Raise RangeError, with the range, if the load cannot be held at this reference."""
     low, high = reach
     if not low <= position <= high:
-        raise RangeError(
-            f'reference {position:.6g} {unit} is out of reach: this rig can hold its load at '
-            f'{low:.4g} to {high:.4g} {unit}'
-        )
+        raise unreachable(f'reference {position:.6g} {unit}', reach, unit)
+
+
+def unreachable(what: str, reach: tuple[float, float], unit: str) -> RangeError:
+    """Return the error, with the range, for a position that *what* describes."""
+    return RangeError(f'{what} is out of reach: {range_text(reach, unit)}')
+
+
+def range_text(reach: tuple[float, float], unit: str) -> str:
+    """Return a sentence on the range of the references."""
+    return f'this rig can hold its load at {reach[0]:.4g} to {reach[1]:.4g} {unit}'

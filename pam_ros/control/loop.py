@@ -116,12 +116,18 @@ class Loop:
         self._seen, self._is_new = reading, True
         return ''
 
-    def change(self, law: PositionLaw, source: ReferenceSource) -> None:
-        """Continue with another law and reference, from the present position and pressure."""
+    def change(self, law: PositionLaw, source: ReferenceSource) -> str:
+        """Continue with another law and reference, from the present position and pressure.
+
+        Return a sentence if the present reference is out of the new reach, else ''.
+        """
+        sentence = ''
         if self.state == RUNNING:
-            law.start(self.law.terms.position, self.pressures)
-            source.start(self.source.reference.position)
+            position = self.law.terms.position
+            law.start(position, self.pressures)
+            sentence = source.succeed(self.source, position)
         self.law, self.source = law, source
+        return sentence
 
     def forget(self) -> None:
         """Start again at the next measurement, since the clock has jumped."""

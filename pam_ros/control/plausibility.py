@@ -33,6 +33,10 @@ ALLOWANCE = 0.005
 JITTER = 0.01  # s, of a stamp: one time slice of a loaded computer
 LATELY = 0.05  # s, in which the influence of a measured speed falls to 1/e
 SHORTEST = 1e-3  # s between two measurements: times of receipt may be closer together
+# Pa by which a measured pressure may be below the lowest that the muscle permits. Weather and an
+# altitude of 1000 m lower the ambient pressure by up to 15 kPa, and a sensor for 10 bar has an
+# error of 5 kPa. A larger margin is not useful: a value in kPa must remain outside.
+UNDERPRESSURE = 20e3
 OVERPRESSURE = 1.25  # times the highest permitted pressure: overshoot of valves, sensor errors
 PLACES = 41  # at which the force over the travel is evaluated
 
@@ -85,16 +89,17 @@ def _greatest_effort(model: ControlModel, allocation: Allocation, s: float) -> f
     return total
 
 
-def fault_of_pressure(gauge: float, ambient: float, highest: float) -> str:
-    """Return why a measured gauge pressure in Pa is not plausible, or '' if it is plausible.
+def fault_of_pressure(absolute: float, ambient: float, permitted: tuple[float, float]) -> str:
+    """Return why a measured *absolute* pressure in Pa is not plausible, or '' if it is plausible.
 
-    No chamber holds less than a vacuum, *ambient* Pa below the pressure around it, nor much more
-    than the *highest* gauge pressure that the muscle permits.
+    No chamber holds much less than the lowest or much more than the highest gauge pressure in Pa
+    that is *permitted* for the muscle; *ambient* Pa is the absolute pressure around it.
     """
-    most = OVERPRESSURE * highest
-    if -ambient <= gauge <= most:
+    low, high = ambient + permitted[0] - UNDERPRESSURE, ambient + OVERPRESSURE * permitted[1]
+    if low <= absolute <= high:
         return ''
-    return f'{gauge + ambient:.6g} Pa, but only 0 to {most + ambient:.6g} Pa absolute is possible'
+    question = ' (is it in kPa?)' if low <= 1e3 * absolute <= high else ''
+    return f'{absolute:.6g} Pa, but only {low:.6g} to {high:.6g} Pa absolute is possible{question}'
 
 
 class Plausibility:

@@ -119,7 +119,7 @@ def step_arguments(
             refuse('reference', reference, 'finite numbers')
         _refuse_far('reference.position', reference.position, joint)
         if not -LONGEST <= age <= LONGEST:
-            refuse('age', age, f'a time in s, at most {LONGEST:g} s')
+            refuse('age', age, f'a time in s, {-LONGEST:g} to {LONGEST:g} s')
         if position is not None and not isfinite(position):
             position = None
         if position is not None:
@@ -237,6 +237,7 @@ class PositionLaw(Protocol):
         *reference* is the desired position now. *position* is the newest measurement in m,
         taken *age* s ago, None if there was none since the last call; *velocity* is the
         measured one in m/s, if there is one. A measurement that is not finite is ignored.
+        *age* is negative for a measurement after now, if its stamp is of a clock that is ahead.
         Raises ParameterError, and changes nothing, for a *dt* that is not above 0 s or is above
         1 s, for a measurement that was taken more than 1 s before or after now, for a reference
         that is not finite, and for positions far from those that the muscles can have: in mm or

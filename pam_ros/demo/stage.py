@@ -8,14 +8,19 @@ from pathlib import Path
 
 from tqdm import tqdm
 
+from pam_ros.errors import PamError
+
 
 class Stage:
     """A folder for the files of a chapter, a namespace for its nodes, and its printed text."""
 
     def __init__(self, folder: Path) -> None:
-        """Create *folder*."""
+        """Create *folder*; raises PamError if it cannot be made."""
         self.folder = folder
-        self.folder.mkdir(parents=True, exist_ok=True)
+        try:
+            self.folder.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise PamError(f'{folder} cannot be made: {error.strerror}') from error
         # A name of its own, so that no other demonstration and no rig of the user is disturbed.
         self.namespace = f'/pam_demo_{os.getpid()}'
 

@@ -9,6 +9,7 @@ from pam_ros.control.loop import BLIND, DISABLED, HOLD, RUNNING, VENT, WAITING, 
 from pam_ros.control.signals import Pressures
 from pam_ros.health.health import Health, Level
 from pam_ros.settings.control import ControlSetup
+from pam_ros.timing.pace import SECOND
 from pam_ros.timing.ticker import Punctuality
 
 
@@ -78,6 +79,11 @@ def values_of(loop: Loop, setup: ControlSetup, age: float | None) -> dict[str, A
 def shown(pressures: Pressures | None) -> float | Pressures | None:
     """Return commands as a number if there is one, as a tuple if there are several."""
     return pressures[0] if pressures is not None and len(pressures) == 1 else pressures
+
+
+def repeated(stamp: int) -> str:
+    """Return a sentence on joint states that all have the same *stamp* in ns."""
+    return f'joint_states repeats the stamp {stamp / SECOND:.3f} s: not used'
 
 
 def trouble(loop: Loop, on_timeout: str, blindness: str, fault: str) -> str:

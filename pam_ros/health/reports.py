@@ -31,7 +31,10 @@ class Reports:
         self._logger.warning(reason, throttle_duration_sec=1.0)
 
     def reject(self, reason: str) -> None:
-        """Report why a goal of the action is rejected: each one is logged, for they are few."""
+        """Report why a goal of the action or the active reference is rejected.
+
+        Each one is logged, for they are few.
+        """
         self._count_refusal(reason)
         self._logger.warning(reason)
 

@@ -178,10 +178,15 @@ def _fields(
             if meaning.target.key not in given and f'{topic}.{field}' not in mapping:
                 fields.append(_Field(topic, field, meaning, is_required=False))
     if not any(f.meaning.target.quantity in _OUTPUTS for f in fields):
-        raise RecordingError(
-            f'{path.name} has neither joint_states nor force: it has {_named(source)}'
-        )
+        states, force = (_full_name(name, namespace) for name in ('joint_states', 'force'))
+        lacks = f'neither {states} nor {force}' if 'force' in ours else f'no {states}'
+        raise RecordingError(f'{path.name} has {lacks}: it has {_named(source)}')
     return fields
+
+
+def _full_name(name: str, namespace: str | None) -> str:
+    """Return the name of a topic of the package, with the namespace if one was asked for."""
+    return name if namespace is None else f'/{namespace.strip("/")}/{name}'.replace('//', '/')
 
 
 def _find(
@@ -194,7 +199,7 @@ def _find(
         if topic.rsplit('/', 1)[-1] == name and topic not in mapping
     ]
     if namespace is not None:
-        full = f'/{namespace.strip("/")}/{name}'.replace('//', '/')
+        full = _full_name(name, namespace)
         return full if full in found else None
     if len(found) > 1:
         spaces = ', '.join(topic.rsplit('/', 1)[0] or '/' for topic in sorted(found))

@@ -46,16 +46,34 @@ def check_folder(folder: Path) -> None:
             f'{folder} holds {strange[0]}{others}, which is not a report of pam_identify: '
             'give a new folder'
         )
+    if folder.is_mount():
+        raise PamError(f'{folder} is a mount point, which cannot be replaced: give a folder in it')
     check_parent(folder)
 
 
 def check_parent(path: Path) -> None:
-    """Raise PamError if *path*, of a folder or a file, is not below a writable folder."""
-    parent = path.resolve().parent
+    """Raise PamError if *path*, of a folder or a file, is not below a writable folder.
+
+    A hidden folder is made and removed there. Permissions alone are not sufficient: below /proc,
+    or on a disk without space, nothing can be made although they allow it.
+    """
+    target = path.resolve()
+    parent = target.parent
     while not parent.exists():
         parent = parent.parent
     if not parent.is_dir() or not os.access(parent, os.W_OK | os.X_OK):
         raise PamError(f'{path} cannot be made: {parent} is not a folder that can be written to')
+    try:
+        _new_sibling(target, parent).rmdir()
+    except OSError as error:
+        raise PamError(
+            f'{path} cannot be made: no folder can be made in {parent} ({error.strerror})'
+        ) from error
+
+
+def _new_sibling(target: Path, parent: Path) -> Path:
+    """Make and return an empty hidden folder in *parent*, with a name for *target*."""
+    return Path(tempfile.mkdtemp(dir=parent, prefix=f'.{target.name}.{os.getpid()}.'))
 
 
 def _is_report(folder: Path) -> bool:
@@ -106,7 +124,7 @@ def replaced(folder: Path) -> Iterator[Path]:
         target.parent.mkdir(parents=True, exist_ok=True)
         with suppress(OSError):  # if a folder cannot be listed, or was removed meanwhile
             _clear_abandoned(target)
-        new = Path(tempfile.mkdtemp(dir=target.parent, prefix=f'.{target.name}.{os.getpid()}.'))
+        new = _new_sibling(target, target.parent)
     except OSError as error:
         raise PamError(f'{folder} cannot be made: {error.strerror}') from error
     lock = _locked(new)

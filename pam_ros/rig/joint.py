@@ -9,12 +9,13 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from pam_ros.arguments import instance, number, refuse, sequence
+from pam_ros.arguments import instance, refuse, sequence
 from pam_ros.cached_property import cached_property
 from pam_ros.effects import EFFECTS
 from pam_ros.effects.base import Effect
 from pam_ros.errors import ParameterError, RangeError
 from pam_ros.muscle.muscle import Muscle
+from pam_ros.parameters import Parameter
 from pam_ros.rig import layout as at
 from pam_ros.rig import statics
 from pam_ros.rig.effect_values import begun, checked_effects, onsets
@@ -23,14 +24,15 @@ from pam_ros.rig.loads import Load, LoadEquations, Mass
 from pam_ros.rig.transmissions import Straight, Transmission, TransmissionEquations
 
 Array = NDArray[np.float64]
+CONTRACTION = Parameter('contraction at coordinate 0', 'fraction', -0.5, 0.9)
 
 
 @dataclass(frozen=True)
 class Actuator:
     """A muscle of a joint, with the effects in it and in its pressure path.
 
-    ``contraction`` is that of the muscle at the coordinate 0, as a fraction. Raises
-    ParameterError if one of the three is not valid.
+    ``contraction`` is that of the muscle at the coordinate 0, as a fraction from -0.5 to 0.9.
+    Raises ParameterError if one of the three is not valid.
     """
 
     muscle: Muscle = field(default_factory=Muscle)
@@ -41,7 +43,8 @@ class Actuator:
         """Check the types; the joint checks whether the effects are allowed here."""
         instance('muscle', self.muscle, Muscle, 'a Muscle')
         object.__setattr__(self, 'effects', checked_effects(self.effects))
-        number('contraction', self.contraction)
+        contraction = CONTRACTION.check('contraction', self.contraction, float)
+        object.__setattr__(self, 'contraction', contraction)
 
 
 @dataclass(frozen=True)

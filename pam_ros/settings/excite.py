@@ -6,15 +6,26 @@ from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import Any
 
+from pam_ros.errors import ParameterError
 from pam_ros.excitation.programme import Programme, plan, programme
 from pam_ros.excitation.settings import Excitation
+from pam_ros.parameters import Parameter
+from pam_ros.rig.arrangements import LOAD
 from pam_ros.rig.joint import Joint
 from pam_ros.rig.run import simulate
 from pam_ros.settings.braid import BRAID, with_braid
-from pam_ros.settings.files import read_known
-from pam_ros.settings.rig import RigParameters
+from pam_ros.settings.files import find, read, read_known
+from pam_ros.settings.rig import KINDS, RigParameters
 from pam_ros.settings.sim import MUSCLE
 from pam_ros.settings.tables import Table, Values, build, rig_table, table_of, with_defaults
+
+JOINT: Table = {
+    'joint': (
+        str,
+        LOAD.name,
+        Parameter('the joint that is excited: one muscle that moves a mass', choices=(LOAD.name,)),
+    )
+}
 
 
 @dataclass(frozen=True)
@@ -51,16 +62,35 @@ class Experiment:
 def table(given: Values = MappingProxyType({})) -> Table:
     """Return the table of all parameters; the muscle or braid in *given* sets their defaults.
 
-    None of the parameters can change while the programme is played.
+    None of the parameters can change while the programme is played. Raises ParameterError if they
+    describe a joint other than one muscle on a mass.
     """
-    live = {**MUSCLE, **BRAID, **rig_table(), **table_of(Excitation)}
+    _refuse_joint(given)
+    live = {**JOINT, **MUSCLE, **BRAID, **rig_table(), **table_of(Excitation)}
     plain: Table = {
         name: (kind, default, replace(about, live=False))
         for name, (kind, default, about) in live.items()
     }
     muscle = given.get('muscle')
+    if muscle:
+        file = find(str(muscle))
+        # Before its names are compared: parameters of a joint would count as mistyped ones.
+        _refuse_joint(read(file), f'{file}: ')
     preset = read_known(str(muscle), plain) if muscle else {}
     return with_defaults(plain, with_braid(preset, given, plain))
+
+
+def _refuse_joint(values: Values, where: str = '') -> None:
+    """Raise ParameterError if *values* describe a joint that cannot be excited."""
+    joint = values.get('joint', LOAD.name)
+    if joint == LOAD.name:
+        return
+    known = KINDS.get(str(joint))
+    what = f' ({known.text})' if known else ''
+    raise ParameterError(
+        f'{where}joint = {joint}{what} is not allowed: pam_excite excites only one muscle that '
+        f'moves a mass (joint = {LOAD.name})'
+    )
 
 
 def experiment(values: dict[str, Any]) -> Experiment:

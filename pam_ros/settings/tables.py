@@ -8,7 +8,7 @@ parameter files and command lines share these tables, so that no list of paramet
 """
 
 from collections.abc import Iterable, Mapping
-from dataclasses import fields
+from dataclasses import fields, replace
 from difflib import get_close_matches
 from typing import Any, TypeVar
 
@@ -20,6 +20,7 @@ from pam_ros.muscle.muscle import Muscle
 from pam_ros.parameters import Parameter, described
 from pam_ros.rig.arrangements import LOAD, Arrangement
 from pam_ros.rig.effect_values import effects_from
+from pam_ros.rig.joint import CONTRACTION
 
 Value = bool | int | float | str | tuple[str, ...]
 Values = Mapping[str, Value]
@@ -83,7 +84,7 @@ def mountings(kind: Arrangement) -> list[str]:
 def _contraction(kind: Arrangement, i: int) -> tuple[type, Any, Parameter]:
     which = f'the {ORDINALS[i]} muscle' if kind.muscles > 1 else 'the muscle'
     place = 'angle' if kind.transmission.equations.revolute else 'position'
-    about = Parameter(f'contraction of {which} at {place} 0', 'fraction', -0.5, 0.9)
+    about = replace(CONTRACTION, text=f'contraction of {which} at {place} 0')
     return float, kind.contraction, about
 
 

@@ -193,6 +193,21 @@ def test_a_folder_with_other_files_is_refused_before_any_work(bench, tmp_path):
     )
 
 
+def test_a_folder_that_cannot_be_made_is_refused_before_the_recordings_are_read(
+    bench, monkeypatch, capsys
+):
+    monkeypatch.chdir(bench)
+    # This recording does not exist, which is not noticed: nothing was read.
+    arguments = ['absent.csv', *DECLARED, '--out', '/proc/report']
+    monkeypatch.setattr(sys, 'argv', ['pam_identify', *arguments])
+    on_sigterm = signal.getsignal(signal.SIGTERM)
+    with pytest.raises(SystemExit) as end:
+        pam_identify.main()
+    signal.signal(signal.SIGTERM, on_sigterm)
+    assert end.value.code == 2
+    assert capsys.readouterr().err.startswith('pam_identify: /proc/report cannot be made: ')
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ('kind', 'code'), [(signal.SIGINT, 130), (signal.SIGTERM, 143)], ids=['Ctrl-C', 'SIGTERM']

@@ -4,6 +4,7 @@
 
 import pytest
 
+from pam_ros.control.limits import Limits
 from pam_ros.control.loop import (
     BLIND,
     DISABLED,
@@ -15,10 +16,13 @@ from pam_ros.control.loop import (
     Loop,
     Reading,
 )
-from pam_ros.control.plausibility import MotionBounds, Plausibility
+from pam_ros.control.plausibility import MotionBounds, Plausibility, bounds_of
 from pam_ros.control.reference.shaping import Shape
 from pam_ros.control.reference.source import ReferenceSource
 from pam_ros.control.signals import Terms
+from pam_ros.control.sliding_mode import SlidingMode
+from support import closed_loop
+from support.baseline import pid
 
 PERIOD = 0.002
 BOUNDS = MotionBounds(-0.1, 0.2, 50.0, 1e-3, 'm')
@@ -262,6 +266,58 @@ def test_another_law_takes_over_in_flight(loop):
     loop.change(other, ReferenceSource(Shape(), (-1.0, 1.0)))
     assert other.starts == [(0.05, last)]
     assert loop.source.reference.position == 0.05
+
+
+def test_another_law_that_cannot_hold_the_reference_starts_at_the_load(loop):
+    loop.see(Reading(1.0, 0.05))
+    last = loop.tick(1.0)
+    loop.law.terms.position = 0.049
+    other, source = Recorder(), ReferenceSource(Shape(), (-1.0, 0.02))
+    sentence = loop.change(other, source)
+    assert 'reference 0.05 m is out of reach' in sentence
+    assert other.starts == [(0.049, last)]
+    assert source.reference.position == 0.049
+    assert source.target == 0.02
+
+
+@pytest.mark.parametrize('law', [SlidingMode, pid()])
+@pytest.mark.parametrize('lasts', [0.05, 0.2, 3.0])
+def test_a_load_that_sank_with_less_pressure_is_not_thrown_with_more(law, lasts):
+    """As by limits.pressure_high at run time: lowered for a while and then raised again."""
+    joint, plant = closed_loop.nominal(), closed_loop.truth('nominal', p0=300e3)
+
+    def part(high):
+        limits = Limits(pressure_high=high)
+        made = law(joint, limits=limits)
+        return made, ReferenceSource(Shape(), made.allocation.reach)
+
+    made, source = part(600e3)
+    loop = Loop(made, source, PERIOD, Plausibility(bounds_of(made.allocation)))
+    loop.chambers, now = (300e3,), 10.0
+    begin = plant.measure()
+
+    def run(seconds):
+        nonlocal now
+        found = []
+        for _ in range(round(seconds / PERIOD)):
+            now += PERIOD
+            loop.see(Reading(now, plant.measure()))
+            (pressure,) = loop.tick(now)
+            plant.step(pressure, PERIOD)
+            found.append(plant.y)
+        return found
+
+    run(1.0)
+    assert 'is out of reach' in loop.change(*part(200e3))
+    run(lasts)
+    assert loop.state == RUNNING
+    sunk = plant.y
+    assert loop.change(*part(600e3)) == ''
+    found = run(3.0)
+    # A load that still sinks swings when it is stopped, but not to where it was before.
+    assert max(found) < (sunk + 1e-3 if lasts > 1.0 else begin)
+    assert found[-1] < begin - 5e-3
+    assert found[-1] == pytest.approx(loop.source.reference.position, abs=0.5e-3)
 
 
 def test_pressures_of_several_muscles_are_handled_alike():

@@ -135,21 +135,38 @@ def test_the_velocity_of_the_first_measurement_counts_too():
 
 
 @pytest.mark.parametrize(
-    ('gauge', 'is_true'),
+    ('absolute', 'is_true'),
     [
-        (-100e3, True),
-        (0.0, True),
-        (750e3, True),
-        (-101e3, False),
-        (751e3, False),
+        (80e3, True),
+        (100e3, True),
+        (850e3, True),
+        (79e3, False),
+        (851e3, False),
+        (-50e3, False),
         (math.nan, False),
+        (math.inf, False),
     ],
 )
-def test_no_chamber_holds_less_than_a_vacuum_or_much_more_than_is_permitted(gauge, is_true):
-    fault = fault_of_pressure(gauge, 100e3, 600e3)
+def test_no_chamber_holds_much_less_or_much_more_than_is_permitted(absolute, is_true):
+    fault = fault_of_pressure(absolute, 100e3, (0.0, 600e3))
     assert (fault == '') == is_true
     if not is_true:
-        assert fault.endswith(' Pa, but only 0 to 850000 Pa absolute is possible')
+        assert fault == f'{absolute:.6g} Pa, but only 80000 to 850000 Pa absolute is possible'
+
+
+def test_a_muscle_that_permits_a_vacuum_may_have_one():
+    assert fault_of_pressure(30e3, 100e3, (-60e3, 600e3)) == ''
+    assert 'only 20000 to' in fault_of_pressure(19e3, 100e3, (-60e3, 600e3))
+
+
+@pytest.mark.parametrize(('value', 'is_asked'), [(346.0, True), (100.0, True), (3.46, False)])
+def test_a_value_that_would_be_plausible_in_kpa_leads_to_that_question(value, is_asked):
+    fault = fault_of_pressure(value, 100e3, (0.0, 600e3))
+    assert fault.endswith('absolute is possible' + is_asked * ' (is it in kPa?)')
+
+
+def test_sensors_of_gauge_pressure_with_an_ambient_pressure_of_0_may_have_noise():
+    assert fault_of_pressure(-100.0, 0.0, (0.0, 600e3)) == ''
 
 
 # Real motions ------------------------------------------------------------------------------------

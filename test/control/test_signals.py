@@ -65,7 +65,7 @@ def test_a_measurement_that_is_not_finite_is_none(law, joint, failed):
         ('reference = ', (DT, Reference(0.06, inf), BEGIN)),
         ('age = nan', (DT, GOAL, BEGIN, None, nan)),
         ('age = 4', (DT, GOAL, BEGIN, None, 4)),  # ms
-        ('age = -4', (DT, GOAL, BEGIN, None, -4)),
+        ('age = -4 is not allowed: give a time in s, -1 to 1 s', (DT, GOAL, BEGIN, None, -4)),
         ("dt = '2'", ('2', GOAL, BEGIN)),
         ('reference = 0.06', (DT, 0.06, BEGIN)),
         ('reference = ', (DT, (0.06, 0.0, 0.0, 0.0), BEGIN)),
@@ -78,8 +78,9 @@ def test_a_measurement_that_is_not_finite_is_none(law, joint, failed):
 )
 def test_an_impossible_step_is_refused_and_changes_nothing(law, joint, name, arguments):
     one, twin = twins(law, joint)
-    with pytest.raises(ParameterError, match=f'^{name}.* is not allowed: give '):
+    with pytest.raises(ParameterError, match=f'^{name}') as refused:
         one.update(*arguments)
+    assert ' is not allowed: give ' in str(refused.value)
     assert goes_on_alike(one, twin)
 
 

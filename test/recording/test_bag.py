@@ -62,10 +62,19 @@ def test_of_two_rigs_one_is_chosen(tmp_path):
     check_rig(series, truth)
 
 
-def test_a_namespace_that_is_not_there(tmp_path):
+@pytest.mark.parametrize('namespace', ['left', '/left', '/left/'])
+def test_a_namespace_that_is_not_there(tmp_path, namespace):
     topics, _ = bags.rig_topics()
-    with pytest.raises(RecordingError, match='neither joint_states nor force: it has /force'):
-        read(tmp_path, topics, namespace='/left')
+    wanted = 'bag has neither /left/joint_states nor /left/force: it has /force '
+    with pytest.raises(RecordingError, match=f'^{wanted}'):
+        read(tmp_path, topics, namespace=namespace)
+
+
+def test_the_namespace_without_a_name_that_is_not_there(tmp_path):
+    topics, _ = bags.rig_topics('/right')
+    wanted = 'bag has neither /joint_states nor /force: it has /right/force '
+    with pytest.raises(RecordingError, match=f'^{wanted}'):
+        read(tmp_path, topics, namespace='/')
 
 
 def test_effort_is_the_force_where_no_force_was_recorded(tmp_path):

@@ -72,6 +72,11 @@ def test_a_joint_in_a_namespace_and_a_load_that_slides(tmp_path):
     np.testing.assert_allclose(one.position, ANGLE)
 
 
+def test_a_namespace_that_is_not_there(tmp_path):
+    with pytest.raises(RecordingError, match=r'^bag has no /left/joint_states: it has /right/'):
+        read(tmp_path, topics('/right'), namespace='left')
+
+
 def test_one_muscle_of_a_crank_has_arrays_of_one(tmp_path):
     stamps = [bags.ns(t) for t in T]
     commands = [(at, bags.numbers((u,), 'pam')) for at, u in zip(stamps, UP, strict=True)]

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The folder of a report: whole or not at all, and never in the place of something else."""
 
+import errno
 import json
 import os
 import shutil
@@ -181,6 +182,34 @@ def test_a_file_is_refused_and_an_empty_or_new_folder_taken(tmp_path):
     (tmp_path / 'empty').mkdir()
     check_folder(tmp_path / 'empty')
     check_folder(tmp_path / 'new' / 'below')
+    assert names(tmp_path) == ['empty', 'file']
+
+
+@pytest.mark.parametrize('name', ['report', 'new/below'])
+def test_a_folder_that_the_system_refuses_is_noticed_before(name):
+    # The permissions of /proc allow root to make a folder there, and the system refuses it.
+    with pytest.raises(PamError, match=r'cannot be made: .* /proc'):
+        check_folder(Path('/proc') / name)
+
+
+def test_a_full_disk_is_noticed_before(tmp_path, monkeypatch):
+    def full(*_, **__):
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    monkeypatch.setattr(write.tempfile, 'mkdtemp', full)
+    with pytest.raises(PamError) as refused:
+        check_folder(tmp_path / 'report')
+    assert str(refused.value) == (
+        f'{tmp_path / "report"} cannot be made: no folder can be made in {tmp_path} '
+        '(No space left on device)'
+    )
+
+
+def test_a_mount_point_is_noticed_before(tmp_path, monkeypatch):
+    monkeypatch.setattr(Path, 'is_mount', lambda path: path == tmp_path)
+    with pytest.raises(PamError, match='is a mount point, which cannot be replaced'):
+        check_folder(tmp_path)
+    check_folder(tmp_path / 'report')
 
 
 def test_a_link_stays_a_link(tmp_path, friction):

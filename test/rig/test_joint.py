@@ -20,7 +20,7 @@ from pam_ros.rig.effect_values import split_effects
 from pam_ros.rig.equilibrium import equilibrium
 from pam_ros.rig.joint import Actuator, Joint
 from pam_ros.rig.loads import GRAVITY, Arm, Mass
-from pam_ros.rig.standard_joints import single_muscle_joint
+from pam_ros.rig.standard_joints import antagonistic_joint, single_muscle_joint
 from pam_ros.rig.transmissions import Lever, Pulley, Straight
 from support import joints
 from support.joint_models import UNEQUAL, lever, muscle, pair, parallel
@@ -225,3 +225,12 @@ def test_a_load_that_slides_has_lengths_in_m():
     row = joint.parameters()[at.JOINT]
     assert (row[at.INERTIA], row[at.LENGTH]) == (50.0, UNEQUAL[0].l0)
     assert joint.inertia == 50.0
+
+
+@pytest.mark.parametrize('contraction', [5, -0.51, 0.91])
+def test_a_contraction_that_no_muscle_has_is_refused_as_in_a_file(contraction):
+    said = f'^contraction = {contraction} is not allowed: give -0.5 to 0.9 fraction$'
+    with pytest.raises(ParameterError, match=said.replace('.', r'\.')):
+        Actuator(contraction=contraction)
+    with pytest.raises(ParameterError, match=r'^contraction = .* give -0\.5 to 0\.9 fraction$'):
+        antagonistic_joint(contraction=contraction)

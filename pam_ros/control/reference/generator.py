@@ -14,7 +14,7 @@ from pam_ros.control.model import ControlModel
 from pam_ros.control.reference.points import Points
 from pam_ros.control.reference.shaping import Shape
 from pam_ros.control.reference.source import ReferenceSource
-from pam_ros.control.signals import Reference
+from pam_ros.control.signals import Reference, start_arguments
 from pam_ros.rig.joint import Joint
 
 INSTANT = 1e-6  # s
@@ -42,14 +42,20 @@ class ReferenceGenerator:
         limits = Limits() if limits is None else limits
         instance('shape', shape, Shape, 'a Shape')
         instance('limits', limits, Limits, 'Limits')
+        self._joint = joint
         self.reach = allocation_of(ControlModel(joint), limits).reach
         self._source = ReferenceSource(shape, self.reach, joint.transmission.equations.unit)
         low, high = self.reach
         self.start(0.5 * (low + high) if isfinite(low) and isfinite(high) else 0.0)
 
     def start(self, position: float) -> None:
-        """Begin at rest at *position*, without a target."""
-        self._source.start(number('position', position))
+        """Begin at rest at *position*, without a target.
+
+        The position may be out of reach, as that of a load that rests there is. Raises
+        ParameterError if it is far from those that the muscles can have, as laws do.
+        """
+        start_arguments(self._joint, position, None)
+        self._source.start(float(position))
         # As in pam_control, time passes between a start and a target: without it, the target would
         # count as a sample of a motion, with a velocity.
         self._source.follow(INSTANT)

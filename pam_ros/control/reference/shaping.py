@@ -123,7 +123,7 @@ class Tracker:
         surprise = position + ago * (v + 0.5 * ago * a) - x
         rate = min(STREAM.quick, STREAM.per_sample / interval)
         if (
-            interval > STREAM.pause
+            interval >= STREAM.pause  # as at the first sample, directly after the start
             or abs(surprise) * rate * rate > STREAM.rough * self.bounds.acceleration
         ):
             speed = distance / interval
@@ -165,6 +165,11 @@ class Shaper:
         """Continue within other bounds; the present approach keeps the former ones."""
         self.shape = shape
         self._tracker.bounds = shape.bounds
+
+    @property
+    def target(self) -> float:
+        """The position of the target now, m."""
+        return self._tracker.state[0]
 
     def take(self, position: float, ago: float = 0.0) -> None:
         """Take in a target in m that was set *ago* s ago."""

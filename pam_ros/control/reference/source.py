@@ -4,7 +4,7 @@
 
 from math import isfinite
 
-from pam_ros.control.limits import refuse_unreachable
+from pam_ros.control.limits import clamp, range_text, refuse_unreachable
 from pam_ros.control.reference.points import Points
 from pam_ros.control.reference.shaping import Shape, Shaper
 from pam_ros.control.reference.trajectory import Trajectory
@@ -50,6 +50,41 @@ class ReferenceSource:
         self._shaper.start(position)
         self.targets += 1
 
+    def reaches(self, position: float) -> bool:
+        """Return whether the load can be held at *position* m."""
+        return self.reach[0] <= position <= self.reach[1]
+
+    def succeed(self, before: 'ReferenceSource', position: float) -> str:
+        """Continue after the source *before*, whose reach may differ, with the load at *position*.
+
+        Return a sentence if its reference is out of the new reach, else ''. The reference remains
+        where it is if both reaches contain it. Otherwise the load may not have followed it, and a
+        reference that remained there would throw the load when it can follow again: the reference
+        starts at the load, and goes to the nearest position within reach.
+        """
+        now, target = before.reference.position, before.target
+        if before.reaches(now) and self.reaches(now):
+            self.start(now)
+            return ''
+        self.start(position)
+        if not before.reaches(now) and not before.reaches(target):
+            return ''  # control began at a load that rests out of reach: it stays there
+        self.set_target(clamp(position, *self.reach))
+        if self.reaches(now):
+            return ''
+        return (
+            f'reference {now:.6g} {self.unit} is out of reach with the changed parameters: '
+            f'{range_text(self.reach, self.unit)}; the reference starts at the position of the '
+            f'load, {position:.6g} {self.unit}'
+        )
+
+    @property
+    def target(self) -> float:
+        """The position to which the reference goes, or that of the trajectory now, m."""
+        if self._trajectory is not None:
+            return self._trajectory.at(self._since).position
+        return self._shaper.target
+
     def set_shape(self, shape: Shape) -> None:
         """Continue within other bounds; ParameterError as for a new one."""
         shape.require(revolute=self.unit == 'rad')
@@ -58,7 +93,10 @@ class ReferenceSource:
     def set_target(self, position: float, ago: float = 0.0) -> None:
         """Take a target in m that was set *ago* s ago; raises RangeError out of reach."""
         if not isfinite(position):
-            raise RangeError(f'reference {position} is not a valid position')
+            raise RangeError(
+                f'reference {position} is not a valid position: '
+                f'{range_text(self.reach, self.unit)}'
+            )
         refuse_unreachable(position, self.reach, self.unit)
         if self._trajectory is not None:
             self._leave()

@@ -6,7 +6,7 @@ from bisect import bisect_right
 
 import numpy as np
 
-from pam_ros.control.limits import refuse_unreachable
+from pam_ros.control.limits import unreachable
 from pam_ros.control.reference.points import Floats, Point, Points
 from pam_ros.control.signals import Reference
 
@@ -32,6 +32,7 @@ class Trajectory:
     ) -> None:
         """Pass through *points*, in order; a point at time 0 replaces *start*."""
         points.refuse_bad()
+        given = points
         if points.times[0] > 0.0:
             first = Point(0.0, start.position, start.velocity, start.acceleration)
             points = Points.of([first]).before(points)
@@ -41,7 +42,7 @@ class Trajectory:
         self._times: list[float] = points.times.tolist()
         self._pieces = _pieces(points)
         self.duration = self._times[-1]
-        _refuse_out_of_reach(points, self._pieces, reach, unit)
+        _refuse_out_of_reach(given, points, self._pieces, reach, unit)
 
     def at(self, t: float) -> Reference:
         """Return the reference *t* s after the start; at rest outside of the points."""
@@ -94,21 +95,47 @@ def _pieces(points: Points) -> Floats:
 
 
 def _refuse_out_of_reach(
-    points: Points, pieces: Floats, reach: tuple[float, float], unit: str
+    given: Points, points: Points, pieces: Floats, reach: tuple[float, float], unit: str
 ) -> None:
-    """Raise RangeError if a point, or a place between two points, is out of reach."""
+    """Raise RangeError if a point, or a place between two points, is out of reach.
+
+    *points* are those of the motion: the *given* ones, and the start before them or an end after
+    them. The message counts the *given* ones.
+    """
     low, high = reach
+    before = int(points.times[0] < given.times[0])
     # The given points are checked as they are: rounding must not reject one at the end of the
     # reach.
-    blocks = [points.positions]
+    is_out = ~((low <= points.positions) & (points.positions <= high))
+    if is_out.any():
+        n = int(np.argmax(is_out))
+        position = f'position {points.positions[n]:.6g} {unit}'
+        if n < before:
+            what = f'{position}, the present reference, at which the trajectory starts,'
+        else:
+            what = f'{position} of point {n - before} of the trajectory'
+        raise unreachable(what, reach, unit)
     steps = np.diff(points.times)[:, None] * (np.arange(1, CHECKS) / CHECKS)
-    for n in range(0, len(pieces), BLOCK):
-        x = steps[n : n + BLOCK]
+    for first in range(0, len(pieces), BLOCK):
+        x = steps[first : first + BLOCK]
         y = np.zeros_like(x)
-        for coefficient in pieces[n : n + BLOCK].T:
+        for coefficient in pieces[first : first + BLOCK].T:
             y = y * x + coefficient[:, None]
-        blocks.append(y)
-    for block in blocks:
-        is_out = ~((low <= block) & (block <= high))
+        is_out = ~((low <= y) & (y <= high))
         if is_out.any():
-            refuse_unreachable(float(block[is_out][0]), reach, unit)
+            # Nobody has sent this position: the message says where the motion has it.
+            k, step = (int(i) for i in np.argwhere(is_out)[0])
+            n = first + k
+            raise unreachable(
+                f'position {y[k, step]:.6g} {unit} of the trajectory, at '
+                f'{points.times[n] + x[k, step]:.6g} s {_between(n - before, given.count)},',
+                reach,
+                unit,
+            )
+
+
+def _between(n: int, count: int) -> str:
+    """Return the words for a place after point n of *count*, or after the start if n is -1."""
+    if n < 0:
+        return 'between its start and point 0'
+    return f'between its points {n} and {n + 1}' if n + 1 < count else f'after its point {n}'

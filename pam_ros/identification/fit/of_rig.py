@@ -12,11 +12,10 @@ from numpy.typing import NDArray
 from pam_ros.parameters import Parameter, described
 from pam_ros.rig import layout as at
 from pam_ros.rig import statics
-from pam_ros.rig.joint import Joint, fill_load
+from pam_ros.rig.joint import CONTRACTION, Joint, fill_load
 
 Array = NDArray[np.float64]
 LOAD, TRANSMISSION, MOUNTING = 'load', 'transmission', 'mounting'
-CONTRACTION = Parameter('contraction at coordinate 0', 'fraction', -0.5, 0.9)
 
 
 @dataclass(frozen=True)

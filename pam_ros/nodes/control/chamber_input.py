@@ -64,8 +64,10 @@ class ChamberInput:
             self._on_pressure()
 
     def _note(self, muscle: int, stamp: int, pressure: float) -> None:
-        self._found[muscle] = (stamp, steady_ns(), pressure) if isfinite(pressure) else None
-        self._is_published = self._is_published or all(self._found)
+        self._found[muscle] = (stamp, steady_ns(), pressure)
+        # A sensor that is not connected may give NaN for ever: no start has to wait for it.
+        is_usable = all(one and isfinite(one[2]) for one in self._found)
+        self._is_published = self._is_published or is_usable
 
     def forget(self) -> None:
         """Forget all pressures, and wait for them again."""
@@ -105,8 +107,8 @@ class ChamberInput:
     def _leave_out_faults(self, setup: ControlSetup) -> None:
         ambient = setup.settings.ambient_pressure
         for muscle, one in enumerate(self._found):
-            highest = setup.law.joint.muscles[muscle].p_max
-            fault = fault_of_pressure(one[2] - ambient, ambient, highest) if one else ''
+            of = setup.law.joint.muscles[muscle]
+            fault = fault_of_pressure(one[2], ambient, (of.p_min, of.p_max)) if one else ''
             if fault:
                 self._found[muscle] = None
                 topic = setup.pressure_topics[-1 if setup.has_arrays else muscle]

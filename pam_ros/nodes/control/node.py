@@ -73,6 +73,7 @@ class PamControl(TickingNode):
         self._has_waited = False
         self._answered = 0  # steady time of the last command, ns
         self._blindness = ''  # why the last state was not usable
+        self._repeated = self._seen  # steady time of the last state whose stamp was not new, ns
         self._reports, self._tracking = Reports(self.get_logger()), Tracking()
         self._intake = Intake(
             self,
@@ -264,6 +265,7 @@ class PamControl(TickingNode):
             return
         self._blindness = ''
         if state.stamp and state.stamp == self._stamp:
+            self._repeated = steady_ns()
             self._see_again()
             return
         passed = 0 if self._stamp is None else state.stamp - self._stamp
@@ -288,7 +290,9 @@ class PamControl(TickingNode):
         reading = Reading(time / SECOND, state.position, state.velocity, stamp)
         fault = self._loop.see(reading)
         if not fault:
-            self._seen, self._last = steady_ns(), reading
+            # If this is the time of the loop, it must be the same for both: what is too old for
+            # the loop is then too old for the reason, too.
+            self._seen, self._last = steady_ns() if self._is_followed else time, reading
             return
         self._blindness = f'joint_states has a {fault}: not used'
         self._reports.leave_out(self._blindness)
@@ -374,7 +378,9 @@ class PamControl(TickingNode):
         if now.law.needs_new_law(before.law):
             law = now.law.make_law()
             warm_up(law, now.law.reach, loop.period)
-            loop.change(law, now.law.make_reference_source())
+            sentence = loop.change(law, now.law.make_reference_source())
+            if sentence:
+                self._reports.reject(sentence)
             loop.plausibility.bounds = bounds_of(law.allocation)
         else:
             now.law.take_over(loop.law, before.law)
@@ -392,7 +398,19 @@ class PamControl(TickingNode):
     def _trouble(self) -> str:
         """Return why the node does not control, '' if it does."""
         did = self._setup.settings.on_timeout
-        return control_health.trouble(self._loop, did, self._blindness, self._fault)
+        return control_health.trouble(self._loop, did, self._unusable(), self._fault)
+
+    def _unusable(self) -> str:
+        """Return why the joint states that arrive are not usable, '' if they are.
+
+        A stamp may repeat for a while: in lockstep a state is sent again until it is answered, and
+        a rig that publishes faster than it measures repeats each state, also the one with which
+        it stops.
+        """
+        lasts = self._repeated - self._seen > 0.5 * self._setup.settings.state_timeout * SECOND
+        if self._blindness or self._stamp is None or not lasts or self._is_seen():
+            return self._blindness
+        return control_health.repeated(self._stamp)
 
     def _look_for_states(self) -> None:
         """Log once what control waits for, and once when it continues."""
@@ -406,7 +424,7 @@ class PamControl(TickingNode):
         self._look_for_states()
         age = None if self._stamp is None else (steady_ns() - self._seen) / SECOND
         self._reports.follow(self._tracking.warning)
-        received = self._reports.received(age, self._blindness)
+        received = self._reports.received(age, self._unusable())
         return control_health.control(self._loop, self._setup, received, self._fault)
 
     def _timing(self) -> Health:

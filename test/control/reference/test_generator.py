@@ -91,10 +91,13 @@ def test_what_is_refused_leaves_the_former_target():
         ('set_target', [float('nan')], 'position = nan is not allowed'),
         ('set_target', ['far'], "position = 'far' is not allowed"),
         ('start', [None], 'position = None is not allowed'),
+        ('start', [30.0], 'position = 30 m is not possible with a muscle of 0.4 m'),  # mm
+        ('start', [3.0], 'position = 3 m is not possible with a muscle of 0.4 m'),
         ('update', [0.0], 'dt = 0.0 is not allowed'),
         ('set_trajectory', [[1.0, 1.0], [0.05, 0.06]], 'no two of them equal'),
         ('set_trajectory', [[1.0], [0.05, 0.06]], 'position has the shape'),
-        ('set_trajectory', [[1.0], [1.0]], 'out of reach'),
+        ('set_trajectory', [[1.0], [1.0]], 'position 1 m of point 0 of the trajectory is out of'),
+        ('set_trajectory', [[1.0, 1.2], [0.09, 0.05]], 'between its start and point 0, is out of'),
         ('set_trajectory', [[-1.0], [0.05]], 'times must begin at 0 or later'),
         ('set_trajectory', [[1.0], [0.05], None, [0.0]], 'velocity = None is not allowed'),
     ):
@@ -112,3 +115,16 @@ def test_parts_of_another_kind_are_refused():
     ):
         with pytest.raises(PamError, match=said):
             ReferenceGenerator(*arguments)
+
+
+@pytest.mark.parametrize('joint', [LIFT, ELBOW])
+def test_it_begins_wherever_a_law_begins(joint):
+    low, high = ReferenceGenerator(joint).reach
+    for position in (low - 0.02, high + 0.02):
+        reference, law = ReferenceGenerator(joint), SlidingMode(joint)
+        reference.start(position)
+        law.start(position)
+        assert reference.update(DT).position == law.terms.position == position
+    for start in (ReferenceGenerator(joint).start, SlidingMode(joint).start):
+        with pytest.raises(PamError, match=r'position = 57 .* is not possible with'):
+            start(57.0)

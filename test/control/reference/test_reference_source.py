@@ -108,7 +108,7 @@ def test_what_cannot_be_is_refused_and_changes_nothing():
     source = a_source()
     source.play(Points.of([Point(2.0, 0.05)]))
     for bad in (0.2, -0.5, math.nan, math.inf):
-        with pytest.raises(RangeError):
+        with pytest.raises(RangeError, match=rf'reference {bad}.* its load at -0.01 to 0.1 m'):
             source.set_target(bad)
     with pytest.raises(RangeError):
         source.play(Points.of([Point(1.0, 0.3)]))

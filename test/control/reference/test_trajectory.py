@@ -70,10 +70,52 @@ def test_a_point_at_the_start_takes_its_place():
         ([Point(1.0, math.nan)], 'not finite'),
         ([Point(1.0, 0.03), Point(1.0, 0.04)], 'point 1 of the trajectory is at 1 s'),
         ([Point(-1.0, 0.03)], 'point 0 of the trajectory is at -1 s'),
-        ([Point(1.0, 0.2)], 'out of reach: this rig can hold its load at -0.01 to 0.1 m'),
-        ([Point(1.0, 0.09, 0.3), Point(2.0, 0.02, 0.0)], 'out of reach'),
+        (
+            [Point(1.0, 0.2)],
+            'position 0.2 m of point 0 of the trajectory is out of reach: this rig can hold its '
+            'load at -0.01 to 0.1 m',
+        ),
+        (
+            [Point(1.0, 0.09, 0.3), Point(2.0, 0.02, 0.0)],
+            'position 0.105693 m of the trajectory, at 1.0625 s between its points 0 and 1, is '
+            'out of reach',
+        ),
     ],
 )
 def test_points_that_make_no_motion_are_refused(points, named):
     with pytest.raises(RangeError, match=named.replace('.', r'\.')):
         Trajectory(HERE, Points.of(points), REACH)
+
+
+@pytest.mark.parametrize(
+    ('points', 'place'),
+    [
+        ([Point(0.4, 0.03), Point(0.5, 0.095), Point(1.0, 0.09)], 'between its points 1 and 2'),
+        ([Point(0.0, 0.09), Point(0.1, 0.095), Point(1.0, 0.09)], 'between its points 1 and 2'),
+        ([Point(0.5, 0.1, -0.5)], 'between its start and point 0'),
+        ([Point(0.0, 0.1, 0.9, 0.0)], 'after its point 0'),
+    ],
+)
+def test_a_motion_that_leaves_the_reach_between_points_is_named_by_its_place(points, place):
+    with pytest.raises(RangeError) as refused:
+        Trajectory(HERE, Points.of(points), REACH)
+    said = str(refused.value)
+    assert f' s {place}, is out of reach: this rig can hold its load at -0.01 to 0.1 m' in said
+    time = float(said.partition(', at ')[2].partition(' s ')[0])
+    wide = Trajectory(HERE, Points.of(points), (-1.0, 1.0))
+    assert f'position {wide.at(time).position:.6g} m of the trajectory, ' in said
+
+
+def test_a_place_far_into_a_long_trajectory_is_counted_from_its_first_point():
+    points = [Point(0.1 * (k + 1), 0.05, 0.0) for k in range(3000)]
+    points[2001] = Point(200.2, 0.099, 1.0)  # which goes on upwards
+    with pytest.raises(RangeError, match=r'at 200\.20\d* s between its points 2001 and 2002,'):
+        Trajectory(Reference(0.05), Points.of(points), REACH)
+
+
+def test_a_start_out_of_reach_is_named():
+    with pytest.raises(RangeError) as refused:
+        Trajectory(Reference(-0.02), Points.of([Point(1.0, 0.05)]), REACH)
+    assert str(refused.value).startswith(
+        'position -0.02 m, the present reference, at which the trajectory starts, is out of reach'
+    )

@@ -52,7 +52,7 @@ LOAD = Kind(
     *('load', 1, {}, 300e3, 0.06, 0.01, 1e-4, 1e-5, 21.0),
     (
         (0.3, ('reference 0.3 m', 'out of reach', ' to 0.09')),
-        (-math.inf, ('reference -inf',)),
+        (-math.inf, ('reference -inf', ' to 0.09')),
     ),
 )
 PAIR = Kind(
@@ -60,10 +60,11 @@ PAIR = Kind(
     *(0.2 * DEGREE, 0.1 * DEGREE, 1.3),
     (
         (2.0, ('reference 2 rad', 'out of reach', '-1.169 to 1.169 rad')),
-        (math.nan, ('reference nan',)),
+        (math.nan, ('reference nan', '-1.169 to 1.169 rad')),
     ),
 )
 both = pytest.mark.parametrize('kind', [LOAD, PAIR], ids=lambda kind: kind.name)
+of_a_load = pytest.mark.parametrize('kind', [LOAD], ids=lambda kind: kind.name)
 of_a_pair = pytest.mark.parametrize('kind', [PAIR], ids=lambda kind: kind.name)
 
 
@@ -285,3 +286,35 @@ def test_parameters_are_described_and_changed_or_refused_as_a_whole(watch, kind)
         assert watch.latest('error') == pytest.approx(0.0, abs=kind.still)
         if kind is PAIR:
             assert watch.latest('stiffness') == pytest.approx(33.0, rel=0.05)
+
+
+@of_a_load
+@pytest.mark.at_any_pace
+def test_a_reference_out_of_a_changed_reach_follows_the_load_with_a_line_in_the_log(watch, kind):
+    with (
+        Program('pam_sim', parameters=kind.lockstep),
+        Program('pam_control', parameters=kind.following) as control,
+    ):
+        begin = watch.begin()
+
+        def set_highest(pressure):
+            changed = watch.peer.set_one('pam_control', limits__pressure_high=pressure)
+            assert changed.successful, changed.reason
+
+        watch.lead(lambda: set_highest(200e3), 3.0)
+        lowest = watch.latest('reference')
+        assert lowest < begin - kind.way
+        assert abs(watch.latest('error')) < kind.still
+        words = f'reference {begin:.6g} m is out of reach with the changed parameters'
+        assert control.output.count('with the changed parameters') == 1
+        assert words in control.output
+        status = watch.status(lambda s: words in s.message, 'the warning')
+        assert status.level == DiagnosticStatus.WARN
+
+        sent = len(watch.terms)
+        set_highest(5e6)
+        watch.peer.more(watch.terms, 800)
+        _, seen = columns(watch.terms[sent:], watch.names)
+        np.testing.assert_array_equal(seen['reference'], lowest)
+        assert np.max(np.abs(seen['error'])) < kind.close
+        assert control.output.count('with the changed parameters') == 1

@@ -2,11 +2,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """``pam_control`` next to a publisher whose states cannot be true: the load stays where it is."""
 
+import math
+
 import numpy as np
 import pytest
 from builtin_interfaces.msg import Time
 from diagnostic_msgs.msg import DiagnosticStatus
 from sensor_msgs.msg import FluidPressure, JointState
+from std_srvs.srv import SetBool
 
 from support.control_watch import Simulation, Watch
 from support.harness import Program
@@ -99,8 +102,54 @@ def test_states_that_stay_false_are_no_states(watch):
 
 
 @pytest.mark.at_any_pace
-@pytest.mark.parametrize('false', [-20e3, 5e6])
-def test_control_does_not_begin_at_a_pressure_that_cannot_be(watch, false):
+def test_states_whose_stamp_stays_the_same_are_no_states_and_this_is_the_reason(watch):
+    peer, rig = watch.peer, Simulation(watch.peer)
+    frozen = JointState(name=['pam'], position=[0.06])
+    frozen.header.stamp.sec = 1000
+    reason = 'joint_states repeats the stamp 1000.000 s: not used'
+
+    def shown(words):
+        peer.publish(frozen, 'joint_states')
+        return any(words in s.message for array in watch.arrays for s in array.status)
+
+    with Program('pam_control', parameters={'state_timeout': 0.5}) as control:
+        peer.until(lambda: shown(f'has stopped: vents: {reason}'), 'the reason')
+        peer.until(lambda: f'has stopped: vents: {reason}' in control.output, 'the log')
+        # If it is enabled again, it has no state yet.
+        assert peer.call(SetBool, 'pam_control/enable', data=False).success
+        assert reason in peer.call(SetBool, 'pam_control/enable', data=True).message
+        before = len(watch.terms)
+        rig.tell_until(lambda: len(watch.terms) > before, 'control again')
+
+
+@pytest.mark.at_any_pace
+def test_a_rig_that_repeats_each_state_and_then_stops_has_only_stopped(watch):
+    rig = Simulation(watch.peer)
+
+    def tell_twice():
+        for _ in range(2):
+            rig.tell()
+            rig.count -= 1
+        rig.count += 1
+        return len(watch.terms) > 10
+
+    with Program('pam_control', parameters={'state_timeout': 2.0}) as control:
+        watch.peer.until(tell_twice, 'control')
+        watch.status(lambda s: s.message == 'joint_states has stopped: vents', 'the time-out')
+        assert 'repeats the stamp' not in control.output
+
+
+@pytest.mark.at_any_pace
+@pytest.mark.parametrize(
+    ('false', 'end'),
+    [
+        (-20e3, ''),
+        (5e6, ''),
+        (346.0, ' (is it in kPa?)'),
+        (math.nan, ''),
+    ],
+)
+def test_control_does_not_begin_at_a_pressure_that_cannot_be(watch, false, end):
     rig, peer = Simulation(watch.peer), watch.peer
     with Program(
         'pam_control', parameters={'pressure_wait': 0.5, 'state_timeout': 60.0}
@@ -115,7 +164,8 @@ def test_control_does_not_begin_at_a_pressure_that_cannot_be(watch, false):
 
         peer.until(began, 'control')
         first = watch.commands[0].data
-        assert f'pressure has {false:.6g} Pa, but only 0 to ' in control.output
+        words = f'pressure has {false:.6g} Pa, but only 81325 to 851325 Pa absolute is possible'
+        assert f'{words}{end}: not used' in control.output
         assert 1e5 < first < 5e5  # that which holds the configured load at 60 mm
-        status = watch.status(lambda s: 'pressure has ' in s.message, 'the warning')
+        status = watch.status(lambda s: words in s.message, 'the warning')
         assert status.level == DiagnosticStatus.WARN

@@ -8,6 +8,7 @@ import shlex
 import signal
 import subprocess
 import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -26,6 +27,7 @@ from support.harness import Program
 pytestmark = pytest.mark.usefixtures('domain')
 
 SHORT = {'duration': 30.0, 'countdown': 0.0}
+ANTAGONISTIC = Path(__file__).parents[3] / 'config' / 'antagonistic.yaml'
 LONGEST = 0.1  # s without a command for which the pressure may change at once
 PATIENT = {**SHORT, 'silence': 30.0}  # a busy machine may keep the rig of the test quiet
 # Its standard input becomes the terminal that sends it SIGHUP.
@@ -126,7 +128,7 @@ def test_it_plays_the_programme_to_its_end(rig):
 def test_the_plan_alone(peer, tmp_path):
     commands = peer.collect(Float64, 'pressure_command')
     file = tmp_path / 'plan.csv'
-    with excite({'seed': 5}, '--dry-run', '--csv', str(file)) as program:
+    with excite({'seed': 5, 'joint': 'load'}, '--dry-run', '--csv', str(file)) as program:
         assert program.wait() == 0
         output = program.output
     assert '\nslow_triangle ' in output
@@ -134,6 +136,7 @@ def test_the_plan_alone(peer, tmp_path):
     assert 'outside -16.0 to 100.0 mm' in output
     assert 'the nominal model would move from' in output
     assert 'CAUTION' not in output
+    assert 'WARN' not in output
     table = np.genfromtxt(file, delimiter=',', names=True)
     np.testing.assert_array_equal(
         table['pressure_command_Pa'], programme(Excitation(seed=5)).pressure
@@ -306,7 +309,10 @@ def test_bad_arguments_end_it_with_a_sentence(tmp_path):
         ({'pressure_min': 5e5}, ['pressure_min = 500000', 'pressure_max = 450000']),
         ({'presure_max': 4e5}, ['presure_max', 'pressure_max']),
         ({'muscle': 'dmsp_99'}, ['dmsp_99']),
+        ({'joint': 'antagonistic'}, ['joint = antagonistic', 'excites only one muscle']),
     ]
     csv = ['--', '--csv', str(tmp_path / 'nowhere' / 'plan.csv')]
     runs = [([*ros_arguments(given), '--'], named) for given, named in refused]
+    file = ['--params-file', str(ANTAGONISTIC), '--', '--dry-run']
+    runs.append((file, ['joint = antagonistic', 'excites only one muscle']))
     check_refusals('pam_excite', [*runs, (csv, ['cannot be written'])])
