@@ -55,7 +55,7 @@ from pam_ros.control.limits import Limiter, Limits
 from pam_ros.control.model import ControlModel
 from pam_ros.control.observer import Observer
 from pam_ros.control.pressure_path import PressurePath
-from pam_ros.control.rest.oscillation import Oscillation, OscillationTuning
+from pam_ros.control.rest.oscillation import OscillationTuning
 from pam_ros.control.rest.rejection import Rejection, RejectionTuning
 from pam_ros.control.rest.standstill import Standstill, StandstillTuning
 from pam_ros.control.rest.stiction import Stiction, StictionTuning
@@ -135,7 +135,7 @@ class SlidingMode:
         )
         self._stiction = Stiction(gains.rest_tolerance, scaled(StictionTuning(), length, force))
         self._rejection = Rejection(gains, RejectionTuning(), OscillationTuning())
-        self._reduction = GainReduction(ReductionTuning(), Oscillation(OscillationTuning()))
+        self._reduction = GainReduction(ReductionTuning())
         self._surface = Surface()
         self._stiffness = StiffnessReference(
             wanted.wanted(self.allocation), wanted.co_contraction_rate

@@ -12,11 +12,10 @@ from pam_ros.settings.control import ControlSetup
 from pam_ros.timing.pace import SECOND
 from pam_ros.timing.ticker import Punctuality
 
-
-MOSTLY = 0.5  # share of the feedback gains below which a loop is clearly slower
+MOSTLY = 0.6  # share of the feedback gains below which a loop is clearly slower
 OSCILLATED = (
-    'the loop oscillated: {:.0%} of the feedback gains are in use. Usual causes are a dead time or '
-    'a lag of the valve that is not configured, or a vibration from outside'
+    'the loop oscillated: {:.0%} of the feedback gains are in use. Usual causes are a dead time '
+    'or a lag that is not configured, or a vibration from outside'
 )
 
 
@@ -118,13 +117,12 @@ def control(loop: Loop, setup: ControlSetup, received: Received, fault: str) -> 
             return Health(Level.WARN, what, values)
     if state == WAITING:
         return Health(Level.WARN, why, values)
-    if state == RUNNING and received.blindness:
-        return Health(Level.WARN, received.blindness, values)
-    if state == RUNNING and received.tracking:
-        return Health(Level.WARN, received.tracking, values)
-    share = loop.law.terms.feedback
-    if state == RUNNING and share < MOSTLY:
-        return Health(Level.WARN, OSCILLATED.format(share), values)
+    if state == RUNNING:
+        share = loop.law.terms.feedback
+        oscillated = OSCILLATED.format(share) if share < MOSTLY else ''
+        lasts = received.blindness or received.tracking or oscillated
+        if lasts:
+            return Health(Level.WARN, lasts, values)
     return Health(Level.OK, why or 'controlling', values)
 
 

@@ -3,11 +3,11 @@
 """The share of the feedback gains: lower for a loop that oscillates, and for nothing else."""
 
 import math
+from itertools import pairwise
 
 import pytest
 
-from pam_ros.control.gain_reduction import GainReduction, ReductionTuning
-from pam_ros.control.rest.oscillation import Oscillation, OscillationTuning
+from pam_ros.control.gain_reduction import OF_THE_LOOP, GainReduction, ReductionTuning
 
 DT, LEAST, BANDWIDTH = 2e-3, 40e-6, 20.0
 TUNING = ReductionTuning()
@@ -23,7 +23,7 @@ def sine(frequency, amplitude=1e-3):
 
 
 def reduction():
-    return GainReduction(TUNING, Oscillation(OscillationTuning()))
+    return GainReduction(TUNING)
 
 
 def see(it, error, seconds, speed=calm):
@@ -38,10 +38,16 @@ def see(it, error, seconds, speed=calm):
 def test_an_oscillation_lowers_the_share_step_by_step_to_the_least():
     shares = see(reduction(), sine(QUICK), 10.0)
     levels = sorted(set(shares), reverse=True)
-    for before, after in zip(levels, levels[1:], strict=False):
+    for before, after in pairwise(levels):
         assert after == pytest.approx(max(TUNING.lower * before, TUNING.least))
     assert shares[0] == 1.0
     assert shares[-1] == TUNING.least
+
+
+def test_a_load_that_bounces_on_a_stop_is_quicker_than_the_loop():
+    ratio = OF_THE_LOOP.quickest
+    assert see(reduction(), sine(0.9 * ratio * BANDWIDTH), 5.0)[-1] < 1.0
+    assert set(see(reduction(), sine(1.2 * ratio * BANDWIDTH), 5.0)) == {1.0}
 
 
 def test_a_slow_error_and_noise_change_nothing():
@@ -67,22 +73,22 @@ def test_the_speed_of_the_reference_is_remembered_for_a_period():
     assert forgotten < first < forgotten + 4.0 * math.pi / QUICK
 
 
-def test_after_an_oscillation_the_share_rises_to_below_its_share():
+def test_after_an_oscillation_the_share_rises_slowly():
     it = reduction()
-    lowered = see(it, sine(QUICK), 0.5)[-1]
-    assert lowered == TUNING.lower
-    shares = see(it, calm, TUNING.quiet + 5.0)
-    bound = TUNING.below + TUNING.forget * (TUNING.quiet + 5.0)
-    assert max(shares) == pytest.approx(bound, rel=0.01)
-    assert max(b - a for a, b in zip(shares, shares[1:], strict=False)) <= 1.01 * TUNING.rise * DT
-    assert see(it, calm, 60.0)[-1] == 1.0
+    assert see(it, sine(QUICK), 0.5)[-1] == TUNING.lower
+    shares = see(it, calm, 20.0)
+    assert shares[-1] == pytest.approx(TUNING.lower + 20.0 * TUNING.forget, rel=1e-3)
+    assert see(it, calm, 0.5 / TUNING.forget)[-1] == 1.0
 
 
 def test_an_oscillation_that_feedback_does_not_cause_is_forgotten_at_once():
     """It lasts with hardly any feedback: a vibration."""
     it = reduction()
     assert see(it, sine(QUICK), 20.0)[-1] == TUNING.least
-    assert see(it, calm, TUNING.quiet + 1.0 / TUNING.rise)[-1] == 1.0
+    shares = see(it, calm, TUNING.quiet + 1.0 / TUNING.restore)
+    steps = [b - a for a, b in pairwise(shares)]
+    assert max(steps) == pytest.approx(TUNING.restore * DT)
+    assert shares[-1] == 1.0
 
 
 def test_a_start_keeps_the_share_and_other_gains_do_not():

@@ -87,7 +87,7 @@ def test_other_unconfigured_effects_hardly_lower_the_gains(kind, plant):
         law = law_of(kind)
         kind.close(law, kind.truth(plant, seed=3), target, 8.0)
         # A lag is a delay, too: after a step, the pair rings with it.
-        assert law.terms.feedback >= (0.8 if plant in ('lag', 'all') else 1.0)
+        assert law.terms.feedback >= (0.5 if plant in ('lag', 'all') else 1.0)
 
 
 def test_the_share_is_kept_at_a_start_but_not_with_other_gains():

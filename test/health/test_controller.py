@@ -177,7 +177,7 @@ def test_pid_has_neither():
     assert not {'rejection level', 'largest error within the disturbance bound (m)'} & {*values}
 
 
-@pytest.mark.parametrize(('share', 'level'), [(0.6, Level.OK), (0.34, Level.WARN)])
+@pytest.mark.parametrize(('share', 'level'), [(0.7, Level.OK), (0.34, Level.WARN)])
 def test_a_loop_that_oscillated_is_a_warning_while_its_gains_are_low(setup, share, level):
     loop = loop_of(setup)
     loop.state = RUNNING

@@ -11,7 +11,7 @@ periods; this method takes one and a half.
 """
 
 from dataclasses import dataclass
-from math import pi
+from math import inf, pi
 
 from pam_ros.control.tuning import number
 
@@ -30,6 +30,9 @@ class OscillationTuning:
         'times the bandwidth of the loop: slower swings are those of a disturbance; with the '
         'unconfigured lag of 50/70 ms in the benchmark disturbance, swings are 1.1 to 1.3 times '
         'as quick as the loop',
+    )
+    quickest: float = number(
+        inf, '', 'times the bandwidth of the loop: quicker swings are not those of the loop'
     )
 
 
@@ -77,7 +80,8 @@ class Oscillation:
         """End a swing at its extreme error; return whether it completes an oscillation."""
         tuning = self._tuning
         swing, lasted = abs(self._extreme - self._turned), self._reached
-        is_quick = self._was_cut or lasted < pi / (tuning.quick * bandwidth)
+        longest, shortest = pi / (tuning.quick * bandwidth), pi / (tuning.quickest * bandwidth)
+        is_quick = shortest <= lasted and (self._was_cut or lasted < longest)
         lasts = swing >= max(least, tuning.lasting * self._swing)
         self._turned, self._extreme = self._extreme, error
         self._lasted -= self._reached

@@ -11,7 +11,6 @@ from pam_ros.control.sliding_mode import SlidingMode
 from pam_ros.effects import CoulombFriction
 from support.closed_loop import LAG, close_loop, nominal, sine_target, step_target, truth
 from support.kinds import EACH_KIND, ONE, PAIR, rms
-from truth.effects import effect
 
 pytestmark = pytest.mark.needs_numba
 
@@ -113,13 +112,17 @@ def test_of_configured_friction_only_the_part_at_rest_is_learned():
 
 @pytest.mark.slow
 @pytest.mark.parametrize('mass', [5.0, 10.0])
-def test_configured_friction_of_a_light_load_is_no_worse_than_learned(mass):
+def test_configured_friction_of_a_light_load_is_about_as_good_as_learned(mass):
+    """A light load jumps at the reversal, so that runs differ by half: the mean of five counts."""
     errors = {}
     for effects in ((), FRICTION):
-        law = SlidingMode(nominal(mass=mass, effects=effects))
-        run = close_loop(law, truth('friction', mass=mass, seed=5), sine_target(0.01, 0.5), 16.0)
-        errors[effects] = np.sqrt(np.mean(run.error[run.last(4.0)] ** 2))
-    assert errors[FRICTION] < 1.1 * errors[()] < 0.7e-3
+        squares = []
+        for seed in range(5):
+            law, plant = SlidingMode(nominal(mass, effects)), truth('friction', mass, seed=seed)
+            run = close_loop(law, plant, sine_target(0.01, 0.5), 16.0)
+            squares.append(np.mean(run.error[run.last(4.0)] ** 2))
+        errors[effects] = np.sqrt(np.mean(squares))
+    assert errors[FRICTION] < 1.2 * errors[()] < 0.7e-3
 
 
 @pytest.mark.slow
