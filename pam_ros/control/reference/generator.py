@@ -13,11 +13,9 @@ from pam_ros.control.limits import Limits
 from pam_ros.control.model import ControlModel
 from pam_ros.control.reference.points import Points
 from pam_ros.control.reference.shaping import Shape
-from pam_ros.control.reference.source import ReferenceSource
+from pam_ros.control.reference.source import INSTANT, ReferenceSource
 from pam_ros.control.signals import Reference, start_arguments
 from pam_ros.rig.joint import Joint
-
-INSTANT = 1e-6  # s
 
 
 class ReferenceGenerator:
@@ -56,8 +54,7 @@ class ReferenceGenerator:
         """
         start_arguments(self._joint, position, None)
         self._source.start(float(position))
-        # As in pam_control, time passes between a start and a target: without it, the target would
-        # count as a sample of a motion, with a velocity.
+        # As in pam_control, time passes between a start and a target.
         self._source.follow(INSTANT)
 
     def set_target(self, position: float) -> None:

@@ -123,7 +123,7 @@ class Tracker:
         surprise = position + ago * (v + 0.5 * ago * a) - x
         rate = min(STREAM.quick, STREAM.per_sample / interval)
         if (
-            interval >= STREAM.pause  # as at the first sample, directly after the start
+            interval > STREAM.pause
             or abs(surprise) * rate * rate > STREAM.rough * self.bounds.acceleration
         ):
             speed = distance / interval

@@ -11,6 +11,10 @@ from pam_ros.control.reference.trajectory import Trajectory
 from pam_ros.control.signals import Reference
 from pam_ros.errors import RangeError
 
+# s between a start and a target: without it, the target would count as a sample of a motion, with
+# a velocity.
+INSTANT = 1e-6
+
 
 class ReferenceSource:
     """Makes one reference from all targets that are set; the newest target counts."""
@@ -69,6 +73,7 @@ class ReferenceSource:
         self.start(position)
         if not before.reaches(now) and not before.reaches(target):
             return ''  # control began at a load that rests out of reach: it stays there
+        self.follow(INSTANT)
         self.set_target(clamp(position, *self.reach))
         if self.reaches(now):
             return ''

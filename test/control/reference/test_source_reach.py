@@ -28,14 +28,6 @@ def follow(source, seconds):
     return np.array([source.follow(DT).position for _ in range(round(seconds / DT))])
 
 
-def test_a_set_point_directly_after_the_start_is_no_motion(source):
-    source.start(0.05)
-    source.set_target(0.06)
-    way = follow(source, 2.0)
-    assert np.max(way) < 0.06 + 1e-9
-    assert way[-1] == 0.06
-
-
 @pytest.mark.parametrize('gap', [0.15, 0.3, 0.6, 2.5])
 @pytest.mark.parametrize('goal', [0.072, 0.085])
 def test_set_points_one_after_the_other_are_not_taken_for_a_motion(source, gap, goal):
