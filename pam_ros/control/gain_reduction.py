@@ -85,8 +85,8 @@ class GainReduction:
         """Use the full gains again, because they are other ones."""
         self.share = self._bound = 1.0
 
-    def see(self, dt: float, error: float, speed: float, least: float, bandwidth: float) -> None:
-        """Take in the *error* for *dt* s.
+    def see(self, dt: float, error: float, speed: float, least: float, bandwidth: float) -> bool:
+        """Take in the *error* for *dt* s; return whether the share is reduced now.
 
         *speed* is that of the reference per second, *least* the least error that counts, and
         *bandwidth* that of the loop in rad/s.
@@ -97,15 +97,16 @@ class GainReduction:
         # Only swings of at least twice the given error count as an oscillation.
         counted = max(least, 0.5 * tuning.swung * moved)
         if self._oscillation.see(dt, error, counted, bandwidth, is_cut=False):
-            self._lower()
-            return
+            return self._lower()
         self._bound = min(self._bound + tuning.forget * dt, 1.0)
         if self._oscillation.quiet > tuning.quiet and self.share < self._bound:
             self.share = min(self.share + tuning.restore * dt, self._bound)
+        return False
 
-    def _lower(self) -> None:
+    def _lower(self) -> bool:
         tuning = self._tuning
         if self.share > tuning.least:
             self.share = self._bound = max(tuning.lower * self.share, tuning.least)
-        else:
-            self._bound = 1.0  # the cause is outside the loop
+            return True
+        self._bound = 1.0  # the cause is outside the loop
+        return False

@@ -128,6 +128,7 @@ class SlidingMode:
             gains,
             scaled(LearningTuning(), length, force),
             scaled(FeatureTuning(), length, force),
+            self.allocation.reach,
             lag_is_configured=self._is_lag_configured,
         )
         self._standstill = Standstill(
@@ -269,8 +270,8 @@ class SlidingMode:
         chambers = self._chambers
         if self.gains.learning:
             inflows, losses = [path.inflow for path in paths], self._losses.effort
-            moves, cut = self._standstill.is_moving, self.terms.cut
-            self._learner.go_on(dt, inflows, chambers, losses, moves=moves, cut=cut)
+            moves = self._standstill.is_moving and self.terms.cut == 0.0
+            self._learner.go_on(dt, inflows, chambers, losses, moves=moves)
         self._stiffness.follow(dt)
         return chambers
 
@@ -318,14 +319,27 @@ class SlidingMode:
         model, gains, observer, terms = self.model, self.gains, self._observer, self.terms
         inertia = model.inertia
         s, v, a, jerk = reference
-        self._k = k = model.stiffness(chambers, s) + model.gravity_stiffness(s)
+        k = model.stiffness(chambers, s) + model.gravity_stiffness(s)
         c = model.damping(chambers, s, v)
+        learned = learned_rate = added = 0.0
+        if gains.learning:
+            learned, learned_rate = self._learner.feed_forward(dt, reference)
+            added = self._learner.stiffness
+            if not self._is_lag_configured:
+                # The inverse of a lag acts on the feedback, too, so that it has the same share.
+                share = self._reduction.share
+                fill, vent = self._learner.lag
+                for path in self._paths:
+                    path.chamber.fill, path.chamber.vent = share * fill, share * vent
+        # Muscles have no negative stiffness: a learned one that gives it is wrong.
+        self._k = max(k + added, min(k, 0.0))
         self._find_surface(c)
         rejection = self._rejection
         if rejection.level == 0.0 or rejection.is_least:
             # Before that, an oscillation lowers the highest level of the rejection.
             bandwidth, least = sqrt(self._square), rejection.least_error
-            self._reduction.see(dt, rejection.error, v, least, bandwidth)
+            if self._reduction.see(dt, rejection.error, v, least, bandwidth):
+                self._learner.forget()
         if velocity is None or not gains.use_measured_velocity:
             velocity = observer.velocity
         self._error, self._error_rate = s - observer.position, v - velocity
@@ -333,16 +347,10 @@ class SlidingMode:
         losses = self._losses.effort
         lost = self._losses.follow(dt, reference, chambers)
         rate = k * v + c * a + inertia * jerk + (lost - losses) / dt
-        learned = learned_rate = 0.0
-        if gains.learning:
-            learned, learned_rate = self._learner.feed_forward(dt, reference)
-            if not self._is_lag_configured:
-                for path in self._paths:
-                    path.chamber.fill, path.chamber.vent = self._learner.lag
         self._lost = lost + learned
         foreseen = inertia * a + model.gravity(s) + c * v
         shaping = (self._decay * inertia - c) * self._error_rate
-        shaping += (self._square * inertia - k) * self._error
+        shaping += (self._square * inertia - self._k) * self._error
 
         switching = self._switching(dt)
         taken = -observer.disturbance if gains.observer else -self._offset

@@ -40,9 +40,7 @@ def _sentences(learned: Learned) -> list[str]:
     found = []
     if learned.restarts:
         times = 'once' if learned.restarts == 1 else f'{learned.restarts} times'
-        found.append(
-            f'everything learned was forgotten {times}: the command oscillated between its limits'
-        )
+        found.append(f'everything learned was forgotten {times}: the loop oscillated')
     if learned.motion == 0.0:
         since = 'since then' if learned.restarts else 'yet'
         found.append(f'has learned nothing: the load has not moved {since}')

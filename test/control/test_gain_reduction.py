@@ -44,6 +44,14 @@ def test_an_oscillation_lowers_the_share_step_by_step_to_the_least():
     assert shares[-1] == TUNING.least
 
 
+def test_it_says_when_it_reduces_the_share():
+    it, error = reduction(), sine(QUICK)
+    for n in range(round(5.0 / DT)):
+        before = it.share
+        assert it.see(DT, error(n * DT), 0.0, LEAST, BANDWIDTH) is (it.share < before)
+    assert it.share == TUNING.least
+
+
 def test_a_load_that_bounces_on_a_stop_is_quicker_than_the_loop():
     ratio = OF_THE_LOOP.quickest
     assert see(reduction(), sine(0.9 * ratio * BANDWIDTH), 5.0)[-1] < 1.0

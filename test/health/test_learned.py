@@ -46,12 +46,12 @@ FRICTION = Learned(
         ),
         (
             {'restarts': 1},
-            'everything learned was forgotten once: the command oscillated between its limits; '
+            'everything learned was forgotten once: the loop oscillated; '
             'compensates what was learned',
         ),
         (
             {'motion': 0.0, 'restarts': 2},
-            'everything learned was forgotten 2 times: the command oscillated between its limits; '
+            'everything learned was forgotten 2 times: the loop oscillated; '
             'has learned nothing: the load has not moved since then',
         ),
     ],

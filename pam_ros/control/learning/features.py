@@ -6,16 +6,20 @@ Friction and hysteresis are a sum of elastic elements that slip (Maxwell slip, a
 Prandtl-Ishlinskii model): each is a spring that slips when its deflection exceeds its reach.
 Together they approximate any hysteresis loop that starts again at each reversal. The first
 element, with a reach of 50 um, is dry friction; Stribeck's additional friction at rest is added
-to it. An error of the nominal stiffness is a force over position.
+to it. An error of the nominal force law is a force over the position (:mod:`.force_curve`).
 """
 
 from dataclasses import dataclass
 from math import exp
 
+from pam_ros.control.learning.force_curve import KNOTS, ForceCurve
 from pam_ros.control.tuning import number
 
-COUNT = 8  # elements that slip, and the three others
-STRIBECK, STRETCH, CONSTANT = COUNT - 3, COUNT - 2, COUNT - 1  # indices of these three
+# Indices: the elements that slip, Stribeck's friction, the slopes at the knots, the constant.
+STRIBECK = 5
+SLOPES = slice(STRIBECK + 1, STRIBECK + 1 + KNOTS)
+CONSTANT = SLOPES.stop
+COUNT = CONSTANT + 1
 
 
 @dataclass(frozen=True)
@@ -32,42 +36,47 @@ class FeatureTuning:
         0.01, 'm/s', 'default of effects.coulomb_friction.stribeck_speed'
     )
     stroke: float = number(
-        0.01, 'm', 'displacement over which an error of stiffness counts: the swing of control'
+        0.01, 'm', 'displacement over which the slopes of the force count: the swing of control'
     )
     spreads: tuple[float, ...] = number(
-        (20.0, 20.0, 20.0, 20.0, 20.0, 10.0, 15.0, 100.0),
+        (20.0,) * STRIBECK + (10.0,) + (15.0,) * KNOTS + (100.0,),
         'N',
         'expected force of each: half of the hysteresis of 40 N and about the friction of 15/25 N '
-        'of control; the constant one is a payload of 10 kg',
+        'of control; the constant one is a payload of 10 kg; a slope of 30 N causes larger errors '
+        'with muscles of other makers',
     )
     lows: tuple[float, ...] = number(
-        (0.0, 0.0, 0.0, 0.0, 0.0, -5.0, -30.0, -300.0),
+        (0.0,) * STRIBECK + (-5.0,) + (-100.0,) * KNOTS + (-300.0,),
         'N',
-        'elements resist the motion; the error of stiffness may have both signs, up to 3 N/mm',
+        'elements resist the motion; slopes may have both signs, up to 10 N/mm: with 25 '
+        'the largest errors on a braided muscle are twice as large',
     )
     highs: tuple[float, ...] = number(
-        (60.0, 60.0, 60.0, 60.0, 60.0, 30.0, 30.0, 300.0),
+        (60.0,) * STRIBECK + (30.0,) + (100.0,) * KNOTS + (300.0,),
         'N',
-        'three times what is expected: beyond it an estimate is wrong',
+        'three times what is expected, and the same for slopes: beyond it an estimate is wrong',
     )
 
 
 class Features:
     """The features along one motion; a feature times its weight is a force in N.
 
-    ``values`` have no unit: -1 to 1, except for the position in strokes; ``rates`` are their
-    change per second in the last step. All features are forces against the motion or forces that
-    grow with the position: the muscles must overcome them.
+    ``values`` have no unit: -1 to 1, except for those over the position, in strokes; ``rates`` are
+    their change per second in the last step. All features are forces against the motion or forces
+    that grow with the position: the muscles must overcome them. ``curve`` are those over the
+    position.
     """
 
-    def __init__(self, tuning: FeatureTuning) -> None:
-        """Create the features at rest at 0."""
+    def __init__(self, tuning: FeatureTuning, reach: tuple[float, float]) -> None:
+        """Create the features of a joint with this *reach*, at rest at 0."""
         self._tuning = tuning
+        self.curve = ForceCurve(reach, tuning.stroke)
         self.start(0.0)
 
     def start(self, position: float) -> None:
         """Start again at rest: no element is deflected."""
-        self._origin = self._position = position
+        self._position = position
+        self._origin = self.curve.features(position)
         self.values = self._before = [0.0] * CONSTANT + [1.0]
         self._dt = 1.0  # of the last step, s
 
@@ -87,7 +96,9 @@ class Features:
             bent = before + distance / reach
             now.append(-1.0 if bent < -1.0 else 1.0 if bent > 1.0 else bent)
         ratio = velocity / tuning.stribeck_speed
-        stretch = (position - self._origin) / tuning.stroke
-        now += (now[0] * exp(-ratio * ratio), stretch, 1.0)
+        now.append(now[0] * exp(-ratio * ratio))
+        for value, origin in zip(self.curve.features(position), self._origin, strict=True):
+            now.append(value - origin)
+        now.append(1.0)
         self.values = now
         return now

@@ -28,15 +28,14 @@ class Learned:
     breakaway
         additional friction at rest, N
     stiffness
-        additional stiffness of the joint, N/m
+        additional stiffness of the joint where the reference is, N/m
     lag
         time constants in s of the pressure while filling and while venting, without the weight;
         0 where the motion is predicted better without a lag. None if a lag is configured
     dropped_lag
         the lag that was used before and is no longer used, None if there is none
     restarts
-        how often all learned parameters were reset because the command oscillated between its
-        limits
+        how often all learned parameters were reset because the loop oscillated
     """
 
     motion: float

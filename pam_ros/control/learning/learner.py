@@ -3,18 +3,21 @@
 """Learn from motion what the nominal model lacks, and feed it forward.
 
 A second, fast observer estimates the whole force that the model lacks. Two hypotheses explain
-this force in parallel: friction, hysteresis and stiffness alone (:mod:`.features`), or these and
-an unmodelled lag of the pressure. Both are linear regressions, filtered in the same way as the
-observer; the time constants of the lag are estimated by their sensitivities (Ljung 1999, chapter
-11). The hypothesis that predicts better is used. Its weight is the share of the missing force
-that it explains. Nothing is used before the load has moved for a while.
+this force in parallel: friction, hysteresis and a force over the position alone
+(:mod:`.features`), or these and an unmodelled lag of the pressure. Both are linear regressions,
+filtered in the same way as the observer; the time constants of the lag are estimated by their
+sensitivities (Ljung 1999, chapter 11). The hypothesis that predicts better is used. Its weight is
+the share of the missing force that it explains. Nothing is used before the load has moved for a
+while.
 
 The learned force acts as a feed-forward along the reference. It is bounded, and since only the
-reference drives it, it cannot destabilise the loop. A learned lag is inverted; if the lag is
-found to be short, the bandwidth grows (:mod:`.growth`). An oscillation between the limits of the
-command (:mod:`.limit_cycle`) ends the use of everything that was learned; learning begins again.
+reference drives it, it cannot destabilise the loop. Its slope over the position is an additional
+stiffness of the joint, for the feedback. A learned lag is inverted; if the lag is found to be
+short, the bandwidth grows (:mod:`.growth`). A loop that oscillates ends the use of everything that
+was learned; learning begins again.
 """
 
+from collections.abc import Sequence
 from math import exp
 
 import numpy as np
@@ -24,7 +27,7 @@ from pam_ros.control.learning.cascade import Cascade
 from pam_ros.control.learning.features import (
     CONSTANT,
     COUNT,
-    STRETCH,
+    SLOPES,
     STRIBECK,
     Features,
     FeatureTuning,
@@ -32,7 +35,6 @@ from pam_ros.control.learning.features import (
 from pam_ros.control.learning.growth import Growth
 from pam_ros.control.learning.learned import Learned
 from pam_ros.control.learning.learning_tuning import LearningTuning
-from pam_ros.control.learning.limit_cycle import LimitCycle
 from pam_ros.control.learning.regression import Regression, dot
 from pam_ros.control.model import ControlModel, Pressures
 from pam_ros.control.observer import Observer
@@ -87,6 +89,8 @@ class Learner:
         0 to 1: the weight with which the learned parameters are used
     lag
         (fill, vent) in s: the lag to be inverted, if no lag is configured
+    stiffness
+        learned additional stiffness in N/m at the reference, with this weight
     growth
         the bandwidth that the lag allows
 
@@ -100,21 +104,24 @@ class Learner:
         gains: Gains,
         tuning: LearningTuning,
         features: FeatureTuning,
+        reach: tuple[float, float],
         *,
         lag_is_configured: bool,
     ) -> None:
-        """Start without learned parameters; *tuning* and *features* are in the joint's units."""
+        """Start without learned parameters; *tuning* and *features* are in the joint's units.
+
+        *reach* is the range of positions at which the load can be held.
+        """
         self._model = model
         self._tuning, self._features = tuning, features
         self._lag_is_configured = lag_is_configured
         self._observer = Observer(self._model)
-        self._wanted, self._actual = Features(features), Features(features)
+        self._wanted, self._actual = Features(features, reach), Features(features, reach)
         lags = (tuning.lag_spread,) * 2, (0.0, 0.0), (tuning.lag_high,) * 2
         priors = features.spreads, features.lows, features.highs
         spread, low, high = (np.array(a + b) for a, b in zip(priors, lags, strict=True))
         self._priors = spread, low, high
         self.growth = Growth(gains, tuning)
-        self._limit_cycle = LimitCycle(tuning)
         self._restarts = 0
         self._begin()
         self.start(0.0, [0.0] * len(self._model.muscles), 0.0)
@@ -126,7 +133,7 @@ class Learner:
         plain[_LAGS] = 0.0
         self._plain = Regression(plain, low, high, noise)
         self._lagged = Regression(spread, low, high, noise)
-        self.weight = 0.0
+        self.weight = self.stiffness = 0.0
         self.lag = (0.0, 0.0)
         self._plain_error = self._lagged_error = 1.0
         self._plain_miss = self._lagged_miss = 1.0
@@ -146,6 +153,7 @@ class Learner:
         self._observer.start(position, disturbance)
         self._wanted.start(position)
         self._actual.start(position)
+        self._at_knot = self._wanted.curve.at(position)
         self._chambers = [Chamber() for _ in pressures]
         for chamber, pressure in zip(self._chambers, pressures, strict=True):
             chamber.pressure = pressure
@@ -163,10 +171,15 @@ class Learner:
         self._total.start()
         self._waited = self._doubt = 0.0
         self.growth.start()
-        self._limit_cycle.start()
 
-    def _forget(self) -> None:
-        """Begin again without learned parameters, from the present state."""
+    def forget(self) -> None:
+        """Begin again without learned parameters, from the present state.
+
+        For a loop that oscillates: what was learned before may be the cause, and what is learned
+        from an oscillation, such as a long lag, sustains it.
+        """
+        if self.weight == 0.0:
+            return
         self._begin()
         self._restarts += 1
         self.start(self._observer.position, self._nominal, self._observer.disturbance)
@@ -174,7 +187,7 @@ class Learner:
     @property
     def learned(self) -> Learned:
         """The learned parameters as figures for users."""
-        weights, stroke = [float(one) for one in self._weights], self._features.stroke
+        weights = [float(one) for one in self._weights]
         fill, vent = (self._share * float(one) for one in self._lagged.theta[_LAGS])
         return Learned(
             motion=self._moved,
@@ -184,7 +197,7 @@ class Learner:
             weight=float(self.weight),
             friction=sum(weights[:STRIBECK]),
             breakaway=weights[STRIBECK],
-            stiffness=weights[STRETCH] / stroke,
+            stiffness=self._slope(weights),
             lag=None if self._lag_is_configured else (fill, vent),
             dropped_lag=self._dropped_lag,
             restarts=self._restarts,
@@ -195,10 +208,17 @@ class Learner:
         share, thetas = self._share, zip(self._lagged.theta, self._plain.theta, strict=True)
         return [share * lagged + (1.0 - share) * plain for lagged, plain in thetas]
 
+    def _slope(self, weights: Sequence[float]) -> float:
+        """Return the slope of the learned force over the position at the reference, N/m."""
+        knot, share = self._at_knot
+        before, behind = weights[SLOPES][knot : knot + 2]
+        return (before + share * (behind - before)) / self._features.stroke
+
     def feed_forward(self, dt: float, reference: Reference) -> tuple[float, float]:
         """Return the effort that the reference needs beyond the model, and its rate."""
         most = self._tuning.most
         self._wanted.follow(dt, reference.position, reference.velocity)
+        self._at_knot = self._wanted.curve.at(reference.position)
         values = self._wanted.values
         self._input[_PLAIN] = dot(values, self._plain.theta)
         self._input[_LAGGED] = dot(values, self._lagged.theta)
@@ -211,9 +231,10 @@ class Learner:
         return force, rate
 
     def _learned_force(self) -> tuple[float, float]:
-        """Return the learned force along the reference and its rate; sets the lag to invert."""
+        """Return the learned force along the reference and its rate; sets stiffness and lag."""
         if self.weight == 0.0:  # at the beginning, for a long time
             self.lag = (0.0, 0.0)
+            self.stiffness = 0.0
             return 0.0, 0.0
         weights, rates = self._weights, self._wanted.rates
         force = rate = 0.0
@@ -221,6 +242,7 @@ class Learner:
             used = self.weight * weights[n]
             force += used * self._wanted.values[n]
             rate += used * rates[n]
+        self.stiffness = self.weight * self._slope(weights)
         share = self.weight * self._share
         self.lag = (share * weights[_FILL], share * weights[_VENT])
         return force, rate
@@ -251,19 +273,16 @@ class Learner:
         losses: float,
         *,
         moves: bool,
-        cut: float,
     ) -> None:
         """Advance by *dt* s with *inflows* Pa at the inlets of the chambers.
 
         *nominal* are the pressures in Pa of the nominal chambers. *losses* is the effort that
         configured effects take along the reference: it is not learned again. The law learns while
-        the load *moves* and the limits of pressure have *cut* nothing from the wanted effort.
+        the load *moves*, unless the limits of pressure cut the wanted effort.
         """
         self._filter.follow(dt, self._tuning.fast, self._input)
         self._input[_CONFIGURED] = losses
-        if self._limit_cycle.see(dt, cut) and self._moved > 0.0:
-            self._forget()
-        if moves and cut == 0.0:
+        if moves:
             self._moved += dt
             self._waited += dt
             if self._waited >= self._tuning.every - 1e-9:

@@ -56,11 +56,4 @@ class LearningTuning:
     margin: float = number(
         3.0, '', 'ratio of the decay time 1/bandwidth to a lag: a phase margin of some 60 degrees'
     )
-    cut: float = number(0.02, 's', 'filter of the side on which the command is cut: ten samples')
-    unstable: float = number(
-        0.15,
-        '',
-        'share of the time for which the command is cut on each side in an oscillation: it has a '
-        'quarter to a third there, and less after a step that is cut for 0.15 s on each side',
-    )
     most: float = number(200.0, 'N', 'that is fed forward at most: the disturbance bound')
