@@ -79,10 +79,19 @@ class Excitation:
     )
     patience: float = parameter_field(
         10.0,
-        'longest wait for joint_states and a subscriber of pressure_command',
+        'longest wait for joint_states and the subscribers of pressure_command',
         's',
         low=0.1,
         high=3600.0,
+        live=False,
+    )
+    subscribers: int = parameter_field(
+        1,
+        'subscribers of pressure_command without which it does not start: with 2 a recorder '
+        'beside the rig misses no command',
+        '',
+        low=1,
+        high=100,
         live=False,
     )
     joint_name: str = parameter_field(

@@ -22,6 +22,8 @@ DURATION = PLAN['duration']  # s
 LAST_THIRD = 21 * 10**9  # ns
 # A busy machine may keep the rig quiet for a while, and time goes faster than on the wall.
 EXCITATION = {**PLAN, 'use_sim_time': True, 'countdown': 0.5, 'silence': 10.0}
+# The rig and the recorder.
+EXCITATION |= {'subscribers': 2, 'patience': DEADLINE}
 # After such a pause two steps of the pressure can become one, with a larger overshoot.
 EXCITATION |= {'kappa_max': 0.3, 'contraction_max': 0.3}
 FASTER = {
@@ -111,6 +113,22 @@ def test_in_lockstep_the_rig_moves_the_same_each_time(bags, peer, tmp_path):
     assert len(both) > 0.9 * DURATION * RATE
     assert [runs[0][t] for t in both] == [runs[1][t] for t in both]
     assert np.ptp(list(runs[0].values())) > 0.02
+
+
+def test_for_a_recorder_that_starts_later_it_waits(bags, peer, tmp_path):
+    rig = {**FASTER['lockstep'], 'publish_rate': RATE, 'clock_rate': RATE}
+    recorder = ('-p', 'use_sim_time:=true', '--', '-o', str(tmp_path / 'late'))
+    simulator = Program('pam_sim', parameters=rig)
+    with simulator, Program('pam_excite', parameters=EXCITATION) as excite:
+        lacks = 'pressure_command has 1 of 2 subscribers'
+        peer.until(lambda: lacks in excite.output, 'the line that it waits')
+        with Program('pam_record', *recorder) as record:
+            assert excite.process.wait(2.0 * DEADLINE) == 0, excite.output
+            record.stop()
+    late = contents(tmp_path / 'late')['/pressure_command']
+    commands = bags['lockstep']['/pressure_command']
+    assert [message.data for _, message in late] == [message.data for _, message in commands]
+    assert late[0][1].data == 0.0
 
 
 def test_a_recorder_that_is_delayed_has_each_command_at_its_time(bags, peer, tmp_path):

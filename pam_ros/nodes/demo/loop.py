@@ -37,6 +37,10 @@ EXCITATION: Mapping[str, Any] = {
     'pressure_min': 150e3,
     'pressure_max': 400e3,
     'countdown': 1.0,  # s
+    # The rig and the recorder. The middleware can take 3 s to connect two programs, in which the
+    # rig alone would already be excited.
+    'subscribers': 2,
+    'patience': 60.0,  # s
     'rate': recorded_rig.RATE,
     'silence': 3.0,  # s; long, since a simulated rig endangers no person
 }

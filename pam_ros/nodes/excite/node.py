@@ -160,8 +160,10 @@ class PamExcite(TickingNode):
         if others and UNNAMED not in others:
             self._refuse(f'{" and ".join(others)} commands pressures as well: stop it first')
             return
+        found, needed = self._publisher.get_subscription_count(), self._now.settings.subscribers
         missing = {
-            'pressure_command has no subscriber': not self._publisher.get_subscription_count(),
+            'pressure_command has no subscriber': not found,
+            f'pressure_command has {found} of {needed} subscribers': 0 < found < needed,
             'joint_states is not published': self._guard.position is None,
             'use_sim_time is set and /clock is not published': self._ros_time() == 0.0,
             'another node commands pressures': bool(others),

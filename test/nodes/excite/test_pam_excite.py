@@ -249,6 +249,15 @@ def test_without_a_rig_it_gives_up():
 
 
 @pytest.mark.at_any_pace
+def test_with_fewer_subscribers_than_it_needs_it_gives_up(rig):
+    with excite({**PATIENT, 'patience': 5.0, 'subscribers': 3}) as program:
+        rig.until(lambda: not program.is_running, 'the end')
+        assert program.wait() == 1
+        assert 'pressure_command has 1 of 3 subscribers: is the rig running?' in program.output
+    assert rig.commands == []
+
+
+@pytest.mark.at_any_pace
 def test_without_a_clock_it_gives_up():
     with excite({**SHORT, 'patience': 0.1, 'use_sim_time': 'true'}) as program:
         assert program.wait() == 1
