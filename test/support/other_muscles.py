@@ -11,6 +11,7 @@ from math import exp, pi, radians, sin, tan, tanh
 from types import SimpleNamespace
 
 import numpy as np
+from scipy.optimize import brentq
 
 from support.closed_loop import close_loop, nominal
 from truth import Sensor, TruthPlant
@@ -56,14 +57,7 @@ class BraidedMuscle:
 
     def rests_at(self, p):
         """Return the position in m at which it holds the mass with p in Pa."""
-        low, high = -0.2, 0.3
-        for _ in range(60):
-            middle = 0.5 * (low + high)
-            if self.force(p, middle) > MASS * GRAVITY:
-                low = middle
-            else:
-                high = middle
-        return low * LENGTH
+        return LENGTH * brentq(lambda e: self.force(p, e) - MASS * GRAVITY, -0.2, 0.3)
 
     def step(self, command, dt, push=0.0):
         """Advance by *dt* s with *command* in Pa; return the measured position in m."""

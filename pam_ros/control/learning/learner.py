@@ -132,7 +132,9 @@ class Learner:
         plain, noise = spread.copy(), self._tuning.noise
         plain[_LAGS] = 0.0
         self._plain = Regression(plain, low, high, noise)
-        self._lagged = Regression(spread, low, high, noise)
+        alike = np.eye(_UNKNOWNS)
+        alike[_FILL, _VENT] = alike[_VENT, _FILL] = self._tuning.lag_alike
+        self._lagged = Regression(spread, low, high, noise, alike)
         self.weight = self.stiffness = 0.0
         self.lag = (0.0, 0.0)
         self._plain_error = self._lagged_error = 1.0

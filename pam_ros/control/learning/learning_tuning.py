@@ -40,6 +40,12 @@ class LearningTuning:
         2.0, 's', 'of motion in which it falls to 1/e: if longer, control, friction is worse'
     )
     lag_spread: float = number(0.05, 's', 'expected lag: servo valves have 20 to 130 ms')
+    lag_alike: float = number(
+        0.9,
+        '',
+        'correlation of the lags at filling and at venting, which are of one tube and one valve: '
+        'a long motion in one direction shows only one of them',
+    )
     lag_high: float = number(0.2, 's', 'largest lag that is inverted: longer ones prevent control')
     judge: float = number(1.0, 's', 'average of prediction errors: half a period of control')
     centre: float = number(2.0, 's', 'average of the mean force: a period of control')

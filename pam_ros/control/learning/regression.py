@@ -34,19 +34,34 @@ class Regression:
     """Finds theta in y = phi . theta + noise, one sample after another.
 
     *spread* (n,) are the standard deviations of the prior of theta, *low* and *high* (n,) its
-    physical limits, *noise* the variance of y. A parameter with a spread of 0 does not change.
+    physical limits, *noise* the variance of y. *correlation* (n, n) is that of the prior, none if
+    it is not given. A parameter with a spread of 0 does not change.
     ``theta`` is a list, since a controller reads it much more often than it takes in a sample.
     """
 
-    def __init__(self, spread: Array, low: Array, high: Array, noise: float) -> None:
+    def __init__(
+        self,
+        spread: Array,
+        low: Array,
+        high: Array,
+        noise: float,
+        correlation: Array | None = None,
+    ) -> None:
         """Begin with theta = 0."""
         self._prior = spread * spread
+        self._correlation = np.eye(len(spread)) if correlation is None else correlation
         self._bounds = list(zip(low.tolist(), high.tolist(), strict=True))
         self._noise = noise
         self.theta = [0.0] * len(spread)
-        self.covariance = np.diag(self._prior)
+        self.covariance = self._correlated(self._prior)
         self._free = np.zeros(len(spread))  # the estimate without bounds
         self._multipliers = [0.0] * len(spread)
+
+    def _correlated(self, variances: Array) -> Array:
+        """Return the covariance of parameters with these *variances*, correlated as the prior."""
+        spread = np.sqrt(variances)
+        covariance: Array = self._correlation * (spread[:, None] * spread)
+        return covariance
 
     def forget(self, parameter: int, value: float) -> None:
         """Let a *parameter* be *value*, with its prior, independent of the others."""
@@ -63,7 +78,8 @@ class Regression:
         self.theta, self._free = other.theta.copy(), other._free.copy()
         self._multipliers = other._multipliers.copy()
         self.covariance = other.covariance.copy()
-        self.covariance[parameters, parameters] = np.diag(self._prior[parameters])
+        prior = self._correlated(self._prior)
+        self.covariance[parameters, parameters] = prior[parameters, parameters]
 
     def uncertainty(self, parameters: slice) -> float:
         """Return the share of the prior variance that is left, of the least certain of these."""
@@ -74,17 +90,19 @@ class Regression:
         """Take in a sample whose y was *error* above phi . theta.
 
         *forgotten* is the share of the prior variance by which theta may have drifted since the
-        last sample, one number for all or one for each parameter.
+        last sample, one number for all or one for each parameter. The drift is correlated as the
+        prior, and no variance becomes larger than its prior.
         """
         row = np.array(phi)
         direction = self.covariance @ row
         gain = direction / (self._noise + float(row @ direction))
         self._free += gain * (error + float(row @ (np.array(self.theta) - self._free)))
         self.covariance -= gain[:, None] * direction
-        # A view, since functions that fill a diagonal take as long as everything above.
-        diagonal = self.covariance.reshape(-1)[:: len(phi) + 1]
-        np.minimum(diagonal + forgotten * self._prior, self._prior, out=diagonal)
-        self.theta = self._within_bounds(diagonal.tolist())
+        # A view, since functions that read a diagonal take as long as everything above.
+        variances = self.covariance.reshape(-1)[:: len(phi) + 1]
+        drift = np.minimum(forgotten * self._prior, self._prior - variances)
+        self.covariance += self._correlated(np.maximum(drift, 0.0))
+        self.theta = self._within_bounds(variances.tolist())
 
     def _within_bounds(self, variances: list[float]) -> list[float]:
         """Return the most likely parameters within the bounds."""

@@ -85,6 +85,8 @@ class Rejection:
         0 (calm) to ``highest``
     highest
         present upper limit of the level, at most 1
+    error
+        low-pass filtered error to the reference
 
     Errors and positions are in m, or in rad for a revolute joint.
     """

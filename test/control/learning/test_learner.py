@@ -128,7 +128,8 @@ def test_configured_friction_of_a_light_load_is_about_as_good_as_learned(mass):
 @pytest.mark.slow
 def test_a_lag_that_nobody_configured_is_learned_beside_configured_friction():
     law, run = swung(ONE, 'all', 20.0, effects=FRICTION)
-    assert 0.02 < 0.5 * sum(law.learned.lag) < 0.09
+    # 50 and 70 ms, and a dead time of 10 ms; the hysteresis lags behind the motion, too.
+    assert 0.02 < 0.5 * sum(law.learned.lag) < 0.12
     assert rms(ONE, run) < 1.0
 
 
@@ -149,7 +150,7 @@ def test_of_all_at_once_enough_is_learned_within_bounds(kind):
         (ONE, 'lag', 0.2),
         (ONE, 'all', 0.2),
         (PAIR, 'friction', 0.4),
-        (PAIR, 'all', 0.3),
+        (PAIR, 'all', 0.4),
     ],
     ids=str,
 )

@@ -23,6 +23,48 @@ def test_it_is_the_regularised_batch_solution():
     np.testing.assert_allclose(found.covariance, np.linalg.inv(information), atol=1e-12)
 
 
+def test_with_a_correlated_prior_it_is_the_batch_solution_with_that_prior():
+    rng = np.random.default_rng(6)
+    spread, noise, far = np.array([2.0, 0.5, 5.0]), 0.3, np.full(3, 1e9)
+    correlation = np.array([[1.0, 0.9, 0.0], [0.9, 1.0, 0.0], [0.0, 0.0, 1.0]])
+    found = Regression(spread, -far, far, noise, correlation)
+    phi = rng.normal(size=(5, 3))
+    y = phi @ [1.0, -0.3, 4.0] + rng.normal(size=5) * noise**0.5
+    for row, value in zip(phi, y, strict=True):
+        found.update(row, value - row @ found.theta, 0.0)
+    prior = np.linalg.inv(correlation * np.outer(spread, spread))
+    information = phi.T @ phi / noise + prior
+    np.testing.assert_allclose(found.theta, np.linalg.solve(information, phi.T @ y / noise))
+    np.testing.assert_allclose(found.covariance, np.linalg.inv(information), atol=1e-12)
+
+
+def test_a_parameter_that_is_not_seen_follows_the_one_that_is_like_it():
+    """The first alone is seen, for a long time; then the second, which is another one."""
+    spread, far = np.array([0.05, 0.05]), np.full(2, 1e9)
+    found = Regression(spread, -far, far, 1e-4, np.array([[1.0, 0.9], [0.9, 1.0]]))
+    for _ in range(200):
+        found.update((1.0, 0.0), 0.06 - found.theta[0], 1e-4)
+    assert found.theta == pytest.approx([0.06, 0.9 * 0.06], abs=1e-3)
+    # What the first does not say of it, also of its drift.
+    left = (1.0 - 0.9**2) * (1.0 + 200 * 1e-4)
+    assert found.covariance[1, 1] == pytest.approx(left * 0.05**2, rel=0.02)
+    for _ in range(200):
+        found.update((0.0, 1.0), 0.02 - found.theta[1], 1e-3)
+    assert found.theta[1] == pytest.approx(0.02, abs=1e-3)
+
+
+def test_no_variance_exceeds_its_prior_however_much_is_forgotten():
+    spread, far = np.array([0.05, 0.05]), np.full(2, 1e9)
+    correlation = np.array([[1.0, 0.9], [0.9, 1.0]])
+    found = Regression(spread, -far, far, 1e-4, correlation)
+    for _ in range(50):
+        found.update((1.0, -0.5), 0.0, 0.0)
+    for _ in range(50):
+        found.update((0.0, 0.0), 0.0, 1.0)
+    assert np.diagonal(found.covariance) == pytest.approx(0.05**2)
+    assert 0.8 * 0.05**2 < found.covariance[0, 1] < 0.9 * 0.05**2
+
+
 def test_bounds_hold_and_no_spread_keeps_a_parameter():
     found = Regression(np.array([1.0, 0.0]), np.zeros(2), np.ones(2), 0.1)
     for _ in range(100):
