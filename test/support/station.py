@@ -198,7 +198,8 @@ class Station:
 
         self.peer.until(is_there, f'the load at {goal} m')
         self.rests()
-        assert fastest(self.states[first:]) < FASTEST
+        speed = fastest(self.states[first:])
+        assert speed < FASTEST, f'{speed} m/s on the way to {goal} m'
 
     # What was recorded ---------------------------------------------------------------------
 
