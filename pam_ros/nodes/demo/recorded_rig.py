@@ -11,8 +11,6 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
-from std_msgs.msg import Float64
-
 from pam_ros.errors import PamError
 from pam_ros.nodes.demo.client import Client
 from pam_ros.processes.children import Program
@@ -40,17 +38,13 @@ class RecordedRig:
         of the simulated time.
         """
         self._programs, self._client, self._space = programs, client, space
-        self._command = f'{space}/pressure_command'
         self._states = f'{space}/rig/joint_states'
         self.clock = f'{space}/clock'
         self._running: list[Program] = []
-        where = ('-r', f'__ns:={space}/rig', '-r', f'pressure_command:={self._command}')
+        where = ('-r', f'__ns:={space}/rig', '-r', f'pressure_command:={space}/pressure_command')
         self._start('pam_sim', *where, parameters={**rig, **LOCKSTEP})
         given = ('-p', 'use_sim_time:=true', '--', self._states, '-o', str(bag))
         self._recorder = self._start('pam_record', '-r', f'__ns:={space}', *given)
-        # The recorder subscribes to topics with a publisher: without this one it would miss the
-        # first commands.
-        self._publisher = client.node.create_publisher(Float64, self._command, 1)
 
     def _start(
         self, name: str, *arguments: str, parameters: Mapping[str, Any] | None = None
@@ -63,7 +57,7 @@ class RecordedRig:
 
     @property
     def is_ready(self) -> bool:
-        """Whether the recorder has subscribed to all that it records.
+        """Whether the recorder has subscribed to all that the simulator publishes.
 
         Raises PamError if a program has ended.
         """
@@ -72,16 +66,14 @@ class RecordedRig:
                 raise PamError(f'{program.name} ended: {_last_lines(program)}')
         count = self._client.node.count_subscribers
         # Of the clock there are two: the time of the recorder's node, and the recording.
-        return (
-            self._publisher.get_subscription_count() > 1
-            and count(self._states) > 0
-            and count(self.clock) > 1
-        )
+        return count(self._states) > 0 and count(self.clock) > 1
 
     def excite(self, parameters: Mapping[str, Any]) -> None:
-        """Start ``pam_excite`` with these parameters."""
-        # pam_excite refuses to start if another node publishes commands.
-        self._client.node.destroy_publisher(self._publisher)
+        """Start ``pam_excite`` with these parameters.
+
+        The recorder subscribes to its commands as soon as it finds them, and with 2 as
+        ``subscribers`` none is sent before.
+        """
         where = ('-r', f'__ns:={self._space}', '-r', f'joint_states:={self._states}')
         given = {**parameters, 'use_sim_time': True}
         self._excite = self._start('pam_excite', *where, parameters=given)
