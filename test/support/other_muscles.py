@@ -13,7 +13,7 @@ from types import SimpleNamespace
 import numpy as np
 from scipy.optimize import brentq
 
-from support.closed_loop import close_loop, nominal
+from support.closed_loop import close_loop, nominal, shared
 from truth import Sensor, TruthPlant
 from truth.control_plants import FEEDBACK_NOISE
 from truth.effects import effect
@@ -104,8 +104,8 @@ def over_the_reach(make, muscle, seed=0):
     Of the last four steps the largest overshoot, of the last two periods of the sine the RMS.
     """
     rig, (low, high) = plant(muscle, seed)
-    law = make(nominal(MASS))
-    reach = law.allocation.reach if hasattr(law, 'allocation') else (low, high)
+    joint = nominal(MASS)
+    law, reach = make(joint), shared(joint).reach
     low, high = max(low, reach[0]) + SPARE, min(high, reach[1]) - SPARE
     middle, swing = 0.5 * (low + high), 0.45 * (high - low)
     start = rig.y
@@ -122,6 +122,6 @@ def over_the_reach(make, muscle, seed=0):
     arrived = (run.t - 1e-6) % HOLD > 1.0
     overshoot = np.max(beyond[arrived & run.last(4 * HOLD)])
     rig, _ = plant(muscle, seed)
-    run = close_loop(make(nominal(MASS)), rig, sine, SINE)
+    run = close_loop(make(joint), rig, sine, SINE)
     rms = np.sqrt(np.mean(run.error[run.last(2.0 / FREQUENCY)] ** 2))
     return 1e3 * float(overshoot), 1e3 * float(rms)
