@@ -49,7 +49,7 @@ class Regression:
     ) -> None:
         """Begin with theta = 0."""
         self._prior = spread * spread
-        self._correlation = np.eye(len(spread)) if correlation is None else correlation
+        self._correlation = correlation
         self._bounds = list(zip(low.tolist(), high.tolist(), strict=True))
         self._noise = noise
         self.theta = [0.0] * len(spread)
@@ -59,6 +59,8 @@ class Regression:
 
     def _correlated(self, variances: Array) -> Array:
         """Return the covariance of parameters with these *variances*, correlated as the prior."""
+        if self._correlation is None:
+            return np.diag(variances)
         spread = np.sqrt(variances)
         covariance: Array = self._correlation * (spread[:, None] * spread)
         return covariance
@@ -101,7 +103,11 @@ class Regression:
         # A view, since functions that read a diagonal take as long as everything above.
         variances = self.covariance.reshape(-1)[:: len(phi) + 1]
         drift = np.minimum(forgotten * self._prior, self._prior - variances)
-        self.covariance += self._correlated(np.maximum(drift, 0.0))
+        drift = np.maximum(drift, 0.0)
+        if self._correlation is None:
+            variances += drift
+        else:
+            self.covariance += self._correlated(drift)
         self.theta = self._within_bounds(variances.tolist())
 
     def _within_bounds(self, variances: list[float]) -> list[float]:
