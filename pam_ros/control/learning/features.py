@@ -12,7 +12,7 @@ to it. An error of the nominal force law is a force over the position (:mod:`.fo
 from dataclasses import dataclass
 from math import exp
 
-from pam_ros.control.learning.force_curve import KNOTS, ForceCurve
+from pam_ros.control.learning.force_curve import KNOTS, Between, ForceCurve
 from pam_ros.control.tuning import number
 
 # Indices: the elements that slip, Stribeck's friction, the slopes at the knots, the constant.
@@ -63,20 +63,19 @@ class Features:
 
     ``values`` have no unit: -1 to 1, except for those over the position, in strokes; ``rates`` are
     their change per second in the last step. All features are forces against the motion or forces
-    that grow with the position: the muscles must overcome them. ``curve`` are those over the
-    position.
+    that grow with the position: the muscles must overcome them.
     """
 
     def __init__(self, tuning: FeatureTuning, reach: tuple[float, float]) -> None:
         """Create the features of a joint with this *reach*, at rest at 0."""
         self._tuning = tuning
-        self.curve = ForceCurve(reach, tuning.stroke)
+        self._curve = ForceCurve(reach, tuning.stroke)
         self.start(0.0)
 
     def start(self, position: float) -> None:
         """Start again at rest: no element is deflected."""
         self._position = position
-        self._origin = self.curve.features(position)
+        self._origin = self._curve.features(position)
         self.values = self._before = [0.0] * CONSTANT + [1.0]
         self._dt = 1.0  # of the last step, s
 
@@ -85,6 +84,11 @@ class Features:
         """Change of the values per second in the last step."""
         dt = self._dt
         return [(a - b) / dt for a, b in zip(self.values, self._before, strict=True)]
+
+    @property
+    def place(self) -> Between:
+        """Where the position is between the knots of the force over the position."""
+        return self._curve.at(self._position)
 
     def follow(self, dt: float, position: float, velocity: float) -> list[float]:
         """Advance by *dt* s to *position* m and *velocity* m/s."""
@@ -97,7 +101,7 @@ class Features:
             now.append(-1.0 if bent < -1.0 else 1.0 if bent > 1.0 else bent)
         ratio = velocity / tuning.stribeck_speed
         now.append(now[0] * exp(-ratio * ratio))
-        for value, origin in zip(self.curve.features(position), self._origin, strict=True):
+        for value, origin in zip(self._curve.features(position), self._origin, strict=True):
             now.append(value - origin)
         now.append(1.0)
         self.values = now

@@ -155,7 +155,6 @@ class Learner:
         self._observer.start(position, disturbance)
         self._wanted.start(position)
         self._actual.start(position)
-        self._at_knot = self._wanted.curve.at(position)
         self._chambers = [Chamber() for _ in pressures]
         for chamber, pressure in zip(self._chambers, pressures, strict=True):
             chamber.pressure = pressure
@@ -212,7 +211,7 @@ class Learner:
 
     def _slope(self, weights: Sequence[float]) -> float:
         """Return the slope of the learned force over the position at the reference, N/m."""
-        knot, share = self._at_knot
+        knot, share = self._wanted.place
         before, behind = weights[SLOPES][knot : knot + 2]
         return (before + share * (behind - before)) / self._features.stroke
 
@@ -220,7 +219,6 @@ class Learner:
         """Return the effort that the reference needs beyond the model, and its rate."""
         most = self._tuning.most
         self._wanted.follow(dt, reference.position, reference.velocity)
-        self._at_knot = self._wanted.curve.at(reference.position)
         values = self._wanted.values
         self._input[_PLAIN] = dot(values, self._plain.theta)
         self._input[_LAGGED] = dot(values, self._lagged.theta)
