@@ -13,6 +13,7 @@ from pam_ros.effects.parameter import effect_parameter, start_from, strength
 FILL, VENT, FASTEST, FASTEST_VENT, CHOKING, SUPPLY = range(6)
 
 SHORTEST = 1e-6  # s; faster than the chamber of any rig: treated as immediate
+UNLIMITED = 1e9  # Pa/s, the highest value of both limits of the rate: treated as none
 ATMOSPHERE = 1.013e5  # Pa
 CRITICAL = 0.35  # pressure ratio below which a flow is choked; valves have 0.2 to 0.5
 P_REFERENCE = 3e5  # Pa, at which the time constants hold for any choking
@@ -48,8 +49,12 @@ def pace(p_in: float, x: float, supply: float, choking: float) -> float:
 def approached(p_in: float, x: float, h: float, tau: float, fastest: float) -> float:
     """Return the pressure after h, from x, for a constant p_in.
 
-    The rate is at most *fastest*; below this limit the pressure follows a lag of tau.
+    The rate is at most *fastest*; below this limit the pressure follows a lag of tau. Without both
+    it jumps, also with h = 0: an integrator would take a pressure that moves within the step for
+    one that moves over the whole step.
     """
+    if tau <= SHORTEST and fastest >= UNLIMITED:
+        return p_in
     left = abs(p_in - x)
     choked = min(h, max(left - fastest * tau, 0.0) / fastest)
     left -= choked * fastest
@@ -98,15 +103,20 @@ class PressureLag(Effect):
     fill: float = strength('time constant of filling', 's', high=10.0, scale=0.05)
     vent: float = strength('time constant of venting', 's', high=10.0, scale=0.05)
     fastest: float = effect_parameter(
-        1e9,
+        UNLIMITED,
         'fastest rise of pressure, where the valve is fully open or choked',
         'Pa/s',
         low=1e3,
-        high=1e9,
+        high=UNLIMITED,
         scale=1e6,
     )
     fastest_vent: float = effect_parameter(
-        1e9, 'fastest fall of pressure, in the same way', 'Pa/s', low=1e3, high=1e9, scale=1e6
+        UNLIMITED,
+        'fastest fall of pressure, in the same way',
+        'Pa/s',
+        low=1e3,
+        high=UNLIMITED,
+        scale=1e6,
     )
     choking: float = effect_parameter(
         0.0,

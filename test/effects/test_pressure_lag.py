@@ -48,6 +48,29 @@ def test_load_follows_the_lagging_pressure():
     np.testing.assert_allclose(run.position, y, atol=1e-8)
 
 
+@pytest.mark.parametrize(('step', 'atol'), [(1e-3, 1e-8), (5e-3, 5e-7)])
+@pytest.mark.parametrize(('fill', 'vent'), [(FILL, 0.0), (0.0, VENT)])
+def test_load_follows_a_pressure_that_jumps_in_one_direction(fill, vent, step, atol):
+    t = np.linspace(0.0, 1.0, 101)
+    effect = PressureLag(fill=fill, vent=vent)
+    run = simulate(bench.hanging(effect), t, *zip(*COMMANDS, strict=True), step=step)
+
+    def rhs(s, state, u):
+        y, v, p = state
+        dp = (u - p) / (fill or vent)
+        return v, (bench.pull(p, y) - bench.drag(p, y) * v) / bench.MASS - bench.G, dp
+
+    state = np.array([bench.rest(2e5), 0.0, 2e5])
+    ends = [*(stamp for stamp, _ in COMMANDS[1:]), t[-1]]
+    for (stamp, u), end in zip(COMMANDS, ends, strict=True):
+        if (fill if u > state[2] else vent) == 0.0:
+            state[2] = u
+        inside = (t > stamp) & (t <= end)
+        out = bench.solved(rhs, [stamp, *t[inside], end], state, [(stamp, u)])
+        np.testing.assert_allclose(run.position[inside], out[0, 1:-1], atol=atol)
+        state = out[:, -1]
+
+
 def test_filling_or_venting_may_be_immediate():
     t = np.array([0.0, 0.1, 0.2, 0.3])
     model = bench.cart(PressureLag(vent=0.1))
