@@ -32,6 +32,8 @@ REVOLUTE = {
     'rad/s': 'rad/s',
     'Hz': 'Hz',
     'Pa': 'Pa',
+    'Pa/s': 'Pa/s',
+    'fraction of l0': 'fraction of l0',
 }
 
 # A value in this unit is multiplied by this power of the arm in m; other units have the power 0.

@@ -12,7 +12,7 @@ import pytest
 import yaml
 
 from pam_ros import Braid, equilibrium, load_muscle
-from pam_ros.settings.files import read_known
+from pam_ros.settings.files import read
 from pam_ros.settings.scene import Scene
 from pam_ros.settings.tables import checked
 from support.pages import DOCS, PAGES, blocks, fences
@@ -55,10 +55,9 @@ def test_parameter_files_of_a_tutorial_make_the_joints_of_its_examples(tmp_path,
     assert muscle == Braid(**geometry).muscle(l0=0.185, p_max=500e3, kappa_max=0.28)
     for file, name in zip(files, ('elbow', 'lever', 'crank'), strict=True):
         Path('joint.yaml').write_text(file, encoding='utf-8')
-        nested = yaml.safe_load(file)['/**']['ros__parameters']
-        given = {'joint': nested['joint'], 'muscle': nested['muscle']}
-        given |= read_known('joint.yaml', Scene(given).table())
+        given = read(Path('joint.yaml'))
         scene = Scene(given)
+        assert given.keys() <= scene.table().keys()
         (made,) = scene.build(checked(scene.table(), given)).joints
         expected = names[name]
         assert made.transmission == expected.transmission

@@ -6,9 +6,13 @@ from collections.abc import Mapping
 from typing import Any
 
 
-def command_line(parameters: Mapping[str, Any]) -> str:
-    """Return the command of a shell that plays a programme with these *parameters*."""
-    words = [f' -p {name}:={_written(value)}' for name, value in parameters.items()]
+def command_line(parameters: Mapping[str, Any], file: str = '') -> str:
+    """Return the command of a shell that plays a programme with these *parameters*.
+
+    *file* is a parameter file of the rig; '' is none.
+    """
+    words = [f' --params-file {file}'] if file else []
+    words += [f' -p {name}:={_written(value)}' for name, value in parameters.items()]
     return 'pam_excite' + (' --ros-args' + ''.join(words) if words else '')
 
 

@@ -6,11 +6,11 @@ import math
 
 
 class Guard:
-    """Detects when a programme must stop. Positions in m, times in s of one steady clock."""
+    """Detects when a programme must stop. Positions in m or rad, times in s of a steady clock."""
 
-    def __init__(self, low: float, high: float, silence: float, now: float) -> None:
+    def __init__(self, low: float, high: float, unit: str, silence: float, now: float) -> None:
         """Check for positions outside *low*..*high*, and for *silence* s without a position."""
-        self._low, self._high, self._silence = low, high, silence
+        self._low, self._high, self._unit, self._silence = low, high, unit, silence
         self._seen = now
         self.position: float | None = None
 
@@ -28,7 +28,14 @@ class Guard:
             return f'the position of the joint is {self.position}'
         if not self._low <= self.position <= self._high:
             return (
-                f'the joint is at {1e3 * self.position:.1f} mm, outside its window of '
-                f'{1e3 * self._low:.1f} to {1e3 * self._high:.1f} mm'
+                f'the joint is at {spelled(self.position, unit=self._unit)}, outside its window '
+                f'of {spelled(self._low, self._high, unit=self._unit)}'
             )
         return ''
+
+
+def spelled(*positions: float, unit: str) -> str:
+    """Return a position, or a range of positions, for people: m as mm, rad with 3 decimals."""
+    if unit == 'm':
+        return ' to '.join(f'{1e3 * position:.1f}' for position in positions) + ' mm'
+    return ' to '.join(f'{position:.3f}' for position in positions) + f' {unit}'

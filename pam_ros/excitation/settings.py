@@ -44,6 +44,22 @@ class Excitation:
         high=1.0,
         live=False,
     )
+    position_min: float = parameter_field(
+        -10.0,
+        'position below which the programme stops and vents as well, for a rig with stops',
+        'm',
+        low=-10.0,
+        high=10.0,
+        live=False,
+    )
+    position_max: float = parameter_field(
+        10.0,
+        'position above which the programme stops and vents as well',
+        'm',
+        low=-10.0,
+        high=10.0,
+        live=False,
+    )
     silence: float = parameter_field(
         0.5,
         'time without joint_states after which the programme stops and vents',
@@ -79,7 +95,7 @@ class Excitation:
     )
     patience: float = parameter_field(
         10.0,
-        'longest wait for joint_states and the subscribers of pressure_command',
+        'longest wait for joint_states and the subscribers of the commands',
         's',
         low=0.1,
         high=3600.0,
@@ -87,7 +103,7 @@ class Excitation:
     )
     subscribers: int = parameter_field(
         1,
-        'subscribers of pressure_command without which it does not start: with 2 a recorder '
+        'subscribers of the commands without which it does not start: with 2 a recorder '
         'beside the rig misses no command',
         '',
         low=1,
@@ -95,7 +111,7 @@ class Excitation:
         live=False,
     )
     joint_name: str = parameter_field(
-        '', "joint to monitor in joint_states; '' if there is only one", live=False
+        '', "name of the joint in joint_states; '' if there is only one", live=False
     )
 
     def __post_init__(self) -> None:
@@ -104,6 +120,7 @@ class Excitation:
         for low, high in (
             ('pressure_min', 'pressure_max'),
             ('contraction_min', 'contraction_max'),
+            ('position_min', 'position_max'),
         ):
             if not getattr(self, low) < getattr(self, high):
                 raise ParameterError(

@@ -1,9 +1,9 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The segments of an excitation as levels between 0 and 1, one for each command.
+"""The waves of an excitation as levels between 0 and 1, one for each command of a muscle.
 
-Each function returns an array of shape (round(rate * duration),), the same for the same
-arguments: rate in Hz, duration in s.
+Each function returns arrays of round(rate * duration) levels, the same for the same arguments:
+rate in Hz, duration in s.
 """
 
 import numpy as np
@@ -62,35 +62,45 @@ def triangle(rate: float, duration: float, rng: Generator, minor_loops: bool) ->
     return wave
 
 
-def multisine(rate: float, duration: float, rng: Generator, fastest: float) -> Array:
+def multisine(
+    rate: float, duration: float, rng: Generator, fastest: float, muscles: int = 1
+) -> Array:
     """Return sines from 0.1 Hz to *fastest* Hz at random phases about the middle of the range.
 
-    Whole periods fit into the duration; faster sines are smaller, since the load resonates.
+    Whole periods fit into the duration; faster sines are smaller, since the load resonates. The
+    columns are for *muscles* muscles: each next one has its phases 180 degrees / *muscles* later,
+    so that the commands of two muscles are not correlated.
     """
     t = np.arange(round(rate * duration)) / rate
     cycles = np.unique(np.round(np.geomspace(SLOWEST, fastest, SINES) * duration))
     frequency = np.maximum(cycles, 1.0) / duration
     weight = 1.0 / (1.0 + frequency)
-    best = np.zeros_like(t)
+    best = np.zeros_like(frequency)
     crest = np.inf
     for _ in range(20):
         phase = rng.uniform(0.0, 2.0 * np.pi, frequency.size)
         wave = weight @ np.sin(2.0 * np.pi * frequency[:, None] * t + phase[:, None])
         peak = float(np.max(np.abs(wave)))
         if peak < crest:
-            best, crest = wave, peak
-    return 0.5 + 0.35 * best / crest
+            best, crest = phase, peak
+    waves = []
+    for i in range(muscles):
+        phase = best + np.pi * i / muscles
+        wave = weight @ np.sin(2.0 * np.pi * frequency[:, None] * t + phase[:, None])
+        waves.append(0.5 + 0.35 * wave / np.max(np.abs(wave)))
+    return np.column_stack(waves)
 
 
-def chirp(rate: float, duration: float, fastest: float) -> Array:
-    """Return three small logarithmic chirps from 0.3 Hz to *fastest* Hz, low, middle and high.
+def chirp(rate: float, duration: float, fastest: float) -> tuple[Array, Array]:
+    """Return the mean and the sines of three small logarithmic chirps at three mean levels.
 
-    The mean pressures distinguish damping that depends on pressure from other damping; the phase
-    distinguishes lag from dead time.
+    They go from 0.3 Hz to *fastest* Hz. The mean pressures distinguish damping that depends on
+    pressure from other damping; the phase distinguishes lag from dead time.
     """
     count = round(rate * duration)
     edges = [round(count * k / 3) for k in range(4)]
-    parts: list[Array] = []
+    means: list[Array] = []
+    sines: list[Array] = []
     before = MEANS[0]
     for mean, start, end in zip(MEANS, edges[:-1], edges[1:], strict=True):
         t = np.arange(end - start) / rate
@@ -101,7 +111,7 @@ def chirp(rate: float, duration: float, fastest: float) -> Array:
         growth = np.log(fastest / 0.3)
         phase = 2.0 * np.pi * 0.3 * length / growth * np.expm1(growth * x / length)
         fade = np.clip(np.minimum(x, length - x) / 0.25, 0.0, 1.0)
-        parts.append(before + (mean - before) * ramp + 0.04 * fade * np.sin(phase))
+        means.append(before + (mean - before) * ramp)
+        sines.append(0.04 * fade * np.sin(phase))
         before = mean
-    wave: Array = np.concatenate(parts)
-    return wave
+    return np.concatenate(means), np.concatenate(sines)

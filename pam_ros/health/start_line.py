@@ -58,8 +58,9 @@ def of_controller(
     *has_sim_time* is whether it answers joint states.
     """
     settings, joint = setup.settings, setup.law.joint
-    others = (settings.joint_name,) if len(setup.muscles) == 1 else setup.muscles
-    muscles = _muscles(values, joint.muscles, setup.muscles, others)
+    names = setup.topics.muscles
+    others = (settings.joint_name,) if len(names) == 1 else names
+    muscles = _muscles(values, joint.muscles, names, others)
     pace = f'at {settings.rate:g} Hz'
     if has_sim_time:
         pace = 'one for each joint state (use_sim_time is set)'
@@ -69,7 +70,7 @@ def of_controller(
     line = (
         f'controls the joint {settings.joint_name} ({settings.joint}; muscle {muscles}; load of '
         f'{_load(joint)}) with the law {settings.controller}; states: {resolve("joint_states")}; '
-        f'commands: {listed(map(resolve, setup.command_topics))}, {pace}; references: '
+        f'commands: {listed(map(resolve, setup.topics.commands))}, {pace}; references: '
         f'{listed(references)}'
     )
     if not settings.start_enabled:

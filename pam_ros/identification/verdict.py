@@ -16,9 +16,10 @@ from pam_ros.identification.search.criteria import Criteria
 from pam_ros.identification.search.search import Search
 from pam_ros.identification.search.setting import Setting
 from pam_ros.recording.quantities import ATMOSPHERE
+from pam_ros.rig.arrangements import LOAD, arrangement_of
 from pam_ros.rig.joint import Joint
-from pam_ros.rig.statics import is_direct
 
+FILE = 'FILE'  # in a command: the parameter file of the joint, without which it is one muscle
 WEATHER = 6e3  # Pa; change of the air pressure by weather and up to 500 m of altitude
 
 
@@ -172,12 +173,13 @@ def of_absolute_pressures(parameters: Mapping[str, Estimate], signal: str) -> li
 def next_experiment(answer: Identification, model: Joint) -> NextExperiment:
     """Return which recording of the rig of *model* would resolve what *answer* leaves open."""
     known = {e.name: e for e in model.library}
-    # pam_excite monitors the position of a load that hangs on one muscle.
-    can_excite = is_direct(model) and not model.is_driven
+    kind = arrangement_of(model)
+    can_excite = kind is not None and not model.is_driven
+    file = '' if kind is LOAD else FILE
     if answer.verdict == 'insufficient_data':
         return NextExperiment(
             'Record a minute or more over the whole range of pressure.',
-            command_line({}) if can_excite else '',
+            command_line({}, file) if can_excite else '',
         )
     doubtful = next((e for e in answer.effects if e.or_constants), None)
     if answer.verdict == 'effect_found' and doubtful is not None:
@@ -218,7 +220,7 @@ def next_experiment(answer: Identification, model: Joint) -> NextExperiment:
         return NextExperiment(text)
     if chosen.excitation is None:
         return NextExperiment(f'{text} pam_excite has no segment for it.')
-    return NextExperiment(text, command_line(chosen.excitation))
+    return NextExperiment(text, command_line(chosen.excitation, file))
 
 
 def time_of(since: Estimate) -> str:

@@ -4,6 +4,7 @@
 
 from dataclasses import dataclass
 
+from pam_ros.rig.joint import Joint
 from pam_ros.rig.loads import Arm, Load, Mass
 from pam_ros.rig.transmissions import Lever, Pulley, Straight, Transmission
 
@@ -36,3 +37,17 @@ ANTAGONISTIC = Arrangement(
 LEVER = Arrangement('lever', 'two muscles turn a lever against each other', 2, Lever, Arm, 0.1)
 CRANK = Arrangement('crank', 'one muscle turns a lever against its load', 1, Lever, Arm, 0.1)
 ARRANGEMENTS = (LOAD, PARALLEL, ANTAGONISTIC, LEVER, CRANK)
+
+
+def arrangement_of(joint: Joint) -> Arrangement | None:
+    """Return the arrangement of *joint*; None if it is none of those, but made by a program."""
+    return next((kind for kind in ARRANGEMENTS if _is_of(joint, kind)), None)
+
+
+def _is_of(joint: Joint, kind: Arrangement) -> bool:
+    return (
+        type(joint.transmission) is kind.transmission
+        and type(joint.load) is kind.load
+        and len(joint.actuators) == kind.muscles
+        and (kind.has_mounting or joint.actuators[0].contraction == 0.0)
+    )

@@ -20,15 +20,14 @@ from pam_ros.control.setup import LawSetup
 from pam_ros.errors import ParameterError
 from pam_ros.parameters import check_all, parameter_field
 from pam_ros.rig.arrangements import ARRANGEMENTS, LOAD
-from pam_ros.settings.rig import RigParameters
-from pam_ros.settings.sim import SimSettings, Start
+from pam_ros.settings.one_joint import MuscleTopics, OneJointParameters
+from pam_ros.settings.sim import Start
 from pam_ros.settings.tables import Table, Values, build, table_of
 
 MEASURED = 'use_measured_velocity'  # the gain that velocity_source sets
 LEAST_PERIODS = 3  # of rate for which the rig must at least keep the last command
 # s of interruption after which control starts again if command_timeout is 0
 LONGEST_INTERRUPTION = 1.0
-NAMES = ('muscles', 'joint_names', 'muscle_topics')  # parameters that pam_sim has, too
 
 
 @dataclass(frozen=True)
@@ -133,7 +132,7 @@ class ControlSettings:
         return f'{name} ({self.longest_interruption:g} s)'
 
 
-class ControlParameters(RigParameters):
+class ControlParameters(OneJointParameters):
     """The muscles and joints of a rig, one of which is controlled."""
 
     elsewhere: ClassVar[tuple[str, ...]] = tuple(table_of(Start, 'initial.'))
@@ -142,16 +141,11 @@ class ControlParameters(RigParameters):
     def common(self) -> Table:
         """The table of the common parameters in addition to the rig, in the units of the joint."""
         revolute = self.kind.transmission.equations.revolute
-        gains, names = table_of(Gains, 'gains.', revolute=revolute), table_of(SimSettings)
+        gains = table_of(Gains, 'gains.', revolute=revolute)
         can_stiffen = revolute and self.kind.muscles > 1
         del gains[f'gains.{MEASURED}']
-        kind, default, about = names['muscle_topics']
-        text = (
-            'command each muscle on <name>/pressure_command, as pam_sim with muscle_topics expects'
-        )
-        names['muscle_topics'] = kind, default, replace(about, text=text)
         return {
-            **{name: names[name] for name in NAMES},
+            **super().common,
             **table_of(ControlSettings),
             **(table_of(CoContraction, revolute=True) if can_stiffen else {}),
             **gains,
@@ -163,21 +157,9 @@ class ControlParameters(RigParameters):
     def build(self, values: Values) -> 'ControlSetup':
         """Create the setup of the node from flat *values*; raises PamError if they are invalid."""
         settings = build(ControlSettings, values)
-        has_topics = bool(values['muscle_topics'])
-        k = self._controlled(settings.joint_name, has_topics=has_topics)
-        n = self.kind.muscles
-        if self.kind is not LOAD and len(self.joints) > 1 and not has_topics:
-            raise ParameterError(
-                f'pressure_commands has all muscles of {len(self.joints)} joints, and this '
-                f'controller has only {self.joints[k or 0]}: set muscle_topics, here and in '
-                'pam_sim'
-            )
-        if k is None:
-            joint = self.build_common(values)
-        else:
-            joint = self.build_joints(values)[k]
-            settings = replace(settings, joint_name=self.joints[k])
-        joint = joint.at_start
+        one = self.one(values, settings.joint_name)
+        settings = replace(settings, joint_name=one.name)
+        joint = one.joint.at_start
         is_revolute = joint.is_revolute
         gains = replace(
             build(Gains, values, 'gains.', is_revolute=is_revolute),
@@ -191,59 +173,16 @@ class ControlParameters(RigParameters):
             *(settings.controller, joint, gains, pid, limits, shape, co_contraction),
             period=1.0 / settings.rate,
         )
-        names = self.muscles[n * (k or 0) : n * (k or 0) + n]
-        return ControlSetup(settings, law, names, has_topics)
-
-    def _controlled(self, name: str, *, has_topics: bool) -> int | None:
-        """Return the index of the controlled joint; None for a muscle with common values only."""
-        if len(self.joints) == 1 and (self.kind is not LOAD or name in self.joints):
-            return 0
-        if name in self.joints:
-            return self.joints.index(name)
-        if self.kind is LOAD and not has_topics:
-            return None
-        raise ParameterError(
-            f'joint_name = {name} is not one of the joints {", ".join(self.joints)}: give '
-            'the one that is controlled'
-        )
+        return ControlSetup(settings, law, one.topics)
 
 
 @dataclass(frozen=True)
 class ControlSetup:
-    """All settings of the node, checked against each other.
-
-    ``muscles`` are the names of the muscles that ``law`` commands.
-    """
+    """All settings of the node, checked against each other."""
 
     settings: ControlSettings
     law: LawSetup
-    muscles: tuple[str, ...]
-    muscle_topics: bool
-
-    @property
-    def has_arrays(self) -> bool:
-        """Whether commands and pressures of all muscles are arrays, as in ``pam_sim``.
-
-        Otherwise each muscle has its own topics.
-        """
-        return self.settings.joint != LOAD.name and not self.muscle_topics
-
-    @property
-    def command_topics(self) -> tuple[str, ...]:
-        """Topics of the commands: one for the array, or one for each muscle."""
-        return self._topics('pressure_command', 'pressure_commands')
-
-    @property
-    def pressure_topics(self) -> tuple[str, ...]:
-        """Topics of the measured pressures: one for the array, or one for each muscle."""
-        return self._topics('pressure', 'pressures')
-
-    def _topics(self, one: str, array: str) -> tuple[str, ...]:
-        if self.has_arrays:
-            return (array,)
-        if self.muscle_topics:
-            return tuple(f'{muscle}/{one}' for muscle in self.muscles)
-        return (one,)
+    topics: MuscleTopics
 
 
 def settings_of(given: Values) -> tuple[Table, Callable[[dict[str, Any]], ControlSetup]]:

@@ -25,6 +25,7 @@ import yaml
 
 from pam_ros.errors import ParameterError, printable, shown
 from pam_ros.plain_yaml import read_yaml
+from pam_ros.rig.arrangements import LOAD
 from pam_ros.settings.former_names import renamed
 from pam_ros.settings.tables import Table, Value, refuse_mistyped, refuse_unknown_effects
 
@@ -178,19 +179,20 @@ def _flat(table: Any, prefix: str = '') -> Iterator[tuple[str, Any]]:
 def read_known(name: str, table: Table) -> dict[str, Value]:
     """Return the values of a file or muscle *name*.
 
-    Raises ParameterError for a mistyped name of *table*, and for an effect that does not exist.
+    Raises ParameterError for the file of a joint, for a mistyped name of *table*, and for an
+    effect that does not exist.
     """
     path = find(name)
     values = read(path)
+    if values.get('joint', LOAD.name) != LOAD.name:
+        raise ParameterError(
+            f'{path} describes a joint ({values["joint"]}), not a muscle: give it as a parameter '
+            'file (--params-file)'
+        )
     try:
         refuse_unknown_effects(values)
         refuse_mistyped(values, table)
     except ParameterError as error:
-        if 'joint' in values and values['joint'] != table.get('joint', (str, ''))[1]:
-            raise ParameterError(
-                f'{path} describes a joint ({values["joint"]}), not a muscle: give it as a '
-                'parameter file (--params-file)'
-            ) from error
         raise ParameterError(f'{path}: {error}') from error
     return values
 

@@ -12,7 +12,7 @@ from pam_ros.cached_property import cached_property
 from pam_ros.effects.base import Effect
 from pam_ros.effects.names import EffectName
 from pam_ros.parameters import Parameter
-from pam_ros.rig.arrangements import ARRANGEMENTS, LOAD, Arrangement
+from pam_ros.rig.arrangements import LOAD, Arrangement, arrangement_of
 from pam_ros.rig.joint import Joint
 from pam_ros.settings.files import find, read_any
 from pam_ros.settings.load import only_joint, read_scene
@@ -94,21 +94,12 @@ def nominal_of(joint: Joint, muscles: tuple[str, ...] = ()) -> NominalJoint:
     *muscles* are the names of several muscles in recordings. All other names are the defaults of
     a file. A joint that no file can describe has the arrangement ``custom``.
     """
-    kind = next((kind for kind in ARRANGEMENTS if _is_of(joint, kind)), None)
+    kind = arrangement_of(joint)
     names = RigParameters({'joint': LOAD.name if kind is None else kind.name})
     if kind is None:
         parts = type(joint.transmission), type(joint.load)
         kind = Arrangement('custom', 'made by a program', len(joint.actuators), *parts)
     return NominalJoint(joint, kind, muscles or names.muscles, names.joints[0])
-
-
-def _is_of(joint: Joint, kind: Arrangement) -> bool:
-    return (
-        type(joint.transmission) is kind.transmission
-        and type(joint.load) is kind.load
-        and len(joint.actuators) == kind.muscles
-        and (kind.has_mounting or joint.actuators[0].contraction == 0.0)
-    )
 
 
 def nominal_joint(name: str | Path, overrides: Iterable[str] = ()) -> NominalJoint:

@@ -71,7 +71,7 @@ class RigParameters:
         self.kind = KINDS.get(str(given.get('joint', LOAD.name)), LOAD)
         self._given = given
         per_joint = self.kind.muscles
-        alone = str(given.get('joint_name', SimSettings.joint_name))
+        alone = str(given.get('joint_name') or SimSettings.joint_name)
         self.muscles = _lists(given.get('muscles')) or self._names(alone, per_joint)
         if len(self.muscles) % per_joint:
             raise ParameterError(

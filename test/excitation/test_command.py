@@ -25,6 +25,12 @@ def test_the_command_line_has_the_parameters(parameters, text):
     assert command_line(parameters) == text
 
 
+def test_a_joint_has_its_parameter_file():
+    text = "pam_excite --ros-args --params-file elbow.yaml -p segments:='[steps]'"
+    assert command_line({'segments': ('steps',)}, 'elbow.yaml') == text
+    assert command_line({}, 'elbow.yaml') == 'pam_excite --ros-args --params-file elbow.yaml'
+
+
 @pytest.mark.parametrize('effect', EFFECTS, ids=lambda e: e.name)
 def test_the_experiment_of_an_effect_is_a_programme_that_shows_it(effect):
     if effect.excitation is None:

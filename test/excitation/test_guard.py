@@ -8,7 +8,7 @@ from pam_ros.excitation.guard import Guard
 
 
 def guard():
-    return Guard(-0.016, 0.1, silence=0.5, now=100.0)
+    return Guard(-0.016, 0.1, 'm', silence=0.5, now=100.0)
 
 
 def test_a_joint_in_its_window_with_states_continues():
@@ -24,6 +24,13 @@ def test_leaving_the_window(position):
     watch.record(position, 100.1)
     assert f'is at {1e3 * position:.1f} mm' in watch.problem(100.1)
     assert '-16.0 to 100.0 mm' in watch.problem(100.1)
+
+
+def test_a_joint_that_turns_is_spoken_of_in_rad():
+    watch = Guard(-0.5, 1.25, 'rad', silence=0.5, now=100.0)
+    watch.record(1.3, 100.1)
+    sentence = 'the joint is at 1.300 rad, outside its window of -0.500 to 1.250 rad'
+    assert watch.problem(100.1) == sentence
 
 
 @pytest.mark.parametrize('position', [float('nan'), float('inf')])

@@ -23,8 +23,9 @@ from pam_ros.rig.standard_joints import single_muscle_joint
     duration=st.floats(30.0, 150.0),
     rate=st.floats(20.0, 500.0),
     seed=st.integers(0, 1000),
+    sides=st.sampled_from([(1,), (1, -1), (1, 1), (1, -1, 1)]),
 )
-def test_no_programme_exceeds_its_limits(low, span, rate_of_change, duration, rate, seed):
+def test_no_programme_exceeds_its_limits(low, span, rate_of_change, duration, rate, seed, sides):
     given_limits = Excitation(
         pressure_min=low,
         pressure_max=low + span,
@@ -34,14 +35,15 @@ def test_no_programme_exceeds_its_limits(low, span, rate_of_change, duration, ra
         frequency_max=min(8.0, rate / 10.0),
         seed=seed,
     )
-    made = programme(given_limits)
+    made = programme(given_limits, sides)
     assert made.pressure.min() == 0.0
     assert made.pressure.max() <= (low + span) * (1 + 1e-12)
-    assert np.abs(np.diff(made.pressure)).max() <= rate_of_change / rate * (1 + 1e-9)
-    assert made.pressure[0] == 0.0
-    assert made.pressure[-1] == 0.0
+    assert made.pressure.shape[1] == len(sides)
+    assert np.abs(np.diff(made.pressure, axis=0)).max() <= rate_of_change / rate * (1 + 1e-9)
+    assert not made.pressure[0].any()
+    assert not made.pressure[-1].any()
     assert made.segments[0].start == 0
-    assert made.segments[-1].stop == made.pressure.size
+    assert made.segments[-1].stop == len(made.pressure)
     for before, after in zip(made.segments[:-1], made.segments[1:], strict=True):
         assert before.stop == after.start
 
@@ -66,7 +68,7 @@ def test_the_fast_triangle_is_four_times_as_fast():
     made = programme(Excitation())
     parts = {s.name: made.pressure[s.start : s.stop] for s in made.segments}
     slow, fast = (
-        np.percentile(np.abs(np.diff(parts[name])), 80)
+        np.percentile(np.abs(np.diff(parts[name], axis=0)), 80)
         for name in ('slow_triangle', 'fast_triangle')
     )
     assert fast / slow == pytest.approx(4.0, rel=0.05)
@@ -77,8 +79,8 @@ def test_the_first_steps_come_again_just_so():
     parts = {s.name: made.pressure[s.start : s.stop] for s in made.segments}
     ramp = 300  # commands: 1.5 s
     again = parts['steps_again'][ramp:]
-    np.testing.assert_allclose(again, parts['steps'][ramp : ramp + again.size])
-    assert again.size > 1500
+    np.testing.assert_allclose(again, parts['steps'][ramp : ramp + len(again)])
+    assert len(again) > 1500
 
 
 @pytest.mark.parametrize('seed', range(6) if HAVE_NUMBA else [0])
@@ -126,7 +128,7 @@ def test_repeated_steps_alone_have_the_levels_of_the_first_steps():
     alone = programme(Excitation(segments=('steps_again',), seed=2))
 
     def levels(one, k):
-        part = one.pressure[one.segments[k].start + 300 : one.segments[k].stop]
+        part = one.pressure[one.segments[k].start + 300 : one.segments[k].stop, 0]
         return part[1:][np.diff(part) == 0.0]
 
     found = np.unique(levels(both, 2))
@@ -171,13 +173,71 @@ def test_the_plan_has_times_levels_and_speeds():
 
 def test_the_csv_holds_the_commands(tmp_path):
     made = programme(Excitation(duration=30.0))
-    write_csv(made, tmp_path / 'plan.csv')
+    write_csv(made, tmp_path / 'plan.csv', ['pam'])
     table = np.genfromtxt(tmp_path / 'plan.csv', delimiter=',', names=True)
     np.testing.assert_array_equal(table['t_s'], made.t)
-    np.testing.assert_array_equal(table['pressure_command_Pa'], made.pressure)
+    np.testing.assert_array_equal(table['pressure_command_Pa'], made.pressure[:, 0])
     assert len(list(tmp_path.iterdir())) == 1
+
+
+def test_the_csv_of_several_muscles_is_one_that_is_read_as_theirs(tmp_path):
+    made = programme(Excitation(duration=30.0), (1, -1))
+    write_csv(made, tmp_path / 'plan.csv', ['flexor', 'extensor'])
+    with (tmp_path / 'plan.csv').open() as stream:
+        names = stream.readline().strip().split(',')
+    assert names == ['t_s', 'flexor.pressure_command_Pa', 'extensor.pressure_command_Pa']
+    table = np.loadtxt(tmp_path / 'plan.csv', delimiter=',', skiprows=1)
+    np.testing.assert_array_equal(table, np.column_stack((made.t, made.pressure)))
+
+
+# Several muscles -------------------------------------------------------------------------------
+
+
+def part(made, name):
+    """Return the commands of a segment after its ramp, (n, muscles)."""
+    (one,) = (s for s in made.segments if s.name == name)
+    return made.pressure[one.start + round(RAMP * made.rate) : one.stop]
+
+
+@pytest.mark.parametrize('sides', [(1, -1), (1, 1)])
+def test_only_one_of_two_muscles_steps_at_a_time(sides):
+    steps = part(programme(Excitation(pressure_rate=1e9), sides), 'steps')
+    changes = np.diff(steps, axis=0) != 0.0
+    assert changes.sum(axis=0).min() >= 11
+    assert not changes.all(axis=1).any()
+
+
+@pytest.mark.parametrize('sides', [(1, -1), (1, 1)])
+def test_the_steps_of_two_muscles_move_the_joint_nearly_as_far_as_the_triangle(sides):
+    made = programme(Excitation(), sides)
+    moved = {name: np.ptp(part(made, name) @ sides) for name in ('steps', 'slow_triangle')}
+    assert moved['steps'] > 0.9 * moved['slow_triangle']
+
+
+@pytest.mark.parametrize('sides', [(1, -1), (1, 1)])
+def test_two_muscles_have_independent_commands_in_steps_and_multisine(sides):
+    """So that what is in one muscle can be distinguished from what is in the other."""
+    made = programme(Excitation(), sides)
+    assert abs(np.corrcoef(part(made, 'multisine').T)[0, 1]) < 1e-9
+    along, across = (np.std(part(made, 'steps') @ way) for way in (sides, (1, -sides[1])))
+    assert across > 0.25 * along
+
+
+def test_the_chirps_of_opposite_muscles_move_the_joint_at_one_mean_pressure():
+    one, other = part(programme(Excitation(), (1, -1)), 'chirps').T
+    mean = 0.5 * (one + other)
+    levels = np.array([0.25, 0.5, 0.75]) * 400e3 + 50e3
+    for level in levels:
+        assert np.count_nonzero(np.abs(mean - level) < 1.0) > 0.2 * mean.size
+    assert np.abs(one - other).max() == pytest.approx(0.08 * 400e3, rel=0.1)
+
+
+def test_one_muscle_has_the_same_commands_as_the_first_of_two():
+    alone, first = programme(Excitation()), programme(Excitation(), (1, -1))
+    for name in ('steps', 'slow_triangle', 'fast_triangle'):
+        np.testing.assert_array_equal(part(alone, name)[:, 0], part(first, name)[:, 0])
 
 
 def test_a_csv_that_cannot_be_written(tmp_path):
     with pytest.raises(PamError, match=r'plan\.csv cannot be written'):
-        write_csv(programme(Excitation(duration=30.0)), tmp_path / 'nowhere' / 'plan.csv')
+        write_csv(programme(Excitation(duration=30.0)), tmp_path / 'nowhere' / 'plan.csv', ['pam'])

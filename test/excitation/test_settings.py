@@ -14,6 +14,7 @@ from pam_ros.muscle.muscle import Muscle
     [
         ({'pressure_min': 5e5}, ['pressure_min = 500000', 'pressure_max = 450000']),
         ({'contraction_max': -0.1}, ['contraction_min = -0.04', 'contraction_max = -0.1']),
+        ({'position_min': 0.2, 'position_max': 0.1}, ['position_min = 0.2', 'position_max = 0.1']),
         ({'duration': 5.0}, ['duration = 5.0', '30 to 3600 s']),
         ({'pressure_rate': 0.0}, ['pressure_rate']),
         ({'rate': 50.0}, ['frequency_max = 8 Hz', 'rate = 50 Hz']),

@@ -56,7 +56,7 @@ def test_the_plain_triangle_goes_up_and_down():
 
 @pytest.mark.parametrize('fastest', [2.0, 8.0])
 def test_the_multisine_has_lines_up_to_the_fastest_and_none_above(fastest):
-    wave = waves.multisine(RATE, 12.0, rng(), fastest)
+    wave = waves.multisine(RATE, 12.0, rng(), fastest)[:, 0]
     assert np.abs(wave - 0.5).max() == pytest.approx(0.35)
     power = np.abs(np.fft.rfft(wave - 0.5)) ** 2
     frequency = np.fft.rfftfreq(wave.size, 1.0 / RATE)
@@ -66,8 +66,19 @@ def test_the_multisine_has_lines_up_to_the_fastest_and_none_above(fastest):
     assert lines.min() < 0.2
 
 
+def test_the_multisines_of_two_muscles_have_the_same_lines_and_are_not_correlated():
+    alone, pair = (waves.multisine(RATE, 12.0, rng(), 8.0, muscles) for muscles in (1, 2))
+    np.testing.assert_array_equal(alone[:, 0], pair[:, 0])
+    np.testing.assert_allclose(np.abs(pair - 0.5).max(axis=0), 0.35)
+    assert abs(np.corrcoef(pair.T)[0, 1]) < 1e-9
+    one, other = np.abs(np.fft.rfft(pair - 0.5, axis=0)).T
+    lines = one > 1e-3 * one.max()
+    assert np.ptp(one[lines] / other[lines]) < 1e-6
+
+
 def test_the_chirps_reach_the_fastest_at_three_means():
-    wave = waves.chirp(RATE, 12.0, 8.0)
+    means, sines = waves.chirp(RATE, 12.0, 8.0)
+    wave = means + sines
     for part, mean in zip(np.split(wave, 3), (0.25, 0.5, 0.75), strict=True):
         late = part[-140:-20] - mean
         assert np.abs(late).max() == pytest.approx(0.04, rel=0.05)

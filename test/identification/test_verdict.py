@@ -22,6 +22,7 @@ from pam_ros.identification.verdict import (
     verdict,
 )
 from pam_ros.muscle.muscle import Muscle
+from pam_ros.rig.joint import Actuator, Joint
 from pam_ros.rig.loads import Mass
 from pam_ros.rig.standard_joints import antagonistic_joint, single_muscle_joint
 from support import bench_truth, results
@@ -245,9 +246,19 @@ def test_an_experiment_that_no_segment_plays_has_no_command():
     assert command == ''
 
 
-@pytest.mark.parametrize(
-    'model', [antagonistic_joint(), single_muscle_joint(DRIVE, Mass(mount='horizontal'))]
-)
+def test_the_experiment_of_a_joint_needs_its_file():
+    answer = replace(results.friction_result()[0], verdict='effect_found')
+    command = next_experiment(answer, antagonistic_joint()).command
+    assert command.startswith('pam_excite --ros-args --params-file FILE -p segments:=')
+    answer = replace(answer, verdict='insufficient_data')
+    command = next_experiment(answer, antagonistic_joint()).command
+    assert command == 'pam_excite --ros-args --params-file FILE'
+
+
+THREE = Joint((Actuator(), Actuator(), Actuator()))
+
+
+@pytest.mark.parametrize('model', [THREE, single_muscle_joint(DRIVE, Mass(mount='horizontal'))])
 def test_a_rig_that_is_not_excited_by_its_position_has_no_command(model):
     answer = replace(results.friction_result()[0], verdict='effect_found')
     text, command = next_experiment(answer, model)

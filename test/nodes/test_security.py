@@ -29,6 +29,8 @@ RIGS = {
     'pair': {'pam_sim': PAIR, 'pam_control': {**PAIR, **FOLLOWS}, 'pam_record': FOLLOWS},
     'separate': {'pam_sim': SEPARATE, 'pam_control': {**PAIR, 'muscle_topics': True}},
     'excited': {'pam_excite': FOLLOWS},
+    'excited_pair': {'pam_excite': {**PAIR, **FOLLOWS}},
+    'excited_separately': {'pam_excite': {**PAIR, 'muscle_topics': True}},
     'drawn': {'pam_plot': FOLLOWS},
 }
 PROGRAMS = sorted({program for rig in RIGS.values() for program in rig})

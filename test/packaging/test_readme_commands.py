@@ -118,12 +118,12 @@ def check_benchmarks(words):
 TABLES = {
     'pam_sim': lambda given: Scene(given).table(),
     'pam_control': lambda given: settings_of(given)[0],
-    'pam_excite': excite.table,
+    'pam_excite': lambda given: excite.settings_of(given)[0],
 }
 BUILDERS = {
     'pam_sim': lambda given, values: Scene(given).build(values),
     'pam_control': lambda given, values: settings_of(given)[1](values),
-    'pam_excite': lambda given, values: excite.experiment(values),
+    'pam_excite': lambda given, values: excite.settings_of(given)[1](values),
 }
 
 

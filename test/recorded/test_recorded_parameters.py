@@ -29,7 +29,7 @@ NOW = {
     'pam_sim antagonistic': Scene({'joint': 'antagonistic'}).table(),
     'pam_control': settings_of({})[0],
     'pam_control antagonistic': settings_of({'joint': 'antagonistic'})[0],
-    'pam_excite': excite.table(),
+    'pam_excite': excite.settings_of({})[0],
 }
 # Defaults that have changed since, as the change log says.
 CHANGED = {'state_timeout': 0.5}

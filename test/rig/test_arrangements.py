@@ -7,7 +7,13 @@ import pytest
 
 from pam_ros.errors import ParameterError
 from pam_ros.rig import statics
-from pam_ros.rig.arrangements import ANTAGONISTIC, ARRANGEMENTS, CRANK, LEVER
+from pam_ros.rig.arrangements import (
+    ANTAGONISTIC,
+    ARRANGEMENTS,
+    CRANK,
+    LEVER,
+    arrangement_of,
+)
 from pam_ros.rig.equilibrium import equilibrium
 from pam_ros.rig.joint import Actuator, Joint
 from pam_ros.rig.loads import GRAVITY, Mass
@@ -20,6 +26,13 @@ from support.joint_models import BOTH_LONG, muscle, parallel
 def made(kind):
     actuator = Actuator(contraction=kind.contraction)
     return Joint((actuator,) * kind.muscles, kind.load(), kind.transmission())
+
+
+def test_a_joint_has_the_arrangement_of_its_parts():
+    for kind in ARRANGEMENTS:
+        assert arrangement_of(made(kind)) is kind
+    assert arrangement_of(Joint((Actuator(),) * 3)) is None
+    assert arrangement_of(Joint((Actuator(contraction=0.1),))) is None
 
 
 def test_their_names_differ_and_their_texts_say_how_many_muscles():

@@ -118,7 +118,8 @@ def test_all_values_in_force_written_make_the_same_muscle_again(file, tmp_path):
 
 def test_an_excitation_is_planned_for_it(file):
     given = read(file)
-    (muscle,) = excite.experiment(checked(excite.table(given), given)).model.muscles
+    table, build = excite.settings_of(given)
+    (muscle,) = build(checked(table, given)).model.muscles
     assert muscle == MUSCLE
 
 

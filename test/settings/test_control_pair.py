@@ -62,7 +62,7 @@ def test_a_joint_of_one_muscle_is_unchanged():
     assert 'radius' not in table
     now = build(checked(table, {}))
     assert not now.law.can_stiffen
-    assert (now.law.unit, len(now.muscles), now.has_arrays) == ('m', 1, False)
+    assert (now.law.unit, len(now.topics.muscles), now.topics.is_array) == ('m', 1, False)
 
 
 def test_both_programs_make_the_same_joint_of_the_same_values():
@@ -83,7 +83,7 @@ def test_both_programs_make_the_same_joint_of_the_same_values():
 
 def test_of_several_joints_one_is_controlled():
     now = setup(**FOUR, joint_name='elbow', muscle_topics=True, d__l0=0.5)
-    assert now.muscles == ('c', 'd')
+    assert now.topics.muscles == ('c', 'd')
     assert now.settings.joint_name == 'elbow'
     assert [m.l0 for m in now.law.joint.muscles] == [0.4, 0.5]
 
@@ -162,23 +162,23 @@ def test_the_baseline_is_for_a_pair_too():
 )
 def test_each_kind_of_joint_can_be_controlled(kind, muscles, unit, can_stiffen, has_arrays):
     now = setup(joint=kind)
-    assert (len(now.muscles), now.law.unit) == (muscles, unit)
-    assert (now.law.can_stiffen, now.has_arrays) == (can_stiffen, has_arrays)
+    assert (len(now.topics.muscles), now.law.unit) == (muscles, unit)
+    assert (now.law.can_stiffen, now.topics.is_array) == (can_stiffen, has_arrays)
     assert now.law.reach[0] < now.law.reach[1]
     assert isinstance(now.law.make_law(), SlidingMode)
     table, _ = settings_of({'joint': kind})
     assert ('co_contraction' in table) is can_stiffen
-    topics = setup(joint=kind, muscle_topics=True).command_topics
-    assert topics == tuple(f'{name}/pressure_command' for name in now.muscles)
+    topics = setup(joint=kind, muscle_topics=True).topics.commands
+    assert topics == tuple(f'{name}/pressure_command' for name in now.topics.muscles)
 
 
 def test_of_several_loads_one_is_controlled_by_its_own_topic():
     names = {'joint': 'load', 'muscles': ('left', 'right'), 'muscle_topics': True}
     now = setup(**names, joint_name='right', right__mass=12.0)
-    assert (now.muscles, now.settings.joint_name) == (('right',), 'right')
+    assert (now.topics.muscles, now.settings.joint_name) == (('right',), 'right')
     assert now.law.joint.load.mass == 12.0
-    assert now.command_topics == ('right/pressure_command',)
-    assert now.pressure_topics == ('right/pressure',)
+    assert now.topics.commands == ('right/pressure_command',)
+    assert now.topics.pressures == ('right/pressure',)
     with pytest.raises(
         ParameterError, match='joint_name = pam is not one of the joints left, right'
     ):

@@ -41,14 +41,14 @@ class ChamberInput:
         *on_fault* is called with a sentence on a pressure that is not plausible.
         """
         self._on_pressure, self._on_fault = on_pressure, on_fault
-        self._found: list[tuple[int, int, float] | None] = [None] * len(setup.muscles)
+        self._found: list[tuple[int, int, float] | None] = [None] * len(setup.topics.muscles)
         self._is_published = False  # whether all pressures have been received before
         self._waited = 0
         self._looked = steady_ns()
         if not setup.settings.pressure_wait:
             return
-        for i, topic in enumerate(setup.pressure_topics):
-            if setup.has_arrays:
+        for i, topic in enumerate(setup.topics.pressures):
+            if setup.topics.is_array:
                 subscribe(Float64MultiArray, topic, self._take_all)
             else:
                 subscribe(FluidPressure, topic, partial(self._take, i))
@@ -111,5 +111,6 @@ class ChamberInput:
             fault = fault_of_pressure(one[2], ambient, (of.p_min, of.p_max)) if one else ''
             if fault:
                 self._found[muscle] = None
-                topic = setup.pressure_topics[-1 if setup.has_arrays else muscle]
+                topics = setup.topics
+                topic = topics.pressures[-1 if topics.is_array else muscle]
                 self._on_fault(f'{topic} has {fault}: not used')

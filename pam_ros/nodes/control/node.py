@@ -23,6 +23,7 @@ from pam_ros.health.health import Health
 from pam_ros.health.learned import learning
 from pam_ros.health.reports import Reports
 from pam_ros.health.tracking import Tracking
+from pam_ros.nodes.common.commands import commands_of
 from pam_ros.nodes.common.diagnostics import Diagnostics
 from pam_ros.nodes.common.node_parameters import NodeParameters, given
 from pam_ros.nodes.common.spin import TickingNode
@@ -30,7 +31,6 @@ from pam_ros.nodes.control.chamber_input import ChamberInput
 from pam_ros.nodes.control.follow import Follow
 from pam_ros.nodes.control.inputs import MeasuredState, measured_state
 from pam_ros.nodes.control.intake import Intake
-from pam_ros.nodes.control.output import commands_of
 from pam_ros.nodes.control.rig_watch import RigWatch
 from pam_ros.nodes.control.state import StateTopic
 from pam_ros.nodes.control.topics import watch_topics
@@ -126,8 +126,8 @@ class PamControl(TickingNode):
         )
         if self._setup.law.can_stiffen:
             intake.subscribe(Float64, 'co_contraction_reference', self._take_co_contraction)
-        self._states = StateTopic(self, term_names(len(self._setup.muscles)))
-        self._commands = commands_of(self, self._setup)
+        self._states = StateTopic(self, term_names(len(self._setup.topics.muscles)))
+        self._commands = commands_of(self, self._setup.topics)
         self._rig = RigWatch(self, 'joint_states', self._commands.publishers)
 
     # Time ----------------------------------------------------------------------------------

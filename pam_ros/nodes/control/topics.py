@@ -18,11 +18,12 @@ def watch_topics(node: Node, setup: ControlSetup, loop: Loop) -> TopicWatch:
 
 def watched_topics(setup: ControlSetup) -> list[Watched]:
     """Return these topics: joint states, commands, and the pressures if control waits for them."""
+    topics = setup.topics
     command, pressure = (
-        (Float64MultiArray, Float64MultiArray) if setup.has_arrays else (Float64, FluidPressure)
+        (Float64MultiArray, Float64MultiArray) if topics.is_array else (Float64, FluidPressure)
     )
     found = [Watched(JointState, 'joint_states', (setup.settings.joint_name,))]
-    found += [Watched(command, topic, is_command=True) for topic in setup.command_topics]
+    found += [Watched(command, topic, is_command=True) for topic in topics.commands]
     if setup.settings.pressure_wait:
-        found += [Watched(pressure, topic) for topic in setup.pressure_topics]
+        found += [Watched(pressure, topic) for topic in topics.pressures]
     return found

@@ -8,22 +8,27 @@ import time
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
 from rclpy.duration import Duration
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 from sensor_msgs.msg import JointState
-from std_msgs.msg import Float64
 from tqdm import tqdm
 
 from pam_ros.excitation.guard import Guard
 from pam_ros.excitation.programme import write_csv
 from pam_ros.health.absence import Absence
+from pam_ros.health.start_line import listed
+from pam_ros.nodes.common.commands import commands_of
 from pam_ros.nodes.common.node_parameters import NodeParameters, given
-from pam_ros.nodes.common.qos import DEPTH, answers_depth, open_qos
+from pam_ros.nodes.common.qos import DEPTH, open_qos
 from pam_ros.nodes.common.spin import TickingNode
 from pam_ros.nodes.common.stamps import stamp_of
-from pam_ros.settings.excite import Experiment, experiment, table
+from pam_ros.settings.excite import Experiment, settings_of
 from pam_ros.timing.pace import SECOND
 from pam_ros.timing.ticker import Ticker
+
+Array = NDArray[np.float64]
 
 STOPPED = 1  # exit code
 UNNAMED = '_NODE_NAME_UNKNOWN_'  # name of a node until it is completely discovered
@@ -43,14 +48,14 @@ class PamExcite(TickingNode):
     def __init__(self, csv: Path | None, is_dry: bool) -> None:
         """Create the programme that the parameters describe."""
         super().__init__('pam_excite')
-        parameters = NodeParameters(self, table(given(self)), experiment, _nothing_live)
+        parameters = NodeParameters(self, *settings_of(given(self)), _nothing_live)
         self._now = parameters.built
         parameters.refuse_mistyped()
         if csv is not None:
-            write_csv(self._now.programme, csv)
+            write_csv(self._now.programme, csv, self._now.topics.muscles)
         self._is_dry = is_dry
-        self._publisher: Any = None  # after the start
-        self._pressure = 0.0  # last command
+        self._commands: Any = None  # after the start
+        self._pressure = np.zeros(len(self._now.topics.muscles))  # last command
         self._remaining = round(LAST * self._now.settings.rate)  # remaining commands of 0 Pa
         self._is_followed = bool(self.get_parameter('use_sim_time').value)
         self.keeps_wall_time = not self._is_followed
@@ -72,7 +77,8 @@ class PamExcite(TickingNode):
             '--csv',
             type=Path,
             metavar='FILE',
-            help='write the commands as well: t_s,pressure_command_Pa',
+            help='write the commands as well: t_s,pressure_command_Pa, of several muscles with '
+            'the name of the muscle: t_s,flexor.pressure_command_Pa,extensor.pressure_command_Pa',
         )
 
     @classmethod
@@ -91,14 +97,10 @@ class PamExcite(TickingNode):
         self._begun = time.monotonic()
         self._received = self._begun  # steady time of the newest joint state, s
         self._seen = self._ros_time()  # its time by the clock of the programme, s
-        self._guard = Guard(*self._now.window, self._now.settings.silence, self._seen)
+        silence, unit = self._now.settings.silence, self._now.unit
+        self._guard = Guard(*self._now.window, unit, silence, self._seen)
         self._misread = ''
-        self._publisher = self.create_publisher(
-            Float64,
-            'pressure_command',
-            QoSProfile(depth=answers_depth(self)),
-            qos_overriding_options=open_qos(),
-        )
+        self._commands = commands_of(self, self._now.topics)
         # If time follows the states, it would stop at a lost state: they are received reliably.
         followed, free = ReliabilityPolicy.RELIABLE, ReliabilityPolicy.BEST_EFFORT
         self.create_subscription(
@@ -110,12 +112,13 @@ class PamExcite(TickingNode):
         )
 
     def _log_plan(self) -> None:
-        command, states = map(self.resolve_topic_name, ('pressure_command', 'joint_states'))
+        commands = listed(map(self.resolve_topic_name, self._now.topics.commands))
+        states = self.resolve_topic_name('joint_states')
         settings, pace = self._now.settings, 'one for each joint state (use_sim_time is set)'
         if not self._is_followed:
             pace = f'at {settings.rate:g} Hz'
         self.get_logger().info(
-            f'plays a programme of {self._now.programme.duration:.1f} s; commands: {command}, '
+            f'plays a programme of {self._now.programme.duration:.1f} s; commands: {commands}, '
             f'{pace}; states: {states}; begins {settings.countdown:g} s after the rig is found'
         )
 
@@ -160,10 +163,8 @@ class PamExcite(TickingNode):
         if others and UNNAMED not in others:
             self._refuse(f'{" and ".join(others)} commands pressures as well: stop it first')
             return
-        found, needed = self._publisher.get_subscription_count(), self._now.settings.subscribers
         missing = {
-            'pressure_command has no subscriber': not found,
-            f'pressure_command has {found} of {needed} subscribers': 0 < found < needed,
+            **self._lacking_subscribers(),
             'joint_states is not published': self._guard.position is None,
             'use_sim_time is set and /clock is not published': self._ros_time() == 0.0,
             'another node commands pressures': bool(others),
@@ -176,16 +177,30 @@ class PamExcite(TickingNode):
         elif time.monotonic() - self._begun > self._now.settings.patience:
             self._refuse(f'{problems}: is the rig running?')
 
+    def _lacking_subscribers(self) -> dict[str, bool]:
+        """Return a sentence for each topic of commands, and whether it has too few subscribers."""
+        needed = self._now.settings.subscribers
+        sentences = {}
+        for topic, publisher in zip(
+            self._now.topics.commands, self._commands.publishers, strict=True
+        ):
+            found = publisher.get_subscription_count()
+            sentences[f'{topic} has no subscriber'] = not found
+            sentences[f'{topic} has {found} of {needed} subscribers'] = 0 < found < needed
+        return sentences
+
     def _other_nodes(self) -> list[str]:
-        """Return the other nodes that publish pressure_command."""
-        names = [
-            info.node_namespace.rstrip('/') + '/' + info.node_name
-            for info in self.get_publishers_info_by_topic('pressure_command')
-        ]
-        own = self.get_fully_qualified_name()
-        if own in names:
-            names.remove(own)
-        return [UNNAMED if UNNAMED in name else name for name in names]
+        """Return the other nodes that publish commands of the muscles."""
+        own, others = self.get_fully_qualified_name(), []
+        for topic in self._now.topics.commands:
+            names = [
+                info.node_namespace.rstrip('/') + '/' + info.node_name
+                for info in self.get_publishers_info_by_topic(topic)
+            ]
+            if own in names:
+                names.remove(own)
+            others += [UNNAMED if UNNAMED in name else name for name in names]
+        return list(dict.fromkeys(others))
 
     def _count_down(self) -> None:
         problem = self._problem()
@@ -244,7 +259,7 @@ class PamExcite(TickingNode):
             )
             self._do = self._vent
             return
-        if elapsed >= self._now.programme.duration and self._pressure == 0.0:
+        if elapsed >= self._now.programme.duration and not self._is_pressed:
             self._bar.close()
             print(f'played {self._now.programme.duration:.1f} s, vented', flush=True)
             self.exit_code = 0
@@ -252,13 +267,18 @@ class PamExcite(TickingNode):
         # After a pause of this process the pressure approaches the programme without a jump.
         step = self._now.settings.pressure_rate * min(since, LONGEST)
         wanted = self._now.programme.at(elapsed)
-        self._command(min(max(wanted, self._pressure - step), self._pressure + step))
+        self._command(np.clip(wanted, self._pressure - step, self._pressure + step))
         self._show(elapsed)
 
-    def _command(self, pressure: float) -> None:
+    @property
+    def _is_pressed(self) -> bool:
+        """Whether there was pressure in a muscle at the last command."""
+        return bool(np.any(self._pressure > 0.0))
+
+    def _command(self, pressure: Array) -> None:
         self._pressure = pressure
         self._answered = time.monotonic()
-        self._publisher.publish(Float64(data=pressure))
+        self._commands.publish(pressure.tolist())
 
     def _show(self, elapsed: float) -> None:
         self._bar.update(elapsed - self._bar.n)
@@ -272,33 +292,33 @@ class PamExcite(TickingNode):
     # The end -------------------------------------------------------------------------------
 
     def _vent(self) -> None:
-        """Send one command that lowers the pressure as fast as is allowed."""
+        """Send one command that lowers the pressures as fast as is allowed."""
         self._command(self._next_lower())
-        if self._pressure == 0.0:
+        if not self._is_pressed:
             self._remaining -= 1
             if self._remaining <= 0:
                 self.exit_code = STOPPED
 
-    def _next_lower(self) -> float:
+    def _next_lower(self) -> Array:
         settings = self._now.settings
-        return max(self._pressure - settings.pressure_rate / settings.rate, 0.0)
+        return np.maximum(self._pressure - settings.pressure_rate / settings.rate, 0.0)
 
     def finish(self) -> None:
         """Vent if there is pressure left, and wait until all commands were received."""
         try:
-            if self._pressure > 0.0:  # the node was requested to stop
+            if self._is_pressed:  # the node was requested to stop
                 self._bar.close()
                 print('pam_excite: stop requested, venting', file=sys.stderr, flush=True)
         finally:  # also if the output can no longer be printed
             self._vent_completely()
 
     def _vent_completely(self) -> None:
-        while self._pressure > 0.0:
+        while self._is_pressed:
             self._command(self._next_lower())
             time.sleep(1.0 / self._now.settings.rate)
-        if self._publisher:
+        for publisher in self._commands.publishers if self._commands else ():
             # What is not received before this process ends is lost.
-            self._publisher.wait_for_all_acked(Duration(seconds=LAST_READ))
+            publisher.wait_for_all_acked(Duration(seconds=LAST_READ))
 
 
 def _nothing_live(built: Experiment) -> None:

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The topics of a controller's commands: one array, or one topic per muscle."""
+"""The topics of a joint's commands: one array, or one topic for each muscle."""
 
 from array import array
 from collections.abc import Sequence
@@ -11,7 +11,7 @@ from rclpy.qos import QoSProfile
 from std_msgs.msg import Float64, Float64MultiArray, MultiArrayDimension
 
 from pam_ros.nodes.common.qos import answers_depth, open_qos
-from pam_ros.settings.control import ControlSetup
+from pam_ros.settings.one_joint import MuscleTopics
 
 
 def _publisher(node: Node, kind: type, topic: str) -> Any:
@@ -54,8 +54,8 @@ class EachCommand:
             publisher.publish(self._message)
 
 
-def commands_of(node: Node, setup: ControlSetup) -> ArrayCommand | EachCommand:
-    """Create the publishers of *setup* on *node*."""
-    if setup.has_arrays:
-        return ArrayCommand(node, setup.command_topics[0], setup.muscles)
-    return EachCommand(node, setup.command_topics)
+def commands_of(node: Node, topics: MuscleTopics) -> ArrayCommand | EachCommand:
+    """Create the publishers of *topics* on *node*."""
+    if topics.is_array:
+        return ArrayCommand(node, topics.commands[0], topics.muscles)
+    return EachCommand(node, topics.commands)
