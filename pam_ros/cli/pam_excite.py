@@ -16,10 +16,11 @@ Subscribes
 
 Commands at ``rate``; with use_sim_time it answers each joint state with one command instead.
 Stops and vents when a muscle leaves contraction_min..contraction_max or the joint
-position_min..position_max, when no ``joint_states`` arrive for ``silence`` seconds, and on Ctrl-C, SIGTERM, SIGHUP (the terminal is closed) and
-SIGQUIT. Limits, length, segments and seed are parameters (``pam_excite --parameters``); the limits
-of the muscle (``-p muscle:=dmsp_20_400n``, or a parameter file) apply as well. Exit code 0 at the
-end or after such a signal, 1 if it stopped or could not start, 2 for invalid parameters.
+position_min..position_max, when no ``joint_states`` arrive for ``silence`` seconds, and on
+Ctrl-C, SIGTERM, SIGHUP (the terminal is closed) and SIGQUIT. Limits, length, segments and seed
+are parameters (``pam_excite --parameters``); the limits of the muscle (``-p
+muscle:=dmsp_20_400n``, or a parameter file) apply as well. Exit code 0 at the end or after such
+a signal, 1 if it stopped or could not start, 2 for invalid parameters.
 """
 
 from pam_ros.cli.start import start_node

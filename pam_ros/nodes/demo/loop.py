@@ -23,12 +23,11 @@ from rclpy.time import Time
 from rosgraph_msgs.msg import Clock
 
 from pam_ros.demo import loop
+from pam_ros.demo.recorded_rig import RATE, RecordedRig
 from pam_ros.demo.stage import Stage, progress
 from pam_ros.errors import PamError
-from pam_ros.nodes.demo import recorded_rig
 from pam_ros.nodes.demo.client import Client
 from pam_ros.nodes.demo.lockstep_pair import PATIENCE
-from pam_ros.nodes.demo.recorded_rig import RecordedRig
 
 TURN = 0.1  # s between two checks of running programs
 EXCITATION: Mapping[str, Any] = {
@@ -41,7 +40,7 @@ EXCITATION: Mapping[str, Any] = {
     # rig alone would already be excited.
     'subscribers': 2,
     'patience': 60.0,  # s
-    'rate': recorded_rig.RATE,
+    'rate': RATE,
     'silence': 3.0,  # s; long, since a simulated rig endangers no person
 }
 UNSEEN = {**EXCITATION, 'seed': 1}
@@ -86,11 +85,11 @@ def record(
     parameters *excitation*. Raises PamError if a program ends early.
     """
     with ExitStack() as programs, Client(stage.namespace, PATIENCE) as client:
-        started = []
+        started, count = [], client.node.count_subscribers
         for name, given in rigs.items():
             shutil.rmtree(bags / name, ignore_errors=True)
             space = f'{stage.namespace}/{name}'
-            started.append(RecordedRig(programs, client, space, given, bags / name))
+            started.append(RecordedRig(programs, count, space, given, bags / name))
         client.until(lambda: all(rig.is_ready for rig in started), 'the rigs and the recorders')
         times = client.collect(Clock, started[0].clock)
         for rig in started:

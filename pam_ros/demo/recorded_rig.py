@@ -6,13 +6,12 @@ Simulated time waits for each command, and the recorder determines exactly when 
 sent. Therefore the recording does not depend on the load of the machine.
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
 from pam_ros.errors import PamError
-from pam_ros.nodes.demo.client import Client
 from pam_ros.processes.children import Program
 
 RATE = 100.0  # states and commands per simulated second
@@ -27,17 +26,18 @@ class RecordedRig:
     def __init__(
         self,
         programs: ExitStack,
-        client: Client,
+        count_subscribers: Callable[[str], int],
         space: str,
         rig: Mapping[str, Any],
         bag: Path,
     ) -> None:
         """Start the simulator with the parameters *rig*, and the recorder, which writes *bag*.
 
-        *programs* will stop them. All names are in the namespace *space*; ``clock`` is the topic
-        of the simulated time.
+        *programs* will stop them. *count_subscribers* returns the number of subscribers of a
+        topic. All names are in the namespace *space*; ``clock`` is the topic of the simulated
+        time.
         """
-        self._programs, self._client, self._space = programs, client, space
+        self._programs, self._count, self._space = programs, count_subscribers, space
         self._states = f'{space}/rig/joint_states'
         self.clock = f'{space}/clock'
         self._running: list[Program] = []
@@ -64,9 +64,8 @@ class RecordedRig:
         for program in self._running:
             if not program.is_running:
                 raise PamError(f'{program.name} ended: {_last_lines(program)}')
-        count = self._client.node.count_subscribers
         # Of the clock there are two: the time of the recorder's node, and the recording.
-        return count(self._states) > 0 and count(self.clock) > 1
+        return self._count(self._states) > 0 and self._count(self.clock) > 1
 
     def excite(self, parameters: Mapping[str, Any]) -> None:
         """Start ``pam_excite`` with these parameters.
