@@ -95,7 +95,7 @@ def test_each_state_is_answered_and_the_programme_is_played_in_its_time(bags, mo
     # Lockstep waits for the first command, at 1 s; else the last one tells when it began.
     begin = 1.0 if mode == 'lockstep' else times[-1] - DURATION
     plan = programme(Excitation(**PLAN))
-    expected = np.interp(times - begin, plan.t, plan.pressure)
+    expected = np.interp(times - begin, plan.t, plan.pressure[:, 0])
     off = np.abs(values - expected)
     slack = 3.0 / CLOCK_RATES[mode] * Excitation().pressure_rate  # Pa
     # In lockstep always; else commands are as late as the machine is, and the faster time goes.
