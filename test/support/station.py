@@ -61,6 +61,7 @@ class Station:
             for name in ('pam_sim', 'pam_control', 'pam_record'):
                 self.start(name)
             self.controls_again()
+            self.is_commanded()
             stack.pop_all()
         return self
 
@@ -180,6 +181,22 @@ class Station:
         """Return the highest speed in m/s that a load had in *states* while it was vented."""
         vented = {stamp(one) for one in self.pressures if one.fluid_pressure - AMBIENT < VENTED}
         return max((abs(one.velocity[0]) for one in states if stamp(one) in vented), default=0.0)
+
+    def is_commanded(self):
+        """Wait until the simulator says that commands arrive.
+
+        The middleware connects either direction for itself, and tries again after seconds if that
+        was lost. Meanwhile the controller would press against a load that no command moves.
+        """
+
+        def is_said():
+            told = (status for array in self.watch.arrays for status in array.status)
+            return any(
+                status.name == 'pam_sim: commands' and status.message == 'commanded'
+                for status in told
+            )
+
+        self.peer.until(is_said, 'the simulator to be commanded')
 
     def is_held(self):
         """Say whether the load is at one of the positions that it is moved between."""
