@@ -8,6 +8,7 @@ from typing import ClassVar
 
 from pam_ros.effects.base import Compensation, Effect, EffectEquations, HiddenState, Row, Starts
 from pam_ros.effects.parameter import effect_parameter, start_from, strength
+from pam_ros.effects.pressure_lag import UNLIMITED
 
 RATE, REFILL, SUPPLY, VENT = range(4)
 CHAMBER, UPSTREAM = range(2)  # hidden states: the pressures in the chamber and of p_in
@@ -81,11 +82,11 @@ class Leak(Effect):
         scale=0.1,
     )
     supply: float = effect_parameter(
-        1e9,
+        UNLIMITED,
         'fastest change of pressure by refilling, where the valve is fully open',
         'Pa/s',
         low=1e3,
-        high=1e9,
+        high=UNLIMITED,
         scale=1e6,
     )
     vent: float = effect_parameter(

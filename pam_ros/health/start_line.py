@@ -68,7 +68,7 @@ def of_controller(
     if setup.law.can_stiffen:
         references.append(resolve('co_contraction_reference'))
     line = (
-        f'controls the joint {settings.joint_name} ({settings.joint}; muscle {muscles}; load of '
+        f'controls the joint {settings.joint_name} ({values["joint"]}; muscle {muscles}; load of '
         f'{_load(joint)}) with the law {settings.controller}; states: {resolve("joint_states")}; '
         f'commands: {listed(map(resolve, setup.topics.commands))}, {pace}; references: '
         f'{listed(references)}'

@@ -19,7 +19,6 @@ from pam_ros.control.reference.shaping import Shape
 from pam_ros.control.setup import LawSetup
 from pam_ros.errors import ParameterError
 from pam_ros.parameters import check_all, parameter_field
-from pam_ros.rig.arrangements import ARRANGEMENTS, LOAD
 from pam_ros.settings.one_joint import MuscleTopics, OneJointParameters
 from pam_ros.settings.sim import Start
 from pam_ros.settings.tables import Table, Values, build, table_of
@@ -102,12 +101,6 @@ class ControlSettings:
     )
     start_enabled: bool = parameter_field(
         True, 'whether control starts at once; false: at a call of ~/enable', live=False
-    )
-    joint: str = parameter_field(
-        LOAD.name,
-        'the joint that is controlled; ' + '; '.join(f'{k.name}: {k.text}' for k in ARRANGEMENTS),
-        choices=tuple(kind.name for kind in ARRANGEMENTS),
-        live=False,
     )
     joint_name: str = parameter_field('pam', 'name of the joint in joint_states', live=False)
 

@@ -14,25 +14,12 @@ from pam_ros.errors import ParameterError
 from pam_ros.excitation.guard import spelled
 from pam_ros.excitation.programme import Programme, plan, programme
 from pam_ros.excitation.settings import Excitation
-from pam_ros.parameters import Parameter
 from pam_ros.rig import statics
-from pam_ros.rig.arrangements import ARRANGEMENTS, LOAD
 from pam_ros.rig.joint import Joint
 from pam_ros.rig.run import simulate
 from pam_ros.settings.one_joint import MuscleTopics, OneJointParameters
 from pam_ros.settings.sim import Start
 from pam_ros.settings.tables import Table, Values, build, table_of
-
-JOINT: Table = {
-    'joint': (
-        str,
-        LOAD.name,
-        Parameter(
-            'the joint that is excited; ' + '; '.join(f'{k.name}: {k.text}' for k in ARRANGEMENTS),
-            choices=tuple(kind.name for kind in ARRANGEMENTS),
-        ),
-    )
-}
 
 
 @dataclass(frozen=True)
@@ -98,7 +85,7 @@ class ExciteParameters(OneJointParameters):
     def common(self) -> Table:
         """The table of the common parameters in addition to the rig, in the units of the joint."""
         revolute = self.kind.transmission.equations.revolute
-        return {**JOINT, **super().common, **table_of(Excitation, revolute=revolute)}
+        return {**super().common, **table_of(Excitation, revolute=revolute)}
 
     def table(self) -> Table:
         """Return the table of all parameters; none of them can change while it is played."""

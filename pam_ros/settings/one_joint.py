@@ -11,7 +11,7 @@ from pam_ros.settings.rig import RigParameters
 from pam_ros.settings.sim import SimSettings
 from pam_ros.settings.tables import Table, Values, table_of
 
-NAMES = ('muscles', 'joint_names', 'muscle_topics')  # parameters that pam_sim has, too
+NAMES = ('joint', 'muscles', 'joint_names', 'muscle_topics')  # parameters of pam_sim as well
 
 
 @dataclass(frozen=True)
@@ -30,6 +30,12 @@ class MuscleTopics:
     def commands(self) -> tuple[str, ...]:
         """Topics of the commands: one for the array, or one for each muscle."""
         return self._named('pressure_command', 'pressure_commands')
+
+    @property
+    def every_command(self) -> tuple[str, ...]:
+        """Every topic on which another program could command one of the muscles."""
+        own = tuple(f'{muscle}/pressure_command' for muscle in self.muscles)
+        return ('pressure_commands', *own) if self.is_array or self.has_own else self.commands
 
     @property
     def pressures(self) -> tuple[str, ...]:

@@ -85,7 +85,7 @@ class SimSettings:
     )
     joint: str = parameter_field(
         'load',
-        '; '.join(f'{kind.name}: {kind.text}' for kind in ARRANGEMENTS),
+        'kind of joint; ' + '; '.join(f'{kind.name}: {kind.text}' for kind in ARRANGEMENTS),
         choices=tuple(kind.name for kind in ARRANGEMENTS),
         live=False,
     )

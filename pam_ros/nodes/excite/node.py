@@ -192,7 +192,7 @@ class PamExcite(TickingNode):
     def _other_nodes(self) -> list[str]:
         """Return the other nodes that publish commands of the muscles."""
         own, others = self.get_fully_qualified_name(), []
-        for topic in self._now.topics.commands:
+        for topic in self._now.topics.every_command:
             names = [
                 info.node_namespace.rstrip('/') + '/' + info.node_name
                 for info in self.get_publishers_info_by_topic(topic)

@@ -65,8 +65,12 @@ def test_a_joint_that_leaves_its_window_is_vented_on_both_sides(elbow, angle):
     assert elbow.messages[0].layout.dim[0].label == 'pam_1,pam_2'
 
 
-def test_another_commander_of_the_joint_is_named(elbow, peer):
-    rival = peer.node.create_publisher(Float64MultiArray, 'pressure_commands', 10)
+@pytest.mark.parametrize(
+    ('kind', 'topic'),
+    [(Float64MultiArray, 'pressure_commands'), (Float64, 'pam_2/pressure_command')],
+)
+def test_another_commander_of_the_joint_is_named(elbow, peer, kind, topic):
+    rival = peer.node.create_publisher(kind, topic, 10)
     with Program('pam_excite', parameters=PAIR) as program:
         elbow.until(lambda: not program.is_running, 'the end')
         assert program.wait() == 1
