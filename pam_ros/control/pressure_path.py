@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The path of the pressure from the command to the chamber, and its inverse.
 
-Dead time, offset, gain, dead band and lag are those of the configured effects whose compensation
+Dead time, offset, gain, dead band, lag and dead zone are those of the configured effects whose compensation
 is ``PATH``.
 """
 
@@ -16,19 +16,27 @@ from pam_ros.rig.joint import Joint
 
 # Pa, beyond all dead bands: between these every path without a memory is an offset and a gain.
 LOW, HIGH = 4e5, 5e5
+# Share of a dead zone over which its compensation grows. A smaller one leaves less of the zone and
+# commands more noise.
+GROWS_OVER = 0.3
 
 
 class Chamber:
-    """A chamber with a first-order lag, with separate time constants to fill and to vent."""
+    """A chamber with a first-order lag, with separate time constants to fill and to vent.
 
-    def __init__(self, fill: float = 0.0, vent: float = 0.0) -> None:
-        """Take the time constants in s; 0: no lag."""
-        self.fill, self.vent = fill, vent
+    The valve stays closed while the pressure upstream differs by less than *zone* Pa from that in
+    the chamber.
+    """
+
+    def __init__(self, fill: float = 0.0, vent: float = 0.0, zone: float = 0.0) -> None:
+        """Take the time constants in s and the dead zone in Pa; 0: none of these."""
+        self.fill, self.vent, self.zone = fill, vent, zone
         self.pressure = 0.0
 
     def follow(self, inflow: float, dt: float) -> float:
         """Advance by *dt* s with *inflow* Pa upstream; return the mean pressure in this time."""
-        before = self.pressure
+        before, zone = self.pressure, self.zone
+        inflow = min(max(before, inflow - zone), inflow + zone)
         tau = self.fill if inflow > before else self.vent
         left = exp(-dt / tau) if tau > 1e-6 else 0.0
         self.pressure = inflow + (before - inflow) * left
@@ -46,7 +54,7 @@ class PressurePath:
         """Take the configured effects of one *muscle*."""
         q, layout = joint.parameters(), joint.layout
         row = q[at.MUSCLE + muscle].tolist()
-        fill = vent = 0.0
+        fill = vent = zone = 0.0
         self._row = row
         self._static: list[tuple[EffectEquations, int]] = []  # those without a memory
         for effect in joint.present[at.MUSCLE + muscle]:
@@ -54,14 +62,14 @@ class PressurePath:
                 continue
             j = layout.parameter_at[effect.name]
             if effect.equations.lag is not None:
-                fill, vent = effect.equations.lag(row, j)
+                fill, vent, zone = effect.equations.lag(row, j)
             else:
                 self._static.append((effect.equations, j))
         low, high = self.reached(LOW), self.reached(HIGH)
         self._gain = (high - low) / (HIGH - LOW)
         self._offset = low - self._gain * LOW
-        self.is_lag_configured = fill > 0.0 or vent > 0.0
-        self.chamber = Chamber(fill, vent)
+        self.is_lag_configured = max(fill, vent, zone) > 0.0
+        self.chamber = Chamber(fill, vent, zone)
         self.delay = delays_of(layout, q)[muscle]
         self.quickest = quickest
         self.start(0.0)
@@ -91,7 +99,8 @@ class PressurePath:
         The predicted part of *pressure* has the known *rate* in Pa/s. It is commanded in advance
         by the delay of the path: dead time and lag, of the lag at most ``quickest``. The rest of
         a longer lag is compensated by ``u = p + r (p - chamber)``, r = lag / quickest - 1, which
-        closes a loop with the time constant ``quickest`` around the lag.
+        closes a loop with the time constant ``quickest`` around the lag. A dead zone is added in
+        the direction in which the chamber must go.
         """
         chamber = self.chamber
         fill, vent, quickest = chamber.fill, chamber.vent, self.quickest
@@ -99,7 +108,11 @@ class PressurePath:
         ahead = pressure + (self.delay + lag) * rate
         tau = fill if ahead > chamber.pressure else vent
         drive = max(tau / quickest - 1.0, 0.0)
-        return self.command_at_rest(ahead + drive * (ahead - chamber.pressure))
+        upstream = ahead + drive * (ahead - chamber.pressure)
+        if chamber.zone:
+            share = (upstream - chamber.pressure) / (GROWS_OVER * chamber.zone)
+            upstream += chamber.zone * min(max(share, -1.0), 1.0)
+        return self.command_at_rest(upstream)
 
     def follow(self, command: float, dt: float) -> float:
         """Apply a *command* in Pa for *dt* s; return the mean pressure in the chamber."""

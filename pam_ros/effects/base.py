@@ -112,7 +112,7 @@ class EffectEquations:
 
     ``start(q, j, p, kappa, y)`` returns its hidden states after a long rest at these values. If a
     controller inverts a lag of the pressure, ``lag(q, j)`` returns the time constants of filling
-    and venting in s.
+    and venting in s, and the dead zone of the valve in Pa.
 
     ``guess(t, p, kappa, residual)`` returns additional sets of starting values for a fit, for
     parameters whose starting values depend on the recording, such as a frequency or the position
@@ -129,7 +129,7 @@ class EffectEquations:
     outside: Callable[..., float] | None = None
     drag: Callable[..., float] | None = None
     start: Callable[[Any, int, float, float, float], tuple[float, ...]] | None = None
-    lag: Callable[[Any, int], tuple[float, float]] | None = None
+    lag: Callable[[Any, int], tuple[float, float, float]] | None = None
     guess: Callable[[Array, Array, Array, Array], Starts] | None = None
 
     def __post_init__(self) -> None:

@@ -1,6 +1,11 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Pressure lag: valve, tube and chamber fill and vent with separate time constants."""
+"""Pressure lag: valve, tube and chamber fill and vent with separate time constants.
+
+The valve of a regulator can have a dead zone, because its spool overlaps the ports or because its
+electronics ignore small errors: it stays closed until the command differs by more than this from
+the pressure. Data sheets call it the hysteresis or the sensitivity of the regulator.
+"""
 
 from dataclasses import dataclass
 from math import exp, sqrt
@@ -10,7 +15,7 @@ from pam_ros.compiled import scalar
 from pam_ros.effects.base import Compensation, Effect, EffectEquations, HiddenState, Row, Starts
 from pam_ros.effects.parameter import effect_parameter, start_from, strength
 
-FILL, VENT, FASTEST, FASTEST_VENT, CHOKING, SUPPLY = range(6)
+FILL, VENT, FASTEST, FASTEST_VENT, CHOKING, SUPPLY, DEAD_ZONE = range(7)
 
 SHORTEST = 1e-6  # s; faster than the chamber of any rig: treated as immediate
 UNLIMITED = 1e9  # Pa/s, the highest value of both limits of the rate: treated as none
@@ -68,14 +73,16 @@ def approached(p_in: float, x: float, h: float, tau: float, fastest: float) -> f
 def pressure(p: float, t: float, h: float, x: Row, i: int, xn: Row, q: Row, j: int) -> float:
     """Return the chamber pressure of dp/dt = g (p_in - p)/tau, for p_in constant over h.
 
-    tau is fill while the chamber fills and vent while it vents; x[i] is its pressure. It never
+    p_in is the edge of the dead zone that x[i] approaches, or x[i] itself within the zone. tau is fill while the chamber fills and vent while it vents; x[i] is its pressure. It never
     crosses p_in, so that tau is constant over h. The rates of filling and venting are at most g
     times fastest and fastest_vent, the limits of a fully open valve. Without choking g is 1, and
     the result is exact. With choking = 1 the flow is that of ISO 6358 from the supply and into the
     atmosphere, relative to that at 300 kPa; g is evaluated at half the step.
     """
-    if q[j + FILL] == 0.0 and q[j + VENT] == 0.0:
+    zone = q[j + DEAD_ZONE]
+    if q[j + FILL] == 0.0 and q[j + VENT] == 0.0 and zone == 0.0:
         return p
+    p = min(max(x[i], p - zone), p + zone)
     side = 0 if p > x[i] else 1
     tau, fastest = q[j + FILL + side], q[j + FASTEST + side]
     if q[j + CHOKING] > 0.0:
@@ -91,9 +98,9 @@ def start(q: Row, j: int, p: float, kappa: float, y: float) -> tuple[float, ...]
     return (p,)
 
 
-def lag(q: Row, j: int) -> tuple[float, float]:
-    """Return the time constants of filling and venting in s, which a controller inverts."""
-    return q[j + FILL], q[j + VENT]
+def lag(q: Row, j: int) -> tuple[float, float, float]:
+    """Return the time constants in s and the dead zone in Pa, which a controller inverts."""
+    return q[j + FILL], q[j + VENT], q[j + DEAD_ZONE]
 
 
 @dataclass(frozen=True)
@@ -133,24 +140,40 @@ class PressureLag(Effect):
         high=3e6,
         scale=1e5,
     )
+    dead_zone: float = strength(
+        'difference of command and pressure up to which the valve stays closed',
+        'Pa',
+        high=1e5,
+        scale=5e3,
+    )
 
     name: ClassVar = 'pressure_lag'
-    text: ClassVar = 'first-order lag of the chamber pressure, separate for filling and venting'
-    source: ClassVar = 'ISO 6358 orifice, linear below choking; 20 to 130 ms with servo valves'
+    text: ClassVar = (
+        'first-order lag of the chamber pressure, separate for filling and venting; dead zone of '
+        'the valve'
+    )
+    source: ClassVar = (
+        'ISO 6358 orifice, linear below choking; 20 to 130 ms with servo valves; dead zones of '
+        'regulators are 0.2 to 1 % of their range'
+    )
     equation: ClassVar = (
-        'dp/dt = g (p_in - p) / T\n'
-        'T = fill while p_in > p, otherwise vent\n'
+        'dp/dt = g (p_v - p) / T\n'
+        'p_v = min(max(p, p_in - dead_zone), p_in + dead_zone)\n'
+        'T = fill while p_v > p, otherwise vent\n'
         '-g fastest_vent <= dp/dt <= g fastest\n'
         'g = 1 + choking (Q(p) / Q(300 kPa) - 1)\n'
         'Q(p) is the flow of ISO 6358 with the critical pressure ratio 0.35:\n'
         'from the supply while the chamber fills, into the atmosphere while it vents.'
     )
-    signature: ClassVar = 'phase that rolls off with frequency; rounded step responses'
+    signature: ClassVar = (
+        'phase that rolls off with frequency; rounded step responses; with a dead zone, loops over '
+        'the command that do not depend on the speed'
+    )
     experiment: ClassVar = 'steps up and down with the pressure measured, or a chirp'
     excitation: ClassVar = {'segments': ('steps', 'chirps')}
     compensation: ClassVar = Compensation.PATH
     states: ClassVar = (HiddenState('pressure', 'Pa', 2e4),)
-    rivals: ClassVar = ('dead_time', 'leak')
+    rivals: ClassVar = ('dead_time', 'leak', 'pressure_hysteresis')
     equations: ClassVar = EffectEquations(pressure=pressure, start=start, lag=lag)
 
     @classmethod
@@ -161,6 +184,8 @@ class PressureLag(Effect):
             start_from(cls, fill=0.1, vent=0.1),
             start_from(cls, fill=0.5, vent=0.5),
             start_from(cls, fill=0.05, vent=0.05, fastest=5e5),
+            start_from(cls, fill=0.05, vent=0.05, dead_zone=4e3),
+            start_from(cls, dead_zone=4e3),
             start_from(cls, fill=0.05, vent=0.05, fastest=5e5, fastest_vent=5e5, choking=0.5),
         )
 

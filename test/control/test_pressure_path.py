@@ -3,6 +3,7 @@
 """The way of the pressure against the rig's, and its inverse against the wish."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -20,8 +21,9 @@ EFFECTS = [
 ]
 
 
-def test_it_has_the_chamber_of_the_rig():
-    joint = single_muscle_joint(effects=EFFECTS)
+@pytest.mark.parametrize('zone', [0.0, 8e3])
+def test_it_has_the_chamber_of_the_rig(zone):
+    joint = single_muscle_joint(effects=[*EFFECTS[:2], replace(EFFECTS[2], dead_zone=zone)])
     rig, path = Simulation([joint]), PressurePath(joint, 0, 0.02)
     rig.reset([300e3], [0.06], [0.0])
     path.start(300e3)
@@ -48,6 +50,23 @@ def test_a_foreseen_pressure_arrives_without_lag(effects):
         error.append(path.chamber.pressure - (300e3 + 40e3 * (1.0 - math.cos(2.0 * (t + DT)))))
     # 80 kPa/s behind by the lag and the dead time would be 4 to 6 kPa.
     assert np.max(np.abs(error)) < 0.6e3
+
+
+@pytest.mark.parametrize('lag', [0.0, 0.06])
+def test_most_of_a_dead_zone_is_compensated(lag):
+    zone = [PressureLag(fill=lag, vent=lag, dead_zone=6e3)]
+    path = PressurePath(single_muscle_joint(effects=zone), 0, 0.02)
+    path.start(300e3)
+    error = []
+    for n in range(2000):
+        wanted, rate = 300e3 + 40e3 * math.sin(2.0 * n * DT), 80e3 * math.cos(2.0 * n * DT)
+        path.follow(path.command_for(wanted, rate), DT)
+        error.append(path.chamber.pressure - (300e3 + 40e3 * math.sin(2.0 * (n + 1) * DT)))
+    # Without compensation it is the zone.
+    assert np.max(np.abs(error)) < 0.3 * 6e3
+    for _ in range(500):
+        path.follow(path.command_for(250e3, 0.0), DT)
+    assert path.chamber.pressure == pytest.approx(250e3, abs=0.3 * 6e3)
 
 
 def test_at_rest_the_chamber_has_the_wanted_pressure():

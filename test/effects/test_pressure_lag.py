@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The pressure lag against its exponentials, and against an adaptive solver with the load."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -69,6 +71,48 @@ def test_load_follows_a_pressure_that_jumps_in_one_direction(fill, vent, step, a
         out = bench.solved(rhs, [stamp, *t[inside], end], state, [(stamp, u)])
         np.testing.assert_allclose(run.position[inside], out[0, 1:-1], atol=atol)
         state = out[:, -1]
+
+
+def test_a_valve_with_a_dead_zone_stops_at_its_edge():
+    # The edges of the zone, 10 kPa from the command, are what the exponentials approach.
+    t = np.linspace(0.0, 3.0, 301)
+    model = bench.cart(PressureLag(fill=FILL, vent=VENT, dead_zone=1e4), mass=1e4)
+    commands = ((0.0, 2e5), (0.1, 2.05e5), (0.2, 4e5), (1.0, 3.85e5), (1.5, 1e5))
+    run = simulate(model, t, *zip(*commands, strict=True), position=0.0)
+    filling = 3.9e5 - 1.9e5 * np.exp(-np.maximum(t - 0.2, 0.0) / FILL)
+    full = 3.9e5 - 1.9e5 * np.exp(-0.8 / FILL)
+    venting = 1.1e5 + (full - 1.1e5) * np.exp(-np.maximum(t - 1.5, 0.0) / VENT)
+    # The commands of 0.1 and 1.0 s are within the zone: the valve stays closed.
+    expected = np.select([t < 0.2, t < 1.0, t < 1.5], [2e5, filling, full], venting)
+    np.testing.assert_allclose(run.pressure, expected, rtol=1e-9)
+
+
+def test_a_dead_zone_without_a_lag_is_a_play_of_the_command():
+    # Prandtl's play, sample by sample from its definition.
+    t = np.arange(0.0, 2.0, 1e-2)
+    u = 3e5 + 3e4 * np.sin(9.0 * t) * t + 4e3 * np.sin(40.0 * t)
+    play = [u[0]]
+    for one in u:
+        play.append(float(np.clip(play[-1], one - 5e3, one + 5e3)))
+    model = bench.cart(PressureLag(dead_zone=5e3), mass=1e4)
+    run = simulate(model, t, t, u, position=0.0)
+    np.testing.assert_allclose(run.pressure[1:], play[1:-1], rtol=1e-12)
+
+
+def test_load_follows_a_valve_with_a_dead_zone():
+    t = np.linspace(0.0, 1.0, 101)
+    run = simulate(
+        bench.hanging(replace(EFFECT[0], dead_zone=2e4)), t, *zip(*COMMANDS, strict=True)
+    )
+
+    def rhs(s, state, u):
+        y, v, p = state
+        dp = max(u - 2e4 - p, 0.0) / FILL + min(u + 2e4 - p, 0.0) / VENT
+        return v, (bench.pull(p, y) - bench.drag(p, y) * v) / bench.MASS - bench.G, dp
+
+    y, _, p = bench.solved(rhs, t, (bench.rest(2e5), 0.0, 2e5), COMMANDS)
+    np.testing.assert_allclose(run.pressure, p, rtol=1e-8)
+    np.testing.assert_allclose(run.position, y, atol=1e-8)
 
 
 def test_filling_or_venting_may_be_immediate():

@@ -155,6 +155,14 @@ _FORMS = (
         held=True,
         free=False,
     ),
+    Form(  # a regulator whose command must change by so much before its valve opens
+        'regulator_dead_zone',
+        'play',
+        {'dead_zone_pa': R(6e3, 3e3, 15e3)},
+        held=True,
+        free=False,  # trials draw one kind for each effect of the package, which it has already
+        called='pressure_hysteresis',
+    ),
     Form(  # a bladder that must stretch to meet the braid
         'dead_band',
         'bladder',

@@ -15,6 +15,7 @@ _FRICTION = effect('coulomb_friction', coulomb_n=15.0, static_n=25.0, stribeck_m
 _LAG = effect('pressure_lag', 'two_times', fill_s=0.050, vent_s=0.070)
 _PAYLOAD = effect('payload', payload_kg=5.0)
 _DEAD = effect('dead_time', dead_time_s=0.010)
+_ZONE = effect('regulator_dead_zone', 'play', dead_zone_pa=6e3)
 _LONG = effect('dead_time', dead_time_s=0.080)
 
 CONTROL_PLANTS: dict[str, tuple[Effect, ...]] = {
@@ -23,6 +24,7 @@ CONTROL_PLANTS: dict[str, tuple[Effect, ...]] = {
     'hysteresis': (_HYSTERESIS,),
     'friction': (_FRICTION,),
     'lag': (_LAG,),
+    'dead zone': (_LAG, _ZONE),
     'dead time': (_LONG,),
     'all': (_LAG, _HYSTERESIS, _FRICTION, _PAYLOAD, _DEAD),
 }

@@ -21,6 +21,7 @@ PARAMETERS = (
     *('fill_s', 'vent_s', 'conductance_fill', 'conductance_vent', 'volume_l', 'valve_band_pa'),
     *('leak_per_s', 'refill_pa_s', 'valve_open_s', 'hyst_pa', 'hyst_reach_pa'),
     *('late_1', 'late_2', 'saturation', 'knee_pa', 'overlap_pa', 'bladder_pa'),
+    'dead_zone_pa',
     # muscle
     *('slack', 'toe_n', 'hyst_n', 'hyst_reach_m', 'creep_1', 'creep_2', 'creep_1_s', 'creep_2_s'),
     *('maxwell_1_n_m', 'maxwell_2_n_m', 'soft_share', 'soft_work_j', 'soft_path_pa'),

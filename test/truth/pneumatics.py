@@ -72,6 +72,9 @@ def regulated(P, S, t):
     target = min(max(target, 0.0), 1.0e6)
     if P.ripple_pa != 0.0:
         target += P.ripple_pa * math.sin(2.0 * math.pi * P.ripple_hz * t + P.ripple_rad)
+    if P.dead_zone_pa != 0.0:
+        # The valve opens only while the pressure is further than this from what is wanted.
+        target = min(max(S.p, target - P.dead_zone_pa), target + P.dead_zone_pa)
     return target
 
 

@@ -155,6 +155,25 @@ def test_pressure_hysteresis_has_its_width_and_no_rate():
     np.testing.assert_allclose(slow, force, atol=1e-6)
 
 
+def test_a_regulator_with_a_dead_zone_follows_at_its_distance():
+    # Prandtl's play, from its definition: sample by sample, the nearest value in the zone.
+    u = 300e3 + 20e3 * np.sin(9.0 * T) * T + 3e3 * np.sin(50.0 * T)
+    expected = [u[0]]
+    for one in u[:-1]:
+        expected.append(float(np.clip(expected[-1], one - 6e3, one + 6e3)))
+    zone = effect('regulator_dead_zone', 'play', dead_zone_pa=6e3)
+    np.testing.assert_allclose(held([zone], T, u, p0=300e3).pressure, expected, atol=1e-6)
+
+
+def test_a_slow_regulator_stops_at_the_edge_of_its_dead_zone():
+    u = np.where(T < 1.0, 350e3, 250e3)
+    zone = effect('regulator_dead_zone', 'play', dead_zone_pa=10e3)
+    lag = effect('pressure_lag', 'two_times', fill_s=0.05, vent_s=0.05)
+    pressure = held([zone, lag], T, u).pressure
+    assert pressure[990] == pytest.approx(340e3, abs=1.0)
+    assert pressure[-1] == pytest.approx(260e3, abs=1.0)
+
+
 def test_softening_counts_pressure_cycles():
     soft = effect('softening', 'cycles', soft_share=0.05, soft_path_pa=2e6)
     t = np.arange(0.0, 20.0, 5e-3)
