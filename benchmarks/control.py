@@ -42,7 +42,7 @@ ROWS = {
     'valve lag 50/70 ms': ('lag', (), 0.03, 0.25),
     'valve lag, configured': ('lag', LAG, 0.01, 0.05),
     'lag, dead zone 6 kPa': ('dead zone', (), 0.03, 0.15),
-    'the same, configured': ('dead zone', ZONE, 0.03, 0.15),
+    'both, configured': ('dead zone', ZONE, 0.03, 0.15),
     'dead time 80 ms': ('dead time', (), 0.03, 1.5),
     'all, and 10 ms dead time': ('all', (), 0.06, 0.6),
 }

@@ -20,9 +20,11 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / 'test'))
 
 from pam_ros.control.pid import Pid
 from pam_ros.control.sliding_mode import SlidingMode
+from pam_ros.effects import PressureLag
 from support.pair_loop import LAG, close_pair, nominal
 from truth.pair import pair_plant
 
+ZONE = (PressureLag(fill=0.050, vent=0.070, dead_zone=6e3),)
 # Plant, what is configured of its muscles; largest RMS of the sine, degrees.
 ROWS = {
     'nominal': ('nominal', (), 0.03),
@@ -32,6 +34,8 @@ ROWS = {
     'valve lag 20/30 ms': ('quick lag', (), 0.1),
     'valve lag 50/70 ms': ('lag', (), 0.06),
     'the same, configured': ('lag', LAG, 0.03),
+    'lag, dead zone 6 kPa': ('dead zone', (), 0.3),
+    'both, configured': ('dead zone', ZONE, 0.06),
     'dead time 40 ms': ('dead time', (), 0.6),
     'hysteresis 15 N each': ('hysteresis', (), 0.06),
     'all, and 10 ms dead time': ('all', (), 0.2),

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The path of the pressure from the command to the chamber, and its inverse.
 
-Dead time, offset, gain, dead band, lag and dead zone are those of the configured effects whose compensation
-is ``PATH``.
+Dead time, offset, gain, dead band, lag and dead zone are those of the configured effects whose
+compensation is ``PATH``.
 """
 
 from collections import deque

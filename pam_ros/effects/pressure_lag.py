@@ -73,10 +73,11 @@ def approached(p_in: float, x: float, h: float, tau: float, fastest: float) -> f
 def pressure(p: float, t: float, h: float, x: Row, i: int, xn: Row, q: Row, j: int) -> float:
     """Return the chamber pressure of dp/dt = g (p_in - p)/tau, for p_in constant over h.
 
-    p_in is the edge of the dead zone that x[i] approaches, or x[i] itself within the zone. tau is fill while the chamber fills and vent while it vents; x[i] is its pressure. It never
-    crosses p_in, so that tau is constant over h. The rates of filling and venting are at most g
-    times fastest and fastest_vent, the limits of a fully open valve. Without choking g is 1, and
-    the result is exact. With choking = 1 the flow is that of ISO 6358 from the supply and into the
+    p_in is the edge of the dead zone that x[i] approaches, or x[i] itself within the zone. tau is
+    fill while the chamber fills and vent while it vents; x[i] is its pressure. It never crosses
+    p_in, so that tau is constant over h. The rates of filling and venting are at most g times
+    fastest and fastest_vent, the limits of a fully open valve. Without choking g is 1, and the
+    result is exact. With choking = 1 the flow is that of ISO 6358 from the supply and into the
     atmosphere, relative to that at 300 kPa; g is evaluated at half the step.
     """
     zone = q[j + DEAD_ZONE]
@@ -105,7 +106,7 @@ def lag(q: Row, j: int) -> tuple[float, float, float]:
 
 @dataclass(frozen=True)
 class PressureLag(Effect):
-    """First-order lag of the chamber behind the command, separately for filling and venting."""
+    """First-order lag of the chamber behind the command, and dead zone of its valve."""
 
     fill: float = strength('time constant of filling', 's', high=10.0, scale=0.05)
     vent: float = strength('time constant of venting', 's', high=10.0, scale=0.05)
@@ -166,8 +167,8 @@ class PressureLag(Effect):
         'from the supply while the chamber fills, into the atmosphere while it vents.'
     )
     signature: ClassVar = (
-        'phase that rolls off with frequency; rounded step responses; with a dead zone, loops over '
-        'the command that do not depend on the speed'
+        'phase that rolls off with frequency; rounded step responses; with a dead zone, loops '
+        'over the command that do not depend on the speed'
     )
     experiment: ClassVar = 'steps up and down with the pressure measured, or a chirp'
     excitation: ClassVar = {'segments': ('steps', 'chirps')}

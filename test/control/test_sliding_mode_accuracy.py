@@ -27,6 +27,7 @@ BY_JOINT = pytest.mark.parametrize('name', ['parallel', 'lever', 'crank'])
 NOISES = {True: 0.02 * DEGREE, False: 20e-6}  # of an angle, of a position
 AT_REST = {True: 0.03 * DEGREE, False: 30e-6}
 QUIET = {'noise': 0.0}
+ZONE = [replace(LAG[0], dead_zone=6e3)]
 # Those of the recorded runs, and what the package has had since.
 IN_MUSCLES = (*effects_of_0_1_0(MUSCLE_EFFECTS), DeadBand(band=2e4, width=4e3))
 ON_JOINT = effects_of_0_1_0(TURNED_EFFECTS)
@@ -40,6 +41,7 @@ NAMES = [effect.name for effect in (*IN_MUSCLES, *ON_JOINT)]
         (ONE, 'nominal', (), {'seed': 7}, 500.0, 0.01, 3e3),
         (ONE, 'payload', (), {'seed': 7}, 500.0, 0.01, 3e3),
         (ONE, 'lag', LAG, {'seed': 7}, 500.0, 0.01, 3e3),
+        (ONE, 'dead zone', ZONE, {'seed': 7}, 500.0, 0.01, 3e3),
         (ONE, 'hysteresis', (), {'seed': 7}, 500.0, 0.03, 3e3),
         (ONE, 'nominal', (), QUIET, 500.0, 0.06, 1e3),
         (ONE, 'lag', (), QUIET, 500.0, 0.06, 1e3),
@@ -69,6 +71,7 @@ def test_a_step_is_reached_and_then_it_is_calm(kind, plant, effects, more, rate,
         (ONE, 'nominal', (), 500.0, 0.02),
         (ONE, 'payload', (), 500.0, 0.02),
         (ONE, 'lag', LAG, 500.0, 0.05),
+        (ONE, 'dead zone', ZONE, 500.0, 0.05),
         (ONE, 'hysteresis', (), 500.0, 0.15),
         (PAIR, 'nominal', (), 500.0, 0.2),
         (PAIR, 'payload', (), 500.0, 0.2),
@@ -76,6 +79,7 @@ def test_a_step_is_reached_and_then_it_is_calm(kind, plant, effects, more, rate,
         (PAIR, 'payload and friction', (), 500.0, 0.2),
         (PAIR, 'quick lag', (), 500.0, 0.2),
         (PAIR, 'lag', LAG, 500.0, 0.2),
+        (PAIR, 'dead zone', ZONE, 500.0, 0.2),
         (PAIR, 'payload', (), 200.0, 0.2),
         (PAIR, 'payload', (), 1000.0, 0.2),
     ],

@@ -60,6 +60,19 @@ def test_an_effect_is_named_and_measured(there, numbers):
     assert found.stages[0].model.all_effects == ()
 
 
+@pytest.mark.parametrize('lag', [{}, {'fill': 0.05, 'vent': 0.07}], ids=['alone', 'with_a_lag'])
+def test_a_regulator_whose_command_must_change_by_so_much_is_named_with_its_dead_zone(lag):
+    there = [effect('regulator_dead_zone', 'play', dead_zone_pa=6e3)]
+    if lag:
+        times = {f'{name}_s': tau for name, tau in lag.items()}
+        there.append(effect('pressure_lag', 'two_times', **times))
+    found = identify(bench_truth.nominal(off=OFF), [bench_truth.free(*there, seed=4)])
+    assert names(found) == ['pressure_lag']
+    numbers = {name: one.value for name, one in found.effects[0].parameters.items()}
+    assert numbers == pytest.approx({**lag, 'dead_zone': 6e3}, rel=0.01)
+    assert found.stages[2].held_error < 1.2 * NOISE
+
+
 @pytest.mark.parametrize('rho', [0.0, 0.9])
 def test_a_model_that_is_right_lacks_nothing(rho):
     found = identify(bench_truth.nominal(), [bench_truth.free(seed=1, rho=rho)])

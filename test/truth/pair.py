@@ -231,6 +231,7 @@ _LAG = effect('pressure_lag', 'two_times', fill_s=0.050, vent_s=0.070)
 _QUICK = effect('pressure_lag', 'two_times', fill_s=0.020, vent_s=0.030)
 _HYSTERESIS = effect('hysteresis', 'slip', hyst_n=15.0, hyst_reach_m=4e-3)
 _DEAD = effect('dead_time', dead_time_s=0.010)
+_ZONE = effect('regulator_dead_zone', 'play', dead_zone_pa=6e3)
 _LONG = effect('dead_time', dead_time_s=0.040)
 
 # What is there and nobody declares: 0.3 kg more on 1 kg, N m at the pivot, N in each muscle.
@@ -241,6 +242,7 @@ PAIR_PLANTS: dict[str, dict[str, Any]] = {
     'payload and friction': {'payload': 0.3, 'at_pivot': (_FRICTION,)},
     'quick lag': {'in_muscles': (_QUICK,)},
     'lag': {'in_muscles': (_LAG,)},
+    'dead zone': {'in_muscles': (_LAG, _ZONE)},
     'dead time': {'in_muscles': (_LONG,)},
     'hysteresis': {'in_muscles': (_HYSTERESIS,)},
     'all': {
