@@ -68,6 +68,11 @@ def read_recording(
     if path.is_dir() or path.suffix in BAG_SUFFIXES:
         files = bag_files(path)
         series, notes = read_bag(path, mapping, namespace, muscles, unit)
+    elif namespace is not None:
+        raise RecordingError(
+            f'namespace = {namespace}, but recording {path} is not a bag: a CSV file has no '
+            'namespaces, leave it out'
+        )
     else:
         files = [path]
         series, notes, header = read_csv(path, mapping)

@@ -111,6 +111,12 @@ def test_a_bag_as_csv_is_the_same_recording(tmp_path):
         np.testing.assert_array_equal(getattr(other, name), getattr(one, name))
 
 
+def test_a_csv_file_has_no_namespace(tmp_path):
+    (tmp_path / 'rig.csv').write_text('t_s,pressure_command_Pa,position_m\n')
+    with pytest.raises(RecordingError, match=r'namespace = left, but recording .*rig\.csv is not'):
+        read_recording(tmp_path / 'rig.csv', namespace='left')
+
+
 def test_a_recording_that_is_not_there(tmp_path):
     with pytest.raises(RecordingError, match=r'recording .*none\.csv does not exist'):
         read_recording(tmp_path / 'none.csv')

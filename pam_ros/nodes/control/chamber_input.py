@@ -41,6 +41,7 @@ class ChamberInput:
         *on_fault* is called with a sentence on a pressure that is not plausible.
         """
         self._on_pressure, self._on_fault = on_pressure, on_fault
+        self._topics = setup.topics.pressures
         self._found: list[tuple[int, int, float] | None] = [None] * len(setup.topics.muscles)
         self._is_published = False  # whether all pressures have been received before
         self._waited = 0
@@ -58,10 +59,15 @@ class ChamberInput:
         self._on_pressure()
 
     def _take_all(self, message: Float64MultiArray) -> None:
-        if len(message.data) == len(self._found):
-            for muscle, pressure in enumerate(message.data):
-                self._note(muscle, 0, pressure)
-            self._on_pressure()
+        if len(message.data) != len(self._found):
+            self._on_fault(
+                f'{self._topics[0]} has {len(message.data)} values for {len(self._found)} '
+                'muscles: not used'
+            )
+            return
+        for muscle, pressure in enumerate(message.data):
+            self._note(muscle, 0, pressure)
+        self._on_pressure()
 
     def _note(self, muscle: int, stamp: int, pressure: float) -> None:
         self._found[muscle] = (stamp, steady_ns(), pressure)

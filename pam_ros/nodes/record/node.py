@@ -241,6 +241,7 @@ class PamRecord(TickingNode):
         for topic, count in sorted(self._writer.counts.items()):
             lost = self._intake.lost(topic)
             note = f'  {lost} lost before they were received' if lost else ''
+            note = note if count else '  no message was received'
             lines.append(
                 f'  {topic:<28} {count:>9} messages {self._writer.rate(topic):9.1f} Hz{note}'
             )

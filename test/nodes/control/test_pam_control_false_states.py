@@ -9,6 +9,7 @@ import pytest
 from builtin_interfaces.msg import Time
 from diagnostic_msgs.msg import DiagnosticStatus
 from sensor_msgs.msg import FluidPressure, JointState
+from std_msgs.msg import Float64MultiArray
 from std_srvs.srv import SetBool
 
 from support.control_watch import Simulation, Watch
@@ -167,5 +168,22 @@ def test_control_does_not_begin_at_a_pressure_that_cannot_be(watch, false, end):
         words = f'pressure has {false:.6g} Pa, but only 81325 to 851325 Pa absolute is possible'
         assert f'{words}{end}: not used' in control.output
         assert 1e5 < first < 5e5  # that which holds the configured load at 60 mm
+        status = watch.status(lambda s: words in s.message, 'the warning')
+        assert status.level == DiagnosticStatus.WARN
+
+
+@pytest.mark.at_any_pace
+def test_pressures_of_another_number_of_muscles_are_reported(watch):
+    rig, peer = Simulation(watch.peer), watch.peer
+    given = {'joint': 'antagonistic', 'pressure_wait': 0.5, 'state_timeout': 60.0}
+    words = 'pressures has 3 values for 2 muscles: not used'
+    with Program('pam_control', parameters=given) as control:
+
+        def reported():
+            peer.publish(Float64MultiArray(data=[3e5, 3e5, 3e5]), 'pressures')
+            rig.tell()
+            return words in control.output
+
+        peer.until(reported, 'the sentence')
         status = watch.status(lambda s: words in s.message, 'the warning')
         assert status.level == DiagnosticStatus.WARN

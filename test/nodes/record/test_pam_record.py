@@ -122,14 +122,17 @@ def test_topics_that_come_late_and_topics_that_are_named(peer, tmp_path):
         level = connected(peer, Float64, '/other/level')
         level.publish(Float64(data=2.0))
         ignored = peer.node.create_publisher(Float64, 'unasked', 10)
+        connected(peer, Float64, 'damping')
         delivered(force, notes, level)
         assert ignored.get_subscription_count() == 0
         program.interrupt()
         assert program.wait() == 0
         assert '/silent' in program.output
         assert 'was not published' in program.output
+        (idle,) = (line for line in program.output.splitlines() if line.startswith('  /damping'))
+        assert idle.endswith('0.0 Hz  no message was received')
     found = contents(bag)
-    assert sorted(found) == ['/force', '/notes', '/other/level']
+    assert sorted(found) == ['/damping', '/force', '/notes', '/other/level']
     assert found['/notes'][0][1].data == 'now it creaks'
 
 
