@@ -10,7 +10,7 @@ from pam_ros.effects.base import Compensation, Effect, EffectEquations, HiddenSt
 from pam_ros.effects.parameter import effect_parameter, start_from, strength
 from pam_ros.effects.pressure_lag import UNLIMITED
 
-RATE, REFILL, SUPPLY, VENT = range(4)
+RATE, REFILL, SUPPLY, VENT, EXHAUST = range(5)
 CHAMBER, UPSTREAM = range(2)  # hidden states: the pressures in the chamber and of p_in
 
 SHORTEST = 1e-6  # s; faster than the refill of any rig: treated as immediate
@@ -23,10 +23,10 @@ def pressure(p: float, t: float, h: float, x: Row, i: int, xn: Row, q: Row, j: i
 
     With the rate r and a refill time T > 0 the valve stays open. Below p_in
     dp/dt = (p_in - p) / T - r p. Its first term is at most the supply, which is the flow through
-    the fully open valve. Above p_in dp/dt = (p_in - p) / V - r p with V = vent; with V = 0 the
-    chamber vents at once, since an exhaust needs no supply. With T = 0 the valve is closed between
-    changes of p_in: the chamber follows p_in less its loss, dp/dt = -r p, and every change of p_in
-    by REOPENING restores all but 1/e of the loss.
+    the fully open valve. Above p_in dp/dt = (p_in - p) / V - r p with V = vent, of which the first
+    term is at least -exhaust; with V = 0 and no such limit the chamber vents at once. With T = 0
+    the valve is closed between changes of p_in: the chamber follows p_in less its loss,
+    dp/dt = -r p, and every change of p_in by REOPENING restores all but 1/e of the loss.
     """
     r = q[j + RATE]
     if r < LEAST:
@@ -35,13 +35,21 @@ def pressure(p: float, t: float, h: float, x: Row, i: int, xn: Row, q: Row, j: i
         now, left = x[i + CHAMBER], h
         if now > p:
             # It vents until it reaches p_in, or for the whole step h.
+            fastest = q[j + EXHAUST]
+            begins = p + fastest * q[j + VENT]  # pressure at which the valve begins to close
+            if fastest < UNLIMITED and now > begins:
+                slope = fastest + r * now
+                spent = min(left, -log1p(-r * (now - begins) / slope) / r)
+                now += slope * expm1(-r * spent) / r
+                left -= spent
             if q[j + VENT] > SHORTEST:
                 out = 1.0 / q[j + VENT] + r
                 rest = p / q[j + VENT] / out
-                spent = h if p <= rest else min(h, -log((p - rest) / (now - rest)) / out)
+                full = left if p <= rest else -log((p - rest) / (now - rest)) / out
+                spent = min(left, full)
                 now = rest + (now - rest) * exp(-spent * out)
                 left -= spent
-            else:
+            elif left > 0.0 or fastest >= UNLIMITED:
                 now = p
         fill = 1.0 / max(q[j + REFILL], SHORTEST)
         if left > 0.0 and (p - now) * fill > q[j + SUPPLY]:
@@ -97,6 +105,14 @@ class Leak(Effect):
         high=10.0,
         scale=0.05,
     )
+    exhaust: float = effect_parameter(
+        UNLIMITED,
+        'fastest change of pressure by venting, where the valve is fully open',
+        'Pa/s',
+        low=1e3,
+        high=UNLIMITED,
+        scale=1e6,
+    )
 
     name: ClassVar = 'leak'
     text: ClassVar = 'chamber that loses pressure with time'
@@ -105,7 +121,8 @@ class Leak(Effect):
     )
     equation: ClassVar = (
         'p_in > p:  dp/dt = min((p_in - p) / refill, supply) - rate p\n'
-        'p_in < p:  dp/dt = (p_in - p) / vent - rate p,  or p = p_in at once with vent = 0\n'
+        'p_in < p:  dp/dt = max((p_in - p) / vent, -exhaust) - rate p\n'
+        'With vent = 0 and no limit exhaust p = p_in at once.\n'
         'With refill = 0 the valve is closed while p_in is constant: dp/dt = -rate p.\n'
         f'A change of p_in by dp_in multiplies p_in - p by exp(-|dp_in| / {REOPENING:g} Pa).'
     )
@@ -117,7 +134,14 @@ class Leak(Effect):
     compensation: ClassVar = Compensation.FEEDBACK
     states: ClassVar = (HiddenState('pressure', 'Pa', 2e4), HiddenState('upstream pressure', 'Pa'))
     rivals: ClassVar = ('pressure_lag', 'pressure_offset', 'creep', 'softening')
-    contains: ClassVar = {'pressure_lag': {'fill': 'refill', 'vent': 'vent', 'fastest': 'supply'}}
+    contains: ClassVar = {
+        'pressure_lag': {
+            'fill': 'refill',
+            'vent': 'vent',
+            'fastest': 'supply',
+            'fastest_vent': 'exhaust',
+        }
+    }
     needs_muscle: ClassVar = True
     equations: ClassVar = EffectEquations(pressure=pressure, start=start)
 
@@ -131,6 +155,7 @@ class Leak(Effect):
             start_from(cls, rate=0.3, refill=0.1, vent=0.05),
             start_from(cls, rate=0.3, refill=0.7, vent=0.05),
             start_from(cls, rate=0.3, refill=0.1, supply=5e5),
+            start_from(cls, rate=0.3, refill=0.1, supply=5e5, vent=0.05, exhaust=5e5),
         )
 
     @classmethod

@@ -16,7 +16,10 @@ U = np.array([2e5, 3.3e5, 1.6e5, 2.6e5, 2.0e5])
 # Each almost without the property that the simpler effect lacks, and the share of what the simpler
 # effect does by which they may differ. The shortest width of a hysteresis is 0.05 %.
 AT_THE_LIMIT = {
-    ('leak', 'pressure_lag'): (Leak(rate=1e-9, refill=0.04, vent=0.07, supply=1e6), 1e-6),
+    ('leak', 'pressure_lag'): (
+        Leak(rate=1e-9, refill=0.04, vent=0.07, supply=1e6, exhaust=8e5),
+        1e-6,
+    ),
     ('hysteresis', 'coulomb_friction'): (Hysteresis(amplitude=8.0, width=5e-4), 0.15),
 }
 

@@ -92,6 +92,26 @@ def test_a_valve_fully_open_against_an_adaptive_solver(step, vent):
     assert np.max(np.diff(run.pressure)) < 0.01 * supply
 
 
+@pytest.mark.parametrize('step', [1e-3, 1e-2])
+@pytest.mark.parametrize('vent', [0.0, 0.05])
+def test_an_exhaust_of_limited_flow_against_an_adaptive_solver(step, vent):
+    rate, refill, exhaust = 0.8, 0.08, 5e5
+    leak = Leak(rate=rate, refill=refill, vent=vent, exhaust=exhaust)
+    t = np.linspace(0.0, 1.5, 151)
+    commands = ((0.0, 3e5), (0.2, 0.5e5), (1.0, 4e5), (1.1, 3.7e5))
+    model = bench.cart(leak, mass=1e4)
+    run = simulate(model, t, *zip(*commands, strict=True), position=0.0, step=step)
+
+    def rhs(_, state, u):
+        p = state[0]
+        out = max((u - p) / max(vent, 1e-5), -exhaust)
+        return ((out if p > u else (u - p) / refill) - rate * p,)
+
+    (p,) = bench.solved(rhs, t, (3e5 / (1.0 + rate * refill),), commands)
+    np.testing.assert_allclose(run.pressure, p, rtol=1e-6 if vent else 1e-4)
+    assert np.min(np.diff(run.pressure)) > -0.01 * (exhaust + rate * 3e5)
+
+
 @pytest.mark.parametrize('rate', [1e-4, 1e-8, 1e-12])
 def test_a_valve_fully_open_fills_hardly_slower_for_a_hair_of_a_leak(rate):
     t = np.array([0.0, 0.1, 0.2, 0.3])

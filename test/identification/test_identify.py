@@ -73,6 +73,19 @@ def test_a_regulator_whose_command_must_change_by_so_much_is_named_with_its_dead
     assert found.stages[2].held_error < 1.2 * NOISE
 
 
+def test_a_leak_against_a_valve_of_limited_flow_is_measured_behind_friction():
+    numbers = {'leak_per_s': 0.9, 'fill_s': 0.086, 'vent_s': 0.04, 'refill_pa_s': 6e5}
+    friction = effect('coulomb_friction', coulomb_n=8.0, static_n=8.8, stribeck_m_s=5e-3)
+    there = [effect('leak', 'refill', **numbers), friction]
+    found = identify(bench_truth.nominal(off=OFF), [bench_truth.free(*there, seed=4)])
+    assert sorted(names(found)) == ['coulomb_friction', 'leak']
+    (leak,) = (one for one in found.effects if one.name == 'leak')
+    assert {name: one.value for name, one in leak.parameters.items()} == pytest.approx(
+        {'rate': 0.9, 'refill': 0.086, 'supply': 6e5, 'vent': 0.04, 'exhaust': 6e5}, rel=0.05
+    )
+    assert found.stages[2].held_error < 1.5 * NOISE
+
+
 @pytest.mark.parametrize('rho', [0.0, 0.9])
 def test_a_model_that_is_right_lacks_nothing(rho):
     found = identify(bench_truth.nominal(), [bench_truth.free(seed=1, rho=rho)])
