@@ -218,7 +218,9 @@ def plainer(now: Model, names: Iterable[str], found: Search) -> Model:
         direct = simplified(now, name, setting)
         found.looked_at += direct
         able = [m for m in direct if suffices(m, now, setting)]
-        now = min(able, key=lambda m: m.score) if able else _plainer(now, name, found)
+        # The simpler effect can have parameters that the broader one lacks.
+        best = min(able, key=lambda m: m.score, default=None)
+        now = with_more(best, found) if best else _plainer(now, name, found)
     return now
 
 
