@@ -25,6 +25,7 @@ from support.pair_loop import LAG, close_pair, nominal
 from truth.pair import pair_plant
 
 ZONE = (PressureLag(fill=0.050, vent=0.070, dead_zone=6e3),)
+ZONE_ALONE = (PressureLag(dead_zone=6e3),)
 # Plant, what is configured of its muscles; largest RMS of the sine, degrees.
 ROWS = {
     'nominal': ('nominal', (), 0.03),
@@ -35,6 +36,7 @@ ROWS = {
     'valve lag 50/70 ms': ('lag', (), 0.06),
     'the same, configured': ('lag', LAG, 0.03),
     'lag, dead zone 6 kPa': ('dead zone', (), 0.3),
+    'its zone, configured': ('dead zone', ZONE_ALONE, 0.1),
     'both, configured': ('dead zone', ZONE, 0.06),
     'dead time 40 ms': ('dead time', (), 0.6),
     'hysteresis 15 N each': ('hysteresis', (), 0.06),

@@ -61,14 +61,14 @@ class PressurePath:
             if effect.compensation is not Compensation.PATH:
                 continue
             j = layout.parameter_at[effect.name]
-            if effect.equations.lag is not None:
-                fill, vent, zone = effect.equations.lag(row, j)
+            if effect.equations.chamber is not None:
+                fill, vent, zone = effect.equations.chamber(row, j)
             else:
                 self._static.append((effect.equations, j))
         low, high = self.reached(LOW), self.reached(HIGH)
         self._gain = (high - low) / (HIGH - LOW)
         self._offset = low - self._gain * LOW
-        self.is_lag_configured = max(fill, vent, zone) > 0.0
+        self.is_lag_configured = max(fill, vent) > 0.0
         self.chamber = Chamber(fill, vent, zone)
         self.delay = delays_of(layout, q)[muscle]
         self.quickest = quickest

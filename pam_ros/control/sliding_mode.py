@@ -129,6 +129,7 @@ class SlidingMode:
             scaled(LearningTuning(), length, force),
             scaled(FeatureTuning(), length, force),
             self.allocation.reach,
+            [path.chamber.zone for path in self._paths],
             lag_is_configured=self._is_lag_configured,
         )
         self._standstill = Standstill(

@@ -111,8 +111,8 @@ class EffectEquations:
     """The functions of an effect, one for each place where it acts; None for all other places.
 
     ``start(q, j, p, kappa, y)`` returns its hidden states after a long rest at these values. If a
-    controller inverts a lag of the pressure, ``lag(q, j)`` returns the time constants of filling
-    and venting in s, and the dead zone of the valve in Pa.
+    controller inverts a lag of the pressure, ``chamber(q, j)`` returns the time constants of
+    filling and venting in s, and the dead zone of the valve in Pa.
 
     ``guess(t, p, kappa, residual)`` returns additional sets of starting values for a fit, for
     parameters whose starting values depend on the recording, such as a frequency or the position
@@ -129,7 +129,7 @@ class EffectEquations:
     outside: Callable[..., float] | None = None
     drag: Callable[..., float] | None = None
     start: Callable[[Any, int, float, float, float], tuple[float, ...]] | None = None
-    lag: Callable[[Any, int], tuple[float, float, float]] | None = None
+    chamber: Callable[[Any, int], tuple[float, float, float]] | None = None
     guess: Callable[[Array, Array, Array, Array], Starts] | None = None
 
     def __post_init__(self) -> None:
@@ -239,10 +239,10 @@ class Effect(ABC):
             raise ParameterError(
                 f'effect {cls.name} has drag without outside: friction brakes a free load as well'
             )
-        if cls.states and cls.equations.lag is None and cls.compensation in WITHOUT_MEMORY:
+        if cls.states and cls.equations.chamber is None and cls.compensation in WITHOUT_MEMORY:
             raise ParameterError(
                 f'effect {cls.name} has hidden states, which {cls.compensation} does not '
-                'compute: give lag, or Compensation.FEED_FORWARD or FEEDBACK'
+                'compute: give chamber, or Compensation.FEED_FORWARD or FEEDBACK'
             )
 
     def __repr__(self) -> str:

@@ -99,7 +99,7 @@ def start(q: Row, j: int, p: float, kappa: float, y: float) -> tuple[float, ...]
     return (p,)
 
 
-def lag(q: Row, j: int) -> tuple[float, float, float]:
+def chamber(q: Row, j: int) -> tuple[float, float, float]:
     """Return the time constants in s and the dead zone in Pa, which a controller inverts."""
     return q[j + FILL], q[j + VENT], q[j + DEAD_ZONE]
 
@@ -175,7 +175,7 @@ class PressureLag(Effect):
     compensation: ClassVar = Compensation.PATH
     states: ClassVar = (HiddenState('pressure', 'Pa', 2e4),)
     rivals: ClassVar = ('dead_time', 'leak', 'pressure_hysteresis')
-    equations: ClassVar = EffectEquations(pressure=pressure, start=start, lag=lag)
+    equations: ClassVar = EffectEquations(pressure=pressure, start=start, chamber=chamber)
 
     @classmethod
     def fit_starts(cls) -> Starts:

@@ -34,8 +34,10 @@ class MuscleTopics:
     @property
     def every_command(self) -> tuple[str, ...]:
         """Every topic on which another program could command one of the muscles."""
-        own = tuple(f'{muscle}/pressure_command' for muscle in self.muscles)
-        return ('pressure_commands', *own) if self.is_array or self.has_own else self.commands
+        if not self.is_array and not self.has_own:
+            return self.commands
+        either = (MuscleTopics(self.muscles, array, not array) for array in (True, False))
+        return tuple(topic for topics in either for topic in topics.commands)
 
     @property
     def pressures(self) -> tuple[str, ...]:

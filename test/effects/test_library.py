@@ -115,16 +115,16 @@ def test_the_compensation_that_an_effect_names_is_one_that_the_controller_has(ef
     by_pressure = effect.equations.delay is not None or effect.equations.pressure is not None
     if effect.compensation is Compensation.PATH:
         assert by_pressure
-        assert effect.equations.lag is not None or not effect.states
+        assert effect.equations.chamber is not None or not effect.states
     elif effect.compensation is Compensation.MODEL:
         assert not effect.states
         assert effect.equations.pressure is None
     elif effect.compensation is Compensation.FEED_FORWARD:
         assert effect.equations.force is not None or effect.equations.outside is not None
-    if effect.equations.lag is not None:
+    if effect.equations.chamber is not None:
         layout = single_muscle_joint().layout
         q = single_muscle_joint(effects=[effect.example()]).parameters()[1]
-        fill, vent, zone = effect.equations.lag(q, layout.parameter_at[effect.name])
+        fill, vent, zone = effect.equations.chamber(q, layout.parameter_at[effect.name])
         assert min(fill, vent) > 0.0
         assert zone >= 0.0
 

@@ -105,15 +105,18 @@ class Learner:
         tuning: LearningTuning,
         features: FeatureTuning,
         reach: tuple[float, float],
+        zones: Sequence[float],
         *,
         lag_is_configured: bool,
     ) -> None:
         """Start without learned parameters; *tuning* and *features* are in the joint's units.
 
-        *reach* is the range of positions at which the load can be held.
+        *reach* is the range of positions at which the load can be held, *zones* are the configured
+        dead zones of the valves in Pa.
         """
         self._model = model
         self._tuning, self._features = tuning, features
+        self._zones = zones
         self._lag_is_configured = lag_is_configured
         self._observer = Observer(self._model)
         self._wanted, self._actual = Features(features, reach), Features(features, reach)
@@ -155,9 +158,10 @@ class Learner:
         self._observer.start(position, disturbance)
         self._wanted.start(position)
         self._actual.start(position)
-        self._chambers = [Chamber() for _ in pressures]
+        self._chambers = [Chamber(zone=zone) for zone in self._zones]
         for chamber, pressure in zip(self._chambers, pressures, strict=True):
             chamber.pressure = pressure
+        self._at_once = [*pressures]  # of chambers without a lag
         self._nominal = pressures
         self._sensitivities = [_Sensitivity() for _ in pressures]
         for one in (self._plain, self._lagged):
@@ -305,15 +309,18 @@ class Learner:
         for i, place in enumerate(places):
             chamber, sensitivity = self._chambers[i], self._sensitivities[i]
             gain, inflow, before = place.arm * place.gain, inflows[i], chamber.pressure
+            zone = chamber.zone
             chamber.fill, chamber.vent = fill, vent
             fills = inflow > before
             pressure = chamber.follow(inflow, dt)
-            rate = (chamber.pressure - before) / dt
-            sensitivity.follow(rate, fills, fill if fills else vent, dt)
+            if abs(inflow - before) >= zone:  # while the valve is closed, nothing changes
+                rate = (chamber.pressure - before) / dt
+                sensitivity.follow(rate, fills, fill if fills else vent, dt)
+            self._at_once[i] = at_once = min(max(self._at_once[i], inflow - zone), inflow + zone)
             by_fill += -gain * sensitivity.fill
             by_vent += -gain * sensitivity.vent
             less += gain * (pressure - means[i])
-            late += gain * (pressure - inflow)
+            late += gain * (pressure - at_once)
             pressures.append(pressure)
         self._input[_FILL], self._input[_VENT] = by_fill, by_vent
         self._input[_FROM_LAW], self._input[_FROM_NO_LAG] = less, late

@@ -127,6 +127,27 @@ def fixed(model: Model, setting: Setting) -> list[Model]:
     return [*less, *(one for name in model.effects for one in simplified(model, name, setting))]
 
 
+def weakened(model: Model, name: str, setting: Setting) -> list[Model]:
+    """Return *model* with fewer strengths of the effect called *name*, fitted from its values.
+
+    For each set of strengths with which a fit may also begin, it has the fewest parameters.
+    """
+    known, place = model.solution, setting.places[name]
+    strengths = {p.name for p in place.parameters if p.strength}
+    there = strengths & parameters_of(known.problem.unknowns, name)
+    fewest: dict[frozenset[str], set[str]] = {}
+    for names in sorted(plainer_sets(known.problem.unknowns, place), key=len):
+        left = frozenset(strengths & names)
+        if left < there:
+            fewest.setdefault(left, names)
+
+    def fit(names: set[str]) -> Model:
+        problem, keep = with_parameters(known.problem, setting.joint, place, names)
+        return _less(model.effects, known, problem, keep, setting)
+
+    return [fit(names) for names in fewest.values()]
+
+
 def simplified(model: Model, name: str, setting: Setting) -> list[Model]:
     """Return *model* with each simpler effect that the effect called *name* contains, instead.
 

@@ -29,6 +29,7 @@ from pam_ros.identification.search.moves import (
     freed,
     simplified,
     swapped,
+    weakened,
     with_each,
     without_idle_parameters,
 )
@@ -101,18 +102,24 @@ def leading(tried: list[Model], found: Search) -> list[Model]:
 
 
 def exchanged(found: Search) -> Model | None:
-    """Return the model with a rival instead of one of the effects, if it is accepted.
+    """Return the model with a rival instead of an effect, or of a part of it, if it is accepted.
 
-    The first effect was chosen without those that were added later. The new model must lower the
-    score by the margin, as if an effect were added.
+    The first effect was chosen without those that were added later, and a strength of an effect
+    without those that explain the same. The new model must lower the score by the margin, as if an
+    effect were added.
     """
     setting, best = found.setting, found.best
     tried: list[Model] = []
-    for name in best.effects if len(best.effects) > 1 else ():
+    for name in best.effects:
         named = setting.related(name, setting.places[name].effect.rivals)
         rivals = [one for one in named if one in absent(best, setting)]
-        if rivals:
-            less, others = swapped(best, name, rivals, setting)
+        if not rivals:
+            continue
+        bases = weakened(best, name, setting)
+        if len(best.effects) > 1:
+            bases.append(dropped(best, name, setting))
+        for less in bases:
+            others = with_each(less, rivals, setting)
             found.looked_at += [less, *others]
             tried += others
     able = [*accepted(tried, best, found)]

@@ -8,7 +8,7 @@ import pytest
 from pam_ros.control.gains import Gains
 from pam_ros.control.learning.learning_tuning import LearningTuning
 from pam_ros.control.sliding_mode import SlidingMode
-from pam_ros.effects import CoulombFriction
+from pam_ros.effects import CoulombFriction, PressureLag
 from support.closed_loop import LAG, close_loop, nominal, sine_target, step_target, truth
 from support.kinds import EACH_KIND, ONE, PAIR, rms
 
@@ -88,6 +88,16 @@ def test_a_lag_is_learned_and_the_bandwidth_stays(kind, within, bandwidth, most,
     assert run.terms['bandwidth'][-1] < bandwidth
     without = swung(kind, 'lag', 8.0, learning=False)[1]
     assert rms(kind, run) < most < share * rms(kind, without)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(('kind', 'most'), [(ONE, 0.09), (PAIR, 0.04)], ids=str)
+def test_a_lag_is_learned_beside_a_configured_dead_zone(kind, most):
+    """The lag is 50/70 ms; mm or degrees."""
+    law, run = swung(kind, 'dead zone', effects=(PressureLag(dead_zone=6e3),))
+    assert 0.02 < 0.5 * sum(law.learned.lag) < 0.09
+    assert rms(kind, run) < most
+    assert rms(kind, run) < 0.8 * rms(kind, swung(kind, 'dead zone')[1])
 
 
 @EACH_KIND

@@ -111,6 +111,21 @@ def test_additional_parameters_that_are_not_needed_do_not_save_a_broader_effect(
     assert plainer(leak, leak.effects, found) is lag
 
 
+def test_a_simpler_effect_that_suffices_gets_parameters_that_the_broader_one_lacks(
+    pool, monkeypatch
+):
+    """The flow of a valve depends on the pressures at it, which a leak cannot describe."""
+    found = found_in([bench_truth.free(effect('pressure_lag'), seed=21)], pool, name='leak')
+    leak = found.best
+    (lag, *_) = with_each(found.retuned, ['pressure_lag'], found.setting)
+    wider = replace(lag)
+    monkeypatch.setattr(search_module, 'simplified', lambda *given: [lag])
+    monkeypatch.setattr(
+        search_module, 'with_more', lambda model, found: wider if model is lag else model
+    )
+    assert plainer(leak, leak.effects, found) is wider
+
+
 @pytest.mark.parametrize('rho', [0.0, 0.95], ids=['white', 'coloured'])
 def test_noise_is_no_effect(rho):
     found = searched([bench_truth.free(seed=4, rho=rho)])
@@ -191,6 +206,18 @@ def test_an_effect_that_lowers_only_the_score_is_replaced_by_one_that_improves_t
     there = (effect('viscous_friction', viscous_ns_m=42.0), effect('creep', 'pressure'))
     found = searched([bench_truth.free(*there, seed=9, duration=60.0)])
     assert set(found.best.effects) == {'viscous_friction', 'creep'}
+
+
+def test_a_strength_that_describes_most_of_another_effect_is_exchanged_for_it():
+    """A lag with a dead zone of its valve is better than a dead time or a narrow hysteresis alone.
+
+    No effect that is added to it matters.
+    """
+    narrow = effect('hysteresis', 'pressure', hyst_pa=3540.0, hyst_reach_pa=36e3)
+    there = (narrow, effect('dead_time', dead_time_s=0.024))
+    found = searched([bench_truth.free(*there, seed=5, duration=60.0)])
+    assert {*found.best.effects} == {'pressure_hysteresis', 'dead_time'}
+    assert found.best.errors.choose < 1.2 * found.setting.noise
 
 
 @pytest.mark.parametrize(('count', 'first'), [(1, 'softening'), (4, 'creep')])
