@@ -75,7 +75,7 @@ def test_it_is_present_by_its_strengths():
         ({'drag': anywhere}, 'effect made has drag without outside'),
         (
             {'pressure': anywhere, 'treated': Compensation.PATH, 'has': (HiddenState('p', 'Pa'),)},
-            'made has hidden states, which Compensation.PATH does not compute: give chamber',
+            'effect made has hidden states, which Compensation.PATH does not compute: give cham',
         ),
         ({'mass': 0.0}, 'mass = 0.0 is not a function: if a parameter of the effect has'),
     ],

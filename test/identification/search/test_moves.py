@@ -18,6 +18,7 @@ from pam_ros.identification.search.moves import (
     freed,
     simplified,
     swapped,
+    weakened,
     with_each,
     without_idle_parameters,
 )
@@ -184,6 +185,22 @@ def leaking(retuned, setting):
     start = {'rate': 0.01, 'refill': 0.1, 'vent': 0.1}
     known = extended(retuned.solution, setting.places['leak'], start, setting)
     return setting.model(('leak',), settled(known, BUDGET.iterations))
+
+
+def test_an_effect_is_weakened_to_each_set_of_its_strengths(retuned, setting):
+    """Of those with time constants the one without further parameters; the zone is the other."""
+    place = setting.places['pressure_lag']
+    start = {'fill': 0.05, 'vent': 0.05, 'fastest': 1e6, 'dead_zone': 2e3}
+    whole = setting.model(
+        ('pressure_lag',), settled(extended(retuned.solution, place, start, setting), 5)
+    )
+    less = weakened(whole, 'pressure_lag', setting)
+    assert [m.effects for m in less] == 2 * [('pressure_lag',)]
+    sets = [parameters_of(m.solution.problem.unknowns, 'pressure_lag') for m in less]
+    assert sets == [{'dead_zone'}, {'fill', 'vent'}]
+    # The recording has a lag, and no zone.
+    assert less[1].score < whole.score + setting.criteria.margin < less[0].score
+    assert weakened(less[1], 'pressure_lag', setting) == []
 
 
 def test_a_simpler_effect_begins_with_what_it_has_in_common(leaking, tried, retuned, setting):

@@ -120,6 +120,7 @@ def test_a_simpler_effect_that_suffices_gets_parameters_that_the_broader_one_lac
     (lag, *_) = with_each(found.retuned, ['pressure_lag'], found.setting)
     wider = replace(lag)
     monkeypatch.setattr(search_module, 'simplified', lambda *given: [lag])
+    monkeypatch.setattr(search_module, 'suffices', lambda less, *given: less is lag)
     monkeypatch.setattr(
         search_module, 'with_more', lambda model, found: wider if model is lag else model
     )
