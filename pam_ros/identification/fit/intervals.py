@@ -35,6 +35,7 @@ from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.linalg import solve_triangular
 from scipy.stats import norm
 from scipy.stats import t as student
 
@@ -70,7 +71,8 @@ def covariance(known: Solution, process: Discrepancy) -> Array:
     it matters if a run is not many correlation times long.
     """
     problem = known.problem
-    slope, inverse, s = _scaled(known)
+    slope, root, s = _scaled(known)
+    inverse = root @ root.T
     if known.discrepancy != process:
         parts = zip(problem.stamps(), problem.by_run(slope), strict=True)
         spread = np.concatenate([process.times(t, part) for t, part in parts])
@@ -85,8 +87,7 @@ def block_variances(known: Solution) -> tuple[Array, Array]:
 
     With A = L L' and K = J_b L/s, d_b = L (1 - K'K)^(-1/2) K' r_b/s needs only small matrices.
     """
-    slope, inverse, s = _scaled(known)
-    root = np.linalg.cholesky(inverse)
+    slope, root, s = _scaled(known)
     found = np.zeros(len(root))
     for block in blocks(known):
         own = slope[block] @ root
@@ -95,7 +96,7 @@ def block_variances(known: Solution) -> tuple[Array, Array]:
         change /= np.sqrt(np.maximum(1.0 - values, LEAST))
         found += (root @ (vectors @ change)) ** 2
     unit = known.problem.prior**2
-    return unit * found, unit * np.sum(inverse**2, axis=0)
+    return unit * found, unit * np.sum((root @ root.T) ** 2, axis=0)
 
 
 def blocks(known: Solution) -> list[slice]:
@@ -112,12 +113,15 @@ def blocks(known: Solution) -> list[slice]:
 
 
 def _scaled(known: Solution) -> tuple[Array, Array, float]:
-    """Return J/s, A and s, of whitened residuals and of unknowns in units of their priors.
+    """Return J/s, L and s, of whitened residuals and of unknowns in units of their priors.
 
-    After scaling by the priors no number is so large or small that the inverse loses digits.
+    L is a triangular matrix with A = L L', from a QR decomposition of J/s and the priors. If two
+    unknowns act alike, J'J has no digits of their difference, and neither A nor L would be found
+    from it.
     """
     problem = known.problem
     s = float(np.sqrt(np.mean(known.whitened**2)))
     slope = problem.whitened(known.jacobian * problem.prior, known.whitenings) / s
-    inverse = np.linalg.inv(product(slope, slope) + np.eye(problem.prior.size))
-    return slope, np.asarray(inverse, dtype=float), s
+    unit = np.eye(problem.prior.size)
+    triangle = np.linalg.qr(np.vstack([slope, unit]), mode='r')
+    return slope, np.asarray(solve_triangular(triangle, unit), dtype=float), s

@@ -118,6 +118,15 @@ def test_what_the_data_do_not_determine_has_the_interval_of_its_prior():
     assert half_widths(known, WHITE)[2] == pytest.approx(1.96 * 3.0, rel=1e-3)
 
 
+def test_two_unknowns_that_act_alike_have_the_interval_of_their_difference():
+    """Their sum is known exactly; the data hold no digit of the difference of J'J."""
+    basis = 1e8 * np.stack([T, T], axis=1)
+    r = NOISE * np.random.default_rng(2).standard_normal(T.size)
+    problem = equation(lambda u: basis @ u + r, [unknown(name, prior=3.0) for name in 'ab'])
+    known = Solution(problem, np.zeros(2), r, basis)
+    np.testing.assert_allclose(half_widths(known, WHITE), 1.96 * 3.0 / np.sqrt(2.0), rtol=1e-3)
+
+
 def test_a_short_run_is_a_block_and_a_long_one_several(monkeypatch):
     known = fitted(LINE @ TRUTH + slow_error(np.random.default_rng(3), WHITE))
     sizes = (300, 10, 90)
