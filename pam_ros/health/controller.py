@@ -32,6 +32,7 @@ class Received(NamedTuple):
     pauses: int = 0  # of the commands, longer than longest_interruption of the settings
     pause: str = ''  # sentence on the last of them
     is_pause_new: bool = False  # since the last report
+    delay: str = ''  # sentence on joint states that were late since the last report
     tracking: str = ''  # sentence on an error or saturation that lasts
 
 
@@ -51,6 +52,7 @@ def values_of(loop: Loop, setup: ControlSetup, age: float | None) -> dict[str, A
         f'highest reference ({unit})': setup.law.reach[1],
         'age of joint_states (s)': age,
         'implausible joint_states': loop.implausible,
+        'late joint_states': loop.late,
     }
     if setup.settings.controller == 'sliding_mode':
         gains, inertia = setup.law.gains, setup.law.joint.inertia
@@ -83,6 +85,11 @@ def shown(pressures: Pressures | None) -> float | Pressures | None:
 def repeated(stamp: int) -> str:
     """Return a sentence on joint states that all have the same *stamp* in ns."""
     return f'joint_states repeats the stamp {stamp / SECOND:.3f} s: not used'
+
+
+def late(seconds: float) -> str:
+    """Return a sentence on joint states that arrive so many *seconds* late."""
+    return f'joint_states arrives {seconds:.2f} s late according to its stamps: not used'
 
 
 def trouble(loop: Loop, on_timeout: str, blindness: str, fault: str) -> str:
@@ -120,7 +127,7 @@ def control(loop: Loop, setup: ControlSetup, received: Received, fault: str) -> 
     if state == RUNNING:
         share = loop.law.terms.feedback
         oscillated = OSCILLATED.format(share) if share < MOSTLY else ''
-        lasts = received.blindness or received.tracking or oscillated
+        lasts = received.blindness or received.tracking or oscillated or received.delay
         if lasts:
             return Health(Level.WARN, lasts, values)
     return Health(Level.OK, why or 'controlling', values)

@@ -4,10 +4,18 @@
 
 from typing import Any
 
+from pam_ros.control.loop import LATE
 from pam_ros.health.absence import Absence
 from pam_ros.health.controller import Received
 from pam_ros.health.health import Level
 from pam_ros.timing.pace import SECOND
+
+OFTEN = 0.1  # share of the joint states; single ones are late on every computer
+DELAYED = (
+    '{} of {} joint_states were late according to their stamps, by up to {:.2f} s: control '
+    'continued with the model meanwhile. Usual causes are a busy computer or network, or a rig '
+    'whose clock runs slower (set use_sim_time then)'
+)
 
 
 class Reports:
@@ -20,6 +28,8 @@ class Reports:
         self._implausibility, self._is_implausibility_new = '', False
         self._pause, self._pauses, self._is_pause_new = '', 0, False
         self._tracking = ''
+        self._seen = self._late = 0
+        self._latest = 0.0
         self._start = Absence(logger, 'control begins')
         self._states = Absence(
             logger, 'joint_states are received again: control continues', 0.0, Level.ERROR
@@ -60,6 +70,12 @@ class Reports:
         self._pauses += 1
         self._logger.warning(self._pause)
 
+    def delay(self, late: float) -> None:
+        """Note that a joint state arrived *late* s late."""
+        self._seen += 1
+        self._late += late > LATE
+        self._latest = max(self._latest, late)
+
     def follow(self, tracking: str) -> None:
         """Report which error or saturation lasts, '' if none does; log it when it begins."""
         if tracking and not self._tracking:
@@ -80,6 +96,7 @@ class Reports:
 
     def received(self, age: float | None, blindness: str) -> Received:
         """Return the current report; what is new in it is no longer new in the next one."""
+        is_often_late = self._late > OFTEN * self._seen
         received = Received(
             age=age,
             blindness=blindness,
@@ -91,7 +108,10 @@ class Reports:
             pauses=self._pauses,
             pause=self._pause,
             is_pause_new=self._is_pause_new,
+            delay=DELAYED.format(self._late, self._seen, self._latest) if is_often_late else '',
             tracking=self._tracking,
         )
+        self._seen = self._late = 0
+        self._latest = 0.0
         self._is_refusal_new = self._is_implausibility_new = self._is_pause_new = False
         return received

@@ -8,6 +8,7 @@ Messages that were sent during it are delivered after its end, and look like new
 
 import time
 
+from pam_ros.timing.delay import ShortestDelay
 from pam_ros.timing.pace import SECOND
 
 SETTLE = SECOND // 5  # ns of running after an interruption within which queued messages arrive
@@ -38,7 +39,7 @@ class Interruptions:
         """Start at the time *now*, without an interruption."""
         self._marked = self._resumed = now
         self._ran = PATIENCE  # since the last interruption
-        self._shortest: dict[str, tuple[int, int]] = {}  # shortest delay of each, and its time
+        self._delays: dict[str, ShortestDelay] = {}  # of each source
 
     def mark(self, now: int) -> None:
         """Note that the work that began at *now* is done, with a command or without one.
@@ -75,12 +76,8 @@ class Interruptions:
             return True
         if not stamp:
             return False
-        delay = now - stamp
-        if source in self._shortest:
-            shortest, noted = self._shortest[source]
-            shortest += (now - noted) // DRIFT
-            if self._ran < PATIENCE and stamp + shortest < self._resumed:
-                return True
-            delay = min(delay, shortest)
-        self._shortest[source] = delay, now
+        delay = self._delays.setdefault(source, ShortestDelay(DRIFT))
+        if self._ran < PATIENCE and now - delay.late(stamp, now) < self._resumed:
+            return True
+        delay.note(stamp, now)
         return False

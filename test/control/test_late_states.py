@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""States that come late: control goes on by the model until the time-out."""
+"""States that stay away or come late: control goes on by the model until the time-out."""
 
 import numpy as np
 import pytest
@@ -11,6 +11,8 @@ from pam_ros.control.reference.shaping import Shape
 from pam_ros.control.reference.source import ReferenceSource
 from pam_ros.control.sliding_mode import SlidingMode
 from pam_ros.settings.control import ControlSettings
+from pam_ros.timing.delay import Lateness
+from pam_ros.timing.pace import SECOND
 from support.baseline import pid
 from support.closed_loop import close_loop, nominal, sine_target, truth
 
@@ -53,10 +55,8 @@ def test_a_moving_reference_is_followed_by_the_model(law, most):
     assert largest_error(law, 'nominal', sine_target(0.01, 0.5), DELAY) < most
 
 
-@pytest.mark.parametrize('law', [SlidingMode, pid()])
-def test_the_loop_neither_vents_nor_restarts(law):
-    settings, plant = ControlSettings(), truth('nominal', seed=3)
-    law = law(nominal())
+def loop_of(law, plant):
+    settings, law = ControlSettings(), law(nominal())
     loop = Loop(
         law,
         ReferenceSource(Shape(), (-0.02, 0.1)),
@@ -66,6 +66,13 @@ def test_the_loop_neither_vents_nor_restarts(law):
     loop.timeout, loop.safe = settings.state_timeout, settings.on_timeout
     assert loop.safe == VENT
     loop.chambers = (plant.state.u,)
+    return loop
+
+
+@pytest.mark.parametrize('law', [SlidingMode, pid()])
+def test_the_loop_neither_vents_nor_restarts(law):
+    plant = truth('nominal', seed=3)
+    loop = loop_of(law, plant)
     measured, positions, commands = plant.measure(), [], []
     for n in range(round((LATE + 1.0) / PERIOD)):
         t = n * PERIOD
@@ -80,3 +87,57 @@ def test_the_loop_neither_vents_nor_restarts(law):
     late = slice(round(LATE / PERIOD), None)
     assert np.ptp(positions[late]) < 1e-3
     assert np.max(np.abs(np.diff(commands[late]))) < 5e3
+
+
+STALLS, STALL = 1.0, 0.12  # 1/s, and s that one lasts in the mean
+CATCH_UP = 5  # times as fast as time passes a rig catches up
+MOVES = 2.0  # s between two targets, which are 10 mm apart
+
+
+class Busy:
+    """A rig on a busy computer: it stands for some time, again and again, and catches up.
+
+    Its states have the stamps of the times at which they would have been measured.
+    """
+
+    def __init__(self, plant, seed):
+        self.plant, self.random = plant, np.random.default_rng(seed)
+        self.count, self.stands_until = 0, 0.0
+        self.speeds = []
+
+    def run_until(self, periods, command):
+        """Follow *command* Pa up to the period *periods*, if it can; return the states."""
+        now = periods * PERIOD
+        if now > 2.0 and now >= self.stands_until and self.random.random() < STALLS * PERIOD:
+            self.stands_until = now + min(self.random.exponential(STALL), DELAY)
+        states = []
+        while now >= self.stands_until and self.count < periods and len(states) < CATCH_UP:
+            before = self.plant.y
+            measured = self.plant.step(command, PERIOD)
+            self.count += 1
+            self.speeds.append(abs(self.plant.y - before) / PERIOD)
+            states.append((self.count * PERIOD, measured))
+        return states
+
+
+@pytest.mark.parametrize('plant', ['nominal', 'friction', 'lag'])
+@pytest.mark.parametrize('seed', range(4))
+def test_the_load_is_moved_within_its_limits_by_a_rig_on_a_busy_computer(plant, seed):
+    """If late states count as present ones, it is thrown at up to 1.4 m/s (12 seeds)."""
+    rig = Busy(truth(plant, seed=seed), seed)
+    loop = loop_of(SlidingMode, rig.plant)
+    lateness, low = Lateness(), rig.plant.y
+    loop.see(Reading(0.0, rig.plant.measure(), stamp=0.0))
+    (command,) = loop.tick(0.0)
+    for n in range(1, round(20.0 / PERIOD)):
+        now = n * PERIOD
+        for stamp, measured in rig.run_until(n, command):
+            late = lateness.of(round(stamp * SECOND), round(now * SECOND)) / SECOND
+            loop.see(Reading(now - late, measured, stamp=stamp))
+        (command,) = loop.tick(now)
+        if n % round(MOVES / PERIOD) == 0:
+            loop.source.set_target(low + 0.01 * (now // MOVES % 2))
+    assert loop.late > 50
+    assert loop.starts == 1
+    print(f'{max(rig.speeds):.3f} m/s, {loop.late} late')
+    assert max(rig.speeds) < 4.0 * Shape().max_velocity

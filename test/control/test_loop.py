@@ -9,6 +9,7 @@ from pam_ros.control.loop import (
     BLIND,
     DISABLED,
     HOLD,
+    LATE,
     RUNNING,
     VENT,
     VENTING,
@@ -100,6 +101,43 @@ def test_a_measurement_is_used_once_and_an_old_one_never(loop):
     loop.see(Reading(1.005, 0.06))
     loop.tick(1.006)
     assert [call[2] for call in loop.law.calls] == [0.05, None, None, 0.06]
+
+
+def test_a_measurement_that_is_late_is_counted_and_not_used(loop):
+    used = []
+    delays = 0.0, LATE, 1.1 * LATE + PERIOD, 0.09, 0.0
+    for now, late in zip((1.0, 1.1, 1.2, 1.3, 1.4), delays, strict=True):
+        loop.see(Reading(now - late, 0.05))
+        loop.tick(now)
+        used.append(loop.law.calls[-1][2] is not None)
+        loop.tick(now + PERIOD)  # it is not new any more
+    assert used == [True, True, False, False, True]
+    assert (loop.state, loop.starts, loop.late) == (RUNNING, 1, 2)
+
+
+def test_a_measurement_that_is_later_than_the_timeout_is_none(loop):
+    loop.see(Reading(1.0, 0.05))
+    loop.tick(1.0)
+    loop.see(Reading(1.19, 0.05))
+    assert loop.tick(1.3) == first(1)
+    assert loop.state == BLIND
+
+
+def test_control_does_not_begin_at_a_measurement_that_is_late(loop):
+    loop.see(Reading(1.0, 0.05))
+    assert loop.tick(1.05) is None
+    loop.see(Reading(1.06, 0.04))
+    assert loop.tick(1.06) == first(1)
+    assert loop.law.starts == [(0.04, None)]
+    loop.tick(1.2)
+    assert loop.state == BLIND
+    loop.see(Reading(1.25, 0.03))
+    assert loop.tick(1.3) == first(1)
+    assert (loop.state, loop.starts) == (BLIND, 1)
+    loop.see(Reading(1.3, 0.02))
+    loop.tick(1.3)
+    assert loop.law.starts[-1] == (0.02, first(1))
+    assert (loop.state, loop.starts) == (RUNNING, 2)
 
 
 def test_steps_are_as_long_as_they_were(loop):

@@ -21,7 +21,7 @@ WELL = Received(age=0.01)
 NO_JOINT = 'joint_states has no joint pam'
 PAUSE = 'no command was given for 2.00 s, longer than command_timeout (1 s)'
 FALSE = 'joint_states has a position -1 m, which is beyond the travel of the joint'
-
+DELAYED = '20 of 100 joint_states were late according to their stamps, by up to 0.21 s'
 LASTS = 'the command is at a limit of pressure for more than 3 s'
 
 
@@ -60,6 +60,8 @@ def setup():
             FALSE,
         ),
         (RUNNING, {'tracking': LASTS}, '', Level.WARN, LASTS),
+        (RUNNING, {'delay': DELAYED}, '', Level.WARN, DELAYED),
+        (RUNNING, {'tracking': LASTS, 'delay': DELAYED}, '', Level.WARN, LASTS),
         (RUNNING, {'tracking': LASTS, 'blindness': NO_JOINT}, '', Level.WARN, NO_JOINT),
         (WAITING, {'tracking': LASTS}, '', Level.WARN, 'waits for joint_states'),
         (WAITING, {}, '', Level.WARN, 'waits for joint_states'),

@@ -35,6 +35,7 @@ from pam_ros.nodes.control.rig_watch import RigWatch
 from pam_ros.nodes.control.state import StateTopic
 from pam_ros.nodes.control.topics import watch_topics
 from pam_ros.settings.control import ControlSetup, settings_of
+from pam_ros.timing.delay import Lateness
 from pam_ros.timing.interruption import steady_ns
 from pam_ros.timing.pace import SECOND
 from pam_ros.timing.ticker import Ticker
@@ -81,6 +82,7 @@ class PamControl(TickingNode):
             lambda: self._setup.settings.longest_interruption,
             self._restart_after_pause,
         )
+        self._lateness = Lateness()
         self._shown = 0  # ROS time of the last message on ~/state, ns
         self._fault = ''
         self._commanded = 0
@@ -270,8 +272,11 @@ class PamControl(TickingNode):
             return
         passed = 0 if self._stamp is None else state.stamp - self._stamp
         if not self._is_followed:
+            now = steady_ns()
+            late = self._lateness.of(state.stamp, now)
             self._stamp = state.stamp
-            self._pass_on(state, steady_ns())
+            self._pass_on(state, now - late)
+            self._note_lateness(late / SECOND)
             return
         if passed < 0:
             self._loop.forget()  # simulated time starts again, and so does control
@@ -296,6 +301,12 @@ class PamControl(TickingNode):
             return
         self._blindness = f'joint_states has a {fault}: not used'
         self._reports.leave_out(self._blindness)
+
+    def _note_lateness(self, late: float) -> None:
+        """Report that a state arrived *late* s late."""
+        self._reports.delay(late)
+        if late > self._setup.settings.state_timeout:
+            self._blindness = control_health.late(late)
 
     def _see_again(self) -> None:
         """Answer a state that is published again: in lockstep the answer was not received."""
