@@ -25,14 +25,22 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / 'test'))
 from pam_ros.control.gains import SUPER_TWISTING, Gains
 from pam_ros.control.pid import Pid
 from pam_ros.control.sliding_mode import SlidingMode
-from pam_ros.effects import CoulombFriction, PressureLag
-from support.closed_loop import LAG, Run, close_loop, nominal, sine_target, step_target, truth
+from pam_ros.effects import CoulombFriction
+from support.closed_loop import (
+    LAG,
+    LAG_WITH_ZONE,
+    ZONE,
+    Run,
+    close_loop,
+    nominal,
+    sine_target,
+    step_target,
+    truth,
+)
 from truth import TruthPlant
 from truth.control_plants import FEEDBACK_NOISE as NOISE
 
 FRICTION = (CoulombFriction(level=15.0, breakaway=25.0, stribeck_speed=0.01),)
-ZONE = (PressureLag(fill=0.050, vent=0.070, dead_zone=6e3),)
-ZONE_ALONE = (PressureLag(dead_zone=6e3),)
 # Plant, what is configured of it; largest error at rest and RMS of the sine, mm.
 ROWS = {
     'nominal': ('nominal', (), 0.01, 0.02),
@@ -43,8 +51,8 @@ ROWS = {
     'valve lag 50/70 ms': ('lag', (), 0.03, 0.25),
     'valve lag, configured': ('lag', LAG, 0.01, 0.05),
     'lag, dead zone 6 kPa': ('dead zone', (), 0.03, 0.15),
-    'its zone, configured': ('dead zone', ZONE_ALONE, 0.03, 0.15),
-    'both, configured': ('dead zone', ZONE, 0.03, 0.15),
+    'its zone, configured': ('dead zone', ZONE, 0.03, 0.15),
+    'both, configured': ('dead zone', LAG_WITH_ZONE, 0.03, 0.15),
     'dead time 80 ms': ('dead time', (), 0.03, 1.5),
     'all, and 10 ms dead time': ('all', (), 0.06, 0.6),
 }

@@ -20,12 +20,9 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1] / 'test'))
 
 from pam_ros.control.pid import Pid
 from pam_ros.control.sliding_mode import SlidingMode
-from pam_ros.effects import PressureLag
-from support.pair_loop import LAG, close_pair, nominal
+from support.pair_loop import LAG, LAG_WITH_ZONE, ZONE, close_pair, nominal
 from truth.pair import pair_plant
 
-ZONE = (PressureLag(fill=0.050, vent=0.070, dead_zone=6e3),)
-ZONE_ALONE = (PressureLag(dead_zone=6e3),)
 # Plant, what is configured of its muscles; largest RMS of the sine, degrees.
 ROWS = {
     'nominal': ('nominal', (), 0.03),
@@ -36,8 +33,8 @@ ROWS = {
     'valve lag 50/70 ms': ('lag', (), 0.06),
     'the same, configured': ('lag', LAG, 0.03),
     'lag, dead zone 6 kPa': ('dead zone', (), 0.3),
-    'its zone, configured': ('dead zone', ZONE_ALONE, 0.1),
-    'both, configured': ('dead zone', ZONE, 0.06),
+    'its zone, configured': ('dead zone', ZONE, 0.1),
+    'both, configured': ('dead zone', LAG_WITH_ZONE, 0.06),
     'dead time 40 ms': ('dead time', (), 0.6),
     'hysteresis 15 N each': ('hysteresis', (), 0.06),
     'all, and 10 ms dead time': ('all', (), 0.2),

@@ -20,6 +20,8 @@ from truth.control_plants import FEEDBACK_NOISE
 
 STREAM = 0.01  # s between two samples of a moving target
 LAG = [PressureLag(fill=0.050, vent=0.070)]
+ZONE = [PressureLag(dead_zone=6e3)]
+LAG_WITH_ZONE = [PressureLag(fill=0.050, vent=0.070, dead_zone=6e3)]
 
 
 @dataclass

@@ -10,9 +10,9 @@ from pam_ros.control.reference.shaping import Shape, Shaper
 from pam_ros.rig.joint import Actuator, Joint
 from pam_ros.rig.loads import Arm
 from pam_ros.rig.transmissions import Pulley
-from support.closed_loop import LAG, STREAM
+from support.closed_loop import LAG, LAG_WITH_ZONE, STREAM, ZONE
 
-__all__ = ['LAG', 'PairRun', 'close_pair', 'nominal']
+__all__ = ['LAG', 'LAG_WITH_ZONE', 'ZONE', 'PairRun', 'close_pair', 'nominal']
 TERMS = ('error', 'surface', 'switching', 'observer', 'learned', 'bandwidth')
 
 

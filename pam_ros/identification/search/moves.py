@@ -118,12 +118,7 @@ def fixed(model: Model, setting: Setting) -> list[Model]:
         for names in plainer_sets(known.problem.unknowns, place)
     ]
 
-    def fit(option: tuple[Place, set[str]]) -> Model:
-        return _less(
-            model.effects, known, *with_parameters(known.problem, setting.joint, *option), setting
-        )
-
-    less = [fit(option) for option in options]
+    less = [_narrowed(model, *option, setting) for option in options]
     return [*less, *(one for name in model.effects for one in simplified(model, name, setting))]
 
 
@@ -132,20 +127,22 @@ def weakened(model: Model, name: str, setting: Setting) -> list[Model]:
 
     For each set of strengths with which a fit may also begin, it has the fewest parameters.
     """
-    known, place = model.solution, setting.places[name]
+    unknowns, place = model.solution.problem.unknowns, setting.places[name]
     strengths = {p.name for p in place.parameters if p.strength}
-    there = strengths & parameters_of(known.problem.unknowns, name)
+    there = strengths & parameters_of(unknowns, name)
     fewest: dict[frozenset[str], set[str]] = {}
-    for names in sorted(plainer_sets(known.problem.unknowns, place), key=len):
+    for names in sorted(plainer_sets(unknowns, place), key=len):
         left = frozenset(strengths & names)
         if left < there:
             fewest.setdefault(left, names)
+    return [_narrowed(model, place, names, setting) for names in fewest.values()]
 
-    def fit(names: set[str]) -> Model:
-        problem, keep = with_parameters(known.problem, setting.joint, place, names)
-        return _less(model.effects, known, problem, keep, setting)
 
-    return [fit(names) for names in fewest.values()]
+def _narrowed(model: Model, place: Place, names: set[str], setting: Setting) -> Model:
+    """Return *model* with only the parameters *names* of an effect, from its present values."""
+    known = model.solution
+    less = with_parameters(known.problem, setting.joint, place, names)
+    return _less(model.effects, known, *less, setting)
 
 
 def simplified(model: Model, name: str, setting: Setting) -> list[Model]:
@@ -226,11 +223,3 @@ def _kept(known: Solution, problem: Problem, keep: list[int]) -> Solution:
     u = known.u[keep]
     slopes = known.jacobian[:, keep]
     return Solution(problem, u, problem.residuals(u), slopes, known.discrepancy)
-
-
-def swapped(
-    model: Model, name: str, others: list[str], setting: Setting
-) -> tuple[Model, list[Model]]:
-    """Return *model* without an effect, and with each of *others* instead, the best first."""
-    less = dropped(model, name, setting)
-    return less, with_each(less, others, setting)

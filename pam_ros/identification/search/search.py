@@ -28,7 +28,6 @@ from pam_ros.identification.search.moves import (
     fixed,
     freed,
     simplified,
-    swapped,
     weakened,
     with_each,
     without_idle_parameters,
@@ -237,7 +236,8 @@ def _plainer(now: Model, name: str, found: Search) -> Model:
     simpler = contained(now, name, setting)
     if not simpler:
         return now
-    less, others = swapped(now, name, simpler, setting)
+    less = dropped(now, name, setting)
+    others = with_each(less, simpler, setting)
     found.looked_at += [less, *others]
     for simple in others:
         more = with_more(simple, found)

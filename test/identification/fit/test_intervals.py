@@ -119,7 +119,7 @@ def test_what_the_data_do_not_determine_has_the_interval_of_its_prior():
 
 
 def test_two_unknowns_that_act_alike_have_the_interval_of_their_difference():
-    """Their sum is known exactly; the data hold no digit of the difference of J'J."""
+    """Their sum is known exactly; J'J holds no digit of their difference."""
     basis = 1e8 * np.stack([T, T], axis=1)
     r = NOISE * np.random.default_rng(2).standard_normal(T.size)
     problem = equation(lambda u: basis @ u + r, [unknown(name, prior=3.0) for name in 'ab'])

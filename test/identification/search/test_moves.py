@@ -17,7 +17,6 @@ from pam_ros.identification.search.moves import (
     fixed,
     freed,
     simplified,
-    swapped,
     weakened,
     with_each,
     without_idle_parameters,
@@ -108,7 +107,8 @@ def test_a_fit_that_stopped_with_a_slow_discrepancy_continues_from_the_nearest_r
 
 def test_another_effect_in_its_place(tried, setting):
     wrong = next(m for m in tried if m.effects == ('dead_time',))
-    less, (right,) = swapped(wrong, 'dead_time', ['pressure_lag'], setting)
+    less = dropped(wrong, 'dead_time', setting)
+    (right,) = with_each(less, ['pressure_lag'], setting)
     assert less.effects == ()
     assert less.score > wrong.score
     assert right.effects == ('pressure_lag',)

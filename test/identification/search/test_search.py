@@ -92,7 +92,8 @@ def test_a_simpler_effect_counts_by_its_best_fit(pool, monkeypatch):
     (lag, *_) = with_each(found.retuned, ['pressure_lag'], setting)
     worse = [replace(found.retuned, effects=('pressure_lag',))]
     monkeypatch.setattr(search_module, 'simplified', lambda *given: [])
-    monkeypatch.setattr(search_module, 'swapped', lambda *given: (found.retuned, worse))
+    monkeypatch.setattr(search_module, 'dropped', lambda *given: found.retuned)
+    monkeypatch.setattr(search_module, 'with_each', lambda *given: worse)
     monkeypatch.setattr(search_module, 'with_more', lambda model, found: model)
     assert plainer(leak, leak.effects, found) is leak
     found.looked_at.append(lag)
@@ -106,7 +107,8 @@ def test_additional_parameters_that_are_not_needed_do_not_save_a_broader_effect(
     (lag, *_) = with_each(found.retuned, ['pressure_lag'], setting)
     worse = replace(lag, solution=replace(found.retuned.solution))
     monkeypatch.setattr(search_module, 'simplified', lambda *given: [])
-    monkeypatch.setattr(search_module, 'swapped', lambda *given: (found.retuned, [lag]))
+    monkeypatch.setattr(search_module, 'dropped', lambda *given: found.retuned)
+    monkeypatch.setattr(search_module, 'with_each', lambda *given: [lag])
     monkeypatch.setattr(search_module, 'with_more', lambda model, found: worse)
     assert plainer(leak, leak.effects, found) is lag
 
