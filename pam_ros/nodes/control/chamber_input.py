@@ -105,9 +105,10 @@ class ChamberInput:
             if one and (abs(stamp - one[0]) if stamp and one[0] else now - one[1]) <= FRESH
         ]
         loop.chambers = setup.law.command_at(fresh) if len(fresh) == len(self._found) else None
-        self._waited = self._waited + min(now - self._looked, LONGEST) if is_seen() else 0
+        are_states_seen = is_seen()
+        self._waited = self._waited + min(now - self._looked, LONGEST) if are_states_seen else 0
         self._looked = now
-        is_early = self._waited < setup.settings.pressure_wait * SECOND
+        is_early = are_states_seen and self._waited < setup.settings.pressure_wait * SECOND
         loop.awaits_chamber = is_early and (loop.state == WAITING or self._is_published)
 
     def _leave_out_faults(self, setup: ControlSetup) -> None:

@@ -114,6 +114,9 @@ def test_states_whose_stamp_stays_the_same_are_no_states_and_this_is_the_reason(
         return any(words in s.message for array in watch.arrays for s in array.status)
 
     with Program('pam_control', parameters={'state_timeout': 0.5}) as control:
+        # Control does not begin with a state that may be old.
+        peer.until(lambda: shown(f'waits for joint_states: {reason}'), 'the reason at the start')
+        rig.tell_until(lambda: watch.terms, 'control')
         peer.until(lambda: shown(f'has stopped: vents: {reason}'), 'the reason')
         peer.until(lambda: f'has stopped: vents: {reason}' in control.output, 'the log')
         # If it is enabled again, it has no state yet.
