@@ -127,5 +127,6 @@ def _scaled(known: Solution) -> tuple[Array, Array, float]:
     unit = np.eye(problem.prior.size)
     triangle = unit
     for i in range(0, len(slope), ROWS):
-        triangle = np.linalg.qr(np.vstack([triangle, slope[i : i + ROWS]]), mode='r')
+        rows = np.vstack([triangle, slope[i : i + ROWS]])
+        triangle = np.asarray(np.linalg.qr(rows, mode='r'))
     return slope, np.asarray(solve_triangular(triangle, unit), dtype=float), s
