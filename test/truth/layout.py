@@ -10,6 +10,7 @@ from .compiled import blank, element
 
 ELEMENTS = 12  # slip elements of a hysteresis
 QUEUE = 512  # commands in flight through a dead time
+ENOUGH = 1e9  # Pa of a supply that limits no regulator
 
 # Zero means absent for every effect's field. The unit is the end of the name where it has one;
 # the catalogue says what each one is.
@@ -35,6 +36,7 @@ PARAMETERS = (
 )
 STATE = (
     *('t', 'y', 'v', 'p', 'pull', 'u', 'valve_time', 'head', 'tail', 'y_mem', 'p_mem', 'bristle'),
+    'supply_pa',
     *(
         'lag_1',
         'lag_2',
@@ -66,5 +68,7 @@ def new_parameters() -> Any:
 
 
 def new_state() -> Any:
-    """Return a sequence of one record of all states at zero."""
-    return blank('state', STATE, STATE_ARRAYS)
+    """Return a sequence of one record of all states at zero; the supply always suffices."""
+    sequence = blank('state', STATE, STATE_ARRAYS)
+    element(sequence).supply_pa = ENOUGH
+    return sequence

@@ -19,10 +19,11 @@ from .effects import Effect, effect
 from .forces import bend_bristle, damping, friction, law, memory, tendon
 from .layout import ELEMENTS, new_parameters, new_state
 from .muscles import GRAVITY, constants_si
-from .pneumatics import chamber, push_command, receive, working_pressure
+from .pneumatics import push_command, receive, working_pressure
+from .reservoir import RESERVOIR, Reservoir, fill
 from .sensor import Sensor
 
-PAIR = ('radius', 'inertia', 'moment', 'hanging_at', 'x1', 'x2', 'q', 'rate', 'push')
+PAIR = ('radius', 'inertia', 'moment', 'hanging_at', 'x1', 'x2', 'q', 'rate', 'push', *RESERVOIR)
 
 
 @jit
@@ -39,8 +40,7 @@ def pair_substep(P1, S1, P2, S2, PL, SL, G, d):
     """Advance by d seconds; PL, SL are the pivot's friction."""
     receive(S1)
     receive(S2)
-    chamber(P1, S1, S1.t, 0.5 * d)
-    chamber(P2, S2, S2.t, 0.5 * d)
+    fill(P1, S1, P2, S2, G, S1.t, 0.5 * d)
     G.q += 0.5 * d * G.rate
     if PL.bristle_n_m > 0.0:
         bend_bristle(PL, SL, G.rate, 0.5 * d)
@@ -65,8 +65,7 @@ def pair_substep(P1, S1, P2, S2, PL, SL, G, d):
     if PL.bristle_n_m > 0.0:
         bend_bristle(PL, SL, G.rate, 0.5 * d)
     G.q += 0.5 * d * G.rate
-    chamber(P1, S1, S1.t + 0.5 * d, 0.5 * d)
-    chamber(P2, S2, S2.t + 0.5 * d, 0.5 * d)
+    fill(P1, S1, P2, S2, G, S1.t + 0.5 * d, 0.5 * d)
     S1.t += d
     S2.t += d
 
@@ -116,6 +115,7 @@ class TruthPair:
     in_muscles   effects of both muscles; friction effects act at the pivot, in N m and rad/s
     in_each      effects of the first muscle alone, and of the second alone
     constants    a1..a6 in SI of each muscle, in the place of those published
+    reservoir    from which both muscles fill; None: the supply always suffices
     dt           largest substep, s
     """
 
@@ -135,10 +135,12 @@ class TruthPair:
         at_pivot: Sequence[Effect] = (),
         in_each: tuple[Sequence[Effect], Sequence[Effect]] = ((), ()),
         constants: tuple[tuple[float, ...], tuple[float, ...]] | None = None,
+        reservoir: Reservoir | None = None,
         dt: float = 5e-5,
         sensor: Sensor | None = None,
         seed: int = 0,
     ) -> None:
+        self.reservoir = reservoir
         self.dt, self.seed, self.sensor = dt, seed, sensor or Sensor()
         self._parameters = tuple(new_parameters() for _ in range(3))
         self._states = tuple(new_state() for _ in range(3))
@@ -168,6 +170,8 @@ class TruthPair:
         self.sensor.reset(self.seed)
         G = self.state
         G.q, G.rate = angle, 0.0
+        if self.reservoir:
+            self.reservoir.put_into(G)
         for i, p in enumerate((*p0, 0.0)):
             S, P = element(self._states[i]), element(self._parameters[i])
             S.t = S.head = S.tail = 0.0

@@ -69,7 +69,7 @@ def valve_rate(P, p, target):
 def regulated(P, S, t):
     """Return the pressure that the regulator would give at time t."""
     target = S.u * P.regulator_gain + P.regulator_pa - P.overlap_pa
-    target = min(max(target, 0.0), 1.0e6)
+    target = min(max(target, 0.0), 1.0e6, S.supply_pa)
     if P.ripple_pa != 0.0:
         target += P.ripple_pa * math.sin(2.0 * math.pi * P.ripple_hz * t + P.ripple_rad)
     if P.dead_zone_pa != 0.0:

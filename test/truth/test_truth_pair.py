@@ -9,8 +9,10 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from support import joints, paper
+from truth.effects import effect
 from truth.muscles import GRAVITY
 from truth.pair import PAIR_PLANTS, TruthPair, pair_plant
+from truth.reservoir import Reservoir
 
 BAR = 1e5
 # The moment of gravity of ``support.joints``, which falls a little slower, and the same inertia.
@@ -80,6 +82,60 @@ def test_the_chambers_lag():
     fill, vent = plant.pressures
     assert fill == pytest.approx(3e5 - 1e5 * math.exp(-0.05 / 0.05), rel=1e-9)
     assert vent == pytest.approx(1e5 + 1e5 * math.exp(-0.05 / 0.07), rel=1e-9)
+
+
+FILL, VENT = 0.05, 0.07
+LAG = effect('pressure_lag', 'two_times', fill_s=FILL, vent_s=VENT)
+
+
+def from_reservoir(reservoir, commands, seconds):
+    """Return times, both pressures and that of the reservoir, of its differential equations."""
+
+    def rates(_, state):
+        p, supply = state[:2], state[2]
+        wanted = np.minimum(commands, supply)
+        change = (wanted - p) / np.where(wanted >= p, FILL, VENT)
+        fed = (change > 0.0) | (np.asarray(commands) >= supply)
+        back = (reservoir.level - supply) / reservoir.recovery
+        return [*change, back - reservoir.share * change[fed].sum()]
+
+    t = np.linspace(0.002, seconds, round(seconds / 0.002))
+    start = (1e5, 1e5, reservoir.level)
+    found = solve_ivp(rates, (0.0, seconds), start, 'RK45', t, rtol=1e-9, atol=1e-3, max_step=1e-3)
+    return t, found.y[:2], found.y[2]
+
+
+@pytest.mark.parametrize('commands', [(4e5, 4e5), (4e5, 0.5e5), (5.5e5, 3e5)])
+def test_a_reservoir_falls_while_the_muscles_fill(commands):
+    reservoir = Reservoir(level=5e5, share=0.2, recovery=0.8)
+    t, pressures, supply = from_reservoir(reservoir, commands, 1.5)
+    assert supply.min() < 0.95 * reservoir.level
+    plant = TruthPair(in_muscles=(LAG,), reservoir=reservoir)
+    plant.reset(0.0, (1e5, 1e5))
+    rows = []
+    for _ in t:
+        plant.step(commands, 0.002)
+        rows.append((*plant.pressures, plant.state.supply))
+    np.testing.assert_allclose(np.transpose(rows), [*pressures, supply], atol=60.0)
+
+
+def test_a_large_reservoir_is_no_reservoir():
+    ends = []
+    for reservoir in (None, Reservoir(level=6e5, share=0.0, recovery=1.0)):
+        plant = TruthPair(in_muscles=(LAG,), reservoir=reservoir)
+        plant.reset(0.0, (3e5, 3e5))
+        ends.append([plant.step((4e5, 2e5), 2e-3) for _ in range(100)])
+    assert ends[0] == ends[1]
+
+
+def test_both_muscles_together_fill_more_slowly_than_one_alone():
+    reached = []
+    for other in (1e5, 4e5):
+        plant = TruthPair(in_muscles=(LAG,), reservoir=Reservoir(4.5e5, share=0.3, recovery=5.0))
+        plant.reset(0.0, (1e5, 1e5))
+        plant.step((4e5, other), 0.1)
+        reached.append(plant.pressures[0])
+    assert reached[1] < reached[0] - 10e3
 
 
 @pytest.mark.parametrize('name', PAIR_PLANTS)
