@@ -23,6 +23,12 @@ LEAST, MOST = 0.1, 0.1
 # s by which a measurement may be late for the law to use it. A later one that is taken for the
 # present position makes a loop oscillate, as an unconfigured delay of 20 to 80 ms does.
 LATE = 0.02
+# Share of the newest interval between two measurements in the usual one: a single pause of the
+# rig hardly counts, and a rate that changes counts within a dozen measurements.
+NEWEST = 0.1
+# s in which the reference stops when measurements stay away, and continues when they are back: its
+# velocity does not jump, and a measurement that is a few ms overdue hardly slows it.
+STOPPING = 0.03
 # s for which 0 Pa is commanded after venting, so that a lost message does not matter. It is short,
 # since a simulator or valve that is restarted must not receive the command for the former one.
 VENTING = 0.2
@@ -78,6 +84,8 @@ class Loop:
         self.starts = 0
         self._seen: Reading | None = None
         self._is_new = False
+        self._used = self._usual = 0.0  # time of the last measurement used, usual interval, s
+        self._pace = 1.0  # of the reference: 0 while it is held
         self.lost: float | None = None
         self.is_received = True
         self._left: Pressures = ()  # the pressures at that time, Pa
@@ -169,12 +177,30 @@ class Loop:
             self.late += 1
         elif self._is_new:
             position, velocity = reading.position, reading.velocity
+            self._use(reading.time)
         self._is_new = False
-        reference = self.source.follow(dt, passed - dt)
+        reference = self.source.follow(dt, passed - dt, self._pace_after(dt))
         # Only that of a new reading counts, which is late if the program was stopped.
         age = min(max(now - reading.time, -LONGEST), LONGEST)
         self.pressures = self.law.update(dt, reference, position, velocity, age)
         return self.pressures
+
+    def _use(self, time: float) -> None:
+        """Note that the law uses a measurement of *time* s."""
+        interval, is_first = time - self._used, self._usual == 0.0
+        self._usual += (1.0 if is_first else NEWEST) * (interval - self._usual)
+        self._used = time
+
+    def _pace_after(self, dt: float) -> float:
+        """Return the pace of the reference after another *dt* s.
+
+        It is held while measurements stay away for longer than usual. A rig that has stopped
+        follows no command; when it catches up, it would move the load faster than the reference.
+        """
+        is_held = self.time - self._used > self._usual + LATE + self.period
+        change = dt / STOPPING
+        self._pace = max(self._pace - change, 0.0) if is_held else min(self._pace + change, 1.0)
+        return self._pace
 
     def _start(self, reading: Reading, now: float) -> None:
         """Start again at the present position and pressure of the load."""
@@ -182,6 +208,7 @@ class Loop:
         self.law.start(reading.position, known)
         self.source.start(reading.position)
         self.time = now - self.period
+        self._used, self._pace = reading.time - self._usual, 1.0
         self.state = RUNNING
         self.starts += 1
 

@@ -91,27 +91,27 @@ def test_the_loop_neither_vents_nor_restarts(law):
 
 STALLS, STALL = 1.0, 0.12  # 1/s, and s that one lasts in the mean
 CATCH_UP = 5  # times as fast as time passes a rig catches up
-MOVES = 2.0  # s between two targets, which are 10 mm apart
+MOVES = 2.0  # s between two targets
 
 
 class Busy:
-    """A rig on a busy computer: it stands for some time, again and again, and catches up.
+    """A rig on a busy computer: it stops for some time, again and again, and catches up.
 
     Its states have the stamps of the times at which they would have been measured.
     """
 
     def __init__(self, plant, seed):
         self.plant, self.random = plant, np.random.default_rng(seed)
-        self.count, self.stands_until = 0, 0.0
+        self.count, self.stops_until = 0, 0.0
         self.speeds = []
 
     def run_until(self, periods, command):
         """Follow *command* Pa up to the period *periods*, if it can; return the states."""
         now = periods * PERIOD
-        if now > 2.0 and now >= self.stands_until and self.random.random() < STALLS * PERIOD:
-            self.stands_until = now + min(self.random.exponential(STALL), DELAY)
+        if now > 2.0 and now >= self.stops_until and self.random.random() < STALLS * PERIOD:
+            self.stops_until = now + min(self.random.exponential(STALL), DELAY)
         states = []
-        while now >= self.stands_until and self.count < periods and len(states) < CATCH_UP:
+        while now >= self.stops_until and self.count < periods and len(states) < CATCH_UP:
             before = self.plant.y
             measured = self.plant.step(command, PERIOD)
             self.count += 1
@@ -121,9 +121,17 @@ class Busy:
 
 
 @pytest.mark.parametrize('plant', ['nominal', 'friction', 'lag'])
-@pytest.mark.parametrize('seed', range(4))
-def test_the_load_is_moved_within_its_limits_by_a_rig_on_a_busy_computer(plant, seed):
-    """If late states count as present ones, it is thrown at up to 1.4 m/s (12 seeds)."""
+@pytest.mark.parametrize(
+    ('distance', 'seed', 'most'), [*((0.01, seed, 1.2) for seed in range(4)), (-0.04, 0, 1.5)]
+)
+def test_the_load_is_moved_within_its_limits_by_a_rig_on_a_busy_computer(
+    plant, distance, seed, most
+):
+    """If late states count as present ones, it is thrown at up to 1.4 m/s (10 mm, 12 seeds).
+
+    If the reference goes on while the rig has stopped, it is moved by 10 mm at up to 0.19 m/s, and
+    by 40 mm with this seed at 0.25 to 0.41 m/s.
+    """
     rig = Busy(truth(plant, seed=seed), seed)
     loop = loop_of(SlidingMode, rig.plant)
     lateness, low = Lateness(), rig.plant.y
@@ -136,8 +144,8 @@ def test_the_load_is_moved_within_its_limits_by_a_rig_on_a_busy_computer(plant, 
             loop.see(Reading(now - late, measured, stamp=stamp))
         (command,) = loop.tick(now)
         if n % round(MOVES / PERIOD) == 0:
-            loop.source.set_target(low + 0.01 * (now // MOVES % 2))
+            loop.source.set_target(low + distance * (now // MOVES % 2))
     assert loop.late > 50
     assert loop.starts == 1
     print(f'{max(rig.speeds):.3f} m/s, {loop.late} late')
-    assert max(rig.speeds) < 2.5 * Shape().max_velocity
+    assert max(rig.speeds) < most * Shape().max_velocity

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """A law in service: starts, time-outs, silence, clocks."""
 
+from itertools import pairwise
+
 import pytest
 
 from pam_ros.control.limits import Limits
@@ -11,6 +13,7 @@ from pam_ros.control.loop import (
     HOLD,
     LATE,
     RUNNING,
+    STOPPING,
     VENT,
     VENTING,
     WAITING,
@@ -138,6 +141,88 @@ def test_control_does_not_begin_at_a_measurement_that_is_late(loop):
     loop.tick(1.3)
     assert loop.law.starts[-1] == (0.02, first(1))
     assert (loop.state, loop.starts) == (RUNNING, 2)
+
+
+def moved_by(loop, measured, begin, end):
+    """Return how far the reference moves between two times while the load is measured at some."""
+    due, places = list(measured), {}
+    for n in range(round(end / PERIOD) + 1):
+        now = n * PERIOD
+        while due and due[0] <= now:
+            loop.see(Reading(due.pop(0), 0.05))
+        loop.tick(now)
+        if n == 1:
+            loop.source.set_target(0.95)
+        places[n] = loop.law.calls[-1][1]
+    assert (loop.state, loop.starts) == (RUNNING, 1)
+    return places[round(end / PERIOD)] - places[round(begin / PERIOD)]
+
+
+def times(interval, count):
+    return [n * interval for n in range(count)]
+
+
+def is_held(loop):
+    return loop.source.reference.velocity == 0.0
+
+
+def test_the_reference_is_held_while_measurements_stay_away(loop):
+    loop.timeout = 0.5
+    assert moved_by(loop, times(0.01, 101), 1.06 + STOPPING, 1.4) == 0.0
+    assert is_held(loop)
+    before = loop.source.reference.position
+    for n in range(1, 51):
+        loop.see(Reading(1.4 + n * PERIOD, 0.05))
+        loop.tick(1.4 + n * PERIOD)
+    assert before + 0.05 * 0.1 < loop.source.reference.position < before + 0.1 * 0.1
+    assert loop.source.reference.velocity == pytest.approx(0.1)
+
+
+def test_the_reference_stops_and_continues_without_a_jump(loop):
+    loop.timeout, velocities = 0.5, []
+    moved_by(loop, times(0.01, 101), 0.0, 1.0)
+    for n in range(501, 700):
+        now = n * PERIOD
+        if n > 600:
+            loop.see(Reading(now, 0.05))
+        loop.tick(now)
+        velocities.append(loop.source.reference.velocity)
+    assert min(velocities) == 0.0
+    assert velocities[0] == velocities[-1] == pytest.approx(0.1)
+    steps = [abs(b - a) for a, b in pairwise(velocities)]
+    assert max(steps) <= 1.01 * 0.1 * PERIOD / STOPPING
+
+
+def test_the_reference_is_held_while_measurements_arrive_too_late(loop):
+    loop.timeout = 0.5
+    moved_by(loop, times(0.01, 101), 0.0, 1.0)
+    for n in range(501, 600):
+        loop.see(Reading(n * PERIOD - 1.1 * LATE - PERIOD, 0.05))
+        loop.tick(n * PERIOD)
+    assert loop.state == RUNNING
+    assert is_held(loop)
+
+
+@pytest.mark.parametrize(
+    'measured',
+    [
+        times(0.1, 14),
+        times(0.02, 61),
+        [time for time in times(0.01, 121) if time != 0.9],  # one is lost
+        [0.02 * n + (n % 2) * 0.9 * LATE for n in range(61)],
+        # The rate changes.
+        times(0.002, 150) + [0.3 + 0.03 * n for n in range(40)],
+    ],
+)
+def test_the_reference_is_not_held_at_the_usual_interval(loop, measured):
+    loop.timeout = 0.5
+    assert moved_by(loop, measured, 0.7, 1.2) == pytest.approx(0.5 * 0.1, abs=1e-9)
+
+
+def test_the_usual_interval_is_hardly_longer_after_a_pause(loop):
+    loop.timeout = 0.5
+    measured = [*times(0.01, 101), *(1.3 + 0.01 * n for n in range(11))]
+    assert moved_by(loop, measured, 1.46 + STOPPING, 1.6) == 0.0
 
 
 def test_steps_are_as_long_as_they_were(loop):

@@ -195,20 +195,23 @@ class Shaper:
         )
         self._offset.begin(start, self.shape.bounds)
 
-    def follow(self, dt: float) -> Reference:
-        """Return the reference after another *dt* s."""
+    def follow(self, dt: float, pace: float = 1.0) -> Reference:
+        """Return the reference after another *dt* s; *pace* as for :meth:`along`."""
         if self._tracker.follow(dt):
             self._set_out(*self._tracker.state)
-        return self.along(dt, Reference(*self._tracker.state))
+        return self.along(dt, Reference(*self._tracker.state), pace)
 
-    def along(self, dt: float, target: Reference) -> Reference:
-        """Return the reference after another *dt* s, for the joined *target*."""
-        x, v, a = self._offset.follow(dt)
+    def along(self, dt: float, target: Reference, pace: float = 1.0) -> Reference:
+        """Return the reference after another *dt* s, for the joined *target*.
+
+        The approach to the target is slower by *pace*, 0 to 1; the target is not.
+        """
+        x, v, a = self._offset.follow(pace * dt)
         self.reference = Reference(
             target.position + x,
-            target.velocity + v,
-            target.acceleration + a,
-            target.jerk + self._offset.jerk,
+            target.velocity + pace * v,
+            target.acceleration + pace * pace * a,
+            target.jerk + pace * pace * pace * self._offset.jerk,
         )
         return self.reference
 

@@ -130,14 +130,18 @@ class ReferenceSource:
         self._trajectory = None
         self._shaper.stop()
 
-    def follow(self, dt: float, late: float = 0.0) -> Reference:
+    def follow(self, dt: float, late: float = 0.0, pace: float = 1.0) -> Reference:
         """Return the reference after another *dt* s.
 
         *late* s passed before that without a step. The trajectory continued in this time, as those
         of the other joints of the robot do; the reference catches up within the bounds.
+
+        *pace*, 0 to 1, slows the approach to a target; 0 holds it. A trajectory, and a target that
+        is set again and again as one that moves, have times of their own and are not slower: the
+        reference would have to catch up, and would be faster than was wanted.
         """
         if self._trajectory is None:
-            self._shaper.follow(dt)
+            self._shaper.follow(dt, pace)
             return self.reference
         before = self._since
         self._since += dt + late
@@ -145,7 +149,7 @@ class ReferenceSource:
         if late > 0.0 or before < 0.0 <= self._since:
             # The trajectory may begin in motion.
             self._shaper.join(now)
-        self._shaper.along(dt, now)
+        self._shaper.along(dt, now, pace)
         if self._since >= self._trajectory.duration:
             self._shaper.rest_at(now.position)
             self._trajectory = None

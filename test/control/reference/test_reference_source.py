@@ -10,6 +10,7 @@ import pytest
 from pam_ros.control.reference.points import Point, Points
 from pam_ros.control.reference.shaping import Shape
 from pam_ros.control.reference.source import ReferenceSource
+from pam_ros.control.signals import Reference
 from pam_ros.errors import RangeError
 
 DT = 2e-3
@@ -91,6 +92,39 @@ def test_a_step_waits_while_nobody_looks():
         one.set_target(0.05)
     source.follow(DT, 0.3)
     assert source.reference == other.follow(DT)
+
+
+def test_an_approach_is_slowed_and_held_and_then_the_same():
+    source, other = a_source(), a_source()
+    for one in (source, other):
+        one.set_target(0.05)
+        follow(one, 0.3)
+    before, slow, whole = source.reference, source.follow(2.0 * DT, pace=0.5), other.follow(DT)
+    assert slow.position == whole.position
+    assert slow.velocity == pytest.approx(0.5 * whole.velocity)
+    assert slow.acceleration == pytest.approx(0.25 * whole.acceleration)
+    assert slow.position > before.position
+    held = source.follow(0.3, pace=0.0)
+    assert held == Reference(slow.position)
+    assert source.follow(DT) == other.follow(DT)
+
+
+def test_a_trajectory_is_neither_slowed_nor_held():
+    source, other = a_source(), a_source()
+    for one in (source, other):
+        one.play(Points.of([Point(3.0, 0.08)]))
+    for pace in (1.0, 0.5, 0.0):
+        assert source.follow(0.2, pace=pace) == other.follow(0.2)
+
+
+def test_a_target_that_moves_is_neither_slowed_nor_held():
+    source, other = a_source(), a_source()
+    for one, pace in ((source, 0.0), (other, 1.0)):
+        for n in range(400):
+            if n % 5 == 0:
+                one.set_target(0.03 - 0.01 * math.cos(3.0 * n * DT))
+            one.follow(DT, pace=1.0 if n < 300 else pace)
+    assert source.reference == other.reference
 
 
 def test_a_trajectory_can_be_stopped():
