@@ -46,7 +46,7 @@ def test_what_arrives_later_than_others_is_late_by_the_difference(rig):
 
 
 def test_a_rig_that_catches_up_is_less_and_less_late(rig):
-    """It stands for 0.2 s, and then measures five times a period until none is missing."""
+    """It stops for 0.2 s, and then measures five times a period until none is missing."""
     said = [rig.arrive(200 * MS - 4 * n * PERIOD // 5) for n in range(60)]
     assert said[0] == pytest.approx(200 * MS, abs=(200 * MS + PERIOD) // DRIFT)
     assert all(after < before for before, after in pairwise(said))

@@ -74,7 +74,7 @@ def test_a_node_of_the_same_name_is_another_rig_before_it_subscribes(peer, publi
         rclpy.shutdown(context=context)
 
 
-def test_a_rig_whose_process_stands_still_receives_nothing(peer, publisher, watch):
+def test_a_rig_whose_process_is_stopped_receives_nothing(peer, publisher, watch):
     def is_received():
         known = watch.is_received()
         if known:
