@@ -39,13 +39,15 @@ class Reading:
     """A measurement: time taken in s, position in m, velocity in m/s if it is measured.
 
     ``stamp`` is the time in s by the clock of the sensor, which may differ from that of the
-    loop; None without a stamp.
+    loop; None without a stamp. ``late`` is the time in s by which it arrived late, as far as that
+    is known.
     """
 
     time: float
     position: float
     velocity: float | None = None
     stamp: float | None = None
+    late: float = 0.0
 
 
 class Loop:
@@ -57,8 +59,8 @@ class Loop:
         the last commands in Pa, one a muscle, None before the first command
     time
         of the last step, s
-    implausible, late
-        number of measurements that were ignored as not plausible, and as too late
+    implausible
+        number of measurements that were ignored as not plausible
     timeout, safe
         age in s of the newest measurement after which the loop is BLIND, and its command then
     lost
@@ -75,7 +77,7 @@ class Loop:
     ) -> None:
         """Make it wait for the first measurement; *period* in s."""
         self.law, self.source, self.period = law, source, period
-        self.plausibility, self.implausible, self.late = plausibility, 0, 0
+        self.plausibility, self.implausible = plausibility, 0
         self.timeout, self.safe, self.vent_time = 0.1, HOLD, 0.0
         self.state = WAITING
         self.pressures: Pressures | None = None
@@ -161,7 +163,8 @@ class Loop:
             self.plausibility.forget()
             return self._stay_safe(now)
         is_running = self.state == RUNNING
-        is_late = now - reading.time > LATE + self.period
+        # The step of the loop may be late, too: the measurement is then as old.
+        is_late = reading.late > LATE or now - reading.time > LATE + self.period
         if not is_running and is_late:
             return self._stay_safe(now)
         self.lost, self._has_left = None, False
@@ -173,9 +176,7 @@ class Loop:
         dt = min(passed, MOST)
         self.time = now
         position, velocity = None, None
-        if self._is_new and is_late:
-            self.late += 1
-        elif self._is_new:
+        if self._is_new and not is_late:
             position, velocity = reading.position, reading.velocity
             self._use(reading.time)
         self._is_new = False

@@ -32,7 +32,8 @@ class Received(NamedTuple):
     pauses: int = 0  # of the commands, longer than longest_interruption of the settings
     pause: str = ''  # sentence on the last of them
     is_pause_new: bool = False  # since the last report
-    delay: str = ''  # sentence on joint states that were late since the last report
+    late: int = 0  # joint states that were not used because they arrived late
+    delay: str = ''  # sentence on those since the last report, if they are many
     tracking: str = ''  # sentence on an error or saturation that lasts
 
 
@@ -52,7 +53,6 @@ def values_of(loop: Loop, setup: ControlSetup, age: float | None) -> dict[str, A
         f'highest reference ({unit})': setup.law.reach[1],
         'age of joint_states (s)': age,
         'implausible joint_states': loop.implausible,
-        'late joint_states': loop.late,
     }
     if setup.settings.controller == 'sliding_mode':
         gains, inertia = setup.law.gains, setup.law.joint.inertia
@@ -110,6 +110,7 @@ def control(loop: Loop, setup: ControlSetup, received: Received, fault: str) -> 
     state = loop.state
     why = trouble(loop, setup.settings.on_timeout, received.blindness, fault)
     values = values_of(loop, setup, received.age)
+    values['late joint_states'] = received.late
     values |= {'refused': received.refused, 'last reason': received.refusal}
     values |= {'starts after a silence': received.pauses, 'last silence': received.pause}
     is_blind = state == BLIND or (state == WAITING and bool(received.blindness))

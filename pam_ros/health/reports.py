@@ -28,7 +28,8 @@ class Reports:
         self._implausibility, self._is_implausibility_new = '', False
         self._pause, self._pauses, self._is_pause_new = '', 0, False
         self._tracking = ''
-        self._seen = self._late = 0
+        self._late = 0
+        self._seen = self._newly_late = 0  # since the last report
         self._latest = 0.0
         self._start = Absence(logger, 'control begins')
         self._states = Absence(
@@ -73,7 +74,9 @@ class Reports:
     def delay(self, late: float) -> None:
         """Note that a joint state arrived *late* s late."""
         self._seen += 1
-        self._late += late > LATE
+        if late > LATE:
+            self._late += 1
+            self._newly_late += 1
         self._latest = max(self._latest, late)
 
     def follow(self, tracking: str) -> None:
@@ -96,7 +99,8 @@ class Reports:
 
     def received(self, age: float | None, blindness: str) -> Received:
         """Return the current report; what is new in it is no longer new in the next one."""
-        is_often_late = self._late > OFTEN * self._seen
+        is_often_late = self._newly_late > OFTEN * self._seen
+        delay = DELAYED.format(self._newly_late, self._seen, self._latest)
         received = Received(
             age=age,
             blindness=blindness,
@@ -108,10 +112,11 @@ class Reports:
             pauses=self._pauses,
             pause=self._pause,
             is_pause_new=self._is_pause_new,
-            delay=DELAYED.format(self._late, self._seen, self._latest) if is_often_late else '',
+            late=self._late,
+            delay=delay if is_often_late else '',
             tracking=self._tracking,
         )
-        self._seen = self._late = 0
+        self._seen = self._newly_late = 0
         self._latest = 0.0
         self._is_refusal_new = self._is_implausibility_new = self._is_pause_new = False
         return received

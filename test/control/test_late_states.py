@@ -10,6 +10,7 @@ from pam_ros.control.plausibility import Plausibility, bounds_of
 from pam_ros.control.reference.shaping import Shape
 from pam_ros.control.reference.source import ReferenceSource
 from pam_ros.control.sliding_mode import SlidingMode
+from pam_ros.health.reports import Reports
 from pam_ros.settings.control import ControlSettings
 from pam_ros.timing.delay import Lateness
 from pam_ros.timing.pace import SECOND
@@ -134,18 +135,20 @@ def test_the_load_is_moved_within_its_limits_by_a_rig_on_a_busy_computer(
     """
     rig = Busy(truth(plant, seed=seed), seed)
     loop = loop_of(SlidingMode, rig.plant)
-    lateness, low = Lateness(), rig.plant.y
+    lateness, reports, low = Lateness(), Reports(None), rig.plant.y
     loop.see(Reading(0.0, rig.plant.measure(), stamp=0.0))
     (command,) = loop.tick(0.0)
     for n in range(1, round(20.0 / PERIOD)):
         now = n * PERIOD
         for stamp, measured in rig.run_until(n, command):
             late = lateness.of(round(stamp * SECOND), round(now * SECOND)) / SECOND
-            loop.see(Reading(now - late, measured, stamp=stamp))
+            reports.delay(late)
+            loop.see(Reading(now - late, measured, stamp=stamp, late=late))
         (command,) = loop.tick(now)
         if n % round(MOVES / PERIOD) == 0:
             loop.source.set_target(low + distance * (now // MOVES % 2))
-    assert loop.late > 50
+    late_states = reports.received(0.0, '').late
+    assert late_states > 50
     assert loop.starts == 1
-    print(f'{max(rig.speeds):.3f} m/s, {loop.late} late')
+    print(f'{max(rig.speeds):.3f} m/s, {late_states} late')
     assert max(rig.speeds) < most * Shape().max_velocity

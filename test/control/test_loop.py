@@ -106,7 +106,7 @@ def test_a_measurement_is_used_once_and_an_old_one_never(loop):
     assert [call[2] for call in loop.law.calls] == [0.05, None, None, 0.06]
 
 
-def test_a_measurement_that_is_late_is_counted_and_not_used(loop):
+def test_a_measurement_that_is_late_is_not_used(loop):
     used = []
     delays = 0.0, LATE, 1.1 * LATE + PERIOD, 0.09, 0.0
     for now, late in zip((1.0, 1.1, 1.2, 1.3, 1.4), delays, strict=True):
@@ -115,7 +115,16 @@ def test_a_measurement_that_is_late_is_counted_and_not_used(loop):
         used.append(loop.law.calls[-1][2] is not None)
         loop.tick(now + PERIOD)  # it is not new any more
     assert used == [True, True, False, False, True]
-    assert (loop.state, loop.starts, loop.late) == (RUNNING, 1, 2)
+    assert (loop.state, loop.starts) == (RUNNING, 1)
+
+
+@pytest.mark.parametrize(('late', 'is_used'), [(0.0, True), (LATE, True), (1.01 * LATE, False)])
+def test_what_arrives_late_is_not_used_although_the_step_is_within_a_period(loop, late, is_used):
+    loop.see(Reading(1.0, 0.05))
+    loop.tick(1.0)
+    loop.see(Reading(1.1 - late, 0.06, late=late))
+    loop.tick(1.1)
+    assert (loop.law.calls[-1][2] is not None) == is_used
 
 
 def test_a_measurement_that_is_later_than_the_timeout_is_none(loop):

@@ -35,5 +35,12 @@ def test_they_are_told_once(reports):
     assert not reports.received(0.01, '').delay
 
 
+def test_all_late_states_are_counted_as_those_of_the_warning():
+    reports = Reports(Silent())
+    assert said(reports, 8, [0.05] * 2 + [LATE]).startswith('2 of 11 ')
+    assert not said(reports, 99, [0.05])
+    assert reports.received(0.01, '').late == 3
+
+
 def test_single_late_states_are_usual(reports):
     assert not said(reports, 95, [0.3] * 5)

@@ -275,7 +275,7 @@ class PamControl(TickingNode):
             now = steady_ns()
             late = self._lateness.of(state.stamp, now)
             self._stamp = state.stamp
-            self._pass_on(state, now - late)
+            self._pass_on(state, now - late, late / SECOND)
             self._note_lateness(late / SECOND)
             return
         if passed < 0:
@@ -289,10 +289,13 @@ class PamControl(TickingNode):
         self._step(state.stamp / SECOND, state.stamp)
         self._goals.update()
 
-    def _pass_on(self, state: MeasuredState, time: int) -> None:
-        """Give the loop a state of *time* in ns by its clock, unless the state cannot be true."""
+    def _pass_on(self, state: MeasuredState, time: int, late: float = 0.0) -> None:
+        """Give the loop a state of *time* in ns by its clock, unless the state cannot be true.
+
+        It arrived *late* s late.
+        """
         stamp = state.stamp / SECOND if state.stamp else None
-        reading = Reading(time / SECOND, state.position, state.velocity, stamp)
+        reading = Reading(time / SECOND, state.position, state.velocity, stamp, late)
         fault = self._loop.see(reading)
         if not fault:
             # If this is the time of the loop, it must be the same for both: what is too old for
