@@ -10,6 +10,7 @@ from pam_ros.effects.base import Effect as Effect
 # isort: off
 # From the command to the chamber.
 from pam_ros.effects.dead_time import DeadTime as DeadTime
+from pam_ros.effects.supply import Supply as Supply
 from pam_ros.effects.pressure_offset import PressureOffset as PressureOffset
 from pam_ros.effects.dead_band import DeadBand as DeadBand
 from pam_ros.effects.pressure_lag import PressureLag as PressureLag

@@ -12,6 +12,10 @@ Places, in the order in which the kernel visits them, with the function that eac
 
 ``delay(q, j) -> s``
     Time by which pressure commands act late.
+``reservoir(taken, h, x, i, xn, q, j) -> Pa``
+    Pressure after h seconds of the reservoir from which all muscles of the joint fill; no command
+    is met beyond it. *taken* in Pa is the sum over the chambers of the rises of pressure that it
+    has fed meanwhile: the more, the lower the result. It acts on the joint.
 ``pressure(p, t, h, x, i, xn, q, j) -> Pa``
     Pressure path from command to chamber. p is the upstream pressure and constant over the
     interval of length h that ends at t. Returns the downstream pressure at its end.
@@ -45,6 +49,7 @@ from collections.abc import Callable, Collection, Mapping, MutableSequence
 from dataclasses import dataclass, fields, replace
 from enum import Enum
 from functools import cache
+from math import inf
 from typing import Any, ClassVar
 
 import numpy as np
@@ -61,8 +66,12 @@ Starts = tuple[dict[str, float], ...]
 Bounds = tuple[float, float]
 # A row of float64: an array of numpy or of numba, with the same indexing.
 Row = MutableSequence[float]
-ON_JOINT = ('mass', 'outside', 'drag')
-PLACES = ('delay', 'pressure', 'contraction', 'mass', 'force', 'damping', 'outside', 'drag')
+ON_JOINT = ('reservoir', 'mass', 'outside', 'drag')
+PLACES = (
+    *('delay', 'reservoir', 'pressure', 'contraction', 'mass', 'force', 'damping'),
+    *('outside', 'drag'),
+)
+ENOUGH = inf  # Pa, the pressure of a reservoir that is absent
 
 
 class Compensation(Enum):
@@ -116,11 +125,13 @@ class EffectEquations:
 
     ``guess(t, p, kappa, residual)`` returns additional sets of starting values for a fit, for
     parameters whose starting values depend on the recording, such as a frequency or the position
-    of a stop. The arguments are arrays (n,) in SI: kappa is the measured contraction, NaN if it is
-    not known, and the residual is the measured minus the simulated position or force.
+    of a stop. The arguments are arrays (n,) in SI: p is the highest of the pressures of the
+    muscles, kappa the measured contraction, NaN if it is not known, and the residual is the
+    measured minus the simulated position or force.
     """
 
     delay: Callable[..., float] | None = None
+    reservoir: Callable[..., float] | None = None
     pressure: Callable[..., float] | None = None
     contraction: Callable[..., float] | None = None
     mass: Callable[..., float] | None = None

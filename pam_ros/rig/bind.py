@@ -33,6 +33,9 @@ _INNER = (
     'coefficient',
     'net_force',
     'acceleration',
+    'taken',
+    'balanced',
+    'supplied',
     'remembers',
     'keep_memories',
     'begin',
@@ -42,7 +45,7 @@ _INNER_OF_RUNS = ('in_force', 'held_until', 'first_command')
 _LOOPS = ('advance', 'outputs')
 _LOOPS_OF_RUNS = ('simulate', 'simulate_held', 'simulate_along')
 _STATELESS = ('delay', 'contraction', 'mass', 'damping')
-_WITH_MEMORY = ('pressure', 'force', 'outside', 'drag')
+_WITH_MEMORY = ('reservoir', 'pressure', 'force', 'outside', 'drag')
 
 
 @dataclass(frozen=True)
@@ -68,6 +71,13 @@ def _with_parameters(inner: Function, f: Function, j: int) -> Function:
 def _delays(inner: Function, f: Function, j: int) -> Function:
     def chain(q):  # type: ignore[no-untyped-def]
         return inner(q) + f(q, j)
+
+    return chain
+
+
+def _reservoirs(inner: Function, f: Function, i: int, j: int) -> Function:
+    def chain(taken, h, x, xn, q):  # type: ignore[no-untyped-def]
+        return min(inner(taken, h, x, xn, q), f(taken, h, x, i, xn, q, j))
 
     return chain
 
@@ -112,6 +122,7 @@ _CHAINED: dict[str, Callable[..., Function]] = {
     'contraction': _with_parameters,
     'mass': _with_parameters,
     'damping': _dampings,
+    'reservoir': _reservoirs,
     'pressure': _pressures,
     'force': _forces,
     'outside': _forces,
@@ -182,6 +193,7 @@ def bind(layout: Layout, active: tuple[type[Effect], ...]) -> Kernel:
         **_chains(offsets),
         **_memories(offsets),
         'MUSCLES': layout.muscles,
+        'HAS_RESERVOIR': any(effect.equations.reservoir is not None for effect in active),
         'HAS_OUTSIDE': any(effect.equations.outside is not None for effect in active),
         'IS_DRAGGED': is_dragged(layout)
         and any(effect.equations.drag is not None for effect in active),

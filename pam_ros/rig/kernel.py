@@ -28,6 +28,7 @@ implicit update.
 from math import exp
 from typing import Any
 
+from pam_ros.effects.base import ENOUGH
 from pam_ros.muscle.law import damping, force_at, slope_at
 from pam_ros.rig.layout import (
     A1,
@@ -53,10 +54,14 @@ from pam_ros.rig.layout import (
     V,
 )
 
+PRECISION = 1e-6  # Pa, of the pressure of a reservoir
+TURNS = 50  # at most, of the search for it, which needs fewer than ten
+
 Row = Any  # float64 array; numba's and numpy's types differ, both index to float
 
 # Bound to the joint's layout.
 MUSCLES = 1
+HAS_RESERVOIR = True  # whether an effect that limits the supply of air is in use
 HAS_OUTSIDE = True  # whether an effect that acts from outside the muscles is in use
 IS_DRAGGED = True  # whether an effect in use is measured by a machine that moves the joint
 MEMORY_FROM = 1  # first hidden state of a muscle that is not in its pressure path
@@ -67,6 +72,14 @@ LOAD, TRANSMISSION = JOINT_EFFECTS, JOINT_EFFECTS + 1  # first indices of their 
 def delay_chain(q: Row) -> float:
     """Return the delay of the commands in s: 0 without effects."""
     return 0.0
+
+
+def reservoir_chain(taken: float, h: float, x: Row, xn: Row, q: Row) -> float:
+    """Return the pressure of the supply after the chambers took *taken*: enough, without effects.
+
+    x, xn and q are the rows of the joint.
+    """
+    return ENOUGH
 
 
 def pressure_chain(p: float, t: float, h: float, x: Row, xn: Row, q: Row) -> float:
@@ -228,6 +241,75 @@ def acceleration(
     return net
 
 
+def taken(limit: float, u: Row, t: float, h: float, x: Row, xn: Row, q: Row) -> float:
+    """Return the rises of the chambers in Pa that a reservoir of *limit* Pa feeds in h seconds.
+
+    A chamber vents into the atmosphere as far as its command tells it to. If the reservoir has
+    less, they are connected, and air flows back into it.
+    """
+    total = 0.0
+    for i in range(MUSCLES):
+        r = MUSCLE + i
+        fed = pressure_chain(min(u[i], limit), t + h, h, x[r], xn[r], q[r])
+        alone = fed if u[i] <= limit else pressure_chain(u[i], t + h, h, x[r], xn[r], q[r])
+        total += fed - min(x[r, P], alone)
+    return total
+
+
+def supplied(u: Row, t: float, h: float, x: Row, xn: Row, q: Row) -> float:
+    """Advance the reservoir by h seconds; return its pressure in Pa in the middle of this step.
+
+    No chamber is filled beyond it. The chambers take the more, the higher it is, and it is the
+    lower, the more they take: one pressure fulfils both. First the chambers that fill at once do
+    so, and x receives their pressures and that of the reservoir; it is refilled from there on.
+    """
+    at_once = balanced(u, t, 0.0, x, xn, q)
+    if at_once >= ENOUGH:
+        return at_once
+    for i in range(MUSCLES):
+        r = MUSCLE + i
+        x[r, P] = pressure_chain(min(u[i], at_once), t, 0.0, x[r], xn[r], q[r])
+    for c in range(JOINT_HIDDEN, WIDTH):
+        x[JOINT, c] = xn[JOINT, c]
+    limit = balanced(u, t, 0.5 * h, x, xn, q)
+    total = taken(limit, u, t, h, x, xn, q)
+    reservoir_chain(total, h, x[JOINT], xn[JOINT], q[JOINT])
+    return limit
+
+
+def balanced(u: Row, t: float, h: float, x: Row, xn: Row, q: Row) -> float:
+    """Return the pressure of the reservoir after h seconds in which it is the limit.
+
+    By the method of Illinois: a false position whose retained end counts half.
+    """
+    high = found = reservoir_chain(0.0, h, x[JOINT], xn[JOINT], q[JOINT])
+    if high >= ENOUGH:
+        return high
+    low = above = below = 0.0
+    highest = u[0]
+    for i in range(1, MUSCLES):
+        highest = max(highest, u[i])
+    for turn in range(TURNS):
+        total = taken(found, u, t, h, x, xn, q)
+        left = reservoir_chain(total, h, x[JOINT], xn[JOINT], q[JOINT])
+        excess = found - left
+        if abs(excess) <= PRECISION:
+            return left
+        if turn == 0:
+            if highest <= min(high, left):
+                return left  # what the chambers take does not depend on it
+            above, low, found = excess, left, left
+            continue
+        if turn == 1:
+            below = excess
+        elif excess * above > 0.0:
+            high, above, below = found, excess, 0.5 * below
+        else:
+            low, below, above = found, excess, 0.5 * above
+        found = (low * above - high * below) / (above - below)
+    return found
+
+
 def remembers(q: Row) -> bool:
     """Return whether any present effect has a memory that is not a pressure."""
     any_of_them: bool = joint_remembers(q[JOINT])
@@ -258,11 +340,15 @@ def step(x: Row, xn: Row, q: Row, u: Row, t: float, h: float) -> None:
     half, sixth = 0.5 * h, h / 6.0
     m = mass_chain(q[JOINT, MASS], q[JOINT])
     inertia = inertia_of(m, q[JOINT], LOAD)
+    limit = ENOUGH
+    if HAS_RESERVOIR:
+        limit = supplied(u, t, h, x, xn, q)
     for i in range(MUSCLES):
         r = MUSCLE + i
-        p0 = pressure_chain(u[i], t, 0.0, x[r], xn[r], q[r])
-        p1 = pressure_chain(u[i], t + half, half, x[r], xn[r], q[r])
-        p2 = pressure_chain(u[i], t + h, half, xn[r], x[r], q[r])
+        p_in = min(u[i], limit)
+        p0 = pressure_chain(p_in, t, 0.0, x[r], xn[r], q[r])
+        p1 = pressure_chain(p_in, t + half, half, x[r], xn[r], q[r])
+        p2 = pressure_chain(p_in, t + h, half, xn[r], x[r], q[r])
         xn[r, WIDTH + START], xn[r, WIDTH + MIDDLE], xn[r, WIDTH + END] = p0, p1, p2
     a1 = acceleration(s, v, START, t, 0.0, m, inertia, x, xn, q)
     middle = s + half * v + 0.5 * half * half * a1

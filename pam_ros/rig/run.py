@@ -125,7 +125,9 @@ def simulate_held(
     q, layout = joint.parameters(), joint.layout
     pressure = by_muscle('pressure', pressure, 't', t.size, layout.muscles)
     _warn_low('pressure', pressure, joint)
-    x = start_state(layout, q, pressure[0], float(position[0]), float(v[0]))
+    # The pressures are measured behind the reservoir, which does not limit them.
+    present = [one for one in joint.all_present if one.equations.reservoir is None]
+    x = start_state(layout, q, pressure[0], float(position[0]), float(v[0]), present)
     out = np.empty((len(t), layout.run_columns))
     bind(layout, joint.active).simulate_held(
         x, layout.scratch(), q, t, pressure, position, v, step, out

@@ -9,7 +9,9 @@ is the time at which it acts in the chamber: it already includes dead times.
 from math import ceil, exp
 from typing import Any
 
+from pam_ros.effects.base import ENOUGH
 from pam_ros.rig.kernel import (
+    HAS_RESERVOIR,
     IS_DRAGGED,
     LOAD,
     MEMORY_FROM,
@@ -32,6 +34,7 @@ from pam_ros.rig.kernel import (
     remembers,
     share,
     step,
+    supplied,
 )
 from pam_ros.rig.layout import (
     A3,
@@ -197,16 +200,21 @@ def simulate_along(
             part = (middle - t[n - 1]) / (t[n] - t[n - 1])
             here = s[n - 1] + part * (s[n] - s[n - 1])
             speed = v[n - 1] + part * (v[n] - v[n - 1])
+            limit = ENOUGH
+            if HAS_RESERVOIR:
+                limit = supplied(u[c], now, 2.0 * half, x, xn, q)
             for i in range(MUSCLES):
                 r = MUSCLE + i
-                xn[r, WIDTH + START] = pressure_chain(u[c, i], middle, half, x[r], xn[r], q[r])
+                p_in = min(u[c, i], limit)
+                xn[r, WIDTH + START] = pressure_chain(p_in, middle, half, x[r], xn[r], q[r])
                 for k in range(HIDDEN, MEMORY_FROM):
                     x[r, k] = xn[r, k]
             h = middle - before
             a = acceleration(here, speed, START, middle, h, m, inertia, x, xn, q)
             for i in range(MUSCLES):
                 r = MUSCLE + i
-                x[r, P] = pressure_chain(u[c, i], end, half, x[r], xn[r], q[r])
+                p_in = min(u[c, i], limit)
+                x[r, P] = pressure_chain(p_in, end, half, x[r], xn[r], q[r])
                 for k in range(HIDDEN, MEMORY_FROM):
                     x[r, k] = xn[r, k]
             if has_memory:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from pam_ros.arguments import instance, number
 from pam_ros.compiled import broadcast
-from pam_ros.effects.base import Effect
+from pam_ros.effects.base import ENOUGH, Effect
 from pam_ros.errors import ParameterError
 from pam_ros.rig import layout as at
 from pam_ros.rig.layout import Layout
@@ -35,8 +35,12 @@ def start_state(
     x = layout.state()
     x[at.JOINT, at.S], x[at.JOINT, at.V] = s, v
     effects = layout.library if present is None else present
+    for effect in effects:
+        if effect.equations.reservoir is not None:
+            _rest(layout, effect, x[at.JOINT], q[at.JOINT], float(np.mean(pressures)), 0.0, s)
+    limit = _supplied(layout, q, x, effects)
     for i, pressure in enumerate(pressures):
-        start_muscle(layout, q, x, i, float(pressure), effects)
+        start_muscle(layout, q, x, i, min(float(pressure), limit), effects)
     start_joint(layout, q, x, effects)
     return x
 
@@ -174,8 +178,21 @@ def fill_chambers(
 
     The other effects than those that are *present* must be absent in the parameters q.
     """
+    limit = _supplied(layout, q, x, present)
     for i, pressure in enumerate(pressures):
-        x[at.MUSCLE + i, at.P] = _in_chamber(layout, q, x, i, float(pressure), present)
+        inlet = min(float(pressure), limit)
+        x[at.MUSCLE + i, at.P] = _in_chamber(layout, q, x, i, inlet, present)
+
+
+def _supplied(layout: Layout, q: Array, x: Array, effects: Sequence[type[Effect]]) -> float:
+    """Return the present pressure in Pa of the reservoir beyond which no chamber is filled."""
+    limit, row, own = ENOUGH, x[at.JOINT], q[at.JOINT]
+    for effect in effects:
+        if effect.equations.reservoir is not None:
+            k, j = layout.state_at[effect.name], layout.parameter_at[effect.name]
+            reservoir = _in_python(effect.equations.reservoir)
+            limit = min(limit, float(reservoir(0.0, 0.0, row, k, row.copy(), own, j)))
+    return limit
 
 
 def _in_chamber(

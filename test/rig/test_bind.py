@@ -265,7 +265,7 @@ def test_joints_of_all_kinds_share_the_chains_of_their_effects():
         )
     )
     names = {name for name in names_of(alone) if name.endswith('_chain')}
-    assert len(names) == 8
+    assert len(names) == 9
     for name in names:
         assert names_of(alone)[name] is names_of(pair)[name]
 

@@ -113,5 +113,5 @@ def guessed(parent: Model, place: Place) -> tuple[dict[str, float], ...]:
     position = s.target if is_free else out[:, at.RUN_S]
     # The contraction of one muscle in line with the load; of other joints the angle itself.
     length = problem.row[at.LENGTH]
-    pressure = out[:, at.RUN_P :: 2].mean(axis=1)
+    pressure = out[:, at.RUN_P :: 2].max(axis=1)
     return place.guess(s.t, pressure, position / length, residual)
