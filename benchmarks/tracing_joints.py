@@ -64,7 +64,7 @@ def run_trial(job: tuple[str, int]) -> dict[str, Any]:
     return {
         'kind': trial.kind,
         'seed': trial.seed,
-        'forms': [e.form for e in trial.effects],
+        'forms': trial.forms,
         'accepted': sorted(trial.accepted),
         'where': trial.where,
         'in_library': trial.in_library,

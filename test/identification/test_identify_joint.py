@@ -95,6 +95,20 @@ def test_an_effect_of_both_muscles_alike_is_named_without_a_muscle():
 
 
 @pytest.mark.needs_numba
+def test_a_reservoir_from_which_both_muscles_fill_is_named_with_its_numbers():
+    trial = pair_trial('supply@joint', SEED)
+    found = identify(nominal(trial), [recording(trial)])
+    assert [effect.name for effect in found.effects] == ['supply']
+    numbers = {name: p.value for name, p in found.effects[0].parameters.items()}
+    true = trial.reservoir
+    assert numbers['share'] == pytest.approx(true.share, rel=0.05)
+    assert numbers['level'] == pytest.approx(true.level, rel=0.02)
+    assert numbers['recovery'] == pytest.approx(true.recovery, rel=0.05)
+    assert found.stages[2].held_error < 1.1 * trial.noise
+    assert found.stages[1].held_error > 10.0 * trial.noise
+
+
+@pytest.mark.needs_numba
 def test_specimens_and_noise_alone_have_no_effect():
     trial = pair_trial('noise_only', SEED)
     found = identify(nominal(trial), [recording(trial)])

@@ -14,6 +14,7 @@ from .effects import Effect, draw_effect
 from .excitation import mixture, stamps, steps
 from .muscles import constants_si
 from .pair import TruthPair
+from .reservoir import Reservoir
 from .sensor import Sensor
 
 MUSCLE, LENGTH = 'dmsp_20_400n', 0.4
@@ -30,6 +31,7 @@ IN_MUSCLES = (
     'periodic_disturbance',
 )
 ON_JOINT = ('coulomb_friction', 'viscous_friction')
+SUPPLY = 'supply'  # of both muscles, and so of the joint
 # The pair has no ripple of a force on the load, and no creep of a share of the force.
 _FORMS = {'periodic_disturbance': ('supply',), 'creep': ('pressure', 'strain')}
 # Every kind with the places where a trial can have it; 'one' is either muscle.
@@ -38,6 +40,7 @@ PAIR_KINDS = (
     *(f'{kind}@both' for kind in IN_MUSCLES),
     *(f'{kind}@one' for kind in IN_MUSCLES),
     *(f'{kind}@joint' for kind in ON_JOINT),
+    f'{SUPPLY}@joint',
     'saturation@both',
     'saturation@one',
 )
@@ -62,13 +65,15 @@ class PairTrial:
     """A recording of a joint to be explained, and the answer.
 
     t (n,) s, commands (n, 2) Pa, angle (n,) rad as measured with *noise* (rad). ``kind`` is what
-    was asked for, ``effects`` what is there, ``where`` the name of a muscle, 'both' or 'joint'.
+    was asked for, ``effects`` and ``reservoir`` what is there, ``where`` the name of a muscle,
+    'both' or 'joint'.
     """
 
     kind: str
     seed: int
     nominal: NominalPair
     effects: tuple[Effect, ...]
+    reservoir: Reservoir | None
     where: str
     noise: float
     t: np.ndarray
@@ -78,7 +83,13 @@ class PairTrial:
     @property
     def accepted(self) -> frozenset[str]:
         """The names by which the effect may be called."""
-        return frozenset(name for e in self.effects for name in FORMS[(e.kind, e.form)].names)
+        names = {name for e in self.effects for name in FORMS[(e.kind, e.form)].names}
+        return frozenset({*names, SUPPLY} if self.reservoir else names)
+
+    @property
+    def forms(self) -> list[str]:
+        """The forms of what is there."""
+        return [*(e.form for e in self.effects), *(['reservoir'] if self.reservoir else [])]
 
     @property
     def in_library(self) -> bool:
@@ -118,7 +129,10 @@ def pair_trial(
     duration, rate = duration or drawn[0], rate or drawn[1]
     t = stamps(rate, duration, 0.3 if rng.random() < 0.25 else 0.0, rng)
     commands = _commands(t, rate, duration, rng)
-    effects, where = _drawn(name, place, radius, duration, commands, rng)
+    reservoir = _reservoir(commands, rng) if name == SUPPLY else None
+    effects, where = ((), place)
+    if reservoir is None:
+        effects, where = _drawn(name, place, radius, duration, commands, rng)
     noise = float(3e-5 * (1e-3 / 3e-5) ** rng.random())
     plant = TruthPair(
         muscles=(MUSCLE, MUSCLE),
@@ -133,11 +147,21 @@ def pair_trial(
         in_muscles=effects if where == BOTH else (),
         in_each=tuple(effects if where == one else () for one in NAMES),
         at_pivot=effects if where == JOINT else (),
+        reservoir=reservoir,
         sensor=Sensor(noise=noise),
         seed=seed,
     )
     angle = _played(plant, t, commands)
-    return PairTrial(kind, seed, nominal, effects, where, noise, t, commands, angle)
+    return PairTrial(kind, seed, nominal, effects, reservoir, where, noise, t, commands, angle)
+
+
+def _reservoir(commands: np.ndarray, rng: np.random.Generator) -> Reservoir:
+    """Return a reservoir that has less than the highest of the *commands* (n, 2) in Pa."""
+    return Reservoir(
+        level=float(commands.max() * rng.uniform(0.85, 1.0)),
+        share=float(0.03 * 10.0 ** rng.random()),
+        recovery=float(0.3 * (5.0 / 0.3) ** rng.random()),
+    )
 
 
 def _commands(t: np.ndarray, rate: float, duration: float, rng: np.random.Generator) -> np.ndarray:
