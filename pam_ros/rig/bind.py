@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Bind the kernel's templates to a kind of joint and a set of effects, and compile the result.
 
-The templates of :mod:`pam_ros.rig.kernel` call chains by name. Here each chain becomes a function
-that passes the value through the effects in their order, the geometry becomes that of the joint,
-and each template is copied with these as its globals. numba inlines them and keeps the machine
-code of the loops on disk under a name that contains their fingerprint, because numba itself only
-notices changes of one file.
+The templates of :mod:`pam_ros.rig.kernel` call the chains of :mod:`pam_ros.rig.unbound` by name.
+Here each chain becomes a function that passes the value through the effects in their order, the
+geometry becomes that of the joint, and each template is copied with these as its globals. numba
+inlines them and keeps the machine code of the loops on disk under a name that contains their
+fingerprint, because numba itself only notices changes of one file.
 """
 
 from collections.abc import Callable
@@ -17,8 +17,8 @@ from typing import Any
 
 from pam_ros import compiled
 from pam_ros.effects.base import Effect
+from pam_ros.rig import filling, run_kernel, unbound
 from pam_ros.rig import kernel as templates
-from pam_ros.rig import run_kernel
 from pam_ros.rig.fingerprint import fingerprint
 from pam_ros.rig.layout import Layout
 
@@ -33,14 +33,12 @@ _INNER = (
     'coefficient',
     'net_force',
     'acceleration',
-    'taken',
-    'balanced',
-    'supplied',
     'remembers',
     'keep_memories',
     'begin',
     'step',
 )
+_INNER_OF_FILLING = ('taken', 'balanced', 'supplied')
 _INNER_OF_RUNS = ('in_force', 'held_until', 'first_command')
 _LOOPS = ('advance', 'outputs')
 _LOOPS_OF_RUNS = ('simulate', 'simulate_held', 'simulate_along')
@@ -148,7 +146,7 @@ def _chains(offsets: Offsets) -> dict[str, Function]:
     chains, which are therefore compiled once.
     """
     chains = {
-        f'{place}_chain': compiled.inner(getattr(templates, f'{place}_chain'))
+        f'{place}_chain': compiled.inner(getattr(unbound, f'{place}_chain'))
         for place in (*_STATELESS, *_WITH_MEMORY)
     }
     for effect, i, j in offsets:
@@ -175,7 +173,7 @@ def _memories(offsets: Offsets) -> dict[str, Function]:
             for k, p in enumerate(effect.parameters())
             if p.strength
         )
-        found[name] = _or_present(compiled.inner(getattr(templates, name)), strengths)
+        found[name] = _or_present(compiled.inner(getattr(unbound, name)), strengths)
     return found
 
 
@@ -189,6 +187,7 @@ def bind(layout: Layout, active: tuple[type[Effect], ...]) -> Kernel:
     transmission, load = layout.transmission, layout.load
     offsets = tuple((e, layout.state_at[e.name], layout.parameter_at[e.name]) for e in active)
     names: dict[str, Any] = {
+        **vars(filling),
         **vars(templates),
         **_chains(offsets),
         **_memories(offsets),
@@ -207,6 +206,7 @@ def bind(layout: Layout, active: tuple[type[Effect], ...]) -> Kernel:
         'inertia_of': compiled.inner(load.inertia),
         'fall_of': compiled.inner(load.fall),
     }
+    _bind_inner(filling, _INNER_OF_FILLING, names)
     _bind_inner(templates, _INNER, names)
     loops = _bind_loops(templates, _LOOPS, names)
     # The runs use the names of the kernel as they are bound above.

@@ -9,10 +9,10 @@ By virtual work, the forces of the muscles accelerate the joint's coordinate s:
 For one muscle on a mass this is equation (3) of Sárosi (2015) with contraction positive (the load
 moves up): m y'' = F(p, kappa) - c y' + outside - m g.
 
-These functions are plain scalar Python and can be run without compilation. The names ``*_chain``,
-``*_remembers`` and ``*_of`` and the constants at the top are bound to the effects in use and to
-the kind of joint by :mod:`pam_ros.rig.bind`, which also compiles them. If they are called unbound,
-the joint is one muscle on a mass, without effects. x, xn and q are the matrices of one joint (see
+These functions are plain scalar Python and can be run without compilation. The names that they
+import from :mod:`pam_ros.rig.unbound` are bound to the effects in use and to the kind of joint by
+:mod:`pam_ros.rig.bind`, which also compiles them. If they are called unbound, the joint is one
+muscle on a mass, without effects. x, xn and q are the matrices of one joint (see
 :mod:`pam_ros.rig.layout`). With the form ``* (1.0 / m)`` a division is done once per step and not
 at every stage.
 
@@ -26,10 +26,10 @@ implicit update.
 """
 
 from math import exp
-from typing import Any
 
 from pam_ros.effects.base import ENOUGH
 from pam_ros.muscle.law import damping, force_at, slope_at
+from pam_ros.rig.filling import supplied
 from pam_ros.rig.layout import (
     A1,
     A2,
@@ -41,7 +41,6 @@ from pam_ros.rig.layout import (
     CONTRACTION,
     END,
     JOINT,
-    JOINT_EFFECTS,
     JOINT_HIDDEN,
     L0,
     MASS,
@@ -53,110 +52,30 @@ from pam_ros.rig.layout import (
     S,
     V,
 )
-
-PRECISION = 1e-6  # Pa, of the pressure of a reservoir
-TURNS = 50  # at most, of the search for it, which needs fewer than ten
-
-Row = Any  # float64 array; numba's and numpy's types differ, both index to float
-
-# Bound to the joint's layout.
-MUSCLES = 1
-HAS_RESERVOIR = True  # whether an effect that limits the supply of air is in use
-HAS_OUTSIDE = True  # whether an effect that acts from outside the muscles is in use
-IS_DRAGGED = True  # whether an effect in use is measured by a machine that moves the joint
-MEMORY_FROM = 1  # first hidden state of a muscle that is not in its pressure path
-WIDTH = 2  # of a state
-LOAD, TRANSMISSION = JOINT_EFFECTS, JOINT_EFFECTS + 1  # first indices of their numbers
-
-
-def delay_chain(q: Row) -> float:
-    """Return the delay of the commands in s: 0 without effects."""
-    return 0.0
-
-
-def reservoir_chain(taken: float, h: float, x: Row, xn: Row, q: Row) -> float:
-    """Return the pressure of the supply after the chambers took *taken*: enough, without effects.
-
-    x, xn and q are the rows of the joint.
-    """
-    return ENOUGH
-
-
-def pressure_chain(p: float, t: float, h: float, x: Row, xn: Row, q: Row) -> float:
-    """Return the chamber pressure at t: the upstream pressure, without effects."""
-    return p
-
-
-def contraction_chain(kappa: float, q: Row) -> float:
-    """Return the effective contraction of the muscle, after its effects."""
-    return kappa
-
-
-def mass_chain(m: float, q: Row) -> float:
-    """Return the moved mass."""
-    return m
-
-
-def force_chain(
-    f: float, p: float, kappa: float, v: float, t: float, h: float, x: Row, xn: Row, q: Row
-) -> float:
-    """Return the muscle's force after its effects."""
-    return f
-
-
-def damping_chain(c: float, p: float, kappa: float, v: float, q: Row) -> float:
-    """Return the muscle's damping coefficient after its effects."""
-    return c
-
-
-def outside_chain(
-    f: float, p: float, s: float, v: float, t: float, h: float, x: Row, xn: Row, q: Row
-) -> float:
-    """Return the effort on the joint from outside the muscles."""
-    return f
-
-
-def drag_chain(
-    f: float, p: float, s: float, v: float, t: float, h: float, x: Row, xn: Row, q: Row
-) -> float:
-    """Return the friction on the joint, without loads, as measured by a machine that moves it."""
-    return f
-
-
-def muscle_remembers(q: Row) -> bool:
-    """Return whether a present effect in the muscle has a memory that is not a pressure."""
-    return False
-
-
-def joint_remembers(q: Row) -> bool:
-    """Return whether a present effect on the joint has a memory."""
-    return False
-
-
-def travel_of(s: float, i: int, q: Row, j: int) -> float:
-    """Return the displacement of the end of muscle i, contraction positive, 0 at s = 0."""
-    return s
-
-
-def arm_of(s: float, i: int, q: Row, j: int) -> float:
-    """Return the arm of muscle i: its shortening per unit of the coordinate."""
-    return 1.0
-
-
-def arm_slope_of(s: float, i: int, q: Row, j: int) -> float:
-    """Return the derivative of the arm with respect to s."""
-    return 0.0
-
-
-def inertia_of(m: float, q: Row, j: int) -> float:
-    """Return the inertia of the coordinate."""
-    return m
-
-
-def fall_of(s: float, m: float, inertia: float, q: Row, j: int) -> float:
-    """Return the gravitational acceleration, positive against the coordinate."""
-    acceleration: float = q[j]
-    return acceleration
+from pam_ros.rig.unbound import (
+    HAS_OUTSIDE,
+    HAS_RESERVOIR,
+    LOAD,
+    MEMORY_FROM,
+    MUSCLES,
+    TRANSMISSION,
+    WIDTH,
+    Row,
+    arm_of,
+    arm_slope_of,
+    contraction_chain,
+    damping_chain,
+    delay_chain,
+    fall_of,
+    force_chain,
+    inertia_of,
+    joint_remembers,
+    mass_chain,
+    muscle_remembers,
+    outside_chain,
+    pressure_chain,
+    travel_of,
+)
 
 
 def effective_contraction(s: float, i: int, q: Row) -> float:
@@ -239,75 +158,6 @@ def acceleration(
         f += outside_chain(0.0, mean / MUSCLES, s, v, t, h, x[JOINT], xn[JOINT], q[JOINT])
     net: float = f * (1.0 / inertia) - fall_of(s, m, inertia, q[JOINT], LOAD)
     return net
-
-
-def taken(limit: float, u: Row, t: float, h: float, x: Row, xn: Row, q: Row) -> float:
-    """Return the rises of the chambers in Pa that a reservoir of *limit* Pa feeds in h seconds.
-
-    A chamber vents into the atmosphere as far as its command tells it to. If the reservoir has
-    less, they are connected, and air flows back into it.
-    """
-    total = 0.0
-    for i in range(MUSCLES):
-        r = MUSCLE + i
-        fed = pressure_chain(min(u[i], limit), t + h, h, x[r], xn[r], q[r])
-        alone = fed if u[i] <= limit else pressure_chain(u[i], t + h, h, x[r], xn[r], q[r])
-        total += fed - min(x[r, P], alone)
-    return total
-
-
-def supplied(u: Row, t: float, h: float, x: Row, xn: Row, q: Row) -> float:
-    """Advance the reservoir by h seconds; return its pressure in Pa in the middle of this step.
-
-    No chamber is filled beyond it. The chambers take the more, the higher it is, and it is the
-    lower, the more they take: one pressure fulfils both. First the chambers that fill at once do
-    so, and x receives their pressures and that of the reservoir; it is refilled from there on.
-    """
-    at_once = balanced(u, t, 0.0, x, xn, q)
-    if at_once >= ENOUGH:
-        return at_once
-    for i in range(MUSCLES):
-        r = MUSCLE + i
-        x[r, P] = pressure_chain(min(u[i], at_once), t, 0.0, x[r], xn[r], q[r])
-    for c in range(JOINT_HIDDEN, WIDTH):
-        x[JOINT, c] = xn[JOINT, c]
-    limit = balanced(u, t, 0.5 * h, x, xn, q)
-    total = taken(limit, u, t, h, x, xn, q)
-    reservoir_chain(total, h, x[JOINT], xn[JOINT], q[JOINT])
-    return limit
-
-
-def balanced(u: Row, t: float, h: float, x: Row, xn: Row, q: Row) -> float:
-    """Return the pressure of the reservoir after h seconds in which it is the limit.
-
-    By the method of Illinois: a false position whose retained end counts half.
-    """
-    high = found = reservoir_chain(0.0, h, x[JOINT], xn[JOINT], q[JOINT])
-    if high >= ENOUGH:
-        return high
-    low = above = below = 0.0
-    highest = u[0]
-    for i in range(1, MUSCLES):
-        highest = max(highest, u[i])
-    for turn in range(TURNS):
-        total = taken(found, u, t, h, x, xn, q)
-        left = reservoir_chain(total, h, x[JOINT], xn[JOINT], q[JOINT])
-        excess = found - left
-        if abs(excess) <= PRECISION:
-            return left
-        if turn == 0:
-            if highest <= min(high, left):
-                return left  # what the chambers take does not depend on it
-            above, low, found = excess, left, left
-            continue
-        if turn == 1:
-            below = excess
-        elif excess * above > 0.0:
-            high, above, below = found, excess, 0.5 * below
-        else:
-            low, below, above = found, excess, 0.5 * above
-        found = (low * above - high * below) / (above - below)
-    return found
 
 
 def remembers(q: Row) -> bool:

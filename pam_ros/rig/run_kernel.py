@@ -7,34 +7,20 @@ is the time at which it acts in the chamber: it already includes dead times.
 """
 
 from math import ceil, exp
-from typing import Any
 
 from pam_ros.effects.base import ENOUGH
+from pam_ros.rig.filling import supplied
 from pam_ros.rig.kernel import (
-    HAS_RESERVOIR,
-    IS_DRAGGED,
-    LOAD,
-    MEMORY_FROM,
-    MUSCLES,
-    TRANSMISSION,
-    WIDTH,
     acceleration,
-    arm_of,
     begin,
     coefficient,
-    delay_chain,
-    drag_chain,
     effective_contraction,
-    inertia_of,
     keep_memories,
-    mass_chain,
     net_force,
-    pressure_chain,
     pull,
     remembers,
     share,
     step,
-    supplied,
 )
 from pam_ros.rig.layout import (
     A3,
@@ -52,8 +38,22 @@ from pam_ros.rig.layout import (
     S,
     V,
 )
-
-Row = Any  # float64 array; numba's and numpy's types differ, both index to float
+from pam_ros.rig.unbound import (
+    HAS_RESERVOIR,
+    IS_DRAGGED,
+    LOAD,
+    MEMORY_FROM,
+    MUSCLES,
+    TRANSMISSION,
+    WIDTH,
+    Row,
+    arm_of,
+    delay_chain,
+    drag_chain,
+    inertia_of,
+    mass_chain,
+    pressure_chain,
+)
 
 
 def in_force(at: Row, i: int, now: float) -> int:
