@@ -81,8 +81,8 @@ class Supply(Effect):
         'The sum is over the muscles whose pressure p_i rises, and those with u_in_i > p_s.'
     )
     signature: ClassVar = (
-        'high pressures are not reached at first, least of all while several muscles fill, and are '
-        'then approached slowly'
+        'high pressures are not reached at first, least of all while several muscles fill, and '
+        'are then approached slowly'
     )
     experiment: ClassVar = 'steps of all muscles to their highest pressure, the pressures measured'
     excitation: ClassVar = {'segments': ('steps',)}

@@ -10,7 +10,7 @@ import pytest
 
 from pam_ros.control.gains import Gains
 from pam_ros.control.sliding_mode import SlidingMode
-from pam_ros.effects import EFFECTS, DeadBand, Payload, ViscousFriction
+from pam_ros.effects import EFFECTS, DeadBand, Payload, Supply, ViscousFriction
 from pam_ros.rig import co_contraction
 from recorded.cases import MUSCLE_EFFECTS, TURNED_EFFECTS
 from recorded.former import effects_of_0_1_0
@@ -30,7 +30,7 @@ QUIET = {'noise': 0.0}
 ZONE = [replace(LAG[0], dead_zone=6e3)]
 # Those of the recorded runs, and what the package has had since.
 IN_MUSCLES = (*effects_of_0_1_0(MUSCLE_EFFECTS), DeadBand(band=2e4, width=4e3))
-ON_JOINT = effects_of_0_1_0(TURNED_EFFECTS)
+ON_JOINT = (*effects_of_0_1_0(TURNED_EFFECTS), Supply(share=0.2, level=3.5e5, recovery=1.0))
 NAMES = [effect.name for effect in (*IN_MUSCLES, *ON_JOINT)]
 
 
