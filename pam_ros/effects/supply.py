@@ -78,7 +78,8 @@ class Supply(Effect):
     equation: ClassVar = (
         'u_i = min(u_in_i, p_s)\n'
         'dp_s/dt = (level - p_s) / recovery - share sum_i dp_i/dt\n'
-        'The sum is over the muscles whose pressure p_i rises, and those with u_in_i > p_s.'
+        'The sum is over the muscles whose pressure p_i rises, and those with u_in_i > p_s.\n'
+        'A muscle vents into the atmosphere as far as u_in_i tells it to.'
     )
     signature: ClassVar = (
         'high pressures are not reached at first, least of all while several muscles fill, and '

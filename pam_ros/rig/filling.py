@@ -6,8 +6,8 @@ The arguments are those of :mod:`pam_ros.rig.kernel`; u are the commands of the 
 """
 
 from pam_ros.effects.base import ENOUGH
-from pam_ros.rig.layout import JOINT, JOINT_HIDDEN, MUSCLE, P
-from pam_ros.rig.unbound import MUSCLES, WIDTH, Row, pressure_chain, reservoir_chain
+from pam_ros.rig.layout import JOINT, MUSCLE, P
+from pam_ros.rig.unbound import MUSCLES, Row, pressure_chain, reservoir_chain
 
 PRECISION = 1e-6  # Pa, of the pressure of a reservoir
 TURNS = 100  # at most, of the search for it, which nearly always needs three
@@ -34,15 +34,17 @@ def supplied(u: Row, t: float, h: float, x: Row, xn: Row, q: Row) -> float:
     No chamber is filled beyond it. The chambers take the more, the higher it is, and it is the
     lower, the more they take: one pressure fulfils both. First the chambers that fill at once do
     so, and x receives their pressures and that of the reservoir; it is refilled from there on.
+    Chambers with a lag follow with second order in h. One that fills at once has the pressure of
+    the middle until the end of the step: this is of first order, and less than 30 Pa at 1 ms.
     """
     at_once = balanced(u, t, 0.0, x, xn, q)
     if at_once >= ENOUGH:
         return at_once
+    total = taken(at_once, u, t, 0.0, x, xn, q)
+    reservoir_chain(total, 0.0, x[JOINT], x[JOINT], q[JOINT])
     for i in range(MUSCLES):
         r = MUSCLE + i
         x[r, P] = pressure_chain(min(u[i], at_once), t, 0.0, x[r], xn[r], q[r])
-    for c in range(JOINT_HIDDEN, WIDTH):
-        x[JOINT, c] = xn[JOINT, c]
     limit = balanced(u, t, 0.5 * h, x, xn, q)
     total = taken(limit, u, t, h, x, xn, q)
     reservoir_chain(total, h, x[JOINT], xn[JOINT], q[JOINT])

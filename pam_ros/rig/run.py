@@ -17,7 +17,7 @@ from pam_ros.rig.bind import bind
 from pam_ros.rig.changes import changes_of, refuse_onsets, run_over
 from pam_ros.rig.equilibrium import equilibrium
 from pam_ros.rig.joint import Joint
-from pam_ros.rig.start import disturb, start_state
+from pam_ros.rig.start import behind_reservoir, disturb, start_state
 from pam_ros.rig.statics import refuse_position
 from pam_ros.rig.step_limit import check_step
 
@@ -125,8 +125,7 @@ def simulate_held(
     q, layout = joint.parameters(), joint.layout
     pressure = by_muscle('pressure', pressure, 't', t.size, layout.muscles)
     _warn_low('pressure', pressure, joint)
-    # The pressures are measured behind the reservoir, which does not limit them.
-    present = [one for one in joint.all_present if one.equations.reservoir is None]
+    present = behind_reservoir(joint.all_present)
     x = start_state(layout, q, pressure[0], float(position[0]), float(v[0]), present)
     out = np.empty((len(t), layout.run_columns))
     bind(layout, joint.active).simulate_held(

@@ -35,14 +35,21 @@ def start_state(
     x = layout.state()
     x[at.JOINT, at.S], x[at.JOINT, at.V] = s, v
     effects = layout.library if present is None else present
-    for effect in effects:
-        if effect.equations.reservoir is not None:
-            _rest(layout, effect, x[at.JOINT], q[at.JOINT], float(np.mean(pressures)), 0.0, s)
+    others = behind_reservoir(effects)
+    start_joint(layout, q, x, [effect for effect in effects if effect not in others])
     limit = _supplied(layout, q, x, effects)
     for i, pressure in enumerate(pressures):
         start_muscle(layout, q, x, i, min(float(pressure), limit), effects)
-    start_joint(layout, q, x, effects)
+    start_joint(layout, q, x, others)
     return x
+
+
+def behind_reservoir(effects: Sequence[type[Effect]]) -> list[type[Effect]]:
+    """Return those of *effects* that act if the pressures at the muscles are given.
+
+    Measured pressures have passed the reservoir, which does not limit them again.
+    """
+    return [effect for effect in effects if effect.equations.reservoir is None]
 
 
 def start_muscle(

@@ -84,6 +84,21 @@ def test_the_reservoir_is_refilled_until_the_chambers_have_its_level():
     )
 
 
+def test_the_error_of_chambers_that_fill_at_once_is_of_first_order():
+    t = np.array([0.0, 1.0])
+    slower = RECOVERY * (1.0 + 2.0 * SHARE)
+    start = balance((6e5, 6e5), (1e5, 1e5))
+    expected = LEVEL + (start - LEVEL) * np.exp(-1.0 / slower)
+    rig, command = joint_models.pair(load=(SUPPLY,)), [(1e5, 1e5), (6e5, 6e5)]
+    found = [
+        simulate(rig, t, [0.0, 1e-9], command, position=0.1, step=step).pressure[1, 0]
+        for step in (2e-3, 1e-3, 0.5e-3)
+    ]
+    errors = np.abs(np.array(found) - expected)
+    assert errors[1] < 30.0
+    np.testing.assert_allclose(errors[:-1] / errors[1:], 2.0, rtol=1e-2)
+
+
 def test_air_of_a_connected_muscle_flows_back_while_another_one_fills():
     t = np.array([0.0, 30.0, 30.0 + 1e-9, 30.0 + 2e-9])
     rig = joint_models.pair(load=(SUPPLY,))

@@ -39,7 +39,7 @@ from pam_ros.rig.bind import bind
 from pam_ros.rig.changes import Change, run_over
 from pam_ros.rig.joint import Joint
 from pam_ros.rig.layout import Layout
-from pam_ros.rig.start import fill_chambers, start_state
+from pam_ros.rig.start import behind_reservoir, fill_chambers, start_state
 
 Array = NDArray[np.float64]
 T = TypeVar('T')
@@ -269,7 +269,9 @@ class Problem:
             strengths = [k for k, p in enumerate(effect.parameters()) if p.strength]
             return any(self.row[index(effect, k, i)] != 0.0 for k in strengths for i in muscles)
 
-        return tuple(e for e in self.layout.library if e.name in free or has_strength(e))
+        found = [e for e in self.layout.library if e.name in free or has_strength(e)]
+        is_held = self.segments[0].kind == 'held'
+        return tuple(behind_reservoir(found) if is_held else found)
 
     @cached_property
     def _strengths(self) -> list[tuple[type[Effect], int]]:

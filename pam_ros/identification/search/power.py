@@ -65,6 +65,11 @@ def _fall(
 
 
 def _reason(effect: type[Effect], size: float, is_held: bool) -> str:
+    if is_held and effect.equations.reservoir is not None:
+        return (
+            'these data cannot show it: the pressures are measured behind the reservoir; record '
+            f'commands to a free load: {effect.experiment}'
+        )
     if is_held and effect.acts_on_joint() and effect.equations.drag is None:
         return (
             'these data cannot show it: it acts on a load that moves freely, but here a machine '

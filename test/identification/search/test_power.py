@@ -60,3 +60,14 @@ def test_what_nothing_excites_is_hidden_and_the_experiment_named(retuned):
         assert reason.endswith(f'record: {EFFECT[name].experiment}')
     assert 'would lower the score by only 0.0' in found['dead_time']
     assert 'a machine prescribes the position; with a free load' in found['payload']
+
+
+@pytest.mark.parametrize(
+    ('name', 'reason'),
+    [
+        ('supply', 'the pressures are measured behind the reservoir; record commands to a free'),
+        ('end_stop', 'it acts on a load that moves freely'),
+    ],
+)
+def test_why_a_machine_that_prescribes_the_position_hides_an_effect(retuned, name, reason):
+    assert reason in hidden(retuned, [name], retuned.setting)[name]
