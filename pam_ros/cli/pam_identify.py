@@ -121,6 +121,10 @@ class Progress:
         self._bar.update(fraction - self._bar.n)
         self._bar.refresh()
 
+    def say(self, text: str) -> None:
+        """Print a line above the bar."""
+        self._bar.write(shown(text), file=sys.stderr)
+
     def close(self) -> None:
         """Remove the bar from the terminal."""
         self._bar.close()
@@ -174,7 +178,9 @@ def run(given: argparse.Namespace, command: str) -> str:
     source = provenance(nominal, given.params, given.set, recordings, test, command)
     progress = Progress()
     try:
-        answer = identify(model, recordings, test, progress, uncertain=uncertain)
+        answer = identify(
+            model, recordings, test, progress, uncertain=uncertain, warn=progress.say
+        )
         progress(1.0, 'writing the report')
         write_report(given.out, answer, source)
     finally:

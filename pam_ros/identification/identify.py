@@ -3,7 +3,7 @@
 """The error of the nominal model, the effects that it lacks, and the error with these effects."""
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 
@@ -22,8 +22,10 @@ from pam_ros.identification.data.segment import (
     require_one_kind,
     segments_of,
 )
+from pam_ros.identification.fit.intervals import covariance
 from pam_ros.identification.fit.solve import Solution
-from pam_ros.identification.fit.uncertain import spread_unknowns, undetermined
+from pam_ros.identification.fit.uncertain import spread_unknowns
+from pam_ros.identification.fit.undetermined import undetermined, undetermined_before
 from pam_ros.identification.result import Estimate, Finding, Identification, Stage
 from pam_ros.identification.search.criteria import BUDGET, CRITERIA
 from pam_ros.identification.search.final import Final, final
@@ -66,12 +68,14 @@ def identify(
     progress: Progress | None = None,
     *,
     uncertain: Mapping[str, float | str] | None = None,
+    warn: Callable[[str], object] | None = None,
 ) -> Identification:
     """Identify the effects of the model's library that *recordings* show beyond *model*.
 
     Errors are evaluated on *test*. Without it, they are evaluated on the part of each recording
     that was not used before, see :mod:`pam_ros.identification.data.parts`. progress(share, text)
-    is called with the share of the work that is done and a text about the next step.
+    is called with the share of the work that is done and a text about the next step. warn(text)
+    is called with each warning that is known before the fits, which may take minutes.
 
     *uncertain* are standard deviations of nominal values by the names of parameters, such as
     ``{'inertia': '50%', 'mass': 0.2}``, see :mod:`pam_ros.identification.fit.uncertain`. Numbers
@@ -107,6 +111,9 @@ def identify(
     with ThreadPoolExecutor(min(os.cpu_count() or 1, THREADS)) as pool:
         muscles = recordings[0].muscles
         setting = Setting(model, parts, CRITERIA, BUDGET, pool, muscles, uncertain)
+        for text in undetermined_before(setting.problem, setting.noise, pool):
+            if warn is not None:
+                warn(text)
         lacking = too_little([part.segment for part in parts], setting.noise, CRITERIA)
         since = None if lacking else moment(setting)
         later = since and shares_after(since, parts, shares, CRITERIA.duration)
@@ -134,7 +141,7 @@ def identify(
         warnings=(
             *(text for recording in (*recordings, *test) for text in recording.warnings),
             *apart(ends.augmented, answer.noise.sigma),
-            *undetermined(ends.augmented),
+            *_undetermined(ends.augmented),
             *of_absolute_pressures(
                 answer.stages[2].parameters, driving(recordings[0])[0].quantity
             ),
@@ -182,6 +189,10 @@ def _answer(
         since=None,
         uncertain={name: str(given) for name, given in found.setting.uncertain.items()},
     )
+
+
+def _undetermined(known: Solution) -> tuple[str, ...]:
+    return undetermined(known.problem, covariance(known, known.most_likely()))
 
 
 def _since(verdict: str, found: Search, ends: Final, since: Moment | None) -> Estimate | None:

@@ -76,7 +76,7 @@ def run(folder, *arguments):
 @pytest.fixture(scope='module')
 def found(bench):
     arguments = ('fit.csv', '--params', 'elbow.yaml', '--test', 'test.csv', '--out', 'found')
-    return run(bench, *arguments), bench / 'found'
+    return run(bench, *arguments, '--uncertain', 'radius=1e-9'), bench / 'found'
 
 
 def test_the_last_line_names_the_effect_and_its_muscle(found):
@@ -84,6 +84,13 @@ def test_the_last_line_names_the_effect_and_its_muscle(found):
     assert code == 0, errors
     assert line.startswith('effect_found (pressure_lag of flexor): held-out error ')
     assert ' mrad with pressure_lag of flexor; noise 0.19' in line
+
+
+def test_what_the_recordings_cannot_determine_is_told_before_the_fit(found):
+    (_, _, errors), _ = found
+    first, second, *_ = errors.splitlines()
+    assert first.startswith('the recordings hardly determine radius: ')
+    assert second == '  0 %  re-tuning the parameters'
 
 
 def test_the_report_names_the_muscle_with_the_effect(found):

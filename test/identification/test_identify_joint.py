@@ -157,7 +157,14 @@ def test_a_wrong_inertia_that_is_configured_as_uncertain_is_found():
     trial = pair_trial('noise_only', SEED)
     joint = nominal(trial)
     joint = replace(joint, load=replace(joint.load, inertia=0.6 * trial.nominal.inertia))
-    found = identify(joint, [recording(trial)], uncertain={'inertia': '60%', 'radius': 1e-9})
+    before, told = [], []
+    found = identify(
+        joint,
+        [recording(trial)],
+        progress=lambda share, text: before.append(list(told)),
+        uncertain={'inertia': '60%', 'radius': 1e-9},
+        warn=told.append,
+    )
     assert found.verdict == 'parameters_wrong'
     nominal_, retuned, _ = found.stages
     estimate = retuned.parameters['inertia']
@@ -170,6 +177,7 @@ def test_a_wrong_inertia_that_is_configured_as_uncertain_is_found():
     # Of a radius that is known to a nanometre a recording says nothing more.
     warnings = [text for text in found.warnings if 'hardly determine' in text]
     assert [text.split()[4] for text in warnings] == ['radius:']
+    assert before[0] == told == warnings
 
 
 def test_an_uncertain_parameter_that_the_joint_lacks_is_refused_before_the_fit():

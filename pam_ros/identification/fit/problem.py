@@ -200,7 +200,8 @@ class Problem:
 
         *r* are the residuals at u; *only* restricts the columns; *pool* computes them in parallel.
         The step is to a side that the bounds allow. The column of an unknown of one run needs only
-        a simulation of this run.
+        a simulation of this run. Two numbers of a rig may act exactly alike, which the error of a
+        one-sided difference would hide: theirs are central where the bounds allow it.
         """
         columns = range(len(u)) if only is None else only
         starts = [0, *self._ends]
@@ -210,6 +211,12 @@ class Problem:
             h = DIFFERENCE if u[k] + DIFFERENCE <= unknown.bounds[1] else -DIFFERENCE
             moved = u.copy()
             moved[k] += h
+            if isinstance(unknown.of, OfRig):
+                back = u.copy()
+                back[k] = np.clip(u[k] - h, *unknown.bounds)
+                change = self.residuals(moved) - self.residuals(back)
+                central: Array = change / (moved[k] - back[k])
+                return central
             if run is None:
                 return (self.residuals(moved) - r) / h
             own = slice(starts[run], starts[run + 1])

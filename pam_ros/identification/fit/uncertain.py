@@ -11,23 +11,15 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from math import isfinite, log1p
 
-import numpy as np
-
 from pam_ros.arguments import instance, refuse
 from pam_ros.errors import ParameterError
-from pam_ros.identification.fit.intervals import covariance
 from pam_ros.identification.fit.of_rig import OfRig, numbers_of
-from pam_ros.identification.fit.solve import Solution
 from pam_ros.identification.fit.unknowns import Constant, Unknown, nominal_unknowns
 from pam_ros.parameters import Parameter
 from pam_ros.rig.joint import Joint
 
 Spreads = Mapping[str, float | str]
 ALLOWED = "a standard deviation above 0: in the parameter's unit, or as a share such as 50%"
-
-# Standard deviation, as a share of that of the prior, above which a number is not determined: the
-# recordings have then at most halved its variance.
-UNDETERMINED = 0.7
 
 
 def spread_unknowns(joint: Joint, muscles: Sequence[str], spreads: Spreads) -> list[Unknown]:
@@ -109,18 +101,3 @@ def _deviation(
             f'deviation in {unit or "its unit"}'
         )
     return 0.01 * number * abs(value)
-
-
-def undetermined(known: Solution) -> tuple[str, ...]:
-    """Return a sentence on each number of the rig that the fitted recordings do not determine.
-
-    If two numbers have the same influence, such as an inertia and the scale of a torque, neither
-    is determined, and both stay near their nominal values.
-    """
-    error = np.sqrt(np.diag(covariance(known, known.most_likely())))
-    return tuple(
-        f'the recordings hardly determine {one.name}: it stays near its nominal value, within the '
-        'given standard deviation'
-        for one, width in zip(known.problem.unknowns, error, strict=True)
-        if isinstance(one.of, OfRig) and width > UNDETERMINED * one.prior
-    )
