@@ -39,7 +39,9 @@ def pressure(p: float, t: float, h: float, x: Row, i: int, xn: Row, q: Row, j: i
             begins = p + fastest * q[j + VENT]  # pressure at which the valve begins to close
             if fastest < UNLIMITED and now > begins:
                 slope = fastest + r * now
-                spent = min(left, -log1p(-r * (now - begins) / slope) / r)
+                closing = now - begins
+                is_reached = slope > r * closing  # else that pressure is far below 0
+                spent = min(left, -log1p(-r * closing / slope) / r) if is_reached else left
                 now += slope * expm1(-r * spent) / r
                 left -= spent
             if q[j + VENT] > SHORTEST:

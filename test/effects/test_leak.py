@@ -126,3 +126,17 @@ def test_a_leak_of_ages_is_none(rate):
     leak = {'rate': rate, 'refill': 1e-3, 'supply': 1e9, 'vent': 0.1}
     run = simulate(bench.cart(Leak(**leak), mass=1e4), t, [0.0, 0.1], [1e5, 9e5], position=0.0)
     np.testing.assert_array_equal(run.pressure, [1e5, 1e5, 9e5])
+
+
+def test_a_pressure_far_below_zero_is_not_reached_with_the_valve_fully_open():
+    """A fit may try such a pressure before the valve: the loss ends where the flow is balanced."""
+    rate, exhaust, first, p = 2.0, 1e3, 1e5, -5e4
+    rig = bench.hanging(Leak(rate=rate, refill=0.05, vent=0.0, exhaust=exhaust))
+    q, layout = rig.parameters()[1], rig.layout
+    j, i = layout.parameter_at['leak'], layout.state_at['leak']
+    x, xn = layout.state()[1], layout.scratch()[1]
+    x[i], x[i + 1] = first, first
+    for h in (0.0, 0.1, 1.0, 10.0):
+        expected = (first + exhaust / rate) * np.exp(-rate * h) - exhaust / rate
+        found = Leak.equations.pressure(p, h, h, x, i, xn, q, j)
+        assert found == pytest.approx(expected, rel=1e-12)
