@@ -20,7 +20,14 @@ from pam_ros.rig import layout as at
 from pam_ros.rig.equilibrium import equilibrium
 from pam_ros.rig.run import simulate
 from pam_ros.rig.standard_joints import single_muscle_joint
-from pam_ros.rig.start import begin_effects, start_joint, start_muscle, start_state
+from pam_ros.rig.start import (
+    begin_effects,
+    disturb,
+    fill_chambers,
+    start_joint,
+    start_muscle,
+    start_state,
+)
 from support import bench, joints
 from support.joint_models import UNEQUAL, lever, pair
 
@@ -224,3 +231,40 @@ def test_effects_that_begin_leave_the_joint_where_it_is():
     creep = next(e for e in joint.library if e.name == 'creep')
     k = layout.state_at['creep']
     assert set(x[at.MUSCLE :, k : k + len(creep.states)].ravel()) == {-7.0}
+
+
+# Those whose equations run in Python before a run, where a function such as log raises an error
+# instead of returning NaN.
+BEFORE_A_RUN = [
+    effect
+    for effect in EFFECTS
+    if effect.equations.start or effect.equations.pressure or effect.equations.reservoir
+]
+
+
+def some_value(p, rng):
+    """Return a value of the parameter p: an end of its range, a usual one, or any in between."""
+    usual = np.clip(p.scale * 10.0 ** rng.integers(-2, 3), p.low, p.high)
+    return float(rng.choice([p.low, p.high, usual, rng.uniform(p.low, p.high)]))
+
+
+@pytest.mark.parametrize('effect', BEFORE_A_RUN, ids=lambda effect: effect.name)
+def test_any_values_that_a_fit_may_try_have_a_start(effect):
+    """Pressures may be far below 0, and hidden states many spreads away from rest."""
+    rng = np.random.default_rng(1)
+    tried = 0
+    while tried < 300:
+        values = {p.name: some_value(p, rng) for p in effect.parameters()}
+        pressure = rng.choice([0.0, -5e4, -3e6, 3e6, rng.uniform(-1e6, 1e6)])
+        away = {state.name: 4.0 * state.spread * rng.normal() for state in effect.states}
+        try:
+            joint = bench.hanging(effect(**values))
+        except ParameterError:  # values that exclude each other, which no fit tries
+            continue
+        layout, q, here = joint.layout, joint.parameters(), [effect]
+        x = start_state(layout, q, [pressure], rng.uniform(-0.1, 0.1), 0.1, here)
+        assert np.all(np.isfinite(x)), values
+        disturb(layout, q, x, [pressure], {effect.name: away} if away else {}, here)
+        fill_chambers(layout, q, x, [pressure], here)
+        assert np.all(np.isfinite(x)), values
+        tried += 1
