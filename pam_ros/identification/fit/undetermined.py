@@ -68,7 +68,7 @@ def undetermined(problem: Problem, spread: Array) -> tuple[str, ...]:
         ]
         found.setdefault(
             frozenset([one.name, *alike]),
-            f'the recordings hardly distinguish {one.name} from {" and ".join(alike)}: it stays '
+            f'the recordings hardly distinguish {one.name} from {", ".join(alike)}: it stays '
             'near its nominal value, within the given standard deviation, until the others are '
             'known more exactly',
         )
