@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from math import exp, expm1, log, log1p
 from typing import ClassVar
 
+from pam_ros.compiled import scalar
 from pam_ros.effects.base import Compensation, Effect, EffectEquations, HiddenState, Row, Starts
 from pam_ros.effects.parameter import effect_parameter, start_from, strength
 from pam_ros.effects.pressure_lag import UNLIMITED
@@ -16,6 +17,19 @@ CHAMBER, UPSTREAM = range(2)  # hidden states: the pressures in the chamber and 
 SHORTEST = 1e-6  # s; faster than the refill of any rig: treated as immediate
 LEAST = 1e-12  # 1/s; a leak that takes thousands of years is ignored
 REOPENING = 2e3  # Pa; a change of p_in that removes the loss of a closed chamber except for 1/e
+
+
+@scalar
+def open_for(way: float, slope: float, r: float, left: float) -> float:
+    """Return the time in s, at most *left*, until a fully open valve begins to close.
+
+    By then the pressure changes by *way* Pa. It begins with *slope* Pa/s and changes by
+    slope (1 - exp(-r t)) / r, so that it may never come so far: for example, to a pressure far
+    below 0.
+    """
+    if slope <= r * way:
+        return left
+    return min(left, -log1p(-r * way / slope) / r)
 
 
 def pressure(p: float, t: float, h: float, x: Row, i: int, xn: Row, q: Row, j: int) -> float:
@@ -39,9 +53,7 @@ def pressure(p: float, t: float, h: float, x: Row, i: int, xn: Row, q: Row, j: i
             begins = p + fastest * q[j + VENT]  # pressure at which the valve begins to close
             if fastest < UNLIMITED and now > begins:
                 slope = fastest + r * now
-                closing = now - begins
-                is_reached = slope > r * closing  # else that pressure is far below 0
-                spent = min(left, -log1p(-r * closing / slope) / r) if is_reached else left
+                spent = open_for(now - begins, slope, r, left)
                 now += slope * expm1(-r * spent) / r
                 left -= spent
             if q[j + VENT] > SHORTEST:
@@ -57,9 +69,7 @@ def pressure(p: float, t: float, h: float, x: Row, i: int, xn: Row, q: Row, j: i
         if left > 0.0 and (p - now) * fill > q[j + SUPPLY]:
             # The valve is fully open until it begins to close, or for the rest of the step.
             slope = q[j + SUPPLY] - r * now
-            closing = p - q[j + SUPPLY] / fill - now
-            is_reached = slope > r * closing
-            spent = min(left, -log1p(-r * closing / slope) / r) if is_reached else left
+            spent = open_for(p - q[j + SUPPLY] / fill - now, slope, r, left)
             now -= slope * expm1(-r * spent) / r
             left -= spent
         rest = p * fill / (fill + r)
