@@ -24,19 +24,22 @@ MOVES = 0.3
 def looks(parent: Model, place: Place, setting: Setting) -> list[Solution]:
     """Return cheap fits of the effect at *place* on top of *parent*, the best score first.
 
-    They begin with each start of the effect, with the parent's unknowns and with the nominal
-    constants (re-tuned constants may compensate for the missing effect), with the parent's
-    discrepancy and with none (a slow discrepancy describes slow errors, and a fit that begins with
-    it may not find an effect that causes them).
+    They begin with each start of the effect, with the parent's discrepancy and with none (a slow
+    discrepancy describes slow errors, and a fit that begins with it may not find an effect that
+    causes them). With the starts that are the best with either of them, they also begin at the
+    nominal constants (re-tuned constants may compensate for the missing effect).
     """
-    starts = (*place.fit_starts, *guessed(parent, place))
+    starts = [*place.fit_starts, *guessed(parent, place)]
     found = []
     for known, processes in _grounds(parent.solution):
         wider = [extended(known, place, start, setting) for start in starts]
+        best: list[int] = []
         for process in processes:
             some = [_look(replace(one, discrepancy=process), setting) for one in wider]
-            some.sort(key=lambda one: one.cost)
-            found += some[: setting.budget.fits]
+            order = sorted(range(len(some)), key=lambda k: some[k].cost)
+            found += [some[k] for k in order[: setting.budget.fits]]
+            best += order[:1]
+        starts = [starts[k] for k in dict.fromkeys(best)]
     return sorted((_with_own_discrepancy(one) for one in found), key=lambda one: one.score)
 
 

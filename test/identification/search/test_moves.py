@@ -9,7 +9,7 @@ import pytest
 
 from pam_ros.identification.fit.extend import finer_starts
 from pam_ros.identification.fit.solve import begun, settled
-from pam_ros.identification.fit.unknowns import MemoryStart, parameters_of
+from pam_ros.identification.fit.unknowns import parameters_of
 from pam_ros.identification.search import moves
 from pam_ros.identification.search.criteria import BUDGET, CRITERIA
 from pam_ros.identification.search.moves import (
@@ -28,7 +28,7 @@ from pam_ros.identification.search.search import (
     confirmed,
     exchanged,
 )
-from pam_ros.identification.search.starts import extended, guessed, looks
+from pam_ros.identification.search.starts import extended
 
 pytestmark = [pytest.mark.slow, pytest.mark.needs_numba]
 NAMES = ['pressure_lag', 'dead_time', 'viscous_friction']
@@ -222,33 +222,6 @@ def test_a_broader_effect_is_simplified_with_finer_steps(leaking, tried, retuned
 def effects_in(model):
     names = {one.name for one in model.solution.problem.unknowns}
     return {name for name in names if name.startswith('effects.')}
-
-
-def test_looks_come_best_first_and_never_worse_than_their_start(retuned, setting):
-    place = setting.places['pressure_lag']
-    found = looks(retuned, place, setting)
-    assert [one.score for one in found] == sorted(one.score for one in found)
-    starts = place.effect.fit_starts()
-    begun = [extended(retuned.solution, place, start, setting) for start in starts]
-    assert found[0].score < min(one.score for one in begun)
-
-
-def test_columns_of_what_was_there_are_kept_and_hidden_starts_that_move_nothing_left_out(
-    retuned, setting
-):
-    place = setting.places['creep']
-    known = extended(retuned.solution, place, {'stiffness': 500.0, 'time': 3.0}, setting)
-    count = len(retuned.solution.u)
-    np.testing.assert_array_equal(known.jacobian[:, :count], retuned.solution.jacobian)
-    memories = [k.of.state for k in known.problem.unknowns if isinstance(k.of, MemoryStart)]
-    assert set(memories) == {'fast contraction', 'slow contraction'}
-
-
-def test_a_frequency_is_read_from_what_is_left(retuned, setting):
-    starts = guessed(retuned, setting.places['periodic_disturbance'])
-    assert starts
-    assert all(start['frequency'] > 0.0 for start in starts)
-    assert guessed(retuned, setting.places['dead_time']) == ()
 
 
 def test_alternatives_are_within_the_margin(tried, retuned, setting):

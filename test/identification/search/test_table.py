@@ -49,10 +49,27 @@ def test_numbers_are_those_of_the_models(table, search, retuned):
     assert row.score_fall == retuned.score - best.score
     assert row.gain == pytest.approx(1.0 - best.errors.choose / retuned.errors.choose)
     fill = row.parameters['fill']
-    assert fill.low < fill.value < fill.high
+    assert 0.0 < fill.low < fill.value < fill.high
     assert fill.value == pytest.approx(best.solution.value('effects.pressure_lag.fill'))
-    assert {'fill', 'vent'} <= set(row.parameters) <= {'fill', 'vent', 'fastest'}
-    assert row.interval_clear
+    unknowns = {unknown.name for unknown in best.solution.problem.unknowns}
+    assert {f'effects.pressure_lag.{name}' for name in row.parameters} == {
+        name for name in unknowns if name.startswith('effects.')
+    }
+    assert {'fill', 'vent'} <= set(row.parameters)
+
+
+def test_intervals_are_clear_if_those_of_all_strengths_exclude_0(table):
+    strengths = {
+        'pressure_lag': {'fill', 'vent', 'dead_zone'},
+        'dead_time': {'delay'},
+        'viscous_friction': {'coefficient'},
+        'end_stop': {'stiffness', 'lower_stiffness'},
+    }
+    for row in table:
+        known = [row.parameters[name] for name in strengths[row.effect] & set(row.parameters)]
+        assert known
+        assert row.interval_clear == all(one.low > 0.0 or one.high < 0.0 for one in known)
+    assert {row.interval_clear for row in table} == {True, False}
 
 
 def test_p_is_that_of_the_likelihood_ratio_for_all_that_were_tried(table, search, retuned):
