@@ -4,7 +4,7 @@
 
 import os
 from collections.abc import Callable, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Executor, ThreadPoolExecutor
 from dataclasses import replace
 
 import numpy as np
@@ -22,10 +22,9 @@ from pam_ros.identification.data.segment import (
     require_one_kind,
     segments_of,
 )
-from pam_ros.identification.fit.intervals import covariance
 from pam_ros.identification.fit.solve import Solution
 from pam_ros.identification.fit.uncertain import spread_unknowns
-from pam_ros.identification.fit.undetermined import undetermined, undetermined_before
+from pam_ros.identification.fit.undetermined import undetermined_after, undetermined_before
 from pam_ros.identification.result import Estimate, Finding, Identification, Stage
 from pam_ros.identification.search.criteria import BUDGET, CRITERIA
 from pam_ros.identification.search.final import Final, final
@@ -141,7 +140,7 @@ def identify(
         warnings=(
             *(text for recording in (*recordings, *test) for text in recording.warnings),
             *apart(ends.augmented, answer.noise.sigma),
-            *_undetermined(ends.augmented),
+            *undetermined_after(ends.augmented),
             *of_absolute_pressures(
                 answer.stages[2].parameters, driving(recordings[0])[0].quantity
             ),
@@ -167,7 +166,7 @@ def _answer(
 ) -> Identification:
     """Return the numbers of an identification, without its verdict and its texts."""
     three = stages(ends, found, tests)
-    noise = _least(three, ends.parts)
+    noise = _least(three, ends.parts, found.setting.pool)
     quantity = ends.parts[0].segment.quantity
     return Identification(
         verdict='',
@@ -191,10 +190,6 @@ def _answer(
     )
 
 
-def _undetermined(known: Solution) -> tuple[str, ...]:
-    return undetermined(known.problem, covariance(known, known.most_likely()))
-
-
 def _since(verdict: str, found: Search, ends: Final, since: Moment | None) -> Estimate | None:
     """Return the time in s from which the effects act, or the best model fails."""
     if verdict == 'effect_found':
@@ -204,7 +199,7 @@ def _since(verdict: str, found: Search, ends: Final, since: Moment | None) -> Es
     return Estimate(since.time, since.low, since.high, 's')
 
 
-def _least(three: Sequence[Stage], parts: Sequence[Part]) -> Noise:
+def _least(three: Sequence[Stage], parts: Sequence[Part], pool: Executor) -> Noise:
     """Return the smallest noise estimate: of the signal, and of the residual of each model.
 
     If a model follows the motion, its residual is smoother than the raw signal, whose fast parts a
@@ -215,7 +210,7 @@ def _least(three: Sequence[Stage], parts: Sequence[Part]) -> Noise:
         pairs = zip(parts, stage.simulated, strict=True)
         signals.append([(part.segment.t, part.segment.target - run) for part, run in pairs])
     steps = [step_of(part.segment.target) for part in parts]
-    found = [noise_of(pairs, steps) for pairs in signals]
+    found = pool.map(lambda pairs: noise_of(pairs, steps), signals)
     return min(found, key=lambda noise: noise.sigma)
 
 

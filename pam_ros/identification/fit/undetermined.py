@@ -12,7 +12,7 @@ from pam_ros.identification.fit.discrepancy import WHITE
 from pam_ros.identification.fit.intervals import covariance
 from pam_ros.identification.fit.of_rig import OfRig
 from pam_ros.identification.fit.problem import Problem
-from pam_ros.identification.fit.solve import begun
+from pam_ros.identification.fit.solve import Solution, begun
 
 Array = NDArray[np.float64]
 # Standard deviation, as a share of that of the prior, above which a number is not determined: the
@@ -29,11 +29,22 @@ def undetermined_before(problem: Problem, noise: float, pool: Executor) -> tuple
     They result from the Jacobian at the nominal values, for errors that are not larger than the
     *noise*, a standard deviation in the unit of the target.
     """
-    if not any(isinstance(one.of, OfRig) for one in problem.unknowns):
+    if not _has_numbers_of_rig(problem):
         return ()
     start = begun(problem, np.zeros(len(problem.unknowns)), pool=pool)
     quiet = replace(start, r=np.full_like(start.r, noise))
     return undetermined(problem, covariance(quiet, WHITE))
+
+
+def undetermined_after(known: Solution) -> tuple[str, ...]:
+    """Return the sentences of :func:`undetermined` after a fit, for errors like its residuals."""
+    if not _has_numbers_of_rig(known.problem):
+        return ()
+    return undetermined(known.problem, covariance(known, known.most_likely()))
+
+
+def _has_numbers_of_rig(problem: Problem) -> bool:
+    return any(isinstance(one.of, OfRig) for one in problem.unknowns)
 
 
 def undetermined(problem: Problem, spread: Array) -> tuple[str, ...]:

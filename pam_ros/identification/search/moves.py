@@ -2,6 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """The moves of a search: one effect more or less, or more or fewer of its parameters."""
 
+from collections.abc import Callable, Sequence
+from concurrent.futures import Executor
+from typing import TypeVar
+
 from pam_ros.identification.fit.extend import (
     finer_starts,
     in_common,
@@ -16,6 +20,8 @@ from pam_ros.identification.fit.solve import Solution, fresh, settled
 from pam_ros.identification.fit.unknowns import OfEffect, parameters_of
 from pam_ros.identification.search.setting import Model, Setting
 from pam_ros.identification.search.starts import extended, looks, moving
+
+Option = TypeVar('Option')
 
 
 def with_each(parent: Model, names: list[str], setting: Setting) -> list[Model]:
@@ -68,11 +74,20 @@ def freed(model: Model, setting: Setting) -> list[Model]:
         for option in finer_starts(known.problem.unknowns, row, setting.joint, place)
     ]
 
-    def fit(option: tuple[Place, dict[str, float]]) -> Model:
+    def fit(option: tuple[Place, dict[str, float]], pool: Executor | None) -> Model:
         wider = extended(known, *option, setting)
-        return setting.model(model.effects, settled(wider, setting.budget.iterations))
+        return setting.model(model.effects, settled(wider, setting.budget.iterations, pool))
 
-    return list(setting.pool.map(fit, options))
+    return _in_parallel(fit, options, setting.pool)
+
+
+def _in_parallel(
+    fit: Callable[[Option, Executor | None], Model], options: Sequence[Option], pool: Executor
+) -> list[Model]:
+    """Return the fit of each option; if there is only one, its simulations run in parallel."""
+    if len(options) == 1:
+        return [fit(options[0], pool)]
+    return list(pool.map(lambda option: fit(option, None), options))
 
 
 def without_idle_parameters(model: Model, setting: Setting) -> Model:
@@ -111,14 +126,13 @@ def fixed(model: Model, setting: Setting) -> list[Model]:
     The remaining ones suffice for a fit of this effect alone, or of a simpler one that it
     contains; the others have their defaults.
     """
-    known = model.solution
+    unknowns = model.solution.problem.unknowns
     options = [
         (place, names)
         for place in (setting.places[name] for name in model.effects)
-        for names in plainer_sets(known.problem.unknowns, place)
+        for names in plainer_sets(unknowns, place)
     ]
-
-    less = [_narrowed(model, *option, setting) for option in options]
+    less = _narrowed(model, options, setting)
     return [*less, *(one for name in model.effects for one in simplified(model, name, setting))]
 
 
@@ -135,14 +149,24 @@ def weakened(model: Model, name: str, setting: Setting) -> list[Model]:
         left = frozenset(strengths & names)
         if left < there:
             fewest.setdefault(left, names)
-    return [_narrowed(model, place, names, setting) for names in fewest.values()]
+    return _narrowed(model, [(place, names) for names in fewest.values()], setting)
 
 
-def _narrowed(model: Model, place: Place, names: set[str], setting: Setting) -> Model:
-    """Return *model* with only the parameters *names* of an effect, from its present values."""
+def _narrowed(
+    model: Model, options: Sequence[tuple[Place, set[str]]], setting: Setting
+) -> list[Model]:
+    """Return *model* with only some parameters of an effect, for each place and set of names.
+
+    The fits begin from the present values.
+    """
     known = model.solution
-    less = with_parameters(known.problem, setting.joint, place, names)
-    return _less(model.effects, known, *less, setting)
+
+    def fit(option: tuple[Place, set[str]], pool: Executor | None) -> Model:
+        place, names = option
+        less = _kept(known, *with_parameters(known.problem, setting.joint, place, names))
+        return setting.model(model.effects, settled(less, setting.budget.iterations, pool))
+
+    return _in_parallel(fit, options, setting.pool)
 
 
 def simplified(model: Model, name: str, setting: Setting) -> list[Model]:
@@ -203,18 +227,7 @@ def dropped(model: Model, name: str, setting: Setting) -> Model:
 def _dropped(model: Model, name: str, setting: Setting) -> Model:
     problem, keep = without_effect(model.solution.problem, setting.joint, setting.places[name])
     effects = tuple(e for e in model.effects if e != name)
-    return _less(effects, model.solution, problem, keep, setting)
-
-
-def _less(
-    effects: tuple[str, ...],
-    known: Solution,
-    problem: Problem,
-    keep: list[int],
-    setting: Setting,
-) -> Model:
-    """Return the fit of a *problem* with the unknowns *keep* of *known*, from their values."""
-    less = _kept(known, problem, keep)
+    less = _kept(model.solution, problem, keep)
     return setting.model(effects, settled(less, setting.budget.iterations, setting.pool))
 
 

@@ -3,6 +3,7 @@
 """The effects that the recordings could have shown: the power of a test for each."""
 
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,7 +24,9 @@ def hidden(model: Model, names: Iterable[str], setting: Setting) -> dict[str, st
     by less than the margin.
     """
     places = [setting.places[name] for name in names]
-    powers = setting.pool.map(lambda place: power(model, place, setting), places)
+    model = with_long_steps(model, setting)
+    basis = compensable(model)
+    powers = setting.pool.map(lambda place: power(model, place, basis, setting), places)
     is_held = setting.parts[0].segment.kind == 'held'
     return {
         place.name: _reason(place.effect, size, is_held)
@@ -32,23 +35,42 @@ def hidden(model: Model, names: Iterable[str], setting: Setting) -> dict[str, st
     }
 
 
-def power(model: Model, place: Place, setting: Setting) -> float:
-    """Return the most by which the effect at *place*, clearly present, would lower the score.
+def with_long_steps(model: Model, setting: Setting) -> Model:
+    """Return *model* with the steps of a search: a change of the run needs no shorter ones."""
+    known = model.solution
+    if known.problem.step == setting.step:
+        return model
+    problem = replace(known.problem, step=setting.step)
+    return setting.model(
+        model.effects, replace(known, problem=problem, r=problem.residuals(known.u))
+    )
 
-    This is the squared change of the whitened run by the effect, over the variance of the noise:
-    the noncentrality of the likelihood-ratio test (Wald 1943). The part of the change that the
-    unknowns of *model* can compensate is removed. The effect is as in its example, and as at each
-    start of a fit.
+
+def compensable(model: Model) -> Array:
+    """Return an orthonormal basis (n + k, k) of the changes that unknowns of *model* can make.
+
+    The first n rows are the whitened run, in standard deviations of the noise, and the others the
+    k unknowns in standard deviations of their priors.
     """
     known = model.solution
-    starts = (place.example, *place.fit_starts, *guessed(model, place))
     slopes = np.vstack(
         [
             known.problem.whitened(known.jacobian, known.whitenings) / known.noise,
             np.diag(1.0 / known.problem.prior),
         ]
     )
-    basis = np.linalg.qr(slopes)[0]
+    return np.asarray(np.linalg.qr(slopes)[0])
+
+
+def power(model: Model, place: Place, basis: Array, setting: Setting) -> float:
+    """Return the most by which the effect at *place*, clearly present, would lower the score.
+
+    This is the squared change of the whitened run by the effect, over the variance of the noise:
+    the noncentrality of the likelihood-ratio test (Wald 1943). The part of the change that the
+    unknowns of *model* can compensate is removed: *basis* is that of :func:`compensable`. The
+    effect is as in its example, and as at each start of a fit.
+    """
+    starts = (place.example, *place.fit_starts, *guessed(model, place))
     return max(_fall(model, place, start, basis, setting) for start in starts)
 
 

@@ -35,8 +35,8 @@ def stages(ends: Final, found: Search, test: Sequence[Segment]) -> tuple[Stage, 
     problem = found.setting.problem
     known = [unknown for unknown in problem.unknowns if unknown.is_parameter]
     nominal = {k.name: in_source_units(k, 3 * [k.value(0.0)], joint, False) for k in known}
-    retuned, augmented = (
-        estimates(one, one.most_likely(), joint) for one in (ends.retuned, ends.augmented)
+    retuned, augmented = found.setting.pool.map(
+        lambda one: estimates(one, one.most_likely(), joint), (ends.retuned, ends.augmented)
     )
     effects = found.best.effects
 

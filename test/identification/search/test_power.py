@@ -3,6 +3,7 @@
 """What recordings could have shown: closed forms on a cylinder that a machine moves."""
 
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -12,7 +13,7 @@ from pam_ros.effects import EFFECTS
 from pam_ros.identification.data.parts import parts_of
 from pam_ros.identification.fit.solve import solved
 from pam_ros.identification.search.criteria import BUDGET, CRITERIA
-from pam_ros.identification.search.power import hidden, power
+from pam_ros.identification.search.power import compensable, hidden, power, with_long_steps
 from pam_ros.identification.search.setting import Setting
 from pam_ros.settings.nominal import nominal_joint
 from support import moved_cylinders
@@ -33,22 +34,36 @@ def retuned():
         yield setting.model((), solved(problem, np.zeros(len(problem.unknowns))))
 
 
+def power_of(name, model):
+    return power(model, model.setting.places[name], compensable(model), model.setting)
+
+
 def test_power_is_what_an_effect_changes_over_the_noise(retuned):
     """30 N s/m: the sum of (c v)^2 over the variance of the noise, re-tuning has no part in it."""
     (segment,) = retuned.solution.problem.segments
     _, v = moved_cylinders.to_and_fro(segment.t)
     expected = np.sum((30.0 * v[segment.fit]) ** 2) / moved_cylinders.NOISE**2
-    found = power(retuned, retuned.setting.places['viscous_friction'], retuned.setting)
+    found = power_of('viscous_friction', retuned)
     assert found == pytest.approx(expected, rel=0.1)
     assert found > 10.0 * CRITERIA.margin
 
 
 def test_what_retuning_makes_up_for_has_no_power(retuned):
     """At one pressure an offset of it is a change of the area, as far as that may change."""
-    found = power(retuned, retuned.setting.places['pressure_offset'], retuned.setting)
+    found = power_of('pressure_offset', retuned)
     # Most of its starts changes 300 kPa by 1 kPa and 3 %, and the prior of the area is 3 %.
     assert found == pytest.approx((10.0 / 9.0) ** 2, rel=1e-2)
     assert found < CRITERIA.margin
+
+
+def test_powers_of_a_model_with_finer_steps_are_those_with_long_ones(retuned):
+    setting, known = retuned.setting, retuned.solution
+    problem = replace(known.problem, step=setting.step / BUDGET.finer)
+    fine = setting.model((), replace(known, problem=problem, r=problem.residuals(known.u)))
+    assert with_long_steps(fine, setting).solution.problem.step == setting.step
+    assert with_long_steps(retuned, setting) is retuned
+    names = ['viscous_friction', 'pressure_offset', 'payload']
+    assert hidden(fine, names, setting) == hidden(retuned, names, setting)
 
 
 def test_what_nothing_excites_is_hidden_and_the_experiment_named(retuned):
