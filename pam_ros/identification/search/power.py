@@ -3,7 +3,7 @@
 """The effects that the recordings could have shown: the power of a test for each."""
 
 from collections.abc import Iterable, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,10 +11,25 @@ from numpy.typing import NDArray
 from pam_ros.effects.base import Effect
 from pam_ros.identification.fit.extend import with_effect
 from pam_ros.identification.fit.places import Place
+from pam_ros.identification.fit.problem import Problem
 from pam_ros.identification.search.setting import Model, Setting
 from pam_ros.identification.search.starts import guessed
 
 Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Reference:
+    """What a run with one more effect is compared with, to find how much the effect changes it.
+
+    The runs of *problem* have the steps of a search: a change of the run needs no shorter ones.
+    The noise is that of *model*, which may have been fitted with shorter steps.
+    """
+
+    model: Model
+    problem: Problem
+    r: Array  # (n,) residuals of *problem* at the solution
+    basis: Array  # (n + k, l) orthonormal: the changes that the unknowns of *model* can make
 
 
 def hidden(model: Model, names: Iterable[str], setting: Setting) -> dict[str, str]:
@@ -24,9 +39,8 @@ def hidden(model: Model, names: Iterable[str], setting: Setting) -> dict[str, st
     by less than the margin.
     """
     places = [setting.places[name] for name in names]
-    model = with_long_steps(model, setting)
-    basis = compensable(model)
-    powers = setting.pool.map(lambda place: power(model, place, basis, setting), places)
+    base = reference(model, setting)
+    powers = setting.pool.map(lambda place: power(base, place), places)
     is_held = setting.parts[0].segment.kind == 'held'
     return {
         place.name: _reason(place.effect, size, is_held)
@@ -35,19 +49,17 @@ def hidden(model: Model, names: Iterable[str], setting: Setting) -> dict[str, st
     }
 
 
-def with_long_steps(model: Model, setting: Setting) -> Model:
-    """Return *model* with the steps of a search: a change of the run needs no shorter ones."""
+def reference(model: Model, setting: Setting) -> Reference:
+    """Return what runs with one effect in addition to *model* are compared with."""
     known = model.solution
-    if known.problem.step == setting.step:
-        return model
     problem = replace(known.problem, step=setting.step)
-    return setting.model(
-        model.effects, replace(known, problem=problem, r=problem.residuals(known.u))
-    )
+    is_same = problem.step == known.problem.step
+    r = known.r if is_same else problem.residuals(known.u)
+    return Reference(model, problem, r, _compensable(model))
 
 
-def compensable(model: Model) -> Array:
-    """Return an orthonormal basis (n + k, k) of the changes that unknowns of *model* can make.
+def _compensable(model: Model) -> Array:
+    """Return an orthonormal basis (n + k, l) of the changes that unknowns of *model* can make.
 
     The first n rows are the whitened run, in standard deviations of the noise, and the others the
     k unknowns in standard deviations of their priors.
@@ -62,28 +74,27 @@ def compensable(model: Model) -> Array:
     return np.asarray(np.linalg.qr(slopes)[0])
 
 
-def power(model: Model, place: Place, basis: Array, setting: Setting) -> float:
+def power(base: Reference, place: Place) -> float:
     """Return the most by which the effect at *place*, clearly present, would lower the score.
 
     This is the squared change of the whitened run by the effect, over the variance of the noise:
     the noncentrality of the likelihood-ratio test (Wald 1943). The part of the change that the
-    unknowns of *model* can compensate is removed: *basis* is that of :func:`compensable`. The
-    effect is as in its example, and as at each start of a fit.
+    unknowns of the model can compensate is removed. The effect is as in its example, and as at
+    each start of a fit.
     """
-    starts = (place.example, *place.fit_starts, *guessed(model, place))
-    return max(_fall(model, place, start, basis, setting) for start in starts)
+    starts = (place.example, *place.fit_starts, *guessed(base.model, place))
+    return max(_fall(base, place, start) for start in starts)
 
 
-def _fall(
-    model: Model, place: Place, start: Mapping[str, float], basis: Array, setting: Setting
-) -> float:
-    """Return how much an effect from *start* on changes what the *basis* (n, k) cannot give."""
-    known = model.solution
-    problem, added = with_effect(known.problem, setting.joint, place, start)
+def _fall(base: Reference, place: Place, start: Mapping[str, float]) -> float:
+    """Return how much an effect from *start* on changes what the unknowns cannot compensate."""
+    known = base.model.solution
+    problem, added = with_effect(base.problem, base.model.setting.joint, place, start)
     u = np.clip(np.concatenate([known.u, added]), *problem.bounds)
-    change = known.problem.whitened(problem.residuals(u) - known.r, known.whitenings) / known.noise
+    change = problem.residuals(u) - base.r
+    change = known.problem.whitened(change, known.whitenings) / known.noise
     whole = np.concatenate([change, np.zeros(known.u.size)])
-    return float(np.sum((whole - basis @ (basis.T @ whole)) ** 2))
+    return float(np.sum((whole - base.basis @ (base.basis.T @ whole)) ** 2))
 
 
 def _reason(effect: type[Effect], size: float, is_held: bool) -> str:

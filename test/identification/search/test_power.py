@@ -13,7 +13,7 @@ from pam_ros.effects import EFFECTS
 from pam_ros.identification.data.parts import parts_of
 from pam_ros.identification.fit.solve import solved
 from pam_ros.identification.search.criteria import BUDGET, CRITERIA
-from pam_ros.identification.search.power import compensable, hidden, power, with_long_steps
+from pam_ros.identification.search.power import hidden, power, reference
 from pam_ros.identification.search.setting import Setting
 from pam_ros.settings.nominal import nominal_joint
 from support import moved_cylinders
@@ -35,7 +35,7 @@ def retuned():
 
 
 def power_of(name, model):
-    return power(model, model.setting.places[name], compensable(model), model.setting)
+    return power(reference(model, model.setting), model.setting.places[name])
 
 
 def test_power_is_what_an_effect_changes_over_the_noise(retuned):
@@ -56,14 +56,18 @@ def test_what_retuning_makes_up_for_has_no_power(retuned):
     assert found < CRITERIA.margin
 
 
-def test_powers_of_a_model_with_finer_steps_are_those_with_long_ones(retuned):
+def test_long_steps_change_the_run_and_not_the_noise(retuned):
+    """A model confirmed with fine steps has the noise of these, and powers in units of it."""
     setting, known = retuned.setting, retuned.solution
     problem = replace(known.problem, step=setting.step / BUDGET.finer)
-    fine = setting.model((), replace(known, problem=problem, r=problem.residuals(known.u)))
-    assert with_long_steps(fine, setting).solution.problem.step == setting.step
-    assert with_long_steps(retuned, setting) is retuned
-    names = ['viscous_friction', 'pressure_offset', 'payload']
-    assert hidden(fine, names, setting) == hidden(retuned, names, setting)
+    # Long steps would be a model error here: with fine steps, half of the residuals are left.
+    fine = setting.model((), replace(known, problem=problem, r=0.5 * known.r))
+    base = reference(fine, setting)
+    assert base.problem.step == setting.step
+    np.testing.assert_array_equal(base.r, known.r)
+    expected = 4.0 * power_of('viscous_friction', retuned)
+    assert power_of('viscous_friction', fine) == pytest.approx(expected, rel=1e-2)
+    assert set(hidden(fine, ['viscous_friction', 'payload'], setting)) == {'payload'}
 
 
 def test_what_nothing_excites_is_hidden_and_the_experiment_named(retuned):
