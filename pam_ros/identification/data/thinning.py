@@ -3,8 +3,9 @@
 """A thinned copy of the runs, on which many models are compared before a few are fitted in full.
 
 Samples are thinned to the stride that the rig's own frequency allows. Commands that vary a
-little within a stride are replaced by their mean, which has the same effect on the load; a jump
-keeps its stamp, because a delay of half a stride would be visible above the noise.
+little within a stride are replaced by their mean, which has the same effect on the load. A jump
+keeps its stamp, because a delay of half a stride would be visible above the noise. A ramp has more
+than one mean in a long stride, because valves and hystereses respond differently to large steps.
 """
 
 from dataclasses import replace
@@ -22,8 +23,9 @@ Array = NDArray[np.float64]
 
 PHASE = 0.5  # rad of the rig's fastest oscillation in one period
 PERIODS = (1e-3, 10e-3)  # s, shortest period, and the longest one unless there are many samples
-LONGEST = 50e-3  # s, longest period: commands that change keep their own stamps
+LONGEST = 50e-3  # s, longest period: commands that change keep steps of at most PERIODS[1]
 JUMP = 0.01  # change of a command that is a jump, as a share of its range
+RAMP = 0.003  # change of a command over a long stride that is a ramp, as a share of its range
 ROUNDING = 1e-9  # largest change by the rounding of means, as a share of a command's range
 ROOM = 0.1  # share by which a period may be longer than desired, since stamps jitter
 HELD_STEP = 0.02  # s; at a prescribed length there are no dynamics to resolve, only memories
@@ -81,7 +83,8 @@ def thinned(segment: Segment, longest: float) -> Segment:
     assert isinstance(segment, FreeSegment)
     stride = max(1, int(longest / period + ROOM))
     t = segment.t[::stride]
-    drive_t, drive = _changed(*_merged(segment.drive_t, segment.drive, t))
+    drive_t, drive = segment.drive_t, segment.drive
+    drive_t, drive = _changed(*_merged(drive_t, drive, _divided(drive_t, drive, t)))
     return replace(
         segment,
         t=t,
@@ -92,10 +95,27 @@ def thinned(segment: Segment, longest: float) -> Segment:
     )
 
 
-def _merged(at: Array, u: Array, t: Array) -> tuple[Array, Array]:
-    """Return commands with one mean per sample interval if they vary little within it.
+def _divided(at: Array, u: Array, t: Array) -> Array:
+    """Return the edges of the intervals in which one mean stands for the commands.
 
     at (m,), u (m, muscles), t (n,) are the stamps and values of commands, and the samples' stamps.
+    The intervals are those between samples. Where a command changes by more than RAMP of its
+    range, they are divided into equal ones of at least PERIODS[1].
+    """
+    held = u[np.clip(np.searchsorted(at, t, side='right') - 1, 0, at.size - 1)]
+    changes = (np.abs(np.diff(held, axis=0)) > RAMP * np.ptp(u, axis=0)).any(axis=1)
+    span = np.diff(t)
+    room = np.maximum(1.0, np.floor(span / PERIODS[1] + ROOM))
+    parts = np.where(changes, room, 1.0).astype(int)
+    number = np.arange(parts.sum()) - np.repeat(np.cumsum(parts) - parts, parts)
+    edges = np.repeat(t[:-1], parts) + number * np.repeat(span / parts, parts)
+    return np.append(edges, t[-1])
+
+
+def _merged(at: Array, u: Array, t: Array) -> tuple[Array, Array]:
+    """Return commands with one mean per interval if they vary little within it.
+
+    at (m,), u (m, muscles) are the stamps and values of commands, t (n,) the intervals' edges.
     """
     if at.size < 2 or at.size <= t.size:
         return at, u
@@ -114,11 +134,14 @@ def _merged(at: Array, u: Array, t: Array) -> tuple[Array, Array]:
     leaps = (np.abs(np.diff(u, axis=0)) > JUMP * np.ptp(u, axis=0)).any(axis=1)
     large = np.flatnonzero(leaps) + 1
     jump[cell[large][inside[large]]] = True
-    # A constant mean has no moment. The moment is given to the neighbouring intervals, with
-    # opposite signs, since otherwise fast waves would be too small.
-    moment[jump] = 0.0
-    mean[1:] += 0.5 * moment[:-1] / span[1:] ** 2
-    mean[:-1] -= 0.5 * moment[1:] / span[:-1] ** 2
+    # A constant mean has no moment. The moment is given to the adjacent intervals, with opposite
+    # signs, since otherwise fast waves would be too small. An interval with a jump keeps its own
+    # commands, and takes none.
+    mixed = jump[2:] | jump[1:-1] | jump[:-2]
+    given = moment[1:-1] / (middle[2:] - middle[:-2])
+    given[mixed] = 0.0
+    mean[2:] += given / span[2:]
+    mean[:-2] -= given / span[:-2]
     keep = ~inside | jump[np.clip(cell, 0, len(mean) - 1)]
     # An interval that keeps its own commands starts with the command at its first stamp.
     cells = np.flatnonzero(~jump)

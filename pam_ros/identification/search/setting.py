@@ -177,7 +177,7 @@ class Setting:
     def _brief(self) -> Sequence[Part]:
         """The parts, without the middle of the rests if there are more samples than needed."""
         # An onset is a time on the clock of the recording, which must not change.
-        enough = self._size(self.parts, coarse_period(self.joint)) <= self.budget.samples
+        enough = self._size(self.parts, coarse_period(self.joint)) <= self.budget.rests
         if enough or self.onset is not None:
             return self.parts
         return [without_rests(part, self.noise) for part in self.parts]

@@ -100,6 +100,38 @@ def test_a_free_mass_goes_where_the_full_command_would_have_sent_it():
     assert away(held) < 0.1 * away(means)
 
 
+def zigzag(stamps):
+    """Return a wave with ramps that are fast in every other second, and 40 times slower else."""
+    fast = np.where(stamps % 2.0 < 1.0, 2e5, 5e3)
+    return 3e5 + np.cumsum(fast * np.sign(np.sin(2.0 * np.pi * 2.0 * stamps))) * 1e-3
+
+
+def test_a_ramp_has_two_means_in_a_long_stride():
+    stamps = np.arange(8000) * 1e-3
+    thin = thinned(recorded(stamps, stamps, zigzag(stamps)), 20e-3)
+    np.testing.assert_array_equal(thin.t, stamps[::20])
+    at, gaps = thin.drive_t[:-1], np.diff(thin.drive_t)
+    # Where it turns, a stride may begin and end with the same command.
+    assert np.median(gaps[(at % 2.0 > 0.05) & (at % 2.0 < 0.95)]) == pytest.approx(10e-3)
+    assert gaps[(at % 2.0 > 1.05) & (at % 2.0 < 1.95)].min() == pytest.approx(20e-3)
+    # A stride that is no longer than the usual one is not divided.
+    usual = thinned(recorded(stamps, stamps, zigzag(stamps)), PERIODS[1])
+    assert usual.drive_t.size <= usual.t.size + 10
+
+
+def test_a_free_mass_follows_intervals_of_different_lengths():
+    stamps = np.arange(20_000) * 1e-3
+    command = zigzag(stamps)
+    thin = thinned(recorded(stamps, stamps, command), 20e-3)
+    held = thin.drive[:, 0][np.searchsorted(thin.drive_t, stamps + 1e-9) - 1]
+    speed = np.concatenate([[0.0], np.cumsum(held - command)]) * 1e-3
+    way = np.concatenate([[0.0], np.cumsum(speed[:-1])]) * 1e-3
+    edges = np.unique(np.rint(np.concatenate([thin.drive_t, thin.t]) / 1e-3).astype(int))[3:-3]
+    # The first interval of a ramp has nothing before it that compensates for its moment.
+    moment = 2e5 * 10e-3**3 / 12.0
+    assert np.ptp(way[edges]) < 1.5 * moment
+
+
 def test_samples_are_every_nth_and_commands_fewer():
     t = np.arange(6000) * 1e-3
     segment = recorded(t, t, wave(t), 0.01 * np.sin(t))

@@ -169,15 +169,15 @@ def test_of_more_samples_than_a_search_needs_fewer_are_used_as_the_rig_allows(po
     assert fewest.period == coarse_period(slow, LONGEST) < 4.0 * PERIODS[1]
 
 
-def test_the_rests_of_too_many_samples_are_shortened_first(pool):
+def test_the_rests_of_too_many_samples_are_shortened(pool):
     slow = single_muscle_joint(Muscle(), Mass(mass=80.0, mount='horizontal'))
     t = np.arange(6000) * 1e-2
     command = np.where(t < 30.0, 2e5, 3e5)
     run = simulate(slow, t, t, command, float(equilibrium(slow, 2e5)))
     y = run.position + NOISE * np.random.default_rng(0).standard_normal(t.size)
     parts = parts_of([Recording('rests', t, t, command, y, None, None, None, 'free')], 0.9, 0.95)
-    plain = Setting(slow, parts, CRITERIA, BUDGET, pool)
-    short = replace(plain, budget=replace(BUDGET, samples=4000))
+    plain = Setting(slow, parts, CRITERIA, replace(BUDGET, samples=10_000), pool)
+    short = replace(plain, budget=replace(plain.budget, rests=4000))
     size = [setting.thin[0].segment.t.size for setting in (plain, short)]
     assert plain.period == short.period
     assert size[1] < 0.5 * size[0]
