@@ -72,9 +72,9 @@ class Budget:
     many, from the results with long steps. ``iterations``: those of a complete fit. ``finer``:
     number of steps of the confirming fit in one step of the others. ``nearer``: iterations from
     the result of a closer fit towards the nearest free run.
-    ``window``: length in s of the runs of a load without a spring. ``rests``: thinned samples
-    from which on rests are shortened. ``samples``: those that a search needs; if there are more,
-    they are thinned further. ``most``: most samples that it fits; if there are still more,
+    ``window``: length in s of the runs of a load without a spring. ``samples``: thinned samples
+    that a search needs; if there are more, they are thinned further, and if there are far more,
+    rests are shortened before. ``most``: most samples that it fits; if there are still more,
     recordings are left out, but never all.
     """
 
@@ -88,7 +88,6 @@ class Budget:
     nearer: int = 25
     finer: int = 5
     window: float = 2.0
-    rests: int = 10_000
     samples: int = 3_000
     most: int = 30_000
 

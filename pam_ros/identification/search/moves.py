@@ -4,6 +4,7 @@
 
 from collections.abc import Callable, Sequence
 from concurrent.futures import Executor
+from math import inf
 from typing import TypeVar
 
 from pam_ros.identification.fit.extend import (
@@ -16,12 +17,15 @@ from pam_ros.identification.fit.extend import (
 from pam_ros.identification.fit.moment import moved
 from pam_ros.identification.fit.places import Place, effect_of
 from pam_ros.identification.fit.problem import Problem
-from pam_ros.identification.fit.solve import Solution, fresh, settled
+from pam_ros.identification.fit.solve import Solution, fresh, improved, settled
 from pam_ros.identification.fit.unknowns import OfEffect, parameters_of
 from pam_ros.identification.search.setting import Model, Setting
 from pam_ros.identification.search.starts import extended, looks, moving
 
 Option = TypeVar('Option')
+# A fit with fewer parameters whose score after a few iterations is so many margins above the
+# present one does not reach it: in 9 fits of 8 trials it was 160 and more, and ended 60 above.
+FAR = 30.0
 
 
 def with_each(parent: Model, names: list[str], setting: Setting) -> list[Model]:
@@ -124,7 +128,8 @@ def fixed(model: Model, setting: Setting) -> list[Model]:
     """Return *model* with fewer parameters of each of its effects, fitted from its present values.
 
     The remaining ones suffice for a fit of this effect alone, or of a simpler one that it
-    contains; the others have their defaults.
+    contains; the others have their defaults. A fit that is far from the present score after a few
+    iterations is not continued.
     """
     unknowns = model.solution.problem.unknowns
     options = [
@@ -132,7 +137,8 @@ def fixed(model: Model, setting: Setting) -> list[Model]:
         for place in (setting.places[name] for name in model.effects)
         for names in plainer_sets(unknowns, place)
     ]
-    less = _narrowed(model, options, setting)
+    far = model.score + FAR * setting.criteria.margin
+    less = _narrowed(model, options, setting, far)
     return [*less, *(one for name in model.effects for one in simplified(model, name, setting))]
 
 
@@ -153,18 +159,25 @@ def weakened(model: Model, name: str, setting: Setting) -> list[Model]:
 
 
 def _narrowed(
-    model: Model, options: Sequence[tuple[Place, set[str]]], setting: Setting
+    model: Model,
+    options: Sequence[tuple[Place, set[str]]],
+    setting: Setting,
+    far: float = inf,
 ) -> list[Model]:
     """Return *model* with only some parameters of an effect, for each place and set of names.
 
-    The fits begin from the present values.
+    The fits begin from the present values. One whose score is above *far* after a few iterations
+    ends there.
     """
     known = model.solution
 
     def fit(option: tuple[Place, set[str]], pool: Executor | None) -> Model:
         place, names = option
         less = _kept(known, *with_parameters(known.problem, setting.joint, place, names))
-        return setting.model(model.effects, settled(less, setting.budget.iterations, pool))
+        near = improved(less, setting.budget.looks, pool)
+        if near.score > far:
+            return setting.model(model.effects, near, is_look=True)
+        return setting.model(model.effects, settled(near, setting.budget.iterations, pool))
 
     return _in_parallel(fit, options, setting.pool)
 

@@ -46,6 +46,7 @@ from pam_ros.identification.search.criteria import Budget, Criteria
 from pam_ros.rig.joint import Joint
 
 Array = NDArray[np.float64]
+MANY = 3.0  # times as many samples as a search needs, from which on rests are shortened
 
 
 @dataclass(frozen=True)
@@ -175,10 +176,10 @@ class Setting:
 
     @cached_property
     def _brief(self) -> Sequence[Part]:
-        """The parts, without the middle of the rests if there are more samples than needed."""
+        """The parts, without the middle of the rests if there are far too many samples."""
         # An onset is a time on the clock of the recording, which must not change.
-        enough = self._size(self.parts, coarse_period(self.joint)) <= self.budget.rests
-        if enough or self.onset is not None:
+        size = self._size(self.parts, coarse_period(self.joint))
+        if size <= MANY * self.budget.samples or self.onset is not None:
             return self.parts
         return [without_rests(part, self.noise) for part in self.parts]
 

@@ -187,6 +187,19 @@ def leaking(retuned, setting):
     return setting.model(('leak',), settled(known, BUDGET.iterations))
 
 
+def test_a_fit_with_fewer_parameters_is_continued_unless_it_is_far_off(tried, setting):
+    place = setting.places['pressure_lag']
+    wider = extended(tried[0].solution, place, {'dead_zone': 1e3}, setting)
+    now = setting.model(('pressure_lag',), settled(wider, 60))
+    less = {frozenset(effects_in(m)): m for m in fixed(now, setting)}
+    without_lag = less[frozenset({'effects.pressure_lag.dead_zone'})]
+    assert without_lag.is_look
+    assert without_lag.score > now.score + moves.FAR * CRITERIA.margin
+    times = less[frozenset({'effects.pressure_lag.fill', 'effects.pressure_lag.vent'})]
+    assert not times.is_look
+    assert times.score < now.score + CRITERIA.margin
+
+
 def test_an_effect_is_weakened_to_each_set_of_its_strengths(retuned, setting):
     """Of those with time constants the one without further parameters; the zone is the other."""
     place = setting.places['pressure_lag']

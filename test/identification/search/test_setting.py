@@ -177,7 +177,7 @@ def test_the_rests_of_too_many_samples_are_shortened(pool):
     y = run.position + NOISE * np.random.default_rng(0).standard_normal(t.size)
     parts = parts_of([Recording('rests', t, t, command, y, None, None, None, 'free')], 0.9, 0.95)
     plain = Setting(slow, parts, CRITERIA, replace(BUDGET, samples=10_000), pool)
-    short = replace(plain, budget=replace(plain.budget, rests=4000))
+    short = replace(plain, budget=replace(BUDGET, samples=1700))
     size = [setting.thin[0].segment.t.size for setting in (plain, short)]
     assert plain.period == short.period
     assert size[1] < 0.5 * size[0]
