@@ -24,7 +24,7 @@ from pam_ros.identification.search.starts import extended, looks, moving
 
 Option = TypeVar('Option')
 # A fit with fewer parameters whose score after a few iterations is so many margins above the
-# present one does not reach it: in 9 fits of 8 trials it was 160 and more, and ended 60 above.
+# present one does not reach it: in 7 fits of 8 trials it was 160 and more, and ended 60 above.
 FAR = 30.0
 
 
