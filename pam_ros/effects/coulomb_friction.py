@@ -129,7 +129,13 @@ class CoulombFriction(Effect):
         scale=0.1,
     )
     presliding: float = effect_parameter(
-        1e-5, 'displacement of the contact until it slides', 'm', low=1e-6, high=2e-4, scale=1e-5
+        1e-5,
+        'displacement of the contact until it slides',
+        'm',
+        low=1e-6,
+        high=2e-4,
+        scale=1e-5,
+        needs_fine_steps=True,
     )
 
     name: ClassVar = 'coulomb_friction'

@@ -11,6 +11,9 @@ from pam_ros.parameters import Parameter, field_about
 from pam_ros.units import revolute_unit
 
 P = ParamSpec('P')
+# On a revolute joint the highest value of a length along the motion is the angle that this length
+# covers at an arm of 20 mm. Few joints have a shorter one.
+SHORT_ARM = 0.02  # m
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -19,7 +22,8 @@ class EffectParameter(Parameter):
 
     ``strength`` marks a parameter whose 0 means that the effect is absent. ``scale`` is a typical
     size (fits are scaled by it), and ``sign`` the physical sign that a fitted strength must have
-    (0: either). ``name`` and ``default`` are those of its field.
+    (0: either). ``needs_fine_steps`` marks one that long steps of a simulation hide; a fit begins
+    with its typical size. ``name`` and ``default`` are those of its field.
     """
 
     name: str = ''
@@ -29,6 +33,7 @@ class EffectParameter(Parameter):
     scale: float
     strength: bool = False
     sign: int = 0
+    needs_fine_steps: bool = False
 
     def for_revolute(self, name: str) -> 'EffectParameter':
         """Return its description for a revolute joint, where a contraction becomes an angle.
@@ -38,21 +43,38 @@ class EffectParameter(Parameter):
         unit = revolute_unit(self.unit, name)
         if self.unit == 'fraction':
             return replace(self, unit=unit, low=-math.pi, high=math.pi)
+        if self.unit == 'm':
+            return replace(self, unit=unit, high=self.high / SHORT_ARM)
         return replace(self, unit=unit)
 
     def on_any_joint(self) -> 'EffectParameter':
         """Return it with a range that contains those of both kinds of joint."""
-        if self.unit != 'fraction':
+        if self.unit not in ('fraction', 'm'):
             return self
-        low, high = min(self.low, -math.pi), max(self.high, math.pi)
-        return replace(self, unit='fraction or rad', low=low, high=high)
+        turned = self.for_revolute(self.name)
+        low, high = min(self.low, turned.low), max(self.high, turned.high)
+        return replace(self, unit=f'{self.unit} or rad', low=low, high=high)
 
 
 def effect_parameter(
-    default: float, text: str, unit: str = '', *, low: float, high: float, scale: float
+    default: float,
+    text: str,
+    unit: str = '',
+    *,
+    low: float,
+    high: float,
+    scale: float,
+    needs_fine_steps: bool = False,
 ) -> float:
     """Return a field of an effect's dataclass, with its *default* and its description."""
-    about = EffectParameter(text=text, unit=unit, low=low, high=high, scale=scale)
+    about = EffectParameter(
+        text=text,
+        unit=unit,
+        low=low,
+        high=high,
+        scale=scale,
+        needs_fine_steps=needs_fine_steps,
+    )
     return _float_field(default, about)
 
 

@@ -128,6 +128,16 @@ def finer_starts(
     return options
 
 
+def hidden_start(unknowns: Sequence[Unknown], place: Place) -> dict[str, float]:
+    """Return the typical sizes of those parameters at *place* that long steps hide.
+
+    Those that are among *unknowns* are left out.
+    """
+    there = parameters_of(unknowns, place.name)
+    hidden = [p for p in place.parameters if p.needs_fine_steps and p.name not in there]
+    return {p.name: p.scale for p in hidden}
+
+
 def _same_units(
     place: Place, some: Mapping[str, float], start: Mapping[str, float]
 ) -> list[dict[str, float]]:

@@ -9,6 +9,7 @@ from typing import TypeVar
 
 from pam_ros.identification.fit.extend import (
     finer_starts,
+    hidden_start,
     in_common,
     plainer_sets,
     with_parameters,
@@ -77,9 +78,27 @@ def freed(model: Model, setting: Setting) -> list[Model]:
         for place in (setting.places[name] for name in model.effects)
         for option in finer_starts(known.problem.unknowns, row, setting.joint, place)
     ]
+    return _with_parameters(model, options, setting)
+
+
+def with_hidden(model: Model, setting: Setting) -> list[Model]:
+    """Return *model* with those parameters of each of its effects that long steps hide.
+
+    Each is fitted until it converges. The steps of *model* are the finest of the search.
+    """
+    known = model.solution
+    places = [setting.places[name] for name in model.effects]
+    starts = [(place, hidden_start(known.problem.unknowns, place)) for place in places]
+    return _with_parameters(model, [option for option in starts if option[1]], setting)
+
+
+def _with_parameters(
+    model: Model, options: Sequence[tuple[Place, dict[str, float]]], setting: Setting
+) -> list[Model]:
+    """Return *model* with more parameters of an effect, for each place and its starting values."""
 
     def fit(option: tuple[Place, dict[str, float]], pool: Executor | None) -> Model:
-        wider = extended(known, *option, setting)
+        wider = extended(model.solution, *option, setting)
         return setting.model(model.effects, settled(wider, setting.budget.iterations, pool))
 
     return _in_parallel(fit, options, setting.pool)

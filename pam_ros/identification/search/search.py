@@ -30,6 +30,7 @@ from pam_ros.identification.search.moves import (
     simplified,
     weakened,
     with_each,
+    with_hidden,
     without_idle_parameters,
 )
 from pam_ros.identification.search.setting import Model, Setting
@@ -134,7 +135,8 @@ def confirmed(found: Search) -> Model:
     """Return the best model, fitted with finer steps, without effects that only coarse steps need.
 
     A coarse step is a model error, too: if a load hits a stop, a dead time can compensate for it.
-    If finer steps hardly change the residuals, the fit with coarse steps remains.
+    It can also hide a parameter, which is tried once more. If finer steps hardly change the
+    residuals, the fit with coarse steps remains.
     """
     setting, best = found.setting, found.best
     if not best.effects:
@@ -144,8 +146,11 @@ def confirmed(found: Search) -> Model:
     r = problem.residuals(known.u)
     if _are_different(known, r, setting):
         fine = replace(known, problem=problem, r=r, is_fresh=False)
-        end = settled(fine, setting.budget.iterations, setting.pool)
-        best = setting.model(best.effects, end)
+        best = setting.model(best.effects, settled(fine, setting.budget.iterations, setting.pool))
+    if not is_complete(best, setting):
+        wider = with_hidden(best, setting)
+        found.looked_at += wider
+        best = min([best, *accepted(wider, best, found)], key=lambda m: m.score)
     return _fixed(_reduced(best, found), found)
 
 

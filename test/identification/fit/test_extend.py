@@ -11,6 +11,7 @@ from pam_ros.identification.fit.extend import (
     belongs,
     bounded,
     finer_starts,
+    hidden_start,
     in_common,
     plainer_sets,
     started,
@@ -103,6 +104,16 @@ def test_strengths_in_one_unit_begin_at_the_mean_that_one_alone_had(problem, lev
     for k, p in enumerate(place.parameters):
         expected = both[0].get(p.name, p.default)
         assert row[place.indices(MODEL.layout, k)[0]] == pytest.approx(expected)
+
+
+def test_what_long_steps_hide_begins_with_its_typical_size(problem):
+    place = PLACES['coulomb_friction']
+    new, _ = with_effect(problem, MODEL, place, {'level': 20.0})
+    (hidden,) = [p for p in place.parameters if p.needs_fine_steps]
+    assert hidden_start(new.unknowns, place) == {'presliding': hidden.scale}
+    wider, _ = with_effect(new, MODEL, place, {'presliding': 2e-5})
+    assert hidden_start(wider.unknowns, place) == {}
+    assert hidden_start(new.unknowns, PLACES['creep']) == {}
 
 
 def test_an_effect_goes_with_all_that_is_its_own(problem):

@@ -3,16 +3,18 @@
 """Moves of a search on a joint of two muscles."""
 
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from pam_ros.effects import PressureLag
+from pam_ros.effects import CoulombFriction, PressureLag
 from pam_ros.identification.data.parts import parts_of
 from pam_ros.identification.fit.solve import solved
 from pam_ros.identification.search.criteria import BUDGET, CRITERIA
 from pam_ros.identification.search.moves import absent, with_each
-from pam_ros.identification.search.search import Search, joined
+from pam_ros.identification.search.search import Search, confirmed, joined, with_more
 from pam_ros.identification.search.setting import Setting
 from pam_ros.recording.recording import Recording
 from pam_ros.rig.joint import Actuator, Joint
@@ -20,6 +22,8 @@ from pam_ros.rig.loads import Arm
 from pam_ros.rig.run import simulate
 from pam_ros.rig.transmissions import Pulley
 
+pytestmark = pytest.mark.needs_numba
+PRESLIDING = 4e-3  # rad
 NAMES = ('flexor', 'extensor')
 T = np.arange(0.0, 16.0, 0.02)
 COMMAND = 1e3 * np.stack(
@@ -32,15 +36,16 @@ COMMAND = 1e3 * np.stack(
 LAG = [PressureLag(fill=0.05, vent=0.07)]
 
 
-def elbow(first, second):
+def elbow(first, second, on_joint=()):
     muscles = tuple(Actuator(effects=effects, contraction=0.1) for effects in (first, second))
-    return Joint(muscles, Arm(mass=1.0, arm=0.25), Pulley(radius=0.04))
+    return Joint(muscles, Arm(mass=1.0, arm=0.25), Pulley(radius=0.04), effects=on_joint)
 
 
-@pytest.fixture(scope='module')
-def found():
+@contextmanager
+def search_on(joint):
+    """Yield a search on 16 s of *joint*, whose nominal model has no effects, after re-tuning."""
     noise = np.random.default_rng(5).normal(0.0, 2e-4, T.size)
-    angle = simulate(elbow(LAG, LAG), T, T, COMMAND).position + noise
+    angle = simulate(joint, T, T, COMMAND).position + noise
     recording = Recording('elbow', T, T, COMMAND, angle, muscles=NAMES, unit='rad')
     parts = parts_of([recording], CRITERIA.fit, CRITERIA.choose)
     with ThreadPoolExecutor(2) as pool:
@@ -50,23 +55,49 @@ def found():
         yield Search(setting, retuned, retuned, [retuned])
 
 
-@pytest.mark.needs_numba
-def test_an_effect_that_each_muscle_has_alone_becomes_one_of_all(found):
-    setting, now = found.setting, found.retuned
-    for muscle in NAMES:
-        now = with_each(now, [f'{muscle}.pressure_lag'], setting)[0]
+@pytest.fixture(scope='module')
+def in_both():
+    with search_on(elbow(LAG, LAG)) as found:
+        yield found
+
+
+def with_lag(found, muscles):
+    now = found.retuned
+    for muscle in muscles:
+        now = with_each(now, [f'{muscle}.pressure_lag'], found.setting)[0]
+    return now
+
+
+def test_an_effect_that_each_muscle_has_alone_becomes_one_of_all(in_both):
+    now = with_lag(in_both, NAMES)
     assert now.effects == ('flexor.pressure_lag', 'extensor.pressure_lag')
-    alike = joined(now, found)
+    alike = joined(now, in_both)
     assert alike.effects == ('pressure_lag',)
     assert alike.errors.fit < 1.03 * now.errors.fit
     assert alike.solution.value('effects.pressure_lag.fill') == pytest.approx(0.05, rel=0.05)
 
 
-@pytest.mark.needs_numba
-def test_an_effect_of_one_muscle_stays_there(found):
-    (now,) = with_each(found.retuned, ['flexor.dead_time'], found.setting)
-    assert joined(now, found) is now
-    names = absent(now, found.setting)
+def test_an_effect_of_one_muscle_stays_there(in_both):
+    (now,) = with_each(in_both.retuned, ['flexor.dead_time'], in_both.setting)
+    assert joined(now, in_both) is now
+    names = absent(now, in_both.setting)
     assert 'extensor.dead_time' in names
     assert 'dead_time' not in names
     assert 'flexor.dead_time' not in names
+
+
+def test_finer_steps_free_a_parameter_that_long_steps_hide():
+    """A step of 20 ms makes the contact longer than it is before it slides."""
+    rig = elbow((), (), [CoulombFriction(level=0.8, presliding=PRESLIDING)])
+    name = 'effects.coulomb_friction.presliding'
+    with search_on(rig) as found:
+        noise = found.setting.noise
+        (coarse,) = with_each(found.retuned, ['coulomb_friction'], found.setting)
+        now = with_more(coarse, found)
+        assert name not in {unknown.name for unknown in now.solution.problem.unknowns}
+        assert now.errors.fit > 5.0 * noise
+        best = confirmed(replace(found, best=now))
+        assert best.effects == now.effects
+        assert best.solution.problem.step < now.solution.problem.step
+        assert best.solution.value(name) == pytest.approx(PRESLIDING, rel=0.05)
+        assert best.errors.fit < 1.1 * noise
