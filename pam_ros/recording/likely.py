@@ -10,7 +10,15 @@ import shlex
 from collections.abc import Collection, Sequence
 
 from pam_ros.recording.mapping import ColumnMapping
-from pam_ros.recording.quantities import ATMOSPHERE, OF_MUSCLE, OF_ONE, QUANTITIES, Target, unit_in
+from pam_ros.recording.quantities import (
+    ATMOSPHERE,
+    OF_MUSCLE,
+    OF_ONE,
+    QUANTITIES,
+    Target,
+    target_of,
+    unit_in,
+)
 
 # Words that other programs use for the quantities, together with a unit of the quantity.
 _WORDS = {
@@ -53,7 +61,28 @@ def found_columns(header: Sequence[str], mapping: ColumnMapping, known: Collecti
             option = shlex.quote(f'{name}={_rule(name, target)}')
             options.setdefault(_linear(target.key), []).append(f'--column {option}')
     text = ' '.join(' or '.join(alike) for alike in options.values())
-    return f'its columns are {shown}{more}' + (f': say what they are with {text}' if text else '')
+    said = f'its columns are {shown}{more}' + (f': say what they are with {text}' if text else '')
+    return said if 'position' in read else said + _of_joints(header, mapping)
+
+
+def _of_joints(header: Sequence[str], mapping: ColumnMapping) -> str:
+    """Return a sentence on the columns that give positions of joints with names, if any."""
+    named = [name for name in header if name not in mapping and _is_of_joint(name)]
+    if not named:
+        return ''
+    plain = named[0].partition('.')[2]
+    option = shlex.quote(f'{named[0]}={plain}')
+    return (
+        f'. A recording is of one joint, and its position has no name: use {" or ".join(named)} '
+        f'with --column {option}, and the commands of the muscles of that joint'
+    )
+
+
+def _is_of_joint(name: str) -> bool:
+    """Return whether a column is a position with a name before it, such as left.position_rad."""
+    match = OF_ONE.fullmatch(name.strip())
+    target = target_of(match['rest']) if match else None
+    return target is not None and target.quantity in ('position', 'angle')
 
 
 def likely_target(name: str) -> Target | None:

@@ -80,6 +80,16 @@ def test_an_absolute_pressure_becomes_one_above_ambient():
     assert "--column 'p_abs[kPa]=pressure_kPa-101.325'" in found
 
 
+def test_positions_of_several_joints_are_refused_with_what_to_do():
+    header = ['t_s', 'p.pressure_command_kPa', 'left.position_rad', 'right.position_rad']
+    found = found_columns(header, ColumnMapping(), {'time', 'p.pressure_command'})
+    assert 'use left.position_rad or right.position_rad' in found
+    assert '--column left.position_rad=position_rad' in found
+    assert 'one joint' not in found_columns(header, ColumnMapping(), {'angle'})
+    other = ['left.pressure_kPa', 'left.contraction_percent', 'left.of.position_m']
+    assert 'one joint' not in found_columns(other, ColumnMapping(), ())
+
+
 def test_many_columns_are_counted():
     header = [f'channel_{i}' for i in range(40)]
     found = found_columns(header, ColumnMapping(), ())
