@@ -4,8 +4,10 @@
 
 from collections.abc import Callable, Sequence
 from concurrent.futures import Executor
-from math import inf
+from math import inf, log
 from typing import TypeVar
+
+import numpy as np
 
 from pam_ros.identification.fit.extend import (
     finer_starts,
@@ -15,6 +17,7 @@ from pam_ros.identification.fit.extend import (
     with_parameters,
     without_effect,
 )
+from pam_ros.identification.fit.intervals import covariance
 from pam_ros.identification.fit.moment import moved
 from pam_ros.identification.fit.places import Place, effect_of
 from pam_ros.identification.fit.problem import Problem
@@ -159,6 +162,49 @@ def fixed(model: Model, setting: Setting) -> list[Model]:
     far = model.score + FAR * setting.criteria.margin
     less = _narrowed(model, options, setting, far)
     return [*less, *(one for name in model.effects for one in simplified(model, name, setting))]
+
+
+def with_one_less(model: Model, setting: Setting) -> list[Model]:
+    """Return *model* without one of the parameters of its effects, fitted from its values.
+
+    The parameter has its default. Parameters that are clearly needed, as far as the residuals are
+    linear in them, are left out, and so are the sets of :func:`fixed`. One strength of each effect
+    remains.
+    """
+    known, far = model.solution, FAR * setting.criteria.margin
+    expected = rises(known, setting)
+    options = []
+    for place in (setting.places[name] for name in model.effects):
+        others = plainer_sets(known.problem.unknowns, place)
+        there = [p for p in place.parameters if expected.get((place.name, p.name)) is not None]
+        strengths = {p.name for p in there if p.strength}
+        for p in there:
+            rest = {one.name for one in there} - {p.name}
+            is_tried = expected[place.name, p.name] < far and rest not in others
+            if is_tried and rest & strengths:
+                options.append((place, rest))
+    return _narrowed(model, options, setting, model.score + far)
+
+
+def rises(known: Solution, setting: Setting) -> dict[tuple[str, str], float]:
+    """Return by how much the score rises without each parameter, by its place and its name.
+
+    This is exact if the residuals are linear in the unknowns. With the standard deviations s of
+    its posterior and P of its prior around 0, an unknown u that is fixed at d raises misfit and
+    prior by (u - d)^2/s^2 (Wald 1943). It saves its own prior d^2/P^2 and the cost ln(P^2/s^2). Of
+    a parameter with several unknowns, the one that is needed most counts.
+    """
+    variances = np.diag(covariance(known, known.discrepancy))
+    found: dict[tuple[str, str], float] = {}
+    for unknown, u, variance in zip(known.problem.unknowns, known.u, variances, strict=True):
+        if isinstance(unknown.of, OfEffect):
+            place = setting.places[unknown.of.place]
+            default = next(p.default for p in place.parameters if p.name == unknown.of.parameter)
+            at, square = np.clip(unknown.coordinate(default), *unknown.bounds), unknown.prior**2
+            rise = (u - at) ** 2 / variance - at**2 / square - log(square / variance)
+            key = place.name, unknown.of.parameter
+            found[key] = max(found.get(key, -inf), float(rise))
+    return found
 
 
 def weakened(model: Model, name: str, setting: Setting) -> list[Model]:

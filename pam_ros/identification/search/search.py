@@ -31,6 +31,7 @@ from pam_ros.identification.search.moves import (
     weakened,
     with_each,
     with_hidden,
+    with_one_less,
     without_idle_parameters,
 )
 from pam_ros.identification.search.setting import Model, Setting
@@ -297,14 +298,18 @@ def _reduced(now: Model, found: Search) -> Model:
 def _fixed(now: Model, found: Search) -> Model:
     """Return *now* without those parameters of its effects that it does not need.
 
-    They became unknown before later effects were added.
+    They became unknown before later effects were added, or together with others. A single one
+    remains if it lowers the score at all.
     """
     setting = found.setting
     while True:
         less = fixed(now, setting)
-        found.looked_at += less
-        with_errors([m for m in less if is_near(m, now, setting)], setting)
-        able = [m for m in less if suffices(m, now, setting)]
+        narrower = with_one_less(now, setting)
+        found.looked_at += [*less, *narrower]
+        near = [m for m in less if is_near(m, now, setting)]
+        near += [m for m in narrower if m.score <= now.score]
+        with_errors(near, setting)
+        able = [m for m in near if no_worse(m, now, setting)]
         if not able:
             return without_idle_parameters(now, setting)
         now = min(able, key=lambda m: m.score)

@@ -180,6 +180,37 @@ def test_parameters_that_were_freed_and_are_not_needed_are_fixed(tried, retuned,
 
 
 @pytest.fixture(scope='module')
+def full(retuned, setting):
+    """Return the lag with parameters that the rig does not have, in addition to its two times."""
+    start = {'fill': 0.05, 'vent': 0.05, 'choking': 0.1, 'supply': 8e5, 'dead_zone': 500.0}
+    known = extended(retuned.solution, setting.places['pressure_lag'], start, setting)
+    return setting.model(('pressure_lag',), settled(known, BUDGET.iterations))
+
+
+def test_single_parameters_are_fixed_that_the_recording_hardly_shows(full, setting):
+    """The two times are needed, and a lag of a muscle that cannot choke has both of them."""
+    needless = ({'choking'}, {'supply'}, {'dead_zone'})
+    there = parameters_of(full.solution.problem.unknowns, 'pressure_lag')
+    less = moves.with_one_less(full, setting)
+    left = [there - parameters_of(m.solution.problem.unknowns, 'pressure_lag') for m in less]
+    assert left == [*needless]
+    for model in less:
+        assert not model.is_look
+        assert model.score < full.score
+
+
+def test_the_expected_rise_of_a_score_is_that_of_a_fit(tried, setting):
+    """A small offset and gain of the pressure change the run in proportion."""
+    place = setting.places['pressure_offset']
+    whole, without_gain = (
+        settled(extended(tried[0].solution, place, start, setting), BUDGET.iterations)
+        for start in ({'offset': 1e3, 'gain': 0.01}, {'offset': 1e3})
+    )
+    rise = moves.rises(whole, setting)['pressure_offset', 'gain']
+    assert rise == pytest.approx(without_gain.score - whole.score, abs=0.5)
+
+
+@pytest.fixture(scope='module')
 def leaking(retuned, setting):
     """Return the lag explained by a leak, whose refill and venting are that lag."""
     start = {'rate': 0.01, 'refill': 0.1, 'vent': 0.1}
