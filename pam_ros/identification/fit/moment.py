@@ -7,6 +7,7 @@ onsets in this interval are equally good, and those in the next interval are wor
 the onset is found, and its interval is computed, from the cost with the other unknowns fixed.
 """
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
@@ -41,6 +42,23 @@ def moved(known: Solution) -> Solution:
     times = known.u[k] + np.linspace(-EARLIER, LATER, count)
     tried = [at_moment(known, k, u) for u in times[(times > low) & (times < high)]]
     return min([known, *tried], key=lambda one: one.cost)
+
+
+def keeping_onset(known: Solution, fit: Callable[[Solution], Solution]) -> Solution:
+    """Return what *fit* makes of *known* while the onset keeps its value.
+
+    Without an effect the onset has no influence, and where an effect is only roughly known, the
+    steps of a fit are large: they can move the onset into a minimum from which it does not return.
+    """
+    problem, k = known.problem, index_of_onset(known)
+    if k is None:
+        return fit(known)
+    onset = problem.unknowns[k]
+    there = onset.value(known.u[k])
+    held = replace(onset, low=there, high=there)
+    unknowns = (*problem.unknowns[:k], held, *problem.unknowns[k + 1 :])
+    found = fit(replace(known, problem=replace(problem, unknowns=unknowns)))
+    return replace(found, problem=problem)
 
 
 def at_moment(known: Solution, k: int, u: float) -> Solution:

@@ -9,8 +9,9 @@ from itertools import islice
 import numpy as np
 from numpy.typing import NDArray
 
+from pam_ros.identification.fit.moment import keeping_onset
 from pam_ros.identification.fit.places import effect_of, muscle_of
-from pam_ros.identification.fit.solve import Solution, settled, solved
+from pam_ros.identification.fit.solve import Solution, begun, settled
 from pam_ros.identification.search.compare import (
     hardly_more,
     is_complete,
@@ -56,7 +57,9 @@ def search(setting: Setting, progress: Progress = lambda share, text: None) -> S
     progress(0.0, 're-tuning the parameters')
     problem = setting.problem
     u = np.zeros(len(problem.unknowns))
-    retuned = setting.model((), solved(problem, u, pool=setting.pool))
+    start = begun(problem, u, pool=setting.pool)
+    fit = keeping_onset(start, lambda known: settled(known, pool=setting.pool))
+    retuned = setting.model((), fit)
     found = Search(setting, retuned, retuned, [retuned])
     budget = setting.budget
     for n in range(budget.rounds):

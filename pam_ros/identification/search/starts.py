@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from pam_ros.identification.fit.discrepancy import WHITE, Discrepancy
 from pam_ros.identification.fit.extend import bounded, started, with_effect
+from pam_ros.identification.fit.moment import keeping_onset
 from pam_ros.identification.fit.places import Place
 from pam_ros.identification.fit.solve import Solution, begun, improved, with_nominal_constants
 from pam_ros.identification.fit.unknowns import MemoryStart
@@ -44,7 +45,10 @@ def looks(parent: Model, place: Place, setting: Setting) -> list[Solution]:
 
 
 def _look(wider: Solution, setting: Setting) -> Solution:
-    return improved(wider, setting.budget.looks, renew=False)
+    def cheap(known: Solution) -> Solution:
+        return improved(known, setting.budget.looks, renew=False)
+
+    return keeping_onset(wider, cheap)
 
 
 def _grounds(known: Solution) -> list[tuple[Solution, list[Discrepancy]]]:

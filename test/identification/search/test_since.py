@@ -9,10 +9,12 @@ import numpy as np
 import pytest
 
 from pam_ros.identification.data.parts import parts_of
-from pam_ros.identification.fit.moment import index_of_onset
+from pam_ros.identification.fit.moment import index_of_onset, keeping_onset
+from pam_ros.identification.fit.solve import begun, settled
 from pam_ros.identification.search.criteria import BUDGET, CRITERIA
 from pam_ros.identification.search.onset import Moment, moment, search_since, shares_after
 from pam_ros.identification.search.setting import Setting
+from pam_ros.identification.search.starts import looks
 from support import bench_truth
 from truth import effect
 
@@ -126,6 +128,29 @@ def test_what_begins_is_named_with_its_moment(setting_of, one):
     k = index_of_onset(found.best.solution)
     unknown = found.best.solution.problem.unknowns[k]
     assert unknown.value(found.best.solution.u[k]) == pytest.approx(ONSET, abs=0.05)
+
+
+@pytest.mark.slow
+@pytest.mark.needs_numba
+@pytest.mark.parametrize('name', ['payload', 'creep'])
+def test_cheap_fits_keep_the_onset(name, setting_of):
+    """Their steps are large: a payload ended in a minimum a second before the right onset."""
+    recording = bench_truth.late(effect('payload', payload_kg=-4.0), ONSET)
+    since = moment(setting_of(recording))
+    late = replace(setting_of(recording, shares=(0.8, 0.9)), onset=since.time)
+    start = begun(late.problem, np.zeros(len(late.problem.unknowns)))
+    found = looks(late.model((), keeping_onset(start, settled)), late.places[name], late)
+    assert found
+    for one in found:
+        k = index_of_onset(one)
+        onset, (low, high) = one.problem.unknowns[k], one.problem.bounds
+        assert onset.value(one.u[k]) == since.time
+        # The fits that follow may move it.
+        assert low[k] < one.u[k] < high[k]
+    if name == 'payload':
+        end = settled(found[0], BUDGET.iterations)
+        k = index_of_onset(end)
+        assert end.problem.unknowns[k].value(end.u[k]) == pytest.approx(ONSET, abs=0.01)
 
 
 @pytest.mark.slow
