@@ -176,7 +176,7 @@ def with_one_less(model: Model, setting: Setting) -> list[Model]:
     options = []
     for place in (setting.places[name] for name in model.effects):
         others = plainer_sets(known.problem.unknowns, place)
-        there = [p for p in place.parameters if expected.get((place.name, p.name)) is not None]
+        there = [p for p in place.parameters if (place.name, p.name) in expected]
         strengths = {p.name for p in there if p.strength}
         for p in there:
             rest = {one.name for one in there} - {p.name}

@@ -58,8 +58,8 @@ def search(setting: Setting, progress: Progress = lambda share, text: None) -> S
     problem = setting.problem
     u = np.zeros(len(problem.unknowns))
     start = begun(problem, u, pool=setting.pool)
-    fit = keeping_onset(start, lambda known: settled(known, pool=setting.pool))
-    retuned = setting.model((), fit)
+    end = keeping_onset(start, lambda known: settled(known, pool=setting.pool))
+    retuned = setting.model((), end)
     found = Search(setting, retuned, retuned, [retuned])
     budget = setting.budget
     for n in range(budget.rounds):

@@ -28,7 +28,8 @@ def looks(parent: Model, place: Place, setting: Setting) -> list[Solution]:
     They begin with each start of the effect, with the parent's discrepancy and with none (a slow
     discrepancy describes slow errors, and a fit that begins with it may not find an effect that
     causes them). With the starts that are the best with either of them, they also begin at the
-    nominal constants (re-tuned constants may compensate for the missing effect).
+    nominal constants (re-tuned constants may compensate for the missing effect). The onset, if
+    there is one, keeps its value.
     """
     starts = [*place.fit_starts, *guessed(parent, place)]
     found = []

@@ -188,7 +188,7 @@ def full(retuned, setting):
 
 
 def test_single_parameters_are_fixed_that_the_recording_hardly_shows(full, setting):
-    """The two times are needed, and a lag of a muscle that cannot choke has both of them."""
+    """The rig has the two times of the lag, and none of its other parameters."""
     needless = ({'choking'}, {'supply'}, {'dead_zone'})
     there = parameters_of(full.solution.problem.unknowns, 'pressure_lag')
     less = moves.with_one_less(full, setting)
