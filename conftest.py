@@ -9,6 +9,7 @@ docs/tutorials/add_an_effect.md has a user write (``test/effects/test_guide.py``
 
 import importlib.util
 import shutil
+from pathlib import Path
 
 import pytest
 
@@ -19,6 +20,12 @@ NEEDS_A_SIMULATOR = 'import rclpy'
 HAVE_SYBIL = importlib.util.find_spec('sybil') is not None
 # Nor for these, with which test/notebooks/ runs the notebooks.
 OF_NOTEBOOKS = ('ipykernel', 'nbclient', 'nbformat')
+
+# Assertions of helpers explain themselves and are counted as those of a test are.
+SUPPORT = Path(__file__).parent / 'test' / 'support'
+pytest.register_assert_rewrite(*(f'support.{path.stem}' for path in SUPPORT.glob('*.py')))
+pytest.register_assert_rewrite('truth', 'recorded')
+pytest_plugins = ['support.assertions']
 
 
 def pytest_report_header():

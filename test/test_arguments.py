@@ -40,6 +40,7 @@ from pam_ros import (
     write_csv,
 )
 from pam_ros.effects import Creep, PressureLag, ViscousFriction
+from support.assertions import no_error
 from support.baseline import needs_simple_pid
 
 ONE = single_muscle_joint()
@@ -208,7 +209,8 @@ FORMS = {
 def test_a_good_array_is_taken_in_each_form(name):
     call, good, _ = ARRAYS[name]
     for form in FORMS.values():
-        call(form(np.array(good)))
+        with no_error():
+            call(form(np.array(good)))
 
 
 def test_whole_numbers_are_numbers():

@@ -149,7 +149,7 @@ def test_a_controller_waits_for_a_measured_pressure(peer):
         pressure.header.stamp = peer.node.get_clock().now().to_msg()
         peer.publish(pressure, 'pressure')
         peer.until(lambda: sees('control begins'), 'its end')
-        peer.until(lambda: watch.commands, 'commands')
+        assert peer.until(lambda: watch.commands, 'commands')
 
 
 def test_an_excitation_logs_its_topics_and_what_it_waits_for(peer):

@@ -101,7 +101,10 @@ def test_the_interface_is_that_of_the_running_simulator(peer, parameters, expect
 def test_the_interface_is_that_of_the_running_controller(peer):
     expected = table_of(CONTROLLER, 'control')
     with Program('pam_control'):
-        peer.until(lambda: expected.items() <= interface(peer, 'pam_control').items(), 'the table')
+        holds = peer.until(
+            lambda: expected.items() <= interface(peer, 'pam_control').items(), 'the table'
+        )
+        assert holds
 
 
 def test_the_interface_is_that_of_the_running_controller_of_a_pair(peer):
@@ -109,7 +112,10 @@ def test_the_interface_is_that_of_the_running_controller_of_a_pair(peer):
     for of_one in ('pressure', 'pressure_command'):
         del expected[of_one]
     with Program('pam_control', parameters={'joint': 'antagonistic'}):
-        peer.until(lambda: expected.items() <= interface(peer, 'pam_control').items(), 'the table')
+        holds = peer.until(
+            lambda: expected.items() <= interface(peer, 'pam_control').items(), 'the table'
+        )
+        assert holds
         assert 'pressure_command' not in interface(peer, 'pam_control')
 
 

@@ -22,6 +22,7 @@ from pam_ros.settings.control import settings_of
 from pam_ros.settings.nominal import nominal_joint
 from pam_ros.settings.scene import Scene
 from pam_ros.settings.tables import checked, override
+from support.assertions import no_error
 from support.domain import claimed
 from support.launch_stand_in import Loaded
 from support.pages import (
@@ -208,28 +209,31 @@ def check(words):
 
 @each_page
 def test_commands_exist(page):
-    for words in commands(page):
-        if words[0] == 'export':
-            assert all(SETTING.match(word) for word in words[1:])
-        else:
-            check(words[1:] if SETTING.match(words[0]) else words)
+    with no_error():  # a page may have none
+        for words in commands(page):
+            if words[0] == 'export':
+                assert all(SETTING.match(word) for word in words[1:])
+            else:
+                check(words[1:] if SETTING.match(words[0]) else words)
 
 
-@each_page
-def test_a_block_that_starts_one_program_by_ros2_starts_all_so(page):
+def test_a_block_that_starts_one_program_by_ros2_starts_all_so():
     """In a workspace they are not on the path."""
-    for kind in ('bash', 'console'):
-        for block in blocks(page, kind):
-            first = {line.removeprefix('$ ').partition(' ')[0] for line in block.splitlines()}
-            assert 'ros2 run pam_ros' not in block or first.isdisjoint(PROGRAMS), block
+    shown = [b for page in PAGES for kind in ('bash', 'console') for b in blocks(page, kind)]
+    by_ros2 = [block for block in shown if 'ros2 run pam_ros' in block]
+    assert by_ros2
+    for block in by_ros2:
+        first = {line.removeprefix('$ ').partition(' ')[0] for line in block.splitlines()}
+        assert first.isdisjoint(PROGRAMS), block
 
 
-@each_page
-def test_a_transform_waits_for_its_topic(page):
+def test_a_transform_waits_for_its_topic():
     """It ends at once where nobody publishes yet."""
-    for words in commands(page):
-        if words[:4] == ['ros2', 'run', 'topic_tools', 'transform']:
-            assert '--wait-for-start' in words
+    transform = ['ros2', 'run', 'topic_tools', 'transform']
+    shown = [words for page in PAGES for words in commands(page) if words[:4] == transform]
+    assert shown
+    for words in shown:
+        assert '--wait-for-start' in words
 
 
 def test_the_readme_shows_how_to_begin():
@@ -277,13 +281,13 @@ def test_a_wrong_command_would_be_found():
 
 @each_page
 def test_links_lead_somewhere(page):
-    for target in links(page):
+    def is_good(target):
         file, _, anchor = target.partition('#')
         path = (page.parent / file).resolve() if file else page
-        assert path.exists(), target
-        assert ROOT in path.parents, target
-        if anchor:
-            assert anchor in anchors(path), target
+        is_there = path.exists() and ROOT in path.parents
+        return is_there and (not anchor or anchor in anchors(path))
+
+    assert [target for target in links(page) if not is_good(target)] == []
 
 
 def test_every_page_is_in_the_index():
@@ -303,11 +307,14 @@ def sources():
 
 @each_page
 def test_files_that_a_page_names_exist_or_are_written(page):
-    for name in {name for name in names(page) if FILE.fullmatch(name)} - OF_AN_EXAMPLE:
+    def is_known(name):
         here = list(ROOT.glob(name)) or list(ROOT.glob(f'[!.]*/**/{name}'))
         # What is not in the repository is left by a program of it, which then names it.
         texts = (f"'{name}'", f"'{Path(name).name}'")
-        assert here or any(one in sources() for one in texts), name
+        return here or any(one in sources() for one in texts)
+
+    files = {name for name in names(page) if FILE.fullmatch(name)} - OF_AN_EXAMPLE
+    assert [name for name in files if not is_known(name)] == []
 
 
 PICTURES = sorted(path for path in (DOCS / 'images').rglob('*') if path.is_file())

@@ -30,6 +30,7 @@ from pam_ros.rig.run import simulate, simulate_held
 from pam_ros.rig.simulation import Simulation
 from pam_ros.rig.standard_joints import single_muscle_joint
 from support import joints, paper
+from support.assertions import no_error
 from support.joint_models import UNEQUAL, lever, pair, parallel
 from support.joint_runs import CASES
 
@@ -388,8 +389,9 @@ def test_pressures_in_kpa_are_warned_of(command):
 
 def test_pressures_that_may_be_meant_are_not_warned_of():
     joint = single_muscle_joint(Muscle(), Mass(mass=5.0))
-    for command in (0.0, 700.0, 3e5):  # warnings are errors here
-        simulate(joint, [0.0, 0.1], [0.0, 0.05], [0.0, command])
+    for command in (0.0, 700.0, 3e5):
+        with no_error():  # warnings are errors here
+            simulate(joint, [0.0, 0.1], [0.0, 0.05], [0.0, command])
 
 
 @pytest.mark.needs_numba  # plain Python warns of the overflow

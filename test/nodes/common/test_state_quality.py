@@ -33,7 +33,7 @@ def test_in_real_time_a_rig_is_received_with_any_quality_of_service(peer, offere
             states.publish(message)
             return terms
 
-        peer.until(is_controlled, 'control')
+        assert peer.until(is_controlled, 'control')
 
 
 @pytest.mark.parametrize(

@@ -137,7 +137,7 @@ def test_of_several_joints_each_has_a_controller(peer):
             found = [terms[name][-1].position[1] for name in names]
             return np.allclose(found, (0.15, -0.15), atol=1e-3)
 
-        peer.until(are_there, 'both')
+        assert peer.until(are_there, 'both')
 
 
 def test_two_in_namespaces_do_not_disturb_each_other(peer):

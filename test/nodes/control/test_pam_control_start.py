@@ -61,7 +61,7 @@ def test_it_does_not_wait_for_ever_for_a_pressure_that_nobody_tells(peer):
             peer.publish(states_of(0.06, 10 + count)[0], 'joint_states')
             return commands
 
-        peer.until(commanded, 'a command')
+        assert peer.until(commanded, 'a command')
 
 
 # The command to a regulator with a known offset is reduced by it.

@@ -238,14 +238,14 @@ def test_silence_of_one_vents_it_alone(peer):
             peer.work(0.02)
             return pressures[-1].data[1] == 3e5 + AMBIENT
 
-        peer.until(b_is_heard, 'b to be heard')
+        assert peer.until(b_is_heard, 'b to be heard')
 
         def only_b_is_vented():
             peer.publish(Float64(data=2e5), 'a/pressure_command')
             peer.work(0.02)
             return list(pressures[-1].data) == [2e5 + AMBIENT, AMBIENT]
 
-        peer.until(only_b_is_vented, 'b to vent')
+        assert peer.until(only_b_is_vented, 'b to vent')
 
         def b_is_named():
             # While a is still received: if both were missing, both would be named.
@@ -253,7 +253,7 @@ def test_silence_of_one_vents_it_alone(peer):
             peer.work(0.02)
             return any('for b ' in s.message for m in diagnostics for s in m.status)
 
-        peer.until(b_is_named, 'its name')
+        assert peer.until(b_is_named, 'its name')
 
 
 def test_pause_step_and_reset_are_for_all_of_them(peer):

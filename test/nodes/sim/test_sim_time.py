@@ -155,4 +155,4 @@ def test_a_command_acts_at_any_speed(peer):
     with Program('pam_sim', parameters={**SCALED, 'speed_factor': 0.0}):
         peer.more(states)
         peer.publish(Float64(data=4e5), 'pressure_command')
-        peer.until(lambda: states[-1].position[0] > 0.05, 'motion')
+        assert peer.until(lambda: states[-1].position[0] > 0.05, 'motion')
