@@ -29,8 +29,11 @@ class Program:
             arguments += ('-p', f'{key}:={_text(value)}')
         self.name = name
         self._out = tempfile.TemporaryFile('w+')  # noqa: SIM115 closed at the end of the context
-        self.process = subprocess.Popen(
-            [sys.executable, '-m', f'pam_ros.cli.{name}', '--ros-args', *arguments],
+        self.process = self._start(f'pam_ros.cli.{name}', ['--ros-args', *arguments])
+
+    def _start(self, module: str, arguments: list[str]) -> 'subprocess.Popen[bytes]':
+        return subprocess.Popen(
+            [sys.executable, '-m', module, *arguments],
             stdin=subprocess.DEVNULL,
             stdout=self._out,
             stderr=subprocess.STDOUT,

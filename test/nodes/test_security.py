@@ -16,7 +16,7 @@ from std_msgs.msg import Float64
 
 from pam_ros.errors import PamError
 from support.bags import contents
-from support.harness import Program
+from support.harness import FreshProgram
 from support.interfaces import built
 
 POLICY = Path(__file__).parents[2] / 'config' / 'security' / 'pam_ros.policy.xml'
@@ -77,6 +77,7 @@ def used(peer, program, namespace):
     }
 
 
+@pytest.mark.at_any_pace
 def test_programs_use_what_the_policy_permits_and_all_of_it(peer, tmp_path):
     unused = {program: permitted(f'/{program}') for program in PROGRAMS}
     del unused['pam_control']['actions', 'execute']  # the next test
@@ -99,7 +100,7 @@ def test_programs_use_what_the_policy_permits_and_all_of_it(peer, tmp_path):
             for program, parameters in programs.items():
                 bag = ('--', '-o', str(tmp_path / namespace)) if program == 'pam_record' else ()
                 words = (*bag, '--ros-args', '-r', f'__ns:=/{namespace}')
-                running.enter_context(Program(program, *words, parameters=parameters))
+                running.enter_context(FreshProgram(program, *words, parameters=parameters))
         # If the time is over, the assertion shows what nobody uses.
         with suppress(PamError):
             peer.until(look, 'the use of all that is permitted')
@@ -113,8 +114,9 @@ def test_programs_use_what_the_policy_permits_and_all_of_it(peer, tmp_path):
     assert (denied, left) == (set(), set())
 
 
-def test_the_action_of_the_controller_is_permitted(peer, tmp_path, monkeypatch):
-    for name, value in built('control_msgs', tmp_path).items():
+@pytest.mark.at_any_pace
+def test_the_action_of_the_controller_is_permitted(peer, tmp_path_factory, monkeypatch):
+    for name, value in built('control_msgs', tmp_path_factory).items():
         monkeypatch.setenv(name, value)
     (action,) = permitted('/pam_control')['actions', 'execute']
     parts = {
@@ -122,7 +124,7 @@ def test_the_action_of_the_controller_is_permitted(peer, tmp_path, monkeypatch):
         | {f'{action}/_action/get_result'},
         ('topics', 'publish'): {f'{action}/_action/{one}' for one in ('feedback', 'status')},
     }
-    with Program('pam_control', '-r', '__ns:=/one'):
+    with FreshProgram('pam_control', '-r', '__ns:=/one'):
 
         def is_complete():
             now = used(peer, 'pam_control', 'one')
@@ -156,11 +158,12 @@ def secured(monkeypatch, keys):
         monkeypatch.setenv('ROS_SECURITY_KEYSTORE', str(keys))
 
 
+@pytest.mark.at_any_pace
 @pytest.mark.usefixtures('domain')
 @pytest.mark.parametrize('name', PROGRAMS)
 def test_a_program_without_keys_ends_with_one_sentence(name, tmp_path, monkeypatch):
     secured(monkeypatch, tmp_path)
-    with Program(name, '--enclave', f'/{name}') as program:
+    with FreshProgram(name, '--enclave', f'/{name}') as program:
         assert program.wait() == 2
         (line,) = program.output.splitlines()
     assert line.startswith(f'{name}: ')
@@ -168,10 +171,11 @@ def test_a_program_without_keys_ends_with_one_sentence(name, tmp_path, monkeypat
     assert [*tmp_path.iterdir()] == []
 
 
+@pytest.mark.at_any_pace
 @pytest.mark.usefixtures('domain')
 def test_security_without_a_keystore_names_the_variable(monkeypatch):
     secured(monkeypatch, None)
-    with Program('pam_sim', '--enclave', '/pam_sim') as program:
+    with FreshProgram('pam_sim', '--enclave', '/pam_sim') as program:
         assert program.wait() == 2
         assert program.output == (
             'pam_sim: ROS_SECURITY_KEYSTORE is not set: give the folder of the keys, or no '
@@ -192,8 +196,8 @@ def test_a_stranger_is_not_heard_and_sees_nothing(peer, tmp_path, monkeypatch):
     commands = peer.node.create_publisher(Float64, 'pressure_command', 10)
     secured(monkeypatch, keys)
     with (
-        Program('pam_sim', '--enclave', '/pam_sim') as rig,
-        Program('pam_record', '--enclave', '/pam_record', '--', '-o', str(bag)) as recorder,
+        FreshProgram('pam_sim', '--enclave', '/pam_sim') as rig,
+        FreshProgram('pam_record', '--enclave', '/pam_record', '--', '-o', str(bag)) as recorder,
     ):
         for _ in range(50):
             commands.publish(Float64(data=300e3))

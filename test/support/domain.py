@@ -18,6 +18,7 @@ from time import monotonic, sleep
 from xml.etree import ElementTree
 
 from support.distribution import PROFILE
+from support.forked import forked_in
 
 DISCOVERY = Path(__file__).with_name('discovery.xml')
 DOMAINS = range(1, 101)  # 0 is everybody's; above 100 the ports meet Linux' ephemeral ones
@@ -91,7 +92,7 @@ def claimed() -> Iterator[int]:
             else:
                 os.environ['ROS_DOMAIN_ID'] = before
         end = monotonic() + PATIENCE
-        while left := programs_in(domain):
+        while left := programs_in(domain) + forked_in(domain):
             if monotonic() > end:
                 raise RuntimeError(f'what was started in ROS domain {domain} still runs: {left}')
             sleep(TURN)

@@ -15,13 +15,26 @@ from rclpy.parameter import parameter_value_to_python
 from pam_ros.nodes.demo.client import Client, parameter_messages
 from pam_ros.nodes.demo.rig_log import TOPICS
 from pam_ros.processes.children import PATIENCE as DEADLINE
-from pam_ros.processes.children import Program
+from pam_ros.processes.children import Program as FreshProgram
+from support.forked import Forked, is_possible
 
 # s; it only bounds how long a broken program may hang a test, also next to busy programs.
 PEER_DEADLINE = 240.0
 HISTORY = 5000  # messages that a simulator keeps for a late subscriber: 10 s at 500 Hz
 
-__all__ = ['DEADLINE', 'Peer', 'Program', 'has_loaded', 'lose_nothing']
+__all__ = ['DEADLINE', 'FreshProgram', 'Peer', 'Program', 'has_loaded', 'lose_nothing']
+
+
+class Program(FreshProgram):
+    """A program in a process of its own, which is forked to save the time of its imports.
+
+    Where its start, its signals or its libraries are what is tested, a ``FreshProgram`` is used.
+    """
+
+    def _start(self, module: str, arguments: list[str]) -> Any:
+        if is_possible():
+            return Forked(module, arguments, self._out)
+        return super()._start(module, arguments)
 
 
 class Peer(Client):

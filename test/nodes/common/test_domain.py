@@ -17,7 +17,7 @@ from sensor_msgs.msg import JointState
 from support import domain as domains
 from support.distribution import PROFILE
 from support.domain import DOMAINS, claimed, heard_domains, ports_of, programs_in
-from support.harness import DEADLINE, Program
+from support.harness import DEADLINE, FreshProgram
 
 HERE = Path(__file__).parents[2]
 # Once it reads the line, it claims a domain again and again, of all that there are always the
@@ -222,13 +222,13 @@ def test_nodes_of_others_in_the_same_domain_are_not_received(domain, peer, monke
     with monkeypatch.context() as patch:
         patch.delenv(PROFILE)
         patch.setenv('ROS_AUTOMATIC_DISCOVERY_RANGE', 'SUBNET')
-        stranger = Program(
+        stranger = FreshProgram(
             'pam_sim', '-r', '__node:=pam_sim_stranger', parameters={'joint_name': 'stranger'}
         )
         listener = start(LISTEN)
     neighbour = start(NEIGHBOUR)
     try:
-        with stranger, Program('pam_sim', parameters={'joint_name': 'ours'}):
+        with stranger, FreshProgram('pam_sim', parameters={'joint_name': 'ours'}):
             peer.more(states)
             received, _ = listener.communicate()
             assert neighbour.stdout.readline() == 'published\n'
@@ -258,7 +258,7 @@ def uses_shared_memory(pid):
 def test_no_program_uses_shared_memory(domain, peer, monkeypatch):
     """Connections in it are lost for ever where tests kill programs; others do use it."""
     assert not uses_shared_memory(os.getpid())
-    with Program('pam_sim', parameters={'joint_name': 'ours'}) as program:
+    with FreshProgram('pam_sim', parameters={'joint_name': 'ours'}) as program:
         peer.more(peer.collect(JointState, 'joint_states'))
         assert not uses_shared_memory(program.process.pid)
     monkeypatch.delenv(PROFILE)

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from diagnostic_msgs.msg import DiagnosticArray
 
-from support.harness import Program
+from support.harness import FreshProgram
 
 pytestmark = pytest.mark.at_any_pace
 
@@ -33,7 +33,7 @@ def policies(pid):
 @pytest.mark.parametrize('mode', ['real_time', 'scaled', 'lockstep'])
 def test_only_the_loop_in_real_time_has_priority_and_logs_it(peer, mode):
     reports = peer.collect(DiagnosticArray, '/diagnostics')
-    with Program('pam_sim', parameters={'time_mode': mode}) as sim:
+    with FreshProgram('pam_sim', parameters={'time_mode': mode}) as sim:
 
         def scheduling():
             values = {v.key: v.value for m in reports for s in m.status for v in s.values}

@@ -23,6 +23,7 @@ from pam_ros.excitation.programme import programme
 from pam_ros.excitation.settings import Excitation
 from support.ends import check_refusals
 from support.harness import Program
+from support.marks import at_release
 
 pytestmark = pytest.mark.usefixtures('domain')
 
@@ -148,10 +149,11 @@ def test_the_plan_alone(peer, tmp_path):
 def test_the_command_lines_that_effects_propose_are_accepted():
     for effect in EFFECTS:
         if effect.excitation:
-            program, *arguments = shlex.split(command_line(effect.excitation))
-            command = [sys.executable, '-m', f'pam_ros.cli.{program}', '--dry-run', *arguments]
-            output = subprocess.check_output(command, text=True, timeout=120)
-            played = [line.split()[0] for line in output.splitlines()[2:]]
+            name, before, *arguments = shlex.split(command_line(effect.excitation))
+            assert before == '--ros-args'
+            with Program(name, *arguments, '--', '--dry-run') as program:
+                assert program.wait() == 0
+                played = [line.split()[0] for line in program.output.splitlines()[2:]]
             segments = effect.excitation.get('segments', ())
             assert tuple(played[: len(segments)]) == segments
 
@@ -165,7 +167,7 @@ def test_the_muscle_narrows_the_limits_and_a_window_too_narrow_is_warned_of():
         assert 'CAUTION' in program.output
 
 
-@pytest.mark.parametrize('position', [0.11, -0.02, float('nan')])
+@pytest.mark.parametrize('position', [0.11, at_release(-0.02), float('nan')])
 def test_a_joint_that_leaves_its_window_stops_it(rig, position):
     with excite() as program:
         rig.until_pressed()
@@ -187,7 +189,9 @@ def test_it_stops_if_joint_states_stop(rig, peer):
     check_vented(rig.commands)
 
 
-@pytest.mark.parametrize('kind', [signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT])
+@pytest.mark.parametrize(
+    'kind', [signal.SIGINT, *map(at_release, (signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT))]
+)
 def test_a_signal_vents(rig, kind):
     with excite() as program:
         rig.until_pressed()

@@ -11,7 +11,7 @@ import pytest
 from std_msgs.msg import String
 
 from support.bags import contents
-from support.harness import Program
+from support.harness import FreshProgram
 
 ROOM = 4_000_000  # bytes of one file; the middleware has files of its own below that
 LETTERS = 100_000  # of one message
@@ -32,7 +32,7 @@ def small_disk():
 def test_it_ends_with_one_sentence_and_the_bag_has_what_fitted(peer, tmp_path):
     bag = tmp_path / 'rig'
     with small_disk():
-        program = Program('pam_record', '--', '-o', str(bag), 'log')
+        program = FreshProgram('pam_record', '--', '-o', str(bag), 'log')
     letters = random.Random(1)
     count = 0
     with program:

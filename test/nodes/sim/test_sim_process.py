@@ -13,7 +13,7 @@ from std_msgs.msg import Float64
 from std_srvs.srv import Trigger
 
 from support.ends import check_refusals
-from support.harness import Program, has_loaded
+from support.harness import FreshProgram, has_loaded
 
 pytestmark = [pytest.mark.at_any_pace, pytest.mark.usefixtures('domain')]
 
@@ -27,7 +27,7 @@ pytestmark = [pytest.mark.at_any_pace, pytest.mark.usefixtures('domain')]
 )
 def test_a_signal_ends_it_cleanly(peer, kind, times):
     states = peer.collect(JointState, 'joint_states')
-    with Program('pam_sim') as sim:
+    with FreshProgram('pam_sim') as sim:
         peer.more(states)
         sim.interrupt(kind, times)
         assert sim.wait() == 0
@@ -39,7 +39,7 @@ def test_a_signal_ends_it_cleanly(peer, kind, times):
 @pytest.mark.parametrize('turn', range(3))
 def test_signals_that_come_until_it_has_ended_do_not_change_how_it_ends(peer, turn):
     states = peer.collect(JointState, 'joint_states')
-    with Program('pam_sim') as sim:
+    with FreshProgram('pam_sim') as sim:
         peer.more(states)
         while sim.is_running:
             sim.interrupt()
@@ -48,7 +48,7 @@ def test_signals_that_come_until_it_has_ended_do_not_change_how_it_ends(peer, tu
 
 
 def test_a_signal_during_the_start_ends_it_cleanly():
-    with Program('pam_sim') as sim:
+    with FreshProgram('pam_sim') as sim:
         while not has_loaded(sim, 'numpy'):  # it is still importing
             assert sim.is_running
         sim.interrupt()
@@ -106,7 +106,7 @@ def test_a_bad_parameter_file_ends_it_with_a_sentence(tmp_path):
 
 def test_parameters_of_others_are_warned_of_and_passed_over(peer):
     states = peer.collect(JointState, 'joint_states')
-    with Program('pam_sim', parameters={'robot_name': 'arm'}) as sim:
+    with FreshProgram('pam_sim', parameters={'robot_name': 'arm'}) as sim:
         peer.more(states)
         assert 'parameter robot_name does not exist here' in sim.output
 
@@ -115,11 +115,11 @@ def test_a_parameter_file_of_other_nodes_is_warned_of(peer, tmp_path):
     states = peer.collect(JointState, 'joint_states')
     file = tmp_path / 'others.yaml'
     file.write_text('pam_sim: {ros__parameters: {mass: 5.0}}\n')
-    with Program('pam_sim', '-r', '__node:=plant', '--params-file', str(file)) as sim:
+    with FreshProgram('pam_sim', '-r', '__node:=plant', '--params-file', str(file)) as sim:
         peer.more(states)
         assert 'others.yaml has no parameters for /plant and is not used' in sim.output
         assert 'those that it has are for /pam_sim' in sim.output
-    with Program('pam_sim', '--params-file', str(file)) as sim:
+    with FreshProgram('pam_sim', '--params-file', str(file)) as sim:
         peer.more(states)
         assert 'others.yaml' not in sim.output
 
@@ -129,8 +129,8 @@ def test_two_in_namespaces_and_remapped_do_not_disturb_each_other(peer):
     right = peer.collect(JointState, '/right/load/state')
     pressure = peer.collect(FluidPressure, '/right/pressure')
     diagnostics = peer.collect(DiagnosticArray, '/diagnostics')
-    a = Program('pam_sim', '-r', '__ns:=/left', parameters={'joint_name': 'one'})
-    b = Program(
+    a = FreshProgram('pam_sim', '-r', '__ns:=/left', parameters={'joint_name': 'one'})
+    b = FreshProgram(
         'pam_sim',
         *('-r', '__ns:=/right', '-r', '__node:=plant', '-r', 'joint_states:=load/state'),
         *('-r', 'pressure_command:=valve'),
@@ -159,7 +159,7 @@ def test_quality_of_service_is_the_users_choice(peer):
         return peer.node.get_publishers_info_by_topic(topic)[0].qos_profile
 
     given = {'qos_overrides./joint_states.publisher.reliability': 'best_effort'}
-    with Program('pam_sim', parameters=given):
+    with FreshProgram('pam_sim', parameters=given):
         assert quality('/joint_states').reliability == ReliabilityPolicy.BEST_EFFORT
         for topic in ('/pressure', '/force', '/stiffness', '/damping'):
             assert quality(topic).reliability == ReliabilityPolicy.RELIABLE
@@ -168,7 +168,7 @@ def test_quality_of_service_is_the_users_choice(peer):
 
 def test_joint_states_are_complete(peer):
     states = peer.collect(JointState, 'joint_states')
-    with Program('pam_sim', parameters={'frame_id': 'rig'}):
+    with FreshProgram('pam_sim', parameters={'frame_id': 'rig'}):
         peer.more(states)
     message = states[-1]
     assert message.header.frame_id == 'rig'
