@@ -17,6 +17,9 @@ unexport ROS_DISTRO ROS_VERSION ROS_PYTHON_VERSION RMW_IMPLEMENTATION ROS_SECURI
 export ROS_AUTOMATIC_DISCOVERY_RANGE := LOCALHOST
 export PYTHON
 
+# Files in the order of the folders: the default ends with those that have few tests, but long ones.
+PARALLEL := -n auto --dist loadfile --no-loadscope-reorder
+
 .DEFAULT_GOAL := help
 .PHONY: help environment warm demo test test-fast test-all platforms faults lint docs pages
 .PHONY: notebook bench clean
@@ -52,12 +55,12 @@ test: warm
 ifdef ARGS
 	$(PY) -m pytest $(ARGS)
 else
-	$(PY) -m pytest -n auto --dist loadfile -m 'not keeps_rate and not release'
+	$(PY) -m pytest $(PARALLEL) -m 'not keeps_rate and not release'
 	$(PY) -m pytest -m 'keeps_rate and not release' test/nodes test/faults
 endif
 
 test-fast: warm
-	$(PY) -m pytest -n auto --dist loadfile -m 'pure and not slow' $(ARGS)
+	$(PY) -m pytest $(PARALLEL) -m 'pure and not slow' $(ARGS)
 
 test-all: test
 	$(PY) -m pytest -m release

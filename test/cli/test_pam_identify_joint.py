@@ -3,12 +3,14 @@
 """The command on recordings of a joint of two muscles: report, parameter file, bad input."""
 
 import json
+import signal
 import subprocess
 import sys
 
 import numpy as np
 import pytest
 
+from pam_ros.cli import pam_identify
 from pam_ros.recording.csv_file import write_csv
 from pam_ros.recording.recording import Recording
 from pam_ros.rig.run import simulate
@@ -173,9 +175,16 @@ def test_the_parameter_file_is_the_joint_that_was_found(found):
         ),
     ],
 )
-def test_bad_input_is_one_sentence(bench, arguments, words):
-    code, _, errors = run(bench, *arguments, '--out', 'none')
-    assert code == 2
+def test_bad_input_is_one_sentence(bench, monkeypatch, capsys, arguments, words):
+    # In this process: the imports of another one take far longer than to find the mistake.
+    monkeypatch.chdir(bench)
+    monkeypatch.setattr(sys, 'argv', ['pam_identify', *arguments, '--out', 'none'])
+    on_sigterm = signal.getsignal(signal.SIGTERM)
+    with pytest.raises(SystemExit) as end:
+        pam_identify.main()
+    signal.signal(signal.SIGTERM, on_sigterm)
+    errors = capsys.readouterr().err
+    assert end.value.code == 2
     assert errors.startswith(f'pam_identify: {words}')
     assert errors.count('\n') == 1
     assert not (bench / 'none').exists()

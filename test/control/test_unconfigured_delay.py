@@ -12,6 +12,7 @@ from pam_ros.control.gains import Gains
 from pam_ros.control.sliding_mode import SlidingMode
 from support.closed_loop import nominal
 from support.kinds import EACH_KIND, ONE, PAIR, rms
+from support.marks import at_release
 from truth.effects import effect
 
 pytestmark = pytest.mark.needs_numba
@@ -80,7 +81,10 @@ def test_a_push_that_makes_the_loop_oscillate_is_overcome():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize('plant', ['nominal', 'payload', 'friction', 'hysteresis', 'lag', 'all'])
+@pytest.mark.parametrize(
+    'plant',
+    ['friction', 'all', *map(at_release, ('nominal', 'payload', 'hysteresis', 'lag'))],
+)
 @EACH_KIND
 def test_other_unconfigured_effects_hardly_lower_the_gains(kind, plant):
     for target in (kind.step, kind.swing):

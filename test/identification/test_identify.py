@@ -16,6 +16,7 @@ from pam_ros.recording.read import read_recording
 from pam_ros.rig.run import simulate
 from pam_ros.settings.nominal import nominal_joint
 from support import bench_truth, moved_cylinders
+from support.marks import at_release
 from truth import effect
 
 pytestmark = [pytest.mark.needs_numba, pytest.mark.slow]
@@ -36,7 +37,7 @@ def names(found):
             {'fill': 0.05, 'vent': 0.07},
         ),
         (effect('viscous_friction', viscous_ns_m=60.0), {'coefficient': 60.0}),
-        (
+        at_release(
             effect('coulomb_friction', coulomb_n=8.0, static_n=8.8, stribeck_m_s=5e-3),
             {'level': 8.0},
         ),
@@ -60,6 +61,7 @@ def test_an_effect_is_named_and_measured(there, numbers):
     assert found.stages[0].model.all_effects == ()
 
 
+@pytest.mark.release
 @pytest.mark.parametrize('lag', [{}, {'fill': 0.05, 'vent': 0.07}], ids=['alone', 'with_a_lag'])
 def test_a_regulator_whose_command_must_change_by_so_much_is_named_with_its_dead_zone(lag):
     there = [effect('regulator_dead_zone', 'play', dead_zone_pa=6e3)]
@@ -73,6 +75,7 @@ def test_a_regulator_whose_command_must_change_by_so_much_is_named_with_its_dead
     assert found.stages[2].held_error < 1.2 * NOISE
 
 
+@pytest.mark.release
 def test_a_leak_against_a_valve_of_limited_flow_is_measured_behind_friction():
     numbers = {'leak_per_s': 0.9, 'fill_s': 0.086, 'vent_s': 0.04, 'refill_pa_s': 6e5}
     friction = effect('coulomb_friction', coulomb_n=8.0, static_n=8.8, stribeck_m_s=5e-3)
@@ -138,6 +141,7 @@ def test_what_begins_in_the_middle_is_named_with_its_moment():
     assert segment.t[segment.fit][-1] == pytest.approx(15.0 + 0.75 * 21.0, abs=0.3)
 
 
+@pytest.mark.release
 def test_in_another_recording_it_is_there_from_the_start():
     late = bench_truth.late(effect('viscous_friction'), 12.0, duration=30.0)
     other = bench_truth.free(effect('viscous_friction'), seed=9, duration=15.0, name='other.csv')
@@ -165,6 +169,7 @@ def test_what_begins_at_the_end_has_a_moment_and_no_name():
     assert found.since.value == pytest.approx(26.0, abs=0.2)
 
 
+@pytest.mark.release
 @pytest.mark.parametrize('onset', [22.5, 31.0])
 def test_effects_that_a_later_one_contradicts_are_not_named(onset):
     """A lag explains what is fitted; then a load is taken off."""
@@ -258,6 +263,7 @@ def test_recordings_of_two_kinds_are_refused():
         identify(bench_truth.nominal(), [bench_truth.free(duration=6.0), bench_truth.held()])
 
 
+@pytest.mark.release
 def test_the_measured_drive_has_two_frictions(shared_data):
     """A public benchmark, 25 s of closed loop: a mass moved by a motor of known force."""
     model = nominal_joint(ROOT / 'config' / 'rigs' / 'emps.yaml').joint
@@ -282,6 +288,7 @@ def test_the_measured_drive_has_two_frictions(shared_data):
     assert np.sqrt(np.mean((run.position - y) ** 2)) < 8e-3
 
 
+@pytest.mark.release
 def test_the_measured_muscle_goes_slack(shared_data):
     """A muscle held at four lengths: fitted on three repeats, tested on two others."""
     model = nominal_joint('dmsp_20_400n', ['mass=20']).joint

@@ -75,6 +75,7 @@ def test_the_model_that_is_found_has_the_effect_in_that_muscle_alone(lag):
     assert {f'{name}.{constant}' for name in NAMES for constant in ('a1', 'a5', 'zeta')} < names
 
 
+@pytest.mark.release
 @pytest.mark.needs_numba
 def test_friction_is_named_on_the_joint():
     trial = pair_trial('viscous_friction@joint', SEED)
@@ -85,6 +86,7 @@ def test_friction_is_named_on_the_joint():
     assert drag.value == pytest.approx(trial.effects[0].values['viscous_ns_m'], rel=0.15)
 
 
+@pytest.mark.release
 @pytest.mark.needs_numba
 def test_an_effect_of_both_muscles_alike_is_named_without_a_muscle():
     trial = pair_trial('dead_time@both', SEED)
@@ -94,6 +96,7 @@ def test_an_effect_of_both_muscles_alike_is_named_without_a_muscle():
     assert delay == pytest.approx(trial.effects[0].values['dead_time_s'], abs=1e-3)
 
 
+@pytest.mark.release
 @pytest.mark.needs_numba
 def test_a_reservoir_from_which_both_muscles_fill_is_named_with_its_numbers():
     trial = pair_trial('supply@joint', SEED)
@@ -108,6 +111,7 @@ def test_a_reservoir_from_which_both_muscles_fill_is_named_with_its_numbers():
     assert found.stages[1].held_error > 10.0 * trial.noise
 
 
+@pytest.mark.release
 @pytest.mark.needs_numba
 def test_specimens_and_noise_alone_have_no_effect():
     trial = pair_trial('noise_only', SEED)

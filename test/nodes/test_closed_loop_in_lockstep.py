@@ -144,6 +144,7 @@ def runs_of_a_pair(module_domain):
     return [run_pam_control(n) for n in BUSY_BESIDE]
 
 
+@pytest.mark.release
 def test_pam_control_tracks_the_angle_of_a_pair(runs_of_a_pair):
     t, angle = (np.array(each) for each in zip(*runs_of_a_pair[0].items(), strict=True))
     swung = (t > BEGIN + 2.0) & (t < BEGIN + TOLD - 2.0)

@@ -15,8 +15,8 @@ from support.harness import DEADLINE, Peer, Program, lose_nothing
 
 pytestmark = pytest.mark.usefixtures('module_domain')
 
-RATE = 200.0  # Hz of states
-CLOCK_RATES = {'scaled': 100.0, 'lockstep': RATE}  # Hz of /clock
+RATE = 100.0  # Hz of states
+CLOCK_RATES = {'scaled': 50.0, 'lockstep': RATE}  # Hz of /clock
 PLAN = {'duration': 30.0, 'pressure_min': 150e3, 'pressure_max': 400e3}
 DURATION = PLAN['duration']  # s
 LAST_THIRD = 21 * 10**9  # ns

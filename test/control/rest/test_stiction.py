@@ -10,6 +10,7 @@ from pam_ros.control.reference.shaping import Shape
 from pam_ros.control.rest.stiction import Stiction, StictionTuning
 from pam_ros.control.sliding_mode import SlidingMode
 from support.kinds import EACH_KIND, ONE, PAIR, at_end
+from support.marks import at_release
 from truth.effects import effect
 from truth.pair import FEEDBACK_NOISE, TruthPair
 from truth.sensor import Sensor
@@ -114,7 +115,7 @@ def stepped(kind, law, plant, seconds=12.0, **more):
 @pytest.mark.slow
 @pytest.mark.needs_numba
 @EACH_KIND
-@pytest.mark.parametrize('seed', [0, 1])
+@pytest.mark.parametrize('seed', [0, at_release(1)])
 def test_on_the_truth_plant_stick_and_slip_end_within_the_tolerance(kind, seed):
     def plant():
         if kind is ONE:

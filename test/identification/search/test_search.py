@@ -25,6 +25,7 @@ from pam_ros.identification.search.setting import Errors, Setting
 from pam_ros.identification.search.table import is_instead_of_constants
 from pam_ros.identification.verdict import explains
 from support import bench_truth
+from support.marks import at_release
 from support.searches import found_in
 from truth import effect
 
@@ -44,11 +45,10 @@ def searched(recordings, model=None, shares=(CRITERIA.fit, CRITERIA.choose)):
     'there',
     [
         effect('viscous_friction'),
-        effect('coulomb_friction'),
-        *(
-            pytest.param(one, marks=pytest.mark.release)
-            for one in (effect('pressure_lag'), effect('creep', 'pressure'), effect('dead_time'))
-        ),
+        at_release(effect('coulomb_friction')),
+        at_release(effect('pressure_lag')),
+        at_release(effect('creep', 'pressure')),
+        at_release(effect('dead_time')),
     ],
     ids=lambda one: one.kind,
 )
@@ -168,6 +168,7 @@ def test_creep_that_has_not_settled_when_the_recording_begins():
     assert found.best.errors.fit < 1.2 * found.setting.noise
 
 
+@pytest.mark.release
 def test_hysteresis_is_found_where_every_recording_falls_at_its_end_only():
     """Whole recordings choose, so that fits see the way back; divided in time, creep was found."""
     there = effect('hysteresis', 'pressure')
@@ -204,6 +205,7 @@ def test_what_is_not_in_the_library_gets_no_name():
     assert not explains(found)
 
 
+@pytest.mark.release
 def test_an_effect_that_lowers_only_the_score_is_replaced_by_one_that_improves_the_free_run():
     """Viscous friction has the better score, and 1 % of the error, as long as creep is missing."""
     there = (effect('viscous_friction', viscous_ns_m=42.0), effect('creep', 'pressure'))
@@ -211,6 +213,7 @@ def test_an_effect_that_lowers_only_the_score_is_replaced_by_one_that_improves_t
     assert set(found.best.effects) == {'viscous_friction', 'creep'}
 
 
+@pytest.mark.release
 def test_a_strength_that_describes_most_of_another_effect_is_exchanged_for_it():
     """A lag with a dead zone of its valve is better than a dead time or a narrow hysteresis alone.
 

@@ -16,6 +16,7 @@ from pam_ros.identification.search.onset import Moment, moment, search_since, sh
 from pam_ros.identification.search.setting import Setting
 from pam_ros.identification.search.starts import looks
 from support import bench_truth
+from support.marks import at_release
 from truth import effect
 
 ONSET = 17.0
@@ -109,10 +110,8 @@ def test_the_shares_are_of_what_comes_after(setting_of):
     'one',
     [
         effect('viscous_friction'),
-        *(
-            pytest.param(one, marks=pytest.mark.release)
-            for one in (effect('payload', payload_kg=-4.0), effect('leak', 'refill'))
-        ),
+        at_release(effect('payload', payload_kg=-4.0)),
+        at_release(effect('leak', 'refill')),
     ],
     ids=lambda one: one.kind,
 )
@@ -153,6 +152,7 @@ def test_cheap_fits_keep_the_onset(name, setting_of):
         assert end.problem.unknowns[k].value(end.u[k]) == pytest.approx(ONSET, abs=0.01)
 
 
+@pytest.mark.release
 @pytest.mark.slow
 @pytest.mark.needs_numba
 def test_an_end_stop_that_is_met_late_was_there_from_the_start(setting_of):

@@ -17,6 +17,7 @@ from pam_ros.control.signals import term_names
 from pam_ros.rig import statics
 from support.control_watch import LOSE_NO_TERMS, Simulation, Watch, columns, sine
 from support.harness import Program
+from support.marks import at_release
 from support.pair_loop import nominal
 
 DEGREE = math.radians(1.0)
@@ -155,7 +156,7 @@ def test_a_set_point_is_reached_in_real_time(watch, kind):
 
 
 @both
-@pytest.mark.parametrize(('action', 'word'), [('vent', 'vents'), ('hold', 'holds')])
+@pytest.mark.parametrize(('action', 'word'), [at_release('vent', 'vents'), ('hold', 'holds')])
 def test_silence_of_the_joint_is_answered_safely(watch, kind, action, word):
     rig = Simulation(watch.peer)
     given = {**kind.given, 'on_timeout': action, 'state_timeout': 0.2}

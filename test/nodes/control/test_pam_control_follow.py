@@ -35,7 +35,7 @@ pytestmark = pytest.mark.at_any_pace
 
 @pytest.fixture(scope='module')
 def messages(tmp_path_factory):
-    return built('control_msgs', tmp_path_factory.mktemp('control_msgs'))
+    return built('control_msgs', tmp_path_factory)
 
 
 @pytest.fixture
@@ -191,6 +191,7 @@ def test_goals_that_cannot_be_are_rejected_with_the_reason(watch):
         assert words in output
 
 
+@pytest.mark.release
 def test_a_trajectory_of_30_000_points_is_followed(watch):
     with Program('pam_sim', parameters=LOCKSTEP), Program('pam_control', parameters=FOLLOWING):
         begin = watch.begin()

@@ -18,6 +18,7 @@ from sensor_msgs.msg import JointState
 
 from support.control_watch import Watch, stamp
 from support.harness import Program, lose_nothing
+from support.marks import at_release
 
 RIG = {'initial.pressure': 300e3}
 WAY = 0.01  # m
@@ -45,7 +46,13 @@ def values(status):
 
 
 @pytest.mark.parametrize(
-    ('seconds', 'on_timeout'), [(1.3, 'vent'), (2.0, 'vent'), (2.0, 'hold'), (6.0, 'vent')]
+    ('seconds', 'on_timeout'),
+    [
+        at_release(1.3, 'vent'),
+        (2.0, 'vent'),
+        at_release(2.0, 'hold'),
+        at_release(6.0, 'vent'),
+    ],
 )
 def test_a_rig_that_has_begun_to_vent_does_not_jump(watch, seconds, on_timeout):
     peer = watch.peer
@@ -123,8 +130,10 @@ def is_stopped(process):
     return Path(f'/proc/{process.pid}/stat').read_text().rpartition(')')[2].split()[0] == 'T'
 
 
-@pytest.mark.parametrize('on_timeout', ['vent', 'hold'])
-@pytest.mark.parametrize('command_timeout', [1.0, 0.0])
+@pytest.mark.parametrize(
+    ('on_timeout', 'command_timeout'),
+    [('hold', 1.0), at_release('vent', 1.0), at_release('vent', 0.0), at_release('hold', 0.0)],
+)
 def test_the_command_that_a_stop_held_up_throws_nothing(watch, on_timeout, command_timeout):
     peer = watch.peer
     states = peer.collect(JointState, 'joint_states')

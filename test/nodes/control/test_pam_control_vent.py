@@ -13,6 +13,7 @@ from sensor_msgs.msg import FluidPressure, JointState
 
 from support.control_watch import Simulation, Watch
 from support.harness import Program
+from support.marks import at_release
 
 AMBIENT = 101325.0  # Pa
 FASTEST = 0.15  # m/s; a reference moves with 0.1
@@ -41,7 +42,7 @@ def test_the_pressure_is_lowered_evenly_and_then_nothing_is_commanded(watch):
     assert np.max(steps) < 0.25 * np.sum(steps)  # a busy machine may leave some out
 
 
-@pytest.mark.parametrize('kind', [signal.SIGKILL, signal.SIGTERM])
+@pytest.mark.parametrize('kind', [signal.SIGKILL, at_release(signal.SIGTERM)])
 def test_a_rig_that_starts_meanwhile_does_not_obey(watch, kind):
     """It starts with pressure and at rest: any command to the one before would drop its load."""
     peer = watch.peer

@@ -11,6 +11,8 @@ from pathlib import Path
 import pytest
 from matplotlib.image import imread
 
+from support.marks import at_release
+
 pytestmark = pytest.mark.usefixtures('domain')
 
 DEMO = [sys.executable, '-m', 'pam_ros.cli.pam_demo']
@@ -61,7 +63,9 @@ def test_an_unknown_chapter_is_refused_with_the_list_of_chapters(tmp_path):
     assert not list(tmp_path.iterdir())
 
 
-@pytest.mark.parametrize('kind', [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+@pytest.mark.parametrize(
+    'kind', [signal.SIGINT, *map(at_release, (signal.SIGTERM, signal.SIGHUP))]
+)
 def test_a_signal_leaves_no_simulator_behind(tmp_path, kind):
     with subprocess.Popen(
         [*DEMO, 'paper'],

@@ -17,6 +17,7 @@ from std_msgs.msg import Float64, String
 from support.bags import contents, written
 from support.ends import check_refusals
 from support.harness import DEADLINE, Program
+from support.marks import at_release
 
 pytestmark = pytest.mark.usefixtures('domain')
 
@@ -60,7 +61,9 @@ def has_all_of_a_rig(bag):
 
 
 @pytest.mark.at_any_pace
-@pytest.mark.parametrize('kind', [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+@pytest.mark.parametrize(
+    'kind', [signal.SIGINT, *map(at_release, (signal.SIGTERM, signal.SIGHUP))]
+)
 def test_all_messages_of_a_rig_are_in_the_bag(peer, tmp_path, kind):
     count = 3000
     bag = tmp_path / 'rig'
