@@ -24,7 +24,7 @@ OF_NOTEBOOKS = ('ipykernel', 'nbclient', 'nbformat')
 # Assertions of helpers explain themselves and are counted as those of a test are.
 SUPPORT = Path(__file__).parent / 'test' / 'support'
 pytest.register_assert_rewrite(*(f'support.{path.stem}' for path in SUPPORT.glob('*.py')))
-pytest.register_assert_rewrite('truth', 'recorded')
+pytest.register_assert_rewrite('truth')
 pytest_plugins = ['support.assertions']
 
 

@@ -47,7 +47,7 @@ def install(session: nox.Session, *arguments: str) -> None:
 def run_with_nodes(session: nox.Session, *requirements: str) -> None:
     """Run the tests without nodes that are quick, and some of the nodes."""
     files = [word for name in requirements for word in ('-r', f'requirements/{name}.txt')]
-    install(session, *files, '-e', '.[fast,baseline,test]')
+    install(session, *files, '-e', '.[fast,test]')
     session.run('python', '-m', 'pam_ros.rig.warm')
     session.run('python', '-m', 'pytest', *WITHOUT_NODES)
     session.run('python', '-m', 'pytest', *SMOKE)

@@ -39,7 +39,7 @@ setup(
     maintainer_email='pam_ros@example.org',
     license='Apache-2.0',
     packages=find_packages(include=[PACKAGE, f'{PACKAGE}.*']),
-    package_data={PACKAGE: ['py.typed', '**/*.html', '**/*.j2']},
+    package_data={PACKAGE: ['py.typed', '**/*.html', '**/*.j2', '**/*.pyi']},
     data_files=[
         ('share/ament_index/resource_index/packages', [f'resource/{PACKAGE}']),
         (f'share/{PACKAGE}', ['package.xml']),
@@ -62,7 +62,6 @@ setup(
     ],
     extras_require={
         'fast': ['numba'],
-        'baseline': ['simple-pid'],
         'test': [
             'pytest',
             'pytest-xdist',

@@ -22,7 +22,6 @@ from matplotlib.figure import Figure
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / 'test'))
 
-from pam_ros.control.gains import SUPER_TWISTING, Gains
 from pam_ros.control.pid import Pid
 from pam_ros.control.sliding_mode import SlidingMode
 from pam_ros.effects import CoulombFriction
@@ -58,10 +57,9 @@ ROWS = {
 }
 LAWS = {
     'sliding mode': SlidingMode,
-    'super-twisting': lambda joint: SlidingMode(joint, Gains(switching=SUPER_TWISTING)),
     'PID': Pid,
 }
-COLOURS = {'PID': '0.7', 'super-twisting': 'C1', 'sliding mode': 'C0'}  # the last one in front
+COLOURS = {'PID': '0.7', 'sliding mode': 'C0'}  # the last one in front
 OVER_DDS = {'nominal': 0.0, 'payload +5 kg': 5.0}  # kg that are not configured
 CONTROLLERS = {'sliding mode': 'sliding_mode', 'PID': 'pid'}
 STEP, SWING = 12.0, 20.0  # s

@@ -97,6 +97,8 @@ def groups_of_names() -> dict[str, list[str]]:
 def documented(name: str) -> str:
     """Return the directive that takes the docstring of a public name."""
     public = getattr(pam_ros, name)
+    if public in pam_ros.EFFECTS:  # its methods are those of every Effect, which stands above
+        return f'.. autoclass:: pam_ros.{name}\n   :no-members:\n'
     if isinstance(public, type):
         return f'.. autoclass:: pam_ros.{name}\n'
     if callable(public):
@@ -111,12 +113,6 @@ def reference() -> str:
     for what, names in groups_of_names().items():
         title = what[0].upper() + what[1:]
         parts += [f'{title}\n{"-" * len(title)}\n', *map(documented, names)]
-    parts += ['The effects\n-----------\n']
-    # Their methods are those of every Effect, which stands above.
-    parts += [
-        f'.. autoclass:: pam_ros.effects.{effect.__name__}\n   :no-members:\n'
-        for effect in pam_ros.EFFECTS
-    ]
     return '\n'.join(parts)
 
 

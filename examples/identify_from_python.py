@@ -15,6 +15,7 @@ import sys
 import numpy as np
 
 from pam_ros import (
+    CoulombFriction,
     Mass,
     Muscle,
     PamError,
@@ -24,7 +25,6 @@ from pam_ros import (
     simulate,
     single_muscle_joint,
 )
-from pam_ros.effects import CoulombFriction
 
 parser = argparse.ArgumentParser(description='Identify a simulated recording, save the report.')
 parser.add_argument('folder', help='folder for the report')

@@ -14,8 +14,18 @@ import argparse
 import numpy as np
 from matplotlib.figure import Figure
 
-from pam_ros import Arm, Gains, Muscle, Reference, Simulation, SlidingMode, antagonistic_joint
-from pam_ros.effects import CoulombFriction, PressureLag, Slack
+from pam_ros import (
+    Arm,
+    CoulombFriction,
+    Gains,
+    Muscle,
+    PressureLag,
+    Reference,
+    Simulation,
+    Slack,
+    SlidingMode,
+    antagonistic_joint,
+)
 
 PERIOD = 2e-3  # s between two commands
 START = 250e3  # Pa in both muscles

@@ -41,7 +41,6 @@ from pam_ros import (
 )
 from pam_ros.effects import Creep, PressureLag, ViscousFriction
 from support.assertions import no_error
-from support.baseline import needs_simple_pid
 
 ONE = single_muscle_joint()
 STRAND = Actuator(contraction=0.1)
@@ -527,7 +526,6 @@ def test_an_object_of_a_wrong_kind_is_refused_with_a_sentence_that_names_it(name
     assert 'give' in sentence
 
 
-@needs_simple_pid
 def test_pid_refuses_objects_of_a_wrong_kind():
     assert refusal(Pid, Muscle()).startswith('joint = Muscle(')
     assert refusal(Pid, ONE, Gains()).startswith('gains = Gains(')

@@ -148,8 +148,7 @@ def _use(effect: type[Effect]) -> str:
     name = type(example).__name__
     return (
         f'## Use\n\n```console\n$ ros2 run pam_ros pam_sim --ros-args {given}\n```\n\n'
-        '```python\nfrom pam_ros import single_muscle_joint\n'
-        f'from pam_ros.effects import {name}\n\n'
+        f'```python\nfrom pam_ros import {name}, single_muscle_joint\n\n'
         f'effect = {example!r}\njoint = single_muscle_joint(effects=[effect])\n```'
     )
 

@@ -11,8 +11,6 @@ from pam_ros.control.tuning import number
 from pam_ros.errors import ParameterError
 from pam_ros.parameters import OnRevolute, parameter_field
 
-BOUNDARY_LAYER, SUPER_TWISTING = 'boundary_layer', 'super_twisting'
-
 
 @dataclass(frozen=True)
 class OrderTuning:
@@ -52,10 +50,6 @@ class Gains(JointSettings):
         Phi = K / bandwidth. Within the layer K sat(sigma / Phi) = bandwidth sigma, so that sigma
         decays at *bandwidth* there. Boundedness: |sigma| <= Phi from then on, and the error
         |e| <= :meth:`error_bound`.
-    super-twisting
-        k1 = 1.5 sqrt(L), k2 = 1.1 L with L = disturbance_rate / m >= |d'| / m, the values of
-        Levant (1998). k2 > L is necessary; Moreno & Osorio (2012) prove convergence in finite
-        time for each such k2 if k1 is large enough.
 
     Raises ParameterError for a value out of range, or if a condition fails that does not depend
     on the rig; :meth:`check` tests the other conditions.
@@ -101,21 +95,6 @@ class Gains(JointSettings):
         high=1e5,
         above_low=True,
         revolute=OnRevolute(5.0, 1e5),
-    )
-    switching: str = parameter_field(
-        BOUNDARY_LAYER,
-        'switching term: boundary_layer (saturation), or super_twisting (second order; for a '
-        'pressure that follows at once)',
-        choices=(BOUNDARY_LAYER, SUPER_TWISTING),
-    )
-    disturbance_rate: float = parameter_field(
-        100.0,
-        'largest rate of the disturbance that super_twisting must follow',
-        'N/s',
-        low=0.0,
-        high=1e6,
-        above_low=True,
-        revolute=OnRevolute(5.0, 1e6),
     )
     observer: bool = parameter_field(True, 'whether the disturbance observer acts')
     observer_bandwidth: float = parameter_field(
@@ -242,11 +221,6 @@ class Gains(JointSettings):
     def boundary_width(self, mass: float) -> float:
         """Return Phi in m/s, half the width of the boundary layer."""
         return self.switching_gain(mass) / self.bandwidth
-
-    def super_twisting(self, mass: float) -> tuple[float, float]:
-        """Return k1 in m^0.5/s^1.5 and k2 in m/s^3."""
-        rate = self.disturbance_rate / mass
-        return 1.5 * sqrt(rate), 1.1 * rate
 
     def error_bound(self, disturbance: float, mass: float, frequency: float) -> float:
         """Return the largest error in m under any disturbance that stays within +-*disturbance*.

@@ -1,11 +1,9 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""A PID law with the interface of the sliding-mode law, for comparison; it uses simple-pid."""
+"""A PID law with the interface of the sliding-mode law, for comparison."""
 
 from dataclasses import dataclass
-from importlib import import_module
 from math import exp
-from typing import Any
 
 from pam_ros.arguments import instance
 from pam_ros.control.allocation import allocation_of
@@ -22,7 +20,6 @@ from pam_ros.control.signals import (
     start_arguments,
     step_arguments,
 )
-from pam_ros.errors import ParameterError
 from pam_ros.parameters import OnRevolute, parameter_field
 from pam_ros.rig.joint import Joint
 
@@ -109,13 +106,9 @@ class Pid:
     ) -> None:
         """Take the nominal joint; only its effects without an onset are used.
 
-        Raises ParameterError if simple-pid is missing, if the gains are for the other kind of
-        joint, or if some place of the reach has no stable share of the gains.
+        Raises ParameterError if the gains are for the other kind of joint, or if some place of
+        the reach has no stable share of the gains.
         """
-        try:
-            maker: Any = import_module('simple_pid').PID
-        except ImportError as error:
-            raise ParameterError('the PID law needs simple-pid: pip install simple-pid') from error
         gains = PidGains.for_joint(joint) if gains is None else gains
         limits = Limits() if limits is None else limits
         wanted = CoContraction() if co_contraction is None else co_contraction
@@ -141,7 +134,6 @@ class Pid:
             if gains.bounded
             else None
         )
-        self._pid = maker(gains.proportional, gains.integral, gains.derivative, sample_time=None)
         self.start(0.0)
 
     def _static(self, position: float) -> Pressures:
@@ -180,10 +172,10 @@ class Pid:
             sign * (command - pressure)
             for sign, command, pressure in zip(signs, commands, static, strict=True)
         ) / len(signs)
-        self._pid.set_auto_mode(False)
-        self._pid.set_auto_mode(True, last_output=before)
         self._error = self._filtered = 0.0
+        self._has_rate = False
         self._seen, self._waited, self._output = position, 0.0, before
+        self._parts = 0.0, before, 0.0  # proportional, integral, derivative
         self.terms = Terms(reference=position, position=position, pressures=commands)
         self._note_stiffness()
 
@@ -206,11 +198,10 @@ class Pid:
         static, gains = self._static(reference.position), self.allocation.gains(reference.position)
         signs = self._signs(reference.position)
         if position is not None:
-            # The limits leave this range to the output: simple-pid stops its integral at its ends.
-            self._pid.output_limits = self._room(reference.position, static, signs)
-            self._correct(reference.position, position)
+            room = self._room(reference.position, static, signs)
+            self._correct(reference.position, position, *room)
         output = self._output
-        p, i, d = self._pid.components
+        p, i, d = self._parts
         commands, cut = [], 0.0
         for limiter, sign, pressure, gain in zip(
             self._limiters, signs, static, gains, strict=True
@@ -232,22 +223,30 @@ class Pid:
         self._note_stiffness()
         return self.terms.pressures
 
-    def _correct(self, reference: float, position: float) -> None:
-        """Take in a measured *position*, with the time since the last one."""
+    def _correct(self, reference: float, position: float, low: float, high: float) -> None:
+        """Take in a measured *position*, with the time since the last one.
+
+        The output and its integral part stay from *low* to *high*: what the limits of pressure
+        leave to them.
+        """
         dt, self._waited = self._waited, 0.0
         self._seen = position
         share = 1.0 - exp(-self.gains.filter_bandwidth * dt)
         self._error += share * (reference - position - self._error)
+        before = self._filtered
         self._filtered += share * (self._error - self._filtered)
+        of_all, of_integral = 1.0, 1.0
         if self._schedule is not None:
             of_all, of_integral = self._schedule.at(reference, self._stiffness)
-            gains = self.gains
-            self._pid.tunings = (
-                of_all * gains.proportional,
-                of_all * of_integral * gains.integral,
-                of_all * gains.derivative,
-            )
-        self._output = self._pid(-self._filtered, dt=dt)
+        gains, error = self.gains, self._filtered
+        p = of_all * gains.proportional * error
+        i = min(max(self._parts[1], low), high)
+        i = min(max(i + of_all * of_integral * gains.integral * error * dt, low), high)
+        # The first position has no rate: the joint may have moved since the law was started.
+        d = of_all * gains.derivative * (error - before) / dt if self._has_rate else 0.0
+        self._has_rate = True
+        self._parts = p, i, d
+        self._output = min(max(p + i + d, low), high)
 
     def _note_stiffness(self) -> None:
         """Set the terms of the desired stiffness and of the stiffness under the commands."""

@@ -16,7 +16,7 @@ and the wanted effort, with the estimated disturbance d^, is
 
     tau = J r'' + G(r) + c r' + losses          equivalent control, model along the reference
         + (2 z w J - c) e' + (w^2 J - k) e      feedback of the equivalent control
-        + K J sat(sigma / Phi)                  switching, or super-twisting
+        + K J sat(sigma / Phi)                  switching
         - d^                                    disturbance observer
 
 so that sigma' = -K sat(sigma / Phi) + (d^ - d) / J, with the consequences in
@@ -46,7 +46,7 @@ from pam_ros.control.allocation import allocation_of
 from pam_ros.control.co_contraction import CoContraction, StiffnessReference
 from pam_ros.control.compensation import Losses
 from pam_ros.control.gain_reduction import GainReduction, ReductionTuning
-from pam_ros.control.gains import SUPER_TWISTING, Gains
+from pam_ros.control.gains import Gains
 from pam_ros.control.learning.features import FeatureTuning
 from pam_ros.control.learning.learned import Learned
 from pam_ros.control.learning.learner import Learner
@@ -353,7 +353,11 @@ class SlidingMode:
         shaping = (self._decay * inertia - c) * self._error_rate
         shaping += (self._square * inertia - self._k) * self._error
 
-        switching = self._switching(dt)
+        surface = self._surface
+        switching = inertia * surface.drive(
+            self._error_rate, self._bandwidth, gains.switching_gain(inertia)
+        )
+        terms.surface = surface.value
         taken = -observer.disturbance if gains.observer else -self._offset
         terms.reference, terms.speed = s, v
         terms.position, terms.velocity = observer.position, velocity
@@ -399,19 +403,6 @@ class SlidingMode:
             self._surface.integral += missing / (self.model.inertia * self._bandwidth)
             effort, self._pushed = self._pushed, None
         return effort
-
-    def _switching(self, dt: float) -> float:
-        """Return the switching effort; sets the sliding variable."""
-        gains, inertia, surface = self.gains, self.model.inertia, self._surface
-        if gains.switching == SUPER_TWISTING:
-            share = self._reduction.share
-            k1, k2 = gains.super_twisting(inertia)
-            k1, k2 = share * k1, share * share * k2
-            term = surface.twist(self._error_rate, dt, k1, k2, self.terms.cut)
-        else:
-            term = surface.drive(self._error_rate, self._bandwidth, gains.switching_gain(inertia))
-        self.terms.surface = surface.value
-        return inertia * term
 
     def _integrate(self, dt: float, effort: float, cut: float) -> None:
         """Integrate the surface, and observe how the load responds to the wanted *effort*."""

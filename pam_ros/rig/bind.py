@@ -41,7 +41,7 @@ _INNER = (
 _INNER_OF_FILLING = ('taken', 'balanced', 'supplied')
 _INNER_OF_RUNS = ('in_force', 'held_until', 'first_command')
 _LOOPS = ('advance', 'outputs')
-_LOOPS_OF_RUNS = ('simulate', 'simulate_held', 'simulate_along')
+_LOOPS_OF_RUNS = ('simulate', 'simulate_held')
 _STATELESS = ('delay', 'contraction', 'mass', 'damping')
 _WITH_MEMORY = ('reservoir', 'pressure', 'force', 'outside', 'drag')
 
@@ -54,7 +54,6 @@ class Kernel:
     outputs: Function
     simulate: Function
     simulate_held: Function
-    simulate_along: Function
 
 
 def _with_parameters(inner: Function, f: Function, j: int) -> Function:

@@ -8,17 +8,12 @@ is the time at which it acts in the chamber: it already includes dead times.
 
 from math import ceil, exp
 
-from pam_ros.effects.base import ENOUGH
-from pam_ros.rig.filling import supplied
 from pam_ros.rig.kernel import (
-    acceleration,
     begin,
     coefficient,
     effective_contraction,
-    keep_memories,
     net_force,
     pull,
-    remembers,
     share,
     step,
 )
@@ -33,16 +28,13 @@ from pam_ros.rig.layout import (
     RUN_P,
     RUN_S,
     RUN_V,
-    START,
     P,
     S,
     V,
 )
 from pam_ros.rig.unbound import (
-    HAS_RESERVOIR,
     IS_DRAGGED,
     LOAD,
-    MEMORY_FROM,
     MUSCLES,
     TRANSMISSION,
     WIDTH,
@@ -170,56 +162,3 @@ def simulate_held(
             out[n, RUN_F + 2 * i] = force - c_end * w + drag
         x[JOINT, S], x[JOINT, V] = s[n], v[n]
         out[n, RUN_S], out[n, RUN_V] = s[n], v[n]
-
-
-def simulate_along(
-    x: Row, xn: Row, q: Row, t: Row, s: Row, v: Row, at: Row, u: Row, out: Row
-) -> None:
-    """Integrate the acceleration of the equation of motion along a given motion.
-
-    t, s, v (n,): stamps, coordinate and velocity, linear between stamps. at (m,), u (m, muscles):
-    commands as for :func:`simulate`. out (n - 1, 2) receives, for each interval between two
-    stamps, the integral of the acceleration and its moment about the interval's middle, by the
-    midpoint rule between commands.
-    """
-    begin(x, xn)
-    m = mass_chain(q[JOINT, MASS], q[JOINT])
-    inertia = inertia_of(m, q[JOINT], LOAD)
-    has_memory = remembers(q)
-    c = first_command(at, t[0])
-    now = t[0]
-    before = t[0]
-    for n in range(1, t.shape[0]):
-        out[n - 1, 0] = 0.0
-        out[n - 1, 1] = 0.0
-        while now < t[n]:
-            c = in_force(at, c, now)
-            end = held_until(at, c, t[n])
-            half = 0.5 * (end - now)
-            middle = now + half
-            part = (middle - t[n - 1]) / (t[n] - t[n - 1])
-            here = s[n - 1] + part * (s[n] - s[n - 1])
-            speed = v[n - 1] + part * (v[n] - v[n - 1])
-            limit = ENOUGH
-            if HAS_RESERVOIR:
-                limit = supplied(u[c], now, 2.0 * half, x, xn, q)
-            for i in range(MUSCLES):
-                r = MUSCLE + i
-                p_in = min(u[c, i], limit)
-                xn[r, WIDTH + START] = pressure_chain(p_in, middle, half, x[r], xn[r], q[r])
-                for k in range(HIDDEN, MEMORY_FROM):
-                    x[r, k] = xn[r, k]
-            h = middle - before
-            a = acceleration(here, speed, START, middle, h, m, inertia, x, xn, q)
-            for i in range(MUSCLES):
-                r = MUSCLE + i
-                p_in = min(u[c, i], limit)
-                x[r, P] = pressure_chain(p_in, end, half, x[r], xn[r], q[r])
-                for k in range(HIDDEN, MEMORY_FROM):
-                    x[r, k] = xn[r, k]
-            if has_memory:
-                keep_memories(x, xn)
-            out[n - 1, 0] += 2.0 * half * a
-            out[n - 1, 1] += 2.0 * half * a * (middle - 0.5 * (t[n - 1] + t[n]))
-            before = middle
-            now = end

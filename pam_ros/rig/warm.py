@@ -51,7 +51,6 @@ def _run() -> str:
         x, xn = start_state(layout, q, u[0], 0.0, 0.0), layout.scratch()
         kernel.simulate(x, xn, q, t, t, u, 1e-3, out, True)
         kernel.simulate_held(x, xn, q, t, u, t, t, 1e-3, out)
-        kernel.simulate_along(x, xn, q, t, t, t, t, u, np.zeros((1, 2)))
     return code_cache.warned()
 
 

@@ -35,7 +35,7 @@ class ControlSettings:
 
     controller: str = parameter_field(
         'sliding_mode',
-        'control law: sliding_mode, or pid as a baseline (needs simple-pid)',
+        'control law: sliding_mode, or pid as a baseline',
         choices=('sliding_mode', 'pid'),
     )
     velocity_source: str = parameter_field(

@@ -26,7 +26,6 @@ import yaml
 from pam_ros.errors import ParameterError, printable, shown
 from pam_ros.plain_yaml import read_yaml
 from pam_ros.rig.arrangements import LOAD
-from pam_ros.settings.former_names import renamed
 from pam_ros.settings.tables import Table, Value, refuse_mistyped, refuse_unknown_effects
 
 TABLE = 'ros__parameters'
@@ -115,12 +114,6 @@ def read_any(path: Path, node: str) -> dict[str, Value]:
                     f'{path}: {name} = {read!r} is not a single value, nor a list of texts'
                 )
             values[name] = tuple(read) if is_list else read
-    try:
-        values, sentence = renamed(values)
-    except ParameterError as error:
-        raise ParameterError(f'{path}: {error}') from error
-    if sentence:
-        _warn(f'{path}: {sentence}')
     return values
 
 

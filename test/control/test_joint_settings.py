@@ -11,7 +11,6 @@ from pam_ros.control.reference.source import ReferenceSource
 from pam_ros.control.sliding_mode import SlidingMode
 from pam_ros.errors import ParameterError
 from pam_ros.rig.standard_joints import single_muscle_joint
-from support.baseline import needs_simple_pid
 from support.pair_loop import nominal as elbow
 
 KINDS = (Gains, PidGains, Shape)
@@ -50,13 +49,10 @@ TURNS = 'the joint is revolute .rad, N m. and {} has the units of a prismatic on
         (lambda: SlidingMode(elbow(), Gains(bandwidth=20.0)), TURNS.format('Gains')),
         (lambda: SlidingMode(single_muscle_joint(), Gains.revolute()), SLIDES.format('Gains')),
         (lambda: SlidingMode(elbow()).set_gains(Gains()), TURNS.format('Gains')),
-        pytest.param(
-            lambda: Pid(elbow(), PidGains()), TURNS.format('PidGains'), marks=needs_simple_pid
-        ),
+        pytest.param(lambda: Pid(elbow(), PidGains()), TURNS.format('PidGains')),
         pytest.param(
             lambda: Pid(single_muscle_joint(), PidGains.revolute()),
             SLIDES.format('PidGains'),
-            marks=needs_simple_pid,
         ),
         (lambda: ReferenceSource(Shape(), (-1.0, 1.0), 'rad'), TURNS.format('Shape')),
         (lambda: ReferenceSource(Shape.revolute(), (0.0, 0.1)), SLIDES.format('Shape')),

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from pam_ros.control.loop import RUNNING, VENT, Loop, Reading
+from pam_ros.control.pid import Pid
 from pam_ros.control.plausibility import Plausibility, bounds_of
 from pam_ros.control.reference.shaping import Shape
 from pam_ros.control.reference.source import ReferenceSource
@@ -14,7 +15,6 @@ from pam_ros.health.reports import Reports
 from pam_ros.settings.control import ControlSettings
 from pam_ros.timing.delay import Lateness
 from pam_ros.timing.pace import SECOND
-from support.baseline import pid
 from support.closed_loop import close_loop, nominal, sine_target, truth
 from support.marks import at_release
 
@@ -45,13 +45,13 @@ def largest_error(law, name, target, delay):
     return 1e3 * np.max(np.abs(run.error[then]))
 
 
-@pytest.mark.parametrize(('law', 'most'), [(SlidingMode, 0.1), pid(1.0)])
+@pytest.mark.parametrize(('law', 'most'), [(SlidingMode, 0.1), (Pid, 1.0)])
 @pytest.mark.parametrize('plant', ['nominal', 'friction', 'lag'])
 def test_a_load_that_is_held_stays_where_it_is(law, most, plant):
     assert largest_error(law, plant, lambda t: 0.0, DELAY) < most
 
 
-@pytest.mark.parametrize(('law', 'most'), [(SlidingMode, 0.2), pid(4.0)])
+@pytest.mark.parametrize(('law', 'most'), [(SlidingMode, 0.2), (Pid, 4.0)])
 def test_a_moving_reference_is_followed_by_the_model(law, most):
     """The reference moves by up to 13 mm meanwhile."""
     assert largest_error(law, 'nominal', sine_target(0.01, 0.5), DELAY) < most
@@ -71,7 +71,7 @@ def loop_of(law, plant):
     return loop
 
 
-@pytest.mark.parametrize('law', [SlidingMode, pid()])
+@pytest.mark.parametrize('law', [SlidingMode, Pid])
 def test_the_loop_neither_vents_nor_restarts(law):
     plant = truth('nominal', seed=3)
     loop = loop_of(law, plant)

@@ -18,7 +18,6 @@ from pam_ros.effects import DeadBand, PressureLag, PressureOffset
 from pam_ros.errors import ParameterError
 from pam_ros.rig.loads import Mass
 from pam_ros.rig.standard_joints import antagonistic_joint, single_muscle_joint
-from support.baseline import needs_simple_pid
 from support.paper import spring
 
 
@@ -58,7 +57,6 @@ def test_the_reach_is_where_the_muscle_holds_the_load():
     assert (of_pair().unit, of_pair().can_stiffen) == ('rad', True)
 
 
-@needs_simple_pid
 @pytest.mark.parametrize('make', [setup, of_pair])
 def test_each_law_gives_pressures_for_the_middle_of_its_reach(make):
     for controller, kind in (('sliding_mode', SlidingMode), ('pid', Pid)):
@@ -80,7 +78,6 @@ def test_the_commands_at_which_chambers_stay_are_those_of_the_pressure_path():
     assert of_pair().command_at([100e3, 300e3]) == pytest.approx((100e3, 300e3))
 
 
-@needs_simple_pid
 @pytest.mark.parametrize(
     ('change', 'needs'),
     [
@@ -97,7 +94,6 @@ def test_only_another_joint_law_or_other_limits_need_a_new_law(change, needs):
     assert replace(setup(), **change).needs_new_law(setup()) is needs
 
 
-@needs_simple_pid
 def test_a_running_law_takes_over_gains_and_stiffness():
     before = of_pair()
     now = replace(

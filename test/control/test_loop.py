@@ -16,12 +16,12 @@ from pam_ros.control.loop import (
     Loop,
     Reading,
 )
+from pam_ros.control.pid import Pid
 from pam_ros.control.plausibility import Plausibility, bounds_of
 from pam_ros.control.reference.shaping import Shape
 from pam_ros.control.reference.source import ReferenceSource
 from pam_ros.control.sliding_mode import SlidingMode
 from support import closed_loop
-from support.baseline import pid
 from support.recorded_loop import BOUNDS, PERIOD, Recorder, first, recorded_loop
 
 
@@ -256,7 +256,7 @@ def test_another_law_that_cannot_hold_the_reference_starts_at_the_load(loop):
     assert source.target == 0.02
 
 
-@pytest.mark.parametrize('law', [SlidingMode, pid()])
+@pytest.mark.parametrize('law', [SlidingMode, Pid])
 @pytest.mark.parametrize('lasts', [0.05, 0.2, 3.0])
 def test_a_load_that_sank_with_less_pressure_is_not_thrown_with_more(law, lasts):
     """As by limits.pressure_high at run time: lowered for a while and then raised again."""

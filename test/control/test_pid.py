@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.signal import lfilter
 
 from pam_ros.control.co_contraction import CoContraction
 from pam_ros.control.limits import Limits
@@ -15,12 +16,10 @@ from pam_ros.effects import Payload
 from pam_ros.errors import RangeError
 from pam_ros.rig import statics
 from pam_ros.rig.standard_joints import single_muscle_joint
-from support.baseline import needs_simple_pid
 from support.closed_loop import step_target
 from support.joint_loop import JOINTS, close_joint
 from support.kinds import EACH_KIND, ONE, PAIR, at_end, rms
 
-pytestmark = needs_simple_pid
 DT = 2e-3
 
 
@@ -107,6 +106,25 @@ def test_what_one_muscle_gets_the_other_loses():
     one, two = (b - a for a, b in zip(before, after, strict=True))
     assert one > 1e3
     assert two == pytest.approx(-one)
+
+
+def test_its_pressure_is_that_of_the_parallel_form_with_a_filtered_error():
+    gains = PidGains(bounded=False)
+    law = Pid(single_muscle_joint(), gains)
+    law.start(0.06)
+    (static,) = law.terms.pressures
+    random = np.random.default_rng(1)
+    positions = 0.06 + 2e-5 * np.cumsum(random.normal(size=200))
+    found = np.array([law.update(DT, Reference(0.06), p)[0] for p in positions])
+    pole = np.exp(-gains.filter_bandwidth * DT)
+    error = 0.06 - positions
+    for _ in range(2):
+        error = lfilter([1.0 - pole], [1.0, -pole], error)
+    rate = np.diff(error, prepend=error[0]) / DT
+    expected = gains.proportional * error + gains.derivative * rate
+    expected += static + gains.integral * DT * np.cumsum(error)
+    np.testing.assert_allclose(found, expected, rtol=1e-9)
+    assert np.ptp(found) > 500.0
 
 
 def test_it_starts_at_the_pressures_that_are_there():

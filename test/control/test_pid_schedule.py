@@ -14,13 +14,11 @@ from pam_ros.rig.loads import Arm
 from pam_ros.rig.standard_joints import single_muscle_joint
 from pam_ros.rig.transmissions import Pulley
 from support import pair_loop
-from support.baseline import needs_simple_pid
 from support.bench import cart
 from support.closed_loop import shared
 from support.joint_grid import nominal
 from support.joint_loop import close_joint
 
-pytestmark = needs_simple_pid
 GAINS = (49.1e3, 1.91e6, 9.09e3, 326.0)
 
 

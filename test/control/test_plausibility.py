@@ -11,6 +11,7 @@ from pam_ros.control.allocation import allocation_of
 from pam_ros.control.limits import Limits
 from pam_ros.control.loop import BLIND, RUNNING, Loop, Reading
 from pam_ros.control.model import ControlModel
+from pam_ros.control.pid import Pid
 from pam_ros.control.plausibility import MotionBounds, Plausibility, bounds_of, fault_of_pressure
 from pam_ros.control.reference.shaping import Shape
 from pam_ros.control.reference.source import ReferenceSource
@@ -20,7 +21,6 @@ from pam_ros.rig.loads import Mass
 from pam_ros.rig.simulation import Simulation
 from pam_ros.rig.standard_joints import single_muscle_joint
 from support import closed_loop
-from support.baseline import pid
 from support.joint_loop import JOINTS
 from support.joint_models import pair
 from truth import Sensor, TruthPlant
@@ -235,7 +235,7 @@ FALSE += [0.15, 0.3, 1.0, 1e300]
     [
         (SlidingMode, (1.4,), False),
         (SlidingMode, (1.4, 1.402, 1.404), True),
-        pid((1.4,), True),
+        (Pid, (1.4,), True),
     ],
 )
 def test_false_positions_do_not_move_the_load(law, at, is_moving):

@@ -8,11 +8,11 @@ from math import inf, nan
 import numpy as np
 import pytest
 
+from pam_ros.control.pid import Pid
 from pam_ros.control.signals import Reference
 from pam_ros.control.sliding_mode import SlidingMode
 from pam_ros.errors import ParameterError, RangeError
 from pam_ros.rig.standard_joints import single_muscle_joint
-from support.baseline import pid
 from support.joint_models import pair
 
 DT = 2e-3
@@ -20,7 +20,7 @@ GOAL = Reference(0.06)
 BEGIN = 0.055
 
 
-EACH_LAW = pytest.mark.parametrize('law', [SlidingMode, pid()])
+EACH_LAW = pytest.mark.parametrize('law', [SlidingMode, Pid])
 EACH_JOINT = pytest.mark.parametrize(
     'joint', [single_muscle_joint(), pair()], ids=['one muscle', 'pair']
 )

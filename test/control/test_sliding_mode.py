@@ -8,8 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from pam_ros.control.gains import SUPER_TWISTING, Gains
+from pam_ros.control.gains import Gains
 from pam_ros.control.limits import Limits
+from pam_ros.control.pid import Pid
 from pam_ros.control.signals import Reference
 from pam_ros.control.sliding_mode import SlidingMode
 from pam_ros.effects import Payload, Slack
@@ -23,7 +24,6 @@ from pam_ros.rig.simulation import Simulation
 from pam_ros.rig.standard_joints import single_muscle_joint
 from pam_ros.rig.transmissions import Pulley
 from support import closed_loop, pair_loop
-from support.baseline import pid
 from support.bench import cart
 from support.joint_loop import JOINTS
 from support.joint_models import pair
@@ -123,16 +123,6 @@ def test_integral_action_needs_no_observer(case):
     _, e, *_ = on_rig(law, case, still, 8.0, lambda t: -constant if t > 0.5 else 0.0)
     assert np.max(np.abs(e)) > 0.1 * case.unit
     assert np.max(np.abs(e[-500:])) < 0.005 * case.unit
-
-
-@EACH
-def test_super_twisting_holds_and_follows(case):
-    law = SlidingMode(case.joint, Gains.for_joint(case.joint, switching=SUPER_TWISTING))
-    swing = case.disturbance / 3.0
-    _, e, _, pressures = on_rig(law, case, still, 6.0, lambda t: swing * math.sin(2.0 * t))
-    late = slice(1500, None)
-    assert np.max(np.abs(e[late])) < 0.1 * case.unit
-    assert np.max(np.abs(np.diff(pressures[:, late]))) < 500.0  # it does not chatter
 
 
 @EACH
@@ -272,7 +262,7 @@ def test_a_stiffness_that_the_angle_does_not_permit_is_reduced_and_restored():
     assert np.max(np.abs(errors)) < 0.2 * DEGREE
 
 
-@pytest.mark.parametrize('law', [SlidingMode, pid()])
+@pytest.mark.parametrize('law', [SlidingMode, Pid])
 def test_an_effect_that_begins_later_is_not_known_to_the_law(law):
     """It holds the load that is there at the start; without the onset it would hold another."""
     weights = [Payload(mass=5.0)]
@@ -287,7 +277,7 @@ def test_an_effect_that_begins_later_is_not_known_to_the_law(law):
     assert plain != loaded
 
 
-@pytest.mark.parametrize('law', [SlidingMode, pid()])
+@pytest.mark.parametrize('law', [SlidingMode, Pid])
 @pytest.mark.parametrize('gap', [0.03, 0.01])
 def test_the_load_leaves_a_stop_that_is_not_configured_when_the_reference_goes_back(law, gap):
     """The stop has some 1e6 N/m and loses no energy; the reference jumps without shaping."""

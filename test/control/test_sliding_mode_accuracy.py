@@ -10,10 +10,28 @@ import pytest
 
 from pam_ros.control.gains import Gains
 from pam_ros.control.sliding_mode import SlidingMode
-from pam_ros.effects import EFFECTS, DeadBand, Payload, Supply, ViscousFriction
+from pam_ros.effects import (
+    EFFECTS,
+    CoulombFriction,
+    Creep,
+    DeadBand,
+    DeadTime,
+    EndStop,
+    Hysteresis,
+    Leak,
+    LengthOffset,
+    Payload,
+    PeriodicDisturbance,
+    PressureDependentDamping,
+    PressureHysteresis,
+    PressureLag,
+    PressureOffset,
+    Slack,
+    Softening,
+    Supply,
+    ViscousFriction,
+)
 from pam_ros.rig import co_contraction
-from recorded.cases import MUSCLE_EFFECTS, TURNED_EFFECTS
-from recorded.former import effects_of_0_1_0
 from support.assertions import no_error
 from support.closed_loop import LAG, shared
 from support.joint_loop import JOINTS, close_joint
@@ -30,9 +48,29 @@ NOISES = {True: 0.02 * DEGREE, False: 20e-6}  # of an angle, of a position
 AT_REST = {True: 0.03 * DEGREE, False: 30e-6}
 QUIET = {'noise': 0.0}
 ZONE = [replace(LAG[0], dead_zone=6e3)]
-# Those of the recorded runs, and what the package has had since.
-IN_MUSCLES = (*effects_of_0_1_0(MUSCLE_EFFECTS), DeadBand(band=2e4, width=4e3))
-ON_JOINT = (*effects_of_0_1_0(TURNED_EFFECTS), Supply(share=0.2, level=3.5e5, recovery=1.0))
+# Of each effect values that change a motion visibly.
+IN_MUSCLES = (
+    DeadTime(delay=0.0123),
+    PressureOffset(offset=7e3, gain=0.03),
+    DeadBand(band=2e4, width=4e3),
+    PressureLag(fill=0.05, vent=0.08, fastest=2e6, fastest_vent=1e6, choking=0.4),
+    Leak(rate=0.2, refill=0.15, supply=5e5, vent=0.02),
+    LengthOffset(offset=0.012),
+    Softening(limit=0.05, per_pressure=2e-7, per_second=0.02),
+    Creep(force=0.04, stiffness=400.0, pressure=0.03, time=0.8, spread=3.0),
+    Hysteresis(slip=6.0, slip_width=0.03, initial=0.1),
+    PressureHysteresis(slip=4e3, slip_width=2e4, initial=0.1),
+    Slack(share=1.0, toe=20.0, push=5.0),
+    PressureDependentDamping(inflating=3e-4, deflating=6e-4),
+    PeriodicDisturbance(force_sin=4.0, force_cos=-2.0, pressure_sin=800.0, frequency=3.3),
+)
+ON_JOINT = (
+    Payload(mass=0.3),
+    ViscousFriction(coefficient=0.05),
+    CoulombFriction(level=0.15, breakaway=0.22, stribeck_speed=0.3),
+    EndStop(upper=0.6, stiffness=400.0, lower=-0.6, lower_stiffness=300.0),
+    Supply(share=0.2, level=3.5e5, recovery=1.0),
+)
 NAMES = [effect.name for effect in (*IN_MUSCLES, *ON_JOINT)]
 
 

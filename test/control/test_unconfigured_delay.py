@@ -54,14 +54,6 @@ def test_a_sine_is_followed(kind):
     assert rms(kind, run) < 0.15 * amplitude
 
 
-@pytest.mark.slow
-@EACH_KIND
-def test_the_super_twisting_law_comes_to_rest_too(kind):
-    law = law_of(kind, switching='super_twisting')
-    run = kind.close(law, kind.truth('dead time', seed=3), kind.step, 12.0)
-    assert largest(kind, run, 10.0, 2.0) < 1.0
-
-
 @pytest.mark.parametrize('mass', [5.0, 40.0])
 def test_light_and_heavy_loads_come_to_rest(mass):
     law = SlidingMode(nominal(mass=mass))

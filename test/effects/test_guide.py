@@ -40,6 +40,6 @@ def test_example_works_and_passes_its_test(tmp_path, monkeypatch):
     # The one line.
     library = (*EFFECTS[:2], new, *EFFECTS[2:])
     monkeypatch.setattr(pam_ros, 'EFFECTS', library, raising=False)
-    monkeypatch.setattr(pam_ros.effects, 'ChokedValve', new, raising=False)
+    monkeypatch.setattr(pam_ros, 'ChokedValve', new, raising=False)
     with no_error():
         importlib.import_module('test_choked_valve').test_chamber_fills_along_a_ramp()

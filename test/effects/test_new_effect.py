@@ -23,6 +23,7 @@ ASKED = """
 import json, sys
 sys.modules['numba'] = None  # some steps as plain Python take less than to compile the kernel
 import numpy as np
+import pam_ros
 from pam_ros.control.compensation import left_to_feedback
 from pam_ros.effects import EFFECTS
 from pam_ros.identification.fit.places import places_of
@@ -50,6 +51,7 @@ text = effect_pages.with_tables(effect_pages.GUIDE.read_text())
 page = effect_pages.page(new, SimpleNamespace(rms=1.0, largest=2.0))
 print(json.dumps({
     'library': [effect.name for effect in EFFECTS],
+    'public': pam_ros.ChokedValve.name,
     'arrangements': [
         'effects.choked_valve.slowness' in rig_table(kind) for kind in ARRANGEMENTS
     ],
@@ -123,6 +125,7 @@ def test_it_acts_where_its_line_stands_and_every_joint_can_have_it(found):
     library = known['library']
     assert library[library.index('pressure_lag') + 1] == 'choked_valve'
     assert known['candidates'] == library
+    assert known['public'] == 'choked_valve'
     assert all(known['arrangements'])
 
 

@@ -15,7 +15,6 @@ from pam_ros.health.health import Level
 from pam_ros.settings.control import settings_of
 from pam_ros.settings.tables import checked
 from pam_ros.timing.ticker import Punctuality
-from support.baseline import needs_simple_pid
 
 WELL = Received(age=0.01)
 NO_JOINT = 'joint_states has no joint pam'
@@ -173,7 +172,6 @@ def test_the_levels_of_rejection_are_shown():
     assert values['share of the feedback gains'] == 1.0
 
 
-@needs_simple_pid
 def test_pid_has_neither():
     values = values_of(controller='pid')
     assert not {'rejection level', 'largest error within the disturbance bound (m)'} & {*values}

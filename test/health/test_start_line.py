@@ -8,7 +8,6 @@ from pam_ros.health import start_line
 from pam_ros.settings.control import settings_of
 from pam_ros.settings.scene import Scene
 from pam_ros.settings.tables import checked
-from support.baseline import needs_simple_pid
 
 
 def resolve(name):
@@ -93,7 +92,6 @@ def test_of_a_controller():
     )
 
 
-@needs_simple_pid
 def test_of_a_controller_of_a_pair_in_simulated_time():
     line = controller(
         PAIR | {'controller': 'pid', 'muscle_topics': True, 'start_enabled': False},

@@ -76,26 +76,6 @@ def test_a_dump_starts_the_same_node_again(peer, tmp_path, program, rig):
         assert 'not known' not in again.output
 
 
-@pytest.mark.parametrize('program', ['pam_sim', 'pam_control'])
-def test_former_names_of_parameters_start_a_node_with_a_warning(peer, tmp_path, program):
-    file = tmp_path / 'of_0_1_0.yaml'
-    file.write_text(
-        '/**:\n  ros__parameters:\n    joint_name: joint_1\n'
-        '    effects: {hysteresis: {pressure: 4000.0, initial: 0.2}}\n'
-        '    joint_1:\n      effects.hysteresis.slip_crowding: 0.5\n'
-    )
-    now = 'effects.pressure_hysteresis.slip'
-    names = (now, 'effects.pressure_hysteresis.initial', 'joint_1.effects.hysteresis.slip_ratio')
-    with Program(
-        program, '--params-file', str(file), parameters={'joint_name': 'joint_1'}
-    ) as node:
-        wait_for(peer, node)
-        assert peer.get(f'/{program}', *names) == [4000.0, 0.2, 4.0]
-        assert node.stop() == 0
-        assert node.output.count(f'effects.hysteresis.pressure is {now}') == 1
-        assert 'not known' not in node.output
-
-
 SHIPPED = sorted(p for p in CONFIG.rglob('*.yaml') if 'ros__parameters' in p.read_text())
 
 

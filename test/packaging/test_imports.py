@@ -55,7 +55,7 @@ ROS = {
 # What the other rooms may import in addition to themselves and Python's own library.
 ALLOWED = {
     *('jinja2', 'matplotlib', 'mcap', 'numba', 'numpy', 'rosbags', 'scipy'),
-    *('simple_pid', 'tqdm', 'yaml'),
+    *('tqdm', 'yaml'),
     'pam_ros',
 }
 

@@ -26,7 +26,7 @@ IMPORTED_AS = {
     'python3-yaml': 'yaml',
 }
 # Used where they are, done without where they are not: no rosdep key says that.
-OPTIONAL = {'mcap', 'rosbags', 'simple_pid'}
+OPTIONAL = {'mcap', 'rosbags'}
 
 
 @pytest.fixture(scope='module')

@@ -12,10 +12,8 @@ import numpy as np
 from numba.core import event
 from pam_ros.effects import ViscousFriction
 from pam_ros.rig.arrangements import ARRANGEMENTS
-from pam_ros.rig.bind import bind
 from pam_ros.rig.standard_joints import single_muscle_joint
 from pam_ros.rig.run import simulate, simulate_held
-from pam_ros.rig.start import start_state
 from pam_ros.settings.scene import Scene
 from pam_ros.settings.tables import checked
 from pam_ros.simulator.plant import Plant
@@ -41,9 +39,6 @@ for effects in ((), [ViscousFriction(coefficient=0.1)]):
     alone = single_muscle_joint(effects=effects)
     simulate(alone, t, t, p)
     simulate_held(alone, t, p, t)
-    layout, q, out = alone.layout, alone.parameters(), np.empty((1, 2))
-    x, xn = start_state(layout, q, p[:1], 0.0, 0.0), layout.scratch()
-    bind(layout, alone.active).simulate_along(x, xn, q, t, t, t, t, p[:, None], out)
 """
 
 

@@ -13,7 +13,6 @@ from pam_ros.settings.braid import BRAID
 from pam_ros.settings.control import settings_of
 from pam_ros.settings.files import read
 from pam_ros.settings.tables import checked, rig_table
-from support.baseline import needs_simple_pid
 
 CONFIG = Path(__file__).parents[2] / 'config'
 MUSCLES = sorted(path.stem for path in (CONFIG / 'muscles').glob('*.yaml'))
@@ -59,7 +58,6 @@ def test_the_law_is_the_sliding_mode_unless_another_is_chosen():
     assert isinstance(setup({}).law.make_law(), SlidingMode)
 
 
-@needs_simple_pid
 def test_the_baseline_is_chosen():
     assert isinstance(setup({'controller': 'pid'}).law.make_law(), Pid)
 

@@ -9,10 +9,16 @@ bounds how long a broken program may hang a test.
 from pathlib import Path
 from typing import Any
 
-from rcl_interfaces.srv import DescribeParameters, GetParameters, SetParameters
-from rclpy.parameter import parameter_value_to_python
+from rcl_interfaces.msg import Parameter as ParameterMessage
+from rcl_interfaces.srv import (
+    DescribeParameters,
+    GetParameters,
+    SetParameters,
+    SetParametersAtomically,
+)
+from rclpy.parameter import Parameter, parameter_value_to_python
 
-from pam_ros.nodes.demo.client import Client, parameter_messages
+from pam_ros.nodes.demo.client import Client
 from pam_ros.nodes.demo.rig_log import TOPICS
 from pam_ros.processes.children import PATIENCE as DEADLINE
 from pam_ros.processes.children import Program as FreshProgram
@@ -47,7 +53,12 @@ class Peer(Client):
     def set_one(self, node: str, **value: Any) -> Any:
         """Set one parameter as ``ros2 param set`` does."""
         service = f'{node}/set_parameters'
-        return self.call(SetParameters, service, parameters=parameter_messages(**value)).results[0]
+        return self.call(SetParameters, service, parameters=_parameters(**value)).results[0]
+
+    def set_together(self, node: str, **values: Any) -> Any:
+        """Set parameters atomically; ``__`` in a name stands for a dot. Return the result."""
+        service = f'{node}/set_parameters_atomically'
+        return self.call(SetParametersAtomically, service, parameters=_parameters(**values)).result
 
     def get(self, node: str, *names: str) -> list[Any]:
         """Return the values of parameters."""
@@ -68,3 +79,11 @@ def lose_nothing(namespace: str = '') -> dict[str, int]:
 def has_loaded(program: Program, library: str) -> bool:
     """Say whether a program has mapped a shared library of this name by now (Linux)."""
     return library in Path(f'/proc/{program.process.pid}/maps').read_text()
+
+
+def _parameters(**values: Any) -> list[ParameterMessage]:
+    """Return values as messages; ``__`` in a name stands for a dot."""
+    return [
+        Parameter(name.replace('__', '.'), value=value).to_parameter_msg()
+        for name, value in values.items()
+    ]

@@ -28,11 +28,6 @@ class Noise:
     sigma: float
     rho: float
 
-    @property
-    def independent(self) -> float:
-        """Independent samples per sample, (1 - rho)/(1 + rho), for slow regressors."""
-        return (1.0 - self.rho) / (1.0 + self.rho)
-
 
 def noise_of(
     signals: Sequence[tuple[Array, Array]], steps: Sequence[float] | None = None
@@ -170,21 +165,3 @@ def _correlation(ratio: float, size: int, period: float) -> float:
     if error(high) <= 0.0:
         return high
     return float(brentq(error, low, high, xtol=1e-3))
-
-
-def independent_share(residual: Array, longest: int) -> float:
-    """Return the independent samples per sample of a residual, from its autocorrelation.
-
-    It is one over the integrated autocorrelation time, which is summed up to its first negative
-    value or *longest* samples. This is the weight of a residual with structure in a test.
-    """
-    e = residual - np.mean(residual)
-    n = e.size
-    spectrum = np.abs(np.fft.rfft(e, 2 * n)) ** 2
-    correlation = np.fft.irfft(spectrum)[: min(longest, n)]
-    if correlation[0] <= 0.0:
-        return 1.0
-    correlation /= correlation[0]
-    negative = np.flatnonzero(correlation < 0.0)
-    end = negative[0] if negative.size else correlation.size
-    return float(1.0 / (1.0 + 2.0 * np.sum(correlation[1:end])))

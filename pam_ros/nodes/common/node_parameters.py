@@ -18,7 +18,6 @@ from pam_ros.errors import PamError, shown
 from pam_ros.nodes.common.rclpy_internals import declare_texts, overrides_of
 from pam_ros.parameters import Parameter
 from pam_ros.plain_yaml import EXPONENTIAL
-from pam_ros.settings.former_names import renamed
 from pam_ros.settings.tables import Table, checked, refuse_mistyped
 
 T = TypeVar('T')
@@ -46,11 +45,8 @@ class NodeParameters(Generic[T]):
     ) -> None:
         """Declare all of *table* on *node* with the values that it was started with."""
         self._node, self._table = node, table
-        sentence = renamed(overrides_of(node))[1]
-        if sentence:
-            node.get_logger().warning(shown(sentence))
         self._build, self._apply = build, apply
-        self.values = checked(table, given(node))
+        self.values = checked(table, overrides_of(node))
         self.built = build(self.values)
         self._last = self.values, self.built  # the last ones that were checked
         for name, (kind, _, about) in table.items():
@@ -69,8 +65,8 @@ class NodeParameters(Generic[T]):
         For other names that are not declared there is a warning: they may belong to another node.
         Call this after everything is declared, also publishers and subscriptions.
         """
-        known = [name for name in given(self._node) if self._node.has_parameter(name)]
-        for name in refuse_mistyped(given(self._node), [*known, *self._table]):
+        known = [name for name in overrides_of(self._node) if self._node.has_parameter(name)]
+        for name in refuse_mistyped(overrides_of(self._node), [*known, *self._table]):
             self._node.get_logger().warning(
                 shown(f'parameter {name} does not exist here and is not used')
             )
@@ -116,11 +112,6 @@ def _is_number(parameter: RosParameter) -> bool:
     if parameter.type_ == RosParameter.Type.STRING:
         return EXPONENTIAL.fullmatch(parameter.value) is not None
     return parameter.type_ == RosParameter.Type.INTEGER
-
-
-def given(node: Node) -> dict[str, Any]:
-    """Return the values that *node* was started with, declared or not, by their present names."""
-    return renamed(overrides_of(node))[0]
 
 
 def describe(about: Parameter, kind: type) -> ParameterDescriptor:

@@ -25,7 +25,8 @@ from pam_ros.health.reports import Reports
 from pam_ros.health.tracking import Tracking
 from pam_ros.nodes.common.commands import commands_of
 from pam_ros.nodes.common.diagnostics import Diagnostics
-from pam_ros.nodes.common.node_parameters import NodeParameters, given
+from pam_ros.nodes.common.node_parameters import NodeParameters
+from pam_ros.nodes.common.rclpy_internals import overrides_of
 from pam_ros.nodes.common.spin import TickingNode
 from pam_ros.nodes.control.chamber_input import ChamberInput
 from pam_ros.nodes.control.follow import Follow
@@ -61,7 +62,7 @@ class PamControl(TickingNode):
         """Create the controller that the parameters describe."""
         super().__init__('pam_control')
         self._given: NodeParameters[ControlSetup] = NodeParameters(
-            self, *settings_of(given(self)), self._change
+            self, *settings_of(overrides_of(self)), self._change
         )
         self._setup = self._given.built
         self._loop = self._make_loop()

@@ -10,10 +10,7 @@ from types import TracebackType
 from typing import Any, TypeVar
 
 import rclpy
-from rcl_interfaces.msg import Parameter as ParameterMessage
-from rcl_interfaces.srv import SetParametersAtomically
 from rclpy.duration import Duration
-from rclpy.parameter import Parameter
 from rclpy.qos import QoSProfile
 from std_srvs.srv import Trigger
 
@@ -128,18 +125,3 @@ class Client:
             return next((future for future in futures if future.done()), None)
 
         return self.until(answered, f'the answer of {service}').result()
-
-    def set_together(self, node: str, **values: Any) -> Any:
-        """Set parameters atomically; ``__`` in a name stands for a dot. Return the result."""
-        service = f'{node}/set_parameters_atomically'
-        return self.call(
-            SetParametersAtomically, service, parameters=parameter_messages(**values)
-        ).result
-
-
-def parameter_messages(**values: Any) -> list[ParameterMessage]:
-    """Return values as messages; ``__`` in a name stands for a dot."""
-    return [
-        Parameter(name.replace('__', '.'), value=value).to_parameter_msg()
-        for name, value in values.items()
-    ]

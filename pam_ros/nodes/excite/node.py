@@ -20,8 +20,9 @@ from pam_ros.excitation.programme import write_csv
 from pam_ros.health.absence import Absence
 from pam_ros.health.start_line import listed
 from pam_ros.nodes.common.commands import commands_of
-from pam_ros.nodes.common.node_parameters import NodeParameters, given
+from pam_ros.nodes.common.node_parameters import NodeParameters
 from pam_ros.nodes.common.qos import DEPTH, open_qos
+from pam_ros.nodes.common.rclpy_internals import overrides_of
 from pam_ros.nodes.common.spin import TickingNode
 from pam_ros.nodes.common.stamps import stamp_of
 from pam_ros.settings.excite import Experiment, settings_of
@@ -48,7 +49,7 @@ class PamExcite(TickingNode):
     def __init__(self, csv: Path | None, is_dry: bool) -> None:
         """Create the programme that the parameters describe."""
         super().__init__('pam_excite')
-        parameters = NodeParameters(self, *settings_of(given(self)), _nothing_live)
+        parameters = NodeParameters(self, *settings_of(overrides_of(self)), _nothing_live)
         self._now = parameters.built
         parameters.refuse_mistyped()
         if csv is not None:

@@ -15,7 +15,8 @@ from pam_ros.health.onsets import Onsets
 from pam_ros.health.simulator import Progress
 from pam_ros.health.waits import Waits
 from pam_ros.nodes.common.diagnostics import Diagnostics
-from pam_ros.nodes.common.node_parameters import NodeParameters, given
+from pam_ros.nodes.common.node_parameters import NodeParameters
+from pam_ros.nodes.common.rclpy_internals import overrides_of
 from pam_ros.nodes.common.spin import TickingNode
 from pam_ros.nodes.common.topic_watch import TopicWatch
 from pam_ros.nodes.sim.commands import subscribe_commands
@@ -37,7 +38,7 @@ class PamSim(TickingNode):
     def __init__(self) -> None:
         """Create the rig that the parameters describe, in its initial state."""
         super().__init__('pam_sim')
-        scene = Scene(given(self))
+        scene = Scene(overrides_of(self))
         self._given = NodeParameters(self, scene.table(), scene.build, self._change)
         setup: SimulationSetup = self._given.built
         with notice(LONG, self._log_compiling):

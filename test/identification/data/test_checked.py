@@ -15,7 +15,6 @@ from pam_ros.recording.recording import Recording
 from pam_ros.rig.loads import Mass
 from pam_ros.rig.run import simulate
 from pam_ros.rig.standard_joints import antagonistic_joint, single_muscle_joint
-from recorded import cases
 
 JOINT = single_muscle_joint(Muscle(), Mass(mass=20.0))
 T = np.arange(0.0, 20.0, 0.02)
@@ -35,7 +34,9 @@ def test_the_bounds_of_one_muscle_on_a_mass():
 
 
 def test_a_known_force_has_no_length():
-    drive = single_muscle_joint(Muscle(**cases.DRIVE), Mass(95.0, 'horizontal'))
+    volts = {'pressure_unit': 'Pa', 'p_min': -10.0, 'p_max': 10.0, 'force_max': 500.0}
+    motor = Muscle(0.0, 0.0, 0.0, 0.0, 35.15, 0.0, zeta=0.0, **volts)
+    drive = single_muscle_joint(motor, Mass(95.0, 'horizontal'))
     assert Bounds.of(drive) == Bounds(None, (10.0,), None)
 
 

@@ -5,7 +5,7 @@
 import numpy as np
 import pytest
 
-from pam_ros.identification.data.noise import Noise, independent_share, noise_of, step_of
+from pam_ros.identification.data.noise import noise_of, step_of
 from support.equations import coloured
 
 SIGMA = 2e-5  # m, with a motion of some 20 mm
@@ -38,7 +38,6 @@ def test_size_and_colour_on_smooth_motion(rate, rho, low, high, off):
     found = noise_of([(t, motion(t) + noise)])
     assert low < found.sigma / SIGMA < high
     assert found.rho == pytest.approx(rho, abs=off)
-    assert found.independent == (1.0 - found.rho) / (1.0 + found.rho)
 
 
 def test_steps_and_their_ringing_are_not_noise():
@@ -159,24 +158,3 @@ def test_too_short_for_a_window_takes_differences():
     # Differences across the joints of 200 signals of white noise are those of white noise.
     assert found.sigma == pytest.approx(SIGMA, rel=0.1)
     assert found.rho == 0.0
-
-
-def test_independent_is_what_a_mean_of_coloured_noise_is_worth():
-    rng, n, rho = np.random.default_rng(5), 400, 0.8
-    means = [np.mean(coloured(rng, n, rho)) for _ in range(4000)]
-    worth = 1.0 / np.var(means)
-    assert n * Noise(1.0, rho).independent == pytest.approx(worth, rel=0.1)
-
-
-@pytest.mark.parametrize('rho', [0.0, 0.5, 0.9, 0.98])
-def test_independent_share_of_coloured_noise(rho):
-    rng = np.random.default_rng(6)
-    shares = [independent_share(coloured(rng, 100_000, rho), 4000) for _ in range(5)]
-    assert np.mean(shares) == pytest.approx((1.0 - rho) / (1.0 + rho), rel=0.15)
-
-
-def test_independent_share_of_what_never_turns():
-    # The correlation of a slow wave stays near 1 up to the longest lag that is summed.
-    slow = np.cos(2 * np.pi * np.arange(100_000) / 100_000)
-    assert independent_share(slow, 50) == pytest.approx(1.0 / (1.0 + 2.0 * 49), rel=0.01)
-    assert independent_share(np.full(10, 3.0), 50) == 1.0

@@ -281,7 +281,6 @@ def test_parameters_are_described_and_changed_or_refused_as_a_whole(watch, kind)
                 *(1.6, 'co_contraction'),
             )
             assert watch.latest('stiffness') == pytest.approx(33.0, rel=1e-3)
-        pytest.importorskip('simple_pid', reason='the baseline needs simple-pid')
         assert watch.peer.set_one('pam_control', controller='pid').successful
         watch.lead(lambda: watch.refer(begin), 4.0)
         assert watch.latest('error') == pytest.approx(0.0, abs=kind.still)
