@@ -100,9 +100,10 @@ def test_a_fit_that_stopped_with_a_slow_discrepancy_continues_from_the_nearest_r
     (again,) = accepted([stopped], retuned, found)
     assert again.score == pytest.approx(best.score, abs=0.1)
     assert found.looked_at == [retuned, stopped, again]
-    # A model whose score is no higher than there is returned as it is.
-    assert [*accepted([best], retuned, found)] == [best]
-    assert found.looked_at == [retuned, stopped, again]
+    # There the model of a fit that has converged is the same, but for the accuracy of the fits.
+    (same,) = accepted([best], retuned, found)
+    assert same.score == pytest.approx(best.score, abs=1e-2)
+    np.testing.assert_allclose(same.solution.u, best.solution.u, atol=1e-3)
 
 
 def test_another_effect_in_its_place(tried, setting):
