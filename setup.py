@@ -70,6 +70,7 @@ setup(
             'jsonschema',
             'nbclient>=0.10',
             'nbformat>=5.5',
+            'pandas',
             'sybil>=9',
             'urdf-parser-py',
         ],

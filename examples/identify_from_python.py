@@ -35,10 +35,10 @@ real = single_muscle_joint(muscle, mass, [CoulombFriction(level=8.0)])
 t = np.arange(0.0, 30.0, 0.02)
 command = 300e3 + 120e3 * np.sin(2.0 * np.pi * 0.2 * t) + 60e3 * np.sign(np.sin(0.9 * t))
 noise = np.random.default_rng(1).normal(0.0, 20e-6, t.size)
-position = simulate(real, t, t, command).position + noise
+position = simulate(real, t, command).position + noise
 recording = Recording('bench', t, command_t=t, command=command, position=position)
 
-found = identify(single_muscle_joint(muscle, mass), [recording])
+found = identify(single_muscle_joint(muscle, mass), recording)
 print(found.sentence)
 for finding in found.effects:
     for name, value in finding.parameters.items():

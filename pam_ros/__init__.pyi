@@ -22,6 +22,8 @@ from pam_ros.identification.identify import identify as identify
 from pam_ros.identification.result import Identification as Identification
 from pam_ros.muscle.braid import Braid as Braid
 from pam_ros.muscle.fit import fit_static_map as fit_static_map
+from pam_ros.muscle.force_map import ForceMap as ForceMap
+from pam_ros.muscle.force_map import force_map as force_map
 from pam_ros.muscle.muscle import Muscle as Muscle
 from pam_ros.parameters import parameter_field as parameter_field
 from pam_ros.recording.csv_file import write_csv as write_csv
@@ -36,6 +38,8 @@ from pam_ros.rig.co_contraction import joint_stiffness_range as joint_stiffness_
 from pam_ros.rig.equilibrium import equilibrium as equilibrium
 from pam_ros.rig.joint import Actuator as Actuator
 from pam_ros.rig.joint import Joint as Joint
+from pam_ros.rig.linearise import LinearModel as LinearModel
+from pam_ros.rig.linearise import linearise as linearise
 from pam_ros.rig.loads import Arm as Arm
 from pam_ros.rig.loads import Load as Load
 from pam_ros.rig.loads import LoadEquations as LoadEquations

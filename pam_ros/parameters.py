@@ -107,7 +107,14 @@ def _is_number(value: Any) -> bool:
 
 
 def parameter_field(default: Any, text: str, unit: str = '', **kwargs: Any) -> Any:
-    """Return a dataclass field with *default* that carries a :class:`Parameter`."""
+    """Return a dataclass field that describes a parameter: of a load, a transmission, a muscle.
+
+    *default* is its value, whose type is that of the parameter; *text* says what it is, and *unit*
+    is the unit of the value. Other arguments are those of :class:`Parameter`: the bounds ``low``
+    and ``high``, ``above_low`` if the lower bound itself is not allowed, ``choices`` of a text,
+    and ``live`` if it can change while a node runs. From it follow the check of the value, the ROS
+    parameter with its range, the parameter files and the documentation.
+    """
     return field_about(default, Parameter(text, unit, **kwargs))
 
 

@@ -47,6 +47,15 @@ def test_the_package_alone_imports_nothing_heavy():
     assert done.stdout.strip() == '[]'
 
 
+def test_it_is_imported_from_a_folder_that_contains_the_checkout(tmp_path):
+    (tmp_path / 'pam_ros').symlink_to(ROOT)  # as in the src of a workspace
+    code = 'from pam_ros import Muscle; print(Muscle().l0)'
+    done = subprocess.run(
+        [sys.executable, '-c', code], cwd=tmp_path, capture_output=True, text=True, check=False
+    )
+    assert (done.stdout, done.returncode) == ('0.4\n', 0), done.stderr
+
+
 def test_the_page_names_all_that_is_public():
     page = PAGE.read_text(encoding='utf-8')
     missing = [name for name in pam_ros.__all__ if f'`{name}`' not in page]

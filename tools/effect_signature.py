@@ -80,7 +80,7 @@ def signature_of(effect: Effect) -> Signature:
     """Return what *effect* changes along the programme."""
     t, command = programme()
     with_it, without = (
-        simulate(single_muscle_joint(load=Mass(MASS), effects=effects), t, t, command)
+        simulate(single_muscle_joint(load=Mass(MASS), effects=effects), t, command)
         for effects in ([effect], [])
     )
     return Signature(t, command, with_it, without)

@@ -133,7 +133,6 @@ class Progress:
 def run(given: argparse.Namespace, command: str) -> str:
     """Run the identification of the command line, write the report, return a summary line."""
     from pam_ros.compiled import HAVE_NUMBA
-    from pam_ros.identification.data.checked import Bounds
     from pam_ros.identification.data.segment import require_joint
     from pam_ros.identification.identify import identify
     from pam_ros.recording.inputs import refuse_copies, refuse_idle
@@ -150,19 +149,15 @@ def run(given: argparse.Namespace, command: str) -> str:
     model = nominal.joint
     uncertain = {**uncertain_values(given.params), **dict(map(_deviation, given.uncertain))}
     mapping = read_mapping(given.column, given.mapping)
-    bounds = Bounds.of(model)
     recordings, test = (
         [
             read_recording(
                 path,
-                mapping,
-                given.kind,
-                bounds.l0,
-                bounds.p_max if len(bounds.p_max) > 1 else bounds.p_max[0],
-                given.namespace,
-                nominal.recorded_muscles,
-                model.transmission.equations.unit,
-                bounds.reach,
+                model,
+                mapping=mapping,
+                kind=given.kind,
+                namespace=given.namespace,
+                muscles=nominal.recorded_muscles,
             )
             for path in paths
         ]

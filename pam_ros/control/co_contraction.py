@@ -40,9 +40,11 @@ class CoContraction:
         check_all(self)
 
     def wanted(self, allocation: Allocation) -> float:
-        """Return the stiffness for this joint; raises RangeError if it is not possible there.
+        """Return the stiffness to begin with, in N/m, or N m/rad for a revolute joint.
 
-        0 if the effort determines the stiffness.
+        *allocation* is that of the joint. 0 if the effort determines the stiffness, as with
+        one muscle; the middle of the possible range if ``co_contraction`` is 0. Raises RangeError
+        if ``co_contraction`` is not possible in the middle of the reach.
         """
         if not allocation.can_stiffen:
             return 0.0

@@ -35,7 +35,7 @@ class Losses:
     def __init__(self, model: ControlModel) -> None:
         """Take those effects that are present in the nominal joint."""
         self._model = model
-        joint = model.joint.with_effects(lambda effects: [one.fed_forward() for one in effects])
+        joint = model.joint.map_effects(lambda effects: [one.fed_forward() for one in effects])
         self._layout, self._q = joint.layout, joint.parameters()
         self._placed = [
             [

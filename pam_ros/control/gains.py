@@ -194,7 +194,12 @@ class Gains(JointSettings):
             )
 
     def check(self, allocation: Allocation, period: float) -> None:
-        """Raise ParameterError if these gains do not suit a joint, sampled each *period* s."""
+        """Raise ParameterError if these gains do not suit a joint.
+
+        *period* is the time between two updates of the law in s: an estimate of the velocity needs
+        several samples. *allocation* is that of the joint, whose muscles must be able to overcome
+        ``disturbance_bound``.
+        """
         if self.velocity_bandwidth * period > ORDER.samples:
             raise ParameterError(
                 f'velocity_bandwidth = {self.velocity_bandwidth:g} rad/s is too fast for a '

@@ -152,7 +152,10 @@ class Pid:
         """Nothing: this law does not learn."""
 
     def stiffen(self, stiffness: float) -> None:
-        """Set a stiffness; raises RangeError if it is not possible at the reference."""
+        """Set the *stiffness* that the muscles give the joint, in N/m or N m/rad.
+
+        Raises RangeError if it is not possible at the present reference, or with these gains.
+        """
         self.allocation.refuse_stiffness(stiffness, self.terms.reference)
         if self._schedule is not None:
             self._schedule.refuse_stiffness(stiffness)
@@ -187,7 +190,11 @@ class Pid:
         velocity: float | None = None,
         age: float = 0.0,
     ) -> Pressures:
-        """Return the gauge pressures in Pa to command from now on, *dt* s after the last call.
+        """Return the gauge pressures in Pa to command from now on, (muscles,).
+
+        *dt* is the time since the last call in s. *reference* and *position* are in m, or rad for
+        a revolute joint; the position is None without a new measurement. Neither
+        *velocity* nor the *age* of the measurement is used.
 
         Without a new measurement the static part follows the reference, and the output of the PID
         is kept: the reference minus an old position is not an error. For numbers that are not

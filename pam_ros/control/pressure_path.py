@@ -11,8 +11,8 @@ from math import exp
 
 from pam_ros.effects.base import Compensation, EffectEquations
 from pam_ros.rig import layout as at
-from pam_ros.rig.acting import delays_of
 from pam_ros.rig.joint import Joint
+from pam_ros.rig.layout import delays_of
 
 # Pa, beyond all dead bands: between these every path without a memory is an offset and a gain.
 LOW, HIGH = 4e5, 5e5

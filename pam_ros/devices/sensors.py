@@ -19,7 +19,10 @@ class Sensors:
     """The faults of the sensors, all absent by default.
 
     Noise is white and Gaussian, and independent for every reading; the same seed and the same
-    readings give the same noise. A resolution of 0 means no rounding.
+    readings give the same noise. A resolution of 0 means no rounding. Values of the position and
+    the force are in m and N, or in rad and N m for a revolute joint.
+
+    Raises ParameterError for a value out of range.
     """
 
     latency: float = parameter_field(

@@ -54,6 +54,9 @@ class SimulatedSensors:
     def read(self) -> SensorReadings:
         """Return the present readings of the sensors.
 
+        Those of the joints are (joints,): position in m or rad, velocity in m/s or rad/s, effort
+        in N or N m. Those of the muscles are (muscles,): gauge pressure in Pa and force in N.
+
         Call it regularly, once in each control period: with a latency a reading is interpolated
         between the states of former calls.
         """

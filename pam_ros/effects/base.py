@@ -320,7 +320,7 @@ class Effect(ABC):
 
     @property
     def row(self) -> tuple[float, ...]:
-        """Its own parameters in order, as in q."""
+        """Its own parameters, without the onset, in the order of its fields and in their units."""
         return tuple(getattr(self, p.name) for p in self.parameters())
 
     @property
@@ -330,7 +330,7 @@ class Effect(ABC):
 
     @property
     def values(self) -> dict[str, float]:
-        """Its own parameters by name, and the onset if it is not 0."""
+        """Its own parameters by name in the units of its fields, and the onset in s if not 0."""
         own = {p.name: float(getattr(self, p.name)) for p in self.parameters()}
         return own if self.onset == 0.0 else {**own, ONSET.name: self.onset}
 

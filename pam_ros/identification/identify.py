@@ -62,8 +62,8 @@ THREADS = 4
 
 def identify(
     model: Joint,
-    recordings: Sequence[Recording],
-    test: Sequence[Recording] = (),
+    recordings: Recording | Sequence[Recording],
+    test: Recording | Sequence[Recording] = (),
     progress: Progress | None = None,
     *,
     uncertain: Mapping[str, float | str] | None = None,
@@ -71,10 +71,11 @@ def identify(
 ) -> Identification:
     """Identify the effects of the model's library that *recordings* show beyond *model*.
 
-    Errors are evaluated on *test*. Without it, they are evaluated on the part of each recording
-    that was not used before, see :mod:`pam_ros.identification.data.parts`. progress(share, text)
-    is called with the share of the work that is done and a text about the next step. warn(text)
-    is called with each warning that is known before the fits, which may take minutes.
+    *recordings* and *test* are recordings of the joint, one or several. Errors are evaluated on
+    *test*. Without it, they are evaluated on the part of each recording that was not used before,
+    see :mod:`pam_ros.identification.data.parts`. progress(share, text) is called with the share of
+    the work that is done and a text about the next step. warn(text) is called with each warning
+    that is known before the fits, which may take minutes.
 
     *uncertain* are standard deviations of nominal values by the names of parameters, such as
     ``{'inertia': '50%', 'mass': 0.2}``, see :mod:`pam_ros.identification.fit.uncertain`. Numbers
@@ -86,8 +87,7 @@ def identify(
     an uncertain parameter that the model does not have.
     """
     refuse_onsets(instance('model', model, Joint, 'a Joint'), 'a nominal joint')
-    recordings = sequence('recordings', recordings, Recording, 'a Recording')
-    test = sequence('test', test, Recording, 'a Recording')
+    recordings, test = _sequence('recordings', recordings), _sequence('test', test)
     if not recordings:
         raise RecordingError('recordings is empty: give at least one Recording')
     notify: Progress = progress or (lambda share, text: None)
@@ -155,6 +155,12 @@ def identify(
         next_command=command,
         warnings=(*answer.warnings, *of_command_times(answer)),
     )
+
+
+def _sequence(name: str, given: Recording | Sequence[Recording]) -> tuple[Recording, ...]:
+    """Return one or several recordings as a tuple."""
+    several = (given,) if isinstance(given, Recording) else given
+    return sequence(name, several, Recording, 'a Recording')
 
 
 def _answer(

@@ -2,12 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """The result of an identification: the numbers of the report."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from pam_ros.effects.base import Effect
 from pam_ros.identification.data.noise import Noise
 from pam_ros.identification.data.segment import Segment
 from pam_ros.identification.fit.places import effect_of, muscle_of, place_of
@@ -100,6 +101,13 @@ class Finding:
 class Identification:
     """The whole result; ``stages`` are the nominal, re-tuned and augmented model, in this order.
 
+    ``verdict`` is one of VERDICTS, and ``sentence`` states it with the numbers. ``quantity`` is
+    what was predicted, ``position`` or ``force``, and ``unit`` its unit, in which errors and
+    ``noise`` are given. ``effects`` are the effects that the nominal model lacks, ``candidates``
+    all that were tried, and ``structure`` what remains in the residual of the last model.
+    ``warnings`` are sentences about the data and the result, and ``next_experiment`` says what to
+    record next. ``joint`` is the identified joint.
+
     ``recordings`` were fitted, ``test_recordings`` were not; ``segments`` and ``test`` are their
     gapless stretches. Without test recordings a part of each recording was held out instead.
     ``since`` is the time in s, on the clock of the recording, at which the effects begin to act,
@@ -127,6 +135,15 @@ class Identification:
     test_recordings: tuple[Recording, ...]
     since: Estimate | None
     uncertain: Mapping[str, str]
+
+    @property
+    def joint(self) -> Joint:
+        """The identified joint: the re-tuned one with the effects that were found."""
+
+        def present(effects: Sequence[Effect]) -> list[Effect]:
+            return [effect for effect in effects if effect.is_present]
+
+        return self.stages[-1].model.map_effects(present)
 
     @property
     def own_warnings(self) -> tuple[str, ...]:

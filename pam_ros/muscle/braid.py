@@ -38,6 +38,7 @@ POINTS = 401  # number of contractions in the fit
 class Braid:
     """The braid of a McKibben muscle at rest, without pressure and load.
 
+    ``radius`` is in m, ``angle`` in degrees from the axis, ``end_factor`` a number from 1 to 2.
     ``bladder`` describes not the geometry but a stiffness, which the law of the braid does not
     contain. It reduces the force by bladder (1 - exp(a3 kappa)) at all pressures. Without a
     measurement its value is very uncertain: give it a wide prior in an identification

@@ -126,11 +126,18 @@ class Muscle:
         return to_si(given, self.pressure_unit, self.contraction_unit)
 
     def force(self, p: ArrayLike, kappa: ArrayLike) -> Array:
-        """Return the static force in N: equation (1)."""
+        """Return the static force in N, pulling positive: equation (1).
+
+        *p* is gauge Pa and *kappa* the contraction as a fraction of l0; arrays broadcast, and the
+        result has their common shape. A negative force is one with which the law would push.
+        """
         return _array(law.force_v(*alike(p=p, kappa=kappa), *self.si))
 
     def stiffness(self, p: ArrayLike, kappa: ArrayLike) -> Array:
-        """Return k in N/m, positive: equation (2), sign corrected."""
+        """Return k = -dF/dkappa / l0 in N/m, positive: equation (2), sign corrected.
+
+        *p* is gauge Pa and *kappa* the contraction as a fraction of l0; arrays broadcast.
+        """
         a1, a2, a3, a4, _, _ = self.si
         return _array(law.stiffness_v(*alike(p=p, kappa=kappa), a1, a2, a3, a4, self.l0))
 

@@ -14,10 +14,10 @@ from numpy.typing import NDArray
 
 from pam_ros.arguments import as_path, instance
 from pam_ros.errors import RecordingError
-from pam_ros.recording.likely import found_columns
+from pam_ros.recording.columns import chosen, to_series
 from pam_ros.recording.mapping import ColumnMapping, Meaning
 from pam_ros.recording.recording import OUTPUTS, Recording
-from pam_ros.recording.series import Series, refuse_backwards
+from pam_ros.recording.series import Series
 
 Array = NDArray[np.float64]
 
@@ -25,7 +25,6 @@ _COMMENTS = ('#', '%', '//')
 _EMPTY = frozenset(('', 'nan', 'na', 'n/a', 'null', 'none'))
 _UTF_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
 _SWAPPED_BREAK = '\u0a00'  # a line break whose two bytes are swapped; no character otherwise
-_DENSE = 0.5  # a command column with at least this share of filled cells must have no holes
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,41 +55,24 @@ def read_csv(path: Path, mapping: ColumnMapping) -> tuple[dict[str, Series], lis
     """
     table = _read_table(path)
     mapping.need(table.header, path.name)
-    columns, notes = _choose(path, table.header, mapping)
-    if 'time' not in columns:
-        raise RecordingError(
-            f"{path.name} has no time axis: name a column 't_s' (or t_ms, time_s, timestamp_ns), "
-            f"or map one with --column 'NAME=t_s'; {found_columns(table.header, mapping, columns)}"
-        )
+    columns, notes = chosen(path.name, table.header, mapping)
     values = {
-        quantity: _numbers(path, table, index, meaning)
-        for quantity, (index, meaning) in columns.items()
+        signal: _numbers(path, table, index, meaning)
+        for signal, (index, meaning) in columns.items()
     }
-    t = values.pop('time')
-    known = np.isfinite(t)
-    if not known.all():
-        line = table.lines[int(np.argmin(known))]
-        raise RecordingError(f'{path.name}, line {line}: a row without a time')
-    refuse_backwards(t, f'{path.name}: {table.header[columns["time"][0]]}')
-    series: dict[str, Series] = {}
-    for quantity, value in values.items():
-        source = table.header[columns[quantity][0]]
-        present = np.isfinite(value)
-        if not present.any():
-            notes.append(f'column {source} is empty')
-            continue
-        is_command = columns[quantity][1].target.quantity == 'pressure_command'
-        if is_command and present.mean() < _DENSE:
-            series[quantity] = Series(source, t[present], value[present])
-        else:
-            series[quantity] = Series.taken(path.name, source, t, value)
+    lines = table.lines
+    series, notes = to_series(
+        path.name, table.header, mapping, columns, values, notes, lambda i: f'line {lines[i]}'
+    )
     return series, table.notes + notes, table.header
 
 
 def write_csv(recording: Recording, path: str | Path) -> None:
     """Write *recording* as a CSV file that gives the same numbers when it is read.
 
-    Columns are in SI, with the unit in their names. A command with a stamp that no output has
+    *path* is that of the file, which is replaced. Columns are in SI, with the unit in their names:
+    ``t_s``, ``pressure_command_Pa``, ``position_m`` or ``position_rad``, ``force_N``; those of a
+    muscle begin with its name and a dot. A command with a stamp that no output has
     gets its own row, in which the other cells are empty. Raises RecordingError if the file cannot
     be written, and ParameterError for arguments of a wrong type.
     """
@@ -231,33 +213,6 @@ def _decode(path: Path, data: bytes) -> str:
             'save it as UTF-8'
         )
     return text
-
-
-def _choose(
-    path: Path, header: list[str], mapping: ColumnMapping
-) -> tuple[dict[str, tuple[int, Meaning]], list[str]]:
-    """Return signal -> (column, meaning), and the note on columns that are not used."""
-    columns: dict[str, tuple[int, Meaning]] = {}
-    unused = []
-    for index, name in enumerate(header):
-        try:
-            meaning = mapping.meaning(name)
-        except RecordingError as error:
-            raise RecordingError(f'{path.name}: column {error}') from error
-        if meaning is None:
-            if name not in mapping:
-                unused.append(name)
-            continue
-        key = meaning.target.key
-        if key in columns:
-            other = header[columns[key][0]]
-            raise RecordingError(
-                f'{path.name}: columns {other!r} and {name!r} both give the {key}: leave one '
-                f"out with --column '{name}=ignore'"
-            )
-        columns[key] = (index, meaning)
-    notes = [f'columns not used: {", ".join(unused)}'] if unused else []
-    return columns, notes
 
 
 def _numbers(path: Path, table: _Table, index: int, meaning: Meaning) -> Array:

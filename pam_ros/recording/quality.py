@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from pam_ros.recording.bounds import Bounds
 from pam_ros.recording.inputs import Input, driving, is_constant, is_stretched, outputs
 from pam_ros.recording.recording import Recording
 from pam_ros.recording.unusable import PERIODS, refuse_unusable
@@ -20,22 +21,17 @@ SATURATED = 0.6  # an input with a greater share of samples at one end of its ra
 LEVELS = 100  # a signal with fewer distinct values is called coarse
 SMALL_RANGE = 0.2  # of the input's largest value
 AGAINST = -0.5  # correlation of position and pressure below which one has the wrong sign
+UNKNOWN = Bounds()
 SMALL_MOTION = 1e-3  # of the length or the reach; a muscle normally moves by some hundredths
 
 
-def check(
-    recording: Recording,
-    l0: float | None = None,
-    p_max: float | Sequence[float] | None = None,
-    reach: tuple[float, float] | None = None,
-) -> tuple[str, ...]:
+def check(recording: Recording, bounds: Bounds = UNKNOWN) -> tuple[str, ...]:
     """Return the warnings on *recording*; raise RecordingError if it cannot be used.
 
-    ``l0`` (m) and ``p_max`` (gauge Pa, a value for each muscle or one for all) make the checks of
-    units stricter, if given; ``reach`` is the least and the greatest position that a joint can
-    have, in m or rad.
+    *bounds* are those of its joint, if they are known: they make the checks of units stricter.
     """
-    inputs = driving(recording, p_max)
+    l0, reach = bounds.l0, bounds.reach
+    inputs = driving(recording, bounds.p_max or None)
     refuse_unusable(recording, inputs, l0, reach)
     return (
         *_warn_slow(recording),

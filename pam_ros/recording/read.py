@@ -1,63 +1,56 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""Read any recording: a rosbag2 directory, one of its files, or a CSV file."""
+"""Read any recording: a rosbag2 directory, one of its files, a CSV file, or a DataFrame."""
 
 import hashlib
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
-from pam_ros.arguments import array, as_path, instance, number, sequence
+from pam_ros.arguments import as_path, instance, sequence
 from pam_ros.errors import RecordingError, printable, shown
 from pam_ros.recording.assemble import MissingSignalError, assemble
 from pam_ros.recording.bag import bag_files, read_bag
+from pam_ros.recording.bounds import Bounded, Bounds, bounds_of
 from pam_ros.recording.csv_file import read_csv
+from pam_ros.recording.dataframe import series_of_frame
 from pam_ros.recording.direction import with_contraction_positive
 from pam_ros.recording.likely import found_columns
 from pam_ros.recording.mapping import ColumnMapping
 from pam_ros.recording.quality import check
 from pam_ros.recording.recording import Recording
+from pam_ros.recording.series import Series
 
 BAG_SUFFIXES = ('.mcap', '.db3')
 
 
 def read_recording(
     path: str | Path,
+    joint: Bounded | None = None,
+    *,
     mapping: ColumnMapping | None = None,
     kind: str | None = None,
-    l0: float | None = None,
-    p_max: float | Sequence[float] | None = None,
     namespace: str | None = None,
     muscles: Sequence[str] = (),
-    unit: str | None = None,
-    reach: tuple[float, float] | None = None,
 ) -> Recording:
     """Read the recording at *path* in SI, and check it.
 
-    ``mapping`` gives the meaning of columns or topics with other names. ``kind`` is ``free`` for a
-    free load or ``held`` for a prescribed length (found from the data if None). ``l0`` in m
-    converts a contraction to a position; a position must be a valid contraction of this length.
-    ``p_max`` in gauge Pa is the highest pressure of the muscle, one for each muscle if there are
-    several; the unit of the input is checked against it. ``namespace`` selects one of several rigs
-    in a bag.
+    *path* is a rosbag2 directory, one of its files, or a CSV file. *joint* is the Joint that was
+    recorded: its lengths and pressures are needed to read a contraction, and show a signal that is
+    in another unit. *mapping* gives the meaning of columns or topics with other names
+    (:func:`pam_ros.read_mapping`). *kind* is ``free`` for a free load or ``held`` for a prescribed
+    length (found from the data if None). *namespace* selects one of several rigs in a bag.
 
-    For a joint, ``muscles`` are the names of its muscles in order (if empty, the order in which
-    they appear in a CSV file). ``unit`` is that of its position: ``m``, or ``rad`` for a revolute
-    joint. ``reach`` is the least and the greatest position that it can have. Columns that belong
-    to a muscle have its name before a dot: ``agonist.pressure_command_kPa``; in a bag, arrays have
-    a number for each muscle.
+    *muscles* are the names of the muscles of a joint that has several, in their order (if empty,
+    the order in which they appear in a CSV file). Columns that belong to a muscle have its name
+    before a dot: ``agonist.pressure_command_kPa``; in a bag, arrays have a number for each muscle.
 
-    Raises RecordingError, with a sentence for the user, for a recording that cannot be used, and
-    ParameterError for arguments of a wrong type.
+    Raises RecordingError, with a sentence for the user, for a recording that cannot be used or is
+    of another joint, and ParameterError for arguments of a wrong type.
     """
     path = as_path('path', path, 'the path of a bag or a CSV file')
-    mapping = ColumnMapping() if mapping is None else mapping
-    instance('mapping', mapping, ColumnMapping, 'what read_mapping returns')
-    if l0 is not None:
-        number('l0', l0)
-    muscles = sequence('muscles', muscles, str, 'the name of a muscle')
-    if p_max is not None:
-        array('p_max', p_max)
+    bounds, mapping, muscles = _arguments(joint, mapping, muscles)
     if not path.exists():
         raise RecordingError(f'recording {path} does not exist')
     if not (path.is_dir() or path.is_file()):
@@ -67,7 +60,7 @@ def read_recording(
     header: list[str] = []
     if path.is_dir() or path.suffix in BAG_SUFFIXES:
         files = bag_files(path)
-        series, notes = read_bag(path, mapping, namespace, muscles, unit)
+        series, notes = read_bag(path, mapping, namespace, muscles, bounds.unit)
     elif namespace is not None:
         raise RecordingError(
             f'namespace = {namespace}, but recording {path} is not a bag: a CSV file has no '
@@ -77,23 +70,59 @@ def read_recording(
         files = [path]
         series, notes, header = read_csv(path, mapping)
     name = printable(path.name or str(path))
+    recording = _assembled(name, series, notes, header, mapping, bounds, kind, muscles)
+    return replace(recording, digest=_digest(files))
+
+
+def read_dataframe(
+    frame: Any,
+    joint: Bounded | None = None,
+    *,
+    name: str = 'dataframe',
+    mapping: ColumnMapping | None = None,
+    kind: str | None = None,
+    muscles: Sequence[str] = (),
+) -> Recording:
+    """Return the recording in a DataFrame: see :meth:`pam_ros.Recording.from_dataframe`."""
+    instance('name', name, str, 'a text')
+    bounds, mapping, muscles = _arguments(joint, mapping, muscles)
+    series, notes, header = series_of_frame(name, frame, mapping)
+    return _assembled(name, series, notes, header, mapping, bounds, kind, muscles)
+
+
+def _arguments(
+    joint: Bounded | None, mapping: ColumnMapping | None, muscles: Sequence[str]
+) -> tuple[Bounds, ColumnMapping, tuple[str, ...]]:
+    """Return the bounds of the joint, the mapping and the names of the muscles, checked."""
+    mapping = ColumnMapping() if mapping is None else mapping
+    instance('mapping', mapping, ColumnMapping, 'what read_mapping returns')
+    return bounds_of(joint), mapping, sequence('muscles', muscles, str, 'the name of a muscle')
+
+
+def _assembled(
+    name: str,
+    series: dict[str, Series],
+    notes: list[str],
+    header: list[str],
+    mapping: ColumnMapping,
+    bounds: Bounds,
+    kind: str | None,
+    muscles: tuple[str, ...],
+) -> Recording:
+    """Return the recording that *series* give, checked; *header* has the columns of a table."""
     try:
-        recording = assemble(name, series, notes, kind, l0, muscles)
+        recording = assemble(name, series, notes, kind, bounds.l0, muscles)
     except MissingSignalError as error:
         if not header:
             raise
         found = found_columns(header, mapping, series)
         raise RecordingError(f'{error}; {found}') from error
-    if unit is not None and recording.unit != unit:
-        raise RecordingError(
-            f'{recording.name}: the position is in {recording.unit}, and the model moves in '
-            f'{unit}: is it a recording of another joint?'
-        )
+    bounds.require(recording.name, len(recording.muscles) or 1, recording.unit)
     recording = with_contraction_positive(recording)
-    warnings = check(recording, l0, p_max, reach)
+    warnings = check(recording, bounds)
     # The notes name columns and topics as they stand in the file.
     sentences = tuple(map(shown, (*recording.warnings, *warnings)))
-    return replace(recording, warnings=sentences, digest=_digest(files))
+    return replace(recording, warnings=sentences)
 
 
 def _digest(files: list[Path]) -> str:

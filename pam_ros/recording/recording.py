@@ -21,6 +21,8 @@ from pam_ros.arguments import (
     stamps,
 )
 from pam_ros.errors import ParameterError, RecordingError
+from pam_ros.recording.bounds import Bounded
+from pam_ros.recording.mapping import ColumnMapping
 
 Array = NDArray[np.float64]
 KINDS = ('free', 'held')
@@ -148,6 +150,29 @@ class Recording:
         if found.shape != wanted:
             refuse_shape(name, found, f'{wanted}, a row for each stamp, a column for each muscle')
         return found
+
+    @classmethod
+    def from_dataframe(
+        cls,
+        frame: Any,
+        joint: Bounded | None = None,
+        *,
+        name: str = 'dataframe',
+        mapping: ColumnMapping | None = None,
+        kind: str | None = None,
+        muscles: Sequence[str] = (),
+    ) -> 'Recording':
+        """Return the recording in a DataFrame, such as that of pandas, checked.
+
+        Its columns have the names of those of a CSV file, which contain the unit: ``t_s``,
+        ``pressure_command_kPa``, ``position_mm``. NaN means that no sample was taken. An index
+        with such a name is a column, too; an index of dates is the time. *name* is the name of the
+        recording; *joint*, *mapping*, *kind* and *muscles* are those of
+        :func:`pam_ros.read_recording`, and so are the errors.
+        """
+        from pam_ros.recording.read import read_dataframe
+
+        return read_dataframe(frame, joint, name=name, mapping=mapping, kind=kind, muscles=muscles)
 
     @property
     def period(self) -> float:

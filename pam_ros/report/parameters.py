@@ -4,12 +4,10 @@
 
 import itertools
 import textwrap
-from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
 from pam_ros.effects import EFFECTS
-from pam_ros.effects.base import Effect
 from pam_ros.errors import ParameterError
 from pam_ros.identification.result import Identification
 from pam_ros.plain_yaml import plain_text
@@ -23,27 +21,18 @@ from pam_ros.settings.rig import RigParameters
 
 
 def identified(result: Identification, source: Provenance) -> Joint:
-    """Return the identified model: re-tuned, with the effects that were found.
+    """Return the identified joint, whose constants have a new source text.
 
-    Effects that are absent are left out. Its constants are no longer those of the nominal source,
-    and their new source text states this.
+    They are no longer those of the nominal source, and the text states this.
     """
-    model = result.stages[-1].model
+    joint = result.joint
     names = listed([recording.name for recording in source.recordings])
     text = plain_text(f'pam_ros, re-tuned on {names}; nominal model: {source.parameters}')
     actuators = tuple(
-        replace(
-            actuator,
-            muscle=replace(actuator.muscle, source=text),
-            effects=_present(actuator.effects),
-        )
-        for actuator in model.actuators
+        replace(actuator, muscle=replace(actuator.muscle, source=text))
+        for actuator in joint.actuators
     )
-    return replace(model, actuators=actuators, effects=_present(model.effects))
-
-
-def _present(effects: Sequence[Effect]) -> tuple[Effect, ...]:
-    return tuple(effect for effect in effects if effect.is_present)
+    return replace(joint, actuators=actuators)
 
 
 def write_identified(path: Path, result: Identification, source: Provenance) -> None:

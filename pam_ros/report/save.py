@@ -30,9 +30,10 @@ def save_report(identification: Identification, folder: str | Path) -> None:
 def save_parameters(identification: Identification, file: str | Path) -> None:
     """Write the identified joint as a parameter file, the ``identified.yaml`` of a report.
 
-    It has the re-tuned constants and the effects that were found. ``pam_sim``, ``pam_control`` and
-    :func:`pam_ros.load_joint` read it. It is written completely or not at all, and replaces a
-    file of this name.
+    *identification* is what :func:`pam_ros.identify` returned, *file* the path of a YAML file;
+    folders that do not exist are made. It has the re-tuned constants and the effects that were
+    found. ``pam_sim``, ``pam_control`` and :func:`pam_ros.load_joint` read it. It is written
+    completely or not at all, and replaces a file of this name.
 
     Raises PamError if *file* is a folder or cannot be written, and ParameterError if no
     parameter file can describe the joint: a custom transmission, load or effect.

@@ -16,10 +16,9 @@ from numpy.typing import NDArray
 
 from pam_ros.effects.base import Effect
 from pam_ros.errors import ParameterError
-from pam_ros.rig.acting import acting_commands, delays_of
 from pam_ros.rig.bind import Kernel
 from pam_ros.rig.joint import Joint
-from pam_ros.rig.layout import Layout
+from pam_ros.rig.layout import Layout, delays_of
 from pam_ros.rig.start import begin_effects
 
 Array = NDArray[np.float64]
@@ -120,3 +119,19 @@ def _part(
     out = np.empty((t.size, layout.run_columns))
     kernel.simulate(x, layout.scratch(), q, t, *acting_commands(acts, command), step, out, forces)
     return out
+
+
+def acting_commands(acts: Sequence[Array], command: Array) -> tuple[Array, Array]:
+    """Return the stamps at which a command changes, and the commands (m, muscles) from each on.
+
+    *acts* are the times (m,) at which the rows of *command* (m, muscles) act in each muscle.
+    If they differ between muscles, the result has a stamp for each change of any muscle's command.
+    """
+    if all(np.array_equal(own, acts[0]) for own in acts[1:]):
+        return acts[0], command
+    stamps = np.unique(np.concatenate(acts))
+    columns = [
+        command[np.maximum(np.searchsorted(own, stamps, side='right') - 1, 0), i]
+        for i, own in enumerate(acts)
+    ]
+    return stamps, np.ascontiguousarray(np.stack(columns, axis=1))

@@ -5,7 +5,7 @@
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from pam_ros.arguments import instance, one_each
 from pam_ros.rig import layout as at
@@ -14,6 +14,7 @@ from pam_ros.rig.bind import bind
 from pam_ros.rig.joint import Joint
 from pam_ros.rig.start import start_state
 
+Array = NDArray[np.float64]
 STEPS = 100  # over the span in which a rest position is searched
 PRECISION = 1e-13  # m or rad
 
@@ -35,6 +36,14 @@ def equilibrium(joint: Joint, p: ArrayLike) -> float:
     start = statics.equilibrium(joint, p)
     if not joint.active or statics.is_direct(joint):
         return start
+    return rest_from(joint, p, start)
+
+
+def rest_from(joint: Joint, p: ArrayLike, start: float) -> float:
+    """Return the rest position nearest to *start*, in the direction in which the joint is driven.
+
+    The muscles have *p* Pa. If there is none within the travel, it is *start*.
+    """
     acceleration = held(joint, p)
     last, a = start, acceleration(start)
     low, high = statics.span(joint, *statics.BEYOND)
@@ -47,14 +56,20 @@ def equilibrium(joint: Joint, p: ArrayLike) -> float:
 
 def held(joint: Joint, p: ArrayLike) -> Callable[[float], float]:
     """Return s'' as a function of s, for the joint after a long rest at s with *p* Pa."""
-    layout, q, pressures = joint.layout, joint.parameters(), statics.each(joint, p)
+    acceleration, pressures = acceleration_of(joint), np.array(statics.each(joint, p))
+    return lambda s: acceleration(s, 0.0, pressures)
+
+
+def acceleration_of(joint: Joint) -> Callable[[float, float, Array], float]:
+    """Return s'' as a function of s, v and the commands in Pa (muscles,), after a long rest."""
+    layout, q = joint.layout, joint.parameters()
     outputs = bind(layout, joint.active).outputs
     scratch = layout.scratch()[None]
     out = np.zeros((1, layout.muscles, at.OUTPUTS))
     joint_out = np.zeros((1, at.JOINT_OUTPUTS))
 
-    def acceleration(s: float) -> float:
-        x = start_state(layout, q, pressures, s, 0.0)
+    def acceleration(s: float, v: float, pressures: Array) -> float:
+        x = start_state(layout, q, pressures, s, v)
         scratch[0, :, : layout.width] = x
         outputs(x[None], scratch, q[None], 0.0, out, joint_out)
         return float(joint_out[0, 2])

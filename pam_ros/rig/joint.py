@@ -4,7 +4,8 @@
 
 import itertools
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,9 +17,10 @@ from pam_ros.effects.base import Effect
 from pam_ros.errors import ParameterError, RangeError
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.parameters import Parameter
+from pam_ros.recording.bounds import Bounds
 from pam_ros.rig import layout as at
 from pam_ros.rig import statics
-from pam_ros.rig.effect_values import begun, checked_effects, onsets
+from pam_ros.rig.effect_values import begun, checked_effects, onsets, split_effects
 from pam_ros.rig.layout import Layout, layout_of
 from pam_ros.rig.loads import Load, LoadEquations, Mass
 from pam_ros.rig.transmissions import Straight, Transmission, TransmissionEquations
@@ -167,6 +169,18 @@ class Joint:
         return statics.position_range(self)
 
     @cached_property
+    def bounds(self) -> Bounds:
+        """What the values of a recording of this joint cannot exceed."""
+        is_single = statics.is_direct(self)
+        return Bounds(
+            # A known force on a load, which replaces a muscle, has no length.
+            l0=self.muscle.l0 if is_single and not self.is_driven else None,
+            p_max=tuple(muscle.p_max for muscle in self.muscles),
+            reach=None if is_single else self.position_range,
+            unit=self.transmission.equations.unit,
+        )
+
+    @cached_property
     def muscles(self) -> tuple[Muscle, ...]:
         """The muscles in order."""
         return tuple(actuator.muscle for actuator in self.actuators)
@@ -190,7 +204,43 @@ class Joint:
         """Inertia of the coordinate in kg or kg m^2, with the moved mass."""
         return self.load.equations.inertia(self.moved_mass, self.load.numbers, 0)
 
-    def with_effects(self, changed: Callable[[Sequence[Effect]], Sequence[Effect]]) -> 'Joint':
+    def with_effects(self, *effects: Effect) -> 'Joint':
+        """Return this joint with *effects* in addition, such as ``CoulombFriction(level=8.0)``.
+
+        An effect of a muscle is added to each muscle, an effect of the load to the joint. It
+        replaces one of the same class. For muscles with different effects make a ``Joint`` of
+        several ``Actuator``. Raises ParameterError as Joint does.
+        """
+        in_muscle, on_joint = split_effects(effects)
+
+        def added(present: Sequence[Effect], new: Sequence[Effect]) -> tuple[Effect, ...]:
+            kinds = {type(effect) for effect in new}
+            return (*(effect for effect in present if type(effect) not in kinds), *new)
+
+        actuators = tuple(
+            replace(actuator, effects=added(actuator.effects, in_muscle))
+            for actuator in self.actuators
+        )
+        return replace(self, actuators=actuators, effects=added(self.effects, on_joint))
+
+    def with_load(self, **changes: Any) -> 'Joint':
+        """Return this joint with *changes* of the parameters of its load, such as ``mass=10.0``.
+
+        A ``Mass`` has mass (kg) and mount; an ``Arm`` has inertia (kg m^2), mass (kg), arm (m),
+        hanging_at (rad) and plane. Raises ParameterError for a parameter that the load does not
+        have, and as Joint does.
+        """
+        load: Any = self.load
+        names = [item.name for item in fields(load)]
+        for name, value in changes.items():
+            if name not in names:
+                kind = type(self.load).__name__
+                raise ParameterError(
+                    f'{name} = {value!r} is not a parameter of {kind}: give {", ".join(names)}'
+                )
+        return replace(self, load=replace(load, **changes))
+
+    def map_effects(self, changed: Callable[[Sequence[Effect]], Sequence[Effect]]) -> 'Joint':
         """Return the joint with the effects that *changed* makes of those in each place."""
         actuators = tuple(
             replace(actuator, effects=changed(actuator.effects)) for actuator in self.actuators
@@ -210,7 +260,7 @@ class Joint:
 
     def _at(self, time: float) -> 'Joint':
         """Return the joint with the effects that act at *time* s, with their onsets set to 0."""
-        return self.with_effects(lambda effects: begun(effects, time))
+        return self.map_effects(lambda effects: begun(effects, time))
 
     @property
     def at_start(self) -> 'Joint':

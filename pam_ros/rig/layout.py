@@ -158,3 +158,13 @@ def _place(places: dict[str, int], effects: list[type[Effect]], at: int, size: S
         places[effect.name] = at
         at += size(effect)
     return at
+
+
+def delays_of(layout: Layout, q: Array) -> tuple[float, ...]:
+    """Return the delay in s of the commands of each muscle, from the parameters q."""
+    delays = [
+        (effect.equations.delay, layout.parameter_at[effect.name])
+        for effect in layout.library
+        if effect.equations.delay is not None
+    ]
+    return tuple(float(sum(delay(row, j) for delay, j in delays)) for row in q[MUSCLE:])

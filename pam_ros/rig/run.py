@@ -12,11 +12,11 @@ from numpy.typing import ArrayLike, NDArray
 from pam_ros.arguments import along, array, instance, number, refuse, refuse_shape, stamps
 from pam_ros.errors import ParameterError
 from pam_ros.rig import layout as at
-from pam_ros.rig.acting import delays_of
 from pam_ros.rig.bind import bind
 from pam_ros.rig.changes import changes_of, refuse_onsets, run_over
 from pam_ros.rig.equilibrium import equilibrium
 from pam_ros.rig.joint import Joint
+from pam_ros.rig.layout import delays_of
 from pam_ros.rig.start import behind_reservoir, disturb, start_state
 from pam_ros.rig.statics import refuse_position
 from pam_ros.rig.step_limit import check_step
@@ -44,8 +44,9 @@ class Trajectory:
 def simulate(
     joint: Joint,
     t: ArrayLike,
-    command_t: ArrayLike,
     command: ArrayLike,
+    command_t: ArrayLike | None = None,
+    *,
     position: float | None = None,
     velocity: float = 0.0,
     step: float = 1e-3,
@@ -53,26 +54,30 @@ def simulate(
 ) -> Trajectory:
     """Simulate a joint at the stamps *t*, with its commands exactly at their stamps.
 
-    t (n,), command_t (m,): s, ascending. command: gauge Pa, (m, muscles), a row for each stamp of
-    command_t and a column for each muscle; for one muscle also (m,), for one stamp also
-    (muscles,). A command is active from its stamp to the next one, the first also before its
-    stamp. The joint starts at t[0] after a long rest under the commands that act just before
-    t[0], at *position* (default: its rest position) with *velocity*. *hidden* gives changes of
-    the hidden states from rest, by effect and then by state, the same in all muscles. An effect
-    with an onset begins to act at this time on the time axis of t. Samples are the state before a
-    command or an onset of the same stamp has acted. Steps are at most *step* s and never extend
-    across a command or an onset. Raises ParameterError if *step* is too long for the joint, if
-    shapes do not fit, stamps go back, a number is not finite, the muscles cannot have *position*,
-    commands are so high that the motion is not finite, or *hidden* has an effect that the joint
-    lacks. Warns of commands that seem to be in kPa or
-    bar.
+    t (n,), command_t (m,): s, ascending; None if the commands have the stamps t. command: gauge
+    Pa, (m, muscles), a row for each stamp and a column for each muscle; for one muscle also (m,),
+    for one stamp also (muscles,). A command is active from its stamp to the next one, the first
+    also before its stamp. The joint starts at t[0] after a long rest under the commands that act
+    just before t[0], at *position* in m or rad (default: its rest position) with *velocity* in m/s
+    or rad/s. *hidden* gives changes of the hidden states from rest, by effect and then by state,
+    the same in all muscles. An effect with an onset begins to act at this time on the time axis of
+    t. Samples are the state before a command or an onset of the same stamp has acted. Steps are at
+    most *step* s and never extend across a command or an onset.
+
+    Raises ParameterError if *step* is too long for the joint, if shapes do not fit, stamps go
+    back, a number is not finite, the muscles cannot have *position*, commands are so high that the
+    motion is not finite, or *hidden* has an effect that the joint lacks. Warns of commands that
+    seem to be in kPa or bar.
     """
     step = number('step', step)
     check_step(instance('joint', joint, Joint, 'a Joint'), step)
-    t, command_t = stamps('t', t), stamps('command_t', command_t)
+    t = stamps('t', t)
+    clock, command_t = (
+        ('t', t) if command_t is None else ('command_t', stamps('command_t', command_t))
+    )
     start = [stage for time, stage in joint.stages if time <= max(t[0], 0.0)][-1]
     q, layout = start.parameters(), joint.layout
-    command = by_muscle('command', command, 'command_t', command_t.size, layout.muscles)
+    command = by_muscle('command', command, clock, command_t.size, layout.muscles)
     _warn_low('command', command, joint)
     velocity = number('velocity', velocity)
     delays = delays_of(layout, q)

@@ -119,9 +119,10 @@ class Simulation:
     def reset(self, pressure: ArrayLike, position: ArrayLike, velocity: ArrayLike) -> None:
         """Set time to 0 and the state to these values, as after a long rest at *pressure*.
 
-        *pressure* (muscles,) is also the present command; delayed commands are discarded.
-        *position* and *velocity* are (joints,). One number sets all entries, in each of the three.
-        Raises ParameterError for a position that the muscles of its joint cannot have.
+        *pressure* (muscles,) in gauge Pa is also the present command; delayed commands are
+        discarded. *position* and *velocity* are (joints,), in m and m/s, or rad and rad/s for a
+        revolute joint. One number sets all entries, in each of the three. Raises ParameterError
+        for a position that the muscles of its joint cannot have.
         """
         p = one_each('pressure', pressure, len(self._muscles), 'muscle')
         s = one_each('position', position, len(self.joints), 'joint')

@@ -63,7 +63,7 @@ class Experiment:
         """Return the text that the user should read before the programme starts."""
         low, high = self.window
         commands = self.programme
-        path = simulate(self.model, commands.t, commands.t, commands.pressure).position
+        path = simulate(self.model, commands.t, commands.pressure).position
         least, most = float(path.min()), float(path.max())
         lines = [
             plan(commands, self.settings),

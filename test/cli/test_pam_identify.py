@@ -124,7 +124,7 @@ def test_identified_file_starts_the_better_simulator(found, bench):
     other = read_recording(bench / 'other.csv')
     rmse = {}
     for name, rig in (('declared', nominal), ('identified', model)):
-        y = simulate(rig, other.t, other.command_t, other.command).position
+        y = simulate(rig, other.t, other.command, other.command_t).position
         rmse[name] = np.sqrt(np.mean((y - other.position)[200:] ** 2))
     assert rmse['identified'] < 2.0 * results.NOISE
     assert rmse['declared'] > 20.0 * rmse['identified']

@@ -40,7 +40,7 @@ def recording(joint, seed, duration):
     more = levels + 50e3 * np.sin(2.5 * t)
     common = 260e3 + 60e3 * np.sin(0.3 * t)
     command = np.stack([common + more, common - more], axis=1)
-    angle = simulate(joint, t, t, command).position + rng.normal(0.0, 2e-4, t.size)
+    angle = simulate(joint, t, command).position + rng.normal(0.0, 2e-4, t.size)
     return Recording('elbow', t, t, command, angle, muscles=NAMES, unit='rad')
 
 

@@ -17,7 +17,7 @@ MODEL = single_muscle_joint()
 @pytest.fixture(scope='module')
 def run():
     t = np.arange(0.0, 3.0, 0.002)
-    path = simulate(MODEL, t, [0.0], [600e3], position=0.0)
+    path = simulate(MODEL, t, [600e3], [0.0], position=0.0)
     kappa = path.position / MODEL.muscle.l0
     return PublishedRun(
         t + 50.0,

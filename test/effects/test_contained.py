@@ -25,7 +25,7 @@ AT_THE_LIMIT = {
 
 
 def moved(*effects):
-    return simulate(bench.hanging(*effects), T, AT, U).position
+    return simulate(bench.hanging(*effects), T, U, AT).position
 
 
 def test_every_effect_that_shares_parameters_with_a_simpler_one_is_compared_with_it():

@@ -45,7 +45,7 @@ def test_stuck_load_stays_where_it_is(mass, level):
     stiffness = float(muscle.stiffness(3e5, equilibrium(model, 3e5) / muscle.l0))
     y0 = equilibrium(model, 3e5) + 0.5 * level / stiffness
     t = np.linspace(0.0, 20.0, 201)
-    run = simulate(model, t, [0.0], [3e5], position=y0)
+    run = simulate(model, t, [3e5], [0.0], position=y0)
     give = 1e-5 + level * 1e-6 / mass
     assert np.all(np.abs(run.position - y0) < 1.5 * give)
     assert np.ptp(run.position[20:]) < 1e-9
@@ -57,7 +57,7 @@ def test_load_does_not_drift_under_a_shaken_force_below_breakaway():
     shake = {'force_sin': 2.0, 'frequency': 7.0}
     model = bench.cart(*dry(level=6.0), PeriodicDisturbance(**shake))
     t = np.linspace(0.0, 20.0, 2001)
-    run = simulate(model, t, [0.0, 1.0], [0.0, 3.0], position=0.0)
+    run = simulate(model, t, [0.0, 3.0], [0.0, 1.0], position=0.0)
     assert np.ptp(run.position) < 3e-5
     first, last = run.position[300:500].mean(), run.position[-200:].mean()
     assert abs(last - first) < 1e-8
@@ -69,7 +69,7 @@ def test_load_breaks_away_at_its_level_and_slides_at_the_lower_one():
     stamps = np.arange(0.0, 4.0, 0.01)
     ramp = 4.0 * stamps
     t = np.linspace(0.0, 4.0, 401)
-    run = simulate(bench.cart(*friction, mass=m), t, stamps, ramp, position=0.0)
+    run = simulate(bench.cart(*friction, mass=m), t, ramp, stamps, position=0.0)
     moved = t[np.argmax(run.position > 1e-4)]
     assert 2.0 < moved < 2.15  # 8 N after 2 s, and the time to go 0.1 mm
     assert np.all(run.position[t < 1.95] < 2e-5)
@@ -96,7 +96,7 @@ def test_load_breaks_away_at_its_level_and_slides_at_the_lower_one():
 def test_friction_grows_with_pressure():
     p, growth = 100.0, 0.01
     model = bench.cart(*dry(level=2.0, per_pressure=growth))
-    run = simulate(model, [0.0, 0.3], [0.0], [p], position=0.0, velocity=0.5)
+    run = simulate(model, [0.0, 0.3], [p], [0.0], position=0.0, velocity=0.5)
     rise = (p - 2.0 - growth * p) / bench.MASS
     assert run.velocity[1] == pytest.approx(0.5 + 0.3 * rise, abs=1e-5)
 
@@ -131,7 +131,7 @@ def test_swing_dies_in_the_turns_and_where_an_ideal_slider_sticks():
     y0 = bench.rest(3e5) + 0.02
     turns, stuck = swing(y0, level, end=2.0)
     t = np.linspace(0.0, 4.0, 4001)
-    run = simulate(bench.hanging(*dry(level=level)), t, [0.0], [3e5], position=y0)
+    run = simulate(bench.hanging(*dry(level=level)), t, [3e5], [0.0], position=y0)
     assert len(turns) >= 4
     at_turns = np.interp([s for s, _ in turns], t, run.position)
     np.testing.assert_allclose(at_turns, [y for _, y in turns], atol=6e-5)
@@ -142,7 +142,7 @@ def test_swing_dies_in_the_turns_and_where_an_ideal_slider_sticks():
 def test_a_light_load_with_much_friction_neither_rings_nor_gains_energy(step):
     t = np.linspace(0.0, 2.0, 501)
     model = bench.cart(*dry(level=200.0, breakaway=300.0), mass=0.5)
-    run = simulate(model, t, [0.0, 0.5], [0.0, 150.0], position=0.0, velocity=0.5, step=step)
+    run = simulate(model, t, [0.0, 150.0], [0.0, 0.5], position=0.0, velocity=0.5, step=step)
     speeds = np.abs(run.velocity)
     assert np.max(speeds[t < 0.5]) == 0.5
     rested = (t > 0.3) & (t < 0.5)

@@ -52,7 +52,7 @@ def test_load_creeps_up_after_a_step_of_pressure():
     creep = Creep(force=0.05, stiffness=stiffness, time=TIME, spread=SPREAD)
     t = np.linspace(0.0, 8.0, 161)
     commands = ((0.0, 2e5), (0.5, 3e5))
-    run = simulate(bench.hanging(creep), t, *zip(*commands, strict=True))
+    run = simulate(bench.hanging(creep), t, **bench.stepped(commands))
     fast, slow = TIME / SPREAD, TIME * SPREAD
 
     def rhs(_, state, u):

@@ -15,7 +15,7 @@ EFFECT = [DeadBand(band=4e4, width=5e3)]
 
 def test_of_a_pressure_beyond_the_band_the_band_is_missing():
     t = np.linspace(0.0, 8.0, 81)
-    run = simulate(bench.hanging(*EFFECT), t, [0.0, 1.0], [3e5, 2e5])
+    run = simulate(bench.hanging(*EFFECT), t, [3e5, 2e5], [0.0, 1.0])
     np.testing.assert_allclose(run.pressure[1:11], 2.6e5, rtol=1e-14)
     np.testing.assert_allclose(run.pressure[11:], 1.6e5, rtol=1e-14)
     assert abs(run.position[-1] - bench.rest(1.6e5)) < 1e-6

@@ -17,8 +17,8 @@ VALUES = np.array([3e5, 3.5e5, 2.5e5, 3e5])
 @pytest.mark.parametrize('delay', [0.02, 0.0123, 0.3])
 def test_delay_is_a_later_stamp(delay):
     t = np.linspace(0.0, 1.5, 301)
-    late = simulate(bench.hanging(DeadTime(delay=delay)), t, COMMANDS, VALUES)
-    stamped = simulate(bench.hanging(), t, COMMANDS + delay * (COMMANDS > 0.0), VALUES)
+    late = simulate(bench.hanging(DeadTime(delay=delay)), t, VALUES, COMMANDS)
+    stamped = simulate(bench.hanging(), t, VALUES, COMMANDS + delay * (COMMANDS > 0.0))
     np.testing.assert_allclose(late.position, stamped.position, atol=1e-10)
     np.testing.assert_array_equal(late.pressure, stamped.pressure)
 
@@ -26,7 +26,7 @@ def test_delay_is_a_later_stamp(delay):
 def test_a_force_source_moves_only_after_the_delay():
     delay, push = 0.05, 8.0
     t = np.linspace(0.0, 0.5, 51)
-    run = simulate(bench.cart(DeadTime(delay=delay)), t, [-1.0, 0.1], [0.0, push], position=0.0)
+    run = simulate(bench.cart(DeadTime(delay=delay)), t, [0.0, push], [-1.0, 0.1], position=0.0)
     after = np.maximum(t - 0.1 - delay, 0.0)
     np.testing.assert_allclose(run.position, 0.5 * push / bench.MASS * after**2, atol=1e-14)
 

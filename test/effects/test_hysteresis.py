@@ -89,7 +89,7 @@ def test_a_path_repeated_never_gains_work(effect, turns):
 def test_load_on_a_muscle_with_hysteresis_against_an_adaptive_solver():
     t = np.linspace(0.0, 1.5, 151)
     commands = ((0.0, 2.5e5), (0.2, 3.5e5), (0.8, 3e5))
-    run = simulate(bench.hanging(Hysteresis(**DAHL)), t, *zip(*commands, strict=True))
+    run = simulate(bench.hanging(Hysteresis(**DAHL)), t, **bench.stepped(commands))
     state, y = np.array([bench.rest(2.5e5), 0.0, 0.0]), []
     ends = [0.2, 0.8, 1.5]
     for (begin, u), end in zip(commands, ends, strict=True):

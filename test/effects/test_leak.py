@@ -15,7 +15,7 @@ def test_open_valve_balances_leak_and_refill(step):
     rate, refill, u0, u1 = 0.4, 0.25, 2e4, 5e4
     t = np.linspace(0.0, 2.0, 201)
     model = bench.cart(Leak(rate=rate, refill=refill), mass=1e4)
-    run = simulate(model, t, [0.0, 0.5], [u0, u1], position=0.0, step=step)
+    run = simulate(model, t, [u0, u1], [0.0, 0.5], position=0.0, step=step)
     share = 1.0 / (1.0 + rate * refill)
     after = np.maximum(t - 0.5, 0.0)
     expected = share * (u1 + (u0 - u1) * np.exp(-after * (1.0 / refill + rate)))
@@ -28,7 +28,7 @@ def test_closed_valve_loses_pressure_until_the_command_changes(step):
     rate, u0, u1 = 0.1, 2e4, 6e4
     t = np.linspace(0.0, 4.0, 41)
     run = simulate(
-        bench.cart(Leak(rate=rate), mass=1e4), t, [0.0, 2.0], [u0, u1], position=0.0, step=step
+        bench.cart(Leak(rate=rate), mass=1e4), t, [u0, u1], [0.0, 2.0], position=0.0, step=step
     )
     before, after = t <= 2.0, t > 2.0
     np.testing.assert_allclose(run.pressure[before], u0 * np.exp(-rate * t[before]), rtol=1e-12)
@@ -42,7 +42,7 @@ def test_small_change_gives_back_a_part_of_the_loss():
     rate, u0, du = 0.2, 2e4, 2e3
     t = np.array([0.0, 1.0, 1.5])
     leak = Leak(rate=rate)
-    run = simulate(bench.cart(leak, mass=1e4), t, [0.0, 1.0], [u0, u0 + du], position=0.0)
+    run = simulate(bench.cart(leak, mass=1e4), t, [u0, u0 + du], [0.0, 1.0], position=0.0)
     lost = u0 * (1.0 - np.exp(-rate))
     expected = (u0 + du - lost / np.e) * np.exp(-0.5 * rate)
     assert run.pressure[2] == pytest.approx(expected, rel=1e-12)
@@ -51,7 +51,7 @@ def test_small_change_gives_back_a_part_of_the_loss():
 def test_load_sinks_with_the_pressure():
     rate = 0.05
     t = np.linspace(0.0, 3.0, 61)
-    run = simulate(bench.hanging(Leak(rate=rate)), t, [0.0], [4e5])
+    run = simulate(bench.hanging(Leak(rate=rate)), t, [4e5], [0.0])
 
     def rhs(s, state, u):
         y, v = state
@@ -67,7 +67,7 @@ def test_load_sinks_with_the_pressure():
 def test_a_refill_faster_than_any_leaves_no_loss_and_no_nan(refill):
     t = np.array([0.0, 0.5, 1.0])
     model = bench.cart(Leak(rate=0.5, refill=refill), mass=1e4)
-    run = simulate(model, t, [0.0, 0.5], [100.0, 200.0], position=0.0)
+    run = simulate(model, t, [100.0, 200.0], [0.0, 0.5], position=0.0)
     np.testing.assert_allclose(run.pressure, [100.0, 100.0, 200.0], rtol=1e-6)
 
 
@@ -79,7 +79,7 @@ def test_a_valve_fully_open_against_an_adaptive_solver(step, vent):
     t = np.linspace(0.0, 2.0, 201)
     commands = ((0.0, 1e5), (0.2, 4e5), (1.2, 0.5e5))
     model = bench.cart(leak, mass=1e4)
-    run = simulate(model, t, *zip(*commands, strict=True), position=0.0, step=step)
+    run = simulate(model, t, **bench.stepped(commands), position=0.0, step=step)
 
     def rhs(_, state, u):
         p = state[0]
@@ -100,7 +100,7 @@ def test_an_exhaust_of_limited_flow_against_an_adaptive_solver(step, vent):
     t = np.linspace(0.0, 1.5, 151)
     commands = ((0.0, 3e5), (0.2, 0.5e5), (1.0, 4e5), (1.1, 3.7e5))
     model = bench.cart(leak, mass=1e4)
-    run = simulate(model, t, *zip(*commands, strict=True), position=0.0, step=step)
+    run = simulate(model, t, **bench.stepped(commands), position=0.0, step=step)
 
     def rhs(_, state, u):
         p = state[0]
@@ -116,7 +116,7 @@ def test_an_exhaust_of_limited_flow_against_an_adaptive_solver(step, vent):
 def test_a_valve_fully_open_fills_hardly_slower_for_a_hair_of_a_leak(rate):
     t = np.array([0.0, 0.1, 0.2, 0.3])
     leak = {'rate': rate, 'refill': 1e-6, 'supply': 1e6}
-    run = simulate(bench.cart(Leak(**leak), mass=1e4), t, [0.0, 0.1], [1e5, 9e5], position=0.0)
+    run = simulate(bench.cart(Leak(**leak), mass=1e4), t, [1e5, 9e5], [0.0, 0.1], position=0.0)
     np.testing.assert_allclose(run.pressure, [1e5, 1e5, 2e5, 3e5], rtol=rate + 1e-12)
 
 
@@ -124,7 +124,7 @@ def test_a_valve_fully_open_fills_hardly_slower_for_a_hair_of_a_leak(rate):
 def test_a_leak_of_ages_is_none(rate):
     t = np.array([0.0, 0.1, 0.2])
     leak = {'rate': rate, 'refill': 1e-3, 'supply': 1e9, 'vent': 0.1}
-    run = simulate(bench.cart(Leak(**leak), mass=1e4), t, [0.0, 0.1], [1e5, 9e5], position=0.0)
+    run = simulate(bench.cart(Leak(**leak), mass=1e4), t, [1e5, 9e5], [0.0, 0.1], position=0.0)
     np.testing.assert_array_equal(run.pressure, [1e5, 1e5, 9e5])
 
 

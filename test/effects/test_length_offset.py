@@ -27,7 +27,7 @@ def test_load_swings_about_a_moved_equilibrium():
     model = bench.hanging(LengthOffset(offset=offset))
     t = np.linspace(0.0, 1.0, 101)
     y0 = bench.rest(3e5)
-    run = simulate(model, t, [0.0], [3e5], position=y0)
+    run = simulate(model, t, [3e5], [0.0], position=y0)
 
     def rhs(_, state, u):
         y, v = state

@@ -15,9 +15,10 @@ from pam_ros import effects as effects_room
 from pam_ros.compiled import HAVE_NUMBA
 from pam_ros.effects import EFFECTS, EndStop, Payload
 from pam_ros.effects.base import PLACES, Compensation
-from pam_ros.rig.acting import acting_commands, delays_of
 from pam_ros.rig.bind import bind
+from pam_ros.rig.changes import acting_commands
 from pam_ros.rig.equilibrium import equilibrium
+from pam_ros.rig.layout import delays_of
 from pam_ros.rig.run import simulate, simulate_held
 from pam_ros.rig.standard_joints import single_muscle_joint
 from pam_ros.rig.start import start_state
@@ -35,7 +36,7 @@ BY_EFFECT = pytest.mark.parametrize('effect', EFFECTS, ids=lambda e: e.name)
 
 
 def free(effects, step=1e-3):
-    return simulate(bench.hanging(*effects), T, AT, U, step=step)
+    return simulate(bench.hanging(*effects), T, U, AT, step=step)
 
 
 def held(effects, step=1e-3):
@@ -159,8 +160,8 @@ def test_rig_at_rest_stays_at_rest(effect):
     if effect.moves_by_itself:
         pytest.skip('with it a load never rests')
     model = bench.hanging(effect.example())
-    end = simulate(model, [0.0, 30.0], [0.0], [3e5])
-    again = simulate(model, [0.0, 5.0], [0.0], [3e5], position=end.position[1])
+    end = simulate(model, [0.0, 30.0], [3e5], [0.0])
+    again = simulate(model, [0.0, 5.0], [3e5], [0.0], position=end.position[1])
     assert abs(again.position[1] - again.position[0]) < 1e-7
     assert abs(again.velocity[1]) < 1e-7
 
@@ -169,7 +170,7 @@ def test_rig_at_rest_stays_at_rest(effect):
 @BY_EFFECT
 def test_only_what_moves_by_itself_keeps_a_load_moving(effect):
     end = simulate(
-        bench.hanging(effect.example()), [0.0, *np.linspace(30.0, 31.0, 101)], [0.0], [3e5]
+        bench.hanging(effect.example()), [0.0, *np.linspace(30.0, 31.0, 101)], [3e5], [0.0]
     )
     moving = np.ptp(end.position[1:])
     assert bool(moving > 1e-5) is effect.moves_by_itself
@@ -261,7 +262,7 @@ def test_those_left_out_change_nothing(effects):
     assume(longest_step(bare) >= 1e-3)
     assert model.all_present == bare.all_present == active
     np.testing.assert_array_equal(
-        simulate(model, T, AT, U).position, simulate(bare, T, AT, U).position
+        simulate(model, T, U, AT).position, simulate(bare, T, U, AT).position
     )
 
 
@@ -273,7 +274,7 @@ def test_dissipation_never_adds_to_the_energy(name):
     model = bench.hanging(effect.example())
     p, y0 = 3e5, bench.rest(3e5) + 0.025
     t = np.linspace(0.0, 4.0, 4001)
-    run = simulate(model, t, [0.0], [p], position=y0)
+    run = simulate(model, t, [p], [0.0], position=y0)
     grid = np.linspace(run.position.min() - 1e-3, run.position.max() + 1e-3, 20001)
     net = np.array([bench.pull(p, y) for y in grid]) - bench.MASS * bench.G
     work = np.concatenate([[0.0], np.cumsum(0.5 * (net[1:] + net[:-1]) * np.diff(grid))])

@@ -38,9 +38,9 @@ given = {'effects.choked_valve.slowness': 2e-6}
 scene = Scene(given)
 (joint,) = scene.build(checked(scene.table(), given)).joints
 t = np.array([0.0, 0.1, 0.2, 0.3])
-run = simulate(joint, t, [0.0, 0.1], [2e5, 3e5])
+run = simulate(joint, t, [2e5, 3e5], [0.0, 0.1])
 other = simulate(
-    joint, t, [0.0, 0.1], [2e5, 3e5], hidden={'choked_valve': {'pressure': -1e4}}
+    joint, t, [2e5, 3e5], [0.0, 0.1], hidden={'choked_valve': {'pressure': -1e4}}
 )
 (new,) = (effect for effect in EFFECTS if effect.name == 'choked_valve')
 place = places_of(joint)[new.name]

@@ -19,7 +19,7 @@ from support import bench
 def test_load_moves_with_weight_and_inertia_of_the_sum(more):
     t = np.linspace(0.0, 1.0, 101)
     y0 = bench.rest(3e5)
-    run = simulate(bench.hanging(Payload(mass=more)), t, [0.0], [3e5], position=y0)
+    run = simulate(bench.hanging(Payload(mass=more)), t, [3e5], [0.0], position=y0)
     m = bench.MASS + more
 
     def rhs(_, state, u):

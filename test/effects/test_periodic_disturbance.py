@@ -28,7 +28,7 @@ def test_ripple_is_in_the_chamber_and_in_the_held_force():
     t = np.linspace(0.0, 2.0, 201)
     ripple = a * np.sin(OMEGA * t) + b * np.cos(OMEGA * t)
     model = bench.hanging(PeriodicDisturbance(**effect))
-    free = simulate(model, t, [0.0], [3e5])
+    free = simulate(model, t, [3e5], [0.0])
     np.testing.assert_allclose(free.pressure, 3e5 + ripple, rtol=1e-12)
     held = simulate_held(model, t, np.full(201, 3e5), np.full(201, 0.02))
     np.testing.assert_allclose(held.force, [bench.pull(3e5 + r, 0.02) for r in ripple])
@@ -38,7 +38,7 @@ def test_load_on_a_rippling_muscle_against_an_adaptive_solver():
     effect = {'pressure_sin': 5e3, 'frequency': 3.7}
     t = np.linspace(0.0, 2.0, 201)
     y0 = bench.rest(3e5)
-    run = simulate(bench.hanging(PeriodicDisturbance(**effect)), t, [0.0], [3e5], position=y0)
+    run = simulate(bench.hanging(PeriodicDisturbance(**effect)), t, [3e5], [0.0], position=y0)
 
     def rhs(s, state, u):
         y, v = state

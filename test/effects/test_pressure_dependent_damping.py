@@ -19,7 +19,7 @@ def test_speed_approaches_its_end_at_the_rate_of_its_direction(v0, b):
     t = np.linspace(0.0, 0.2, 21)
     m, p = 1e3, 50.0
     model = bench.cart(PressureDependentDamping(inflating=0.1, deflating=0.05), mass=m)
-    run = simulate(model, t, [0.0], [p], position=0.0, velocity=v0)
+    run = simulate(model, t, [p], [0.0], position=0.0, velocity=v0)
     expected = 1.0 / b + (v0 - 1.0 / b) * np.exp(-b * p / m * t)
     np.testing.assert_allclose(run.velocity, expected, rtol=1e-12)
 
@@ -27,7 +27,7 @@ def test_speed_approaches_its_end_at_the_rate_of_its_direction(v0, b):
 def test_swinging_load_against_an_adaptive_solver():
     t = np.linspace(0.0, 1.0, 101)
     y0 = bench.rest(3e5) + 0.01
-    run = simulate(bench.hanging(*EFFECT), t, [0.0], [3e5], position=y0)
+    run = simulate(bench.hanging(*EFFECT), t, [3e5], [0.0], position=y0)
 
     def rhs(_, state, u):
         y, v = state
@@ -52,5 +52,5 @@ def test_force_cell_of_a_moved_muscle_feels_it(speed, b):
 def test_a_vacuum_does_not_drive():
     t = np.array([0.0, 1.0])
     model = bench.cart(PressureDependentDamping(inflating=0.1, deflating=0.1))
-    run = simulate(model, t, [0.0], [-20.0], position=0.0, velocity=0.0)
+    run = simulate(model, t, [-20.0], [0.0], position=0.0, velocity=0.0)
     assert run.velocity[1] == pytest.approx(-2.0)

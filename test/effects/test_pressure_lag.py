@@ -32,13 +32,13 @@ def chamber(t):
 def test_fills_and_vents_exponentially_at_any_step(step):
     t = np.linspace(0.0, 1.0, 101)
     model = bench.cart(*EFFECT, mass=1e4)
-    run = simulate(model, t, *zip(*COMMANDS, strict=True), position=0.0, step=step)
+    run = simulate(model, t, **bench.stepped(COMMANDS), position=0.0, step=step)
     np.testing.assert_allclose(run.pressure, [chamber(a) for a in t], rtol=1e-12)
 
 
 def test_load_follows_the_lagging_pressure():
     t = np.linspace(0.0, 1.0, 101)
-    run = simulate(bench.hanging(*EFFECT), t, *zip(*COMMANDS, strict=True))
+    run = simulate(bench.hanging(*EFFECT), t, **bench.stepped(COMMANDS))
 
     def rhs(s, state, u):
         y, v, p = state
@@ -55,7 +55,7 @@ def test_load_follows_the_lagging_pressure():
 def test_load_follows_a_pressure_that_jumps_in_one_direction(fill, vent, step, atol):
     t = np.linspace(0.0, 1.0, 101)
     effect = PressureLag(fill=fill, vent=vent)
-    run = simulate(bench.hanging(effect), t, *zip(*COMMANDS, strict=True), step=step)
+    run = simulate(bench.hanging(effect), t, **bench.stepped(COMMANDS), step=step)
 
     def rhs(s, state, u):
         y, v, p = state
@@ -78,7 +78,7 @@ def test_a_valve_with_a_dead_zone_stops_at_its_edge():
     t = np.linspace(0.0, 3.0, 301)
     model = bench.cart(PressureLag(fill=FILL, vent=VENT, dead_zone=1e4), mass=1e4)
     commands = ((0.0, 2e5), (0.1, 2.05e5), (0.2, 4e5), (1.0, 3.85e5), (1.5, 1e5))
-    run = simulate(model, t, *zip(*commands, strict=True), position=0.0)
+    run = simulate(model, t, **bench.stepped(commands), position=0.0)
     filling = 3.9e5 - 1.9e5 * np.exp(-np.maximum(t - 0.2, 0.0) / FILL)
     full = 3.9e5 - 1.9e5 * np.exp(-0.8 / FILL)
     venting = 1.1e5 + (full - 1.1e5) * np.exp(-np.maximum(t - 1.5, 0.0) / VENT)
@@ -95,15 +95,13 @@ def test_a_dead_zone_without_a_lag_is_a_play_of_the_command():
     for one in u:
         play.append(float(np.clip(play[-1], one - 5e3, one + 5e3)))
     model = bench.cart(PressureLag(dead_zone=5e3), mass=1e4)
-    run = simulate(model, t, t, u, position=0.0)
+    run = simulate(model, t, u, position=0.0)
     np.testing.assert_allclose(run.pressure[1:], play[1:-1], rtol=1e-12)
 
 
 def test_load_follows_a_valve_with_a_dead_zone():
     t = np.linspace(0.0, 1.0, 101)
-    run = simulate(
-        bench.hanging(replace(EFFECT[0], dead_zone=2e4)), t, *zip(*COMMANDS, strict=True)
-    )
+    run = simulate(bench.hanging(replace(EFFECT[0], dead_zone=2e4)), t, **bench.stepped(COMMANDS))
 
     def rhs(s, state, u):
         y, v, p = state
@@ -118,7 +116,7 @@ def test_load_follows_a_valve_with_a_dead_zone():
 def test_filling_or_venting_may_be_immediate():
     t = np.array([0.0, 0.1, 0.2, 0.3])
     model = bench.cart(PressureLag(vent=0.1))
-    run = simulate(model, t, [0.0, 0.05, 0.2], [100.0, 300.0, 100.0], position=0.0)
+    run = simulate(model, t, [100.0, 300.0, 100.0], [0.0, 0.05, 0.2], position=0.0)
     np.testing.assert_allclose(run.pressure, [100.0, 300.0, 300.0, 100.0 + 200.0 / np.e])
 
 
@@ -128,19 +126,19 @@ def test_choked_flow_limits_the_slope(tau):
     fastest = 5e5
     model = bench.cart(PressureLag(fill=tau, vent=0.05, fastest=fastest), mass=1e4)
     t = np.linspace(0.0, 0.8, 161)
-    run = simulate(model, t, [0.0], [3e5], position=0.0)
+    run = simulate(model, t, [3e5], [0.0], position=0.0)
     assert run.pressure[0] == pytest.approx(3e5)
-    run = simulate(model, t, [0.0, 0.1], [1e5, 3e5], position=0.0)
+    run = simulate(model, t, [1e5, 3e5], [0.0, 0.1], position=0.0)
     straight = (2e5 - fastest * tau) / fastest
     after = t - 0.1
     tail = fastest * tau * np.exp(-np.maximum(after - straight, 0.0) / tau) if tau else 0.0 * t
     expected = np.where(after < straight, 1e5 + fastest * np.maximum(after, 0.0), 3e5 - tail)
     np.testing.assert_allclose(run.pressure, expected, rtol=1e-9)
-    vented = simulate(model, t, [0.0, 0.1], [3e5, 1e5], position=0.0).pressure
+    vented = simulate(model, t, [3e5, 1e5], [0.0, 0.1], position=0.0).pressure
     np.testing.assert_allclose(vented, 1e5 + 2e5 * np.exp(-np.maximum(after, 0.0) / 0.05))
     limits = {'fill': 0.01, 'vent': 0.05, 'fastest_vent': 1e6}
     slower = simulate(
-        bench.cart(PressureLag(**limits), mass=1e4), t, [0.0, 0.1], [3e5, 1e5], position=0.0
+        bench.cart(PressureLag(**limits), mass=1e4), t, [3e5, 1e5], [0.0, 0.1], position=0.0
     ).pressure
     # 150 kPa straight at 1e6 Pa/s, the last 50 kPa exponentially.
     straight = np.clip(3e5 - 1e6 * np.maximum(after, 0.0), 1.5e5, 3e5)
@@ -171,14 +169,14 @@ def test_orifices_choke_as_iso_6358_says():
     errors = []
     for step in (4e-3, 2e-3, 1e-3):
         model = bench.cart(PressureLag(**given), mass=1e4)
-        run = simulate(model, t, *zip(*commands, strict=True), position=0.0, step=step)
+        run = simulate(model, t, **bench.stepped(commands), position=0.0, step=step)
         errors.append(np.max(np.abs(run.pressure - p)))
     # Of second order but in the step in which the valve begins to close.
     assert errors[0] < 20.0
     assert errors[0] > 2.0 * errors[1] > 4.0 * errors[2]
     # An orifice that does not care about the pressures is the plain lag.
-    plain = simulate(bench.cart(PressureLag(**given | {'choking': 0.0}), mass=1e4), t, [0.0, 0.1],
-                     [1e5, 2e5], position=0.0).pressure  # fmt: skip
+    plain = simulate(bench.cart(PressureLag(**given | {'choking': 0.0}), mass=1e4), t, [1e5, 2e5],
+                     [0.0, 0.1], position=0.0).pressure  # fmt: skip
     after = np.maximum(t - 0.1, 0.0)
     straight = (1e5 - 1.5e6 * 0.06) / 1.5e6
     slow = 1e5 + 1.5e6 * after

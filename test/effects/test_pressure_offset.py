@@ -13,7 +13,7 @@ EFFECT = [PressureOffset(offset=-4e3, gain=0.06)]
 
 def test_chamber_has_the_affine_pressure_and_the_load_rests_there():
     t = np.linspace(0.0, 8.0, 81)
-    run = simulate(bench.hanging(*EFFECT), t, [0.0, 1.0], [3e5, 2e5])
+    run = simulate(bench.hanging(*EFFECT), t, [3e5, 2e5], [0.0, 1.0])
     np.testing.assert_allclose(run.pressure[1:11], 1.06 * 3e5 - 4e3, rtol=1e-14)
     np.testing.assert_allclose(run.pressure[11:], 1.06 * 2e5 - 4e3, rtol=1e-14)
     assert abs(run.position[-1] - bench.rest(1.06 * 2e5 - 4e3)) < 1e-6

@@ -58,7 +58,7 @@ def test_noise_of_the_sensor_is_no_work():
 def test_load_sinks_as_the_muscle_softens():
     t = np.linspace(0.0, 20.0, 101)
     softens = Softening(limit=LIMIT, per_second=0.2)
-    run = simulate(bench.hanging(softens), t, [0.0], [3e5])
+    run = simulate(bench.hanging(softens), t, [3e5], [0.0])
 
     def rhs(s, state, u):
         y, v = state

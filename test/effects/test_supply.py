@@ -20,7 +20,7 @@ LAG = PressureLag(fill=FILL, vent=VENT)
 def pressures_of(effects, commands, t, first=(1e5, 1e5), load=(SUPPLY,)):
     """Return the pressures (n, 2) of a pair that is commanded from its rest at *first* Pa."""
     rig = joint_models.pair(effects=(effects, effects), load=load)
-    return simulate(rig, t, [0.0, 1e-9], [first, commands], position=0.1).pressure
+    return simulate(rig, t, [first, commands], [0.0, 1e-9], position=0.1).pressure
 
 
 def of_differential_equations(commands, t, first=(1e5, 1e5)):
@@ -91,7 +91,7 @@ def test_the_error_of_chambers_that_fill_at_once_is_of_first_order():
     expected = LEVEL + (start - LEVEL) * np.exp(-1.0 / slower)
     rig, command = joint_models.pair(load=(SUPPLY,)), [(1e5, 1e5), (6e5, 6e5)]
     found = [
-        simulate(rig, t, [0.0, 1e-9], command, position=0.1, step=step).pressure[1, 0]
+        simulate(rig, t, command, [0.0, 1e-9], position=0.1, step=step).pressure[1, 0]
         for step in (2e-3, 1e-3, 0.5e-3)
     ]
     errors = np.abs(np.array(found) - expected)
@@ -103,7 +103,7 @@ def test_air_of_a_connected_muscle_flows_back_while_another_one_fills():
     t = np.array([0.0, 30.0, 30.0 + 1e-9, 30.0 + 2e-9])
     rig = joint_models.pair(load=(SUPPLY,))
     command = [(1e5, 1e5), (6e5, 1e5), (6e5, 4e5)]
-    p = simulate(rig, t, [0.0, 1e-9, 30.0], command, position=0.1).pressure
+    p = simulate(rig, t, command, [0.0, 1e-9, 30.0], position=0.1).pressure
     np.testing.assert_allclose(p[1], [LEVEL, 1e5], rtol=1e-6)
     # 3e5 Pa more in the second, in a vessel that is the reservoir and the first muscle.
     sunk = LEVEL - SHARE * 3e5 / (1.0 + SHARE)
@@ -112,7 +112,7 @@ def test_air_of_a_connected_muscle_flows_back_while_another_one_fills():
 
 def test_after_a_long_rest_no_muscle_has_more_than_the_level():
     rig = bench.hanging(Supply(share=SHARE, level=2e5, recovery=RECOVERY))
-    run = simulate(rig, [0.0, 1.0], [0.0], [3e5])
+    run = simulate(rig, [0.0, 1.0], [3e5], [0.0])
     np.testing.assert_allclose(run.pressure, 2e5, rtol=1e-14)
 
 
@@ -120,8 +120,8 @@ def test_a_reservoir_that_begins_to_sag_takes_no_air_from_the_muscles_before():
     t = np.linspace(0.0, 3.0, 31)
     late = Supply(share=SHARE, level=2e5, recovery=RECOVERY, onset=1.0)
     command = [2e5, 3e5, 2e5, 3e5]
-    p = simulate(bench.hanging(late), t, [0.0, 0.5, 1.4, 2.0], command).pressure
-    without = simulate(bench.hanging(), t, [0.0, 0.5, 1.4, 2.0], command).pressure
+    p = simulate(bench.hanging(late), t, command, [0.0, 0.5, 1.4, 2.0]).pressure
+    without = simulate(bench.hanging(), t, command, [0.0, 0.5, 1.4, 2.0]).pressure
     assert np.array_equal(p[:11], without[:11])
     np.testing.assert_allclose(p[15:20], 2e5, rtol=1e-3)
 

@@ -22,14 +22,14 @@ def test_coasting_load_loses_its_speed_exponentially():
 
 
 def test_driven_load_reaches_force_over_coefficient():
-    run = simulate(bench.cart(*EFFECT), [0.0, 8.0], [0.0], [20.0], position=0.0)
+    run = simulate(bench.cart(*EFFECT), [0.0, 8.0], [20.0], [0.0], position=0.0)
     np.testing.assert_allclose(run.velocity[1], 20.0 / C, rtol=1e-12)
 
 
 def test_swinging_load_against_an_adaptive_solver():
     t = np.linspace(0.0, 1.0, 101)
     y0 = bench.rest(3e5) + 0.01
-    run = simulate(bench.hanging(*EFFECT), t, [0.0], [3e5], position=y0)
+    run = simulate(bench.hanging(*EFFECT), t, [3e5], [0.0], position=y0)
 
     def rhs(_, state, u):
         y, v = state
@@ -57,11 +57,11 @@ def test_a_machine_that_moves_the_actuator_feels_it():
 )
 def test_drag_that_the_step_cannot_resolve_is_refused(effect):
     with pytest.raises(ParameterError, match=r'with a drag of .* N s/m: give at least'):
-        simulate(bench.hanging(*effect, mass=2.0), [0.0, 0.1], [0.0], [3e5])
+        simulate(bench.hanging(*effect, mass=2.0), [0.0, 0.1], [3e5], [0.0])
 
 
 def test_drag_up_to_that_is_stepped_as_it_is():
     model = bench.cart(ViscousFriction(coefficient=400.0), mass=0.5)
     assert longest_step(model) == pytest.approx(0.5 / 400.0)
-    run = simulate(model, [0.0, 0.1], [0.0], [20.0], position=0.0)
+    run = simulate(model, [0.0, 0.1], [20.0], [0.0], position=0.0)
     np.testing.assert_allclose(run.velocity[1], 20.0 / 400.0, rtol=1e-9)

@@ -108,7 +108,7 @@ def test_constants_of_another_specimen_are_wrong_parameters(off):
 
 def test_a_few_seconds_support_no_verdict():
     found = identify(
-        bench_truth.nominal(), [bench_truth.free(effect('viscous_friction'), duration=4.0)]
+        bench_truth.nominal(), bench_truth.free(effect('viscous_friction'), duration=4.0)
     )
     assert found.verdict == 'insufficient_data'
     assert found.effects == ()
@@ -269,7 +269,7 @@ def test_the_measured_drive_has_two_frictions(shared_data):
     model = nominal_joint(ROOT / 'config' / 'rigs' / 'emps.yaml').joint
     columns = read_mapping(['motor_voltage_V=pressure_command_Pa', 'reference_m=ignore'])
     file = shared_data / 'emps' / 'emps_estimation.csv'
-    measured = read_recording(file, columns, None, model.muscle.l0, model.muscle.p_max)
+    measured = read_recording(file, model, mapping=columns)
     found = identify(model, [measured])
     assert found.verdict == 'effect_found'
     assert set(names(found)) == {'viscous_friction', 'coulomb_friction'}
@@ -283,7 +283,12 @@ def test_the_measured_drive_has_two_frictions(shared_data):
     # The model by itself, from rest where the drive was, through all of the record.
     t, y = measured.t, measured.position
     run = simulate(
-        found.stages[2].model, t, measured.command_t, measured.command, float(y[0]), 0.0
+        found.stages[2].model,
+        t,
+        measured.command,
+        measured.command_t,
+        position=float(y[0]),
+        velocity=0.0,
     )
     assert np.sqrt(np.mean((run.position - y) ** 2)) < 8e-3
 
@@ -296,9 +301,7 @@ def test_the_measured_muscle_goes_slack(shared_data):
     def repeat(number):
         files = sorted((shared_data / 'psu_dmsp20_398mm').glob(f'*_test{number:02d}.csv'))
         assert len(files) == 4
-        return [
-            read_recording(file, None, None, model.muscle.l0, model.muscle.p_max) for file in files
-        ]
+        return [read_recording(file, model) for file in files]
 
     found = identify(model, [*repeat(1), *repeat(2), *repeat(3)], [*repeat(4), *repeat(5)])
     assert found.verdict == 'effect_found'
@@ -352,7 +355,7 @@ def test_the_measured_cylinder_has_friction(shared_data):
 
     def at(bar):
         file = shared_data / 'cylinder_friction' / f'Circle_{bar}bar.csv'
-        return read_recording(file, None, 'held', None, model.muscle.p_max)
+        return read_recording(file, model, kind='held')
 
     found = identify(model, [at(1), at(5)], [at(3), at(7)])
     assert found.verdict == 'effect_found'

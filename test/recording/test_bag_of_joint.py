@@ -9,6 +9,7 @@ from pam_ros.errors import RecordingError
 from pam_ros.recording.mapping import read_mapping
 from pam_ros.recording.read import read_recording
 from support import bags
+from support.known import known
 
 T = np.arange(400) * 0.01
 UP, DOWN = 3e5 + 1e5 * np.sin(3.0 * T), 2.5e5 - 8e4 * np.sin(2.0 * T)
@@ -40,7 +41,9 @@ def topics(space='', **changes):
 
 def read(path, given, names=NAMES, unit='rad', rules=(), **more):
     bag = bags.write_bag(path / 'bag', given)
-    return read_recording(bag, read_mapping(rules), muscles=names, unit=unit, **more)
+    return read_recording(
+        bag, known(unit=unit), mapping=read_mapping(rules), muscles=names, **more
+    )
 
 
 def test_arrays_become_columns_of_the_muscles(tmp_path):

@@ -124,7 +124,7 @@ def test_the_options_of_the_sentence_make_the_file_readable(tmp_path, names, kin
     assert f'its columns are {", ".join(map(repr, names))}: say what they are' in sentence
     words = shlex.split(sentence.partition('say what they are with ')[2])
     assert words[::2] == ['--column'] * (len(words) // 2)
-    recording = read_recording(file, read_mapping(words[1::2]), kind)
+    recording = read_recording(file, mapping=read_mapping(words[1::2]), kind=kind)
     assert recording.position.max() == pytest.approx(0.025, rel=1e-3)
     assert recording.force is not None
 

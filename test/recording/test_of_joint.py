@@ -11,12 +11,14 @@ from pam_ros.recording.mapping import read_mapping
 from pam_ros.recording.of_joint import of_joint
 from pam_ros.recording.read import read_recording
 from pam_ros.recording.series import Series
+from support.known import known
 
 T = np.arange(2000) * 0.01
 UP = 200.0 + 150.0 * np.sin(0.9 * T) * np.sin(0.17 * T)  # kPa
 DOWN = 250.0 - 120.0 * np.sin(1.3 * T)
 ANGLE = 0.5 * np.sin(0.9 * T) + 1e-4 * np.random.default_rng(3).normal(size=T.size)
 REACH = (-1.5, 1.5)
+ELBOW = known(muscles=2, unit='rad', p_max=6e5, reach=REACH)
 
 
 def write(path, columns):
@@ -39,7 +41,7 @@ def elbow(path, **changes):
 
 def test_commands_stand_side_by_side_in_the_order_of_the_joint(tmp_path):
     names = ('extensor', 'flexor')
-    one = read_recording(elbow(tmp_path), muscles=names, unit='rad', p_max=6e5, reach=REACH)
+    one = read_recording(elbow(tmp_path), ELBOW, muscles=names)
     assert (one.muscles, one.unit, one.kind) == (names, 'rad', 'free')
     np.testing.assert_allclose(one.command, 1e3 * np.stack([DOWN, UP], axis=1), rtol=1e-8)
     np.testing.assert_allclose(one.position, ANGLE, atol=1e-8)
@@ -59,7 +61,7 @@ def test_degrees_and_names_of_other_columns(tmp_path):
         V1=UP / 100.0, V2=DOWN / 100.0,
     )  # fmt: skip
     rules = ['V1=flexor.pressure_command_bar', 'V2=extensor.pressure_command_kPa*100']
-    one = read_recording(file, read_mapping(rules))
+    one = read_recording(file, mapping=read_mapping(rules))
     np.testing.assert_allclose(one.command, 1e3 * np.stack([UP, DOWN], axis=1), rtol=1e-7)
 
 
@@ -168,7 +170,7 @@ def test_forces_of_single_muscles_are_noted(tmp_path):
 def test_what_is_refused(tmp_path, changes, words):
     file = elbow(tmp_path, **changes)
     with pytest.raises(RecordingError) as error:
-        read_recording(file, muscles=('flexor', 'extensor'), unit='rad', p_max=6e5, reach=REACH)
+        read_recording(file, ELBOW, muscles=('flexor', 'extensor'))
     assert str(error.value).startswith(words)
 
 
@@ -182,7 +184,7 @@ def test_a_constant_command_of_one_muscle_is_warned_of(tmp_path):
 
 def test_columns_of_one_named_muscle_are_those_of_a_model_with_one(tmp_path):
     columns = {'t_s': T, 'thigh.pressure_command_kPa': UP, 'position_mm': 20.0 * ANGLE + 20.0}
-    one = read_recording(write(tmp_path / 'one.csv', columns), l0=0.4, p_max=6e5)
+    one = read_recording(write(tmp_path / 'one.csv', columns), known(l0=0.4, p_max=6e5))
     assert one.muscles == ()
     np.testing.assert_allclose(one.command, 1e3 * UP, rtol=1e-8)
 
@@ -197,7 +199,9 @@ def test_the_measured_elbow(shared_data):
     files = sorted((shared_data / 'laas_elbow').glob('*.csv'))
     assert len(files) == 13
     for file in files:
-        one = read_recording(file, muscles=('agonist', 'antagonist'), unit='rad', p_max=5e5)
+        one = read_recording(
+            file, known(muscles=2, unit='rad', p_max=5e5), muscles=('agonist', 'antagonist')
+        )
         columns = np.genfromtxt(file, delimiter=',', skip_header=1)
         np.testing.assert_allclose(one.command, 1e3 * columns[:, 1:3])
         np.testing.assert_allclose(one.position, columns[:, 3])

@@ -8,10 +8,12 @@ import numpy as np
 import pytest
 
 from pam_ros.errors import RecordingError
+from pam_ros.recording.bounds import Bounds
 from pam_ros.recording.quality import check
 from pam_ros.recording.recording import Recording
 
 T = np.arange(4000) * 0.005
+KNOWN = Bounds(l0=0.4, p_max=(6e5,))
 RNG = np.random.default_rng(11)
 
 
@@ -38,12 +40,12 @@ def held(**changes):
 
 
 def test_a_good_recording_has_no_warnings():
-    assert check(recording(), l0=0.4, p_max=6e5) == ()
-    assert check(held(), l0=0.4, p_max=6e5) == ()
+    assert check(recording(), KNOWN) == ()
+    assert check(held(), KNOWN) == ()
 
 
 def test_an_isometric_muscle_may_be_sampled_slowly_and_the_unit_is_requested():
-    (warning,) = check(held(t=np.arange(T.size) * 1.0), l0=0.4, p_max=6e5)
+    (warning,) = check(held(t=np.arange(T.size) * 1.0), KNOWN)
     assert warning == 'samples are 1 s apart: is the time in another unit?'
 
 
@@ -76,7 +78,7 @@ def constant(value):
 )
 def test_what_is_refused(one, p_max, words):
     with pytest.raises(RecordingError) as caught:
-        check(one, p_max=p_max)
+        check(one, Bounds() if p_max is None else Bounds(p_max=(p_max,)))
     assert str(caught.value).startswith('log')
     for word in words:
         assert word in str(caught.value)
@@ -89,7 +91,7 @@ def test_a_position_that_is_not_one_of_the_muscle(position):
         rf'position = {position:g} m at 19\.995 s .* l0 = 0\.4 m: positions are -0\.08 to 0\.4 m'
     )
     with pytest.raises(RecordingError, match=words):
-        check(one, l0=0.4)
+        check(one, Bounds(l0=0.4))
     check(one)
 
 
@@ -105,7 +107,7 @@ def test_a_small_signal_about_a_pressure_is_not_constant():
 
 def only(one, **known):
     """Return the one warning that there is."""
-    (warning,) = check(one, **known)
+    (warning,) = check(one, Bounds(**known))
     return warning
 
 
@@ -138,7 +140,7 @@ def test_a_coarse_sensor():
 
 def test_units_are_compared_with_the_properties_of_the_muscle():
     assert 'position reaches' in only(recording(), l0=0.1)
-    assert 'above p_max = 300000 Pa' in only(recording(), p_max=3e5)
+    assert 'above p_max = 300000 Pa' in only(recording(), p_max=(3e5,))
 
 
 def test_an_absolute_pressure():
@@ -174,13 +176,13 @@ def test_a_load_that_hardly_moves_may_be_in_another_unit():
     """Metres called mm: 0.1 mm of 400 mm, where the pressure changes by two thirds of p_max."""
     small = recording(position=1e-3 * recording().position)
     words = ['% of l0 = 0.4 m', 'changes by 65 % of p_max', 'position_m']
-    warning = only(small, l0=0.4, p_max=6e5)
+    warning = only(small, l0=0.4, p_max=(6e5,))
     assert all(word in warning for word in words), warning
     quiet = recording(command=3e5 + 2e4 * np.sin(T), position=1e-3 * recording().position)
-    assert not any('another unit' in one for one in check(quiet, l0=0.4, p_max=6e5))
-    assert check(recording(), l0=0.4, p_max=6e5) == check(held(), l0=0.4, p_max=6e5) == ()
+    assert not any('another unit' in one for one in check(quiet, KNOWN))
+    assert check(recording(), KNOWN) == check(held(), KNOWN) == ()
     turned = replace(small, unit='rad')
-    assert '% of its reach' in only(turned, p_max=6e5, reach=(-1.0, 1.0))
+    assert '% of its reach' in only(turned, p_max=(6e5,), reach=(-1.0, 1.0))
 
 
 def test_a_free_load_that_is_hardly_resolved():

@@ -36,7 +36,7 @@ def test_it_simulates_as_the_last_stage_did_to_the_bit(any_result, tmp_path):
     model = reloaded(any_result, tmp_path)
     for s, simulated in zip(result.segments, result.stages[-1].simulated, strict=True):
         if s.kind == 'free':
-            again = simulate(model, s.t, s.drive_t, s.drive, s.y0, s.v0).position
+            again = simulate(model, s.t, s.drive, s.drive_t, position=s.y0, velocity=s.v0).position
         else:
             again = simulate_held(model, s.t, s.pressure, s.position, s.velocity).force
         assert np.array_equal(again, simulated)

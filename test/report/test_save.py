@@ -27,6 +27,7 @@ from pam_ros.effects import CoulombFriction, Slack
 from pam_ros.report import write
 from pam_ros.report.write import FILES
 from pam_ros.rig.standard_joints import antagonistic_joint, single_muscle_joint
+from support.by_name import by_name
 from support.pages import ROOT
 
 
@@ -75,8 +76,8 @@ def test_parameter_file_is_the_identified_joint(friction, tmp_path):
     save_parameters(friction[0], tmp_path / 'new' / 'bench.yaml')
     assert names(tmp_path / 'new') == ['bench.yaml']
     joint = load_joint(tmp_path / 'new' / 'bench.yaml')
-    last = friction[0].stages[-1].model
-    assert np.array_equal(joint.parameters(), last.parameters())
+    assert np.array_equal(joint.parameters(), friction[0].joint.parameters())
+    assert by_name(friction[0].joint.all_effects).keys() == {'coulomb_friction'}
 
 
 TWO = (Actuator(), Actuator())

@@ -224,7 +224,7 @@ for model in (single_muscle_joint(), single_muscle_joint(load=Mass(mass=8.0), ef
         rig.command(p)
         rig.advance(100)
         found += [*rig.position, *rig.velocity, *rig.pressure, *np.ravel(rig.muscle_outputs())]
-    run = simulate(model, [0.0, 0.05, 0.1], [0.0, 0.031], [2e5, 5e5])
+    run = simulate(model, [0.0, 0.05, 0.1], [2e5, 5e5], [0.0, 0.031])
     found += [*run.position, *run.velocity, *run.force]
 on_load = [CoulombFriction(level=0.3)]
 two = Actuator(contraction=0.1), Actuator(contraction=0.1)
@@ -240,7 +240,7 @@ for model in (
         rig.advance(100)
         found += [*rig.position, *rig.velocity, *rig.pressure,
                   *np.ravel(rig.muscle_outputs()), *np.ravel(rig.joint_outputs())]
-    run = simulate(model, [0.0, 0.05, 0.1], [0.0, 0.031], [[2e5, 3e5], [4e5, 2e5]])
+    run = simulate(model, [0.0, 0.05, 0.1], [[2e5, 3e5], [4e5, 2e5]], [0.0, 0.031])
     held = simulate_held(model, [0.0, 0.1], [[2e5, 3e5], [4e5, 2e5]], [0.0, 0.2])
     found += [*run.position, *run.velocity, *run.force.ravel(), *held.force.ravel()]
 print(json.dumps([float(each) for each in found]))

@@ -45,7 +45,7 @@ def on_rail(effects):
 
 
 def pushed(effects, t=T):
-    return simulate(on_rail(effects), t, [t[0]], [PRESSURE], position=0.0)
+    return simulate(on_rail(effects), t, [PRESSURE], [t[0]], position=0.0)
 
 
 @pytest.mark.parametrize('onset', [0.7, 0.7041, 1.2])
@@ -103,7 +103,7 @@ def test_a_command_that_has_acted_has_acted_whatever_delay_begins():
     """The command of 0.95 s is in the chamber at 1 s; those of 0.98 s and later come late."""
     joint = on_rail([DeadTime(delay=0.1, onset=1.0)])
     at = [0.0, 0.95, 1.05]
-    run = simulate(joint, T, at, [1.0, 2.0, 3.0], position=0.0)
+    run = simulate(joint, T, [1.0, 2.0, 3.0], at, position=0.0)
     p = np.where(T <= 0.95, 1.0, np.where(T < 1.155, 2.0, 3.0))
     np.testing.assert_array_equal(run.pressure, p)
 
@@ -114,7 +114,7 @@ def test_a_muscle_gets_friction_and_a_load_while_the_load_falls():
     effects = [Payload(mass=more, onset=onset), ViscousFriction(coefficient=c, onset=onset)]
     t = np.linspace(0.0, 1.0, 201)
     joint = single_muscle_joint(muscle, Mass(mass=20.0), effects)
-    run = simulate(joint, t, [0.0], [4e5], position=0.02, step=2e-4)
+    run = simulate(joint, t, [4e5], [0.0], position=0.02, step=2e-4)
 
     def motion(mass, drag):
         free = paper.pendulum(lambda _: 4.0, mass, muscle.zeta)
@@ -149,7 +149,7 @@ def test_stepped_and_over_stamps_it_is_the_same(effect):
     joint = pair(load=late) if is_on_joint else pair(effects=(always, late))
     t, at = np.arange(601) * 1e-3, [0.0, 0.1, 0.2, 0.4]
     commands = 1e5 * np.array([[3.0, 3.0], [4.0, 2.5], [2.0, 3.5], [2.5, 3.0]])
-    run = simulate(joint, t, at, commands)
+    run = simulate(joint, t, commands, at)
     rig, found = Simulation([joint]), []
     rig.reset(commands[0], run.position[:1], 0.0)
     for k in range(t.size):
@@ -160,7 +160,7 @@ def test_stepped_and_over_stamps_it_is_the_same(effect):
     np.testing.assert_allclose(run.position, np.array(found)[:, 0], atol=1e-12)
     np.testing.assert_allclose(run.pressure, np.array(found)[:, 1:], rtol=1e-12)
     other = pair(load=always) if is_on_joint else pair(effects=(always, always))
-    differs = simulate(other, t, at, commands, position=run.position[0])
+    differs = simulate(other, t, commands, at, position=run.position[0])
     assert np.abs(differs.position - run.position).max() > 1e-5
 
 
@@ -191,7 +191,7 @@ def test_a_stage_that_is_no_joint_is_refused():
         single_muscle_joint(load=Mass(mass=3500.0), effects=[Payload(mass=-1000.0, onset=5.0)])
     joint = single_muscle_joint(load=Mass(mass=0.05), effects=[Payload(mass=20.0, onset=5.0)])
     with pytest.raises(ParameterError, match=r'does not resolve a mass of 0\.05 kg'):
-        simulate(joint, T, [0.0], [3e5])
+        simulate(joint, T, [3e5], [0.0])
 
 
 @pytest.mark.parametrize('onset', [-1.0, float('nan'), float('inf'), 'soon'])

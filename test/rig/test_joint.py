@@ -234,3 +234,48 @@ def test_a_contraction_that_no_muscle_has_is_refused_as_in_a_file(contraction):
         Actuator(contraction=contraction)
     with pytest.raises(ParameterError, match=r'^contraction = .* give -0\.5 to 0\.9 fraction$'):
         antagonistic_joint(contraction=contraction)
+
+
+# Changes -----------------------------------------------------------------------------------------
+
+
+def test_effects_are_added_where_they_act():
+    bare, friction = antagonistic_joint(), CoulombFriction(level=0.5)
+    lagging = bare.with_effects(*LAG, friction)
+    assert [tuple(one.effects) for one in lagging.actuators] == [LAG, LAG]
+    assert lagging.effects == (friction,)
+    assert (lagging.muscles, lagging.load, lagging.library) == (bare.muscles, bare.load, EFFECTS)
+    assert lagging == antagonistic_joint(effects=[*LAG, friction])
+    assert bare.all_present == ()
+
+
+def test_an_added_effect_replaces_one_of_its_class():
+    joint = single_muscle_joint(effects=[*LAG, Payload(mass=2.0)])
+    changed = joint.with_effects(PressureLag(fill=0.3))
+    assert changed.all_effects == (PressureLag(fill=0.3), Payload(mass=2.0))
+    assert joint.with_effects() == joint
+
+
+def test_the_load_is_changed_by_its_parameters():
+    joint = single_muscle_joint(effects=RUB)
+    assert joint.with_load(mass=10.0) == single_muscle_joint(load=Mass(mass=10.0), effects=RUB)
+    elbow = antagonistic_joint(load=Arm(mass=2.0, arm=0.3))
+    assert elbow.with_load(arm=0.2).load == Arm(mass=2.0, arm=0.2)
+
+
+@pytest.mark.parametrize(
+    ('changed', 'sentence'),
+    [
+        (lambda joint: joint.with_load(mass=-1.0), 'mass = -1.0 is not allowed'),
+        (
+            lambda joint: joint.with_load(inertia=0.1),
+            'inertia = 0.1 is not a parameter of Mass: give mass, mount',
+        ),
+        (lambda joint: joint.with_effects('friction'), 'effects.0. = .friction. is not allowed'),
+        (lambda joint: joint.with_effects(*LAG, *LAG), 'is a second pressure_lag'),
+        (lambda joint: joint.with_effects(LAG), 'an effect, such as'),
+    ],
+)
+def test_changes_that_make_no_joint_are_refused(changed, sentence):
+    with pytest.raises(ParameterError, match=sentence):
+        changed(single_muscle_joint())

@@ -111,7 +111,7 @@ def test_a_joint_that_is_let_go_is_within_a_nanometre_of_dop853(case, start):
 
 
 def test_the_experiment_of_the_paper_comes_to_rest():
-    found = simulate(single_muscle_joint(), [0.0, 10.0], [0.0], [6e5], position=0.05)
+    found = simulate(single_muscle_joint(), [0.0, 10.0], [6e5], [0.0], position=0.05)
     assert found.force[-1] == pytest.approx(WEIGHT, abs=1e-6)
 
 
@@ -276,7 +276,7 @@ def test_energy_without_damping_drifts_by_a_millionth_in_a_minute(made, torque, 
 def test_a_horizontal_load_feels_no_gravity():
     model = single_muscle_joint(load=Mass(mount='horizontal'))
     t = np.linspace(0.0, 3.0, 301)
-    found = simulate(model, t, [0.0], [3e5], position=0.05)
+    found = simulate(model, t, [3e5], [0.0], position=0.05)
     y, _ = solve(hanging(lambda _: (3.0,), g=0.0), (0.05, 0.0), t)
     assert np.max(np.abs(found.position - y)) < 1e-9
     assert found.position[-1] == pytest.approx(equilibrium(model, 3e5), abs=1e-5)

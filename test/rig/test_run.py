@@ -23,7 +23,7 @@ from pam_ros.effects import (
 )
 from pam_ros.errors import ParameterError
 from pam_ros.muscle.muscle import Muscle
-from pam_ros.rig.acting import acting_commands
+from pam_ros.rig.changes import acting_commands
 from pam_ros.rig.equilibrium import equilibrium
 from pam_ros.rig.loads import Mass
 from pam_ros.rig.run import simulate, simulate_held
@@ -79,7 +79,7 @@ def stepped(joint, begin):
 def test_it_is_what_a_rig_gives_that_is_stepped(joint, bound):
     """Commands of each muscle on whole steps, each after the dead time of its own path."""
     muscles = len(joint.muscles)
-    run = simulate(joint, T, AT, U[:, :muscles], position=0.02)
+    run = simulate(joint, T, U[:, :muscles], AT, position=0.02)
     position, velocity, *pressures = stepped(joint, 0.02)
     np.testing.assert_allclose(run.position, position, atol=bound)
     np.testing.assert_allclose(run.velocity, velocity, atol=10.0 * bound)
@@ -115,7 +115,7 @@ stamps = st.lists(stamp, min_size=1, max_size=12).map(sorted)
 def test_commands_act_at_their_very_stamps(t, command_t, seed, delay):
     command = np.random.default_rng(seed).uniform(-100.0, 100.0, len(command_t))
     model = single_muscle_joint(SOURCE, FREE, [DeadTime(delay=delay)])
-    found = simulate(model, t, command_t, command, position=0.3, velocity=-0.1)
+    found = simulate(model, t, command, command_t, position=0.3, velocity=-0.1)
     y, v = parabolas(t, command_t, command, 0.3, -0.1, delay)
     np.testing.assert_allclose(found.position, y, rtol=0.0, atol=1e-12)
     np.testing.assert_allclose(found.velocity, v, rtol=0.0, atol=1e-12)
@@ -130,7 +130,7 @@ def test_commands_act_at_their_very_stamps_in_each_muscle(made, equations):
     delays, at = (0.0137, 0.0), np.array([0.0, 0.1003, 0.2371])
     u = np.array([[3.0, 2.0], [4.0, 2.5], [2.5, 3.0]])
     joint = made(effects=([DeadTime(delay=delays[0])], ()))
-    run = simulate(joint, T[::10], at, 1e5 * u, position=0.1, step=5e-4)
+    run = simulate(joint, T[::10], 1e5 * u, at, position=0.1, step=5e-4)
     edges = np.unique(np.concatenate([at + delay for delay in delays]))
     state, now, found = np.array([0.1, 0.0]), 0.0, []
     for end in [*edges[edges > 0.0], T[-1]]:
@@ -151,7 +151,7 @@ def test_commands_act_at_their_very_stamps_in_each_muscle(made, equations):
 
 def test_a_sample_is_the_state_before_the_command_of_its_stamp():
     t = [0.0, 0.1, 0.2]
-    found = simulate(single_muscle_joint(SOURCE, FREE), t, [0.0, 0.1], [0.0, 40.0], position=0.0)
+    found = simulate(single_muscle_joint(SOURCE, FREE), t, [0.0, 40.0], [0.0, 0.1], position=0.0)
     np.testing.assert_allclose(found.position, [0.0, 0.0, 0.1], atol=1e-15)
     np.testing.assert_array_equal(found.pressure, [0.0, 0.0, 40.0])
     np.testing.assert_array_equal(found.force, [0.0, 0.0, 40.0])
@@ -161,7 +161,7 @@ def test_viscous_friction_follows_its_exponential():
     """2 y'' = p - c y' with c = 5: v = p/c (1 - exp(-c t / m)); the step divides nothing."""
     model = single_muscle_joint(SOURCE, FREE, [ViscousFriction(coefficient=5.0)])
     t = np.array([0.0, 0.0123, 0.5, 0.50031, 2.0])
-    found = simulate(model, t, [0.0], [30.0], position=0.0)
+    found = simulate(model, t, [30.0], [0.0], position=0.0)
     rate, end = 5.0 / 2.0, 30.0 / 5.0
     np.testing.assert_allclose(found.velocity, end * (1.0 - np.exp(-rate * t)), atol=1e-11)
     y = end * (t - (1.0 - np.exp(-rate * t)) / rate)
@@ -187,21 +187,21 @@ def test_viscous_friction_follows_its_exponential():
 )
 def test_it_starts_at_rest_under_the_commands_in_force(joint, command, acting):
     """Of each muscle the last before the first sample, if it has acted; a lag has followed."""
-    run = simulate(joint, [2.2, 2.25], [1.0, 2.0, 6.0], command)
+    run = simulate(joint, [2.2, 2.25], command, [1.0, 2.0, 6.0])
     np.testing.assert_allclose(run.pressure, [acting] * 2, rtol=1e-15)
     np.testing.assert_allclose(run.position, equilibrium(joint, acting), atol=1e-12)
 
 
 def test_a_late_command_is_not_yet_in_force_at_the_start():
     model = single_muscle_joint(effects=[DeadTime(delay=0.3)])
-    found = simulate(model, [2.2, 2.3, 2.4], [1.0, 2.0], [1e5, 3e5])
+    found = simulate(model, [2.2, 2.3, 2.4], [1e5, 3e5], [1.0, 2.0])
     np.testing.assert_array_equal(found.pressure, [1e5, 1e5, 3e5])
 
 
 @EACH
 def test_the_force_of_each_muscle_is_its_pull_less_its_damping(case):
     joint = case.made(effects=(LATE, LATER))
-    run = simulate(joint, T, AT, U[:, : len(joint.muscles)], position=0.02, velocity=0.2)
+    run = simulate(joint, T, U[:, : len(joint.muscles)], AT, position=0.02, velocity=0.2)
     for k in range(0, T.size, 50):
         p, found = np.atleast_1d(run.pressure[k]), np.atleast_1d(run.force[k])
         expected = case.forces(p, run.position[k], run.velocity[k])
@@ -220,9 +220,9 @@ def test_a_step_that_is_too_long_is_refused_with_a_sentence():
 def test_commands_of_other_muscles_are_refused_with_a_sentence():
     three = np.zeros((2, 3))
     with pytest.raises(ParameterError) as error:
-        simulate(pair(), [0.0, 0.1], [0.0, 0.1], three)
+        simulate(pair(), [0.0, 0.1], three)
     assert str(error.value) == (
-        'command has the shape (2, 3): give (2, 2), a row for each stamp of command_t and a '
+        'command has the shape (2, 3): give (2, 2), a row for each stamp of t and a '
         'column for each muscle'
     )
     with pytest.raises(ParameterError, match=r'pressure has the shape \(2, 3\): give \(2, 2\)'):
@@ -380,7 +380,7 @@ def test_pressures_in_kpa_are_warned_of(command):
     joint = pair() if many else single_muscle_joint(Muscle(), Mass(mass=5.0))
     stamps = [0.0, 0.1] if many else [0.0]
     with pytest.warns(UserWarning, match='command reaches .* Pa only, and p_max is 6') as w:
-        simulate(joint, [0.0, 0.1], stamps, command if many else [command])
+        simulate(joint, [0.0, 0.1], command if many else [command], stamps)
     assert w[0].filename == __file__
     held = np.broadcast_to(command, (2, 2)) if many else [command, command]
     with pytest.warns(UserWarning, match='pressure reaches .* Pa only'):
@@ -391,15 +391,24 @@ def test_pressures_that_may_be_meant_are_not_warned_of():
     joint = single_muscle_joint(Muscle(), Mass(mass=5.0))
     for command in (0.0, 700.0, 3e5):
         with no_error():  # warnings are errors here
-            simulate(joint, [0.0, 0.1], [0.0, 0.05], [0.0, command])
+            simulate(joint, [0.0, 0.1], [0.0, command], [0.0, 0.05])
 
 
 @pytest.mark.needs_numba  # plain Python warns of the overflow
 def test_commands_too_high_for_a_finite_motion_are_refused_with_a_sentence():
     t = np.arange(0.0, 2.0, 0.01)
     with pytest.raises(ParameterError) as error:
-        simulate(single_muscle_joint(), t, [0.0, 1.0], [3e5, 1e300])
+        simulate(single_muscle_joint(), t, [3e5, 1e300], [0.0, 1.0])
     assert str(error.value) == (
         'the motion is not finite from 1.01 s on: command reaches 1e+300 Pa, and p_max is 600000 '
         'Pa'
     )
+
+
+def test_commands_may_share_the_stamps_of_the_samples():
+    t = 0.01 * np.arange(200)
+    command = 3e5 + 1e5 * np.sin(5.0 * t)
+    run, apart = (simulate(single_muscle_joint(), t, command, at) for at in (None, t))
+    np.testing.assert_array_equal(run.position, apart.position)
+    with pytest.raises(ParameterError, match='one number for each stamp of t'):
+        simulate(single_muscle_joint(), t, command[:-1])

@@ -111,7 +111,7 @@ def test_a_chamber_that_begins_away_from_the_command_comes_to_it_with_its_time_c
     """From above with that of venting, from below with that of filling."""
     for away, tau in ((4e4, 0.2), (-4e4, 0.1)):
         hidden = {'pressure_lag': {'pressure': away}}
-        run = simulate(single_muscle_joint(effects=LAG), T, [0.0], [3e5], hidden=hidden)
+        run = simulate(single_muscle_joint(effects=LAG), T, [3e5], [0.0], hidden=hidden)
         np.testing.assert_allclose(run.pressure, 3e5 + away * np.exp(-T / tau), rtol=1e-12)
         # The force is that of the pressure, at the first sample, too.
         muscle = single_muscle_joint().muscle
@@ -121,7 +121,7 @@ def test_a_chamber_that_begins_away_from_the_command_comes_to_it_with_its_time_c
 
 def test_the_coordinate_begins_at_rest_under_the_command():
     joint = single_muscle_joint(effects=LAG)
-    run = simulate(joint, T, [0.0], [3e5], hidden={'pressure_lag': {'pressure': -4e4}})
+    run = simulate(joint, T, [3e5], [0.0], hidden={'pressure_lag': {'pressure': -4e4}})
     assert run.position[0] == equilibrium(joint, 3e5)
     assert np.ptp(run.position) > 1e-3
 
@@ -129,7 +129,7 @@ def test_the_coordinate_begins_at_rest_under_the_command():
 @pytest.mark.slow
 def test_all_muscles_of_a_joint_begin_alike_away_from_rest():
     joint = lever(effects=(LAG, LAG))
-    run = simulate(joint, T, [0.0], [[3e5, 2e5]], hidden={'pressure_lag': {'pressure': 3e4}})
+    run = simulate(joint, T, [[3e5, 2e5]], [0.0], hidden={'pressure_lag': {'pressure': 3e4}})
     falls = 3e4 * np.exp(-T / 0.2)
     np.testing.assert_allclose(run.pressure, np.stack([3e5 + falls, 2e5 + falls], 1), rtol=1e-12)
 
@@ -147,7 +147,7 @@ def test_what_creeps_begins_unrelaxed_and_relaxes():
 
 def test_without_a_start_nothing_is_moved():
     joint = single_muscle_joint(effects=LAG)
-    bare, said = (simulate(joint, T, [0.0], [3e5], hidden=hidden) for hidden in (None, {}))
+    bare, said = (simulate(joint, T, [3e5], [0.0], hidden=hidden) for hidden in (None, {}))
     for one, other in zip(vars(bare).values(), vars(said).values(), strict=True):
         np.testing.assert_array_equal(one, other)
 
@@ -173,7 +173,7 @@ def test_without_a_start_nothing_is_moved():
 )
 def test_a_name_that_nothing_has_is_refused_with_a_sentence(hidden, sentence):
     with pytest.raises(ParameterError) as error:
-        simulate(single_muscle_joint(effects=LAG), T, [0.0], [3e5], hidden=hidden)
+        simulate(single_muscle_joint(effects=LAG), T, [3e5], [0.0], hidden=hidden)
     assert str(error.value).startswith(sentence)
 
 
@@ -188,7 +188,7 @@ def test_a_run_may_begin_with_every_hidden_state_two_spreads_away(effect, sign):
     hidden = {effect.name: {state.name: sign * state.spread for state in effect.states}}
     joint = bench.hanging(effect.example())
     t = np.linspace(0.0, 5.0, 501)
-    commands = [0.0, 1.0, 2.5], [3e5, 2e5, 4e5]
+    commands = [3e5, 2e5, 4e5], [0.0, 1.0, 2.5]
     moved, still = (simulate(joint, t, *commands, hidden=h) for h in (hidden, None))
     for values in (moved.position, moved.velocity, moved.pressure, moved.force):
         assert np.all(np.isfinite(values))

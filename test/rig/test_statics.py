@@ -201,7 +201,7 @@ def test_a_position_that_the_muscles_cannot_have_is_no_start(joint, position, se
     pressures = np.full((1, len(joint.muscles)), 2e5)
     starts = (
         lambda s: simulation.reset(2e5, s, 0.0),
-        lambda s: simulate(joint, t, [0.0], pressures, position=s),
+        lambda s: simulate(joint, t, pressures, [0.0], position=s),
         lambda s: simulate_held(joint, t, np.repeat(pressures, t.size, 0), np.full(t.size, s)),
     )
     for start in starts:

@@ -37,7 +37,7 @@ for kind in ARRANGEMENTS:
 t, p = np.array([0.0, 0.01]), np.array([1e5, 2e5])
 for effects in ((), [ViscousFriction(coefficient=0.1)]):
     alone = single_muscle_joint(effects=effects)
-    simulate(alone, t, t, p)
+    simulate(alone, t, p)
     simulate_held(alone, t, p, t)
 """
 

@@ -63,6 +63,12 @@ def rest(p, weight=MASS * G):
     return low
 
 
+def stepped(commands):
+    """Return the (stamp, value) pairs *commands* as arguments of ``simulate``."""
+    command_t, command = zip(*commands, strict=True)
+    return {'command': command, 'command_t': command_t}
+
+
 def solved(rhs, t, state, commands=((0.0, 0.0),), **options):
     """Integrate ``rhs(t, state, u)`` adaptively, restarted after each command; return (states, t).
 

@@ -41,7 +41,7 @@ def commands(seconds, rate, seed=0):
 def free_recording(model, seconds=SECONDS, rate=200.0, seed=0, name='bench.csv', gap=False):
     """Return a recording of a free rig with white noise on its position."""
     t, command = commands(seconds, rate, seed)
-    y = simulate(model, t, t, command).position
+    y = simulate(model, t, command).position
     y = y + NOISE * np.random.default_rng(seed + 1).standard_normal(t.size)
     whole = Recording(name, t, t, command, y, None, None, None, 'free', digest=64 * 'a')
     if not gap:
@@ -78,7 +78,12 @@ def stage(name, model, segments, test, parameters):
     def run(segment):
         if segment.kind == 'free':
             return simulate(
-                model, segment.t, segment.drive_t, segment.drive, segment.y0, segment.v0
+                model,
+                segment.t,
+                segment.drive,
+                segment.drive_t,
+                position=segment.y0,
+                velocity=segment.v0,
             ).position
         return simulate_held(
             model, segment.t, segment.pressure, segment.position, segment.velocity

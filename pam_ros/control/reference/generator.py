@@ -92,7 +92,11 @@ class ReferenceGenerator:
         self._source.play(points)
 
     def update(self, dt: float) -> Reference:
-        """Return the reference *dt* s after the last call."""
+        """Return the reference *dt* s after the last call.
+
+        It has the position in m (rad for a revolute joint) and its first three derivatives. Raises
+        ParameterError if *dt* is not above 0.
+        """
         if number('dt', dt) <= 0.0:
             refuse('dt', dt, 'a finite time above 0 s')
         return self._source.follow(dt)

@@ -26,7 +26,7 @@ LAG = {'fill': 0.06, 'vent': 0.09}
 
 
 def run(joint):
-    return simulate(joint, T, T, COMMAND, position=0.1).position
+    return simulate(joint, T, COMMAND, position=0.1).position
 
 
 @pytest.fixture
@@ -53,7 +53,7 @@ def test_an_effect_acts_where_its_place_is(problem, name):
     assert has == [at.MUSCLE + i in place.rows for i in (0, 1)]
     u[[k.name for k in problem.unknowns].index('y0[0]')] = 0.0
     s = problem.segments[0]
-    expected = simulate(model, T, T, COMMAND, position=s.y0, velocity=s.v0).position
+    expected = simulate(model, T, COMMAND, position=s.y0, velocity=s.v0).position
     np.testing.assert_allclose(new.predict(u)[0], expected, atol=1e-9)
     assert np.max(np.abs(expected - run(ELBOW))) > 0.01
     less, keep = without_effect(new, ELBOW, place)

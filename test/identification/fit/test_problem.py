@@ -201,7 +201,7 @@ def test_a_memory_begins_where_a_simulation_with_this_start_begins(effect):
         u[k] = 0.4
         memory = problem.unknowns[k]
         hidden = {name: {memory.of.state: 0.4 * memory.scale}}
-        expected = simulate(model, t, t, command, y[0], hidden=hidden).position
+        expected = simulate(model, t, command, position=y[0], hidden=hidden).position
         np.testing.assert_allclose(problem.predict(u)[0], expected, atol=1e-9)
 
 
@@ -219,7 +219,7 @@ def test_commands_that_act_early_move_the_load_early(early):
     u = np.zeros(len(problem.unknowns))
     u[-1] = early / 1e-3
     (found,) = problem.predict(u)
-    expected = simulate(MUSCLE, t, command_t - early, command, y[0]).position
+    expected = simulate(MUSCLE, t, command, command_t - early, position=y[0]).position
     (late,) = without.predict(u[:-1])
     assert np.max(np.abs(found - expected)) < 1e-2 * np.max(np.abs(late - expected))
     slope = problem.jacobian(u, problem.residuals(u))[:, -1]

@@ -42,7 +42,7 @@ END = (
 
 def problem(load, **spreads):
     joint = antagonistic_joint(load=load)
-    angle = simulate(joint, T, T, COMMAND, position=0.1).position
+    angle = simulate(joint, T, COMMAND, position=0.1).position
     recording = Recording('elbow', T, T, COMMAND, angle, muscles=NAMES, unit='rad')
     segments = tuple(segments_of([recording]))
     unknowns = (*spread_unknowns(joint, NAMES, spreads), *run_unknowns(segments, NOISE))

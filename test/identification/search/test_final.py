@@ -79,7 +79,7 @@ def test_of_the_configured_model_only_the_starts_are_fitted(found, ends):
     (part,) = found.setting.parts
     s = part.segment
     y0, v0 = (ends.nominal.value(k.name) for k in problem.unknowns)
-    run = simulate(found.setting.joint, s.t, s.drive_t, s.drive, y0, v0).position
+    run = simulate(found.setting.joint, s.t, s.drive, s.drive_t, position=y0, velocity=v0).position
     e = run - s.target
     expected = [float(np.sqrt(np.mean(e[k] ** 2))) for k in (part.known, part.judge)]
     assert errors(ends.nominal, ends, found) == pytest.approx(expected, rel=1e-3)
@@ -176,8 +176,11 @@ def test_a_slow_rig_is_simulated_with_longer_steps():
     assert short_step(fast) == STEP < short_step(slow) == coarse_period(slow, LONGEST) / STEPS
     t = np.arange(0.0, 10.0, 0.01)
     command = 2e5 + 1e5 * (np.sin(2.0 * t) > 0.0)
-    at = t, t, command, float(equilibrium(slow, 2e5)), 0.0
-    run, exact = (simulate(slow, *at, step).position for step in (short_step(slow), 1e-4))
+    begin = float(equilibrium(slow, 2e5))
+    run, exact = (
+        simulate(slow, t, command, position=begin, step=step).position
+        for step in (short_step(slow), 1e-4)
+    )
     assert np.max(np.abs(run - exact)) < 1e-7 * np.ptp(exact)
 
 

@@ -45,7 +45,7 @@ def elbow(first, second, on_joint=()):
 def search_on(joint):
     """Yield a search on 16 s of *joint*, whose nominal model has no effects, after re-tuning."""
     noise = np.random.default_rng(5).normal(0.0, 2e-4, T.size)
-    angle = simulate(joint, T, T, COMMAND).position + noise
+    angle = simulate(joint, T, COMMAND).position + noise
     recording = Recording('elbow', T, T, COMMAND, angle, muscles=NAMES, unit='rad')
     parts = parts_of([recording], CRITERIA.fit, CRITERIA.choose)
     with ThreadPoolExecutor(2) as pool:

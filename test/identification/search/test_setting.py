@@ -45,7 +45,7 @@ def test_errors_are_those_of_one_free_run_through_all_parts(setting, retuned):
         setting.joint.muscle, **{f'a{k}': u[f'a{k}'] for k in range(1, 7)}, zeta=u['zeta']
     )
     model = single_muscle_joint(muscle, setting.joint.load)
-    run = simulate(model, s.t, s.drive_t, s.drive, u['y0[0]'], u['v0[0]'])
+    run = simulate(model, s.t, s.drive, s.drive_t, position=u['y0[0]'], velocity=u['v0[0]'])
     e = run.position - s.target
     assert retuned.errors.fit == pytest.approx(rms(e[part.fit]), rel=0.01)
     assert retuned.errors.choose == pytest.approx(rms(e[part.choose]), rel=0.01)
@@ -152,7 +152,7 @@ def test_of_more_samples_than_a_search_needs_fewer_are_used_as_the_rig_allows(po
     slow = single_muscle_joint(Muscle(), Mass(mass=80.0, mount='horizontal'))
     t = np.arange(2000) * 5e-3
     command = 2e5 + 1e5 * np.sin(3.0 * t)
-    y = simulate(slow, t, t, command, 0.03).position
+    y = simulate(slow, t, command, position=0.03).position
     parts = parts_of(
         [Recording('slow', t, t, command, y, None, None, None, 'free')], CRITERIA.fit, 0.75
     )
@@ -173,7 +173,7 @@ def test_the_rests_of_too_many_samples_are_shortened(pool):
     slow = single_muscle_joint(Muscle(), Mass(mass=80.0, mount='horizontal'))
     t = np.arange(6000) * 1e-2
     command = np.where(t < 30.0, 2e5, 3e5)
-    run = simulate(slow, t, t, command, float(equilibrium(slow, 2e5)))
+    run = simulate(slow, t, command, position=float(equilibrium(slow, 2e5)))
     y = run.position + NOISE * np.random.default_rng(0).standard_normal(t.size)
     parts = parts_of([Recording('rests', t, t, command, y, None, None, None, 'free')], 0.9, 0.95)
     plain = Setting(slow, parts, CRITERIA, replace(BUDGET, samples=10_000), pool)
@@ -188,7 +188,7 @@ def on_a_rail(begin=0.0, gain=0.0100):
     truth = single_muscle_joint(Muscle(a5=gain, **SOURCE, **UNITS), RAIL)
     t = np.arange(1600) / 100.0
     command = 100.0 * np.where(np.sin(1.3 * t) > 0.0, 1.0, -1.0)
-    y = simulate(truth, t, t, command, 0.1).position
+    y = simulate(truth, t, command, position=0.1).position
     y = y + NOISE * np.random.default_rng(3).standard_normal(t.size)
     t = begin + t
     return Recording('rail', t, t, command, y, None, None, None, 'free')
@@ -206,7 +206,9 @@ def test_a_load_without_a_spring_is_fitted_in_short_runs_and_carried_on_in_one()
         assert errors.carried > 2.0 * errors.choose > 2.0 * NOISE
         # The run that is carried on is the configured model's, from the measured start.
         s = setting.thin[0].segment
-        run = simulate(DECLARED, s.t, s.drive_t, s.drive, s.y0, s.v0, setting.step).position
+        run = simulate(
+            DECLARED, s.t, s.drive, s.drive_t, position=s.y0, velocity=s.v0, step=setting.step
+        ).position
         keep = setting.thin[0].choose
         assert errors.carried == pytest.approx(rms((run - s.target)[keep]), rel=1e-6)
 

@@ -40,7 +40,7 @@ def test_each_model_simulates_what_is_shown_of_it(three, ends):
     s = part.segment
     for stage, fit in zip(three, (ends.nominal, ends.retuned, ends.augmented), strict=True):
         y0, v0 = fit.value('y0[0]'), fit.value('v0[0]')
-        run = simulate(stage.model, s.t, s.drive_t, s.drive, y0, v0).position
+        run = simulate(stage.model, s.t, s.drive, s.drive_t, position=y0, velocity=v0).position
         (shown,) = stage.simulated
         # The pressure at the start is an unknown of its own, whose motion decays.
         late = s.t > s.t[0] + 40.0 * FILL
@@ -100,7 +100,9 @@ def test_test_recordings_begin_as_they_were_measured(ends, found):
     before, after = (stages(ends, found, t)[2] for t in ((), test))
     (run,) = after.tested
     s = test[0]
-    expected = simulate(after.model, s.t, s.drive_t, s.drive, s.y0, s.v0).position
+    expected = simulate(
+        after.model, s.t, s.drive, s.drive_t, position=s.y0, velocity=s.v0
+    ).position
     np.testing.assert_allclose(run, expected, atol=NOISE / 10.0)
     assert after.held_error == pytest.approx(rms(run - s.target))
     assert after.held_error < 2.0 * NOISE
@@ -116,13 +118,13 @@ def test_a_load_without_a_spring_is_shown_in_one_run_from_its_measured_start(poo
     true = replace(single_muscle_joint(Muscle(a5=0.0100, **source, **units), rail), effects=there)
     t = np.arange(1600) / 100.0
     command = 100.0 * np.where(np.sin(1.3 * t) > 0.0, 1.0, -1.0)
-    y = simulate(true, t, t, command, 0.1).position
+    y = simulate(true, t, command, position=0.1).position
     y = y + NOISE * np.random.default_rng(3).standard_normal(t.size)
     recording = Recording('rail', t, t, command, y, None, None, None, 'free')
     found = found_in([recording], pool, name='viscous_friction', model=nominal)
     last = stages(final(found), found, ())[2]
     s = found.setting.parts[0].segment
-    run = simulate(last.model, s.t, s.drive_t, s.drive, s.y0, s.v0).position
+    run = simulate(last.model, s.t, s.drive, s.drive_t, position=s.y0, velocity=s.v0).position
     np.testing.assert_allclose(last.simulated[0], run, atol=NOISE)
     assert last.parameters['effects.viscous_friction.coefficient'].value == pytest.approx(
         4.0, rel=0.01

@@ -55,13 +55,7 @@ def test_the_bag_of_a_joint_is_a_recording_of_it(peer, tmp_path):
         recorder.interrupt()
         assert recorder.wait() == 0
         output = recorder.output
-    found = read_recording(
-        bag,
-        muscles=nominal.recorded_muscles,
-        unit='rad',
-        p_max=6e5,
-        reach=nominal.joint.position_range,
-    )
+    found = read_recording(bag, nominal.joint, muscles=nominal.recorded_muscles)
     assert (found.muscles, found.unit) == (('flexor', 'extensor'), 'rad')
     np.testing.assert_array_equal(found.command, COMMANDS)
     assert found.pressure is not None, f'{found.warnings} {output}'
