@@ -19,7 +19,7 @@ from benchmarks import tracing_joints
 from benchmarks.tracing import blind_trial, nominal_model, recording_of
 from pam_ros.identification.data.parts import parts_of
 from pam_ros.identification.fit.extend import with_effect
-from pam_ros.identification.fit.solve import solved
+from pam_ros.identification.fit.solve import solve
 from pam_ros.identification.identify import identify
 from pam_ros.identification.search.criteria import BUDGET, CRITERIA
 from pam_ros.identification.search.setting import Setting
@@ -79,7 +79,7 @@ def compare() -> None:
         problem, added = with_effect(setting.problem, model, setting.places['pressure_lag'], START)
         u = np.concatenate([np.zeros(len(problem.unknowns) - len(added)), added])
         began = time.perf_counter()
-        ours = solved(problem, u, pool=pool)
+        ours = solve(problem, u, pool=pool)
         fast = time.perf_counter() - began
 
     s = parts[0].segment

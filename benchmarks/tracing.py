@@ -25,8 +25,8 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / 'test'))
 
 from benchmarks import _intervals, _trials
+from pam_ros.identification.identification import Identification
 from pam_ros.identification.identify import identify
-from pam_ros.identification.result import Identification
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.recording.recording import Recording
 from pam_ros.rig.joint import Joint

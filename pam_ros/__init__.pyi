@@ -18,8 +18,8 @@ from pam_ros.devices.simulated_sensors import SimulatedSensors as SimulatedSenso
 from pam_ros.effects import *
 from pam_ros.effects import EFFECTS as EFFECTS
 from pam_ros.errors import PamError as PamError
+from pam_ros.identification.identification import Identification as Identification
 from pam_ros.identification.identify import identify as identify
-from pam_ros.identification.result import Identification as Identification
 from pam_ros.muscle.braid import Braid as Braid
 from pam_ros.muscle.fit import fit_static_map as fit_static_map
 from pam_ros.muscle.force_map import ForceMap as ForceMap

@@ -91,6 +91,11 @@ def parser() -> argparse.ArgumentParser:
     )
     made.add_argument('--namespace', help='namespace of the rig, if bags contain several')
     made.add_argument(
+        '--verbose',
+        action='store_true',
+        help='also print how the fits ended and every effect that was tried',
+    )
+    made.add_argument(
         '--out', type=Path, required=True, metavar='DIR', help='folder for the report'
     )
     return made
@@ -131,16 +136,16 @@ class Progress:
 
 
 def run(given: argparse.Namespace, command: str) -> str:
-    """Run the identification of the command line, write the report, return a summary line."""
+    """Run the identification of the command line, write the report, return a summary."""
     from pam_ros.compiled import HAVE_NUMBA
     from pam_ros.identification.data.segment import require_joint
     from pam_ros.identification.identify import identify
+    from pam_ros.identification.summary import details, last_line
     from pam_ros.recording.inputs import refuse_copies, refuse_idle
     from pam_ros.recording.mapping import read_mapping
     from pam_ros.recording.read import read_recording
     from pam_ros.recording.warning_list import warning_list
     from pam_ros.report.provenance import provenance
-    from pam_ros.report.summary import last_line
     from pam_ros.report.write import check_folder, write_report
     from pam_ros.settings.nominal import nominal_joint, uncertain_values
 
@@ -180,9 +185,9 @@ def run(given: argparse.Namespace, command: str) -> str:
         write_report(given.out, answer, source)
     finally:
         progress.close()
-    for warning in answer.own_warnings:
-        print(shown(warning), file=sys.stderr)
-    return printable(f'{last_line(answer)}; see {given.out / "report.html"}')
+    end = f'{last_line(answer)}; see {given.out / "report.html"}'
+    texts = [answer.summary(), *([details(answer)] if given.verbose else []), end]
+    return '\n'.join(map(printable, '\n\n'.join(texts).splitlines()))
 
 
 def _deviation(text: str) -> tuple[str, str]:

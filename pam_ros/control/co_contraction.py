@@ -5,7 +5,7 @@
 from dataclasses import dataclass
 
 from pam_ros.control.allocation import Allocation
-from pam_ros.control.reference.profile import Bounds, Rest
+from pam_ros.control.reference.profile import Bounds, JerkLimitedMotion
 from pam_ros.parameters import check_all, parameter_field
 
 RISE = 0.05  # s, to reach the rate, and also its slope: some three samples of a 50 Hz topic
@@ -62,7 +62,7 @@ class StiffnessReference:
     def __init__(self, goal: float, rate: float) -> None:
         """Rest at *goal*; approach others at *rate* a second."""
         self.goal, self.rate = goal, rate
-        self._offset = Rest()
+        self._offset = JerkLimitedMotion()
         self._is_new = False
 
     @property

@@ -26,7 +26,7 @@ def left_to_feedback(joint: Joint) -> tuple[str, ...]:
     )
 
 
-class Losses:
+class FeedForwardForces:
     """The effort that configured effects with a feed-forward take along the reference.
 
     Effects of muscles are evaluated at the muscles' ends, those of the joint at its coordinate.

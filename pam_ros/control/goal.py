@@ -70,18 +70,19 @@ class Tolerances:
     """What a goal asks for: *path* holds from the start of its trajectory to its end.
 
     From its end on, the goal is reached as soon as *end* holds, and missed if it does not within
-    *leeway* s; with 0 s there is no limit. Raises RangeError for a leeway below 0.
+    *goal_time_tolerance* s; with 0 s there is no limit. Raises RangeError for a time below 0.
     """
 
     path: Tolerance = Tolerance()
     end: Tolerance = Tolerance()
-    leeway: float = 0.0
+    goal_time_tolerance: float = 0.0
 
     def __post_init__(self) -> None:
-        """Check the leeway."""
-        if not self.leeway >= 0.0:
+        """Check the goal_time_tolerance."""
+        if not self.goal_time_tolerance >= 0.0:
             raise RangeError(
-                f'a goal_time_tolerance of {self.leeway:g} s is not allowed: give 0 or more'
+                f'a goal_time_tolerance of {self.goal_time_tolerance:g} s is not allowed: give 0 '
+                'or more'
             )
 
 
@@ -118,6 +119,6 @@ class Goal:
         excess = self._asked.end.excess(error, self._unit)
         if not excess:
             return Verdict(Outcome.REACHED, f'reached {after}')
-        if self._asked.leeway and over > self._asked.leeway:
+        if self._asked.goal_time_tolerance and over > self._asked.goal_time_tolerance:
             return Verdict(Outcome.MISSED, f'{excess}, {after}')
         return None

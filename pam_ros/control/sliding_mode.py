@@ -44,7 +44,7 @@ from math import sqrt
 from pam_ros.arguments import instance
 from pam_ros.control.allocation import allocation_of
 from pam_ros.control.co_contraction import CoContraction, StiffnessReference
-from pam_ros.control.compensation import Losses
+from pam_ros.control.compensation import FeedForwardForces
 from pam_ros.control.gain_reduction import GainReduction, ReductionTuning
 from pam_ros.control.gains import Gains
 from pam_ros.control.learning.features import FeatureTuning
@@ -121,7 +121,7 @@ class SlidingMode:
             PressurePath(joint, i, gains.pressure_time) for i in range(len(model.muscles))
         ]
         self._is_lag_configured = any(path.is_lag_configured for path in self._paths)
-        self._losses = Losses(model)
+        self._losses = FeedForwardForces(model)
         self._observer = Observer(model)
         self._learner = Learner(
             model,

@@ -12,13 +12,13 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from pam_ros.errors import PamError
+from pam_ros.identification.wording import Scale, interval, number
 from pam_ros.recording.bag import read_bag
 from pam_ros.recording.mapping import ColumnMapping
 from pam_ros.report import style, time_plots
 from pam_ros.report.diagnostics import Size, size_of
 from pam_ros.report.runs import Run
 from pam_ros.report.time_plots import Curve
-from pam_ros.report.wording import Scale, interval, number
 
 Array = NDArray[np.float64]
 

@@ -4,20 +4,20 @@
 
 import numpy as np
 
-from pam_ros.identification.result import Identification
+from pam_ros.identification.result import Conclusion, Verdict
 from pam_ros.recording.recording import Recording
 
 MOST = 2.0  # times the expected error, up to which an error may be due to these times
 
 
-def of_command_times(answer: Identification) -> list[str]:
+def of_command_times(answer: Conclusion) -> list[str]:
     """Return a warning if times of commands may cause the error that no effect explains.
 
     Many loggers write the last command into the row of each sample. A command may then have acted
     at any time within a period T before its row. If this time is uniformly distributed, and v is
     the velocity of the load, the position differs by v T / sqrt(3) (root mean square).
     """
-    if answer.verdict != 'unexplained_structure' or answer.quantity != 'position':
+    if answer.verdict != Verdict.UNEXPLAINED_STRUCTURE or answer.quantity != 'position':
         return []
     if not all(_is_in_rows(recording) for recording in answer.recordings):
         return []

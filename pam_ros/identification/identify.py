@@ -5,7 +5,8 @@
 import os
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import Executor, ThreadPoolExecutor
-from dataclasses import replace
+from dataclasses import fields, replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +18,6 @@ from pam_ros.identification.data.checked import checked
 from pam_ros.identification.data.noise import Noise, noise_of, step_of
 from pam_ros.identification.data.parts import Part, parts_of
 from pam_ros.identification.data.segment import (
-    Segment,
     require_joint,
     require_one_kind,
     segments_of,
@@ -25,19 +25,20 @@ from pam_ros.identification.data.segment import (
 from pam_ros.identification.fit.solve import Solution
 from pam_ros.identification.fit.uncertain import spread_unknowns
 from pam_ros.identification.fit.undetermined import undetermined_after, undetermined_before
-from pam_ros.identification.result import Estimate, Finding, Identification, Stage
+from pam_ros.identification.identification import Identification
+from pam_ros.identification.result import Conclusion, Estimate, Finding, Stage, Verdict
 from pam_ros.identification.search.criteria import BUDGET, CRITERIA
-from pam_ros.identification.search.final import Final, final
+from pam_ros.identification.search.final import FinalFits, fit_finally
 from pam_ros.identification.search.levels import apart
 from pam_ros.identification.search.onset import (
-    Moment,
-    moment,
-    moment_after,
-    search_since,
+    OnsetEstimate,
+    estimate_onset,
+    estimate_onset_after,
+    find_late_effects,
     shares_after,
 )
-from pam_ros.identification.search.search import Progress, Search, alternatives, search
-from pam_ros.identification.search.setting import Setting, elsewhere
+from pam_ros.identification.search.search import Progress, Search, alternatives, find_effects
+from pam_ros.identification.search.setting import Setting, transfer
 from pam_ros.identification.search.stages import at_place, onset_of, stages
 from pam_ros.identification.search.table import candidates, is_instead_of_constants, reason_for
 from pam_ros.identification.structure import Structure, structure_of
@@ -86,19 +87,11 @@ def identify(
     any fit. Raises ParameterError for objects of another type, for a model with an onset and for
     an uncertain parameter that the model does not have.
     """
-    refuse_onsets(instance('model', model, Joint, 'a Joint'), 'a nominal joint')
-    recordings, test = _sequence('recordings', recordings), _sequence('test', test)
-    if not recordings:
-        raise RecordingError('recordings is empty: give at least one Recording')
-    notify: Progress = progress or (lambda share, text: None)
-    require_one_kind([*recordings, *test])
-    require_joint([*recordings, *test], model)
-    recordings, test = ([checked(one, model) for one in given] for given in (recordings, test))
-    refuse_copies([*recordings, *test])
+    recordings, test = _checked(model, recordings, test)
     uncertain = {} if uncertain is None else uncertain
     spread_unknowns(model, recordings[0].muscles, uncertain)  # raises errors before the long fit
     refuse_idle(recordings)
-    tests = segments_of(test)
+    notify: Progress = progress or (lambda share, text: None)
     # With test recordings, no part of the others is needed to judge.
     shares = (CRITERIA.fit / CRITERIA.choose, 1.0) if test else (CRITERIA.fit, CRITERIA.choose)
     parts = parts_of(recordings, *shares)
@@ -114,47 +107,51 @@ def identify(
             if warn is not None:
                 warn(text)
         lacking = too_little([part.segment for part in parts], setting.noise, CRITERIA)
-        since = None if lacking else moment(setting)
+        since = None if lacking else estimate_onset(setting)
         later = since and shares_after(since, parts, shares, CRITERIA.duration)
         if since and later:
             late = replace(setting, parts=parts_of(recordings, *later), onset=since.time)
-            found = search_since(setting, late, notify)
+            search = find_late_effects(setting, late, notify)
         else:
-            found = search(setting, notify)
+            search = find_effects(setting, notify)
         notify(0.9, 'fitting the chosen models in full')
-        ends = final(found)
-        answer = _answer(found, ends, tests, recordings, test)
-        name = verdict(found, *(stage.held_error for stage in answer.stages))
-        name = 'insufficient_data' if lacking else name
-        explaining: Sequence[str] = ()
-        if name == 'unexplained_structure' and found.best.effects and found.setting is setting:
-            # A model with effects explains more than the re-tuned one, which may fail earlier.
-            after = moment_after(found.best)
-            if after is not None:
-                since, explaining = after, found.best.effects
-    answer = replace(
-        answer,
-        verdict=name,
-        effects=answer.effects if name == 'effect_found' else (),
-        since=_since(name, found, ends, since),
-        warnings=(
-            *(text for recording in (*recordings, *test) for text in recording.warnings),
-            *apart(ends.augmented, answer.noise.sigma),
-            *undetermined_after(ends.augmented),
-            *of_absolute_pressures(
-                answer.stages[2].parameters, driving(recordings[0])[0].quantity
-            ),
-        ),
-    )
+        ends = fit_finally(search)
+        three = stages(ends, search, segments_of(test))
+        decision = _decision(search, three, lacking, since)
+        conclusion = _conclusion(decision, search, ends, three, recordings, test)
     notify(1.0, 'done')
-    text, command = next_experiment(answer, model)
-    return replace(
-        answer,
-        sentence=sentence(answer, lacking, explaining),
-        next_experiment=text,
-        next_command=command,
-        warnings=(*answer.warnings, *of_command_times(answer)),
+    warnings = (
+        *(text for recording in (*recordings, *test) for text in recording.warnings),
+        *apart(ends.augmented, conclusion.noise.sigma),
+        *undetermined_after(ends.augmented),
+        *of_absolute_pressures(three[2].parameters, driving(recordings[0])[0].quantity),
+        *of_command_times(conclusion),
     )
+    following = next_experiment(conclusion, model)
+    return Identification(
+        **{field.name: getattr(conclusion, field.name) for field in fields(Conclusion)},
+        sentence=sentence(conclusion, lacking, decision.explaining),
+        next_experiment=following.text,
+        next_command=following.command,
+        warnings=warnings,
+    )
+
+
+def _checked(
+    model: Joint,
+    recordings: Recording | Sequence[Recording],
+    test: Recording | Sequence[Recording],
+) -> tuple[list[Recording], list[Recording]]:
+    """Return the recordings and those that test, checked alone and with each other."""
+    refuse_onsets(instance('model', model, Joint, 'a Joint'), 'a nominal joint')
+    fitted, tested = _sequence('recordings', recordings), _sequence('test', test)
+    if not fitted:
+        raise RecordingError('recordings is empty: give at least one Recording')
+    require_one_kind([*fitted, *tested])
+    require_joint([*fitted, *tested], model)
+    found = [[checked(one, model) for one in given] for given in (fitted, tested)]
+    refuse_copies([*found[0], *found[1]])
+    return found[0], found[1]
 
 
 def _sequence(name: str, given: Recording | Sequence[Recording]) -> tuple[Recording, ...]:
@@ -163,44 +160,73 @@ def _sequence(name: str, given: Recording | Sequence[Recording]) -> tuple[Record
     return sequence(name, several, Recording, 'a Recording')
 
 
-def _answer(
-    found: Search,
-    ends: Final,
-    tests: Sequence[Segment],
+class _Decision(NamedTuple):
+    """The verdict, the time since which the effects act, and what explains the time before it.
+
+    ``since`` is also the time from which the best model fails. ``explaining`` are the effects of
+    that model, none for the re-tuned one.
+    """
+
+    verdict: Verdict
+    since: OnsetEstimate | None
+    explaining: tuple[str, ...]
+
+
+def _decision(
+    search: Search, three: Sequence[Stage], lacking: str, since: OnsetEstimate | None
+) -> _Decision:
+    """Return the verdict of a search; *since* is the time from which the re-tuned model fails.
+
+    *lacking* is the reason why the data cannot support a verdict, '' if they can.
+    """
+    if lacking:
+        return _Decision(Verdict.INSUFFICIENT_DATA, None, ())
+    name = verdict(search, *(stage.held_error for stage in three))
+    is_open = name == Verdict.UNEXPLAINED_STRUCTURE
+    if is_open and search.best.effects and search.setting.onset is None:
+        # A model with effects explains more than the re-tuned one, which may fail earlier.
+        after = estimate_onset_after(search.best)
+        if after is not None:
+            return _Decision(name, after, search.best.effects)
+    return _Decision(name, since, ())
+
+
+def _conclusion(
+    decision: _Decision,
+    search: Search,
+    ends: FinalFits,
+    three: tuple[Stage, Stage, Stage],
     recordings: Sequence[Recording],
     test: Sequence[Recording],
-) -> Identification:
-    """Return the numbers of an identification, without its verdict and its texts."""
-    three = stages(ends, found, tests)
-    noise = _least(three, ends.parts, found.setting.pool)
-    quantity = ends.parts[0].segment.quantity
-    return Identification(
-        verdict='',
-        sentence='',
-        quantity=quantity,
-        unit=ends.parts[0].segment.unit,
+) -> Conclusion:
+    """Return the numbers of an identification, with its verdict."""
+    noise = _least(three, ends.parts, search.setting.pool)
+    is_found = decision.verdict == Verdict.EFFECT_FOUND
+    first = ends.parts[0].segment
+    return Conclusion(
+        verdict=decision.verdict,
+        quantity=first.quantity,
+        unit=first.unit,
         noise=noise,
         stages=three,
-        effects=_findings(found, three[2]),
-        candidates=candidates(found),
-        structure=_structure(ends, found, noise.sigma),
+        effects=_findings(search, three[2]) if is_found else (),
+        candidates=candidates(search),
+        structure=_structure(ends, search, noise.sigma),
         segments=tuple(replace(part.segment, fit=part.known) for part in ends.parts),
-        test=tuple(tests),
-        warnings=(),
-        next_experiment='',
-        next_command='',
+        test=tuple(segments_of(test)),
         recordings=tuple(recordings),
         test_recordings=tuple(test),
-        since=None,
-        uncertain={name: str(given) for name, given in found.setting.uncertain.items()},
+        since=_since(decision, search, ends),
+        uncertain={name: str(given) for name, given in search.setting.uncertain.items()},
     )
 
 
-def _since(verdict: str, found: Search, ends: Final, since: Moment | None) -> Estimate | None:
+def _since(decision: _Decision, search: Search, ends: FinalFits) -> Estimate | None:
     """Return the time in s from which the effects act, or the best model fails."""
-    if verdict == 'effect_found':
-        return onset_of(ends.augmented) if found.setting.onset is not None else None
-    if verdict != 'unexplained_structure' or since is None:
+    if decision.verdict == Verdict.EFFECT_FOUND:
+        return onset_of(ends.augmented) if search.setting.onset is not None else None
+    since = decision.since
+    if decision.verdict != Verdict.UNEXPLAINED_STRUCTURE or since is None:
         return None
     return Estimate(since.time, since.low, since.high, 's')
 
@@ -220,12 +246,12 @@ def _least(three: Sequence[Stage], parts: Sequence[Part], pool: Executor) -> Noi
     return min(found, key=lambda noise: noise.sigma)
 
 
-def _structure(ends: Final, found: Search, floor: float) -> Structure:
+def _structure(ends: FinalFits, search: Search, floor: float) -> Structure:
     """Return the structure of the residual of the last model in the longest run."""
     segments = [part.segment for part in ends.parts]
     longest = max(range(len(segments)), key=lambda k: segments[k].t.size)
     known: Solution = ends.augmented
-    problem, u = elsewhere(known, segments, found.setting.left_out)
+    problem, u = transfer(known, segments, search.setting.left_out)
     out = problem.runs(u, longest)[0]
     s = segments[longest]
     run = problem.predict(u, longest)[0]
@@ -233,15 +259,15 @@ def _structure(ends: Final, found: Search, floor: float) -> Structure:
     return structure_of(s.t, s.target - run, inputs, floor)
 
 
-def _findings(found: Search, last: Stage) -> tuple[Finding, ...]:
-    places = found.setting.places
+def _findings(search: Search, last: Stage) -> tuple[Finding, ...]:
+    places = search.setting.places
     return tuple(
         Finding(
             name,
             at_place(last.parameters, places[name]),
-            alternatives(found, name),
-            reason_for(found, name),
-            is_instead_of_constants(found, name),
+            alternatives(search, name),
+            reason_for(search, name),
+            is_instead_of_constants(search, name),
         )
-        for name in found.best.effects
+        for name in search.best.effects
     )

@@ -4,6 +4,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from enum import Enum
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,19 +13,34 @@ from pam_ros.effects.base import Effect
 from pam_ros.identification.data.noise import Noise
 from pam_ros.identification.data.segment import Segment
 from pam_ros.identification.fit.places import effect_of, muscle_of, place_of
+from pam_ros.identification.fit.solve import FitLog
 from pam_ros.identification.structure import Structure
 from pam_ros.recording.recording import Recording
 from pam_ros.rig.joint import Joint
 
 Array = NDArray[np.float64]
 
-VERDICTS = (
-    'effect_found',
-    'no_missing_effect',
-    'parameters_wrong',
-    'unexplained_structure',
-    'insufficient_data',
-)
+
+class Verdict(str, Enum):
+    """What an identification concludes; each is also the text of its value."""
+
+    heading: str  # for readers
+
+    EFFECT_FOUND = 'effect_found', 'Effect found'
+    NO_MISSING_EFFECT = 'no_missing_effect', 'Nothing missing'
+    PARAMETERS_WRONG = 'parameters_wrong', 'Parameters wrong'
+    UNEXPLAINED_STRUCTURE = 'unexplained_structure', 'Unexplained structure'
+    INSUFFICIENT_DATA = 'insufficient_data', 'Insufficient data'
+
+    def __new__(cls, value: str, heading: str) -> 'Verdict':
+        """Create a member with its *value* and its *heading*."""
+        member = str.__new__(cls, value)
+        member._value_, member.heading = value, heading
+        return member
+
+    def __str__(self) -> str:
+        """Return the value, as in files."""
+        return str(self.value)
 
 
 @dataclass(frozen=True)
@@ -44,7 +60,8 @@ class Stage:
 
     Errors are RMSE in the unit of the target: over the fitted samples, and over those that were
     held out or the test recordings. ``simulated`` and ``tested`` are its free runs over
-    ``segments`` and ``test`` of the identification, in their order.
+    ``segments`` and ``test`` of the identification, in their order. ``log`` is how its last fit
+    ended, to all samples that may be fitted.
     """
 
     name: str
@@ -54,6 +71,7 @@ class Stage:
     held_error: float
     simulated: tuple[Array, ...]
     tested: tuple[Array, ...]
+    log: FitLog
 
 
 @dataclass(frozen=True)
@@ -98,27 +116,22 @@ class Finding:
 
 
 @dataclass(frozen=True, eq=False)
-class Identification:
-    """The whole result; ``stages`` are the nominal, re-tuned and augmented model, in this order.
+class Conclusion:
+    """The numbers of an identification, and its verdict; :class:`Identification` has texts, too.
 
-    ``verdict`` is one of VERDICTS, and ``sentence`` states it with the numbers. ``quantity`` is
-    what was predicted, ``position`` or ``force``, and ``unit`` its unit, in which errors and
-    ``noise`` are given. ``effects`` are the effects that the nominal model lacks, ``candidates``
-    all that were tried, and ``structure`` what remains in the residual of the last model.
-    ``warnings`` are sentences about the data and the result, and ``next_experiment`` says what to
-    record next. ``joint`` is the identified joint.
+    ``quantity`` is what was predicted, ``position`` or ``force``, and ``unit`` its unit, in which
+    errors and ``noise`` are given. ``stages`` are the nominal, re-tuned and augmented model, in
+    this order. ``effects`` are the effects that the nominal model lacks, ``candidates`` all that
+    were tried, and ``structure`` what remains in the residual of the last model.
 
     ``recordings`` were fitted, ``test_recordings`` were not; ``segments`` and ``test`` are their
     gapless stretches. Without test recordings a part of each recording was held out instead.
     ``since`` is the time in s, on the clock of the recording, at which the effects begin to act,
-    or from which the best model fails; None if this is the case from the start.
-    ``next_command`` is the command that plays the next experiment, '' if there is none.
-    ``uncertain`` are the given standard deviations of nominal values, by parameter.
-    :func:`pam_ros.save_report` and :func:`pam_ros.save_parameters` write it to files.
+    or from which the best model fails; None if this is the case from the start. ``uncertain`` are
+    the given standard deviations of nominal values, by parameter.
     """
 
-    verdict: str
-    sentence: str
+    verdict: Verdict
     quantity: str
     unit: str
     noise: Noise
@@ -128,9 +141,6 @@ class Identification:
     structure: Structure
     segments: tuple[Segment, ...]
     test: tuple[Segment, ...]
-    warnings: tuple[str, ...]
-    next_experiment: str
-    next_command: str
     recordings: tuple[Recording, ...]
     test_recordings: tuple[Recording, ...]
     since: Estimate | None
@@ -144,13 +154,6 @@ class Identification:
             return [effect for effect in effects if effect.is_present]
 
         return self.stages[-1].model.map_effects(present)
-
-    @property
-    def own_warnings(self) -> tuple[str, ...]:
-        """The warnings that do not come from the recordings."""
-        recordings = (*self.recordings, *self.test_recordings)
-        before = {warning for recording in recordings for warning in recording.warnings}
-        return tuple(warning for warning in self.warnings if warning not in before)
 
     @property
     def added(self) -> tuple[str, ...]:

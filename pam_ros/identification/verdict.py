@@ -11,7 +11,7 @@ import numpy as np
 from pam_ros.excitation.command import command_line
 from pam_ros.identification.data.segment import Segment
 from pam_ros.identification.fit.places import effect_of, spelled
-from pam_ros.identification.result import Estimate, Identification
+from pam_ros.identification.result import Conclusion, Estimate, Verdict
 from pam_ros.identification.search.criteria import Criteria
 from pam_ros.identification.search.search import Search
 from pam_ros.identification.search.setting import Setting
@@ -48,7 +48,7 @@ def too_little(segments: Sequence[Segment], noise: float, criteria: Criteria) ->
     return ''
 
 
-def explains(found: Search) -> bool:
+def explains(search: Search) -> bool:
     """Return whether the best model of a search explains enough of the error after re-tuning.
 
     The errors are compared on *fit*, and on *fit* and *choose* by the geometric mean: a load that
@@ -57,8 +57,8 @@ def explains(found: Search) -> bool:
     effects, return whether the error above the noise after re-tuning is at most the noise, on
     *fit* or on *choose*.
     """
-    setting, errors, before = found.setting, found.best.errors, found.retuned.errors
-    if not found.best.effects:
+    setting, errors, before = search.setting, search.best.errors, search.retuned.errors
+    if not search.best.effects:
         return min(setting.above(errors.fit), setting.above(errors.choose)) <= setting.noise
     fit = _left(setting, before.fit, errors.fit)
     choose = _left(setting, before.choose, errors.choose)
@@ -74,51 +74,51 @@ def _left(setting: Setting, before: float, now: float) -> float:
     return setting.above(now) / max(setting.above(before), least)
 
 
-def is_refuted(found: Search, retuned: float, augmented: float) -> bool:
+def is_refuted(search: Search, retuned: float, augmented: float) -> bool:
     """Return whether the judging data contradict the effects of a search: they explain too little.
 
     *retuned* and *augmented* are the errors over these data, in m, rad or N, without and with the
     effects. False if there are no such data.
     """
-    explained = 1.0 - _left(found.setting, retuned, augmented)
-    return bool(found.best.effects) and explained < found.setting.criteria.left
+    explained = 1.0 - _left(search.setting, retuned, augmented)
+    return bool(search.best.effects) and explained < search.setting.criteria.left
 
 
-def verdict(found: Search, nominal: float, retuned: float, augmented: float) -> str:
+def verdict(search: Search, nominal: float, retuned: float, augmented: float) -> Verdict:
     """Return the verdict on data that are sufficient for one.
 
     *nominal*, *retuned* and *augmented* are the errors of these models over the judging data, in
     m, rad or N.
     """
-    if found.best.effects:
-        is_right = explains(found) and not is_refuted(found, retuned, augmented)
-        return 'effect_found' if is_right else 'unexplained_structure'
+    if search.best.effects:
+        is_right = explains(search) and not is_refuted(search, retuned, augmented)
+        return Verdict.EFFECT_FOUND if is_right else Verdict.UNEXPLAINED_STRUCTURE
     # Nothing is missing only if data that no fit has used are explained as well as the rest.
-    level = max(found.setting.noise, found.best.errors.fit, found.best.errors.choose)
-    if not explains(found) or retuned**2 - level**2 > level**2:
-        return 'unexplained_structure'
-    is_same = nominal <= found.setting.criteria.worse * retuned
-    return 'no_missing_effect' if is_same else 'parameters_wrong'
+    level = max(search.setting.noise, search.best.errors.fit, search.best.errors.choose)
+    if not explains(search) or retuned**2 - level**2 > level**2:
+        return Verdict.UNEXPLAINED_STRUCTURE
+    is_same = nominal <= search.setting.criteria.worse * retuned
+    return Verdict.NO_MISSING_EFFECT if is_same else Verdict.PARAMETERS_WRONG
 
 
-def sentence(answer: Identification, lacking: str, explaining: Sequence[str] = ()) -> str:
+def sentence(answer: Conclusion, lacking: str, explaining: Sequence[str] = ()) -> str:
     """Return the verdict of *answer* with its numbers, as one paragraph of plain sentences.
 
     *lacking* is what :func:`too_little` returned, *explaining* are the effects with which the
     model explains a recording up to a moment; none for the re-tuned model.
     """
-    if answer.verdict == 'insufficient_data':
+    if answer.verdict == Verdict.INSUFFICIENT_DATA:
         return f'The data cannot support a verdict: {lacking}.'
     nominal, retuned, augmented = (_size(s.held_error, answer.unit) for s in answer.stages)
     floor = f'The noise floor is {_size(answer.noise.sigma, answer.unit)}.'
-    if answer.verdict == 'effect_found':
+    if answer.verdict == Verdict.EFFECT_FOUND:
         names = ', '.join(
             spelled(e.name)
             + (f' (or {" or ".join(map(spelled, e.alternatives))})' if e.alternatives else '')
             for e in answer.effects
         )
         it = 'it' if len(answer.effects) == 1 else 'them'
-        since = '' if answer.since is None else f' from {moment_of(answer)} on'
+        since = '' if answer.since is None else f' from {onset_text(answer)} on'
         doubtful = [spelled(e.name) for e in answer.effects if e.or_constants]
         if doubtful:
             return (
@@ -131,9 +131,9 @@ def sentence(answer: Identification, lacking: str, explaining: Sequence[str] = (
             f'The model lacks {names}{since}: with {it} the error on held-out data falls from '
             f'{retuned} re-tuned ({nominal} nominal) to {augmented}. {floor}'
         )
-    if answer.verdict == 'no_missing_effect':
+    if answer.verdict == Verdict.NO_MISSING_EFFECT:
         return f'Nothing is missing: the error on held-out data is {nominal}. {floor}'
-    if answer.verdict == 'parameters_wrong':
+    if answer.verdict == Verdict.PARAMETERS_WRONG:
         return (
             'No effect is missing, but parameters are wrong: re-tuning lowers the error on '
             f'held-out data from {nominal} to {retuned}. {floor}'
@@ -143,8 +143,8 @@ def sentence(answer: Identification, lacking: str, explaining: Sequence[str] = (
         model = f'model with {" and ".join(map(spelled, explaining))}'
         since = (
             f' The {model if explaining else "re-tuned model"} explains the recording up to '
-            f'{moment_of(answer)}, but not after this time: something begins there, or the motion '
-            'begins to show it.'
+            f'{onset_text(answer)}, but not after this time: something begins there, or the '
+            'motion begins to show it.'
         )
     added = f' with {" and ".join(map(spelled, answer.added))}' if answer.added else ''
     before = f' ({retuned} re-tuned)' if added else ''
@@ -170,33 +170,33 @@ def of_absolute_pressures(parameters: Mapping[str, Estimate], signal: str) -> li
     ]
 
 
-def next_experiment(answer: Identification, model: Joint) -> NextExperiment:
+def next_experiment(answer: Conclusion, model: Joint) -> NextExperiment:
     """Return which recording of the rig of *model* would resolve what *answer* leaves open."""
     known = {e.name: e for e in model.library}
     kind = arrangement_of(model)
     can_excite = kind is not None and not model.is_driven
     file = '' if kind is LOAD else FILE
-    if answer.verdict == 'insufficient_data':
+    if answer.verdict == Verdict.INSUFFICIENT_DATA:
         return NextExperiment(
             'Record a minute or more over the whole range of pressure.',
             command_line({}, file) if can_excite else '',
         )
     doubtful = next((e for e in answer.effects if e.or_constants), None)
-    if answer.verdict == 'effect_found' and doubtful is not None:
+    if answer.verdict == Verdict.EFFECT_FOUND and doubtful is not None:
         chosen = known[effect_of(doubtful.name)]
         text = (
             f'To distinguish between {spelled(doubtful.name)} and other constants, record: '
             f'{chosen.experiment}. If the constants are known with less accuracy than usual, '
             'state it: --uncertain a2=10%, and so on for a1 to a6.'
         )
-    elif answer.verdict == 'effect_found':
+    elif answer.verdict == Verdict.EFFECT_FOUND:
         first = next((e for e in answer.effects if e.alternatives), answer.effects[0])
         chosen, what = known[effect_of(first.name)], 'To confirm ' + spelled(first.name)
         if first.alternatives:
             rivals = ', '.join(map(spelled, (first.name, *first.alternatives)))
             what = f'To distinguish between {rivals}'
         text = f'{what}, record: {chosen.experiment}.'
-    elif answer.verdict == 'unexplained_structure':
+    elif answer.verdict == Verdict.UNEXPLAINED_STRUCTURE:
         tried = [
             c
             for c in answer.candidates
@@ -231,7 +231,7 @@ def time_of(since: Estimate) -> str:
     return f'{value} s ({low} to {high} s)'
 
 
-def moment_of(answer: Identification) -> str:
+def onset_text(answer: Conclusion) -> str:
     """Return the moment of *answer*, with its reference if the file has another time axis."""
     assert answer.since is not None
     is_shifted = any(recording.origin for recording in answer.recordings)

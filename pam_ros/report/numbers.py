@@ -11,14 +11,15 @@ from typing import Any
 import numpy as np
 
 from pam_ros.identification.fit.places import effect_of, muscle_of
-from pam_ros.identification.result import Candidate, Estimate, Finding, Identification
+from pam_ros.identification.identification import Identification
+from pam_ros.identification.result import Candidate, Estimate, Finding
 from pam_ros.recording.recording import OUTPUTS, Recording
 from pam_ros.report.provenance import Provenance
 from pam_ros.report.runs import STAGES, Run, sizes
 
 # The first number increases when a key is removed or changes its meaning, the second when a key
 # is added.
-SCHEMA_VERSION = '2.7'
+SCHEMA_VERSION = '2.8'
 
 Table = dict[str, Any]
 
@@ -27,7 +28,7 @@ def numbers(result: Identification, runs: list[Run], source: Provenance) -> Tabl
     """Return the content of ``report.json``; *runs* are those of the result."""
     return {
         'schema_version': SCHEMA_VERSION,
-        'verdict': result.verdict,
+        'verdict': str(result.verdict),
         'sentence': result.sentence,
         'effects': [_effect(finding) for finding in result.effects],
         'since': None if result.since is None else asdict(result.since),
@@ -41,6 +42,9 @@ def numbers(result: Identification, runs: list[Run], source: Provenance) -> Tabl
         'parameters': {
             name: _estimates(stage.parameters)
             for name, stage in zip(STAGES, result.stages, strict=True)
+        },
+        'fits': {
+            name: asdict(stage.log) for name, stage in zip(STAGES, result.stages, strict=True)
         },
         'data': _data(runs, source),
         'warnings': list(result.warnings),

@@ -7,14 +7,9 @@ from itertools import pairwise
 import jinja2
 import numpy as np
 
-from pam_ros.identification.result import Identification
-from pam_ros.recording.warning_list import warning_list
-from pam_ros.report import plots, rows, style
-from pam_ros.report.numbers import Table
-from pam_ros.report.provenance import Provenance
-from pam_ros.report.runs import STAGES, Run
-from pam_ros.report.time_plots import Curve
-from pam_ros.report.wording import (
+from pam_ros.identification.identification import Identification
+from pam_ros.identification.result import Verdict
+from pam_ros.identification.wording import (
     Scale,
     interval,
     listed,
@@ -24,16 +19,14 @@ from pam_ros.report.wording import (
     scale_for,
     spoken,
 )
+from pam_ros.recording.warning_list import warning_list
+from pam_ros.report import plots, rows, style
+from pam_ros.report.numbers import Table
+from pam_ros.report.provenance import Provenance
+from pam_ros.report.runs import STAGES, Run
+from pam_ros.report.time_plots import Curve
 
 LONGEST_LABEL = 30  # most characters of the names of effects above a plot
-
-VERDICTS = {
-    'effect_found': 'Effect found',
-    'no_missing_effect': 'Nothing missing',
-    'parameters_wrong': 'Parameters wrong',
-    'unexplained_structure': 'Unexplained structure',
-    'insufficient_data': 'Insufficient data',
-}
 
 
 def page(
@@ -66,7 +59,7 @@ def page(
     }
     return environment.get_template('report.html.j2').render(
         result=result,
-        verdict=VERDICTS[result.verdict],
+        verdict=result.verdict.heading,
         not_excluded=not_excluded(result, scale),
         curves=curves,
         style=style,
@@ -136,19 +129,19 @@ def not_excluded(result: Identification, scale: Scale) -> list[str]:
                 f'Instead of {name}, constants a1 to a6 far from the nominal ones explain these '
                 'data as well.'
             )
-    if result.verdict == 'no_missing_effect':
+    if result.verdict == Verdict.NO_MISSING_EFFECT:
         sentences.append(f'Effects that stay below the noise floor of {floor} could be present.')
-    elif result.verdict == 'parameters_wrong':
+    elif result.verdict == Verdict.PARAMETERS_WRONG:
         sentences.append(
             'An effect that is equivalent to a change of the parameters could be present: a '
             'payload changes the weight as the mass does, a pressure offset the force as a6 does.'
         )
-    elif result.verdict == 'unexplained_structure':
+    elif result.verdict == Verdict.UNEXPLAINED_STRUCTURE:
         sentences.append(
             f'Any effect other than the {len(result.tested)} effects of the library that were '
             'tested could be the cause.'
         )
-    elif result.verdict == 'insufficient_data':
+    elif result.verdict == Verdict.INSUFFICIENT_DATA:
         sentences.append('No effect can be excluded with these data.')
     if result.untestable:
         names = listed([name_in_words(name) for name in result.untestable])

@@ -9,11 +9,11 @@ from pathlib import Path
 
 from pam_ros.effects import EFFECTS
 from pam_ros.errors import ParameterError
-from pam_ros.identification.result import Identification
+from pam_ros.identification.identification import Identification
+from pam_ros.identification.summary import last_line
+from pam_ros.identification.wording import listed
 from pam_ros.plain_yaml import plain_text
 from pam_ros.report.provenance import Provenance
-from pam_ros.report.summary import last_line
-from pam_ros.report.wording import listed
 from pam_ros.rig.arrangements import ARRANGEMENTS, LOAD
 from pam_ros.rig.joint import Joint
 from pam_ros.settings.files import write

@@ -9,13 +9,13 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from pam_ros.identification.result import Identification
+from pam_ros.identification.identification import Identification
+from pam_ros.identification.wording import Scale, scale_for
 from pam_ros.report import residual_plots, style, time_plots
 from pam_ros.report.diagnostics import Size
 from pam_ros.report.numbers import Table
 from pam_ros.report.runs import STAGES, Run, drive_of
 from pam_ros.report.time_plots import Curve
-from pam_ros.report.wording import Scale, scale_for
 from pam_ros.rig import statics
 from pam_ros.rig.joint import Joint
 

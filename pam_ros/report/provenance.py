@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from pam_ros.errors import printable
-from pam_ros.identification.result import Identification
+from pam_ros.identification.identification import Identification
 from pam_ros.recording.recording import Recording
 from pam_ros.settings.files import find
 from pam_ros.settings.nominal import NominalJoint, nominal_of

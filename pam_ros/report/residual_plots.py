@@ -10,10 +10,10 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from pam_ros.identification.data.noise import Noise
+from pam_ros.identification.wording import Scale
 from pam_ros.report import diagnostics, style
 from pam_ros.report.runs import Run
 from pam_ros.report.time_plots import Curve, Stretch
-from pam_ros.report.wording import Scale
 
 Array = NDArray[np.float64]
 Pick = Callable[[Run], Array]

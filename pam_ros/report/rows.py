@@ -5,12 +5,9 @@
 from dataclasses import dataclass
 from typing import Any
 
-from pam_ros.identification.result import Candidate, Estimate, Identification
-from pam_ros.recording.quantities import quantity_in
-from pam_ros.report.numbers import Table
-from pam_ros.report.provenance import Provenance
-from pam_ros.report.runs import STAGES
-from pam_ros.report.wording import (
+from pam_ros.identification.identification import Identification
+from pam_ros.identification.result import Candidate, Estimate
+from pam_ros.identification.wording import (
     ABSENT,
     Scale,
     interval,
@@ -21,6 +18,10 @@ from pam_ros.report.wording import (
     probability,
     scale_for,
 )
+from pam_ros.recording.quantities import quantity_in
+from pam_ros.report.numbers import Table
+from pam_ros.report.provenance import Provenance
+from pam_ros.report.runs import STAGES
 from pam_ros.settings.nominal import NominalJoint
 
 ORDER = {'chosen': 0, 'ambiguous': 1, 'rejected': 2, 'untestable': 3}

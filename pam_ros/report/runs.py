@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pam_ros.identification.data.segment import FreeSegment, HeldSegment, Segment
-from pam_ros.identification.result import Identification
+from pam_ros.identification.identification import Identification
 from pam_ros.report.diagnostics import Size, size_of
 from pam_ros.rig import statics
 from pam_ros.rig.joint import Joint
@@ -16,7 +16,7 @@ from pam_ros.rig.joint import Joint
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 STAGES = ('declared', 'retuned', 'augmented')
-FAR = 1e6  # m, rad or N: limit at which a diverging simulation is clipped for drawing
+DRAW_LIMIT = 1e6  # m, rad or N: limit at which a diverging simulation is clipped for drawing
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,7 +66,7 @@ def runs_of(result: Identification) -> list[Run]:
 
 
 def _cut(simulated: Array) -> Array:
-    return np.clip(np.nan_to_num(simulated, nan=FAR), -FAR, FAR)
+    return np.clip(np.nan_to_num(simulated, nan=DRAW_LIMIT), -DRAW_LIMIT, DRAW_LIMIT)
 
 
 def _run(

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from pam_ros.arguments import as_path, instance
 from pam_ros.errors import PamError
-from pam_ros.identification.result import Identification
+from pam_ros.identification.identification import Identification
 from pam_ros.report.parameters import write_identified
 from pam_ros.report.provenance import provenance_of_program
 from pam_ros.report.write import check_parent, write_report

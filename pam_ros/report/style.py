@@ -19,7 +19,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullLocator
 from numpy.typing import NDArray
 
-from pam_ros.report.wording import number
+from pam_ros.identification.wording import number
 
 Array = NDArray[np.float64]
 

@@ -11,10 +11,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from pam_ros.identification.wording import Scale
 from pam_ros.report import style
 from pam_ros.report.diagnostics import Size
 from pam_ros.report.runs import Run
-from pam_ros.report.wording import Scale
 
 Array = NDArray[np.float64]
 

@@ -14,7 +14,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from pam_ros.errors import PamError, ParameterError
-from pam_ros.identification.result import Identification
+from pam_ros.identification.identification import Identification
 from pam_ros.report.numbers import numbers, to_json
 from pam_ros.report.parameters import refuse_custom, write_identified
 from pam_ros.report.provenance import Provenance

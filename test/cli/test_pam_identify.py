@@ -59,7 +59,7 @@ def start(folder, *arguments, **options):
 
 
 def run(folder, *arguments):
-    """Return (exit code, last line of stdout, stderr)."""
+    """Return (exit code, stdout, stderr)."""
     process = start(folder, *arguments)
     out, errors = process.communicate(timeout=600)
     return process.returncode, out.strip(), errors
@@ -91,9 +91,12 @@ def test_friction_is_found_and_the_model_corrected(found):
     assert error['augmented']['held_out'] < 1.2 * results.NOISE
     assert error['retuned']['held_out'] > 5.0 * results.NOISE
     assert sorted(p.name for p in folder.iterdir()) == sorted(FILES)
-    assert len(out.splitlines()) == 1
-    assert out.startswith('effect_found (coulomb_friction): held-out error ')
-    assert out.endswith('see found/report.html')
+    *summary, end = out.splitlines()
+    assert end.startswith('effect_found (coulomb_friction): held-out error ')
+    assert end.endswith('see found/report.html')
+    (row,) = (line for line in summary if 'effects.coulomb_friction.level' in line)
+    assert float(row.split()[2]) == pytest.approx(level['value'], rel=5e-3)
+    assert not any('converged' in line for line in summary)
 
 
 def test_report_is_valid(found):

@@ -78,12 +78,15 @@ def run(folder, *arguments):
 @pytest.fixture(scope='module')
 def found(bench):
     arguments = ('fit.csv', '--params', 'elbow.yaml', '--test', 'test.csv', '--out', 'found')
-    return run(bench, *arguments, '--uncertain', 'radius=1e-9'), bench / 'found'
+    return run(bench, *arguments, '--uncertain', 'radius=1e-9', '--verbose'), bench / 'found'
 
 
 def test_the_last_line_names_the_effect_and_its_muscle(found):
-    (code, line, errors), _ = found
+    (code, out, errors), _ = found
     assert code == 0, errors
+    line = out.splitlines()[-1]
+    assert 'Fits ' in out  # with --verbose
+    assert 'Effects that were tried ' in out
     assert line.startswith('effect_found (pressure_lag of flexor): held-out error ')
     assert ' mrad with pressure_lag of flexor; noise 0.19' in line
 

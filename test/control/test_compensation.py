@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from pam_ros.control.compensation import Losses, left_to_feedback
+from pam_ros.control.compensation import FeedForwardForces, left_to_feedback
 from pam_ros.control.gains import Gains
 from pam_ros.control.model import ControlModel
 from pam_ros.control.signals import Reference
@@ -26,7 +26,7 @@ HYSTERESIS = [Hysteresis(slip=20.0)]
 
 
 def losses_of(joint):
-    return Losses(ControlModel(joint))
+    return FeedForwardForces(ControlModel(joint))
 
 
 def test_losses_along_a_motion_are_what_the_rig_pulls_less():

@@ -19,9 +19,12 @@ TRAJECTORY = Trajectory(
 )
 
 
-def goal(path=None, end=None, leeway=0.0):
+def goal(path=None, end=None, goal_time_tolerance=0.0):
     return Goal(
-        TRAJECTORY, START, 'm', Tolerances(path or Tolerance(), end or Tolerance(), leeway)
+        TRAJECTORY,
+        START,
+        'm',
+        Tolerances(path or Tolerance(), end or Tolerance(), goal_time_tolerance),
     )
 
 
@@ -56,7 +59,7 @@ def test_the_path_holds_from_the_start_to_the_end():
 
 
 def test_the_end_is_reached_within_its_tolerance_or_missed_after_the_leeway():
-    one = goal(end=Tolerance(0.001), leeway=1.0)
+    one = goal(end=Tolerance(0.001), goal_time_tolerance=1.0)
     assert one.judge(START + 1.0, 0.02, 0.0) is None
     assert one.judge(START + 2.9, 0.058, 0.0) is None
     assert one.judge(START + 2.9, 0.0591, 0.0).outcome is Outcome.REACHED
@@ -82,7 +85,7 @@ def test_other_values_are_refused(bad):
         Tolerance(velocity=bad)
     if not bad > 0.0:
         with pytest.raises(RangeError, match='goal_time_tolerance'):
-            goal(leeway=bad)
+            goal(goal_time_tolerance=bad)
 
 
 def test_the_unit_is_that_of_the_joint():

@@ -9,9 +9,9 @@ import pytest
 
 from pam_ros.compiled import HAVE_NUMBA
 from pam_ros.identification.data.parts import parts_of
-from pam_ros.identification.fit.solve import solved
+from pam_ros.identification.fit.solve import solve
 from pam_ros.identification.search.criteria import BUDGET, CRITERIA
-from pam_ros.identification.search.final import final
+from pam_ros.identification.search.final import fit_finally
 from pam_ros.identification.search.setting import Setting
 from support import bench_truth
 from support.searches import FILL, found_in
@@ -31,7 +31,7 @@ def setting():
 def retuned(setting):
     """Return the re-tuned model of that rig."""
     problem = setting.problem
-    return setting.model((), solved(problem, np.zeros(len(problem.unknowns))))
+    return setting.model((), solve(problem, np.zeros(len(problem.unknowns))))
 
 
 @pytest.fixture(scope='package')
@@ -59,4 +59,4 @@ def found(recording, pool):
 @pytest.fixture(scope='package')
 def ends(found):
     """Return its models, fitted in full."""
-    return final(found)
+    return fit_finally(found)

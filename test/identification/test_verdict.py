@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from pam_ros.identification.data.segment import segments_of
-from pam_ros.identification.result import VERDICTS, Estimate
+from pam_ros.identification.result import Estimate, Verdict
 from pam_ros.identification.search.criteria import CRITERIA
 from pam_ros.identification.search.search import Search
 from pam_ros.identification.search.setting import Errors
@@ -42,7 +42,7 @@ def ended(found, best, retuned):
     noise = found.setting.noise
     pairs = [(found.best, best), (found.retuned, retuned)]
     last, first = (with_errors(m, Errors(*3 * (e * noise,))) for m, e in pairs)
-    return Search(found.setting, first, last, found.looked_at)
+    return Search(found.setting, first, last, found.evaluated)
 
 
 def test_a_claim_must_explain_most_of_what_retuning_left(found):
@@ -134,7 +134,7 @@ def test_what_is_measured_must_change_by_more_than_its_noise():
     assert f'{1e3 * moved:.3g} mm, less than 10 times' in text
 
 
-@pytest.mark.parametrize('name', VERDICTS)
+@pytest.mark.parametrize('name', Verdict)
 def test_each_verdict_has_its_sentence_and_its_next_experiment(name):
     answer = replace(results.friction_result()[0], verdict=name)
     text = sentence(answer, 'the recordings last 1.0 s; at least 5 s are needed')

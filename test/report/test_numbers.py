@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pam_ros.identification.result import VERDICTS, Estimate
+from pam_ros.identification.result import Estimate, Verdict
 from pam_ros.report.numbers import SCHEMA_VERSION, numbers, to_json
 from support.pages import ROOT
 
@@ -46,7 +46,7 @@ def test_schema_refuses_what_is_missing_or_new(friction, validate):
 
 
 def test_schema_knows_the_verdicts_and_the_version(schema):
-    assert tuple(schema['properties']['verdict']['enum']) == VERDICTS
+    assert tuple(schema['properties']['verdict']['enum']) == tuple(map(str, Verdict))
     assert schema['properties']['schema_version']['const'] == SCHEMA_VERSION
 
 

@@ -11,10 +11,11 @@ import numpy as np
 import pytest
 
 from pam_ros.effects import EFFECTS
+from pam_ros.identification.result import Verdict
+from pam_ros.identification.wording import Scale
 from pam_ros.report.numbers import numbers, to_json
-from pam_ros.report.page import VERDICTS, curves_of, inputs_of, not_excluded, page, warnings_of
+from pam_ros.report.page import curves_of, inputs_of, not_excluded, page, warnings_of
 from pam_ros.report.runs import runs_of
-from pam_ros.report.wording import Scale
 from pam_ros.rig.standard_joints import single_muscle_joint
 
 SECTIONS = ['error', 'simulated', 'residual', 'shape', 'candidates', 'parameters', 'data', 'next']
@@ -105,7 +106,7 @@ def test_page_has_the_numbers_of_the_result(friction, friction_page):
     assert 64 * 'a' in text
 
 
-@pytest.mark.parametrize('verdict', VERDICTS)
+@pytest.mark.parametrize('verdict', Verdict)
 def test_every_verdict_states_what_is_open(clean, verdict):
     sentences = not_excluded(replace(clean[0], verdict=verdict), Scale(1e3, 'mm'))
     assert len(sentences) == (0 if verdict == 'effect_found' else 1)

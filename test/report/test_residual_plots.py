@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 from pam_ros.identification.data.noise import Noise
+from pam_ros.identification.wording import Scale
 from pam_ros.report import residual_plots, style
 from pam_ros.report.runs import Run
 from pam_ros.report.time_plots import Curve
-from pam_ros.report.wording import Scale
 
 BOTH = [Curve(1, 're-tuned'), Curve(2, 'last')]
 MM = Scale(1e3, 'mm')

@@ -8,10 +8,10 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
+from pam_ros.identification.wording import Scale
 from pam_ros.report import style, time_plots
 from pam_ros.report.diagnostics import Size
 from pam_ros.report.time_plots import Curve
-from pam_ros.report.wording import Scale
 
 MM = Scale(1e3, 'mm')
 CURVES = [Curve(0, 'nominal'), Curve(1, 're-tuned'), Curve(2, 'last')]

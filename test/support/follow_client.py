@@ -5,8 +5,8 @@
 The first line of its input is a list of goals in JSON. Each has the ``points`` of its trajectory:
 time in s, position, and velocity if there is one. Further keys: ``joint``, ``stamp`` in s,
 ``path`` and ``end`` with tolerances of position, velocity and acceleration, ``of`` with the joint
-of these tolerances, ``leeway`` in s. After ``patience`` messages of feedback it is cancelled, or
-the next goal is sent if ``is_replaced`` is true.
+of these tolerances, ``goal_time_tolerance`` in s. After ``patience`` messages of feedback
+it is cancelled, or the next goal is sent if ``is_replaced`` is true.
 """
 
 import json
@@ -44,7 +44,7 @@ def goal_of(given):
         if name in given:
             of = zip(('position', 'velocity', 'acceleration'), given[name], strict=False)
             tolerances.append(JointTolerance(name=given.get('of', joint), **dict(of)))
-    goal.goal_time_tolerance = Duration(**parts(given.get('leeway', 0.0)))
+    goal.goal_time_tolerance = Duration(**parts(given.get('goal_time_tolerance', 0.0)))
     return goal
 
 

@@ -9,7 +9,9 @@ import numpy as np
 from pam_ros.effects import EFFECTS
 from pam_ros.identification.data.noise import Noise
 from pam_ros.identification.data.segment import segments_of
-from pam_ros.identification.result import Candidate, Estimate, Finding, Identification, Stage
+from pam_ros.identification.fit.solve import FitLog, FitStatus
+from pam_ros.identification.identification import Identification
+from pam_ros.identification.result import Candidate, Estimate, Finding, Stage, Verdict
 from pam_ros.identification.structure import Structure
 from pam_ros.recording.recording import Recording
 from pam_ros.report.provenance import provenance
@@ -104,6 +106,7 @@ def stage(name, model, segments, test, parameters):
         held_error,
         simulated,
         tested,
+        FitLog(FitStatus.CONVERGED, 12, 140),
     )
 
 
@@ -173,28 +176,32 @@ def result_of(recordings, test, nominal, retuned, augmented, verdict, findings=(
     chosen = [finding.name for finding in findings]
     others = [name for finding in findings for name in finding.alternatives]
     return Identification(
-        verdict,
-        'The configured model lacks Coulomb friction.' if findings else 'Nothing is missing.',
-        quantity,
-        'm' if quantity == 'position' else 'N',
-        Noise(NOISE, 0.1) if quantity == 'position' else Noise(2.0, 0.0),
-        (
+        verdict=Verdict(verdict),
+        quantity=quantity,
+        unit='m' if quantity == 'position' else 'N',
+        noise=Noise(NOISE, 0.1) if quantity == 'position' else Noise(2.0, 0.0),
+        stages=(
             stage('declared', nominal, segments, test_segments, known),
             stage('retuned', retuned, segments, test_segments, moved),
             stage('augmented', augmented, segments, test_segments, {**moved, **added}),
         ),
-        tuple(findings),
-        candidates(chosen, others, ('payload', 'end_stop') if quantity == 'force' else ()),
-        Structure(0.71, 0.0, 0.96),
-        tuple(segments),
-        tuple(test_segments),
-        ('the position covers 11 % of the stroke',),
-        'slow triangles with minor loops: the force reverses within micrometres',
-        "pam_excite --ros-args -p segments:='[slow_triangle, fast_triangle]'",
-        tuple(recordings),
-        tuple(test),
-        None,
-        {'mass': '2%'},
+        effects=tuple(findings),
+        candidates=candidates(
+            chosen, others, ('payload', 'end_stop') if quantity == 'force' else ()
+        ),
+        structure=Structure(0.71, 0.0, 0.96),
+        segments=tuple(segments),
+        test=tuple(test_segments),
+        recordings=tuple(recordings),
+        test_recordings=tuple(test),
+        since=None,
+        uncertain={'mass': '2%'},
+        sentence='The configured model lacks Coulomb friction.'
+        if findings
+        else 'Nothing is missing.',
+        next_experiment='slow triangles with minor loops: the force reverses within micrometres',
+        next_command="pam_excite --ros-args -p segments:='[slow_triangle, fast_triangle]'",
+        warnings=('the position covers 11 % of the stroke',),
     )
 
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from pam_ros.identification.data.parts import parts_of
-from pam_ros.identification.fit.solve import solved
+from pam_ros.identification.fit.solve import solve
 from pam_ros.identification.search.criteria import BUDGET, CRITERIA
 from pam_ros.identification.search.moves import with_each
 from pam_ros.identification.search.search import Search
@@ -40,6 +40,6 @@ def found_in(
         ]
     setting = Setting(model or bench_truth.nominal(), parts, CRITERIA, budget, pool)
     problem = setting.problem
-    retuned = setting.model((), solved(problem, np.zeros(len(problem.unknowns))))
+    retuned = setting.model((), solve(problem, np.zeros(len(problem.unknowns))))
     (best,) = with_each(retuned, [name], setting)
     return Search(setting, retuned, best, [retuned, best])

@@ -87,7 +87,7 @@ def to_rest(state: tuple[float, float, float], bounds: Bounds) -> list[Piece]:
     return [*to, *back]
 
 
-class Rest:
+class JerkLimitedMotion:
     """A motion along such pieces, step by step; at rest at 0 when it is over."""
 
     def __init__(self) -> None:

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from math import exp
 
 from pam_ros.control.joint_settings import JointSettings
-from pam_ros.control.reference.profile import Bounds, Rest, advance, change
+from pam_ros.control.reference.profile import Bounds, JerkLimitedMotion, advance, change
 from pam_ros.control.signals import Reference
 from pam_ros.control.tuning import number
 from pam_ros.parameters import OnRevolute, parameter_field
@@ -151,14 +151,14 @@ class Shaper:
     def __init__(self, shape: Shape) -> None:
         """Make it at rest at 0; see :meth:`start`."""
         self.shape = shape
-        self._offset = Rest()
+        self._offset = JerkLimitedMotion()
         self._tracker = Tracker(shape.bounds)
         self.start(0.0)
 
     def start(self, position: float) -> None:
         """Start again at rest at *position* m."""
         self._tracker.start(position)
-        self._offset = Rest()
+        self._offset = JerkLimitedMotion()
         self.reference = Reference(position)
 
     def set_shape(self, shape: Shape) -> None:

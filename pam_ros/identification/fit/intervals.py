@@ -52,57 +52,57 @@ ROWS = 256  # that are decomposed at once: they stay in the cache of a processor
 LEAST = 1e-12  # of the eigenvalues of 1 - H_b, which are positive except for rounding
 
 
-def half_widths(known: Solution, process: Discrepancy) -> Array:
+def half_widths(solution: Solution, process: Discrepancy) -> Array:
     """Return half the length of the 95 % interval of each unknown u (k,) of a fit.
 
     *process* is that of :func:`covariance`.
     """
-    of_process = np.diag(covariance(known, process))
-    of_blocks, of_priors = block_variances(known)
-    normal, freedom = norm.ppf(TAIL), len(blocks(known)) - 1
+    of_process = np.diag(covariance(solution, process))
+    of_blocks, of_priors = block_variances(solution)
+    normal, freedom = norm.ppf(TAIL), len(blocks(solution)) - 1
     square = student.ppf(TAIL, freedom) ** 2 * of_blocks + normal**2 * of_priors
     return np.asarray(np.sqrt(np.maximum(normal**2 * of_process, square)))
 
 
-def covariance(known: Solution, process: Discrepancy) -> Array:
+def covariance(solution: Solution, process: Discrepancy) -> Array:
     """Return the covariance of the unknowns u (k, k) of a fit whose errors are a *process*.
 
     *process* is the correlated part of its residuals, in addition to white noise. The fit was made
     by least squares, or with this process. The uncertainty of the process itself is not included;
     it matters if a run is not many correlation times long.
     """
-    problem = known.problem
-    slope, root, s = _scaled(known)
+    problem = solution.problem
+    slope, root, s = _scaled(solution)
     inverse = root @ root.T
-    if known.discrepancy != process:
+    if solution.discrepancy != process:
         parts = zip(problem.stamps(), problem.by_run(slope), strict=True)
         spread = np.concatenate([process.times(t, part) for t, part in parts])
-        whitened = problem.whitened(known.r, problem.whitenings(process))
+        whitened = problem.whitened(solution.r, problem.whitenings(process))
         scatter = float(np.mean(whitened**2)) / s**2 * product(slope, spread)
         inverse = inverse @ (scatter + np.eye(problem.prior.size)) @ inverse
     return np.asarray(inverse * np.outer(problem.prior, problem.prior))
 
 
-def block_variances(known: Solution) -> tuple[Array, Array]:
+def block_variances(solution: Solution) -> tuple[Array, Array]:
     """Return the variances of the unknowns u (k,) by the blocks, and by the priors.
 
     With A = L L' and K = J_b L/s, d_b = L (1 - K'K)^(-1/2) K' r_b/s needs only small matrices.
     """
-    slope, root, s = _scaled(known)
+    slope, root, s = _scaled(solution)
     found = np.zeros(len(root))
-    for block in blocks(known):
+    for block in blocks(solution):
         own = slope[block] @ root
         values, vectors = np.linalg.eigh(product(own, own))
-        change = vectors.T @ (own.T @ known.whitened[block]) / s
+        change = vectors.T @ (own.T @ solution.whitened[block]) / s
         change /= np.sqrt(np.maximum(1.0 - values, LEAST))
         found += (root @ (vectors @ change)) ** 2
-    unit = known.problem.prior**2
+    unit = solution.problem.prior**2
     return unit * found, unit * np.sum((root @ root.T) ** 2, axis=0)
 
 
-def blocks(known: Solution) -> list[slice]:
+def blocks(solution: Solution) -> list[slice]:
     """Return the samples of each block: parts of nearly the same size, or a short run."""
-    sizes = [t.size for t in known.problem.stamps()]
+    sizes = [t.size for t in solution.problem.stamps()]
     longest = sum(sizes) / BLOCKS
     found, start = [], 0
     for size in sizes:
@@ -113,7 +113,7 @@ def blocks(known: Solution) -> list[slice]:
     return found
 
 
-def _scaled(known: Solution) -> tuple[Array, Array, float]:
+def _scaled(solution: Solution) -> tuple[Array, Array, float]:
     """Return J/s, L and s, of whitened residuals and of unknowns in units of their priors.
 
     L is a triangular matrix with A = L L', from a QR decomposition of J/s and the priors. If two
@@ -121,9 +121,9 @@ def _scaled(known: Solution) -> tuple[Array, Array, float]:
     from it. The decomposition takes in some rows after the others (Demmel et al. 2012, SIAM J.
     Sci. Comput. 34(1), A206-A239).
     """
-    problem = known.problem
-    s = float(np.sqrt(np.mean(known.whitened**2)))
-    slope = problem.whitened(known.jacobian * problem.prior, known.whitenings) / s
+    problem = solution.problem
+    s = float(np.sqrt(np.mean(solution.whitened**2)))
+    slope = problem.whitened(solution.jacobian * problem.prior, solution.whitenings) / s
     unit = np.eye(problem.prior.size)
     triangle = unit
     for i in range(0, len(slope), ROWS):

@@ -18,6 +18,7 @@ Numerical Optimization, eq. 19.9), but each unknown separately.
 from collections.abc import Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
+from enum import Enum
 from math import log
 
 import numpy as np
@@ -47,12 +48,42 @@ SHARE_TO_BOUND = 0.9
 AT_BOUND = 1e-3  # distance, in units of u, from which a step may end on the bound
 
 
+class FitStatus(str, Enum):
+    """How a fit ended; each is also the text of its value."""
+
+    NOT_FITTED = 'not fitted'
+    CONVERGED = 'converged'
+    ITERATION_LIMIT = 'iteration limit'
+
+    def __str__(self) -> str:
+        """Return the value."""
+        return str(self.value)
+
+
+@dataclass(frozen=True)
+class FitLog:
+    """How a fit ended, after how many iterations, and how many simulations of all runs.
+
+    A column of the Jacobian counts as one simulation. Iterations and simulations are those of all
+    fits since the first start.
+    """
+
+    status: FitStatus = FitStatus.NOT_FITTED
+    iterations: int = 0
+    simulations: int = 0
+
+    def more(self, simulations: int) -> 'FitLog':
+        """Return this log after more *simulations*."""
+        return replace(self, simulations=self.simulations + simulations)
+
+
 @dataclass(frozen=True, eq=False)
 class Solution:
     """The result of a fit: u (k,), residuals r (n,) in m, rad or N, and dr/du (n, k) there.
 
     ``discrepancy`` is the process that whitens the residuals. ``is_fresh`` is true if the Jacobian
-    was computed at u, or so near that steps along it do not lower the cost any more.
+    was computed at u, or so near that steps along it do not lower the cost any more. ``log`` is
+    how the fit ended.
     """
 
     problem: Problem
@@ -61,6 +92,7 @@ class Solution:
     jacobian: Array
     discrepancy: Discrepancy = WHITE
     is_fresh: bool = False
+    log: FitLog = FitLog()
 
     @cached_property
     def whitenings(self) -> Sequence[Whitening]:
@@ -117,7 +149,7 @@ class Solution:
         raise KeyError(name)
 
 
-def solved(
+def solve(
     problem: Problem,
     u: Array,
     discrepancy: Discrepancy = WHITE,
@@ -125,75 +157,81 @@ def solved(
     pool: Executor | None = None,
 ) -> Solution:
     """Return the most probable unknowns and the discrepancy with the best score, from u on."""
-    return settled(begun(problem, u, discrepancy, pool), iterations, pool)
+    return converge(initial_solution(problem, u, discrepancy, pool), iterations, pool)
 
 
-def begun(
+def initial_solution(
     problem: Problem, u: Array, discrepancy: Discrepancy = WHITE, pool: Executor | None = None
 ) -> Solution:
     """Return the solution at u, clipped to its bounds, with the Jacobian there."""
     u = np.clip(u, *problem.bounds)
     r = problem.residuals(u)
-    return Solution(problem, u, r, problem.jacobian(u, r, pool), discrepancy, is_fresh=True)
+    jacobian = problem.jacobian(u, r, pool)
+    return Solution(problem, u, r, jacobian, discrepancy, True, FitLog().more(1 + u.size))
 
 
-def settled(known: Solution, iterations: int = 20, pool: Executor | None = None) -> Solution:
+def converge(solution: Solution, iterations: int = 20, pool: Executor | None = None) -> Solution:
     """Improve unknowns and discrepancy alternately until they agree; the Jacobian is fresh."""
-    known = improved(known, iterations, pool)
+    solution = levenberg_marquardt(solution, iterations, pool)
     for _ in range(ALTERNATIONS):
-        found = known.most_likely()
-        if _agree(found, known.discrepancy):
+        found = solution.most_likely()
+        if _agree(found, solution.discrepancy):
             break
-        known = improved(replace(known, discrepancy=found), iterations, pool)
-    return fresh(known, pool)
+        solution = levenberg_marquardt(replace(solution, discrepancy=found), iterations, pool)
+    return with_fresh_jacobian(solution, pool)
 
 
-def with_nominal_constants(known: Solution) -> list[Solution]:
-    """Return *known* with the constants of muscles and rig at their nominal values, to fit again.
+def with_nominal_constants(solution: Solution) -> list[Solution]:
+    """Return *solution* with nominal constants of muscles and rig, to fit again.
 
     The list is empty if no constant is further from there than a standard deviation of its prior.
     Constants that a fit has moved far may have compensated for a missing effect, and a fit that
     begins there does not return.
     """
-    constants = [isinstance(unknown.of, OF_RETUNING) for unknown in known.problem.unknowns]
-    if np.max(np.abs(known.z[constants]), initial=0.0) <= 1.0:
+    constants = [isinstance(unknown.of, OF_RETUNING) for unknown in solution.problem.unknowns]
+    if np.max(np.abs(solution.z[constants]), initial=0.0) <= 1.0:
         return []
-    u = np.where(constants, 0.0, known.u)
-    return [replace(known, u=u, r=known.problem.residuals(u), is_fresh=False)]
+    u = np.where(constants, 0.0, solution.u)
+    return [replace(solution, u=u, r=solution.problem.residuals(u), is_fresh=False)]
 
 
-def least_squares(known: Solution, iterations: int = 20, pool: Executor | None = None) -> Solution:
-    """Minimise the residuals of *known* from there, without a discrepancy.
+def least_squares(
+    solution: Solution, iterations: int = 20, pool: Executor | None = None
+) -> Solution:
+    """Minimise the residuals of *solution* from there, without a discrepancy.
 
     The Jacobian of the result is fresh.
     """
-    return fresh(improved(replace(known, discrepancy=WHITE), iterations, pool), pool)
+    return with_fresh_jacobian(
+        levenberg_marquardt(replace(solution, discrepancy=WHITE), iterations, pool), pool
+    )
 
 
-def fresh(known: Solution, pool: Executor | None = None) -> Solution:
-    """Return *known* with a fresh Jacobian."""
-    if known.is_fresh:
-        return known
-    jacobian = known.problem.jacobian(known.u, known.r, pool)
-    return replace(known, jacobian=jacobian, is_fresh=True)
+def with_fresh_jacobian(solution: Solution, pool: Executor | None = None) -> Solution:
+    """Return *solution* with a fresh Jacobian."""
+    if solution.is_fresh:
+        return solution
+    jacobian = solution.problem.jacobian(solution.u, solution.r, pool)
+    log = solution.log.more(solution.u.size)
+    return replace(solution, jacobian=jacobian, is_fresh=True, log=log)
 
 
-def improved(
-    known: Solution,
+def levenberg_marquardt(
+    solution: Solution,
     iterations: int = 20,
     pool: Executor | None = None,
     renew: bool = True,
 ) -> Solution:
-    """Minimise the cost of *known* from there with the same discrepancy; it never increases.
+    """Minimise the cost of *solution* from there with the same discrepancy; it never increases.
 
     A Jacobian that is not fresh is used, too, and updated by Broyden's rule. It is computed again
     when steps do not lower the cost, or lower it by much less than predicted. Without *renew* it
     is never computed, and the fit ends when steps hardly lower the cost, which is cheap.
     """
-    problem, u, r, j = known.problem, known.u, known.r, known.slopes
-    stale = not known.is_fresh
+    problem, u, r, j = solution.problem, solution.u, solution.r, solution.slopes
+    stale = not solution.is_fresh
     low, high = problem.bounds
-    prior, maps = problem.prior, known.whitenings
+    prior, maps = problem.prior, solution.whitenings
     n = r.size
 
     def cost_of(at: Array, white: Array) -> float:
@@ -202,7 +240,9 @@ def improved(
 
     white = problem.whitened(r, maps)
     cost, damping = cost_of(u, white), LEAST_DAMPING
+    status, done, simulations = FitStatus.ITERATION_LIMIT, 0, 0
     for _ in range(iterations):
+        done += 1
         slope = j.whitened(maps)
         weight = n / max(float(white @ white), 1e-300)
         normal = weight * slope.normal() + np.diag(prior**-2.0)
@@ -212,6 +252,7 @@ def improved(
         for _ in range(TRIALS // 2 if stale and renew else TRIALS):
             trial = _within(u, _step(normal, gradient, free, damping), low, high)
             r_trial = problem.residuals(trial)
+            simulations += 1
             white_trial = problem.whitened(r_trial, maps)
             lower = cost - cost_of(trial, white_trial)
             if lower > 0.0:
@@ -226,13 +267,17 @@ def improved(
             stale = True
             continue
         if gain < LITTLE and not (stale and renew):
+            status = FitStatus.CONVERGED
             break
         if not renew:
             continue
         # Steps along an old Jacobian may have failed because it was inaccurate: begin undamped.
         j = problem.slopes(problem.jacobian(u, r, pool))
+        simulations += u.size
         stale, damping = False, LEAST_DAMPING
-    return Solution(problem, u, r, j.dense, known.discrepancy, is_fresh=not stale)
+    before = solution.log
+    ended = FitLog(status, before.iterations + done, before.simulations + simulations)
+    return Solution(problem, u, r, j.dense, solution.discrepancy, not stale, ended)
 
 
 def _agree(a: Discrepancy, b: Discrepancy) -> bool:

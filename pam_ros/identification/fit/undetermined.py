@@ -12,7 +12,7 @@ from pam_ros.identification.fit.discrepancy import WHITE
 from pam_ros.identification.fit.intervals import covariance
 from pam_ros.identification.fit.of_rig import OfRig
 from pam_ros.identification.fit.problem import Problem
-from pam_ros.identification.fit.solve import Solution, begun
+from pam_ros.identification.fit.solve import Solution, initial_solution
 
 Array = NDArray[np.float64]
 # Standard deviation, as a share of that of the prior, above which a number is not determined: the
@@ -31,16 +31,16 @@ def undetermined_before(problem: Problem, noise: float, pool: Executor) -> tuple
     """
     if not _has_numbers_of_rig(problem):
         return ()
-    start = begun(problem, np.zeros(len(problem.unknowns)), pool=pool)
+    start = initial_solution(problem, np.zeros(len(problem.unknowns)), pool=pool)
     quiet = replace(start, r=np.full_like(start.r, noise))
     return undetermined(problem, covariance(quiet, WHITE))
 
 
-def undetermined_after(known: Solution) -> tuple[str, ...]:
+def undetermined_after(solution: Solution) -> tuple[str, ...]:
     """Return the sentences of :func:`undetermined` after a fit, for errors like its residuals."""
-    if not _has_numbers_of_rig(known.problem):
+    if not _has_numbers_of_rig(solution.problem):
         return ()
-    return undetermined(known.problem, covariance(known, known.most_likely()))
+    return undetermined(solution.problem, covariance(solution, solution.most_likely()))
 
 
 def _has_numbers_of_rig(problem: Problem) -> bool:

@@ -9,34 +9,36 @@ import numpy as np
 from pam_ros.identification.search.setting import Model, Setting
 
 
-def pays(now: Model, than: Model, setting: Setting) -> bool:
+def is_accepted(model: Model, other: Model, setting: Setting) -> bool:
     """Return whether a larger model's score is lower by the margin and its free run no worse."""
-    return now.score < than.score - setting.criteria.margin and no_worse(now, than, setting)
+    return model.score < other.score - setting.criteria.margin and is_no_worse(
+        model, other, setting
+    )
 
 
-def suffices(less: Model, than: Model, setting: Setting) -> bool:
+def is_sufficient(less: Model, other: Model, setting: Setting) -> bool:
     """Return whether a smaller model is as good: score in the margin, free run no worse."""
-    return is_near(less, than, setting) and no_worse(less, than, setting)
+    return is_within_margin(less, other, setting) and is_no_worse(less, other, setting)
 
 
-def is_near(less: Model, than: Model, setting: Setting) -> bool:
+def is_within_margin(less: Model, other: Model, setting: Setting) -> bool:
     """Return whether the score of a smaller model is higher by at most the margin."""
-    return less.score <= than.score + setting.criteria.margin
+    return less.score <= other.score + setting.criteria.margin
 
 
-def no_worse(now: Model, than: Model, setting: Setting) -> bool:
+def is_no_worse(model: Model, other: Model, setting: Setting) -> bool:
     """Return whether a model's free run over *choose* loses no more than it gains over *fit*.
 
     The product of both errors may grow by the factor ``worse``: constants that are fitted to half
     of the data increase the error in the other half by some percent.
     """
-    a, b = than.errors, now.errors
-    return b.carried * b.fit <= setting.criteria.worse * a.carried * a.fit
+    a, b = other.errors, model.errors
+    return b.free_run * b.fit <= setting.criteria.worse * a.free_run * a.fit
 
 
-def hardly_more(now: Model, than: Model, setting: Setting) -> bool:
+def within_tolerance(model: Model, other: Model, setting: Setting) -> bool:
     """Return whether the error of a simpler model is hardly larger, on *fit* and on *choose*."""
-    room, a, b = 1.0 + setting.criteria.gain, than.errors, now.errors
+    room, a, b = 1.0 + setting.criteria.gain, other.errors, model.errors
     return b.fit <= room * a.fit and b.choose <= room * a.choose
 
 
@@ -48,24 +50,24 @@ def is_complete(model: Model, setting: Setting) -> bool:
     return max(model.errors.fit, model.errors.choose) <= most
 
 
-def matters(now: Model, before: Model, retuned: Model, setting: Setting) -> bool:
+def is_significant(model: Model, before: Model, retuned: Model, setting: Setting) -> bool:
     """Return whether a new effect explains more than an error in the form of the others could.
 
     It does not if the error of the free run over *choose* is larger than that of the re-tuned
     model by more than the factor ``worse``.
     """
     criteria = setting.criteria
-    if now.errors.carried > criteria.worse * retuned.errors.carried:
+    if model.errors.free_run > criteria.worse * retuned.errors.free_run:
         return False
-    if before.strain - now.strain >= criteria.strain >= now.strain:
+    if before.strain - model.strain >= criteria.strain >= model.strain:
         return True
     pairs = [
-        (now.errors.fit, before.errors.fit, retuned.errors.fit),
-        (now.errors.choose, before.errors.choose, retuned.errors.choose),
+        (model.errors.fit, before.errors.fit, retuned.errors.fit),
+        (model.errors.choose, before.errors.choose, retuned.errors.choose),
     ]
     if not before.effects:
         return all(b <= (1.0 - criteria.gain) * a for b, a, _ in pairs)
-    if before.score - now.score >= criteria.form * (retuned.score - before.score):
+    if before.score - model.score >= criteria.form * (retuned.score - before.score):
         return True
 
     def does(b: float, a: float, whole: float) -> bool:

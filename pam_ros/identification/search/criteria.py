@@ -66,8 +66,8 @@ class Budget:
     """Limits of computing.
 
     ``effects``: most effects of a model. ``rounds``: most steps from model to better model.
-    ``looks``: iterations of a first fit from each start, and of those from its result towards the
-    nearest free run. ``fits``: starts of an effect from which a fit continues. ``rivals``:
+    ``screening``: iterations of a first fit from each start, and of those from its result towards
+    the nearest free run. ``fits``: starts of an effect from which a fit continues. ``rivals``:
     candidates of a round that are fitted further, by ``closer`` iterations; the last fits use as
     many, from the results with long steps. ``iterations``: those of a complete fit. ``finer``:
     number of steps of the confirming fit in one step of the others. ``nearer``: iterations from
@@ -80,7 +80,7 @@ class Budget:
 
     effects: int = 3
     rounds: int = 6
-    looks: int = 4
+    screening: int = 4
     fits: int = 2
     rivals: int = 4
     closer: int = 15

@@ -12,9 +12,9 @@ from pam_ros.identification.data.parts import FEWEST, Part, run_of
 from pam_ros.identification.data.thinning import LONGEST, coarse_period, thinned
 from pam_ros.identification.fit.extend import memories
 from pam_ros.identification.fit.problem import Problem
-from pam_ros.identification.fit.solve import Solution, begun, least_squares
+from pam_ros.identification.fit.solve import Solution, initial_solution, least_squares
 from pam_ros.identification.search.search import Search
-from pam_ros.identification.search.setting import Model, Setting, carried, rms
+from pam_ros.identification.search.setting import Model, Setting, rms, simulate_on
 from pam_ros.identification.search.starts import without_idle
 from pam_ros.rig.joint import Joint
 
@@ -24,7 +24,7 @@ STEPS = 20  # of a slow rig, in the longest period that its fastest oscillation 
 
 
 @dataclass(frozen=True, eq=False)
-class Final:
+class FinalFits:
     """The nominal, the re-tuned and the augmented model, fitted to *fit* and *choose*.
 
     In the nominal model only unknowns that are not parameters are fitted, such as the starts and
@@ -38,18 +38,18 @@ class Final:
     augmented: Solution
 
 
-def final(found: Search) -> Final:
+def fit_finally(search: Search) -> FinalFits:
     """Return the models of a search, fitted completely: by least squares of the free run."""
-    setting = found.setting
+    setting = search.setting
     parts = tuple(sorted(setting.parts, key=lambda part: not _is_run(part)))
     runs = [run_of(part.segment, part.known) for part in parts if _is_run(part)]
     whole = setting.problem_of(runs, short_step(setting.joint))
     starts = tuple(k for k in whole.unknowns if not k.is_parameter)
     nominal = _nearest(replace(whole, unknowns=starts), np.zeros(len(starts)), setting)
-    retuned = _nearest(*_begun(found.retuned, whole, setting), setting)
-    if not found.best.effects:
-        return Final(parts, nominal, retuned, retuned)
-    return Final(parts, nominal, retuned, _nearest(*_nearer(found, whole), setting))
+    retuned = _nearest(*_begun(search.retuned, whole, setting), setting)
+    if not search.best.effects:
+        return FinalFits(parts, nominal, retuned, retuned)
+    return FinalFits(parts, nominal, retuned, _nearest(*_nearer(search, whole), setting))
 
 
 def short_step(joint: Joint) -> float:
@@ -61,14 +61,14 @@ def _is_run(part: Part) -> bool:
     return int(np.count_nonzero(part.known)) >= FEWEST
 
 
-def _nearer(found: Search, whole: Problem) -> tuple[Problem, Array]:
+def _nearer(search: Search, whole: Problem) -> tuple[Problem, Array]:
     """Return the start of the chosen model's fit: the better result of short and long steps.
 
     If a load sticks or hits something, a fit that is right with one step may be wrong with
     another.
     """
-    best, setting = found.best, found.setting
-    same = [m for m in found.looked_at if {*m.effects} == {*best.effects}]
+    best, setting = search.best, search.setting
+    same = [m for m in search.evaluated if {*m.effects} == {*best.effects}]
     coarse = [m for m in same if m.solution.problem.step == setting.step and m is not best]
     coarse = sorted(coarse, key=lambda m: m.score)[:1]
     places = [_begun(model, whole, setting) for model in [best, *coarse]]
@@ -84,9 +84,9 @@ def _nearest(problem: Problem, u: Array, setting: Setting) -> Solution:
     budget, pool = setting.budget, setting.pool
     segments = tuple(thinned(s, setting.period) for s in problem.segments)
     coarse = replace(problem, segments=segments, step=setting.step)
-    there = least_squares(begun(coarse, u, pool=pool), budget.iterations, pool).u
+    there = least_squares(initial_solution(coarse, u, pool=pool), budget.iterations, pool).u
     nearer = min((u, there), key=lambda one: float(np.linalg.norm(problem.residuals(one))))
-    at = without_idle(begun(problem, nearer, pool=pool), setting.noise)
+    at = without_idle(initial_solution(problem, nearer, pool=pool), setting.noise)
     return least_squares(at, budget.closer, pool)
 
 
@@ -118,13 +118,13 @@ def _starts_of(model: Model) -> dict[str, float]:
     return {k.name: k.value(u) for k, u in pairs if not k.is_parameter}
 
 
-def simulated(known: Solution, parts: Sequence[Part], setting: Setting) -> list[Array]:
+def simulated(solution: Solution, parts: Sequence[Part], setting: Setting) -> list[Array]:
     """Return the free run of a final fit through each of its *parts*, from its start.
 
     For a load without a spring this is the measured start: the starts of short runs are different.
     """
     segments = [part.segment for part in parts]
-    return carried(known, segments, setting.left_out)
+    return simulate_on(solution, segments, setting.left_out)
 
 
 def errors_of(runs: Sequence[Array], parts: Sequence[Part]) -> tuple[float, float]:

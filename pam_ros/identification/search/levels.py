@@ -11,14 +11,14 @@ from pam_ros.identification.fit.unknowns import RunLevel
 from pam_ros.rig import layout as at
 
 
-def apart(known: Solution, noise: float) -> tuple[str, ...]:
+def apart(solution: Solution, noise: float) -> tuple[str, ...]:
     """Return a sentence for each length whose recordings differ by more than the *noise* in N.
 
     The differences are those of the fitted levels; that of the last recording is 0.
     """
-    problem = known.problem
+    problem = solution.problem
     l0 = float(problem.row[problem.layout.constant(at.L0)])
-    pairs = zip(problem.unknowns, known.u, strict=True)
+    pairs = zip(problem.unknowns, solution.u, strict=True)
     level = {one.of.run: one.value(u) for one, u in pairs if isinstance(one.of, RunLevel)}
     sentences = []
     for runs in repeats(problem.segments, l0):

@@ -18,18 +18,23 @@ from pam_ros.identification.fit.extend import (
     without_effect,
 )
 from pam_ros.identification.fit.intervals import covariance
-from pam_ros.identification.fit.moment import moved
+from pam_ros.identification.fit.onset import refine_onset
 from pam_ros.identification.fit.places import Place, effect_of
 from pam_ros.identification.fit.problem import Problem
-from pam_ros.identification.fit.solve import Solution, fresh, improved, settled
+from pam_ros.identification.fit.solve import (
+    Solution,
+    converge,
+    levenberg_marquardt,
+    with_fresh_jacobian,
+)
 from pam_ros.identification.fit.unknowns import OfEffect, parameters_of
 from pam_ros.identification.search.setting import Model, Setting
-from pam_ros.identification.search.starts import extended, looks, moving
+from pam_ros.identification.search.starts import extended, have_influence, screen
 
 Option = TypeVar('Option')
 # A fit with fewer parameters whose score after a few iterations is so many margins above the
 # present one does not reach it: in 7 fits of 8 trials it was 160 and more, and ended 60 above.
-FAR = 30.0
+HOPELESS_MARGIN = 30.0
 
 
 def with_each(parent: Model, names: list[str], setting: Setting) -> list[Model]:
@@ -41,11 +46,11 @@ def with_each(parent: Model, names: list[str], setting: Setting) -> list[Model]:
     budget = setting.budget
 
     def look(name: str) -> list[Model]:
-        found = looks(parent, setting.places[name], setting)[: budget.fits]
-        return [setting.model((*parent.effects, name), one, is_look=True) for one in found]
+        found = screen(parent, setting.places[name], setting)[: budget.fits]
+        return [setting.model((*parent.effects, name), one, is_screened=True) for one in found]
 
     def closer(model: Model) -> Model:
-        return setting.model(model.effects, settled(moved(model.solution), budget.closer))
+        return setting.model(model.effects, converge(refine_onset(model.solution), budget.closer))
 
     # An effect has no start if all of its starts are derived from the residual, and none is found.
     # The effects with most starts come first, so that no thread has a long task at the end.
@@ -59,7 +64,7 @@ def with_each(parent: Model, names: list[str], setting: Setting) -> list[Model]:
     best = fits[0].effects
     again = [m for found in rivals for m in found[1:] if m.effects == best]
     nearest = min([fits[0], *setting.pool.map(closer, again)], key=_score)
-    end = settled(moved(nearest.solution), budget.iterations, setting.pool)
+    end = converge(refine_onset(nearest.solution), budget.iterations, setting.pool)
     fits[0] = setting.model(best, end)
     return sorted([*fits, *others], key=_score)
 
@@ -68,7 +73,7 @@ def _score(model: Model) -> float:
     return model.score
 
 
-def freed(model: Model, setting: Setting) -> list[Model]:
+def with_more_parameters(model: Model, setting: Setting) -> list[Model]:
     """Return *model* with more parameters of each of its effects, each fitted until it converges.
 
     If another effect is still missing, these fits converge slowly, and a choice after a few
@@ -102,7 +107,7 @@ def _with_parameters(
 
     def fit(option: tuple[Place, dict[str, float]], pool: Executor | None) -> Model:
         wider = extended(model.solution, *option, setting)
-        return setting.model(model.effects, settled(wider, setting.budget.iterations, pool))
+        return setting.model(model.effects, converge(wider, setting.budget.iterations, pool))
 
     return _in_parallel(fit, options, setting.pool)
 
@@ -124,29 +129,29 @@ def without_idle_parameters(model: Model, setting: Setting) -> Model:
     gradient leads back.
     """
     for name in model.effects:
-        known = fresh(model.solution, setting.pool)
+        known = with_fresh_jacobian(model.solution, setting.pool)
         names = _with_influence(known, name, setting)
         if not names or names == parameters_of(known.problem.unknowns, name):
             continue
         place = setting.places[name]
         problem, keep = with_parameters(known.problem, setting.joint, place, names)
-        less = _kept(known, problem, keep)
+        less = _restricted(known, problem, keep)
         if less.score <= known.score:
             model = setting.model(model.effects, less)
     return model
 
 
-def _with_influence(known: Solution, name: str, setting: Setting) -> set[str]:
+def _with_influence(solution: Solution, name: str, setting: Setting) -> set[str]:
     """Return the unknown parameters of an effect that can change the residuals visibly."""
-    moves = moving(known, setting.noise)
+    moves = have_influence(solution, setting.noise)
     return {
         unknown.of.parameter
-        for unknown, moves_it in zip(known.problem.unknowns, moves, strict=True)
+        for unknown, moves_it in zip(solution.problem.unknowns, moves, strict=True)
         if isinstance(unknown.of, OfEffect) and unknown.of.place == name and moves_it
     }
 
 
-def fixed(model: Model, setting: Setting) -> list[Model]:
+def with_fewer_parameters(model: Model, setting: Setting) -> list[Model]:
     """Return *model* with fewer parameters of each of its effects, fitted from its present values.
 
     The remaining ones suffice for a fit of this effect alone, or of a simpler one that it
@@ -159,20 +164,23 @@ def fixed(model: Model, setting: Setting) -> list[Model]:
         for place in (setting.places[name] for name in model.effects)
         for names in plainer_sets(unknowns, place)
     ]
-    far = model.score + FAR * setting.criteria.margin
+    far = model.score + HOPELESS_MARGIN * setting.criteria.margin
     less = _narrowed(model, options, setting, far)
-    return [*less, *(one for name in model.effects for one in simplified(model, name, setting))]
+    return [
+        *less,
+        *(one for name in model.effects for one in with_simpler_effect(model, name, setting)),
+    ]
 
 
-def with_one_less(model: Model, setting: Setting) -> list[Model]:
+def with_one_parameter_less(model: Model, setting: Setting) -> list[Model]:
     """Return *model* without one of the parameters of its effects, fitted from its values.
 
     The parameter has its default. Parameters that are clearly needed, as far as the residuals are
-    linear in them, are left out, and so are the sets of :func:`fixed`. One strength of each effect
-    remains.
+    linear in them, are left out, and so are the sets of :func:`with_fewer_parameters`. One
+    strength of each effect remains.
     """
-    known, far = model.solution, FAR * setting.criteria.margin
-    expected = rises(known, setting)
+    known, far = model.solution, HOPELESS_MARGIN * setting.criteria.margin
+    expected = score_rises(known, setting)
     options = []
     for place in (setting.places[name] for name in model.effects):
         others = plainer_sets(known.problem.unknowns, place)
@@ -186,7 +194,7 @@ def with_one_less(model: Model, setting: Setting) -> list[Model]:
     return _narrowed(model, options, setting, model.score + far)
 
 
-def rises(known: Solution, setting: Setting) -> dict[tuple[str, str], float]:
+def score_rises(solution: Solution, setting: Setting) -> dict[tuple[str, str], float]:
     """Return by how much the score rises without each parameter, by its place and its name.
 
     This is exact if the residuals are linear in the unknowns. With the standard deviations s of
@@ -194,9 +202,9 @@ def rises(known: Solution, setting: Setting) -> dict[tuple[str, str], float]:
     prior by (u - d)^2/s^2 (Wald 1943). It saves its own prior d^2/P^2 and the cost ln(P^2/s^2). Of
     a parameter with several unknowns, the one that is needed most counts.
     """
-    variances = np.diag(covariance(known, known.discrepancy))
+    variances = np.diag(covariance(solution, solution.discrepancy))
     found: dict[tuple[str, str], float] = {}
-    for unknown, u, variance in zip(known.problem.unknowns, known.u, variances, strict=True):
+    for unknown, u, variance in zip(solution.problem.unknowns, solution.u, variances, strict=True):
         if isinstance(unknown.of, OfEffect):
             place = setting.places[unknown.of.place]
             default = next(p.default for p in place.parameters if p.name == unknown.of.parameter)
@@ -207,7 +215,7 @@ def rises(known: Solution, setting: Setting) -> dict[tuple[str, str], float]:
     return found
 
 
-def weakened(model: Model, name: str, setting: Setting) -> list[Model]:
+def with_fewer_strengths(model: Model, name: str, setting: Setting) -> list[Model]:
     """Return *model* with fewer strengths of the effect called *name*, fitted from its values.
 
     For each set of strengths with which a fit may also begin, it has the fewest parameters.
@@ -238,16 +246,16 @@ def _narrowed(
 
     def fit(option: tuple[Place, set[str]], pool: Executor | None) -> Model:
         place, names = option
-        less = _kept(known, *with_parameters(known.problem, setting.joint, place, names))
-        near = improved(less, setting.budget.looks, pool)
+        less = _restricted(known, *with_parameters(known.problem, setting.joint, place, names))
+        near = levenberg_marquardt(less, setting.budget.screening, pool)
         if near.score > far:
-            return setting.model(model.effects, near, is_look=True)
-        return setting.model(model.effects, settled(near, setting.budget.iterations, pool))
+            return setting.model(model.effects, near, is_screened=True)
+        return setting.model(model.effects, converge(near, setting.budget.iterations, pool))
 
     return _in_parallel(fit, options, setting.pool)
 
 
-def simplified(model: Model, name: str, setting: Setting) -> list[Model]:
+def with_simpler_effect(model: Model, name: str, setting: Setting) -> list[Model]:
     """Return *model* with each simpler effect that the effect called *name* contains, instead.
 
     The fits begin from the present values, also from those of the parameters that both have in
@@ -256,29 +264,29 @@ def simplified(model: Model, name: str, setting: Setting) -> list[Model]:
     known, place = model.solution, setting.places[name]
     starts = {
         simple: in_common(known.problem, known.u, setting.joint, place, effect_of(simple))
-        for simple in contained(model, name, setting)
+        for simple in simpler_effects(model, name, setting)
     }
     if not any(starts.values()):
         return []
-    less = _kept(known, *without_effect(known.problem, setting.joint, place))
+    less = _restricted(known, *without_effect(known.problem, setting.joint, place))
     effects = tuple(one for one in model.effects if one != name)
 
     def fit(simple: str, start: dict[str, float]) -> Model:
         wider = extended(less, setting.places[simple], start, setting)
-        end = settled(wider, setting.budget.iterations, setting.pool)
+        end = converge(wider, setting.budget.iterations, setting.pool)
         return setting.model((*effects, simple), end)
 
     return [fit(simple, start) for simple, start in starts.items() if start]
 
 
-def contained(model: Model, name: str, setting: Setting) -> list[str]:
+def simpler_effects(model: Model, name: str, setting: Setting) -> list[str]:
     """Return the places of those simpler effects that *name* contains and *model* could have."""
     named = setting.related(name, setting.places[name].effect.contains)
-    able = absent(model, setting)
+    able = absent_effects(model, setting)
     return [one for one in named if one in able]
 
 
-def absent(model: Model, setting: Setting) -> list[str]:
+def absent_effects(model: Model, setting: Setting) -> list[str]:
     """Return the places of the effects that *model* lacks and its rig could have."""
     joint, places = setting.joint, setting.places
     there = [places[name] for name in model.effects]
@@ -292,25 +300,25 @@ def absent(model: Model, setting: Setting) -> list[str]:
     ]
 
 
-def dropped(model: Model, name: str, setting: Setting) -> Model:
+def remove_effect(model: Model, name: str, setting: Setting) -> Model:
     """Return *model* without an effect, fitted from the present values of the other unknowns.
 
     So an effect is not accepted only because its start led the others to better values.
     """
     if name not in model.without:
-        model.without[name] = _dropped(model, name, setting)
+        model.without[name] = _removed(model, name, setting)
     return model.without[name]
 
 
-def _dropped(model: Model, name: str, setting: Setting) -> Model:
+def _removed(model: Model, name: str, setting: Setting) -> Model:
     problem, keep = without_effect(model.solution.problem, setting.joint, setting.places[name])
     effects = tuple(e for e in model.effects if e != name)
-    less = _kept(model.solution, problem, keep)
-    return setting.model(effects, settled(less, setting.budget.iterations, setting.pool))
+    less = _restricted(model.solution, problem, keep)
+    return setting.model(effects, converge(less, setting.budget.iterations, setting.pool))
 
 
-def _kept(known: Solution, problem: Problem, keep: list[int]) -> Solution:
-    """Return the solution of a *problem* at the unknowns *keep* of *known*, without a fit."""
-    u = known.u[keep]
-    slopes = known.jacobian[:, keep]
-    return Solution(problem, u, problem.residuals(u), slopes, known.discrepancy)
+def _restricted(solution: Solution, problem: Problem, keep: list[int]) -> Solution:
+    """Return the solution of a *problem* at the unknowns *keep* of *solution*, without a fit."""
+    u = solution.u[keep]
+    slopes = solution.jacobian[:, keep]
+    return Solution(problem, u, problem.residuals(u), slopes, solution.discrepancy)

@@ -19,12 +19,12 @@ from pam_ros.identification.data.parts import FEWEST, Part, run_of
 from pam_ros.identification.data.segment import Segment
 from pam_ros.identification.data.thinning import thinned
 from pam_ros.identification.fit.extend import memories
-from pam_ros.identification.fit.moment import WILKS, index_of_onset
+from pam_ros.identification.fit.onset import WILKS, index_of_onset
 from pam_ros.identification.fit.problem import Problem
-from pam_ros.identification.fit.solve import begun, least_squares, settled
+from pam_ros.identification.fit.solve import converge, initial_solution, least_squares
 from pam_ros.identification.fit.unknowns import OF_RUNS
-from pam_ros.identification.search.search import Progress, Search, search
-from pam_ros.identification.search.setting import Model, Setting, elsewhere, rms
+from pam_ros.identification.search.search import Progress, Search, find_effects
+from pam_ros.identification.search.setting import Model, Setting, rms, transfer
 from pam_ros.identification.search.starts import without_idle
 
 Array = NDArray[np.float64]
@@ -34,7 +34,7 @@ ITERATIONS = 8  # of these fits; each begins at the result of the one before
 
 
 @dataclass(frozen=True)
-class Moment:
+class OnsetEstimate:
     """The time in s, with a 95 % interval, up to which a model explains a recording."""
 
     time: float
@@ -42,7 +42,7 @@ class Moment:
     high: float
 
 
-def moment(setting: Setting) -> Moment | None:
+def estimate_onset(setting: Setting) -> OnsetEstimate | None:
     """Return the time from which the re-tuned model fails, None if there is none.
 
     It is evaluated only for a single recording of a load that moves and has a spring: only there
@@ -56,10 +56,10 @@ def moment(setting: Setting) -> Moment | None:
     if _count(runs[0], edges[0]) < FEWEST:
         return None
     known = _fitted(whole, edges[0], np.zeros(len(whole.unknowns)), setting)
-    return _moment(whole, edges, known, setting)
+    return _estimate(whole, edges, known, setting)
 
 
-def moment_after(model: Model) -> Moment | None:
+def estimate_onset_after(model: Model) -> OnsetEstimate | None:
     """Return the time after the fitted part from which a model fails, None if there is none.
 
     It is evaluated for the same recordings as :func:`moment`.
@@ -68,11 +68,11 @@ def moment_after(model: Model) -> Moment | None:
     runs = _runs(setting)
     if not runs:
         return None
-    whole, known = elsewhere(model.nearest, runs)
+    whole, known = transfer(model.nearest, runs)
     end = max(float(part.segment.t[part.fit][-1]) for part in setting.parts if part.fit.any())
     edges = _edges(runs)
     later = edges[edges > end]
-    return _moment(whole, np.concatenate([[end], later]), known, setting) if later.size else None
+    return _estimate(whole, np.concatenate([[end], later]), known, setting) if later.size else None
 
 
 def _edges(runs: Sequence[Segment]) -> Array:
@@ -82,7 +82,9 @@ def _edges(runs: Sequence[Segment]) -> Array:
     return edges
 
 
-def _moment(whole: Problem, edges: Array, known: Array, setting: Setting) -> Moment | None:
+def _estimate(
+    whole: Problem, edges: Array, known: Array, setting: Setting
+) -> OnsetEstimate | None:
     """Return the time from which the model of *whole* fails in blocks between *edges* in s.
 
     *known* are its unknowns, fitted to the samples before the first edge.
@@ -120,7 +122,7 @@ def _runs(setting: Setting) -> list[Segment]:
 
 
 def shares_after(
-    since: Moment, parts: Sequence[Part], shares: tuple[float, float], least: float
+    since: OnsetEstimate, parts: Sequence[Part], shares: tuple[float, float], least: float
 ) -> tuple[float, float] | None:
     """Return the shares of a recording that are fitted, and that are fitted or decide.
 
@@ -135,7 +137,7 @@ def shares_after(
     return (fit, choose) if (fit - gone) * (last - first) >= least else None
 
 
-def search_since(setting: Setting, late: Setting, progress: Progress) -> Search:
+def find_late_effects(setting: Setting, late: Setting, progress: Progress) -> Search:
     """Find the effects that begin late, or else those that act from the start.
 
     *late* is the setting in which all effects begin at one time, and *setting* is that in which
@@ -145,13 +147,13 @@ def search_since(setting: Setting, late: Setting, progress: Progress) -> Search:
     unknowns is not compared: the derivative by an onset between two commands may be 0, and then
     its cost is not known.
     """
-    found = search(late, progress)
+    found = find_effects(late, progress)
     best = found.best
     if best.effects:
         gain = _from_start(best, late).solution.cost - best.solution.cost
         if gain > late.criteria.margin:
             return found
-    return search(setting, progress)
+    return find_effects(setting, progress)
 
 
 def _from_start(late: Model, setting: Setting) -> Model:
@@ -164,8 +166,10 @@ def _from_start(late: Model, setting: Setting) -> Model:
     memory = [one for name in late.effects for one in memories(problem, setting.places[name])]
     whole = replace(problem, unknowns=(*problem.unknowns, *memory))
     u = np.concatenate([np.delete(known.u, k), np.zeros(len(memory))])
-    plain = without_idle(begun(whole, u, known.discrepancy, setting.pool), setting.noise)
-    return setting.model(late.effects, settled(plain, setting.budget.iterations, setting.pool))
+    plain = without_idle(
+        initial_solution(whole, u, known.discrepancy, setting.pool), setting.noise
+    )
+    return setting.model(late.effects, converge(plain, setting.budget.iterations, setting.pool))
 
 
 def _failing(
@@ -205,7 +209,9 @@ def _fitted(whole: Problem, end: float, u: Array, setting: Setting) -> Array:
         segments=tuple(run_of(s, s.t <= end) for s in runs),
         unknowns=tuple(whole.unknowns[n] for n in keep),
     )
-    found = least_squares(begun(problem, u[keep], pool=setting.pool), ITERATIONS, setting.pool)
+    found = least_squares(
+        initial_solution(problem, u[keep], pool=setting.pool), ITERATIONS, setting.pool
+    )
     moved: Array = u.copy()
     moved[keep] = found.u
     return moved
@@ -215,7 +221,7 @@ def _count(segment: Segment, end: float) -> int:
     return int(np.count_nonzero(segment.t <= end))
 
 
-def _located(t: Array, left: Array) -> Moment:
+def _located(t: Array, left: Array) -> OnsetEstimate:
     """Return the most likely time at which the variance of *left* (n,) changes, at stamps t.
 
     For each time, the variances before and after it have their most likely values.
@@ -228,4 +234,4 @@ def _located(t: Array, left: Array) -> Moment:
     deviance = n * np.log(first + 1e-300) + (t.size - n) * np.log(last + 1e-300)
     best = int(np.argmin(deviance))
     near = np.flatnonzero(deviance <= deviance[best] + WILKS)
-    return Moment(float(t[best + 1]), float(t[near[0]]), float(t[near[-1] + 1]))
+    return OnsetEstimate(float(t[best + 1]), float(t[near[0]]), float(t[near[-1] + 1]))

@@ -31,7 +31,7 @@ from pam_ros.identification.fit.discrepancy import WHITE
 from pam_ros.identification.fit.places import Place, muscle_of, places_of
 from pam_ros.identification.fit.problem import Problem
 from pam_ros.identification.fit.run_levels import level_unknowns
-from pam_ros.identification.fit.solve import Solution, improved, with_nominal_constants
+from pam_ros.identification.fit.solve import Solution, levenberg_marquardt, with_nominal_constants
 from pam_ros.identification.fit.uncertain import Spreads, spread_unknowns
 from pam_ros.identification.fit.unknowns import (
     OF_RETUNING,
@@ -53,15 +53,16 @@ MANY = 3.0  # times as many samples as a search needs, from which on rests are s
 class Errors:
     """RMSE in m, rad or N over the part that was fitted, and over the part for choices.
 
-    ``carried`` is that of the free run over *choose*. The others are those of the same run, except
-    for a load without a spring, for which they are those of short runs. At prescribed lengths the
-    parts are interleaved, so that initial memories that suit the fit suit *choose*, too. Therefore
-    the run for *choose* begins there with memories at rest, as in another recording.
+    ``free_run`` is that of the free run over *choose*. The others are those of the same run,
+    except for a load without a spring, for which they are those of short runs. At prescribed
+    lengths the parts are interleaved, so that initial memories that suit the fit suit *choose*,
+    too. Therefore the run for *choose* begins there with memories at rest, as in another
+    recording.
     """
 
     fit: float
     choose: float
-    carried: float
+    free_run: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,7 +76,7 @@ class Model:
     effects: tuple[str, ...]  # names of their places
     solution: Solution
     setting: 'Setting'
-    is_look: bool
+    is_screened: bool
     without: dict[str, 'Model'] = field(default_factory=dict, repr=False)
 
     @property
@@ -92,12 +93,15 @@ class Model:
         and the nearer result is used. For a cheap fit a few cheap steps are made.
         """
         setting, plain = self.setting, replace(self.solution, discrepancy=WHITE)
-        if self.is_look:
-            return improved(plain, setting.budget.looks, renew=False)
-        near = improved(plain, setting.budget.nearer)
+        if self.is_screened:
+            return levenberg_marquardt(plain, setting.budget.screening, renew=False)
+        near = levenberg_marquardt(plain, setting.budget.nearer)
         if self.strain <= setting.criteria.strain:
             return near
-        again = (improved(one, setting.budget.nearer) for one in with_nominal_constants(plain))
+        again = (
+            levenberg_marquardt(one, setting.budget.nearer)
+            for one in with_nominal_constants(plain)
+        )
         return min((near, *again), key=lambda one: one.cost)
 
     @cached_property
@@ -241,9 +245,11 @@ class Setting:
             replace(part, segment=w) for part in self.thin for w in windows(part.segment, length)
         ]
 
-    def model(self, effects: tuple[str, ...], solution: Solution, is_look: bool = False) -> Model:
-        """Return the model of a solution; *is_look* is true for a cheap fit."""
-        return Model(effects, solution, self, is_look)
+    def model(
+        self, effects: tuple[str, ...], solution: Solution, is_screened: bool = False
+    ) -> Model:
+        """Return the model of a solution; *is_screened* is true for a cheap fit."""
+        return Model(effects, solution, self, is_screened)
 
     def errors(self, solution: Solution) -> Errors:
         """Return the errors of a solution without a further fit."""
@@ -251,12 +257,12 @@ class Setting:
         whole = [part.segment for part in known]
         if self.drifts:
             short = [part.segment for part in self.windows]
-            fit, choose = _rms_of(self.windows, carried(solution, short, without=OF_RUNS))
-            _, far = _rms_of(known, carried(solution, whole, without=OF_RUNS))
+            fit, choose = _rms_of(self.windows, simulate_on(solution, short, without=OF_RUNS))
+            _, far = _rms_of(known, simulate_on(solution, whole, without=OF_RUNS))
             return Errors(fit, choose, far)
-        fit, choose = _rms_of(known, carried(solution, whole))
+        fit, choose = _rms_of(known, simulate_on(solution, whole))
         if known[0].segment.kind == 'held':
-            _, choose = _rms_of(known, carried(solution, whole, without=(MemoryStart,)))
+            _, choose = _rms_of(known, simulate_on(solution, whole, without=(MemoryStart,)))
         return Errors(fit, choose, choose)
 
     @cached_property
@@ -278,15 +284,15 @@ class Setting:
         return float(np.sqrt(max(error**2 - self.noise**2, 0.0)))
 
 
-def carried(
+def simulate_on(
     solution: Solution, segments: Sequence[Segment], without: tuple[type, ...] = ()
 ) -> list[Array]:
-    """Return a simulation of other segments by the model of *solution*, see :func:`elsewhere`."""
-    problem, u = elsewhere(solution, segments, without)
+    """Return a simulation of other segments by the model of *solution*, see :func:`transfer`."""
+    problem, u = transfer(solution, segments, without)
     return problem.predict(u)
 
 
-def elsewhere(
+def transfer(
     solution: Solution, segments: Sequence[Segment], without: tuple[type, ...] = ()
 ) -> tuple[Problem, Array]:
     """Return the model of *solution* over other segments, and its unknowns.

@@ -10,14 +10,14 @@ from numpy.typing import NDArray
 from pam_ros.identification.data.segment import Segment
 from pam_ros.identification.fit.discrepancy import Discrepancy
 from pam_ros.identification.fit.intervals import half_widths
-from pam_ros.identification.fit.moment import interval
+from pam_ros.identification.fit.onset import interval
 from pam_ros.identification.fit.places import Place
 from pam_ros.identification.fit.solve import Solution
 from pam_ros.identification.fit.unknowns import OF_RUNS, OnsetTime, Unknown
 from pam_ros.identification.result import Estimate, Stage
-from pam_ros.identification.search.final import Final, errors_of, simulated
+from pam_ros.identification.search.final import FinalFits, errors_of, simulated
 from pam_ros.identification.search.search import Search
-from pam_ros.identification.search.setting import carried, rms
+from pam_ros.identification.search.setting import rms, simulate_on
 from pam_ros.identification.source_units import in_source_units, with_row
 from pam_ros.rig.joint import Joint
 
@@ -25,36 +25,36 @@ Array = NDArray[np.float64]
 NEAR = 1e-6  # distance of u from its bound that counts as 0
 
 
-def stages(ends: Final, found: Search, test: Sequence[Segment]) -> tuple[Stage, Stage, Stage]:
+def stages(ends: FinalFits, search: Search, test: Sequence[Segment]) -> tuple[Stage, Stage, Stage]:
     """Return the nominal, the re-tuned and the augmented model of a search, after the final fits.
 
     Errors on held-out data are those of free runs over *test* from their measured start, or
     without *test* those over the judging part.
     """
-    joint = found.setting.joint
-    problem = found.setting.problem
+    joint = search.setting.joint
+    problem = search.setting.problem
     known = [unknown for unknown in problem.unknowns if unknown.is_parameter]
     nominal = {k.name: in_source_units(k, 3 * [k.value(0.0)], joint, False) for k in known}
-    retuned, augmented = found.setting.pool.map(
+    retuned, augmented = search.setting.pool.map(
         lambda one: estimates(one, one.most_likely(), joint), (ends.retuned, ends.augmented)
     )
-    effects = found.best.effects
+    effects = search.best.effects
 
     def stage(
         name: str, fit: Solution, parameters: dict[str, Estimate], added: Sequence[str]
     ) -> Stage:
-        runs = simulated(fit, ends.parts, found.setting)
+        runs = simulated(fit, ends.parts, search.setting)
         error, held = errors_of(runs, ends.parts)
         # Effects that began in one recording act in others from the start.
-        tested = carried(fit, test, without=(*OF_RUNS, OnsetTime)) if test else []
+        tested = simulate_on(fit, test, without=(*OF_RUNS, OnsetTime)) if test else []
         if tested:
             off = [run - s.target for run, s in zip(tested, test, strict=True)]
             held = rms(np.concatenate(off))
         row, segments = fit.problem.row_at(fit.u), fit.problem.segments
-        places = [found.setting.places[effect] for effect in added]
+        places = [search.setting.places[effect] for effect in added]
         numbers = fit.problem.numbers_at(fit.u)
         model = with_row(joint, row, segments, places, numbers)
-        return Stage(name, model, parameters, error, held, tuple(runs), tuple(tested))
+        return Stage(name, model, parameters, error, held, tuple(runs), tuple(tested), fit.log)
 
     return (
         stage('declared', ends.nominal, nominal, ()),
@@ -69,22 +69,22 @@ def at_place(estimates: Mapping[str, Estimate], place: Place) -> dict[str, Estim
     return {name: estimates[place.flat(name)] for name in names if place.flat(name) in estimates}
 
 
-def estimates(known: Solution, process: Discrepancy, joint: Joint) -> dict[str, Estimate]:
+def estimates(solution: Solution, process: Discrepancy, joint: Joint) -> dict[str, Estimate]:
     """Return the parameters of a fit with their 95 % intervals, for errors with a *process*.
 
     Each is in the unit in which *joint* gives it. Starts of runs and memories are not included.
     """
-    widths = half_widths(known, process)
+    widths = half_widths(solution, process)
     return {
         unknown.name: _estimate(unknown, u, width, joint)
-        for unknown, u, width in zip(known.problem.unknowns, known.u, widths, strict=True)
+        for unknown, u, width in zip(solution.problem.unknowns, solution.u, widths, strict=True)
         if unknown.is_parameter
     }
 
 
-def onset_of(known: Solution) -> Estimate:
+def onset_of(solution: Solution) -> Estimate:
     """Return the time in s at which the effects of a fit begin, with its 95 % interval."""
-    return Estimate(*interval(known), 's')
+    return Estimate(*interval(solution), 's')
 
 
 def _estimate(unknown: Unknown, u: float, width: float, joint: Joint) -> Estimate:

@@ -9,9 +9,14 @@ from numpy.typing import NDArray
 
 from pam_ros.identification.fit.discrepancy import WHITE, Discrepancy
 from pam_ros.identification.fit.extend import bounded, started, with_effect
-from pam_ros.identification.fit.moment import keeping_onset
+from pam_ros.identification.fit.onset import keeping_onset
 from pam_ros.identification.fit.places import Place
-from pam_ros.identification.fit.solve import Solution, begun, improved, with_nominal_constants
+from pam_ros.identification.fit.solve import (
+    Solution,
+    initial_solution,
+    levenberg_marquardt,
+    with_nominal_constants,
+)
 from pam_ros.identification.fit.unknowns import MemoryStart
 from pam_ros.identification.search.setting import Model, Setting
 from pam_ros.rig import layout as at
@@ -19,10 +24,10 @@ from pam_ros.rig import layout as at
 Array = NDArray[np.float64]
 # An unknown has an influence if it can change the residuals by so many standard deviations of the
 # noise. A smaller influence is not visible in a score: ln(1 + 0.3^2) = 0.09.
-MOVES = 0.3
+LEAST_INFLUENCE = 0.3
 
 
-def looks(parent: Model, place: Place, setting: Setting) -> list[Solution]:
+def screen(parent: Model, place: Place, setting: Setting) -> list[Solution]:
     """Return cheap fits of the effect at *place* on top of *parent*, the best score first.
 
     They begin with each start of the effect, with the parent's discrepancy and with none (a slow
@@ -37,7 +42,7 @@ def looks(parent: Model, place: Place, setting: Setting) -> list[Solution]:
         wider = [extended(known, place, start, setting) for start in starts]
         best: list[int] = []
         for process in processes:
-            some = [_look(replace(one, discrepancy=process), setting) for one in wider]
+            some = [_screened(replace(one, discrepancy=process), setting) for one in wider]
             order = sorted(range(len(some)), key=lambda k: some[k].cost)
             found += [some[k] for k in order[: setting.budget.fits]]
             best += order[:1]
@@ -45,53 +50,58 @@ def looks(parent: Model, place: Place, setting: Setting) -> list[Solution]:
     return sorted((_with_own_discrepancy(one) for one in found), key=lambda one: one.score)
 
 
-def _look(wider: Solution, setting: Setting) -> Solution:
-    def cheap(known: Solution) -> Solution:
-        return improved(known, setting.budget.looks, renew=False)
+def _screened(wider: Solution, setting: Setting) -> Solution:
+    def cheap(solution: Solution) -> Solution:
+        return levenberg_marquardt(solution, setting.budget.screening, renew=False)
 
     return keeping_onset(wider, cheap)
 
 
-def _grounds(known: Solution) -> list[tuple[Solution, list[Discrepancy]]]:
+def _grounds(solution: Solution) -> list[tuple[Solution, list[Discrepancy]]]:
     """Return solutions to which an effect is added, each with the discrepancies to begin with."""
-    own = [known.discrepancy] if known.discrepancy != WHITE else []
-    return [(known, [*own, WHITE]), *((one, [WHITE]) for one in with_nominal_constants(known))]
+    own = [solution.discrepancy] if solution.discrepancy != WHITE else []
+    return [
+        (solution, [*own, WHITE]),
+        *((one, [WHITE]) for one in with_nominal_constants(solution)),
+    ]
 
 
-def _with_own_discrepancy(known: Solution) -> Solution:
-    return replace(known, discrepancy=known.most_likely())
+def _with_own_discrepancy(solution: Solution) -> Solution:
+    return replace(solution, discrepancy=solution.most_likely())
 
 
-def extended(known: Solution, place: Place, start: dict[str, float], setting: Setting) -> Solution:
-    """Return *known* with the effect at *place*, with its parameters at *start*.
+def extended(
+    solution: Solution, place: Place, start: dict[str, float], setting: Setting
+) -> Solution:
+    """Return *solution* with the effect at *place*, with its parameters at *start*.
 
     The columns of the Jacobian that belong to the effect are computed; the others are kept, unless
-    the values of unknowns of *known* change.
+    the values of unknowns of *solution* change.
     """
-    problem, added = with_effect(known.problem, setting.joint, place, start)
-    there = started(known.problem, known.u, place, start)
+    problem, added = with_effect(solution.problem, setting.joint, place, start)
+    there = started(solution.problem, solution.u, place, start)
     begin = np.concatenate([there, added])
     problem = bounded(problem, begin, setting.joint, place)
     u = np.clip(begin, *problem.bounds)
-    if np.array_equal(there, known.u):
+    if np.array_equal(there, solution.u):
         r = problem.residuals(u)
-        own = problem.jacobian(u, r, only=range(known.u.size, u.size))
-        whole = Solution(problem, u, r, np.hstack([known.jacobian, own]), known.discrepancy)
+        own = problem.jacobian(u, r, only=range(solution.u.size, u.size))
+        whole = Solution(problem, u, r, np.hstack([solution.jacobian, own]), solution.discrepancy)
     else:
-        whole = begun(problem, u, known.discrepancy)
+        whole = initial_solution(problem, u, solution.discrepancy)
     return without_idle(whole, setting.noise)
 
 
-def moving(known: Solution, noise: float) -> NDArray[np.bool_]:
+def have_influence(solution: Solution, noise: float) -> NDArray[np.bool_]:
     """Return which unknowns (k,) can change the residuals by more than MOVES *noise*."""
-    size = np.linalg.norm(known.jacobian, axis=0) * known.problem.prior
-    return np.asarray(size > MOVES * noise)
+    size = np.linalg.norm(solution.jacobian, axis=0) * solution.problem.prior
+    return np.asarray(size > LEAST_INFLUENCE * noise)
 
 
-def without_idle(known: Solution, noise: float) -> Solution:
-    """Return *known* without those unknown memories that have no influence on their run."""
-    problem = known.problem
-    moves = moving(known, noise)
+def without_idle(solution: Solution, noise: float) -> Solution:
+    """Return *solution* without those unknown memories that have no influence on their run."""
+    problem = solution.problem
+    moves = have_influence(solution, noise)
     keep = [
         k
         for k, unknown in enumerate(problem.unknowns)
@@ -99,10 +109,10 @@ def without_idle(known: Solution, noise: float) -> Solution:
     ]
     unknowns = tuple(problem.unknowns[k] for k in keep)
     return replace(
-        known,
+        solution,
         problem=replace(problem, unknowns=unknowns),
-        u=known.u[keep],
-        jacobian=known.jacobian[:, keep],
+        u=solution.u[keep],
+        jacobian=solution.jacobian[:, keep],
     )
 
 

@@ -10,16 +10,16 @@ from scipy.stats import chi2
 
 from pam_ros.identification.fit.places import spelled
 from pam_ros.identification.result import Candidate
-from pam_ros.identification.search.compare import matters, no_worse, with_errors
+from pam_ros.identification.search.compare import is_no_worse, is_significant, with_errors
 from pam_ros.identification.search.power import hidden
-from pam_ros.identification.search.search import Search, alternatives, best_with
+from pam_ros.identification.search.search import Search, alternatives
 from pam_ros.identification.search.setting import Model
 from pam_ros.identification.search.stages import at_place, estimates
 
 Set = frozenset[str]
 
 
-def candidates(found: Search) -> tuple[Candidate, ...]:
+def candidates(search: Search) -> tuple[Candidate, ...]:
     """Return the candidates of a search, first those whose parents have fewer effects.
 
     Of several models with the same effects from fits with long steps, the one of the best score is
@@ -27,29 +27,29 @@ def candidates(found: Search) -> tuple[Candidate, ...]:
     """
     parents: dict[Set, Model] = {}
     children: dict[tuple[Set, str], Model] = {}
-    for model in sorted(found.looked_at, key=lambda m: m.score):
-        if model.solution.problem.step == found.setting.step:
+    for model in sorted(search.evaluated, key=lambda m: m.score):
+        if model.solution.problem.step == search.setting.step:
             parents.setdefault(frozenset(model.effects), model)
             if model.effects:
                 *before, name = model.effects
                 children.setdefault((frozenset(before), name), model)
-    with_errors({*parents.values(), *children.values()}, found.setting)
+    with_errors({*parents.values(), *children.values()}, search.setting)
     made = []
     for effects in sorted(parents, key=len):
         tried = [child for (before, _), child in children.items() if before == effects]
-        made += [_candidate(child, parents[effects], tried, found) for child in tried]
-    return _without_power(made, found)
+        made += [_candidate(child, parents[effects], tried, search) for child in tried]
+    return _without_power(made, search)
 
 
-def _without_power(made: Sequence[Candidate], found: Search) -> tuple[Candidate, ...]:
+def _without_power(made: Sequence[Candidate], search: Search) -> tuple[Candidate, ...]:
     """Return the candidates, those that the recordings could not show marked as untestable.
 
     A row that lowers the score by the margin keeps its reason in any case.
     """
-    margin = found.setting.criteria.margin
+    margin = search.setting.criteria.margin
     able = [c for c in made if c.decision == 'rejected' and c.score_fall < margin]
-    names = dict.fromkeys(c.effect for c in able if c.effect not in found.best.effects)
-    reasons = hidden(found.best, names, found.setting)
+    names = dict.fromkeys(c.effect for c in able if c.effect not in search.best.effects)
+    reasons = hidden(search.best, names, search.setting)
     return tuple(
         replace(c, p=nan, decision='untestable', reason=reasons[c.effect])
         if c in able and c.effect in reasons
@@ -58,13 +58,13 @@ def _without_power(made: Sequence[Candidate], found: Search) -> tuple[Candidate,
     )
 
 
-def _candidate(model: Model, parent: Model, tried: list[Model], found: Search) -> Candidate:
+def _candidate(model: Model, parent: Model, tried: list[Model], search: Search) -> Candidate:
     fall, more = parent.solution.cost - model.solution.cost, _more(model, parent)
-    decision, reason = _decision(model, parent, tried, found)
+    decision, reason = _decision(model, parent, tried, search)
     name = model.effects[-1]
-    known = estimates(model.solution, model.solution.discrepancy, found.setting.joint)
-    own = at_place(known, found.setting.places[name])
-    strengths = [p.name for p in found.setting.places[name].parameters if p.strength]
+    known = estimates(model.solution, model.solution.discrepancy, search.setting.joint)
+    own = at_place(known, search.setting.places[name])
+    strengths = [p.name for p in search.setting.places[name].parameters if p.strength]
     intervals = [own[strength] for strength in strengths if strength in own]
     return Candidate(
         name,
@@ -90,31 +90,31 @@ def _gain(model: Model, parent: Model) -> float:
     return 1.0 - model.errors.choose / parent.errors.choose
 
 
-def _decision(model: Model, parent: Model, tried: list[Model], found: Search) -> tuple[str, str]:
+def _decision(model: Model, parent: Model, tried: list[Model], search: Search) -> tuple[str, str]:
     """Return the decision on a model, and its reason."""
-    best = found.best
+    best = search.best
     if model.effects == best.effects[: len(model.effects)]:
-        return 'chosen', _why(model, parent, found)
+        return 'chosen', _why(model, parent, search)
     for name in best.effects:
         rest = {*best.effects} - {name}
-        if any({*model.effects} == rest | {other} for other in alternatives(found, name)):
+        if any({*model.effects} == rest | {other} for other in alternatives(search, name)):
             return 'ambiguous', f'explains the data as well as {spelled(name)}'
-    return 'rejected', _why_not(model, parent, tried, found)
+    return 'rejected', _why_not(model, parent, tried, search)
 
 
-def _why_not(model: Model, parent: Model, tried: list[Model], found: Search) -> str:
+def _why_not(model: Model, parent: Model, tried: list[Model], search: Search) -> str:
     """Return the first reason why a model was not chosen."""
-    fall, margin = parent.score - model.score, found.setting.criteria.margin
+    fall, margin = parent.score - model.score, search.setting.criteria.margin
     if fall < margin:
         verb = 'lowers' if fall >= 0.0 else 'raises'
         return f'{verb} the score by {abs(fall):.1f}; a decrease of {margin:g} is required'
-    if not no_worse(model, parent, found.setting):
+    if not is_no_worse(model, parent, search.setting):
         a, b = parent.errors, model.errors
         return (
-            f'the error of the free run is {_changed(b.carried / a.carried)} over samples that '
+            f'the error of the free run is {_changed(b.free_run / a.free_run)} over samples that '
             f'were not fitted, and {_changed(b.fit / a.fit)} over those that were'
         )
-    if not matters(model, parent, found.retuned, found.setting):
+    if not is_significant(model, parent, search.retuned, search.setting):
         return 'explains too little of the error that remains after re-tuning'
     winner = min(tried, key=lambda one: one.score)
     if winner is not model:
@@ -129,33 +129,33 @@ def _changed(ratio: float) -> str:
     return f'{percent} larger' if ratio > 1.0 else f'{percent} smaller'
 
 
-def reason_for(found: Search, name: str) -> str:
+def reason_for(search: Search, name: str) -> str:
     """Return why an effect is in the best model, compared with the best model without it."""
-    return _why(found.best, _without(name, found), found)
+    return _why(search.best, _without(name, search), search)
 
 
-def is_instead_of_constants(found: Search, name: str) -> bool:
+def is_instead_of_constants(search: Search, name: str) -> bool:
     """Return whether the best model without this effect explains as much, by far constants."""
-    best = found.best
-    return _avoids_strain(best, _without(name, found), found)
+    best = search.best
+    return _avoids_strain(best, _without(name, search), search)
 
 
-def _without(name: str, found: Search) -> Model:
-    step = found.best.solution.problem.step
-    return best_with({*found.best.effects} - {name}, step, found)
+def _without(name: str, search: Search) -> Model:
+    step = search.best.solution.problem.step
+    return search.best_evaluated({*search.best.effects} - {name}, step)
 
 
-def _avoids_strain(model: Model, parent: Model, found: Search) -> bool:
-    criteria = found.setting.criteria
+def _avoids_strain(model: Model, parent: Model, search: Search) -> bool:
+    criteria = search.setting.criteria
     lowers = parent.strain - model.strain >= criteria.strain
     return _gain(model, parent) < criteria.gain and lowers
 
 
-def _why(model: Model, parent: Model, found: Search) -> str:
+def _why(model: Model, parent: Model, search: Search) -> str:
     """Return why the effect of a chosen model was chosen."""
     fall = f'lowers the score by {parent.score - model.score:.0f}'
     gain = _gain(model, parent)
-    if _avoids_strain(model, parent, found):
+    if _avoids_strain(model, parent, search):
         return (
             f'{fall}: explains by its own parameters what re-tuning explains only by constants '
             'far from the nominal ones'

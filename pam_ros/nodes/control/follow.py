@@ -108,11 +108,11 @@ class Follow:
         )
         if any(several):
             raise RangeError('multi_dof_trajectory and its tolerances are not for a single joint')
-        leeway, others = request.goal_time_tolerance, request.trajectory.joint_names
+        time, others = request.goal_time_tolerance, request.trajectory.joint_names
         asked = Tolerances(
             self._tolerance(request.path_tolerance, others),
             self._tolerance(request.goal_tolerance, others),
-            leeway.sec + leeway.nanosec / SECOND,
+            time.sec + time.nanosec / SECOND,
         )
         # Last, since the joint begins to move.
         trajectory, start = self._play(serialize_message(request.trajectory))

@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pam_ros.control.reference.profile import Bounds, Rest, advance, change, to_rest
+from pam_ros.control.reference.profile import Bounds, JerkLimitedMotion, advance, change, to_rest
 
 BOUNDS = Bounds(0.1, 0.5, 6.0)
 
@@ -50,7 +50,7 @@ def test_it_ends_at_rest_at_zero_from_anywhere(x, v, a):
     a=st.floats(-0.2, 0.2),
 )
 def test_bounds_hold_during_the_motion(x, v, a):
-    rest = Rest()
+    rest = JerkLimitedMotion()
     rest.begin((x, v, a), BOUNDS)
     before = (x, v, a)
     for _ in range(4000):

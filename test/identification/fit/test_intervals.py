@@ -15,7 +15,13 @@ from pam_ros.identification.fit.intervals import (
     covariance,
     half_widths,
 )
-from pam_ros.identification.fit.solve import Solution, begun, fresh, improved, least_squares
+from pam_ros.identification.fit.solve import (
+    Solution,
+    initial_solution,
+    least_squares,
+    levenberg_marquardt,
+    with_fresh_jacobian,
+)
 from support import curves
 from support.curves import LINE, NOISE, T, equation, line, slow_error
 from support.equations import unknown
@@ -26,7 +32,7 @@ TRUTH = np.array([1.0, 0.3])
 
 def fitted(values, prior=100.0):
     """Return the straight line of least squares through *values* over T."""
-    return least_squares(begun(line(values, prior), TRUTH), 40)
+    return least_squares(initial_solution(line(values, prior), TRUTH), 40)
 
 
 @pytest.mark.parametrize('process', [WHITE, SLOW], ids=['white', 'slow error'])
@@ -47,7 +53,9 @@ def test_the_covariance_is_that_of_the_linear_map_from_the_errors(process, prior
 @pytest.mark.parametrize('prior', [0.01, 100.0])
 def test_under_the_process_itself_it_is_that_of_generalised_least_squares(prior):
     values = LINE @ TRUTH + slow_error(np.random.default_rng(3), SLOW)
-    known = fresh(improved(begun(line(values, prior), TRUTH, SLOW), 40))
+    known = with_fresh_jacobian(
+        levenberg_marquardt(initial_solution(line(values, prior), TRUTH, SLOW), 40)
+    )
     c = curves.covariance(SLOW)
     variance = known.r @ np.linalg.solve(c, known.r) / T.size
     normal = LINE.T @ np.linalg.solve(c, LINE) / variance + np.diag([prior**-2, 100.0**-2])
@@ -77,7 +85,9 @@ def test_variances_by_blocks_are_those_of_the_dense_matrices(process, prior):
 
 def test_of_a_fit_with_a_discrepancy_they_are_those_of_its_whitened_samples():
     values = LINE @ TRUTH + slow_error(np.random.default_rng(3), SLOW)
-    known = fresh(improved(begun(line(values), TRUTH, SLOW), 40))
+    known = with_fresh_jacobian(
+        levenberg_marquardt(initial_solution(line(values), TRUTH, SLOW), 40)
+    )
     root = np.linalg.inv(np.linalg.cholesky(curves.covariance(SLOW)))
     expected = dense(root @ LINE, root @ known.r, np.full(2, 100.0))
     np.testing.assert_allclose(block_variances(known), expected, rtol=3e-3)
@@ -114,7 +124,9 @@ def test_an_interval_is_the_longer_one_of_process_and_blocks(is_slow):
 def test_what_the_data_do_not_determine_has_the_interval_of_its_prior():
     values = LINE @ TRUTH + NOISE * np.random.default_rng(2).standard_normal(T.size)
     unknowns = [unknown(name, prior=3.0) for name in ('level', 'slope', 'idle')]
-    known = least_squares(begun(equation(lambda u: LINE @ u[:2] - values, unknowns), np.zeros(3)))
+    known = least_squares(
+        initial_solution(equation(lambda u: LINE @ u[:2] - values, unknowns), np.zeros(3))
+    )
     assert half_widths(known, WHITE)[2] == pytest.approx(1.96 * 3.0, rel=1e-3)
 
 
@@ -193,6 +205,6 @@ def test_units_of_the_unknowns_lose_no_digits():
     units = np.array([1e-9, 1e9])
     unknowns = [unknown(str(k), prior=100.0 / unit) for k, unit in enumerate(units)]
     problem = equation(lambda u: (LINE * units) @ u - values, unknowns)
-    other = covariance(least_squares(begun(problem, TRUTH / units), 40), SLOW)
+    other = covariance(least_squares(initial_solution(problem, TRUTH / units), 40), SLOW)
     expected = covariance(fitted(values), SLOW)
     np.testing.assert_allclose(other * np.outer(units, units), expected, rtol=1e-3)

@@ -11,12 +11,13 @@ from scipy.linalg import cholesky
 
 from pam_ros.identification.fit.discrepancy import WHITE, Discrepancy
 from pam_ros.identification.fit.solve import (
+    FitStatus,
     Solution,
-    begun,
-    fresh,
-    improved,
+    initial_solution,
     least_squares,
-    solved,
+    levenberg_marquardt,
+    solve,
+    with_fresh_jacobian,
 )
 from support.curves import LINE, NOISE, T, covariance, equation, line, slow_error
 from support.equations import unknown
@@ -86,7 +87,7 @@ def start_at(problem, u, process=WHITE, jacobian=None):
 @by_process
 def test_ends_where_scipy_ends(changes, start, process):
     problem = decaying(**changes)
-    solution = improved(start_at(problem, start, process), 60)
+    solution = levenberg_marquardt(start_at(problem, start, process), 60)
     expected = by_scipy(problem, solution)
     least = start_at(problem, expected, process).cost
     assert solution.cost == pytest.approx(least, abs=CLOSE)
@@ -113,7 +114,7 @@ def test_never_ends_higher_than_it_began(seed, rugged, slow):
     stale = rng.standard_normal((T.size, 4)) if seed % 2 else None
     process = SLOW if slow else WHITE
     begun = start_at(problem, rng.uniform(-1.0, 1.5, 4), process, stale)
-    solution = improved(begun, 6)
+    solution = levenberg_marquardt(begun, 6)
     assert solution.cost <= begun.cost + 1e-9
     assert np.all((solution.u >= -1.0) & (solution.u <= 1.5))
 
@@ -126,29 +127,31 @@ def test_a_step_across_a_bound_does_not_end_the_fit_there(start):
     positive amplitude is worse than none: a fit that is cut at the bound never leaves it.
     """
     problem = decaying(a=(0.0, np.inf, 10.0), b=(0.0, np.inf, 10.0))
-    solution = improved(start_at(problem, start), 60)
+    solution = levenberg_marquardt(start_at(problem, start), 60)
     expected = by_scipy(problem, solution)
     assert solution.cost == pytest.approx(start_at(problem, expected).cost, abs=CLOSE)
 
 
 def test_an_optimum_on_a_bound_is_reached_exactly():
     problem = decaying(b=(0.0, 0.6, 10.0))
-    assert improved(start_at(problem, (1.0, 0.3, 0.0)), 60).u[1] == 0.6
+    assert levenberg_marquardt(start_at(problem, (1.0, 0.3, 0.0)), 60).u[1] == 0.6
 
 
 def test_a_start_on_a_bound_leaves_it_where_the_cost_falls_inwards():
     problem = decaying(b=(0.3, 4.0, 10.0))
-    solution = improved(start_at(problem, (1.0, 0.3, 0.0)), 60)
-    assert solution.cost == pytest.approx(improved(start_at(problem, TRUTH), 60).cost, abs=CLOSE)
+    solution = levenberg_marquardt(start_at(problem, (1.0, 0.3, 0.0)), 60)
+    assert solution.cost == pytest.approx(
+        levenberg_marquardt(start_at(problem, TRUTH), 60).cost, abs=CLOSE
+    )
 
 
 def test_a_start_outside_its_bounds_is_brought_in():
     problem = decaying(b=(0.5, 1.0, 10.0))
-    assert 0.5 <= solved(problem, np.array([1.0, 7.0, 0.0])).u[1] <= 1.0
+    assert 0.5 <= solve(problem, np.array([1.0, 7.0, 0.0])).u[1] <= 1.0
 
 
 def test_a_value_is_found_by_name():
-    solution = solved(decaying(), np.ones(3))
+    solution = solve(decaying(), np.ones(3))
     assert solution.value('b') == solution.u[1]
     with pytest.raises(KeyError):
         solution.value('d')
@@ -156,10 +159,10 @@ def test_a_value_is_found_by_name():
 
 def test_a_jacobian_kept_up_to_date_leads_to_the_same_optimum():
     problem = decaying(c=(-np.inf, np.inf, 0.3))
-    exact = improved(start_at(problem, (1.0, 1.5, 0.0)), 60)
+    exact = levenberg_marquardt(start_at(problem, (1.0, 1.5, 0.0)), 60)
     old = start_at(problem, (1.3, 1.2, 0.1)).jacobian
     for jacobian in (old, old * np.array([1.0, 0.3, 1.5]), np.zeros_like(old) + 0.1):
-        kept = improved(start_at(problem, (1.0, 1.5, 0.0), jacobian=jacobian), 60)
+        kept = levenberg_marquardt(start_at(problem, (1.0, 1.5, 0.0), jacobian=jacobian), 60)
         assert kept.cost == pytest.approx(exact.cost, abs=CLOSE)
 
 
@@ -168,38 +171,52 @@ def test_a_good_jacobian_spares_computing_others():
     problem = decaying(calls)
     near = start_at(problem, TRUTH + 0.02)
     calls.clear()
-    with_it = improved(near)
+    with_it = levenberg_marquardt(near)
     few = len(calls)
     calls.clear()
-    without = improved(start_at(problem, TRUTH + 0.02))
+    without = levenberg_marquardt(start_at(problem, TRUTH + 0.02))
     assert with_it.cost == pytest.approx(without.cost, abs=CLOSE)
     assert few < len(calls)
 
 
 @pytest.mark.parametrize('iterations', [3, 60])  # it has to stop, and has found the optimum
 def test_a_fresh_jacobian_is_that_of_the_place(iterations):
-    solution = improved(start_at(decaying(), (1.0, 1.0, 0.0)), iterations)
+    solution = levenberg_marquardt(start_at(decaying(), (1.0, 1.0, 0.0)), iterations)
     a, b, _ = solution.u
     exact = np.stack([np.exp(-b * T), -a * T * np.exp(-b * T), np.ones_like(T)], axis=1)
-    np.testing.assert_allclose(fresh(solution).jacobian, exact, atol=2e-3)
+    np.testing.assert_allclose(with_fresh_jacobian(solution).jacobian, exact, atol=2e-3)
+
+
+@pytest.mark.parametrize(
+    ('iterations', 'status'), [(2, FitStatus.ITERATION_LIMIT), (60, FitStatus.CONVERGED)]
+)
+def test_a_fit_tells_how_it_ended_and_what_it_cost(iterations, status):
+    calls = []
+    problem = decaying(calls)
+    first = initial_solution(problem, np.ones(3))
+    assert (first.log.status, first.log.iterations) == (FitStatus.NOT_FITTED, 0)
+    solution = with_fresh_jacobian(levenberg_marquardt(first, iterations))
+    assert solution.log.status is status
+    assert solution.log.iterations <= iterations
+    assert solution.log.simulations == len(calls)
 
 
 def test_a_jacobian_that_is_fresh_is_not_computed_again():
     calls = []
-    solution = improved(start_at(decaying(calls), (1.0, 1.0, 0.0)), 60)
+    solution = levenberg_marquardt(start_at(decaying(calls), (1.0, 1.0, 0.0)), 60)
     assert solution.is_fresh
     calls.clear()
-    assert fresh(solution) is solution
+    assert with_fresh_jacobian(solution) is solution
     assert calls == []
     # Nor when a fit goes on from there, which cannot get lower.
-    assert improved(solution, 60).cost == pytest.approx(solution.cost, abs=CLOSE)
+    assert levenberg_marquardt(solution, 60).cost == pytest.approx(solution.cost, abs=CLOSE)
     assert len(calls) < solution.u.size + 6
 
 
 @by_process
 def test_the_optimum_of_a_linear_problem_is_that_of_generalised_least_squares(process):
     values = 1.0 + 0.3 * T + NOISE * np.random.default_rng(3).standard_normal(T.size)
-    solution = improved(start_at(line(values, prior=0.004), (0.0, 0.0), process), 40)
+    solution = levenberg_marquardt(start_at(line(values, prior=0.004), (0.0, 0.0), process), 40)
     c = covariance(process)
     variance = solution.r @ np.linalg.solve(c, solution.r) / T.size
     assert solution.noise == pytest.approx(np.sqrt(variance), rel=1e-9)
@@ -210,7 +227,7 @@ def test_the_optimum_of_a_linear_problem_is_that_of_generalised_least_squares(pr
 
 def test_least_squares_take_no_notice_of_a_discrepancy():
     values = LINE @ [1.0, 0.3] + slow_error(np.random.default_rng(8), SLOW)
-    known = least_squares(solved(line(values), np.zeros(2)), 40)
+    known = least_squares(solve(line(values), np.zeros(2)), 40)
     best, *_ = np.linalg.lstsq(LINE, values, rcond=None)
     np.testing.assert_allclose(known.u, best, rtol=1e-4)
     assert known.discrepancy == WHITE
@@ -223,7 +240,9 @@ def test_least_squares_take_no_notice_of_a_discrepancy():
 def test_the_score_of_a_linear_problem_is_its_evidence(process):
     """That is the normal density of the data with the unknowns integrated out, -2 ln of it."""
     values = 1.0 + 0.3 * T + NOISE * np.random.default_rng(3).standard_normal(T.size)
-    solution = fresh(improved(start_at(line(values, prior=0.5), (0.0, 0.0), process), 40))
+    solution = with_fresh_jacobian(
+        levenberg_marquardt(start_at(line(values, prior=0.5), (0.0, 0.0), process), 40)
+    )
     spread = LINE * np.array([0.5, 100.0])
     whole = solution.noise**2 * covariance(process) + spread @ spread.T
     _, log_det = np.linalg.slogdet(whole)
@@ -232,7 +251,7 @@ def test_the_score_of_a_linear_problem_is_its_evidence(process):
 
 
 def test_a_discrepancy_that_is_not_there_is_not_found_for_a_decay():
-    solution = solved(decaying(), np.ones(3))
+    solution = solve(decaying(), np.ones(3))
     assert solution.discrepancy == WHITE
     assert solution.noise == pytest.approx(NOISE, rel=0.1)
 
@@ -240,7 +259,7 @@ def test_a_discrepancy_that_is_not_there_is_not_found_for_a_decay():
 def test_a_slow_error_is_found_next_to_a_decay():
     values = decay(TRUTH) + slow_error(np.random.default_rng(6), SLOW)
     unknowns = [unknown(name, prior=10.0) for name in 'abc']
-    solution = solved(equation(lambda u: decay(u) - values, unknowns), np.ones(3))
+    solution = solve(equation(lambda u: decay(u) - values, unknowns), np.ones(3))
     assert 1.0 < solution.discrepancy.size < 4.0
     assert 0.2 < solution.discrepancy.time < 1.2
     np.testing.assert_allclose(solution.u, TRUTH, atol=0.3)
@@ -255,6 +274,8 @@ def test_a_cheap_look_shortens_its_steps_until_one_leads_down():
         return u[0] * np.sin(angle) + u[1] * np.cos(angle) - values
 
     names = ('sine', 'cosine', 'frequency')
-    first = begun(equation(left, [unknown(one, prior=100.0) for one in names]), [1.0, 1.0, 1.03])
-    look = improved(first, 4, renew=False)
+    first = initial_solution(
+        equation(left, [unknown(one, prior=100.0) for one in names]), [1.0, 1.0, 1.03]
+    )
+    look = levenberg_marquardt(first, 4, renew=False)
     assert np.linalg.norm(look.r) < 0.5 * np.linalg.norm(first.r)

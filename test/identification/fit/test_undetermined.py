@@ -13,7 +13,7 @@ from pam_ros.identification.data.segment import segments_of
 from pam_ros.identification.fit.discrepancy import WHITE
 from pam_ros.identification.fit.intervals import covariance
 from pam_ros.identification.fit.problem import Problem
-from pam_ros.identification.fit.solve import begun
+from pam_ros.identification.fit.solve import initial_solution
 from pam_ros.identification.fit.uncertain import spread_unknowns
 from pam_ros.identification.fit.undetermined import undetermined, undetermined_before
 from pam_ros.identification.fit.unknowns import run_unknowns
@@ -88,7 +88,7 @@ def test_what_has_no_influence_is_named_alone(load, spreads):
 def test_the_prior_shares_a_sum_that_the_recordings_determine():
     """Two terms a and b of a known sum: the variance of each is a^2 b^2/(a^2 + b^2)."""
     given = problem(LEVEL, inertia='30%', mass='30%')
-    known = begun(given, np.zeros(len(given.unknowns)))
+    known = initial_solution(given, np.zeros(len(given.unknowns)))
     spread = covariance(replace(known, r=np.full_like(known.r, NOISE)), WHITE)
     k = [one.name for one in given.unknowns].index('inertia')
     a, b = (log1p(0.3) * part for part in (LEVEL.inertia, LEVEL.mass * LEVEL.arm**2))

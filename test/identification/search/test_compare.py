@@ -7,7 +7,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 import pytest
 
-from pam_ros.identification.search.compare import matters, no_worse, pays, suffices
+from pam_ros.identification.search.compare import (
+    is_accepted,
+    is_no_worse,
+    is_significant,
+    is_sufficient,
+)
 from pam_ros.identification.search.criteria import CRITERIA
 from pam_ros.identification.search.setting import Errors
 
@@ -27,9 +32,9 @@ def test_the_strain_counts_where_the_constants_end_as_expected(setting, retuned)
     limit = CRITERIA.strain
     far = strained(retuned, 10.0 * limit)
     for left, does in ((0.9 * limit, True), (5.0 * limit, False)):
-        assert matters(strained(retuned, left), far, retuned, setting) == does
+        assert is_significant(strained(retuned, left), far, retuned, setting) == does
     near = strained(retuned, 1.5 * limit)
-    assert not matters(strained(retuned, 0.9 * limit), near, retuned, setting)
+    assert not is_significant(strained(retuned, 0.9 * limit), near, retuned, setting)
 
 
 @dataclass(frozen=True)
@@ -62,13 +67,13 @@ def test_a_further_effect_counts_by_what_it_lowers_of_the_score_or_of_the_error(
         (-4700.0, 0.5, 106.0, False),  # than re-tuning alone carries on
     ):
         now = judged(('creep', 'slack'), score, fit * unit, choose * unit)
-        assert matters(now, before, retuned, setting) == does, (score, fit, choose)
+        assert is_significant(now, before, retuned, setting) == does, (score, fit, choose)
 
 
 def test_a_free_run_may_lose_in_one_part_what_it_gains_in_the_other(setting):
     before = judged(('hysteresis',), 0.0, 6.7, 8.5)
     for fit, choose, does in ((3.6, 9.3, True), (6.7, 9.0, False), (5.0, 12.0, False)):
-        assert no_worse(judged((), 0.0, fit, choose), before, setting) == does
+        assert is_no_worse(judged((), 0.0, fit, choose), before, setting) == does
 
 
 def test_a_larger_model_must_lower_the_score_by_the_margin_and_a_smaller_one_may_raise_it_by_it(
@@ -83,5 +88,5 @@ def test_a_larger_model_must_lower_the_score_by_the_margin_and_a_smaller_one_may
         (-margin + 0.1, 1.9, False, False),  # the smaller one has the worse free run
     ):
         large = judged(('creep',), score, error, error)
-        assert pays(large, small, setting) == is_larger_better, (score, error)
-        assert suffices(small, large, setting) == is_smaller_enough, (score, error)
+        assert is_accepted(large, small, setting) == is_larger_better, (score, error)
+        assert is_sufficient(small, large, setting) == is_smaller_enough, (score, error)

@@ -16,11 +16,11 @@ from pam_ros.identification.search.final import (
     STEP,
     STEPS,
     errors_of,
-    final,
+    fit_finally,
     short_step,
     simulated,
 )
-from pam_ros.identification.search.setting import carried
+from pam_ros.identification.search.setting import simulate_on
 from pam_ros.identification.search.starts import guessed
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.recording.recording import Recording
@@ -86,7 +86,7 @@ def test_of_the_configured_model_only_the_starts_are_fitted(found, ends):
 
 
 def test_nothing_sees_what_judges(recording, pool, ends):
-    spoiled = final(found_in([recording], pool, spoil=True))
+    spoiled = fit_finally(found_in([recording], pool, spoil=True))
     np.testing.assert_array_equal(spoiled.augmented.u, ends.augmented.u)
 
 
@@ -104,12 +104,12 @@ def test_at_a_prescribed_length_nothing_sees_what_judges(pool):
     starts = guessed(there.retuned, periodic)
     assert starts
     assert starts == guessed(gone.retuned, periodic)
-    np.testing.assert_array_equal(final(there).augmented.u, final(gone).augmented.u)
+    np.testing.assert_array_equal(fit_finally(there).augmented.u, fit_finally(gone).augmented.u)
 
 
 def test_where_nothing_judges_there_is_no_such_error(recording, pool):
     found = found_in([recording], pool, 0.7, 1.0)
-    ends = final(found)
+    ends = fit_finally(found)
     known, judged = errors(ends.augmented, ends, found)
     assert known == pytest.approx(NOISE, rel=0.1)
     assert np.isnan(judged)
@@ -127,7 +127,7 @@ def test_a_stretch_that_only_choices_saw_is_fitted_from_a_start_of_its_own(recor
     parted = replace(recording, t=recording.t[keep], position=recording.position[keep], gaps=gaps)
     found = found_in([parted], pool)
     assert len(found.setting.problem.segments) == 1
-    ends = final(found)
+    ends = fit_finally(found)
     assert [s.t.size for s in ends.augmented.problem.segments] == [3400, 800]
     assert {'y0[1]', 'v0[1]'} < {k.name for k in ends.augmented.problem.unknowns}
     assert errors(ends.augmented, ends, found)[1] == pytest.approx(NOISE, rel=0.1)
@@ -136,7 +136,7 @@ def test_a_stretch_that_only_choices_saw_is_fitted_from_a_start_of_its_own(recor
 def test_at_a_prescribed_length_blocks_are_fitted_and_the_blocks_between_them_judge(pool):
     recordings = [bench_truth.held(effect('slack'), seed=k, name=f'{k}.csv') for k in (1, 2)]
     found = found_in(recordings, pool, name='slack')
-    ends = final(found)
+    ends = fit_finally(found)
     known = [int(np.count_nonzero(part.known)) for part in found.setting.parts]
     assert [stamps.size for stamps in ends.augmented.problem.stamps()] == known
     assert ends.nominal.problem.unknowns == ()
@@ -164,7 +164,7 @@ def test_of_many_recordings_some_are_searched_and_all_are_fitted(pool):
         assert names == [f'{k}.csv' for k in chosen], room
     found = found_in(runs, pool, budget=replace(BUDGET, most=int(2.5 * size)))
     assert len(found.setting.problem.segments) == 2
-    known = final(found).augmented
+    known = fit_finally(found).augmented
     assert len(known.problem.segments) == 5
     assert known.value('effects.pressure_lag.fill') == pytest.approx(FILL, rel=0.02)
     assert known.noise == pytest.approx(NOISE, rel=0.1)
@@ -185,7 +185,7 @@ def test_a_slow_rig_is_simulated_with_longer_steps():
 
 
 def test_without_an_effect_the_last_model_is_the_retuned_one(found):
-    ends = final(replace(found, best=found.retuned))
+    ends = fit_finally(replace(found, best=found.retuned))
     assert ends.augmented is ends.retuned
 
 
@@ -197,13 +197,13 @@ def test_different_levels_of_repeats_are_explained_and_the_last_one_by_the_law(p
         for k, (kappa, offset) in enumerate((kappa, o) for kappa in (0.05, 0.12) for o in offsets)
     ]
     found = found_in(recordings, pool, name='slack')
-    retuned = final(found).retuned
+    retuned = fit_finally(found).retuned
     assert [retuned.value(f'level[{k}]') for k in (0, 1, 3, 4)] == pytest.approx(
         [9.0, 3.0, 9.0, 3.0], abs=1.0
     )
     assert {'level[2]', 'level[5]'}.isdisjoint(k.name for k in retuned.problem.unknowns)
     later = segments_of([at_one_length(9, 0.12, 0.0)])
-    (run,) = carried(retuned, later, without=OF_RUNS)
+    (run,) = simulate_on(retuned, later, without=OF_RUNS)
     assert np.mean(run - later[0].target) == pytest.approx(0.0, abs=0.7)
 
 

@@ -10,7 +10,7 @@ import pytest
 from pam_ros.identification.data.parts import parts_of
 from pam_ros.identification.data.segment import segments_of
 from pam_ros.identification.fit.run_levels import level_unknowns, repeats
-from pam_ros.identification.fit.solve import begun
+from pam_ros.identification.fit.solve import initial_solution
 from pam_ros.identification.fit.unknowns import RunLevel
 from pam_ros.identification.search.criteria import BUDGET, CRITERIA
 from pam_ros.identification.search.levels import apart
@@ -36,7 +36,7 @@ def known():
         one.coordinate(levels[one.of.run]) if isinstance(one.of, RunLevel) else 0.0
         for one in problem.unknowns
     ]
-    return replace(begun(problem, np.zeros(len(u))), u=np.array(u))
+    return replace(initial_solution(problem, np.zeros(len(u))), u=np.array(u))
 
 
 def test_repeats_are_the_runs_at_one_length_in_their_order(known):

@@ -8,25 +8,25 @@ import numpy as np
 import pytest
 
 from pam_ros.identification.fit.extend import finer_starts
-from pam_ros.identification.fit.solve import begun, settled
+from pam_ros.identification.fit.solve import converge, initial_solution
 from pam_ros.identification.fit.unknowns import parameters_of
 from pam_ros.identification.search import moves
 from pam_ros.identification.search.criteria import BUDGET, CRITERIA
 from pam_ros.identification.search.moves import (
-    dropped,
-    fixed,
-    freed,
-    simplified,
-    weakened,
+    remove_effect,
     with_each,
+    with_fewer_parameters,
+    with_fewer_strengths,
+    with_more_parameters,
+    with_simpler_effect,
     without_idle_parameters,
 )
 from pam_ros.identification.search.search import (
     Search,
     accepted,
     alternatives,
-    confirmed,
-    exchanged,
+    confirm,
+    exchange_effect,
 )
 from pam_ros.identification.search.starts import extended
 
@@ -52,30 +52,32 @@ def test_the_best_is_fitted_to_its_end_however_short_the_others_are(retuned, set
     short = replace(setting, budget=replace(BUDGET, closer=1))
     best = with_each(retuned, NAMES, short)[0]
     assert best.effects == ('pressure_lag',)
-    assert best.score - settled(best.solution, 100).score < 0.1
+    assert best.score - converge(best.solution, 100).score < 0.1
 
 
 def test_where_nothing_is_left_to_try_nothing_is_tried(retuned, setting, monkeypatch):
     assert with_each(retuned, [], setting) == []
-    monkeypatch.setattr(moves, 'looks', lambda *rest: [])  # no start, such as no frequency
+    monkeypatch.setattr(moves, 'screen', lambda *rest: [])  # no start, such as no frequency
     assert with_each(retuned, ['periodic_disturbance'], setting) == []
 
 
 def test_what_was_added_can_be_dropped(tried, retuned, setting):
-    less = dropped(tried[0], 'pressure_lag', setting)
+    less = remove_effect(tried[0], 'pressure_lag', setting)
     assert less.effects == ()
     assert less.score <= retuned.score + 1.0
     assert not [k for k in less.solution.problem.unknowns if k.name.startswith('effects')]
 
 
 def test_a_model_is_fitted_without_an_effect_once(tried, setting):
-    assert dropped(tried[0], 'pressure_lag', setting) is dropped(tried[0], 'pressure_lag', setting)
+    assert remove_effect(tried[0], 'pressure_lag', setting) is remove_effect(
+        tried[0], 'pressure_lag', setting
+    )
 
 
 def test_the_best_of_the_finer_ones_is_fitted_to_its_end(tried, setting):
     short = replace(setting, budget=replace(BUDGET, closer=1))
-    best = freed(tried[0], short)[0]
-    assert best.score - settled(best.solution, 100).score < 0.1
+    best = with_more_parameters(tried[0], short)[0]
+    assert best.score - converge(best.solution, 100).score < 0.1
 
 
 def test_errors_are_computed_on_request(tried):
@@ -94,12 +96,12 @@ def test_a_fit_that_stopped_with_a_slow_discrepancy_continues_from_the_nearest_r
     names = [one.name for one in problem.unknowns]
     u[names.index('effects.pressure_lag.fill')] += 0.5
     slow = retuned.solution.discrepancy
-    stopped = setting.model(best.effects, replace(begun(problem, u), discrepancy=slow))
+    stopped = setting.model(best.effects, replace(initial_solution(problem, u), discrepancy=slow))
     assert best.score + 100.0 < stopped.score < retuned.score - setting.criteria.margin
     found = Search(setting, retuned, retuned, [retuned, stopped])
     (again,) = accepted([stopped], retuned, found)
     assert again.score == pytest.approx(best.score, abs=0.1)
-    assert found.looked_at == [retuned, stopped, again]
+    assert found.evaluated == [retuned, stopped, again]
     # There the model of a fit that has converged is the same, but for the accuracy of the fits.
     (same,) = accepted([best], retuned, found)
     assert same.score == pytest.approx(best.score, abs=1e-2)
@@ -108,7 +110,7 @@ def test_a_fit_that_stopped_with_a_slow_discrepancy_continues_from_the_nearest_r
 
 def test_another_effect_in_its_place(tried, setting):
     wrong = next(m for m in tried if m.effects == ('dead_time',))
-    less = dropped(wrong, 'dead_time', setting)
+    less = remove_effect(wrong, 'dead_time', setting)
     (right,) = with_each(less, ['pressure_lag'], setting)
     assert less.effects == ()
     assert less.score > wrong.score
@@ -117,7 +119,7 @@ def test_another_effect_in_its_place(tried, setting):
 
 
 def test_finer_parameters_of_what_is_in(tried, setting):
-    wider = freed(tried[0], setting)
+    wider = with_more_parameters(tried[0], setting)
     assert wider
     for model in wider:
         assert model.effects == ('pressure_lag',)
@@ -155,7 +157,7 @@ def test_friction_at_rest_moves_the_friction_while_sliding(retuned, setting):
     start = next(one for one in freed_starts(model, setting) if 'level' in one)
     wider = extended(known, place, start, setting)
     assert wider.value('effects.coulomb_friction.level') == pytest.approx(start['level'])
-    again = begun(wider.problem, wider.u, wider.discrepancy)
+    again = initial_solution(wider.problem, wider.u, wider.discrepancy)
     np.testing.assert_allclose(wider.r, again.r, rtol=0.0, atol=1e-15)
     np.testing.assert_allclose(wider.jacobian, again.jacobian, rtol=0.0, atol=1e-12)
 
@@ -170,14 +172,14 @@ def freed_starts(model, setting):
 
 def test_parameters_that_were_freed_and_are_not_needed_are_fixed(tried, retuned, setting):
     """The lag of this rig does not choke."""
-    wider = max(freed(tried[0], setting), key=lambda m: len(m.solution.u))
+    wider = max(with_more_parameters(tried[0], setting), key=lambda m: len(m.solution.u))
     plain = {'effects.pressure_lag.fill', 'effects.pressure_lag.vent'}
-    less = fixed(wider, setting)
+    less = with_fewer_parameters(wider, setting)
     assert effects_in(less[0]) == plain
     assert less[0].score < tried[0].score + 1.0
-    best = confirmed(Search(setting, retuned, wider, [retuned, *tried, wider]))
+    best = confirm(Search(setting, retuned, wider, [retuned, *tried, wider]))
     assert effects_in(best) == plain
-    assert fixed(best, setting) == []
+    assert with_fewer_parameters(best, setting) == []
 
 
 @pytest.fixture(scope='module')
@@ -185,18 +187,18 @@ def full(retuned, setting):
     """Return the lag with parameters that the rig does not have, in addition to its two times."""
     start = {'fill': 0.05, 'vent': 0.05, 'choking': 0.1, 'supply': 8e5, 'dead_zone': 500.0}
     known = extended(retuned.solution, setting.places['pressure_lag'], start, setting)
-    return setting.model(('pressure_lag',), settled(known, BUDGET.iterations))
+    return setting.model(('pressure_lag',), converge(known, BUDGET.iterations))
 
 
 def test_single_parameters_are_fixed_that_the_recording_hardly_shows(full, setting):
     """The rig has the two times of the lag, and none of its other parameters."""
     needless = ({'choking'}, {'supply'}, {'dead_zone'})
     there = parameters_of(full.solution.problem.unknowns, 'pressure_lag')
-    less = moves.with_one_less(full, setting)
+    less = moves.with_one_parameter_less(full, setting)
     left = [there - parameters_of(m.solution.problem.unknowns, 'pressure_lag') for m in less]
     assert left == [*needless]
     for model in less:
-        assert not model.is_look
+        assert not model.is_screened
         assert model.score < full.score
 
 
@@ -204,10 +206,10 @@ def test_the_expected_rise_of_a_score_is_that_of_a_fit(tried, setting):
     """A small offset and gain of the pressure change the run in proportion."""
     place = setting.places['pressure_offset']
     whole, without_gain = (
-        settled(extended(tried[0].solution, place, start, setting), BUDGET.iterations)
+        converge(extended(tried[0].solution, place, start, setting), BUDGET.iterations)
         for start in ({'offset': 1e3, 'gain': 0.01}, {'offset': 1e3})
     )
-    rise = moves.rises(whole, setting)['pressure_offset', 'gain']
+    rise = moves.score_rises(whole, setting)['pressure_offset', 'gain']
     assert rise == pytest.approx(without_gain.score - whole.score, abs=0.5)
 
 
@@ -216,19 +218,19 @@ def leaking(retuned, setting):
     """Return the lag explained by a leak, whose refill and venting are that lag."""
     start = {'rate': 0.01, 'refill': 0.1, 'vent': 0.1}
     known = extended(retuned.solution, setting.places['leak'], start, setting)
-    return setting.model(('leak',), settled(known, BUDGET.iterations))
+    return setting.model(('leak',), converge(known, BUDGET.iterations))
 
 
 def test_a_fit_with_fewer_parameters_is_continued_unless_it_is_far_off(tried, setting):
     place = setting.places['pressure_lag']
     wider = extended(tried[0].solution, place, {'dead_zone': 1e3}, setting)
-    now = setting.model(('pressure_lag',), settled(wider, 60))
-    less = {frozenset(effects_in(m)): m for m in fixed(now, setting)}
+    now = setting.model(('pressure_lag',), converge(wider, 60))
+    less = {frozenset(effects_in(m)): m for m in with_fewer_parameters(now, setting)}
     without_lag = less[frozenset({'effects.pressure_lag.dead_zone'})]
-    assert without_lag.is_look
-    assert without_lag.score > now.score + moves.FAR * CRITERIA.margin
+    assert without_lag.is_screened
+    assert without_lag.score > now.score + moves.HOPELESS_MARGIN * CRITERIA.margin
     times = less[frozenset({'effects.pressure_lag.fill', 'effects.pressure_lag.vent'})]
-    assert not times.is_look
+    assert not times.is_screened
     assert times.score < now.score + CRITERIA.margin
 
 
@@ -237,30 +239,30 @@ def test_an_effect_is_weakened_to_each_set_of_its_strengths(retuned, setting):
     place = setting.places['pressure_lag']
     start = {'fill': 0.05, 'vent': 0.05, 'fastest': 1e6, 'dead_zone': 2e3}
     whole = setting.model(
-        ('pressure_lag',), settled(extended(retuned.solution, place, start, setting), 5)
+        ('pressure_lag',), converge(extended(retuned.solution, place, start, setting), 5)
     )
-    less = weakened(whole, 'pressure_lag', setting)
+    less = with_fewer_strengths(whole, 'pressure_lag', setting)
     assert [m.effects for m in less] == 2 * [('pressure_lag',)]
     sets = [parameters_of(m.solution.problem.unknowns, 'pressure_lag') for m in less]
     assert sets == [{'dead_zone'}, {'fill', 'vent'}]
     # The recording has a lag, and no zone.
     assert less[1].score < whole.score + setting.criteria.margin < less[0].score
-    assert weakened(less[1], 'pressure_lag', setting) == []
+    assert with_fewer_strengths(less[1], 'pressure_lag', setting) == []
 
 
 def test_a_simpler_effect_begins_with_what_it_has_in_common(leaking, tried, retuned, setting):
-    (lag,) = simplified(leaking, 'leak', setting)
+    (lag,) = with_simpler_effect(leaking, 'leak', setting)
     assert lag.effects == ('pressure_lag',)
     assert effects_in(lag) == {'effects.pressure_lag.fill', 'effects.pressure_lag.vent'}
     assert lag.score < tried[0].score + 0.1
     known = extended(retuned.solution, setting.places['leak'], {'rate': 0.01}, setting)
-    assert simplified(setting.model(('leak',), known), 'leak', setting) == []
-    assert simplified(lag, 'pressure_lag', setting) == []
+    assert with_simpler_effect(setting.model(('leak',), known), 'leak', setting) == []
+    assert with_simpler_effect(lag, 'pressure_lag', setting) == []
 
 
 def test_a_broader_effect_is_simplified_with_finer_steps(leaking, tried, retuned, setting):
     assert abs(leaking.score - tried[0].score) < CRITERIA.margin
-    best = confirmed(Search(setting, retuned, leaking, [retuned, *tried, leaking]))
+    best = confirm(Search(setting, retuned, leaking, [retuned, *tried, leaking]))
     assert best.effects == ('pressure_lag',)
 
 
@@ -288,10 +290,12 @@ def test_an_effect_that_was_chosen_before_a_better_one_is_exchanged(tried, retun
     wrong = next(m for m in tried if m.effects == ('dead_time',))
     (both,) = with_each(wrong, ['viscous_friction'], setting)
     found = Search(setting, retuned, both, [retuned, *tried, both])
-    better = exchanged(found)
+    better = exchange_effect(found)
     assert set(better.effects) == {'viscous_friction', 'pressure_lag'}
     assert better.score < both.score - CRITERIA.margin
-    assert exchanged(Search(setting, retuned, wrong, [])) is None  # that is a round of its own
+    assert (
+        exchange_effect(Search(setting, retuned, wrong, [])) is None
+    )  # that is a round of its own
 
 
 def test_a_broader_effect_does_not_replace_one_that_is_as_good_once_fitted(
@@ -304,7 +308,7 @@ def test_a_broader_effect_does_not_replace_one_that_is_as_good_once_fitted(
     left = replace(begun, u=u, r=begun.problem.residuals(u), is_fresh=False)
     poor = setting.model(('pressure_lag', 'viscous_friction'), left)
     found = Search(setting, retuned, poor, [retuned, *tried, poor])
-    better = exchanged(found)
+    better = exchange_effect(found)
     assert set(better.effects) == {'viscous_friction', 'pressure_lag'}
     assert better.score < poor.score - 1000.0
 
@@ -314,8 +318,8 @@ def test_what_the_right_effect_makes_unnecessary_is_removed_with_finer_steps(
 ):
     (both,) = with_each(tried[0], ['viscous_friction'], setting)
     found = Search(setting, retuned, both, [retuned, *tried, both])
-    assert confirmed(found).effects == ('pressure_lag',)
-    assert confirmed(Search(setting, retuned, retuned, [retuned])) is retuned
+    assert confirm(found).effects == ('pressure_lag',)
+    assert confirm(Search(setting, retuned, retuned, [retuned])) is retuned
 
 
 @pytest.mark.parametrize(('noises', 'is_fine'), [(0.01, False), (10.0, True)])
@@ -331,7 +335,7 @@ def test_finer_steps_are_fitted_only_if_they_change_the_residuals(
         return residuals(problem, u) + (0.0 if is_coarse else noises * known.noise)
 
     monkeypatch.setattr(type(known.problem), 'residuals', off)
-    best = confirmed(Search(setting, retuned, tried[0], [retuned, *tried]))
+    best = confirm(Search(setting, retuned, tried[0], [retuned, *tried]))
     assert best.effects == ('pressure_lag',)
     finest = setting.step / BUDGET.finer if is_fine else setting.step
     assert best.solution.problem.step == finest

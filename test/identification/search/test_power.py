@@ -11,7 +11,7 @@ import pytest
 
 from pam_ros.effects import EFFECTS
 from pam_ros.identification.data.parts import parts_of
-from pam_ros.identification.fit.solve import solved
+from pam_ros.identification.fit.solve import solve
 from pam_ros.identification.search.criteria import BUDGET, CRITERIA
 from pam_ros.identification.search.power import hidden, power, reference
 from pam_ros.identification.search.setting import Setting
@@ -31,7 +31,7 @@ def retuned():
     with ThreadPoolExecutor(1) as pool:
         setting = Setting(cylinder, parts, CRITERIA, BUDGET, pool)
         problem = setting.problem
-        yield setting.model((), solved(problem, np.zeros(len(problem.unknowns))))
+        yield setting.model((), solve(problem, np.zeros(len(problem.unknowns))))
 
 
 def power_of(name, model):

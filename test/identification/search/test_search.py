@@ -10,16 +10,16 @@ import pytest
 
 from pam_ros.effects import ViscousFriction
 from pam_ros.identification.data.parts import parts_of
-from pam_ros.identification.fit.solve import begun
+from pam_ros.identification.fit.solve import initial_solution
 from pam_ros.identification.search import search as search_module
 from pam_ros.identification.search.criteria import BUDGET, CRITERIA
-from pam_ros.identification.search.moves import absent, with_each
+from pam_ros.identification.search.moves import absent_effects, with_each
 from pam_ros.identification.search.search import (
     Search,
-    leading,
-    plainer,
-    search,
-    with_more,
+    find_effects,
+    free_parameters,
+    order_candidates,
+    simplify,
 )
 from pam_ros.identification.search.setting import Errors, Setting
 from pam_ros.identification.search.table import is_instead_of_constants
@@ -38,7 +38,7 @@ def searched(recordings, model=None, shares=(CRITERIA.fit, CRITERIA.choose)):
     model = model or bench_truth.nominal(off=OFF)
     parts = parts_of(recordings, *shares)
     with ThreadPoolExecutor() as pool:
-        return search(Setting(model, parts, CRITERIA, BUDGET, pool))
+        return find_effects(Setting(model, parts, CRITERIA, BUDGET, pool))
 
 
 @pytest.mark.parametrize(
@@ -81,36 +81,36 @@ def test_a_broader_effect_and_the_simpler_one_are_compared_with_all_their_parame
 ):
     """The two time constants of a lag describe a valve worse than a leak with its refill does."""
     found = found_in([bench_truth.free(there, seed=21)], pool, name='leak')
-    leak = with_more(found.best, found)
-    assert plainer(leak, leak.effects, found).effects == (name,)
+    leak = free_parameters(found.best, found)
+    assert simplify(leak, leak.effects, found).effects == (name,)
 
 
 def test_a_simpler_effect_counts_by_its_best_fit(pool, monkeypatch):
     """A fit that starts near the broader effect can stop before an earlier one did."""
     found = found_in([bench_truth.free(effect('pressure_lag'), seed=21)], pool, name='leak')
-    setting, leak = found.setting, with_more(found.best, found)
+    setting, leak = found.setting, free_parameters(found.best, found)
     (lag, *_) = with_each(found.retuned, ['pressure_lag'], setting)
     worse = [replace(found.retuned, effects=('pressure_lag',))]
-    monkeypatch.setattr(search_module, 'simplified', lambda *given: [])
-    monkeypatch.setattr(search_module, 'dropped', lambda *given: found.retuned)
+    monkeypatch.setattr(search_module, 'with_simpler_effect', lambda *given: [])
+    monkeypatch.setattr(search_module, 'remove_effect', lambda *given: found.retuned)
     monkeypatch.setattr(search_module, 'with_each', lambda *given: worse)
-    monkeypatch.setattr(search_module, 'with_more', lambda model, found: model)
-    assert plainer(leak, leak.effects, found) is leak
-    found.looked_at.append(lag)
-    assert plainer(leak, leak.effects, found) is lag
+    monkeypatch.setattr(search_module, 'free_parameters', lambda model, found: model)
+    assert simplify(leak, leak.effects, found) is leak
+    found.evaluate([lag])
+    assert simplify(leak, leak.effects, found) is lag
 
 
 def test_additional_parameters_that_are_not_needed_do_not_save_a_broader_effect(pool, monkeypatch):
     """With them the free run of the simpler effect may be worse than without."""
     found = found_in([bench_truth.free(effect('pressure_lag'), seed=21)], pool, name='leak')
-    setting, leak = found.setting, with_more(found.best, found)
+    setting, leak = found.setting, free_parameters(found.best, found)
     (lag, *_) = with_each(found.retuned, ['pressure_lag'], setting)
     worse = replace(lag, solution=replace(found.retuned.solution))
-    monkeypatch.setattr(search_module, 'simplified', lambda *given: [])
-    monkeypatch.setattr(search_module, 'dropped', lambda *given: found.retuned)
+    monkeypatch.setattr(search_module, 'with_simpler_effect', lambda *given: [])
+    monkeypatch.setattr(search_module, 'remove_effect', lambda *given: found.retuned)
     monkeypatch.setattr(search_module, 'with_each', lambda *given: [lag])
-    monkeypatch.setattr(search_module, 'with_more', lambda model, found: worse)
-    assert plainer(leak, leak.effects, found) is lag
+    monkeypatch.setattr(search_module, 'free_parameters', lambda model, found: worse)
+    assert simplify(leak, leak.effects, found) is lag
 
 
 def test_a_simpler_effect_that_suffices_gets_parameters_that_the_broader_one_lacks(
@@ -121,23 +121,23 @@ def test_a_simpler_effect_that_suffices_gets_parameters_that_the_broader_one_lac
     leak = found.best
     (lag, *_) = with_each(found.retuned, ['pressure_lag'], found.setting)
     wider = replace(lag)
-    monkeypatch.setattr(search_module, 'simplified', lambda *given: [lag])
-    monkeypatch.setattr(search_module, 'suffices', lambda less, *given: less is lag)
+    monkeypatch.setattr(search_module, 'with_simpler_effect', lambda *given: [lag])
+    monkeypatch.setattr(search_module, 'is_sufficient', lambda less, *given: less is lag)
     monkeypatch.setattr(
-        search_module, 'with_more', lambda model, found: wider if model is lag else model
+        search_module, 'free_parameters', lambda model, found: wider if model is lag else model
     )
-    assert plainer(leak, leak.effects, found) is wider
+    assert simplify(leak, leak.effects, found) is wider
 
 
 @pytest.mark.parametrize('rho', [0.0, 0.95], ids=['white', 'coloured'])
 def test_noise_is_no_effect(rho):
     found = searched([bench_truth.free(seed=4, rho=rho)])
     assert found.best.effects == ()
-    assert found.best.score <= min(model.score for model in found.looked_at) + CRITERIA.margin
+    assert found.best.score <= min(model.score for model in found.evaluated) + CRITERIA.margin
     # Everything was tried.
-    assert {m.effects for m in found.looked_at} == {
+    assert {m.effects for m in found.evaluated} == {
         (),
-        *((name,) for name in absent(found.best, found.setting)),
+        *((name,) for name in absent_effects(found.best, found.setting)),
     }
 
 
@@ -187,7 +187,7 @@ def test_nothing_sees_what_judges():
     one, other = searched([recording]), searched([replace(recording, position=spoiled)])
     assert one.best.effects == other.best.effects
     np.testing.assert_array_equal(one.best.solution.u, other.best.solution.u)
-    assert [m.score for m in one.looked_at] == [m.score for m in other.looked_at]
+    assert [m.score for m in one.evaluated] == [m.score for m in other.evaluated]
 
 
 def test_an_effect_that_is_configured_is_not_tried():
@@ -195,7 +195,7 @@ def test_an_effect_that_is_configured_is_not_tried():
     known = replace(model, effects=[ViscousFriction(coefficient=60.0)])
     found = searched([bench_truth.free(effect('viscous_friction'), seed=3)], known)
     assert found.best.effects == ()
-    assert 'viscous_friction' not in absent(found.best, found.setting)
+    assert 'viscous_friction' not in absent_effects(found.best, found.setting)
     assert explains(found)
 
 
@@ -236,10 +236,10 @@ def test_where_other_recordings_choose_the_nearest_free_run_leads(count, first, 
     parts = parts_of(recordings, CRITERIA.fit, CRITERIA.choose)
     setting = Setting(bench_truth.nominal(), parts, CRITERIA, BUDGET, pool)
     problem = setting.problem
-    place = begun(problem, np.zeros(len(problem.unknowns)))
+    place = initial_solution(problem, np.zeros(len(problem.unknowns)))
 
-    def model(name, score, error, is_look=False):
-        found = setting.model((name,), replace(place), is_look)
+    def model(name, score, error, is_screened=False):
+        found = setting.model((name,), replace(place), is_screened)
         # Both are computed once, when they are asked for first.
         found.solution.__dict__['score'] = score - 1e9
         found.__dict__['errors'] = Errors(error, error, error)
@@ -248,11 +248,11 @@ def test_where_other_recordings_choose_the_nearest_free_run_leads(count, first, 
     best = model('', 0.0, 10.0)
     tried = [
         model('softening', -90.0, 5.0),
-        model('leak', -80.0, 2.0, is_look=True),
+        model('leak', -80.0, 2.0, is_screened=True),
         model('creep', -70.0, 3.0),
         model('slack', -1.0, 1.0),
     ]
-    order = [one.effects[0] for one in leading(tried, Search(setting, best, best))]
+    order = [one.effects[0] for one in order_candidates(tried, Search(setting, best, best))]
     assert setting.is_crossed is (count == 4)
     # A gap at which *choose* begins leaves no stretch with both, and is no other recording.
     one = recordings[0]

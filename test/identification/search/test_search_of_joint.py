@@ -11,10 +11,15 @@ import pytest
 
 from pam_ros.effects import CoulombFriction, PressureLag
 from pam_ros.identification.data.parts import parts_of
-from pam_ros.identification.fit.solve import solved
+from pam_ros.identification.fit.solve import solve
 from pam_ros.identification.search.criteria import BUDGET, CRITERIA
-from pam_ros.identification.search.moves import absent, with_each
-from pam_ros.identification.search.search import Search, confirmed, joined, with_more
+from pam_ros.identification.search.moves import absent_effects, with_each
+from pam_ros.identification.search.search import (
+    Search,
+    confirm,
+    free_parameters,
+    share_between_muscles,
+)
 from pam_ros.identification.search.setting import Setting
 from pam_ros.recording.recording import Recording
 from pam_ros.rig.joint import Actuator, Joint
@@ -51,7 +56,7 @@ def search_on(joint):
     with ThreadPoolExecutor(2) as pool:
         setting = Setting(elbow((), ()), parts, CRITERIA, BUDGET, pool, NAMES)
         problem = setting.problem
-        retuned = setting.model((), solved(problem, np.zeros(len(problem.unknowns)), pool=pool))
+        retuned = setting.model((), solve(problem, np.zeros(len(problem.unknowns)), pool=pool))
         yield Search(setting, retuned, retuned, [retuned])
 
 
@@ -71,7 +76,7 @@ def with_lag(found, muscles):
 def test_an_effect_that_each_muscle_has_alone_becomes_one_of_all(in_both):
     now = with_lag(in_both, NAMES)
     assert now.effects == ('flexor.pressure_lag', 'extensor.pressure_lag')
-    alike = joined(now, in_both)
+    alike = share_between_muscles(now, in_both)
     assert alike.effects == ('pressure_lag',)
     assert alike.errors.fit < 1.03 * now.errors.fit
     assert alike.solution.value('effects.pressure_lag.fill') == pytest.approx(0.05, rel=0.05)
@@ -79,8 +84,8 @@ def test_an_effect_that_each_muscle_has_alone_becomes_one_of_all(in_both):
 
 def test_an_effect_of_one_muscle_stays_there(in_both):
     (now,) = with_each(in_both.retuned, ['flexor.dead_time'], in_both.setting)
-    assert joined(now, in_both) is now
-    names = absent(now, in_both.setting)
+    assert share_between_muscles(now, in_both) is now
+    names = absent_effects(now, in_both.setting)
     assert 'extensor.dead_time' in names
     assert 'dead_time' not in names
     assert 'flexor.dead_time' not in names
@@ -93,10 +98,10 @@ def test_finer_steps_free_a_parameter_that_long_steps_hide():
     with search_on(rig) as found:
         noise = found.setting.noise
         (coarse,) = with_each(found.retuned, ['coulomb_friction'], found.setting)
-        now = with_more(coarse, found)
+        now = free_parameters(coarse, found)
         assert name not in {unknown.name for unknown in now.solution.problem.unknowns}
         assert now.errors.fit > 5.0 * noise
-        best = confirmed(replace(found, best=now))
+        best = confirm(replace(found, best=now))
         assert best.effects == now.effects
         assert best.solution.problem.step < now.solution.problem.step
         assert best.solution.value(name) == pytest.approx(PRESLIDING, rel=0.05)

@@ -13,7 +13,7 @@ from pam_ros.identification.data.parts import parts_of
 from pam_ros.identification.data.thinning import LONGEST, PERIODS, coarse_period
 from pam_ros.identification.fit.extend import with_effect
 from pam_ros.identification.fit.solve import (
-    begun,
+    initial_solution,
     least_squares,
     with_nominal_constants,
 )
@@ -49,7 +49,7 @@ def test_errors_are_those_of_one_free_run_through_all_parts(setting, retuned):
     e = run.position - s.target
     assert retuned.errors.fit == pytest.approx(rms(e[part.fit]), rel=0.01)
     assert retuned.errors.choose == pytest.approx(rms(e[part.choose]), rel=0.01)
-    assert retuned.errors.carried == retuned.errors.choose
+    assert retuned.errors.free_run == retuned.errors.choose
 
 
 def test_errors_are_those_of_the_nearest_free_run_whatever_the_score_prefers(setting, retuned):
@@ -61,8 +61,8 @@ def test_errors_are_those_of_the_nearest_free_run_whatever_the_score_prefers(set
     assert retuned.errors.fit == pytest.approx(near, rel=0.01)
     assert retuned.score == solution.score
     # The few cheap iterations of a look come most of the way.
-    looked_at = setting.model((), solution, is_look=True).errors.fit
-    assert 0.99 * near < looked_at < near + 0.5 * (far - near)
+    evaluated = setting.model((), solution, is_screened=True).errors.fit
+    assert 0.99 * near < evaluated < near + 0.5 * (far - near)
 
 
 def far_off(setting, retuned, by):
@@ -71,7 +71,7 @@ def far_off(setting, retuned, by):
     constants = np.array([one.is_parameter for one in problem.unknowns])
     signs = np.where(np.arange(constants.size) % 2, -1.0, 1.0)
     u = np.where(constants, by * signs * problem.prior, retuned.nearest.u)
-    return begun(problem, u), constants
+    return initial_solution(problem, u), constants
 
 
 def test_constants_go_back_to_their_nominal_values_where_a_fit_has_moved_them(setting, retuned):
@@ -106,15 +106,15 @@ def test_at_a_prescribed_length_what_chooses_begins_at_rest():
         u = np.concatenate([np.zeros(len(setting.problem.unknowns)), added])
         memories = [isinstance(one.of, MemoryStart) for one in problem.unknowns]
         assert any(memories)
-        unsettled = setting.errors(begun(problem, np.where(memories, 5.0, u)))
+        unsettled = setting.errors(initial_solution(problem, np.where(memories, 5.0, u)))
         (part,) = setting.thin
         s = part.segment
         creeping = single_muscle_joint(joint.muscle, joint.load, effects=[Creep(**start)])
         run = simulate_held(creeping, s.t, s.pressure, s.position)
         e = run.force - s.target
         assert unsettled.choose == pytest.approx(rms(e[part.choose]), rel=0.02)
-        assert unsettled.carried == unsettled.choose
-        settled = setting.errors(begun(problem, u))
+        assert unsettled.free_run == unsettled.choose
+        settled = setting.errors(initial_solution(problem, u))
         assert settled.fit == pytest.approx(rms(e[part.fit]), rel=0.02)
         assert settled.choose == unsettled.choose
         assert abs(unsettled.fit - settled.fit) > 0.1
@@ -138,7 +138,7 @@ def test_strain_is_the_prior_chi_square_of_constants_alone(setting):
     problem = setting.problem
     u = np.arange(1.0, 1.0 + len(problem.unknowns))
     known = [one.name in ('a1', 'a2', 'a3', 'a4', 'a5', 'a6', 'zeta') for one in problem.unknowns]
-    model = setting.model((), begun(problem, u))
+    model = setting.model((), initial_solution(problem, u))
     assert model.strain == pytest.approx(float(np.sum(u[known] ** 2)))
 
 
@@ -202,15 +202,15 @@ def test_a_load_without_a_spring_is_fitted_in_short_runs_and_carried_on_in_one()
         problem = setting.problem
         assert len(problem.segments) == round(CRITERIA.fit * 16.0 / BUDGET.window)
         assert max(s.t[-1] for s in problem.segments) < CRITERIA.fit * 16.0
-        errors = setting.errors(begun(problem, np.zeros(len(problem.unknowns))))
-        assert errors.carried > 2.0 * errors.choose > 2.0 * NOISE
+        errors = setting.errors(initial_solution(problem, np.zeros(len(problem.unknowns))))
+        assert errors.free_run > 2.0 * errors.choose > 2.0 * NOISE
         # The run that is carried on is the configured model's, from the measured start.
         s = setting.thin[0].segment
         run = simulate(
             DECLARED, s.t, s.drive, s.drive_t, position=s.y0, velocity=s.v0, step=setting.step
         ).position
         keep = setting.thin[0].choose
-        assert errors.carried == pytest.approx(rms((run - s.target)[keep]), rel=1e-6)
+        assert errors.free_run == pytest.approx(rms((run - s.target)[keep]), rel=1e-6)
 
 
 def test_each_short_run_is_divided_by_its_own_recording():
@@ -221,8 +221,8 @@ def test_each_short_run_is_divided_by_its_own_recording():
         with ThreadPoolExecutor() as pool:
             setting = Setting(DECLARED, parts, CRITERIA, BUDGET, pool)
             problem = setting.problem
-            found = setting.errors(begun(problem, np.zeros(len(problem.unknowns))))
-        return np.array([found.fit, found.choose, found.carried])
+            found = setting.errors(initial_solution(problem, np.zeros(len(problem.unknowns))))
+        return np.array([found.fit, found.choose, found.free_run])
 
     pooled = np.sqrt((errors([first]) ** 2 + errors([second]) ** 2) / 2.0)
     np.testing.assert_allclose(errors([first, second]), pooled, rtol=1e-6)
@@ -241,4 +241,9 @@ def test_a_stretch_with_too_little_to_fit_is_no_run():
         problem = setting.problem
         assert len(problem.segments) == 1
         assert problem.segments[0].t[0] == pytest.approx(whole.t[30])
-        assert setting.model((), begun(problem, np.zeros(len(problem.unknowns)))).errors.fit < 1e-3
+        assert (
+            setting.model(
+                (), initial_solution(problem, np.zeros(len(problem.unknowns)))
+            ).errors.fit
+            < 1e-3
+        )

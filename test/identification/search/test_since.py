@@ -9,12 +9,17 @@ import numpy as np
 import pytest
 
 from pam_ros.identification.data.parts import parts_of
-from pam_ros.identification.fit.moment import index_of_onset, keeping_onset
-from pam_ros.identification.fit.solve import begun, settled
+from pam_ros.identification.fit.onset import index_of_onset, keeping_onset
+from pam_ros.identification.fit.solve import converge, initial_solution
 from pam_ros.identification.search.criteria import BUDGET, CRITERIA
-from pam_ros.identification.search.onset import Moment, moment, search_since, shares_after
+from pam_ros.identification.search.onset import (
+    OnsetEstimate,
+    estimate_onset,
+    find_late_effects,
+    shares_after,
+)
 from pam_ros.identification.search.setting import Setting
-from pam_ros.identification.search.starts import looks
+from pam_ros.identification.search.starts import screen
 from support import bench_truth
 from support.marks import at_release
 from truth import effect
@@ -51,7 +56,7 @@ def setting_of():
 )
 def test_a_model_fails_from_the_moment_on(setting_of, one):
     """Whether or not the library has the effect."""
-    found = moment(setting_of(bench_truth.late(one, ONSET)))
+    found = estimate_onset(setting_of(bench_truth.late(one, ONSET)))
     assert found.time == pytest.approx(ONSET, abs=0.5)
     assert found.low <= found.time <= found.high
     assert found.low - 0.2 <= ONSET <= found.high
@@ -69,7 +74,7 @@ def test_a_model_fails_from_the_moment_on(setting_of, one):
     ids=lambda effects: '+'.join(one.kind for one in effects) or 'noise',
 )
 def test_what_is_there_from_the_start_has_no_moment(setting_of, effects):
-    assert moment(setting_of(bench_truth.free(*effects, seed=5, duration=40.0))) is None
+    assert estimate_onset(setting_of(bench_truth.free(*effects, seed=5, duration=40.0))) is None
 
 
 @pytest.mark.needs_numba
@@ -80,28 +85,28 @@ def test_a_gap_does_not_hide_a_moment(setting_of):
         ends = float(whole.t[whole.t < gap][-1]), float(whole.t[whole.t > gap + 0.5][0])
         cut = replace(whole, t=whole.t[keep], position=whole.position[keep], gaps=(ends,))
         assert len(setting_of(cut).parts) == 2
-        assert moment(setting_of(cut)).time == pytest.approx(ONSET, abs=0.5)
+        assert estimate_onset(setting_of(cut)).time == pytest.approx(ONSET, abs=0.5)
 
 
 @pytest.mark.needs_numba
 def test_only_one_recording_of_a_free_load_has_a_moment(setting_of):
     """Of two it is not known which came first, and held ones are not run on."""
     one = bench_truth.late(effect('coulomb_friction'), ONSET)
-    assert moment(setting_of(one, replace(one, name='again.csv'))) is None
+    assert estimate_onset(setting_of(one, replace(one, name='again.csv'))) is None
     held = bench_truth.held()
-    assert moment(setting_of(held)) is None
+    assert estimate_onset(setting_of(held)) is None
 
 
 def test_the_shares_are_of_what_comes_after(setting_of):
     setting = setting_of(bench_truth.free(duration=40.0))
     length = setting.parts[0].segment.t[-1]
-    fit, choose = shares_after(Moment(20.0, 19.9, 20.1), setting.parts, (0.5, 0.75), 5.0)
+    fit, choose = shares_after(OnsetEstimate(20.0, 19.9, 20.1), setting.parts, (0.5, 0.75), 5.0)
     assert fit * length == pytest.approx(20.0 + 0.5 * (length - 20.0))
     assert choose * length == pytest.approx(20.0 + 0.75 * (length - 20.0))
     # With test recordings all of it is fitted or decides, to the last sample.
-    assert shares_after(Moment(17.3, 17.2, 17.4), setting.parts, (0.73, 1.0), 5.0)[1] == 1.0
+    assert shares_after(OnsetEstimate(17.3, 17.2, 17.4), setting.parts, (0.73, 1.0), 5.0)[1] == 1.0
     # Less than 5 s of it would be fitted.
-    assert shares_after(Moment(31.0, 30.9, 31.1), setting.parts, (0.5, 0.75), 5.0) is None
+    assert shares_after(OnsetEstimate(31.0, 30.9, 31.1), setting.parts, (0.5, 0.75), 5.0) is None
 
 
 @pytest.mark.slow
@@ -117,11 +122,11 @@ def test_the_shares_are_of_what_comes_after(setting_of):
 )
 def test_what_begins_is_named_with_its_moment(setting_of, one):
     recording = bench_truth.late(one, ONSET)
-    since = moment(setting_of(recording))
+    since = estimate_onset(setting_of(recording))
     setting = setting_of(recording)
     shares = shares_after(since, setting.parts, SHARES, CRITERIA.duration)
     late = replace(setting_of(recording, shares=shares), onset=since.time)
-    found = search_since(setting, late, lambda share, text: None)
+    found = find_late_effects(setting, late, lambda share, text: None)
     assert found.setting is late
     assert found.best.effects == (one.kind,)
     k = index_of_onset(found.best.solution)
@@ -135,10 +140,10 @@ def test_what_begins_is_named_with_its_moment(setting_of, one):
 def test_cheap_fits_keep_the_onset(name, setting_of):
     """Their steps are large: a payload ended in a minimum a second before the right onset."""
     recording = bench_truth.late(effect('payload', payload_kg=-4.0), ONSET)
-    since = moment(setting_of(recording))
+    since = estimate_onset(setting_of(recording))
     late = replace(setting_of(recording, shares=(0.8, 0.9)), onset=since.time)
-    start = begun(late.problem, np.zeros(len(late.problem.unknowns)))
-    found = looks(late.model((), keeping_onset(start, settled)), late.places[name], late)
+    start = initial_solution(late.problem, np.zeros(len(late.problem.unknowns)))
+    found = screen(late.model((), keeping_onset(start, converge)), late.places[name], late)
     assert found
     for one in found:
         k = index_of_onset(one)
@@ -147,7 +152,7 @@ def test_cheap_fits_keep_the_onset(name, setting_of):
         # The fits that follow may move it.
         assert low[k] < one.u[k] < high[k]
     if name == 'payload':
-        end = settled(found[0], BUDGET.iterations)
+        end = converge(found[0], BUDGET.iterations)
         k = index_of_onset(end)
         assert end.problem.unknowns[k].value(end.u[k]) == pytest.approx(ONSET, abs=0.01)
 
@@ -166,7 +171,7 @@ def test_an_end_stop_that_is_met_late_was_there_from_the_start(setting_of):
     assert whole.t[np.argmax(highest > stop)] > 8.0
     recording = bench_truth.free(effect('end_stop', stop_m=float(stop)), duration=40.0)
     setting = setting_of(recording)
-    late = replace(setting, onset=moment(setting).time)
-    found = search_since(setting, late, lambda share, text: None)
+    late = replace(setting, onset=estimate_onset(setting).time)
+    found = find_late_effects(setting, late, lambda share, text: None)
     assert found.best.effects == ('end_stop',)
     assert found.setting is setting

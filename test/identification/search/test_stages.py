@@ -9,7 +9,7 @@ import pytest
 
 from pam_ros.effects import ViscousFriction
 from pam_ros.identification.data.segment import segments_of
-from pam_ros.identification.search.final import final
+from pam_ros.identification.search.final import fit_finally
 from pam_ros.identification.search.stages import stages
 from pam_ros.muscle.muscle import Muscle
 from pam_ros.recording.recording import Recording
@@ -72,7 +72,7 @@ def test_stamps_of_another_clock_are_no_lag(recording, pool):
 
     def lag_of(one):
         found = found_in([one], pool)
-        return stages(final(found), found, ())[-1].parameters['effects.pressure_lag.fill']
+        return stages(fit_finally(found), found, ())[-1].parameters['effects.pressure_lag.fill']
 
     fooled = lag_of(late)
     assert not fooled.low < FILL < fooled.high
@@ -122,7 +122,7 @@ def test_a_load_without_a_spring_is_shown_in_one_run_from_its_measured_start(poo
     y = y + NOISE * np.random.default_rng(3).standard_normal(t.size)
     recording = Recording('rail', t, t, command, y, None, None, None, 'free')
     found = found_in([recording], pool, name='viscous_friction', model=nominal)
-    last = stages(final(found), found, ())[2]
+    last = stages(fit_finally(found), found, ())[2]
     s = found.setting.parts[0].segment
     run = simulate(last.model, s.t, s.drive, s.drive_t, position=s.y0, velocity=s.v0).position
     np.testing.assert_allclose(last.simulated[0], run, atol=NOISE)
@@ -150,7 +150,7 @@ def test_intervals_hold_the_truth(pool, rho):
             name='viscous_friction',
             model=bench_truth.nominal(off=off, zeta=0.18),
         )
-        parameters = stages(final(found), found, ())[2].parameters
+        parameters = stages(fit_finally(found), found, ())[2].parameters
         truth = {f'a{k + 1}': a for k, a in enumerate(bench_truth.nominal().muscle.si)}
         truth |= {'zeta': 0.15, 'effects.viscous_friction.coefficient': friction}
         inside += [parameters[k].low <= value <= parameters[k].high for k, value in truth.items()]

@@ -7,7 +7,7 @@ import pytest
 
 from pam_ros.identification.fit.discrepancy import WHITE
 from pam_ros.identification.fit.unknowns import OF_RETUNING, MemoryStart
-from pam_ros.identification.search.starts import extended, guessed, looks
+from pam_ros.identification.search.starts import extended, guessed, screen
 
 pytestmark = [pytest.mark.slow, pytest.mark.needs_numba]
 
@@ -32,8 +32,8 @@ def test_at_nominal_constants_only_the_best_starts_are_tried(retuned, setting, m
         begun.append(wider)
         return wider
 
-    monkeypatch.setattr('pam_ros.identification.search.starts._look', look)
-    found = looks(retuned, place, setting)
+    monkeypatch.setattr('pam_ros.identification.search.starts._screened', look)
+    found = screen(retuned, place, setting)
     with_process = [one for one in begun if one.discrepancy != WHITE]
     white = [one for one in begun if one not in with_process and not has_nominal_constants(one)]
     nominal = [one for one in begun if has_nominal_constants(one)]
@@ -47,7 +47,7 @@ def test_at_nominal_constants_only_the_best_starts_are_tried(retuned, setting, m
 
 def test_looks_come_best_first_and_never_worse_than_their_start(retuned, setting):
     place = setting.places['pressure_lag']
-    found = looks(retuned, place, setting)
+    found = screen(retuned, place, setting)
     assert [one.score for one in found] == sorted(one.score for one in found)
     starts = place.effect.fit_starts()
     begun = [extended(retuned.solution, place, start, setting) for start in starts]

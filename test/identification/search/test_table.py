@@ -74,7 +74,7 @@ def test_intervals_are_clear_if_those_of_all_strengths_exclude_0(table):
 
 def test_p_is_that_of_the_likelihood_ratio_for_all_that_were_tried(table, search, retuned):
     row = next(r for r in table if r.effect == 'viscous_friction' and not r.parents)
-    model = next(m for m in search.looked_at if m.effects == ('viscous_friction',))
+    model = next(m for m in search.evaluated if m.effects == ('viscous_friction',))
     fall = retuned.solution.cost - model.solution.cost
     more = len(model.solution.u) - len(retuned.solution.u)
     assert row.p == pytest.approx(min(1.0, 4.0 * chi2.sf(fall, more)))
@@ -119,9 +119,9 @@ def test_a_move_that_makes_the_free_run_worse_is_marked(search):
     assert row.decision == 'rejected'
     assert row.reason.startswith('the error of the free run is ')
     assert 'over samples that were not fitted, and ' in row.reason
-    model = next(m for m in search.looked_at if m.effects == ('dead_time',))
+    model = next(m for m in search.evaluated if m.effects == ('dead_time',))
     for now, before in (
-        (model.errors.carried, search.retuned.errors.carried),
+        (model.errors.free_run, search.retuned.errors.free_run),
         (model.errors.fit, search.retuned.errors.fit),
     ):
         change = 100.0 * (now / before - 1.0)

@@ -82,7 +82,7 @@ def test_a_goal_is_reached_with_feedback(watch):
     with Program('pam_sim', parameters=LOCKSTEP), Program('pam_control', parameters=FOLLOWING):
         begin = watch.begin()
         goal = {'points': [[2.0, begin + WAY, 0.0]], 'path': [1e-3], 'end': [1e-4, 1e-3]}
-        (found,) = ended(client({**goal, 'leeway': 5.0}))
+        (found,) = ended(client({**goal, 'goal_time_tolerance': 5.0}))
         assert (found['accepted'], found['status']) == (True, GoalStatus.STATUS_SUCCEEDED)
         assert found['code'] == SUCCESSFUL
         assert 'reached' in found['text']
@@ -105,7 +105,7 @@ def test_a_goal_is_reached_with_feedback(watch):
     [
         ({'path': [1e-7]}, OFF_PATH, 'the error of the position is'),
         ({'path': [0.0, 1e-7]}, OFF_PATH, 'the error of the velocity is'),
-        ({'end': [1e-12], 'leeway': 0.02}, MISSED, 'after the end of the trajectory'),
+        ({'end': [1e-12], 'goal_time_tolerance': 0.02}, MISSED, 'after the end of the trajectory'),
     ],
 )
 def test_a_violated_tolerance_ends_a_goal(watch, tolerances, code, words):
@@ -178,7 +178,7 @@ def test_goals_that_cannot_be_are_rejected_with_the_reason(watch):
             'a tolerance of the position of -2 is not allowed': {'end': [-2.0]},
             'a tolerance of the velocity of 0.1 is not allowed': {'path': [0.0, 0.1]},
             'a tolerance of the acceleration of 1 is not allowed': {'path': [0.0, 0.0, 1.0]},
-            'a goal_time_tolerance of -1 s is not allowed': {'leeway': -1.0},
+            'a goal_time_tolerance of -1 s is not allowed': {'goal_time_tolerance': -1.0},
         }
         found = ended(client(*({**good, **change} for change in bad.values())))
         assert found == [{'accepted': False}] * len(bad)

@@ -10,10 +10,10 @@ import pytest
 from pam_ros.identification.data.segment import segments_of
 from pam_ros.identification.fit.extend import with_effect
 from pam_ros.identification.fit.intervals import half_widths
-from pam_ros.identification.fit.moment import index_of_onset, interval, moved
+from pam_ros.identification.fit.onset import index_of_onset, interval, refine_onset
 from pam_ros.identification.fit.places import places_of
 from pam_ros.identification.fit.problem import Problem
-from pam_ros.identification.fit.solve import begun, least_squares
+from pam_ros.identification.fit.solve import initial_solution, least_squares
 from pam_ros.identification.fit.unknowns import onset_unknown
 from pam_ros.recording.recording import Recording
 from support import bench_truth
@@ -58,23 +58,23 @@ def moment_of(known):
 def test_a_lag_that_begins_in_a_hold_is_found_in_another(near):
     """From an adjacent hold no slope leads to the moment: it is 0, or points to the hold's end."""
     problem, u = problem_of('pressure_lag', {'fill': 0.1, 'vent': 0.1}, near, 4.6)
-    known = begun(problem, u)
-    better = moved(known)
+    known = initial_solution(problem, u)
+    better = refine_onset(known)
     assert 4.0 <= moment_of(better) <= 5.0  # a command of the same stamp acts after it
     assert better.cost < known.cost
-    assert moved(better).cost == better.cost
+    assert refine_onset(better).cost == better.cost
 
 
 def test_without_a_moment_nothing_moves():
     problem, u = problem_of('payload', {'mass': 2.0}, 5.0, 5.0)
-    plain = begun(replace(problem, unknowns=problem.unknowns[1:]), u[1:])
+    plain = initial_solution(replace(problem, unknowns=problem.unknowns[1:]), u[1:])
     assert index_of_onset(plain) is None
-    assert moved(plain) is plain
+    assert refine_onset(plain) is plain
 
 
 def test_all_moments_of_a_hold_are_in_the_interval():
     problem, u = problem_of('pressure_lag', {'fill': 0.1, 'vent': 0.1}, 4.6, 4.6)
-    value, low, high = interval(least_squares(begun(problem, u)))
+    value, low, high = interval(least_squares(initial_solution(problem, u)))
     assert value == pytest.approx(4.6)
     assert low == pytest.approx(4.0, abs=5e-3)
     assert high == pytest.approx(5.0, abs=5e-3)
@@ -83,7 +83,7 @@ def test_all_moments_of_a_hold_are_in_the_interval():
 def test_where_the_cost_is_smooth_the_interval_is_that_of_the_jacobian():
     """The payload comes together with what it does to the load: its mass is unknown, too."""
     problem, u = problem_of('payload', {'mass': 2.0}, 5.05, 5.03)
-    known = least_squares(begun(problem, u))
+    known = least_squares(initial_solution(problem, u))
     value, low, high = interval(known)
     half = half_widths(known, known.most_likely())[0]
     assert abs(value - 5.03) < 2.0 * half
@@ -97,7 +97,7 @@ def test_intervals_hold_the_truth():
     inside = []
     for seed in range(40):
         problem, u = problem_of('viscous_friction', {'coefficient': 80.0}, 5.05, 5.03, seed)
-        _, low, high = interval(least_squares(begun(problem, u)))
+        _, low, high = interval(least_squares(initial_solution(problem, u)))
         inside.append(low <= 5.03 <= high)
     # 95 % of 40: 34 are three standard deviations below.
     assert sum(inside) >= 34

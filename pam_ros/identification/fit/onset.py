@@ -25,74 +25,74 @@ WILKS = 3.84
 FINEST, HALVINGS = 1e-4, 8  # s, first step to the side, and bisections to find an end
 
 
-def index_of_onset(known: Solution) -> int | None:
+def index_of_onset(solution: Solution) -> int | None:
     """Return the index of the onset among the unknowns of a fit, None if there is none."""
-    unknowns = known.problem.unknowns
+    unknowns = solution.problem.unknowns
     return next((k for k, one in enumerate(unknowns) if isinstance(one.of, OnsetTime)), None)
 
 
-def moved(known: Solution) -> Solution:
-    """Return *known* at the best onset near its own, with the other unknowns fixed."""
-    k = index_of_onset(known)
+def refine_onset(solution: Solution) -> Solution:
+    """Return *solution* at the best onset near its own, with the other unknowns fixed."""
+    k = index_of_onset(solution)
     if k is None:
-        return known
-    low, high = (float(side[k]) for side in known.problem.bounds)
+        return solution
+    low, high = (float(side[k]) for side in solution.problem.bounds)
     # Its unknown is in s.
     count = round((EARLIER + LATER) / APART) + 1
-    times = known.u[k] + np.linspace(-EARLIER, LATER, count)
-    tried = [at_moment(known, k, u) for u in times[(times > low) & (times < high)]]
-    return min([known, *tried], key=lambda one: one.cost)
+    times = solution.u[k] + np.linspace(-EARLIER, LATER, count)
+    tried = [with_unknown(solution, k, u) for u in times[(times > low) & (times < high)]]
+    return min([solution, *tried], key=lambda one: one.cost)
 
 
-def keeping_onset(known: Solution, fit: Callable[[Solution], Solution]) -> Solution:
-    """Return what *fit* makes of *known* while the onset keeps its value.
+def keeping_onset(solution: Solution, fit: Callable[[Solution], Solution]) -> Solution:
+    """Return what *fit* makes of *solution* while the onset keeps its value.
 
     Without an effect the onset has no influence, and where an effect is only roughly known, the
     steps of a fit are large: they can move the onset into a minimum from which it does not return.
     """
-    problem, k = known.problem, index_of_onset(known)
+    problem, k = solution.problem, index_of_onset(solution)
     if k is None:
-        return fit(known)
+        return fit(solution)
     onset = problem.unknowns[k]
-    there = onset.value(known.u[k])
+    there = onset.value(solution.u[k])
     held = replace(onset, low=there, high=there)
     unknowns = (*problem.unknowns[:k], held, *problem.unknowns[k + 1 :])
-    found = fit(replace(known, problem=replace(problem, unknowns=unknowns)))
+    found = fit(replace(solution, problem=replace(problem, unknowns=unknowns)))
     return replace(found, problem=problem)
 
 
-def at_moment(known: Solution, k: int, u: float) -> Solution:
-    """Return *known* with unknown number *k* at u and an unchanged Jacobian."""
-    there = known.u.copy()
+def with_unknown(solution: Solution, k: int, u: float) -> Solution:
+    """Return *solution* with unknown number *k* at u and an unchanged Jacobian."""
+    there = solution.u.copy()
     there[k] = u
-    return replace(known, u=there, r=known.problem.residuals(there), is_fresh=False)
+    return replace(solution, u=there, r=solution.problem.residuals(there), is_fresh=False)
 
 
-def interval(known: Solution) -> tuple[float, float, float]:
+def interval(solution: Solution) -> tuple[float, float, float]:
     """Return the onset in s of a fit with the ends of its 95 % interval.
 
     The cost with the other unknowns fixed gives the distance of each end. It is multiplied by the
     ratio of the interval of :mod:`.intervals`, with all unknowns free, to the one that the
     derivative gives with the others fixed.
     """
-    k = index_of_onset(known)
+    k = index_of_onset(solution)
     assert k is not None
-    process = replace(known, discrepancy=known.most_likely())
-    slope = process.problem.whitened(known.jacobian[:, k : k + 1], process.whitenings)
-    known_by = float(np.sum(slope**2)) / process.noise**2 + known.problem.prior[k] ** -2.0
-    ratio = half_widths(known, process.discrepancy)[k] / (WILKS / known_by) ** 0.5
-    unknown, u = known.problem.unknowns[k], float(known.u[k])
+    process = replace(solution, discrepancy=solution.most_likely())
+    slope = process.problem.whitened(solution.jacobian[:, k : k + 1], process.whitenings)
+    known_by = float(np.sum(slope**2)) / process.noise**2 + solution.problem.prior[k] ** -2.0
+    ratio = half_widths(solution, process.discrepancy)[k] / (WILKS / known_by) ** 0.5
+    unknown, u = solution.problem.unknowns[k], float(solution.u[k])
     low, high = (unknown.value(u + (_end(process, k, side) - u) * ratio) for side in (-1.0, 1.0))
     return unknown.value(u), low, high
 
 
-def _end(known: Solution, k: int, side: float) -> float:
+def _end(solution: Solution, k: int, side: float) -> float:
     """Return the u at which the cost has risen by WILKS to one *side*, or its bound there."""
-    u, bound = float(known.u[k]), float(known.problem.bounds[side > 0.0][k])
-    most = known.cost + WILKS
+    u, bound = float(solution.u[k]), float(solution.problem.bounds[side > 0.0][k])
+    most = solution.cost + WILKS
 
     def is_over(away: float) -> bool:
-        return at_moment(known, k, u + side * away).cost > most
+        return with_unknown(solution, k, u + side * away).cost > most
 
     limit = abs(bound - u)
     inside, outside = 0.0, FINEST

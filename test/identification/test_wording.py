@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from pam_ros.report.wording import (
+from pam_ros.identification.wording import (
     interval,
     listed,
     number,
