@@ -61,10 +61,10 @@ def margins_of(level: float, plant: TruthPlant, joint: Joint) -> Margins:
 def _gain(level: float, plant: TruthPlant, joint: Joint, frequency: float) -> complex:
     """Return the gain of the loop at a *frequency* in Hz."""
     law = SlidingMode(joint, Gains(learning=False))
-    law._rejection.__class__ = HeldLevel
+    law._estimates.rejection.__class__ = HeldLevel
     origin, dt = plant.reset(300e3), 1.0 / RATE
     law.start(origin, (plant.state.u,))
-    law._rejection.hold(level)
+    law._estimates.rejection.hold(level)
     count, settles = round(PERIODS / frequency * RATE), round(SETTLES * RATE)
     measured, given, received = plant.measure(), [], []
     for n in range(settles + count):

@@ -19,13 +19,13 @@ from numpy.typing import NDArray
 from pam_ros.errors import ParameterError
 
 Array = NDArray[np.float64]
-LONGEST = 60  # characters of a value that an error message shows
+LONGEST_VALUE = 60  # characters of a value that an error message shows
 
 
 def refuse(name: str, value: Any, allowed: str) -> NoReturn:
     """Raise ParameterError: the *value* of *name* is not one of the *allowed* ones."""
     text = ' '.join(repr(value).split())
-    shown = text if len(text) <= LONGEST else f'{text[: LONGEST - 3]}...'
+    shown = text if len(text) <= LONGEST_VALUE else f'{text[: LONGEST_VALUE - 3]}...'
     raise ParameterError(f'{name} = {shown} is not allowed: give {allowed}')
 
 

@@ -6,7 +6,7 @@ import re
 from contextlib import suppress
 
 LONGEST_WORD = 200  # characters of a word that is shown whole: a path may be this long
-LONGEST = 2000
+LONGEST_TEXT = 2000
 _CUT = ' [...] '
 
 
@@ -31,8 +31,8 @@ def shown(text: str) -> str:
         lambda word: f'{word[0][:150]}...{word[0][-40:]}',
         printable(text),
     )
-    if len(plain) > LONGEST:
-        plain = plain[: LONGEST - 500] + _CUT + plain[-400:]
+    if len(plain) > LONGEST_TEXT:
+        plain = plain[: LONGEST_TEXT - 500] + _CUT + plain[-400:]
     return plain
 
 

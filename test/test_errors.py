@@ -8,7 +8,7 @@ import pickle
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pam_ros.errors import LONGEST, LONGEST_WORD, PamError, RecordingError, printable, shown
+from pam_ros.errors import LONGEST_TEXT, LONGEST_WORD, PamError, RecordingError, printable, shown
 
 
 def test_a_plain_sentence_is_left_as_it_is():
@@ -41,7 +41,7 @@ def test_long_sentences_are_cut_before_their_end():
     text = str(PamError('many words ' * 10**5 + 'end'))
     assert ' [...] ' in text
     assert text.endswith('end')
-    assert len(text) <= LONGEST
+    assert len(text) <= LONGEST_TEXT
 
 
 @given(st.text(st.characters(codec=None)) | st.text('a \n', min_size=190, max_size=400))

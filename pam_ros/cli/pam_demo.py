@@ -39,7 +39,7 @@ def main() -> None:
     # The demonstration needs no other machine, and no other should receive its messages.
     os.environ.setdefault('ROS_AUTOMATIC_DISCOVERY_RANGE', 'LOCALHOST')
     try:
-        stage = import_module('pam_ros.demo.stage').Stage(given.out)
+        stage = import_module('pam_ros.demo.stage').DemoStage(given.out)
         for name in names:
             import_module(f'pam_ros.nodes.demo.{name}').play(stage)
         print(next_steps(given.out))

@@ -101,7 +101,7 @@ def parser() -> argparse.ArgumentParser:
     return made
 
 
-class Progress:
+class ProgressBar:
     """Shows the current step: a bar on a terminal, else a line when a new step begins."""
 
     def __init__(self) -> None:
@@ -176,7 +176,7 @@ def run(given: argparse.Namespace, command: str) -> str:
     if not HAVE_NUMBA:
         print('numba is not installed: this takes some hundred times as long', file=sys.stderr)
     source = provenance(nominal, given.params, given.set, recordings, test, command)
-    progress = Progress()
+    progress = ProgressBar()
     try:
         answer = identify(
             model, recordings, test, progress, uncertain=uncertain, warn=progress.say

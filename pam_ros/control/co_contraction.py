@@ -5,7 +5,7 @@
 from dataclasses import dataclass
 
 from pam_ros.control.allocation import Allocation
-from pam_ros.control.reference.profile import Bounds, JerkLimitedMotion
+from pam_ros.control.reference.profile import JerkLimitedMotion, MotionLimits
 from pam_ros.parameters import check_all, parameter_field
 
 RISE = 0.05  # s, to reach the rate, and also its slope: some three samples of a 50 Hz topic
@@ -87,12 +87,16 @@ class StiffnessReference:
         self.goal = goal
         self._is_new = True
 
+    def set_rate(self, rate: float) -> None:
+        """Approach the goal at another *rate* a second, from the next goal on."""
+        self.rate = rate
+
     def follow(self, dt: float) -> float:
         """Return the stiffness after another *dt* s."""
         if self._is_new:
             # The profile is computed once a step, however often the goal is set.
             slope = self.rate / RISE
-            self._offset.begin(self._offset.state, Bounds(self.rate, slope, slope / RISE))
+            self._offset.begin(self._offset.state, MotionLimits(self.rate, slope, slope / RISE))
             self._is_new = False
         self._offset.follow(dt)
         return self.stiffness

@@ -11,7 +11,7 @@ from enum import Enum
 from math import isfinite
 from typing import NamedTuple
 
-from pam_ros.control.reference.trajectory import Trajectory
+from pam_ros.control.reference.trajectory import ReferenceTrajectory
 from pam_ros.control.signals import Reference
 from pam_ros.errors import RangeError
 
@@ -26,7 +26,7 @@ class Outcome(Enum):
     MISSED = 'GOAL_TOLERANCE_VIOLATED'
 
 
-class Verdict(NamedTuple):
+class GoalOutcome(NamedTuple):
     """How a goal ended, and a sentence with the numbers that decided it."""
 
     outcome: Outcome
@@ -92,7 +92,9 @@ class Goal:
     Its coordinate is in *unit*, m or rad.
     """
 
-    def __init__(self, trajectory: Trajectory, start: float, unit: str, asked: Tolerances) -> None:
+    def __init__(
+        self, trajectory: ReferenceTrajectory, start: float, unit: str, asked: Tolerances
+    ) -> None:
         """Make it with the tolerances that are *asked* for."""
         self._trajectory, self._start, self._unit, self._asked = trajectory, start, unit, asked
 
@@ -104,7 +106,7 @@ class Goal:
         """Return the desired state at *now* s, without an approach to the trajectory."""
         return self._trajectory.at(self.since(now))
 
-    def judge(self, now: float, position: float, velocity: float) -> Verdict | None:
+    def judge(self, now: float, position: float, velocity: float) -> GoalOutcome | None:
         """Return how the goal ends at *now* s with the joint in this state; None if it goes on."""
         since, target = self.since(now), self.target(now)
         error = Reference(target.position - position, target.velocity - velocity)
@@ -114,11 +116,11 @@ class Goal:
         if over < 0.0:
             excess = self._asked.path.excess(error, self._unit)
             text = f'{excess}, {since:.3g} s after the start'
-            return Verdict(Outcome.OFF_PATH, text) if excess else None
+            return GoalOutcome(Outcome.OFF_PATH, text) if excess else None
         after = f'{over:.3g} s after the end of the trajectory'
         excess = self._asked.end.excess(error, self._unit)
         if not excess:
-            return Verdict(Outcome.REACHED, f'reached {after}')
+            return GoalOutcome(Outcome.REACHED, f'reached {after}')
         if self._asked.goal_time_tolerance and over > self._asked.goal_time_tolerance:
-            return Verdict(Outcome.MISSED, f'{excess}, {after}')
+            return GoalOutcome(Outcome.MISSED, f'{excess}, {after}')
         return None

@@ -12,8 +12,8 @@ from math import isfinite
 from pam_ros.control.plausibility import Plausibility
 from pam_ros.control.reference.points import Point, Points
 from pam_ros.control.reference.source import ReferenceSource
-from pam_ros.control.reference.trajectory import Trajectory
-from pam_ros.control.signals import LONGEST, PositionLaw, Pressures, Reference
+from pam_ros.control.reference.trajectory import ReferenceTrajectory
+from pam_ros.control.signals import LONGEST_TIME, PositionLaw, Pressures, Reference
 
 HOLD, VENT = 'hold', 'vent'
 WAITING, RUNNING, BLIND, DISABLED = 'waiting', 'running', 'blind', 'disabled'
@@ -35,7 +35,7 @@ VENTING = 0.2
 
 
 @dataclass(frozen=True)
-class Reading:
+class Measurement:
     """A measurement: time taken in s, position in m, velocity in m/s if it is measured.
 
     ``stamp`` is the time in s by the clock of the sensor, which may differ from that of the
@@ -84,7 +84,7 @@ class Loop:
         self.chambers: Pressures | None = None  # Pa: commands that hold the measured pressures
         self.awaits_chamber = False  # whether to wait for such a measurement
         self.starts = 0
-        self._seen: Reading | None = None
+        self._seen: Measurement | None = None
         self._is_new = False
         self._used = self._usual = 0.0  # time of the last measurement used, usual interval, s
         self._pace = 1.0  # of the reference: 0 while it is held
@@ -107,7 +107,7 @@ class Loop:
             self._seen = None
             self.plausibility.forget()
 
-    def see(self, reading: Reading) -> str:
+    def see(self, reading: Measurement) -> str:
         """Take in a measurement; return why it is not plausible, or '' if it is plausible.
 
         A measurement is ignored if it is not plausible or not newer than the last one, and one
@@ -182,7 +182,7 @@ class Loop:
         self._is_new = False
         reference = self.source.follow(dt, passed - dt, self._pace_after(dt))
         # Only that of a new reading counts, which is late if the program was stopped.
-        age = min(max(now - reading.time, -LONGEST), LONGEST)
+        age = min(max(now - reading.time, -LONGEST_TIME), LONGEST_TIME)
         self.pressures = self.law.update(dt, reference, position, velocity, age)
         return self.pressures
 
@@ -203,7 +203,7 @@ class Loop:
         self._pace = max(self._pace - change, 0.0) if is_held else min(self._pace + change, 1.0)
         return self._pace
 
-    def _start(self, reading: Reading, now: float) -> None:
+    def _start(self, reading: Measurement, now: float) -> None:
         """Start again at the present position and pressure of the load."""
         known = self.pressures if self.chambers is None else self.chambers
         self.law.start(reading.position, known)
@@ -245,7 +245,7 @@ def warm_up(law: PositionLaw, reach: tuple[float, float], period: float) -> None
     """Let *law* and trajectories compile and load all that they need, before control begins."""
     middle = 0.5 * (reach[0] + reach[1]) if isfinite(reach[0]) else 0.0
     for rest in ((), (0.0,), (0.0, 0.0)):  # each kind of interpolation
-        Trajectory(Reference(middle), Points.of([Point(1.0, middle, *rest)]), reach)
+        ReferenceTrajectory(Reference(middle), Points.of([Point(1.0, middle, *rest)]), reach)
     law.start(middle)
     for _ in range(3):
         law.update(period, Reference(middle), middle)

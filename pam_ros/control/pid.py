@@ -6,13 +6,11 @@ from dataclasses import dataclass
 from math import exp
 
 from pam_ros.arguments import instance
-from pam_ros.control.allocation import allocation_of
 from pam_ros.control.co_contraction import CoContraction
 from pam_ros.control.joint_settings import JointSettings
-from pam_ros.control.limits import Limiter, Limits
-from pam_ros.control.model import ControlModel
+from pam_ros.control.law import JointLaw
+from pam_ros.control.limits import Limits
 from pam_ros.control.pid_schedule import Schedule
-from pam_ros.control.pressure_path import PressurePath
 from pam_ros.control.signals import (
     Pressures,
     Reference,
@@ -88,7 +86,7 @@ class PidGains(JointSettings):
     )
 
 
-class Pid:
+class Pid(JointLaw):
     """PID on the error, added to the pressures that hold the load at the reference.
 
     The error is filtered twice at the same bandwidth, to keep noise out of its derivative. The
@@ -96,6 +94,8 @@ class Pid:
     follow the nonlinear curve of a muscle. For antagonistic muscles the output is added to one
     side and subtracted from the other, and the stiffness is that of the static part.
     """
+
+    gains: PidGains
 
     def __init__(
         self,
@@ -110,21 +110,9 @@ class Pid:
         the reach has no stable share of the gains.
         """
         gains = PidGains.for_joint(joint) if gains is None else gains
-        limits = Limits() if limits is None else limits
-        wanted = CoContraction() if co_contraction is None else co_contraction
-        self.joint = joint = instance('joint', joint, Joint, 'a Joint').at_start
         self.gains = instance('gains', gains, PidGains, 'PidGains')
-        instance('limits', limits, Limits, 'Limits')
-        instance('co_contraction', wanted, CoContraction, 'a CoContraction')
-        gains.require(revolute=joint.is_revolute)
-        self.terms = Terms()
-        self.model = ControlModel(joint)
-        self.allocation = allocation_of(self.model, limits)
-        self._stiffness = wanted.wanted(self.allocation)
-        self._paths = [PressurePath(joint, i, 1.0) for i in range(len(self.model.muscles))]
-        self._limiters = [
-            Limiter(low, high, limits.pressure_rate) for low, high in self.allocation.ranges
-        ]
+        super().__init__(joint, gains, limits, co_contraction, 1.0)
+        self._stiffness = self._wanted.wanted(self.allocation)
         self._schedule = (
             Schedule(
                 self.allocation,
@@ -135,14 +123,6 @@ class Pid:
             else None
         )
         self.start(0.0)
-
-    def _static(self, position: float) -> Pressures:
-        """Return the commands in Pa that hold the load at *position*, according to the model."""
-        effort = self.model.gravity(position)
-        chambers = self.allocation.split(effort, self._stiffness, position).pressures
-        return tuple(
-            path.command_at_rest(p) for path, p in zip(self._paths, chambers, strict=True)
-        )
 
     def _signs(self, position: float) -> list[float]:
         return [1.0 if gain > 0.0 else -1.0 for gain in self.allocation.gains(position)]
@@ -167,10 +147,10 @@ class Pid:
         Raises ParameterError as :meth:`pam_ros.control.signals.PositionLaw.start`.
         """
         start_arguments(self.joint, position, pressures)
-        static, signs = self._static(position), self._signs(position)
+        static, signs = self._at_rest(position, self._stiffness), self._signs(position)
         for limiter, pressure in zip(self._limiters, pressures or static, strict=True):
             limiter.start(pressure)
-        commands = tuple(limiter.last for limiter in self._limiters)
+        commands = self._commands
         before = sum(
             sign * (command - pressure)
             for sign, command, pressure in zip(signs, commands, static, strict=True)
@@ -179,8 +159,8 @@ class Pid:
         self._has_rate = False
         self._seen, self._waited, self._output = position, 0.0, before
         self._parts = 0.0, before, 0.0  # proportional, integral, derivative
-        self.terms = Terms(reference=position, position=position, pressures=commands)
-        self._note_stiffness()
+        self.terms = Terms(reference=position, position=position)
+        self._note(commands)
 
     def update(
         self,
@@ -202,7 +182,10 @@ class Pid:
         """
         position, _ = step_arguments(self.joint, dt, reference, position, velocity, age)
         self._waited += dt
-        static, gains = self._static(reference.position), self.allocation.gains(reference.position)
+        static, gains = (
+            self._at_rest(reference.position, self._stiffness),
+            self.allocation.gains(reference.position),
+        )
         signs = self._signs(reference.position)
         if position is not None:
             room = self._room(reference.position, static, signs)
@@ -224,10 +207,9 @@ class Pid:
             equivalent=sum(g * pressure for g, pressure in zip(gains, static, strict=True)),
             switching=gain * (p + d),
             observer=gain * i,
-            pressures=tuple(commands),
             cut=cut,
         )
-        self._note_stiffness()
+        self._note(tuple(commands))
         return self.terms.pressures
 
     def _correct(self, reference: float, position: float, low: float, high: float) -> None:
@@ -255,17 +237,11 @@ class Pid:
         self._parts = p, i, d
         self._output = min(max(p + i + d, low), high)
 
-    def _note_stiffness(self) -> None:
-        """Set the terms of the desired stiffness and of the stiffness under the commands."""
-        if not self.allocation.can_stiffen:
-            return
-        terms = self.terms
-        chambers = [
-            path.reached(command)
-            for path, command in zip(self._paths, terms.pressures, strict=True)
-        ]
-        terms.co_contraction = self._stiffness
-        terms.stiffness = self.model.stiffness(chambers, terms.position)
+    def _note(self, commands: Pressures) -> None:
+        """Set the terms of the *commands*, and of the stiffness when the pressures follow."""
+        pairs = zip(self._paths, commands, strict=True)
+        chambers = tuple(path.reached(command) for path, command in pairs)
+        self._note_pressures(commands, chambers, self._stiffness)
 
     def _room(
         self, reference: float, static: Pressures, signs: list[float]

@@ -26,7 +26,7 @@ import numpy as np
 from pam_ros.control.tuning import number
 
 
-class Plant(NamedTuple):
+class LinearPlant(NamedTuple):
     """A joint near one place: inertia, damping, stiffness with gravity, effort per pressure."""
 
     inertia: float
@@ -64,7 +64,7 @@ TUNING = MarginTuning()
 _ORDER = 5  # of the loop without the lag: the load, the filter and the integral
 
 
-def share(gains: Sequence[float], plant: Plant) -> Share | None:
+def share(gains: Sequence[float], plant: LinearPlant) -> Share | None:
     """Return the share of *gains* that the bounds allow at *plant*.
 
     *gains* are Kp, Ki, Kd in Pa and m or rad, and the bandwidth of the filter in rad/s. If no

@@ -9,7 +9,7 @@ from math import isfinite
 import numpy as np
 
 from pam_ros.control.allocation import Allocation
-from pam_ros.control.pid_margin import Plant, Share, share
+from pam_ros.control.pid_margin import LinearPlant, Share, share
 from pam_ros.control.tuning import number
 from pam_ros.errors import ParameterError, RangeError
 
@@ -24,13 +24,13 @@ class ScheduleTuning:
 TUNING = ScheduleTuning()
 
 
-def plant_at(allocation: Allocation, s: float, stiffness: float) -> Plant:
+def plant_at(allocation: Allocation, s: float, stiffness: float) -> LinearPlant:
     """Return the joint at rest at *s*, with the *stiffness* if it can be chosen."""
     model = allocation.model
     p = allocation.split(model.gravity(s), stiffness, s).pressures
     k = model.stiffness(p, s) + model.gravity_stiffness(s)
     gain = sum(map(abs, allocation.gains(s)))
-    return Plant(model.inertia, model.damping(p, s, 0.0), k, gain)
+    return LinearPlant(model.inertia, model.damping(p, s, 0.0), k, gain)
 
 
 class Schedule:

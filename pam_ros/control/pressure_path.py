@@ -74,6 +74,14 @@ class PressurePath:
         self.quickest = quickest
         self.start(0.0)
 
+    def set_lag(self, fill: float, vent: float) -> None:
+        """Invert these time constants in s from now on."""
+        self.chamber.fill, self.chamber.vent = fill, vent
+
+    def set_quickest(self, quickest: float) -> None:
+        """Reduce a lag to this time constant in s from now on."""
+        self.quickest = quickest
+
     def start(self, command: float) -> None:
         """Start again a long time after a *command* in Pa."""
         self._queue: deque[tuple[float, float]] = deque()

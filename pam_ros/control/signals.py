@@ -9,7 +9,7 @@ from typing import NamedTuple, Protocol
 
 from pam_ros.arguments import array, number, refuse, refuse_shape
 from pam_ros.control.allocation import Allocation
-from pam_ros.control.learning.learned import Learned
+from pam_ros.control.learned import Learned
 from pam_ros.rig.joint import Joint
 from pam_ros.rig.statics import refuse_position
 
@@ -94,7 +94,7 @@ class Terms:
         return float(getattr(self, name))
 
 
-LONGEST = 1.0  # s: of a step, and between a measurement and the step; laws run every few ms
+LONGEST_TIME = 1.0  # s: of a step, and between a measurement and the step; laws run every few ms
 
 
 def step_arguments(
@@ -113,13 +113,13 @@ def step_arguments(
     if not isinstance(reference, Reference):
         refuse('reference', reference, 'a Reference, such as Reference(0.05)')
     try:
-        if not 0.0 < dt <= LONGEST:
-            refuse('dt', dt, f'a time above 0 s and up to {LONGEST:g} s')
+        if not 0.0 < dt <= LONGEST_TIME:
+            refuse('dt', dt, f'a time above 0 s and up to {LONGEST_TIME:g} s')
         if not all(map(isfinite, reference)):
             refuse('reference', reference, 'finite numbers')
         _refuse_far('reference.position', reference.position, joint)
-        if not -LONGEST <= age <= LONGEST:
-            refuse('age', age, f'a time in s, {-LONGEST:g} to {LONGEST:g} s')
+        if not -LONGEST_TIME <= age <= LONGEST_TIME:
+            refuse('age', age, f'a time in s, {-LONGEST_TIME:g} to {LONGEST_TIME:g} s')
         if position is not None and not isfinite(position):
             position = None
         if position is not None:

@@ -29,7 +29,7 @@ Antagonistic muscles have the stiffness as a second set-point, which does not mo
 
 While the reference rests, the bandwidths shrink as the goal is reached (:mod:`.rest.standstill`)
 and grow when a disturbance moves the load (:mod:`.rest.rejection`). A loop that oscillates gets
-lower feedback gains (:mod:`.gain_reduction`). A load that sticks and slips
+lower feedback gains (:mod:`.rest.gain_reduction`). A load that sticks and slips
 is pushed to its goal (:mod:`.rest.stiction`). The law learns from the motion (:mod:`.learning`),
 and configured effects are compensated (:mod:`.compensation`, :mod:`.pressure_path`).
 
@@ -39,25 +39,15 @@ Tondu & Lopez, IEEE Control Systems Magazine 20 (2), 2000 (angle and stiffness o
 """
 
 from dataclasses import dataclass
-from math import sqrt
+from typing import NamedTuple
 
 from pam_ros.arguments import instance
-from pam_ros.control.allocation import allocation_of
 from pam_ros.control.co_contraction import CoContraction, StiffnessReference
-from pam_ros.control.compensation import FeedForwardForces
-from pam_ros.control.gain_reduction import GainReduction, ReductionTuning
+from pam_ros.control.estimates import Estimates, Feedback, LearnedForce
 from pam_ros.control.gains import Gains
-from pam_ros.control.learning.features import FeatureTuning
-from pam_ros.control.learning.learned import Learned
-from pam_ros.control.learning.learner import Learner
-from pam_ros.control.learning.learning_tuning import LearningTuning
-from pam_ros.control.limits import Limiter, Limits
-from pam_ros.control.model import ControlModel
-from pam_ros.control.observer import Observer
-from pam_ros.control.pressure_path import PressurePath
-from pam_ros.control.rest.oscillation import OscillationTuning
-from pam_ros.control.rest.rejection import Rejection, RejectionTuning
-from pam_ros.control.rest.standstill import Standstill, StandstillTuning
+from pam_ros.control.law import JointLaw
+from pam_ros.control.learned import Learned
+from pam_ros.control.limits import Limits
 from pam_ros.control.rest.stiction import Stiction, StictionTuning
 from pam_ros.control.signals import (
     Pressures,
@@ -75,19 +65,23 @@ from pam_ros.rig.joint import Joint
 class LawTuning:
     """Tuning numbers of the law that belong to no other part."""
 
-    quickest: float = number(
-        2.0,
-        '',
-        'largest factor on the bandwidth of the velocity estimate: beyond it the noise of the '
-        'pressure grows and the error of the sine of control does not fall',
-    )
     stuck_rate: float = number(
         30.0, 'N/s', 'largest rate at which a contact is loaded: control, friction at rest'
     )
 
 
-class SlidingMode:
+class _Wanted(NamedTuple):
+    """The wanted effort, its part along the reference, and the rate of that part."""
+
+    effort: float
+    foreseen: float
+    rate: float
+
+
+class SlidingMode(JointLaw):
     """The law for one joint; ``terms`` holds the results of its last step."""
+
+    gains: Gains
 
     def __init__(
         self,
@@ -102,45 +96,15 @@ class SlidingMode:
         gains of the other kind of joint (``Gains.for_joint``).
         """
         gains = Gains.for_joint(joint) if gains is None else gains
-        limits = Limits() if limits is None else limits
-        wanted = CoContraction() if co_contraction is None else co_contraction
-        self.joint = joint = instance('joint', joint, Joint, 'a Joint').at_start
         self.gains = instance('gains', gains, Gains, 'Gains')
-        instance('limits', limits, Limits, 'Limits')
-        instance('co_contraction', wanted, CoContraction, 'a CoContraction')
-        gains.require(revolute=joint.is_revolute)
-        self.model = model = ControlModel(joint)
-        self.allocation = allocation_of(model, limits)
-        self.terms = Terms()
-        length, force = 1.0 / model.arm, model.arms
+        super().__init__(joint, gains, limits, co_contraction, gains.pressure_time)
+        length, force = 1.0 / self.model.arm, self.model.arms
         self._tuning = scaled(LawTuning(), length, force)
-        self._limiters = [
-            Limiter(low, high, limits.pressure_rate) for low, high in self.allocation.ranges
-        ]
-        self._paths = [
-            PressurePath(joint, i, gains.pressure_time) for i in range(len(model.muscles))
-        ]
-        self._is_lag_configured = any(path.is_lag_configured for path in self._paths)
-        self._losses = FeedForwardForces(model)
-        self._observer = Observer(model)
-        self._learner = Learner(
-            model,
-            gains,
-            scaled(LearningTuning(), length, force),
-            scaled(FeatureTuning(), length, force),
-            self.allocation.reach,
-            [path.chamber.zone for path in self._paths],
-            lag_is_configured=self._is_lag_configured,
-        )
-        self._standstill = Standstill(
-            gains.rest_tolerance, scaled(StandstillTuning(), length, force)
-        )
+        self._estimates = Estimates(self.model, gains, self.allocation, self._paths)
         self._stiction = Stiction(gains.rest_tolerance, scaled(StictionTuning(), length, force))
-        self._rejection = Rejection(gains, RejectionTuning(), OscillationTuning())
-        self._reduction = GainReduction(ReductionTuning())
         self._surface = Surface()
         self._stiffness = StiffnessReference(
-            wanted.wanted(self.allocation), wanted.co_contraction_rate
+            self._wanted.wanted(self.allocation), self._wanted.co_contraction_rate
         )
         low, high = self.allocation.reach
         self.start(0.5 * (low + high) if high < float('inf') else 0.0)
@@ -148,16 +112,15 @@ class SlidingMode:
     def set_gains(self, gains: Gains) -> None:
         """Continue from the present state with other gains; ParameterError as for a new law."""
         gains.require(revolute=self.joint.is_revolute)
-        self.gains = self._learner.growth.gains = self._rejection.gains = gains
+        self.gains = gains
+        self._estimates.set_gains(gains)
         for path in self._paths:
-            path.quickest = gains.pressure_time
-        self._standstill.tolerance = gains.rest_tolerance
-        self._reduction.reset()
+            path.set_quickest(gains.pressure_time)
 
     def set_co_contraction(self, wanted: CoContraction) -> None:
         """Approach another stiffness, or at another rate; raises RangeError out of reach."""
         self._stiffness.set_goal(wanted.wanted(self.allocation))
-        self._stiffness.rate = wanted.co_contraction_rate
+        self._stiffness.set_rate(wanted.co_contraction_rate)
 
     def stiffen(self, stiffness: float) -> None:
         """Set a stiffness; raises RangeError if it is not possible at the reference.
@@ -178,46 +141,28 @@ class SlidingMode:
         model = self.model
         start_arguments(self.joint, position, pressures)
         if pressures is None:
-            goal = self._stiffness.goal
-            chambers = self.allocation.split(model.gravity(position), goal, position).pressures
-            pressures = tuple(
-                path.command_at_rest(p) for path, p in zip(self._paths, chambers, strict=True)
-            )
+            pressures = self._at_rest(position, self._stiffness.goal)
         for limiter, path, pressure in zip(self._limiters, self._paths, pressures, strict=True):
             limiter.start(pressure)
             path.start(limiter.last)
-        chambers = self._chambers
+        chambers = self._estimates.chambers
         # The force that the model lacks for a load at rest here.
         disturbance = model.gravity(position) - model.effort(chambers, position)
         self._stiffness.start(model.stiffness(chambers, position))
-        self._observer.start(position, disturbance)
-        self._learner.start(position, chambers, disturbance)
-        self._losses.start(position, chambers)
-        self._standstill.start()
+        self._estimates.start(position, disturbance)
         self._stiction.start()
-        self._rejection.start()
-        self._reduction.start()
-        self._pushed: float | None = None
         self._surface.start()
         self.allocation.start()
-        self._waited = 0.0  # since the last measurement, s
+        self._pushed: float | None = None  # the effort of the last push
         self._offset = 0.0 if self.gains.observer else disturbance
-        self._lost = 0.0
+        self._lost = 0.0  # the effort of losses and of what is learned in the last step
         self.terms = Terms(reference=position, position=position)
-        self._note(self._commands, chambers)
+        self._note_pressures(self._commands, chambers, self._stiffness.stiffness)
 
     @property
     def learned(self) -> Learned | None:
         """What was learned from the motion, None with ``gains.learning`` off."""
-        return self._learner.learned if self.gains.learning else None
-
-    @property
-    def _chambers(self) -> Pressures:
-        return tuple([path.chamber.pressure for path in self._paths])
-
-    @property
-    def _commands(self) -> Pressures:
-        return tuple(limiter.last for limiter in self._limiters)
+        return self._estimates.learner.learned if self.gains.learning else None
 
     def update(
         self,
@@ -235,164 +180,69 @@ class SlidingMode:
         not finite see :meth:`pam_ros.control.signals.PositionLaw.update`.
         """
         position, velocity = step_arguments(self.joint, dt, reference, position, velocity, age)
-        chambers = self._go_on(dt)
-        self._take_in(dt, reference, position, age)
-        effort, foreseen, rate = self._wanted_effort(dt, reference, velocity, chambers)
-        effort = self._push(dt, reference, effort)
-        stiffness, s = self._stiffness.stiffness, reference.position
-        wanted = self.allocation.split(effort, stiffness, s)
-        rates = self.allocation.rates(dt, foreseen, rate, stiffness, s)
-        cut, commands = wanted.short, []
-        for i, gain in enumerate(self.allocation.gains(s)):
-            asked = self._paths[i].command_for(wanted.pressures[i], rates[i])
-            commands.append(self._limiters[i].limit(asked, dt))
-            cut += gain * (asked - commands[i])
-        self.terms.cut = cut
-        self._integrate(dt, effort, cut)
-        self._note(tuple(commands), chambers)
+        estimates, terms = self._estimates, self.terms
+        chambers = estimates.advance(dt, self._commands, self._lost, is_cut=terms.cut != 0.0)
+        self._stiffness.follow(dt)
+        stiffens = self.allocation.can_stiffen and self._stiffness.is_moving
+        seen, bandwidth = estimates.take_in(
+            dt, reference, position, age, stiffens=stiffens, is_saturated=terms.saturated
+        )
+        learned = estimates.learned_force(dt, reference)
+        feedback = estimates.feedback(dt, reference, velocity, chambers, learned.stiffness)
+        wanted = self._wanted_effort(dt, reference, chambers, bandwidth, learned, feedback)
+        effort = self._push(dt, reference.position - seen, bandwidth, wanted.effort)
+        cut = self._command(dt, reference.position, effort, wanted)
+        self._integrate(dt, seen, bandwidth, feedback, effort, cut)
+        self._note_pressures(self._commands, chambers, self._stiffness.stiffness)
         return self.terms.pressures
 
-    def _note(self, commands: Pressures, chambers: Pressures) -> None:
-        """Set the terms of the pressures and of the resulting stiffness."""
-        terms = self.terms
-        terms.pressures = commands
-        if self.allocation.can_stiffen:
-            terms.co_contraction = self._stiffness.stiffness
-            terms.stiffness = self.model.stiffness(chambers, terms.position)
-
-    def _go_on(self, dt: float) -> Pressures:
-        """Advance all estimates by *dt* s under the last commands; return the chambers' Pa."""
-        paths = self._paths
-        means = [
-            path.follow(limiter.last, dt)
-            for path, limiter in zip(paths, self._limiters, strict=True)
-        ]
-        self._observer.predict(dt, means, -self._lost)
-        chambers = self._chambers
-        if self.gains.learning:
-            inflows, losses = [path.inflow for path in paths], self._losses.effort
-            moves = self._standstill.is_moving and self.terms.cut == 0.0
-            self._learner.go_on(dt, inflows, chambers, losses, moves=moves)
-        self._stiffness.follow(dt)
-        return chambers
-
-    def _take_in(
-        self, dt: float, reference: Reference, position: float | None, age: float
-    ) -> None:
-        """Take in a measurement and find the bandwidths for this step."""
-        observer, learner, gains = self._observer, self._learner, self.gains
-        self._waited += dt
-        error = reference.position - observer.position
-        if position is not None:
-            position += observer.velocity * age
-            error = reference.position - position
-        self._standstill.see_error(dt, error, self._standstill.moves(reference))
-        scale = gains.rest_factor + (1.0 - gains.rest_factor) * self._standstill.factor
-        growth = learner.growth.bandwidth / gains.bandwidth if gains.learning else 1.0
-        scale *= growth
-        fast = min(scale, self._tuning.quickest) * gains.velocity_bandwidth
-        share = self._reduction.share
-        scale *= share
-        rejection = self._rejection
-        stiffens = self.allocation.can_stiffen and self._stiffness.is_moving
-        moves = self._standstill.is_moving or stiffens
-        rejection.see(dt, error, position, moves=moves, is_cut=self.terms.saturated)
-        self._bandwidth = rejection.between(scale * gains.bandwidth, share * gains.bandwidth)
-        waited = self._waited
-        if position is not None:
-            observer.correct(
-                position,
-                waited,
-                rejection.between(fast, gains.velocity_bandwidth),
-                rejection.between(
-                    scale * gains.observer_bandwidth, share * gains.rejection_bandwidth
-                ),
-            )
-            self._waited = 0.0
-        self._seen = observer.position if position is None else position
-        if gains.learning:
-            learner.see(dt, waited, position, reference.position, rejection.least_error)
-
     def _wanted_effort(
-        self, dt: float, reference: Reference, velocity: float | None, chambers: Pressures
-    ) -> tuple[float, float, float]:
-        """Return the wanted effort, its predicted part, and the rate of that part."""
-        model, gains, observer, terms = self.model, self.gains, self._observer, self.terms
+        self,
+        dt: float,
+        reference: Reference,
+        chambers: Pressures,
+        bandwidth: float,
+        learned: LearnedForce,
+        feedback: Feedback,
+    ) -> _Wanted:
+        """Return the wanted effort, and set the terms that it consists of."""
+        model, gains, terms, surface = self.model, self.gains, self.terms, self._surface
+        estimates = self._estimates
         inertia = model.inertia
         s, v, a, jerk = reference
-        k = model.stiffness(chambers, s) + model.gravity_stiffness(s)
-        c = model.damping(chambers, s, v)
-        learned = learned_rate = added = 0.0
-        if gains.learning:
-            learned, learned_rate = self._learner.feed_forward(dt, reference)
-            added = self._learner.stiffness
-            if not self._is_lag_configured:
-                # The inverse of a lag acts on the feedback, too, so that it has the same share.
-                share = self._reduction.share
-                fill, vent = self._learner.lag
-                for path in self._paths:
-                    path.chamber.fill, path.chamber.vent = share * fill, share * vent
-        # Muscles have no negative stiffness: a learned one that gives it is wrong.
-        self._k = max(k + added, min(k, 0.0))
-        self._find_surface(c)
-        rejection = self._rejection
-        if rejection.level == 0.0 or rejection.is_least:
-            # Before that, an oscillation lowers the highest level of the rejection.
-            bandwidth, least = sqrt(self._square), rejection.least_error
-            if self._reduction.see(dt, rejection.error, v, least, bandwidth):
-                self._learner.forget()
-        if velocity is None or not gains.use_measured_velocity:
-            velocity = observer.velocity
-        self._error, self._error_rate = s - observer.position, v - velocity
-
-        losses = self._losses.effort
-        lost = self._losses.follow(dt, reference, chambers)
+        k, c = feedback.nominal, feedback.damping
+        losses = estimates.losses.effort
+        lost = estimates.losses.follow(dt, reference, chambers)
         rate = k * v + c * a + inertia * jerk + (lost - losses) / dt
-        self._lost = lost + learned
+        self._lost = lost + learned.force
         foreseen = inertia * a + model.gravity(s) + c * v
-        shaping = (self._decay * inertia - c) * self._error_rate
-        shaping += (self._square * inertia - self._k) * self._error
-
-        surface = self._surface
+        shaping = (feedback.decay * inertia - c) * feedback.rate
+        shaping += (feedback.square * inertia - feedback.stiffness) * feedback.error
         switching = inertia * surface.drive(
-            self._error_rate, self._bandwidth, gains.switching_gain(inertia)
+            feedback.rate, bandwidth, gains.switching_gain(inertia)
         )
-        terms.surface = surface.value
-        taken = -observer.disturbance if gains.observer else -self._offset
-        terms.reference, terms.speed = s, v
-        terms.position, terms.velocity = observer.position, velocity
-        terms.error = self._error
+        taken = -estimates.observer.disturbance if gains.observer else -self._offset
+        terms.reference, terms.speed, terms.position = s, v, estimates.observer.position
+        terms.velocity, terms.error = feedback.velocity, feedback.error
+        terms.surface, terms.bandwidth = surface.value, bandwidth
         terms.equivalent = foreseen + lost + shaping
-        terms.switching, terms.observer, terms.learned = switching, taken, learned
-        terms.bandwidth = self._bandwidth
-        terms.rejection, terms.highest_rejection = rejection.level, rejection.highest
-        terms.feedback = self._reduction.share
-        wanted = terms.equivalent + switching + taken + learned
-        return wanted, foreseen + self._lost, rate + learned_rate
+        terms.switching, terms.observer, terms.learned = switching, taken, learned.force
+        terms.rejection = estimates.rejection.level
+        terms.highest_rejection = estimates.rejection.highest
+        terms.feedback = estimates.reduction.share
+        wanted = terms.equivalent + switching + taken + learned.force
+        return _Wanted(wanted, foreseen + self._lost, rate + learned.rate)
 
-    def _find_surface(self, c: float) -> None:
-        """Find w^2 and 2 z w of the surface; *c* is the damping of the joint."""
-        gains, inertia = self.gains, self.model.inertia
-        square = max(self._k / inertia, gains.surface_bandwidth * gains.surface_bandwidth)
-        decay = max(2.0 * gains.surface_damping * sqrt(square), c / inertia)
-        level, quick = self._rejection.level, gains.rejection_surface
-        square += level * (max(quick * quick, square) - square)
-        decay += level * (max(2.0 * gains.rejection_damping * quick, decay) - decay)
-        share = self._reduction.share
-        # Without feedback the error has the dynamics of the joint itself.
-        own, passive = max(self._k, 0.0) / inertia, c / inertia
-        self._square = share * square + (1.0 - share) * own
-        self._decay = share * decay + (1.0 - share) * passive
+    def _push(self, dt: float, error: float, bandwidth: float, effort: float) -> float:
+        """Return the effort to apply: pushes where the load sticks and slips, else *effort*.
 
-    def _push(self, dt: float, reference: Reference, effort: float) -> float:
-        """Return the effort to apply: pushes where the load sticks and slips, else *effort*."""
-        stiction, standstill = self._stiction, self._standstill
-        is_moved = standstill.is_moving or self._rejection.level > 0.0
-        if is_moved:
-            stiction.start()
+        *error* is that of the newest measured position.
+        """
+        stiction, standstill = self._stiction, self._estimates.standstill
         pushed = None
-        if not is_moved:
-            error = reference.position - self._seen
+        if standstill.is_moving or self._estimates.rejection.level > 0.0:
+            stiction.start()
+        else:
             pushed = stiction.follow(dt, error, effort, standstill.stiffness)
         if pushed is not None:
             self._pushed = pushed
@@ -400,19 +250,39 @@ class SlidingMode:
         if self._pushed is not None:
             # The law continues from the effort of the last push.
             missing = self._pushed - effort
-            self._surface.integral += missing / (self.model.inertia * self._bandwidth)
+            self._surface.shift(missing / (self.model.inertia * bandwidth))
             effort, self._pushed = self._pushed, None
         return effort
 
-    def _integrate(self, dt: float, effort: float, cut: float) -> None:
+    def _command(self, dt: float, s: float, effort: float, wanted: _Wanted) -> float:
+        """Command the pressures for an *effort* at s; return what the limits cut of it."""
+        stiffness = self._stiffness.stiffness
+        split = self.allocation.split(effort, stiffness, s)
+        rates = self.allocation.rates(dt, wanted.foreseen, wanted.rate, stiffness, s)
+        cut = split.short
+        for i, gain in enumerate(self.allocation.gains(s)):
+            asked = self._paths[i].command_for(split.pressures[i], rates[i])
+            cut += gain * (asked - self._limiters[i].limit(asked, dt))
+        self.terms.cut = cut
+        return cut
+
+    def _integrate(
+        self,
+        dt: float,
+        seen: float,
+        bandwidth: float,
+        feedback: Feedback,
+        effort: float,
+        cut: float,
+    ) -> None:
         """Integrate the surface, and observe how the load responds to the wanted *effort*."""
-        standstill, inertia = self._standstill, self.model.inertia
-        spring = self._square * self._error
-        if standstill.stiffness > 1.0 and self._rejection.level == 0.0:
+        standstill, inertia = self._estimates.standstill, self.model.inertia
+        spring = feedback.square * feedback.error
+        if standstill.stiffness > 1.0 and self._estimates.rejection.level == 0.0:
             # Load the contact of a stuck load faster, but not faster than can be observed.
-            most = max(abs(spring), self._tuning.stuck_rate / (inertia * self._bandwidth))
+            most = max(abs(spring), self._tuning.stuck_rate / (inertia * bandwidth))
             spring = min(max(spring * standstill.stiffness, -most), most)
-        growth = (self._decay * self._error_rate + spring) * dt
+        growth = (feedback.decay * feedback.rate + spring) * dt
         if self._pushed is None:
             self._surface.integrate(growth, cut)
-        standstill.see_force(dt, effort, self._seen, self._k)
+        standstill.see_force(dt, effort, seen, feedback.stiffness)

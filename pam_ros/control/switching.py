@@ -38,6 +38,10 @@ class Surface:
         self._excess = bandwidth * self.value - term
         return term
 
+    def shift(self, change: float) -> None:
+        """Change the integral part by *change* m/s, for an effort that must not jump."""
+        self.integral += change
+
     def integrate(self, growth: float, cut: float) -> None:
         """Add *growth* m/s to the integral part, unless a limit would cut its effect.
 

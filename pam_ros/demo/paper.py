@@ -22,7 +22,7 @@ SETTLED = 0.25  # s at the end of a run over which its resting values are averag
 
 
 @dataclass(frozen=True)
-class Row:
+class StepRow:
     """One quantity: the expected value, the source of that value, and our value."""
 
     quantity: str
@@ -63,16 +63,16 @@ def resting(run: PublishedRun) -> PublishedRun:
     return run.between(float(run.t[-1]) - SETTLED, np.inf)
 
 
-def compare(released: PublishedRun, model: Joint) -> list[Row]:
+def compare(released: PublishedRun, model: Joint) -> list[StepRow]:
     """Return the paper's values next to those of the released load."""
     end = resting(released)
     l0 = model.muscle.l0
     kappa = model.muscle.equilibrium(PRESSURE, STATIC_FORCE)
     k = float(model.muscle.stiffness(PRESSURE, kappa))
     return [
-        Row('F_spring at rest', 'N', SPRING_FORCE, 'section 3', float(end.force.mean())),
-        Row('F_spring at rest', 'N', STATIC_FORCE, 'm g', float(end.force.mean())),
-        Row(
+        StepRow('F_spring at rest', 'N', SPRING_FORCE, 'section 3', float(end.force.mean())),
+        StepRow('F_spring at rest', 'N', STATIC_FORCE, 'm g', float(end.force.mean())),
+        StepRow(
             'contraction at rest',
             '%',
             100.0 * kappa,
@@ -80,15 +80,15 @@ def compare(released: PublishedRun, model: Joint) -> list[Row]:
             100.0 * float(end.position.mean()) / l0,
             2,
         ),
-        Row('stiffness at rest', 'N/m', k, 'equation (2)', float(end.stiffness.mean())),
-        Row(
+        StepRow('stiffness at rest', 'N/m', k, 'equation (2)', float(end.stiffness.mean())),
+        StepRow(
             'damping at rest',
             'N s/m',
             2.0 * model.muscle.zeta * float(np.sqrt(MASS * k)),
             'equation (4)',
             float(end.damping.mean()),
         ),
-        Row(
+        StepRow(
             'frequency',
             'Hz',
             float(np.sqrt(k / MASS * (1.0 - model.muscle.zeta**2)) / (2.0 * np.pi)),
@@ -112,14 +112,14 @@ def frequency(run: PublishedRun) -> float:
     return float(0.5 * (len(last) - 1) / (last[-1] - last[0]))
 
 
-def steps(runs: Sequence[PublishedRun], model: Joint) -> list[Row]:
+def steps(runs: Sequence[PublishedRun], model: Joint) -> list[StepRow]:
     """Return the contraction at rest after each pressure step, next to that of equation (1)."""
     rows = []
     for run in runs:
         end = resting(run)
         p = float(end.pressure.mean())
         rows.append(
-            Row(
+            StepRow(
                 f'contraction at {p / 1e3:.0f} kPa',
                 '%',
                 100.0 * model.muscle.equilibrium(p, float(statics.weight(model, 0.0))),
@@ -131,7 +131,7 @@ def steps(runs: Sequence[PublishedRun], model: Joint) -> list[Row]:
     return rows
 
 
-def table(rows: Sequence[Row]) -> str:
+def table(rows: Sequence[StepRow]) -> str:
     """Return rows as a table in plain text, with numbers aligned to the right."""
     lines = [HEAD, *(row.cells() for row in rows)]
     widths = [max(len(line[i]) for line in lines) for i in range(len(HEAD))]

@@ -11,7 +11,7 @@ from tqdm import tqdm
 from pam_ros.errors import PamError
 
 
-class Stage:
+class DemoStage:
     """A folder for the files of a chapter, a namespace for its nodes, and its printed text."""
 
     def __init__(self, folder: Path) -> None:

@@ -63,7 +63,7 @@ from pam_ros.parameters import described, field_about
 
 Array = NDArray[np.float64]
 Starts = tuple[dict[str, float], ...]
-Bounds = tuple[float, float]
+Interval = tuple[float, float]
 # A row of float64: an array of numpy or of numba, with the same indexing.
 Row = MutableSequence[float]
 ON_JOINT = ('reservoir', 'mass', 'outside', 'drag')
@@ -305,7 +305,7 @@ class Effect(ABC):
     @classmethod
     def fit_bounds(
         cls, near: Mapping[str, float], fitted: Collection[str], mass: float
-    ) -> dict[str, Bounds]:
+    ) -> dict[str, Interval]:
         """Return those bounds of its parameters in a fit that are narrower than their ranges.
 
         *near* are the values of all its parameters from which the fit begins, *fitted* the names

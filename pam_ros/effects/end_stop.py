@@ -11,11 +11,11 @@ import numpy as np
 
 from pam_ros.effects.base import (
     Array,
-    Bounds,
     Compensation,
     Effect,
     EffectEquations,
     HiddenState,
+    Interval,
     Row,
     Starts,
 )
@@ -135,7 +135,7 @@ class EndStop(Effect):
     @classmethod
     def fit_bounds(
         cls, near: Mapping[str, float], fitted: Collection[str], mass: float
-    ) -> dict[str, Bounds]:
+    ) -> dict[str, Interval]:
         """Return bounds that keep the two pads on their sides of the middle between them."""
         if not all(near[pad] > 0.0 or pad in fitted for pad in ('stiffness', 'lower_stiffness')):
             return {}

@@ -8,7 +8,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from pam_ros.effects.base import Bounds, Compensation, Effect, EffectEquations, Row, Starts
+from pam_ros.effects.base import Compensation, Effect, EffectEquations, Interval, Row, Starts
 from pam_ros.effects.parameter import start_from, strength
 from pam_ros.errors import ParameterError
 
@@ -65,7 +65,7 @@ class Payload(Effect):
     @classmethod
     def fit_bounds(
         cls, near: Mapping[str, float], fitted: Collection[str], mass: float
-    ) -> dict[str, Bounds]:
+    ) -> dict[str, Interval]:
         """Return the bounds of its mass that leave the joint a fifth of the nominal one."""
         return {'mass': ((LEAST_SHARE - 1.0) * mass, np.inf)}
 

@@ -21,7 +21,7 @@ REST = 1.0  # s vented at the start and at the end
 
 
 @dataclass(frozen=True)
-class Segment:
+class ProgrammeSegment:
     """A part of a programme: commands start..stop-1, and the effects that it shows."""
 
     name: str
@@ -36,7 +36,7 @@ class Programme:
 
     rate: float
     pressure: Array
-    segments: tuple[Segment, ...]
+    segments: tuple[ProgrammeSegment, ...]
 
     @property
     def t(self) -> Array:
@@ -54,7 +54,7 @@ class Programme:
         row: Array = self.pressure[min(max(k, 0), len(self.pressure) - 1)]
         return row
 
-    def segment_at(self, elapsed: float) -> Segment:
+    def segment_at(self, elapsed: float) -> ProgrammeSegment:
         """Return the segment that is played *elapsed* s after the start."""
         k = int(elapsed * self.rate + 1e-6)
         return next((s for s in self.segments if k < s.stop), self.segments[-1])
@@ -76,7 +76,7 @@ def programme(settings: Excitation, sides: Sequence[int] = (1,)) -> Programme:
         SEGMENTS[n].share for n in settings.segments
     )
     levels: list[Array] = []
-    segments: list[Segment] = []
+    segments: list[ProgrammeSegment] = []
     count = 0
     low, span = settings.pressure_min, settings.pressure_max - settings.pressure_min
     vented = np.zeros((round(REST * rate), len(sides)))
@@ -85,7 +85,7 @@ def programme(settings: Excitation, sides: Sequence[int] = (1,)) -> Programme:
     def add(name: str, pressure: Array, text: str) -> None:
         nonlocal count
         levels.append(pressure)
-        segments.append(Segment(name, count, count + len(pressure), text))
+        segments.append(ProgrammeSegment(name, count, count + len(pressure), text))
         count += len(pressure)
 
     add('vented', vented, 'the state to start from')
@@ -107,7 +107,7 @@ def programme(settings: Excitation, sides: Sequence[int] = (1,)) -> Programme:
     while np.any(rest[-1] > 0.0):
         rest.append(np.maximum(rest[-1] - step, 0.0))
     limited = np.concatenate((limited, np.array(rest)[1:]))
-    segments[-1] = Segment(segments[-1].name, segments[-1].start, len(limited), '')
+    segments[-1] = ProgrammeSegment(segments[-1].name, segments[-1].start, len(limited), '')
     return Programme(rate, limited, tuple(segments))
 
 

@@ -4,7 +4,7 @@
 
 from typing import Any
 
-from pam_ros.control.learning.learned import Learned
+from pam_ros.control.learned import Learned
 from pam_ros.health.health import Health, Level
 
 # Multiple of its noise; with a smaller RMS of the missing force nothing has to be learned.

@@ -70,7 +70,7 @@ def sentence_of(setup: SimulationSetup, excess: Excess) -> str:
     )
 
 
-class Progress(NamedTuple):
+class RunProgress(NamedTuple):
     """The progress of a simulation since the last report, and what delays it."""
 
     published: int  # samples
@@ -85,7 +85,7 @@ class Progress(NamedTuple):
     fault: str
 
 
-def timing(settings: SimSettings, kept: Punctuality, done: Progress, scheduling: str) -> Health:
+def timing(settings: SimSettings, kept: Punctuality, done: RunProgress, scheduling: str) -> Health:
     """Return the health of the rate; *scheduling* is how the loop is scheduled."""
     rate = done.published / kept.span
     wanted = settings.publish_rate * done.speed

@@ -11,7 +11,7 @@ from pam_ros.errors import PamError
 from pam_ros.plot.panels import UNITS
 
 PAGE_SECONDS, PNG_SECONDS, WAIT = 20.0, 10.0, 10.0
-SHORTEST, LONGEST = 0.5, 3600.0  # s
+SHORTEST_AXIS, LONGEST_AXIS = 0.5, 3600.0  # s
 PORTS = 65535
 
 
@@ -44,7 +44,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         '--seconds',
         type=float,
         metavar='S',
-        help=f'length of the time axis, {SHORTEST:g} to {LONGEST:g} s (default: '
+        help=f'length of the time axis, {SHORTEST_AXIS:g} to {LONGEST_AXIS:g} s (default: '
         f'{PAGE_SECONDS:g} of a page, {PNG_SECONDS:g} of a PNG file)',
     )
     parser.add_argument(
@@ -96,8 +96,10 @@ def checked(given: argparse.Namespace) -> Options:
         tuple(given.column),
     )
     for name, value in (('--seconds', options.seconds), ('--wait', options.wait)):
-        if not (isfinite(value) and SHORTEST <= value <= LONGEST):
-            raise PamError(f'{name} {value:g} is not allowed: give {SHORTEST:g} to {LONGEST:g} s')
+        if not (isfinite(value) and SHORTEST_AXIS <= value <= LONGEST_AXIS):
+            raise PamError(
+                f'{name} {value:g} is not allowed: give {SHORTEST_AXIS:g} to {LONGEST_AXIS:g} s'
+            )
     if not 0 <= options.port <= PORTS:
         raise PamError(f'--port {options.port} is not allowed: give 1 to {PORTS}')
     if options.png is not None:

@@ -28,7 +28,7 @@ class Curves(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class Line:
+class PanelLine:
     """A line of a plot: stamps in s and values in SI, both (n,), with NaN in its gaps.
 
     Lines of the same ``number`` are of the same joint or muscle. A command is constant until the
@@ -48,7 +48,7 @@ class Panel:
     """A plot: its title with the unit, and its lines; set-points come first."""
 
     title: str
-    lines: list[Line]
+    lines: list[PanelLine]
 
 
 def titles(unit: str) -> dict[str, str]:
@@ -84,7 +84,9 @@ def panels(curves: Curves, unit: str, end: float, columns: int | None = None) ->
     return made
 
 
-def _line(key: Key, curves: Curves, measured: list[str], end: float, columns: int | None) -> Line:
+def _line(
+    key: Key, curves: Curves, measured: list[str], end: float, columns: int | None
+) -> PanelLine:
     use = TOPICS[key.topic]
     t, value = curves.samples[key]
     is_reference = key.topic == 'position_reference'
@@ -94,7 +96,7 @@ def _line(key: Key, curves: Curves, measured: list[str], end: float, columns: in
         t, value = np.append(t, end), np.append(value, value[-1])
     is_held = use.is_set_point and key.topic != 'pam_control/state'
     name = name_of(key, curves.muscles)
-    return Line(name, _number(key, measured), use.is_set_point, is_held, t, value)
+    return PanelLine(name, _number(key, measured), use.is_set_point, is_held, t, value)
 
 
 def _order(key: Key) -> tuple[bool, int, int]:

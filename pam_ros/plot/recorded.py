@@ -30,7 +30,7 @@ _COLUMNS = {
 
 
 @dataclass(frozen=True, eq=False)
-class Recorded:
+class RecordedCurves:
     """The curves of a recording, ``start`` and ``end`` in s, the unit of positions, and notes.
 
     The ``unit`` is m or rad, or '' if the recording does not contain it.
@@ -43,7 +43,7 @@ class Recorded:
     notes: tuple[str, ...]
 
 
-def read(path: Path, namespace: str | None, mapping: ColumnMapping) -> Recorded:
+def read(path: Path, namespace: str | None, mapping: ColumnMapping) -> RecordedCurves:
     """Return the curves of the recording at *path*: a rosbag2, one of its files, or a CSV file.
 
     Stamps of a bag are the times at which its recorder received the messages, relative to the
@@ -67,7 +67,7 @@ def read(path: Path, namespace: str | None, mapping: ColumnMapping) -> Recorded:
 # Bags --------------------------------------------------------------------------------------
 
 
-def _read_bag(path: Path, namespace: str | None) -> Recorded:
+def _read_bag(path: Path, namespace: str | None) -> RecordedCurves:
     source = open_bag(path)
     found = _topics(path, source, namespace)
     messages: dict[str, list[Message]] = {full: [] for full in found}
@@ -141,7 +141,7 @@ def _finite(t: Array, value: Array) -> tuple[Array, Array]:
 # CSV files ---------------------------------------------------------------------------------
 
 
-def _read_csv(path: Path, mapping: ColumnMapping) -> Recorded:
+def _read_csv(path: Path, mapping: ColumnMapping) -> RecordedCurves:
     series, notes, header = read_csv(path, mapping)
     muscles = tuple(dict.fromkeys(name.partition('.')[0] for name in series if '.' in name))
     drawn = {key: one for name, one in series.items() if (key := _key(name, muscles))}
@@ -171,8 +171,8 @@ def _key(name: str, muscles: tuple[str, ...]) -> Key | None:
 
 def _recorded(
     path: Path, curves: Curves, end: float, unit: str, notes: tuple[str, ...]
-) -> Recorded:
+) -> RecordedCurves:
     kept = {key: one for key, one in curves.samples.items() if one[0].size}
     if not kept:
         raise RecordingError(f'{path.name} has no finite number that could be drawn')
-    return Recorded(Curves(kept, curves.muscles), 0.0, end or 1e-3, unit, notes)
+    return RecordedCurves(Curves(kept, curves.muscles), 0.0, end or 1e-3, unit, notes)

@@ -40,7 +40,7 @@ _ABSOLUTE = {'abs', 'absolute'}
 _WITH_UNIT = re.compile(
     r'(?P<stem>.+?)(?:\s*[\[(]\s*(?P<unit>[^\])]+?)\s*[\])]|_(?P<word>[^_\[\]()]+))'
 )
-LONGEST = 12  # the most columns that a message lists
+MOST_COLUMNS = 12  # the most columns that a message lists
 
 
 def found_columns(header: Sequence[str], mapping: ColumnMapping, known: Collection[str]) -> str:
@@ -49,8 +49,8 @@ def found_columns(header: Sequence[str], mapping: ColumnMapping, known: Collecti
     *known* are the signals that were read; no options are proposed for them. Columns that may have
     the same meaning are alternatives.
     """
-    shown = ', '.join(repr(name) for name in header[:LONGEST])
-    more = f' and {len(header) - LONGEST} more' if len(header) > LONGEST else ''
+    shown = ', '.join(repr(name) for name in header[:MOST_COLUMNS])
+    more = f' and {len(header) - MOST_COLUMNS} more' if len(header) > MOST_COLUMNS else ''
     read = {*known, *map(_linear, known)}
     options: dict[str, list[str]] = {}
     for name in header:

@@ -29,8 +29,8 @@ from pam_ros.rig.transmissions import Straight, Transmission
 
 BAR = 1e5  # Pa
 BEYOND = 0.1, 0.25  # contraction below and above the rated range that is searched for equilibria
-LONGEST = 0.95  # largest contraction that is considered for any muscle
-START = (-0.2, LONGEST)  # range of contractions in which a simulation may start
+HIGHEST_CONTRACTION = 0.95  # largest contraction that is considered for any muscle
+START = (-0.2, HIGHEST_CONTRACTION)  # range of contractions in which a simulation may start
 _on_arrays = cache(broadcast)
 
 
@@ -193,7 +193,8 @@ def equilibrium(joint: Mechanism, p: ArrayLike) -> float:
     """Return the coordinate at which the muscles hold the load in a stable equilibrium.
 
     If there are several, as for an inverted pendulum with soft muscles, it is the one nearest to
-    0. Raises RangeError if there is none at the contractions that are searched (BEYOND, LONGEST).
+    0. Raises RangeError if there is none at the contractions that are searched (BEYOND, and up to
+    HIGHEST_CONTRACTION).
     """
     if is_direct(joint):
         # The same for one muscle on a mass, from the force law itself and about 100 times as fast.
@@ -233,14 +234,14 @@ def is_direct(joint: Mechanism) -> bool:
 def span(joint: Mechanism, below: float = 0.0, above: float = 0.0) -> tuple[float, float]:
     """Return the least and the greatest coordinate at which all muscles are within their range.
 
-    The range is kappa_min - below to kappa_max + above, never above LONGEST. If the least is above
-    the greatest, there is no such coordinate.
+    The range is kappa_min - below to kappa_max + above, never above HIGHEST_CONTRACTION. If the
+    least is above the greatest, there is no such coordinate.
     """
     low, high = -np.inf, np.inf
     for i, m in enumerate(joint.muscles):
         ends = [
             coordinate(joint, i, kappa)
-            for kappa in (m.kappa_min - below, min(m.kappa_max + above, LONGEST))
+            for kappa in (m.kappa_min - below, min(m.kappa_max + above, HIGHEST_CONTRACTION))
         ]
         low, high = max(low, min(ends)), min(high, max(ends))
     return float(low), float(high)

@@ -29,7 +29,7 @@ class BadCommand(NamedTuple):
     is_refused: bool  # else clamped
 
 
-class Reading(NamedTuple):
+class PlantReading(NamedTuple):
     """The readings of the sensors, and the exact stiffness and damping of the muscles.
 
     Values of joints are (joints,) in m or rad, values of muscles are (muscles,), all SI. They are
@@ -171,7 +171,7 @@ class Plant:
 
     # Sensors ---------------------------------------------------------------------------------
 
-    def read(self) -> Reading:
+    def read(self) -> PlantReading:
         """Return the readings of all sensors.
 
         Raises ArithmeticError if a muscle is out of its reach, or a force or velocity is not
@@ -185,7 +185,7 @@ class Plant:
                 raise ArithmeticError(f'{name} is out of its reach, contracted by {percent}')
         position, velocity, effort, pressure, force = self._sensors.read()
         outputs = simulation.muscle_outputs()
-        reading = Reading(
+        reading = PlantReading(
             position.tolist(),
             velocity.tolist(),
             effort.tolist(),

@@ -12,7 +12,7 @@ from typing import Protocol
 
 from pam_ros.settings.scene import SimulationSetup
 from pam_ros.simulator.modes import Mode
-from pam_ros.simulator.plant import BadCommand, Plant, Reading
+from pam_ros.simulator.plant import BadCommand, Plant, PlantReading
 from pam_ros.timing.grid import Grid
 from pam_ros.timing.interruption import Interruptions, steady_ns
 from pam_ros.timing.pace import CATCH_UP, SECOND
@@ -25,7 +25,7 @@ class Outputs(Protocol):
     def publish_clock(self, stamp: int) -> None:
         """Publish the simulated time."""
 
-    def publish(self, stamp: int, reading: Reading) -> None:
+    def publish(self, stamp: int, reading: PlantReading) -> None:
         """Publish a state of the plant."""
 
     def report(self, fault: str) -> None:
@@ -56,7 +56,7 @@ class Simulator:
         self._steady, self._uninterrupted = steady, uninterrupted
         self.is_paused = False
         self.published = 0
-        self._last: tuple[int, Reading] | None = None
+        self._last: tuple[int, PlantReading] | None = None
         self._interruptions = Interruptions(uninterrupted())
         rate = plant.setup.settings.physics_rate
         self._samples, self._clock_ticks = Grid(rate), Grid(rate)
@@ -166,7 +166,7 @@ class Simulator:
             self._outputs.publish_clock(self.mode.now())
             self._publish_reading(*self._last)
 
-    def _publish_reading(self, stamp: int, reading: Reading) -> None:
+    def _publish_reading(self, stamp: int, reading: PlantReading) -> None:
         self._outputs.publish(stamp, reading)
         self.published += 1
 

@@ -8,13 +8,13 @@ import pytest
 
 from pam_ros.control.goal import Goal, Outcome, Tolerance, Tolerances
 from pam_ros.control.reference.points import Point, Points
-from pam_ros.control.reference.trajectory import Trajectory
+from pam_ros.control.reference.trajectory import ReferenceTrajectory
 from pam_ros.control.signals import Reference
 from pam_ros.errors import RangeError
 
 START = 100.0  # s by the clock of the loop
 # 10 mm in 2 s, at rest at both ends: 3 s^2 - 2 s^3 with s = t / 2 s.
-TRAJECTORY = Trajectory(
+TRAJECTORY = ReferenceTrajectory(
     Reference(0.05), Points.of([Point(0.0, 0.05, 0.0), Point(2.0, 0.06, 0.0)]), (0.0, 0.1)
 )
 

@@ -5,7 +5,7 @@
 import numpy as np
 import pytest
 
-from pam_ros.control.loop import RUNNING, VENT, Loop, Reading
+from pam_ros.control.loop import RUNNING, VENT, Loop, Measurement
 from pam_ros.control.pid import Pid
 from pam_ros.control.plausibility import Plausibility, bounds_of
 from pam_ros.control.reference.shaping import Shape
@@ -79,7 +79,7 @@ def test_the_loop_neither_vents_nor_restarts(law):
     for n in range(round((LATE + 1.0) / PERIOD)):
         t = n * PERIOD
         if not LATE < t < LATE + DELAY:
-            loop.see(Reading(t, measured, stamp=t))
+            loop.see(Measurement(t, measured, stamp=t))
         (pressure,) = loop.tick(t)
         measured = plant.step(pressure, PERIOD)
         positions.append(plant.y)
@@ -145,14 +145,14 @@ def test_the_load_is_moved_within_its_limits_by_a_rig_on_a_busy_computer(
     rig = Busy(truth(plant, seed=seed), seed)
     loop = loop_of(SlidingMode, rig.plant)
     lateness, reports, low = Lateness(), Reports(None), rig.plant.y
-    loop.see(Reading(0.0, rig.plant.measure(), stamp=0.0))
+    loop.see(Measurement(0.0, rig.plant.measure(), stamp=0.0))
     (command,) = loop.tick(0.0)
     for n in range(1, round(20.0 / PERIOD)):
         now = n * PERIOD
         for stamp, measured in rig.run_until(n, command):
             late = lateness.of(round(stamp * SECOND), round(now * SECOND)) / SECOND
             reports.delay(late)
-            loop.see(Reading(now - late, measured, stamp=stamp, late=late))
+            loop.see(Measurement(now - late, measured, stamp=stamp, late=late))
         (command,) = loop.tick(now)
         if n % round(MOVES / PERIOD) == 0:
             loop.source.set_target(low + distance * (now // MOVES % 2))

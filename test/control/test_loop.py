@@ -14,7 +14,7 @@ from pam_ros.control.loop import (
     VENTING,
     WAITING,
     Loop,
-    Reading,
+    Measurement,
 )
 from pam_ros.control.pid import Pid
 from pam_ros.control.plausibility import Plausibility, bounds_of
@@ -38,7 +38,7 @@ def test_it_commands_nothing_before_it_sees(loop):
 
 def test_it_starts_where_the_load_is_at_the_pressure_that_is_there(loop):
     loop.chambers = (123e3,)
-    loop.see(Reading(1.0, 0.05, 0.001))
+    loop.see(Measurement(1.0, 0.05, 0.001))
     assert loop.tick(1.001) == first(1)
     assert loop.law.starts == [(0.05, (123e3,))]
     (call,) = loop.law.calls
@@ -48,7 +48,7 @@ def test_it_starts_where_the_load_is_at_the_pressure_that_is_there(loop):
 
 def test_it_waits_for_the_pressure_that_is_there(loop):
     loop.awaits_chamber = True
-    loop.see(Reading(1.0, 0.05))
+    loop.see(Measurement(1.0, 0.05))
     assert loop.tick(1.0) is None
     assert loop.state == WAITING
     loop.chambers = (123e3,)
@@ -58,41 +58,41 @@ def test_it_waits_for_the_pressure_that_is_there(loop):
 
 def test_seen_again_it_begins_at_what_is_measured_not_at_what_was_commanded(loop):
     loop.safe = VENT
-    loop.see(Reading(1.0, 0.05))
+    loop.see(Measurement(1.0, 0.05))
     loop.tick(1.0)
     assert loop.tick(1.2) == (0.0,)
-    loop.see(Reading(1.3, 0.01))
+    loop.see(Measurement(1.3, 0.01))
     loop.chambers = (40e3,)  # it has not vented yet
     loop.tick(1.3)
     assert loop.law.starts[-1] == (0.01, (40e3,))
 
 
 def test_a_measurement_is_used_once_and_an_old_one_never(loop):
-    loop.see(Reading(1.0, 0.05))
+    loop.see(Measurement(1.0, 0.05))
     loop.tick(1.0)
     loop.tick(1.002)
-    loop.see(Reading(0.999, 0.07))
+    loop.see(Measurement(0.999, 0.07))
     loop.tick(1.004)
-    loop.see(Reading(1.005, 0.06))
+    loop.see(Measurement(1.005, 0.06))
     loop.tick(1.006)
     assert [call[2] for call in loop.law.calls] == [0.05, None, None, 0.06]
 
 
 def test_steps_are_as_long_as_they_were(loop):
     for t in (1.0, 1.002, 1.0035, 1.03, 1.03):
-        loop.see(Reading(t, 0.05))
+        loop.see(Measurement(t, 0.05))
         loop.tick(t)
     lengths = [call[0] for call in loop.law.calls]
     assert lengths == pytest.approx([0.002, 0.002, 0.0015, 0.0265, 0.0002])
 
 
 def test_without_states_the_pressure_is_held_and_control_restarts_later(loop):
-    loop.see(Reading(1.0, 0.05))
+    loop.see(Measurement(1.0, 0.05))
     assert loop.tick(1.0) == first(1)
     assert loop.tick(1.09) == first(2)
     assert loop.tick(1.11) == first(2)
     assert loop.state == BLIND
-    loop.see(Reading(2.0, 0.03))
+    loop.see(Measurement(2.0, 0.03))
     loop.tick(2.0)
     assert loop.law.starts[-1] == (0.03, first(2))
     assert (loop.state, loop.starts) == (RUNNING, 2)
@@ -100,23 +100,23 @@ def test_without_states_the_pressure_is_held_and_control_restarts_later(loop):
 
 def test_without_states_it_vents_where_that_is_wished(loop):
     loop.safe = VENT
-    loop.see(Reading(1.0, 0.05))
+    loop.see(Measurement(1.0, 0.05))
     loop.tick(1.0)
     assert loop.tick(1.2) == (0.0,)
-    loop.see(Reading(1.3, 0.01))
+    loop.see(Measurement(1.3, 0.01))
     loop.tick(1.3)
     assert loop.law.starts[-1] == (0.01, (0.0,))
 
 
 def test_a_rig_that_returns_later_finds_no_command_to_vent(loop):
     loop.safe = VENT
-    loop.see(Reading(1.0, 0.05))
+    loop.see(Measurement(1.0, 0.05))
     loop.tick(1.0)
     assert loop.tick(2.0) == (0.0,)
     assert loop.tick(2.0 + 0.9 * VENTING) == (0.0,)
     assert loop.tick(2.0 + 1.1 * VENTING) is None
     assert loop.state == BLIND
-    loop.see(Reading(3.0, 0.03))
+    loop.see(Measurement(3.0, 0.03))
     assert loop.tick(3.0) == first(2)
     assert loop.tick(4.0) == (0.0,)  # and again for a while where states stay away again
 
@@ -124,7 +124,7 @@ def test_a_rig_that_returns_later_finds_no_command_to_vent(loop):
 def test_it_vents_slowly_and_in_proportion(loop):
     loop.safe, loop.vent_time = VENT, 2.0
     loop.law.update = lambda *_: (300e3, 100e3)
-    loop.see(Reading(1.0, 0.05))
+    loop.see(Measurement(1.0, 0.05))
     loop.tick(1.0)
     assert loop.tick(1.5) == (300e3, 100e3)
     assert loop.tick(2.5) == pytest.approx((150e3, 50e3))
@@ -136,7 +136,7 @@ def test_it_vents_slowly_and_in_proportion(loop):
 def test_venting_is_suspended_while_the_rig_receives_no_commands(loop):
     loop.safe, loop.vent_time = VENT, 2.0
     loop.law.update = lambda *_: (300e3,)
-    loop.see(Reading(1.0, 0.05))
+    loop.see(Measurement(1.0, 0.05))
     loop.tick(1.0)
     assert loop.tick(1.5) == (300e3,)
     assert loop.tick(2.0) == pytest.approx((225e3,))
@@ -151,12 +151,12 @@ def test_venting_is_suspended_while_the_rig_receives_no_commands(loop):
 
 def test_seen_again_while_it_vents_it_begins_at_the_pressure_that_is_left(loop):
     loop.safe, loop.vent_time = VENT, 2.0
-    loop.see(Reading(1.0, 0.05))
+    loop.see(Measurement(1.0, 0.05))
     loop.tick(1.0)
     loop.tick(1.5)
     (left,) = loop.tick(2.0)
     assert left == pytest.approx(0.75 * first(1)[0])
-    loop.see(Reading(2.1, 0.04))
+    loop.see(Measurement(2.1, 0.04))
     loop.tick(2.1)
     assert loop.law.starts[-1] == (0.04, (left,))
     assert loop.tick(3.0) == first(2)  # and from there where states stay away again
@@ -173,12 +173,12 @@ def test_what_is_left_of_pressures(loop, vent_time, time, share):
 
 def test_a_rig_that_is_left_finds_no_command_until_it_is_seen(loop):
     loop.safe, loop.vent_time = VENT, 2.0
-    loop.see(Reading(1.0, 0.05))
+    loop.see(Measurement(1.0, 0.05))
     loop.tick(1.0)
     assert loop.tick(1.5) == first(1)
     loop.leave()
     assert loop.tick(1.6) is None
-    loop.see(Reading(2.0, 0.03))
+    loop.see(Measurement(2.0, 0.03))
     assert loop.tick(2.0) == first(2)
     assert loop.tick(2.5) == first(2)  # the next rig is not left
 
@@ -186,11 +186,11 @@ def test_a_rig_that_is_left_finds_no_command_until_it_is_seen(loop):
 def test_it_vents_as_long_each_time_that_states_stay_away(loop):
     """Also where it has waited for a pressure between, without having begun."""
     loop.safe = VENT
-    loop.see(Reading(1.0, 0.05))
+    loop.see(Measurement(1.0, 0.05))
     loop.tick(1.0)
     loop.tick(2.0)
     loop.awaits_chamber = True
-    loop.see(Reading(3.0, 0.03))
+    loop.see(Measurement(3.0, 0.03))
     assert loop.tick(3.0) is None
     assert loop.tick(4.0) == (0.0,)
     assert loop.tick(4.0 + 1.1 * VENTING) is None
@@ -199,11 +199,11 @@ def test_it_vents_as_long_each_time_that_states_stay_away(loop):
 @pytest.mark.parametrize(('safe', 'meanwhile'), [(VENT, None), (HOLD, first(1))])
 def test_where_states_return_it_waits_for_the_pressure_that_is_there_now(loop, safe, meanwhile):
     loop.safe = safe
-    loop.see(Reading(1.0, 0.05))
+    loop.see(Measurement(1.0, 0.05))
     loop.tick(1.0)
     loop.tick(2.0)
     loop.awaits_chamber = True
-    loop.see(Reading(3.0, 0.03))
+    loop.see(Measurement(3.0, 0.03))
     assert loop.tick(3.0) == meanwhile
     loop.chambers = (123e3,)
     assert loop.tick(3.002) == first(2)
@@ -211,7 +211,7 @@ def test_where_states_return_it_waits_for_the_pressure_that_is_there_now(loop, s
 
 
 def test_disabled_it_publishes_nothing_and_enabled_it_restarts(loop):
-    loop.see(Reading(1.0, 0.05))
+    loop.see(Measurement(1.0, 0.05))
     loop.tick(1.0)
     loop.enable(False)
     assert loop.tick(1.002) is None
@@ -219,16 +219,16 @@ def test_disabled_it_publishes_nothing_and_enabled_it_restarts(loop):
     loop.enable(False)
     loop.enable(True)
     assert loop.tick(1.004) is None  # it has not seen anything since
-    loop.see(Reading(1.006, 0.04))
+    loop.see(Measurement(1.006, 0.04))
     loop.tick(1.006)
     assert [position for position, _ in loop.law.starts] == [0.05, 0.04]
 
 
 def test_a_clock_that_jumped_back_is_a_new_beginning(loop):
-    loop.see(Reading(100.0, 0.05))
+    loop.see(Measurement(100.0, 0.05))
     loop.tick(100.0)
     loop.forget()
-    loop.see(Reading(1.0, 0.06))
+    loop.see(Measurement(1.0, 0.06))
     loop.tick(1.0)
     assert loop.state == RUNNING
     assert loop.law.starts[-1][0] == 0.06
@@ -236,7 +236,7 @@ def test_a_clock_that_jumped_back_is_a_new_beginning(loop):
 
 
 def test_another_law_takes_over_in_flight(loop):
-    loop.see(Reading(1.0, 0.05))
+    loop.see(Measurement(1.0, 0.05))
     last = loop.tick(1.0)
     other = Recorder()
     loop.change(other, ReferenceSource(Shape(), (-1.0, 1.0)))
@@ -245,7 +245,7 @@ def test_another_law_takes_over_in_flight(loop):
 
 
 def test_another_law_that_cannot_hold_the_reference_starts_at_the_load(loop):
-    loop.see(Reading(1.0, 0.05))
+    loop.see(Measurement(1.0, 0.05))
     last = loop.tick(1.0)
     loop.law.terms.position = 0.049
     other, source = Recorder(), ReferenceSource(Shape(), (-1.0, 0.02))
@@ -277,7 +277,7 @@ def test_a_load_that_sank_with_less_pressure_is_not_thrown_with_more(law, lasts)
         found = []
         for _ in range(round(seconds / PERIOD)):
             now += PERIOD
-            loop.see(Reading(now, plant.measure()))
+            loop.see(Measurement(now, plant.measure()))
             (pressure,) = loop.tick(now)
             plant.step(pressure, PERIOD)
             found.append(plant.y)
@@ -304,7 +304,7 @@ def test_pressures_of_several_muscles_are_handled_alike():
     source = ReferenceSource(Shape.revolute(), (-1.0, 1.0), 'rad')
     loop = Loop(Two(), source, PERIOD, Plausibility(BOUNDS))
     loop.safe, loop.chambers = VENT, (123e3, 150e3)
-    loop.see(Reading(1.0, 0.05))
+    loop.see(Measurement(1.0, 0.05))
     assert loop.tick(1.0) == loop.pressures == 2 * first(1)
     assert loop.law.starts == [(0.05, (123e3, 150e3))]
     assert loop.tick(1.2) == loop.pressures == (0.0, 0.0)

@@ -6,7 +6,7 @@ from itertools import pairwise
 
 import pytest
 
-from pam_ros.control.loop import BLIND, LATE, RUNNING, STOPPING, Reading
+from pam_ros.control.loop import BLIND, LATE, RUNNING, STOPPING, Measurement
 from support.recorded_loop import PERIOD, first, recorded_loop
 
 
@@ -19,7 +19,7 @@ def test_a_measurement_that_is_late_is_not_used(loop):
     used = []
     delays = 0.0, LATE, 1.1 * LATE + PERIOD, 0.09, 0.0
     for now, late in zip((1.0, 1.1, 1.2, 1.3, 1.4), delays, strict=True):
-        loop.see(Reading(now - late, 0.05))
+        loop.see(Measurement(now - late, 0.05))
         loop.tick(now)
         used.append(loop.law.calls[-1][2] is not None)
         loop.tick(now + PERIOD)  # it is not new any more
@@ -29,33 +29,33 @@ def test_a_measurement_that_is_late_is_not_used(loop):
 
 @pytest.mark.parametrize(('late', 'is_used'), [(0.0, True), (LATE, True), (1.01 * LATE, False)])
 def test_what_arrives_late_is_not_used_although_the_step_is_within_a_period(loop, late, is_used):
-    loop.see(Reading(1.0, 0.05))
+    loop.see(Measurement(1.0, 0.05))
     loop.tick(1.0)
-    loop.see(Reading(1.1 - late, 0.06, late=late))
+    loop.see(Measurement(1.1 - late, 0.06, late=late))
     loop.tick(1.1)
     assert (loop.law.calls[-1][2] is not None) == is_used
 
 
 def test_a_measurement_that_is_later_than_the_timeout_is_none(loop):
-    loop.see(Reading(1.0, 0.05))
+    loop.see(Measurement(1.0, 0.05))
     loop.tick(1.0)
-    loop.see(Reading(1.19, 0.05))
+    loop.see(Measurement(1.19, 0.05))
     assert loop.tick(1.3) == first(1)
     assert loop.state == BLIND
 
 
 def test_control_does_not_begin_at_a_measurement_that_is_late(loop):
-    loop.see(Reading(1.0, 0.05))
+    loop.see(Measurement(1.0, 0.05))
     assert loop.tick(1.05) is None
-    loop.see(Reading(1.06, 0.04))
+    loop.see(Measurement(1.06, 0.04))
     assert loop.tick(1.06) == first(1)
     assert loop.law.starts == [(0.04, None)]
     loop.tick(1.2)
     assert loop.state == BLIND
-    loop.see(Reading(1.25, 0.03))
+    loop.see(Measurement(1.25, 0.03))
     assert loop.tick(1.3) == first(1)
     assert (loop.state, loop.starts) == (BLIND, 1)
-    loop.see(Reading(1.3, 0.02))
+    loop.see(Measurement(1.3, 0.02))
     loop.tick(1.3)
     assert loop.law.starts[-1] == (0.02, first(1))
     assert (loop.state, loop.starts) == (RUNNING, 2)
@@ -67,7 +67,7 @@ def moved_by(loop, measured, begin, end):
     for n in range(round(end / PERIOD) + 1):
         now = n * PERIOD
         while due and due[0] <= now:
-            loop.see(Reading(due.pop(0), 0.05))
+            loop.see(Measurement(due.pop(0), 0.05))
         loop.tick(now)
         if n == 1:
             loop.source.set_target(0.95)
@@ -90,7 +90,7 @@ def test_the_reference_is_held_while_measurements_stay_away(loop):
     assert is_held(loop)
     before = loop.source.reference.position
     for n in range(1, 51):
-        loop.see(Reading(1.4 + n * PERIOD, 0.05))
+        loop.see(Measurement(1.4 + n * PERIOD, 0.05))
         loop.tick(1.4 + n * PERIOD)
     assert before + 0.05 * 0.1 < loop.source.reference.position < before + 0.1 * 0.1
     assert loop.source.reference.velocity == pytest.approx(0.1)
@@ -102,7 +102,7 @@ def test_the_reference_stops_and_continues_without_a_jump(loop):
     for n in range(501, 700):
         now = n * PERIOD
         if n > 600:
-            loop.see(Reading(now, 0.05))
+            loop.see(Measurement(now, 0.05))
         loop.tick(now)
         velocities.append(loop.source.reference.velocity)
     assert min(velocities) == 0.0
@@ -115,7 +115,7 @@ def test_the_reference_is_held_while_measurements_arrive_too_late(loop):
     loop.timeout = 0.5
     moved_by(loop, times(0.01, 101), 0.0, 1.0)
     for n in range(501, 600):
-        loop.see(Reading(n * PERIOD - 1.1 * LATE - PERIOD, 0.05))
+        loop.see(Measurement(n * PERIOD - 1.1 * LATE - PERIOD, 0.05))
         loop.tick(n * PERIOD)
     assert loop.state == RUNNING
     assert is_held(loop)

@@ -5,11 +5,11 @@
 import numpy as np
 import pytest
 
-from pam_ros.control.pid_margin import TUNING, Plant, Share, share
+from pam_ros.control.pid_margin import TUNING, LinearPlant, Share, share
 
 GAINS = (49.1e3, 1.91e6, 9.09e3, 326.0)  # of a joint that turns: Pa/rad ..., rad/s
-PAIR = Plant(0.0825, 0.463, 31.3, 1.67e-4)
-CRANK = Plant(0.0825, 0.207, 8.26, 8.5e-5)
+PAIR = LinearPlant(0.0825, 0.463, 31.3, 1.67e-4)
+CRANK = LinearPlant(0.0825, 0.207, 8.26, 8.5e-5)
 
 
 def rightmost(plant, part, lag):
@@ -48,7 +48,7 @@ def test_a_crank_bears_all_but_the_integral_gain():
 @pytest.mark.parametrize('damping', [0.05, 0.4])
 @pytest.mark.parametrize('gain', [1e-5, 8e-5, 3e-4])
 def test_what_is_left_is_stable_or_refused(inertia, stiffness, damping, gain):
-    plant = Plant(inertia, damping, stiffness, gain)
+    plant = LinearPlant(inertia, damping, stiffness, gain)
     found = share(GAINS, plant)
     if found is None:
         # No share of the gains holds what falls faster than their proportional part returns it.
@@ -70,11 +70,11 @@ def test_of_all_shares_within_the_bounds_it_is_one_with_the_most_integral_gain()
 
 
 def test_a_quick_joint_bears_less_of_all_gains():
-    light = Plant(0.01, 0.3, 31.3, 1.67e-4)
+    light = LinearPlant(0.01, 0.3, 31.3, 1.67e-4)
     found = share(GAINS, light)
     assert found.all < 0.6
     assert found.integral == 1.0
 
 
 def test_pressure_without_effect_controls_nothing():
-    assert share(GAINS, Plant(0.0825, 0.2, 8.0, 0.0)) is None
+    assert share(GAINS, LinearPlant(0.0825, 0.2, 8.0, 0.0)) is None

@@ -9,7 +9,7 @@ import pytest
 
 from pam_ros.control.allocation import allocation_of
 from pam_ros.control.limits import Limits
-from pam_ros.control.loop import BLIND, RUNNING, Loop, Reading
+from pam_ros.control.loop import BLIND, RUNNING, Loop, Measurement
 from pam_ros.control.model import ControlModel
 from pam_ros.control.pid import Pid
 from pam_ros.control.plausibility import MotionBounds, Plausibility, bounds_of, fault_of_pressure
@@ -213,7 +213,7 @@ def motion(law, false, at, *, is_moving=False, seconds=2.0):
     for n in range(round(seconds / DT)):
         now = 10.0 + n * DT
         is_false = any(abs(n * DT - one) < 0.5 * DT for one in at)
-        loop.see(Reading(now, false if is_false else measured))
+        loop.see(Measurement(now, false if is_false else measured))
         (pressure,) = loop.tick(now)
         loop.chambers = None
         if n == 0:
@@ -270,4 +270,4 @@ def test_messages_that_were_held_up_are_true_by_their_own_stamps():
     loop = loop_of(SlidingMode(JOINT))
     for n in range(60):
         now = 10.0 + DT * (n if n < 20 else 50)
-        assert loop.see(Reading(now + 1e-6 * n, DT * n - 0.03, None, 5.0 + DT * n)) == ''
+        assert loop.see(Measurement(now + 1e-6 * n, DT * n - 0.03, None, 5.0 + DT * n)) == ''

@@ -6,6 +6,7 @@ from dataclasses import astuple, dataclass, fields, replace
 
 import pytest
 
+from pam_ros.control.estimates import EstimateTuning
 from pam_ros.control.gains import OrderTuning
 from pam_ros.control.learning.features import FeatureTuning
 from pam_ros.control.learning.learning_tuning import LearningTuning
@@ -18,6 +19,7 @@ from pam_ros.control.sliding_mode import LawTuning
 from pam_ros.control.tuning import number, numbers_of, scaled
 
 TUNINGS = [
+    EstimateTuning,
     FeatureTuning,
     LawTuning,
     LearningTuning,

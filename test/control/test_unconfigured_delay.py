@@ -40,7 +40,7 @@ def test_a_step_comes_to_rest(kind):
 @EACH_KIND
 def test_without_it_the_loop_oscillates_for_ever(kind, monkeypatch):
     law = law_of(kind)
-    monkeypatch.setattr(law._reduction, 'see', lambda *given: None)
+    monkeypatch.setattr(law._estimates.reduction, 'see', lambda *given: None)
     run = kind.close(law, kind.truth('dead time', seed=3), kind.step, 8.0)
     assert largest(kind, run, 6.0, 2.0) > 5.0
 
@@ -89,9 +89,9 @@ def test_other_unconfigured_effects_hardly_lower_the_gains(kind, plant):
 def test_the_share_is_kept_at_a_start_but_not_with_other_gains():
     law = law_of(PAIR)
     PAIR.close(law, PAIR.truth('dead time', seed=3), PAIR.step, 3.0)
-    share = law._reduction.share
+    share = law._estimates.reduction.share
     assert share < 1.0
     law.start(0.0)
-    assert law._reduction.share == share
+    assert law._estimates.reduction.share == share
     law.set_gains(replace(law.gains, bandwidth=0.9 * law.gains.bandwidth))
-    assert law._reduction.share == 1.0
+    assert law._estimates.reduction.share == 1.0

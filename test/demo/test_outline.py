@@ -19,7 +19,7 @@ ROOT = Path(__file__).resolve().parents[2]
 def test_every_chapter_can_be_played():
     for name in CHAPTERS:
         spec = find_spec(f'pam_ros.nodes.demo.{name}')
-        assert 'def play(stage: Stage)' in Path(spec.origin).read_text(encoding='utf-8')
+        assert 'def play(stage: DemoStage)' in Path(spec.origin).read_text(encoding='utf-8')
 
 
 def test_the_plan_names_the_chapters_that_are_played_their_time_and_the_folder():

@@ -70,8 +70,8 @@ def test_the_values_of_the_paper_stand_next_to_ours():
 
 def test_the_table_is_aligned_and_signs_differences():
     rows = [
-        paper.Row('force', 'N', 198.0, 'section 3', 196.13),
-        paper.Row('contraction', '%', 24.33, 'equation (1)', 24.3301, 2),
+        paper.StepRow('force', 'N', 198.0, 'section 3', 196.13),
+        paper.StepRow('contraction', '%', 24.33, 'equation (1)', 24.3301, 2),
     ]
     assert paper.table(rows).splitlines() == [
         'quantity         paper  where          ours  difference  relative',

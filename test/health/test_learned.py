@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from pam_ros.control.learning.learned import Learned
+from pam_ros.control.learned import Learned
 from pam_ros.health.health import Level
 from pam_ros.health.learned import learning
 

@@ -5,12 +5,12 @@
 import pytest
 
 from pam_ros.health.health import Level
-from pam_ros.health.simulator import Progress, timing
+from pam_ros.health.simulator import RunProgress, timing
 from pam_ros.settings.sim import SimSettings
 from pam_ros.timing.ticker import Punctuality
 
 KEPT = Punctuality(span=2.0, ticks=1000, overruns=3, worst=0.004)
-DONE = Progress(
+DONE = RunProgress(
     published=1000,
     speed=1.0,
     time=12.5,

@@ -20,10 +20,14 @@ class Growth:
     """The bandwidth in 1/s, between the two bandwidths of the gains."""
 
     def __init__(self, gains: Gains, tuning: LearningTuning) -> None:
-        """Begin with the lower bandwidth; ``gains`` may be replaced later."""
+        """Begin with the lower bandwidth."""
         self.gains, self._tuning = gains, tuning
         self.bandwidth = gains.bandwidth
         self.start()
+
+    def set_gains(self, gains: Gains) -> None:
+        """Continue between the bandwidths of other gains."""
+        self.gains = gains
 
     def start(self) -> None:
         """Begin to average the error."""

@@ -23,6 +23,7 @@ from math import exp
 import numpy as np
 
 from pam_ros.control.gains import Gains
+from pam_ros.control.learned import Learned
 from pam_ros.control.learning.cascade import Cascade
 from pam_ros.control.learning.features import (
     CONSTANT,
@@ -33,7 +34,6 @@ from pam_ros.control.learning.features import (
     FeatureTuning,
 )
 from pam_ros.control.learning.growth import Growth
-from pam_ros.control.learning.learned import Learned
 from pam_ros.control.learning.learning_tuning import LearningTuning
 from pam_ros.control.learning.regression import Regression, dot
 from pam_ros.control.model import ControlModel, Pressures
@@ -148,6 +148,10 @@ class Learner:
         self._share = self._explained = self._understood = self._known = 0.0
         # Of the force that is neither learned nor configured, and of that with what is configured.
         self._missing, self._total = _Variance(), _Variance()
+
+    def set_gains(self, gains: Gains) -> None:
+        """Continue with other gains, which bound the bandwidth."""
+        self.growth.set_gains(gains)
 
     def start(self, position: float, pressures: Pressures, disturbance: float) -> None:
         """Start again: the load rests at *position*, the chambers are at *pressures* Pa.

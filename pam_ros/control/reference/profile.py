@@ -13,7 +13,7 @@ from typing import NamedTuple
 HALVINGS = 60
 
 
-class Bounds(NamedTuple):
+class MotionLimits(NamedTuple):
     """Largest velocity m/s, acceleration m/s^2 and jerk m/s^3."""
 
     velocity: float
@@ -28,7 +28,9 @@ class Piece(NamedTuple):
     duration: float
 
 
-def change(velocity: float, acceleration: float, wanted: float, bounds: Bounds) -> list[Piece]:
+def change(
+    velocity: float, acceleration: float, wanted: float, bounds: MotionLimits
+) -> list[Piece]:
     """Return the pieces to the *wanted* velocity, with no acceleration at the end."""
     j, most = bounds.jerk, bounds.acceleration
     # The direction depends on the velocity that is reached if the acceleration is removed at once.
@@ -61,7 +63,7 @@ def advance(state: tuple[float, float, float], jerk: float, t: float) -> tuple[f
 
 
 def _via_peak(
-    state: tuple[float, float, float], peak: float, bounds: Bounds
+    state: tuple[float, float, float], peak: float, bounds: MotionLimits
 ) -> tuple[list[Piece], list[Piece], float]:
     """Return the pieces to a *peak* velocity and from there to rest, and their end position."""
     to = change(state[1], state[2], peak, bounds)
@@ -72,7 +74,7 @@ def _via_peak(
     return to, back, now[0]
 
 
-def to_rest(state: tuple[float, float, float], bounds: Bounds) -> list[Piece]:
+def to_rest(state: tuple[float, float, float], bounds: MotionLimits) -> list[Piece]:
     """Return the pieces from *state* (m, m/s, m/s^2) to rest at 0."""
     for peak in (bounds.velocity, -bounds.velocity):
         to, back, end = _via_peak(state, peak, bounds)
@@ -96,7 +98,7 @@ class JerkLimitedMotion:
         self.jerk = 0.0
         self._pieces: list[Piece] = []
 
-    def begin(self, state: tuple[float, float, float], bounds: Bounds) -> None:
+    def begin(self, state: tuple[float, float, float], bounds: MotionLimits) -> None:
         """Start from *state* (m, m/s, m/s^2) within *bounds*."""
         self.state = state
         self._pieces = to_rest(state, bounds)

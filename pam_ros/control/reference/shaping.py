@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from math import exp
 
 from pam_ros.control.joint_settings import JointSettings
-from pam_ros.control.reference.profile import Bounds, JerkLimitedMotion, advance, change
+from pam_ros.control.reference.profile import JerkLimitedMotion, MotionLimits, advance, change
 from pam_ros.control.signals import Reference
 from pam_ros.control.tuning import number
 from pam_ros.parameters import OnRevolute, parameter_field
@@ -74,9 +74,9 @@ class Shape(JointSettings):
     )
 
     @property
-    def bounds(self) -> Bounds:
+    def bounds(self) -> MotionLimits:
         """The same as a tuple."""
-        return Bounds(self.max_velocity, self.max_acceleration, self.max_jerk)
+        return MotionLimits(self.max_velocity, self.max_acceleration, self.max_jerk)
 
 
 class Tracker:
@@ -89,7 +89,7 @@ class Tracker:
     within the bound of velocity, it is the second sample of a motion.
     """
 
-    def __init__(self, bounds: Bounds) -> None:
+    def __init__(self, bounds: MotionLimits) -> None:
         """Make it for a target at rest at 0; see :meth:`start`."""
         self.bounds = bounds
         self.start(0.0)

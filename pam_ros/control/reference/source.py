@@ -7,7 +7,7 @@ from math import isfinite
 from pam_ros.control.limits import clamp, range_text, refuse_unreachable
 from pam_ros.control.reference.points import Points
 from pam_ros.control.reference.shaping import Shape, Shaper
-from pam_ros.control.reference.trajectory import Trajectory
+from pam_ros.control.reference.trajectory import ReferenceTrajectory
 from pam_ros.control.signals import Reference
 from pam_ros.errors import RangeError
 
@@ -27,7 +27,7 @@ class ReferenceSource:
         shape.require(revolute=unit == 'rad')
         self.reach, self.unit = reach, unit
         self._shaper = Shaper(shape)
-        self._trajectory: Trajectory | None = None
+        self._trajectory: ReferenceTrajectory | None = None
         self._since = 0.0
         self.targets = 0  # how many have been set: whoever set one knows whether it still counts
         self._start = 0.5 * (reach[0] + reach[1]) if isfinite(reach[0]) else 0.0
@@ -113,13 +113,13 @@ class ReferenceSource:
         self._leave()
         self.targets += 1
 
-    def play(self, points: Points, wait: float = 0.0) -> Trajectory:
+    def play(self, points: Points, wait: float = 0.0) -> ReferenceTrajectory:
         """Follow *points* after *wait* s, or from a place between them if *wait* is negative.
 
         Returns the trajectory through them. Raises RangeError for points that give no motion
         within reach; then nothing changes.
         """
-        trajectory = Trajectory(self.reference, points, self.reach, self.unit)
+        trajectory = ReferenceTrajectory(self.reference, points, self.reach, self.unit)
         self._trajectory, self._since = trajectory, -wait
         self._shaper.join(trajectory.at(self._since))
         self.targets += 1

@@ -14,7 +14,7 @@ CHECKS = 32  # parts of a piece; the reach is checked where they meet
 BLOCK = 1024  # pieces that are checked at once: their numbers stay in the cache
 
 
-class Trajectory:
+class ReferenceTrajectory:
     """A piecewise polynomial through points.
 
     With velocities and accelerations at all points it is of fifth order between them, with

@@ -94,10 +94,14 @@ class Rejection:
     def __init__(
         self, gains: Gains, tuning: RejectionTuning, oscillation: OscillationTuning
     ) -> None:
-        """Start at rest; ``gains`` may be replaced later."""
+        """Start at rest."""
         self.gains, self._tuning = gains, tuning
         self._oscillation = Oscillation(oscillation)
         self.start()
+
+    def set_gains(self, gains: Gains) -> None:
+        """Continue with other gains."""
+        self.gains = gains
 
     def start(self) -> None:
         """Start again at rest at the goal, without knowledge of the delay."""

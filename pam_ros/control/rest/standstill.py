@@ -56,6 +56,10 @@ class Standstill:
         self.tolerance, self._tuning = tolerance, tuning
         self.start()
 
+    def set_tolerance(self, tolerance: float) -> None:
+        """Ignore an error of up to *tolerance* from now on."""
+        self.tolerance = tolerance
+
     def start(self) -> None:
         """Start again, at rest at the goal."""
         self.factor = 0.0

@@ -16,7 +16,9 @@ WINDOWS = (0.25, 0.1)  # s: shorter than one period of a muscle's own oscillatio
 QUICK = 0.15  # ratio of the two noises below which the motion is too fast for long windows
 SAMPLES = (12, 200)  # fewest and most samples in a window
 DEGREE = 4  # of the polynomial that follows the motion within a window
-LONGEST = 0.05  # s, longest correlation time of noise: a slower error looks like motion
+LONGEST_CORRELATION = (
+    0.05  # s, longest correlation time of noise: a slower error looks like motion
+)
 EVEN = 0.05  # largest deviation of a change from a multiple of the step, in steps
 RANGE = 50  # fewest steps of a resolution in the range: a few levels are those of an experiment
 
@@ -159,7 +161,7 @@ def _correlation(ratio: float, size: int, period: float) -> float:
         a, b = _moments(size, rho)
         return b / a - ratio
 
-    low, high = 0.0, float(np.exp(-period / LONGEST))
+    low, high = 0.0, float(np.exp(-period / LONGEST_CORRELATION))
     if error(low) >= 0.0:
         return low
     if error(high) <= 0.0:

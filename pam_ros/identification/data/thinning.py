@@ -23,7 +23,7 @@ Array = NDArray[np.float64]
 
 PHASE = 0.5  # rad of the rig's fastest oscillation in one period
 PERIODS = (1e-3, 10e-3)  # s, shortest period, and the longest one unless there are many samples
-LONGEST = 50e-3  # s, longest period: commands that change fast keep shorter steps
+LONGEST_PERIOD = 50e-3  # s, longest period: commands that change fast keep shorter steps
 JUMP = 0.01  # change of a command that is a jump, as a share of its range
 RAMP = 0.003  # change of a command over a long stride that is a ramp, as a share of its range
 ROUNDING = 1e-9  # largest change by the rounding of means, as a share of a command's range

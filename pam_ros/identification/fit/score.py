@@ -47,7 +47,7 @@ PRICE = 4.0
 # Largest correlation time, as a share of the longest run. An error that is constant over a whole
 # run would be an offset without cost, so that the level of the measurement would have no
 # influence. Less than ten correlation times also contain little information on a process.
-LONGEST = 0.1
+LONGEST_SHARE = 0.1
 CLOSE = 0.05  # accuracy of the best score: small compared with a margin of 10
 STEP = 1e-2  # of the logarithms, for derivatives of the score, which is smooth in them
 
@@ -102,7 +102,7 @@ def most_likely(
 
     period = float(np.median(np.concatenate([np.diff(stamps) for stamps in t])))
     span = max(float(stamps[-1] - stamps[0]) for stamps in t)
-    longest = max(LONGEST * span, 2.0 * period)
+    longest = max(LONGEST_SHARE * span, 2.0 * period)
     low, high = np.log([LEAST_SIZE, period]), np.log([GREATEST_SIZE, longest])
     grid = [
         np.array([size, time])

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pam_ros.identification.data.parts import FEWEST, Part, run_of
-from pam_ros.identification.data.thinning import LONGEST, coarse_period, thinned
+from pam_ros.identification.data.thinning import LONGEST_PERIOD, coarse_period, thinned
 from pam_ros.identification.fit.extend import memories
 from pam_ros.identification.fit.problem import Problem
 from pam_ros.identification.fit.solve import Solution, initial_solution, least_squares
@@ -54,7 +54,7 @@ def fit_finally(search: Search) -> FinalFits:
 
 def short_step(joint: Joint) -> float:
     """Return the longest step in s of the simulations of the last fits."""
-    return max(STEP, coarse_period(joint, LONGEST) / STEPS)
+    return max(STEP, coarse_period(joint, LONGEST_PERIOD) / STEPS)
 
 
 def _is_run(part: Part) -> bool:

@@ -19,7 +19,7 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
-class Reference:
+class Comparison:
     """What a run with one more effect is compared with, to find how much the effect changes it.
 
     The runs of *problem* have the steps of a search: a change of the run needs no shorter ones.
@@ -49,13 +49,13 @@ def hidden(model: Model, names: Iterable[str], setting: Setting) -> dict[str, st
     }
 
 
-def reference(model: Model, setting: Setting) -> Reference:
+def reference(model: Model, setting: Setting) -> Comparison:
     """Return what runs with one effect in addition to *model* are compared with."""
     known = model.solution
     problem = replace(known.problem, step=setting.step)
     is_same = problem.step == known.problem.step
     r = known.r if is_same else problem.residuals(known.u)
-    return Reference(model, problem, r, _compensable(model))
+    return Comparison(model, problem, r, _compensable(model))
 
 
 def _compensable(model: Model) -> Array:
@@ -74,7 +74,7 @@ def _compensable(model: Model) -> Array:
     return np.asarray(np.linalg.qr(slopes)[0])
 
 
-def power(base: Reference, place: Place) -> float:
+def power(base: Comparison, place: Place) -> float:
     """Return the most by which the effect at *place*, clearly present, would lower the score.
 
     This is the squared change of the whitened run by the effect, over the variance of the noise:
@@ -86,7 +86,7 @@ def power(base: Reference, place: Place) -> float:
     return max(_fall(base, place, start) for start in starts)
 
 
-def _fall(base: Reference, place: Place, start: Mapping[str, float]) -> float:
+def _fall(base: Comparison, place: Place, start: Mapping[str, float]) -> float:
     """Return how much an effect from *start* on changes what the unknowns cannot compensate."""
     known = base.model.solution
     problem, added = with_effect(base.problem, base.model.setting.joint, place, start)

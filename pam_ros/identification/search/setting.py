@@ -22,7 +22,7 @@ from pam_ros.identification.data.parts import Part
 from pam_ros.identification.data.rests import without_rests
 from pam_ros.identification.data.segment import Segment, windows
 from pam_ros.identification.data.thinning import (
-    LONGEST,
+    LONGEST_PERIOD,
     coarse_period,
     longest_step,
     thinned,
@@ -143,7 +143,7 @@ class Setting:
         If there are more samples than a search needs, it is a multiple of the usual period, as far
         as the rig's own frequency allows.
         """
-        usual, longest = coarse_period(self.joint), coarse_period(self.joint, LONGEST)
+        usual, longest = coarse_period(self.joint), coarse_period(self.joint, LONGEST_PERIOD)
         times = ceil(self._size(self._brief, usual) / self.budget.samples)
         return max(usual, min(times * usual, longest))
 

@@ -21,7 +21,7 @@ from pam_ros.timing.pace import SECOND
 
 FRESH = SECOND  # ns by which a pressure may be older than the state at which control begins
 # Most ns between two calls that count as waiting: in a longer time this process was delayed.
-LONGEST = SECOND // 10
+LONGEST_PAUSE = SECOND // 10
 
 Subscribe = Callable[[type, str, Callable[..., None]], None]
 
@@ -106,7 +106,9 @@ class ChamberInput:
         ]
         loop.chambers = setup.law.command_at(fresh) if len(fresh) == len(self._found) else None
         are_states_seen = is_seen()
-        self._waited = self._waited + min(now - self._looked, LONGEST) if are_states_seen else 0
+        self._waited = (
+            self._waited + min(now - self._looked, LONGEST_PAUSE) if are_states_seen else 0
+        )
         self._looked = now
         is_early = are_states_seen and self._waited < setup.settings.pressure_wait * SECOND
         loop.awaits_chamber = is_early and (loop.state == WAITING or self._is_published)

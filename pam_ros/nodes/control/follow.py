@@ -20,7 +20,7 @@ from trajectory_msgs.msg import JointTrajectoryPoint
 from pam_ros.control.goal import Goal, Outcome, Tolerance, Tolerances
 from pam_ros.control.loop import RUNNING, Loop
 from pam_ros.control.reference.source import ReferenceSource
-from pam_ros.control.reference.trajectory import Trajectory
+from pam_ros.control.reference.trajectory import ReferenceTrajectory
 from pam_ros.control.signals import Reference
 from pam_ros.errors import RangeError
 from pam_ros.settings.control import ControlSetup
@@ -54,7 +54,7 @@ class Follow:
         node: Node,
         loop: Loop,
         setup: Callable[[], ControlSetup],
-        play: Callable[[bytes], tuple[Trajectory, float]],
+        play: Callable[[bytes], tuple[ReferenceTrajectory, float]],
         trouble: Callable[[], str],
         refuse: Callable[[str], None],
     ) -> None:

@@ -19,7 +19,7 @@ from pam_ros.timing.pace import SECOND
 LONG = SECOND // 2
 
 
-class Intake:
+class StateIntake:
     """Subscribes to topics, and checks for interruptions of this process before each message."""
 
     def __init__(

@@ -10,11 +10,11 @@ from std_msgs.msg import Float64
 from std_srvs.srv import SetBool
 from trajectory_msgs.msg import JointTrajectory
 
-from pam_ros.control.loop import BLIND, RUNNING, WAITING, Loop, Reading, warm_up
+from pam_ros.control.loop import BLIND, RUNNING, WAITING, Loop, Measurement, warm_up
 from pam_ros.control.plausibility import Plausibility, bounds_of
 from pam_ros.control.reference.points import Points
 from pam_ros.control.reference.serialised import read_trajectory
-from pam_ros.control.reference.trajectory import Trajectory
+from pam_ros.control.reference.trajectory import ReferenceTrajectory
 from pam_ros.control.signals import Pressures, term_names
 from pam_ros.errors import RangeError
 from pam_ros.health import controller as control_health
@@ -31,7 +31,7 @@ from pam_ros.nodes.common.spin import TickingNode
 from pam_ros.nodes.control.chamber_input import ChamberInput
 from pam_ros.nodes.control.follow import Follow
 from pam_ros.nodes.control.inputs import MeasuredState, measured_state
-from pam_ros.nodes.control.intake import Intake
+from pam_ros.nodes.control.intake import StateIntake
 from pam_ros.nodes.control.rig_watch import RigWatch
 from pam_ros.nodes.control.state import StateTopic
 from pam_ros.nodes.control.topics import watch_topics
@@ -70,14 +70,14 @@ class PamControl(TickingNode):
         self.keeps_wall_time = not self._is_followed
         self._seen = steady_ns()  # steady time of the newest usable state, ns
         self._stamp: int | None = None  # its stamp, ns
-        self._last: Reading | None = None  # its values
+        self._last: Measurement | None = None  # its values
         self._ticked = self._seen  # steady time of the last tick, ns
         self._has_waited = False
         self._answered = 0  # steady time of the last command, ns
         self._blindness = ''  # why the last state was not usable
         self._repeated = self._seen  # steady time of the last state whose stamp was not new, ns
         self._reports, self._tracking = Reports(self.get_logger()), Tracking()
-        self._intake = Intake(
+        self._intake = StateIntake(
             self,
             self._is_followed,
             lambda: self._setup.settings.longest_interruption,
@@ -296,7 +296,7 @@ class PamControl(TickingNode):
         It arrived *late* s late.
         """
         stamp = state.stamp / SECOND if state.stamp else None
-        reading = Reading(time / SECOND, state.position, state.velocity, stamp, late)
+        reading = Measurement(time / SECOND, state.position, state.velocity, stamp, late)
         fault = self._loop.see(reading)
         if not fault:
             # If this is the time of the loop, it must be the same for both: what is too old for
@@ -345,12 +345,12 @@ class PamControl(TickingNode):
         except RangeError as error:
             self._reports.refuse(str(error))
 
-    def _play(self, begin: int, points: Points) -> tuple[Trajectory, float]:
+    def _play(self, begin: int, points: Points) -> tuple[ReferenceTrajectory, float]:
         """Follow *points* from the ROS time *begin* in ns, 0 for now; also return when, in s."""
         wait = self._wait_for(begin) if begin else 0.0
         return self._loop.source.play(points, wait), self._loop.time + wait
 
-    def _follow(self, message: bytes) -> tuple[Trajectory, float]:
+    def _follow(self, message: bytes) -> tuple[ReferenceTrajectory, float]:
         """Follow the trajectory of a goal, which must not be over already."""
         begin, points = read_trajectory(message, self._setup.settings.joint_name)
         points.refuse_bad()

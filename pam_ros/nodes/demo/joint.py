@@ -18,7 +18,7 @@ from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 from pam_ros.control.signals import term_names
 from pam_ros.demo import joint
 from pam_ros.demo.joint import JointRun
-from pam_ros.demo.stage import Stage
+from pam_ros.demo.stage import DemoStage
 from pam_ros.nodes.demo.lockstep_pair import LockstepPair
 from pam_ros.nodes.demo.rig_log import seconds
 
@@ -32,7 +32,7 @@ SOFT, STIFF = 20.0, 35.0  # N m/rad
 SPACING = 0.02  # s between the points of the trajectory
 
 
-def play(stage: Stage) -> None:
+def play(stage: DemoStage) -> None:
     """Control the joint, and write a plot and a table."""
     stage.say(
         f'An antagonistic joint over ROS topics: two {MUSCLE}, configured with '
@@ -56,7 +56,7 @@ def play(stage: Stage) -> None:
     stage.text('joint.txt', joint.table(parts))
 
 
-def record(stage: Stage) -> JointRun:
+def record(stage: DemoStage) -> JointRun:
     """Return the recorded run."""
     both = {'joint': 'antagonistic', 'muscle': MUSCLE, 'radius': RADIUS}
     rig = {**both, 'mass': TRUE, 'initial.pressure': 250e3, 'sensor.position_noise': NOISE}

@@ -15,7 +15,7 @@ from typing import Any
 from rclpy.duration import Duration
 from sensor_msgs.msg import JointState
 
-from pam_ros.demo.stage import Stage
+from pam_ros.demo.stage import DemoStage
 from pam_ros.errors import PamError
 from pam_ros.nodes.demo.client import Client
 from pam_ros.nodes.demo.rig_log import seconds
@@ -31,7 +31,7 @@ class LockstepPair:
 
     def __init__(
         self,
-        stage: Stage,
+        stage: DemoStage,
         rig: dict[str, Any],
         controller: dict[str, Any],
         command: tuple[type, str],

@@ -24,7 +24,7 @@ from rosgraph_msgs.msg import Clock
 
 from pam_ros.demo import loop
 from pam_ros.demo.recorded_rig import RATE, RecordedRig
-from pam_ros.demo.stage import Stage, progress
+from pam_ros.demo.stage import DemoStage, progress
 from pam_ros.errors import PamError
 from pam_ros.nodes.demo.client import Client
 from pam_ros.nodes.demo.lockstep_pair import PATIENCE
@@ -46,7 +46,7 @@ EXCITATION: Mapping[str, Any] = {
 UNSEEN = {**EXCITATION, 'seed': 1}
 
 
-def play(stage: Stage) -> None:
+def play(stage: DemoStage) -> None:
     """Excite, record, identify, replay; write the bags, the report, a plot and a table."""
     folder = stage.folder / 'loop'
     folder.mkdir(parents=True, exist_ok=True)
@@ -77,7 +77,10 @@ def play(stage: Stage) -> None:
 
 
 def record(
-    stage: Stage, bags: Path, rigs: Mapping[str, Mapping[str, Any]], excitation: Mapping[str, Any]
+    stage: DemoStage,
+    bags: Path,
+    rigs: Mapping[str, Mapping[str, Any]],
+    excitation: Mapping[str, Any],
 ) -> None:
     """Record each of the simulated *rigs* (name -> parameters) to ``bags/<name>``.
 
@@ -109,7 +112,7 @@ def show(client: Client, rigs: list[RecordedRig], times: list[Clock], duration: 
                 bar.update(min(1e-9 * (last - first).nanoseconds, duration) - bar.n)
 
 
-def identify(stage: Stage, folder: Path) -> dict[str, Any]:
+def identify(stage: DemoStage, folder: Path) -> dict[str, Any]:
     """Run ``pam_identify`` on the recording and return its report.json."""
     given = (str(folder / 'recording'), '--params', loop.MUSCLE, '--out', str(folder / 'report'))
     stage.say(f'  $ pam_identify {shlex.join(given)}')

@@ -8,7 +8,7 @@ from std_msgs.msg import Float64
 
 from pam_ros.demo import paper
 from pam_ros.demo.run import PublishedRun
-from pam_ros.demo.stage import Stage
+from pam_ros.demo.stage import DemoStage
 from pam_ros.errors import PamError
 from pam_ros.nodes.demo.client import Client
 from pam_ros.nodes.demo.lockstep_pair import PATIENCE
@@ -23,7 +23,7 @@ STEP = 2.0  # s
 RATE = 250.0  # Hz
 
 
-def play(stage: Stage) -> None:
+def play(stage: DemoStage) -> None:
     """Run the experiment, and write figures 5 and 6, the steps and the table."""
     stage.say(f'The experiment of the paper: {MUSCLE}, 600 kPa, 20 kg, over ROS topics')
     released, steps = record(stage)
@@ -42,7 +42,7 @@ def play(stage: Stage) -> None:
     stage.text('paper.txt', paper.table(rows))
 
 
-def record(stage: Stage) -> tuple[PublishedRun, list[PublishedRun]]:
+def record(stage: DemoStage) -> tuple[PublishedRun, list[PublishedRun]]:
     """Return the run of the released load, and one run for each pressure step."""
     space = stage.namespace
     # Its /clock is in its namespace: no other node follows it.

@@ -18,7 +18,7 @@ from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint
 from pam_ros.control.signals import TERMS
 from pam_ros.demo import position
 from pam_ros.demo.position import PositionRun
-from pam_ros.demo.stage import Stage
+from pam_ros.demo.stage import DemoStage
 from pam_ros.nodes.demo.lockstep_pair import STILL, LockstepPair
 from pam_ros.nodes.demo.rig_log import seconds
 
@@ -30,7 +30,7 @@ SWING, FREQUENCY, CYCLES = 0.010, 0.5, 4  # m, Hz: the sine, around the last of 
 SPACING = 0.05  # s between the points of its trajectory
 
 
-def play(stage: Stage) -> None:
+def play(stage: DemoStage) -> None:
     """Move the load, and write a plot and a table."""
     stage.say(
         f'Position control over ROS topics: {MUSCLE}, configured with {NOMINAL:g} kg; '
@@ -53,7 +53,7 @@ def play(stage: Stage) -> None:
     stage.text('position_control.txt', position.table(steps, whole))
 
 
-def record(stage: Stage) -> tuple[PositionRun, list[float]]:
+def record(stage: DemoStage) -> tuple[PositionRun, list[float]]:
     """Return the recorded run, and the times in s at which the goals and the sine start."""
     rig = {'muscle': MUSCLE, 'mass': TRUE, 'initial.pressure': 300e3}
     controller = {'muscle': MUSCLE, 'mass': NOMINAL}

@@ -33,7 +33,7 @@ Array = NDArray[np.float64]
 
 STOPPED = 1  # exit code
 UNNAMED = '_NODE_NAME_UNKNOWN_'  # name of a node until it is completely discovered
-LONGEST = 0.1  # s: longest pause between commands that counts for the pressure rate
+LONGEST_PAUSE = 0.1  # s: longest pause between commands that counts for the pressure rate
 LAST_READ = 5.0  # s in which a delayed recorder reads the last commands
 LAST = 0.2  # s for which 0 Pa is commanded after an emergency stop
 REPEAT = 0.05  # s after a command, after which it is sent again for a repeated state
@@ -266,7 +266,7 @@ class PamExcite(TickingNode):
             self.exit_code = 0
             return
         # After a pause of this process the pressure approaches the programme without a jump.
-        step = self._now.settings.pressure_rate * min(since, LONGEST)
+        step = self._now.settings.pressure_rate * min(since, LONGEST_PAUSE)
         wanted = self._now.programme.at(elapsed)
         self._command(np.clip(wanted, self._pressure - step, self._pressure + step))
         self._show(elapsed)

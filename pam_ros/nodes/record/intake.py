@@ -10,7 +10,7 @@ from rclpy.subscription import Subscription
 from rosgraph_msgs.msg import Clock
 
 from pam_ros.nodes.common.rclpy_internals import messages_of
-from pam_ros.nodes.record.taking import Recorded
+from pam_ros.nodes.record.taking import RecordedTopic
 from pam_ros.recording.bag_metadata import BagTopic
 from pam_ros.recording.bag_writer import BagWriter
 from pam_ros.recording.sending_time import LIMIT
@@ -26,7 +26,7 @@ PATIENCE = LIMIT
 STILL = SECOND // 10
 
 
-class Intake:
+class MessageIntake:
     """The recorded topics and their bag. Two threads may use it."""
 
     def __init__(
@@ -45,7 +45,7 @@ class Intake:
         self._writer, self._now, self._refuses_time = writer, now, refuses_time
         self._is_simulated = is_simulated
         self._lock = threading.Lock()  # of the writer and of the recorded topics
-        self._recorded: dict[str, Recorded] = {}
+        self._recorded: dict[str, RecordedTopic] = {}
         self._clock: Subscription | None = None
         self._time = SimulatedTime()
 
@@ -53,7 +53,7 @@ class Intake:
         """Record one topic more."""
         with self._lock:
             channel = self._writer.add_topic(described)
-            self._recorded[described.name] = Recorded(subscription, channel)
+            self._recorded[described.name] = RecordedTopic(subscription, channel)
 
     def follow(self, clock: Subscription) -> None:
         """Take the times on ``/clock``, too."""
@@ -130,7 +130,7 @@ class Intake:
         for recorded in self._recorded.values():
             self._write_waiting(recorded, is_last)
 
-    def _take_from(self, recorded: Recorded) -> None:
+    def _take_from(self, recorded: RecordedTopic) -> None:
         """Take the messages of a topic; write them, or let them wait for simulated time."""
         taken = list(messages_of(recorded.subscription))
         stamps = [(info['source_timestamp'], info['received_timestamp']) for _, info in taken]
@@ -150,7 +150,7 @@ class Intake:
             else:
                 self._writer.write(recorded.channel, time, sent, data)
 
-    def _write_waiting(self, recorded: Recorded, is_last: bool) -> None:
+    def _write_waiting(self, recorded: RecordedTopic, is_last: bool) -> None:
         """Write the messages of a topic before the first one whose time is not known yet."""
         now, waiting = monotonic_ns(), recorded.waiting
         while waiting:

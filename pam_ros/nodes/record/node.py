@@ -20,7 +20,7 @@ from rosgraph_msgs.msg import Clock
 from pam_ros.errors import RecordingError, shown
 from pam_ros.health.absence import Absence
 from pam_ros.nodes.common.spin import BAD_INPUT, TickingNode
-from pam_ros.nodes.record.intake import TAKE, Intake
+from pam_ros.nodes.record.intake import TAKE, MessageIntake
 from pam_ros.nodes.record.message_text import message_text
 from pam_ros.nodes.record.qos import matching, metadata
 from pam_ros.nodes.record.taking import Taken, never
@@ -75,7 +75,7 @@ class PamRecord(TickingNode):
         self._wanted = {self._resolved(name): name in topics for name in names}
         self._of_rigs = [{*map(self._resolved, own)} for own in (OF_MUSCLE, OF_JOINTS)]
         self._writer = BagWriter(directory, os.environ.get('ROS_DISTRO', 'unknown'))
-        self._intake = Intake(
+        self._intake = MessageIntake(
             self._writer,
             lambda: self.get_clock().now().nanoseconds,
             self.refuses_time,

@@ -29,7 +29,7 @@ class Taken(CallbackGroup):
         """Nothing has begun."""
 
 
-class Recorded:
+class RecordedTopic:
     """A topic that is recorded. All times are system times in ns."""
 
     def __init__(self, subscription: Subscription, channel: int) -> None:

@@ -11,7 +11,7 @@ from rclpy.qos import QoSProfile
 from sensor_msgs.msg import JointState
 
 from pam_ros.nodes.common.qos import open_qos
-from pam_ros.simulator.plant import Reading
+from pam_ros.simulator.plant import PlantReading
 from pam_ros.timing.pace import SECOND
 
 QUANTITIES = ('force', 'stiffness', 'damping', 'pressure')
@@ -36,7 +36,7 @@ class MuscleStates:
         """Set the frame in the header; the message has no variance."""
         self._message.header.frame_id = frame
 
-    def publish(self, stamp: int, reading: Reading, absolute: Sequence[float]) -> None:
+    def publish(self, stamp: int, reading: PlantReading, absolute: Sequence[float]) -> None:
         """Publish one state of the given ROS time in ns; *absolute* are the pressures in Pa."""
         header = self._message.header.stamp
         header.sec, header.nanosec = divmod(stamp, SECOND)

@@ -12,7 +12,7 @@ from pam_ros.health import simulator as sim_health
 from pam_ros.health import start_line
 from pam_ros.health.health import Health, Level
 from pam_ros.health.onsets import Onsets
-from pam_ros.health.simulator import Progress
+from pam_ros.health.simulator import RunProgress
 from pam_ros.health.waits import Waits
 from pam_ros.nodes.common.diagnostics import Diagnostics
 from pam_ros.nodes.common.node_parameters import NodeParameters
@@ -138,7 +138,7 @@ class PamSim(TickingNode):
         simulator, mode = self._simulator, self._mode
         kept = self.ticker.report(monotonic_ns())
         published, self._reported = simulator.published - self._reported, simulator.published
-        done = Progress(
+        done = RunProgress(
             published,
             mode.speed,
             self._plant.time,

@@ -10,7 +10,7 @@ from pam_ros.nodes.sim.muscle_states import MuscleStates
 from pam_ros.nodes.sim.telemetry import MuscleTelemetry
 from pam_ros.nodes.sim.telemetry_arrays import ArrayTelemetry
 from pam_ros.settings.scene import SimulationSetup
-from pam_ros.simulator.plant import Reading
+from pam_ros.simulator.plant import PlantReading
 from pam_ros.timing.pace import SECOND
 
 
@@ -53,7 +53,7 @@ class Output:
         self._clock.clock.sec, self._clock.clock.nanosec = divmod(stamp, SECOND)
         self._clock_publisher.publish(self._clock)
 
-    def publish(self, stamp: int, reading: Reading) -> None:
+    def publish(self, stamp: int, reading: PlantReading) -> None:
         """Publish one state of the given ROS time in ns."""
         absolute = [pressure + self._ambient for pressure in reading.pressure]
         for telemetry in self._telemetry:

@@ -10,7 +10,7 @@ from sensor_msgs.msg import FluidPressure, JointState
 from std_msgs.msg import Float64
 
 from pam_ros.nodes.common.qos import open_qos
-from pam_ros.simulator.plant import Reading
+from pam_ros.simulator.plant import PlantReading
 from pam_ros.timing.pace import SECOND
 
 
@@ -37,7 +37,7 @@ class MuscleTelemetry:
         for muscle in self._each:
             muscle.describe(frame, variance)
 
-    def publish(self, stamp: int, reading: Reading, absolute: Sequence[float]) -> None:
+    def publish(self, stamp: int, reading: PlantReading, absolute: Sequence[float]) -> None:
         """Publish one state of the given ROS time in ns; *absolute* are the pressures in Pa."""
         position, velocity = reading.position, reading.velocity
         if not self._have_joints:

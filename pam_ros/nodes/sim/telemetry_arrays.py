@@ -11,7 +11,7 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64MultiArray, MultiArrayDimension
 
 from pam_ros.nodes.common.qos import open_qos
-from pam_ros.simulator.plant import Reading
+from pam_ros.simulator.plant import PlantReading
 from pam_ros.timing.pace import SECOND
 
 
@@ -46,7 +46,7 @@ class ArrayTelemetry:
         """Set the frame in the header; an array has no variance."""
         self._joint.header.frame_id = frame
 
-    def publish(self, stamp: int, reading: Reading, absolute: Sequence[float]) -> None:
+    def publish(self, stamp: int, reading: PlantReading, absolute: Sequence[float]) -> None:
         """Publish one state of the given ROS time in ns; *absolute* are the pressures in Pa."""
         joint = self._joint
         joint.header.stamp.sec, joint.header.stamp.nanosec = divmod(stamp, SECOND)

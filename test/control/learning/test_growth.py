@@ -46,7 +46,7 @@ def test_a_lag_leaves_a_decay_time_of_three_times_itself():
 
 def test_it_follows_other_gains():
     growth = Growth(GAINS, LearningTuning())
-    growth.gains = Gains(bandwidth=10.0)
+    growth.set_gains(Gains(bandwidth=10.0))
     for _ in range(3000):
         growth.follow(DT, 0.0, 0.0, 0.0)
     assert growth.bandwidth == pytest.approx(10.0)

@@ -6,9 +6,15 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pam_ros.control.reference.profile import Bounds, JerkLimitedMotion, advance, change, to_rest
+from pam_ros.control.reference.profile import (
+    JerkLimitedMotion,
+    MotionLimits,
+    advance,
+    change,
+    to_rest,
+)
 
-BOUNDS = Bounds(0.1, 0.5, 6.0)
+BOUNDS = MotionLimits(0.1, 0.5, 6.0)
 
 
 def ends(state, pieces):

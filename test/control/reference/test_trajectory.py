@@ -9,7 +9,7 @@ import pytest
 from scipy.interpolate import CubicSpline
 
 from pam_ros.control.reference.points import Point, Points
-from pam_ros.control.reference.trajectory import Trajectory
+from pam_ros.control.reference.trajectory import ReferenceTrajectory
 from pam_ros.control.signals import Reference
 from pam_ros.errors import RangeError
 
@@ -20,7 +20,7 @@ HERE = Reference(0.02)
 def test_positions_alone_make_the_spline_that_rests_at_both_ends():
     points = [Point(1.0, 0.04), Point(2.5, 0.03), Point(3.0, 0.05)]
     spline = CubicSpline([0, 1, 2.5, 3], [0.02, 0.04, 0.03, 0.05], bc_type='clamped')
-    trajectory = Trajectory(HERE, Points.of(points), REACH)
+    trajectory = ReferenceTrajectory(HERE, Points.of(points), REACH)
     for t in np.linspace(0.0, 2.999, 50):
         found = trajectory.at(t)
         assert found.position == pytest.approx(spline(t), abs=1e-14)
@@ -31,14 +31,14 @@ def test_positions_alone_make_the_spline_that_rests_at_both_ends():
 
 def test_velocities_make_cubics_and_accelerations_quintics():
     points = [Point(1.0, 0.04, 0.01), Point(2.0, 0.05, 0.0)]
-    cubic = Trajectory(HERE, Points.of(points), REACH)
+    cubic = ReferenceTrajectory(HERE, Points.of(points), REACH)
     assert cubic.at(1.0 - 1e-12).velocity == pytest.approx(0.01)
     # Hermite's cubic on the first second, from rest: y = h00 y0 + h01 y1 + h11 v1.
     s = 0.3
     expected = (2 * s**3 - 3 * s**2 + 1) * 0.02 + (-2 * s**3 + 3 * s**2) * 0.04
     assert cubic.at(s).position == pytest.approx(expected + (s**3 - s**2) * 0.01)
     whole = [Point(2.0, 0.05, 0.0, 0.0)]
-    quintic = Trajectory(HERE, Points.of(whole), REACH)
+    quintic = ReferenceTrajectory(HERE, Points.of(whole), REACH)
     s = 0.35
     share = 10 * s**3 - 15 * s**4 + 6 * s**5
     assert quintic.at(0.7).position == pytest.approx(0.02 + 0.03 * share)
@@ -49,16 +49,16 @@ def test_velocities_make_cubics_and_accelerations_quintics():
 
 def test_it_begins_in_the_motion_that_there_is_and_rests_at_its_end():
     moving = Reference(0.02, 0.03, 0.0)
-    trajectory = Trajectory(moving, Points.of([Point(1.0, 0.05)]), REACH)
+    trajectory = ReferenceTrajectory(moving, Points.of([Point(1.0, 0.05)]), REACH)
     assert trajectory.at(0.0).velocity == pytest.approx(0.03)
     assert trajectory.at(1.0) == (pytest.approx(0.05), 0.0, 0.0, 0.0)
     assert trajectory.at(-3.0) == (pytest.approx(0.02), 0.0, 0.0, 0.0)
 
 
 def test_a_point_at_the_start_takes_its_place():
-    trajectory = Trajectory(HERE, Points.of([Point(0.0, 0.03), Point(1.0, 0.05)]), REACH)
+    trajectory = ReferenceTrajectory(HERE, Points.of([Point(0.0, 0.03), Point(1.0, 0.05)]), REACH)
     assert trajectory.at(0.0).position == pytest.approx(0.03)
-    assert Trajectory(HERE, Points.of([Point(0.0, 0.03)]), REACH).at(
+    assert ReferenceTrajectory(HERE, Points.of([Point(0.0, 0.03)]), REACH).at(
         1.0
     ).position == pytest.approx(0.03)
 
@@ -84,7 +84,7 @@ def test_a_point_at_the_start_takes_its_place():
 )
 def test_points_that_make_no_motion_are_refused(points, named):
     with pytest.raises(RangeError, match=named.replace('.', r'\.')):
-        Trajectory(HERE, Points.of(points), REACH)
+        ReferenceTrajectory(HERE, Points.of(points), REACH)
 
 
 @pytest.mark.parametrize(
@@ -98,11 +98,11 @@ def test_points_that_make_no_motion_are_refused(points, named):
 )
 def test_a_motion_that_leaves_the_reach_between_points_is_named_by_its_place(points, place):
     with pytest.raises(RangeError) as refused:
-        Trajectory(HERE, Points.of(points), REACH)
+        ReferenceTrajectory(HERE, Points.of(points), REACH)
     said = str(refused.value)
     assert f' s {place}, is out of reach: this rig can hold its load at -0.01 to 0.1 m' in said
     time = float(said.partition(', at ')[2].partition(' s ')[0])
-    wide = Trajectory(HERE, Points.of(points), (-1.0, 1.0))
+    wide = ReferenceTrajectory(HERE, Points.of(points), (-1.0, 1.0))
     assert f'position {wide.at(time).position:.6g} m of the trajectory, ' in said
 
 
@@ -110,12 +110,12 @@ def test_a_place_far_into_a_long_trajectory_is_counted_from_its_first_point():
     points = [Point(0.1 * (k + 1), 0.05, 0.0) for k in range(3000)]
     points[2001] = Point(200.2, 0.099, 1.0)  # which goes on upwards
     with pytest.raises(RangeError, match=r'at 200\.20\d* s between its points 2001 and 2002,'):
-        Trajectory(Reference(0.05), Points.of(points), REACH)
+        ReferenceTrajectory(Reference(0.05), Points.of(points), REACH)
 
 
 def test_a_start_out_of_reach_is_named():
     with pytest.raises(RangeError) as refused:
-        Trajectory(Reference(-0.02), Points.of([Point(1.0, 0.05)]), REACH)
+        ReferenceTrajectory(Reference(-0.02), Points.of([Point(1.0, 0.05)]), REACH)
     assert str(refused.value).startswith(
         'position -0.02 m, the present reference, at which the trajectory starts, is out of reach'
     )

@@ -94,7 +94,7 @@ def test_lengths_and_forces_of_a_pair_are_those_along_its_muscles():
     assert two.loose_displacement == pytest.approx(one.loose_displacement / 0.04)
     assert two.loose_speed == pytest.approx(one.loose_speed / 0.04)
     assert two.dwell == one.dwell
-    doubts = of_one._standstill._tuning.doubt, of_pair._standstill._tuning.doubt
+    doubts = [law._estimates.standstill._tuning.doubt for law in (of_one, of_pair)]
     assert doubts[1] == pytest.approx(doubts[0] * 0.08)
 
 

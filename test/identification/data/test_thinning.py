@@ -10,7 +10,7 @@ import pytest
 from pam_ros.identification.data.segment import segments_of
 from pam_ros.identification.data.thinning import (
     HELD_STEP,
-    LONGEST,
+    LONGEST_PERIOD,
     PERIODS,
     PHASE,
     coarse_period,
@@ -201,16 +201,16 @@ def test_the_period_stays_between_its_limits():
     assert PERIODS[0] <= coarse_period(heavy) <= PERIODS[1]
     source = Muscle(a1=0.0, a2=0.0, a4=0.0, zeta=0.0)
     no_spring = single_muscle_joint(source, Mass(mass=5.0, mount='horizontal'))
-    assert coarse_period(no_spring) == PERIODS[1] == coarse_period(no_spring, LONGEST)
+    assert coarse_period(no_spring) == PERIODS[1] == coarse_period(no_spring, LONGEST_PERIOD)
 
 
 def test_the_period_of_a_slow_rig_may_be_longer_if_there_are_many_samples():
     slow = single_muscle_joint(Muscle(), Mass(mass=20.0, mount='horizontal'))
-    usual, longest = coarse_period(slow), coarse_period(slow, LONGEST)
-    assert usual == PERIODS[1] < longest < LONGEST
+    usual, longest = coarse_period(slow), coarse_period(slow, LONGEST_PERIOD)
+    assert usual == PERIODS[1] < longest < LONGEST_PERIOD
     # Without gravity, four times the mass has half the frequency at the same stiffness.
     slower = single_muscle_joint(Muscle(), Mass(mass=80.0, mount='horizontal'))
-    assert coarse_period(slower, LONGEST) == pytest.approx(2.0 * longest, rel=1e-9)
+    assert coarse_period(slower, LONGEST_PERIOD) == pytest.approx(2.0 * longest, rel=1e-9)
 
 
 @pytest.mark.slow

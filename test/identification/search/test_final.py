@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from pam_ros.identification.data.segment import segments_of
-from pam_ros.identification.data.thinning import LONGEST, coarse_period
+from pam_ros.identification.data.thinning import LONGEST_PERIOD, coarse_period
 from pam_ros.identification.fit.intervals import covariance
 from pam_ros.identification.fit.unknowns import OF_RUNS
 from pam_ros.identification.search.criteria import BUDGET, CRITERIA
@@ -173,7 +173,9 @@ def test_of_many_recordings_some_are_searched_and_all_are_fitted(pool):
 def test_a_slow_rig_is_simulated_with_longer_steps():
     slow = single_muscle_joint(Muscle(), Mass(mass=80.0, mount='horizontal'))
     fast = single_muscle_joint(Muscle(), Mass(mass=5.0))
-    assert short_step(fast) == STEP < short_step(slow) == coarse_period(slow, LONGEST) / STEPS
+    assert (
+        short_step(fast) == STEP < short_step(slow) == coarse_period(slow, LONGEST_PERIOD) / STEPS
+    )
     t = np.arange(0.0, 10.0, 0.01)
     command = 2e5 + 1e5 * (np.sin(2.0 * t) > 0.0)
     begin = float(equilibrium(slow, 2e5))

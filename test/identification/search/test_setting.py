@@ -10,7 +10,7 @@ import pytest
 
 from pam_ros.effects import Creep
 from pam_ros.identification.data.parts import parts_of
-from pam_ros.identification.data.thinning import LONGEST, PERIODS, coarse_period
+from pam_ros.identification.data.thinning import LONGEST_PERIOD, PERIODS, coarse_period
 from pam_ros.identification.fit.extend import with_effect
 from pam_ros.identification.fit.solve import (
     initial_solution,
@@ -166,7 +166,7 @@ def test_of_more_samples_than_a_search_needs_fewer_are_used_as_the_rig_allows(po
         assert setting.step > setting.period
     # Not longer than the rig's own frequency allows, here 3.04 times as long.
     fewest = replace(plain, budget=replace(BUDGET, samples=int(0.1 * size)))
-    assert fewest.period == coarse_period(slow, LONGEST) < 4.0 * PERIODS[1]
+    assert fewest.period == coarse_period(slow, LONGEST_PERIOD) < 4.0 * PERIODS[1]
 
 
 def test_the_rests_of_too_many_samples_are_shortened(pool):

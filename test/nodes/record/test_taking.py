@@ -4,7 +4,7 @@
 
 import pytest
 
-from pam_ros.nodes.record.taking import Recorded
+from pam_ros.nodes.record.taking import RecordedTopic
 
 MS = 10**6  # ns
 START = 10**18  # ns
@@ -12,7 +12,7 @@ PERIOD, PATIENCE = 100 * MS, 5000 * MS
 
 
 def counted(*sent):
-    topic = Recorded(None, 0)
+    topic = RecordedTopic(None, 0)
     for time in sent:
         topic.count(START + time)
     return topic

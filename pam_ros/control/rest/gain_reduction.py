@@ -4,7 +4,7 @@
 
 A delay that the model does not have, such as that of a long hose, limits the gains: with higher
 ones the loop oscillates. The delay itself is not known, but the oscillation can be detected
-(:mod:`.rest.oscillation`). Each one that is detected lowers the share of the feedback gains in
+(:mod:`.oscillation`). Each one that is detected lowers the share of the feedback gains in
 use. Without feedback the joint follows the model with its own stiffness and damping, which is
 stable with any delay. Therefore a small enough share ends the oscillation. Whenever the share is
 reduced, the law discards what it has learned, which may be the cause. Afterwards the share rises

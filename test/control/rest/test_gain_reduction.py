@@ -7,7 +7,7 @@ from itertools import pairwise
 
 import pytest
 
-from pam_ros.control.gain_reduction import OF_THE_LOOP, GainReduction, ReductionTuning
+from pam_ros.control.rest.gain_reduction import OF_THE_LOOP, GainReduction, ReductionTuning
 
 DT, LEAST, BANDWIDTH = 2e-3, 40e-6, 20.0
 TUNING = ReductionTuning()
