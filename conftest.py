@@ -13,6 +13,9 @@ from pathlib import Path
 
 import pytest
 
+ROOT = Path(__file__).parent
+LONGEST_ID = 100  # characters
+PAGE_ROOTS = ('README.md', 'ARCHITECTURE.md', 'CONTRIBUTING.md', 'docs')
 PAGES = ('README.md', 'ARCHITECTURE.md', 'CONTRIBUTING.md', 'docs/*.md', 'docs/*/*.md')
 FILES_OF_A_USER = ('docs/tutorials/add_an_effect.md',)
 NEEDS_A_SIMULATOR = 'import rclpy'
@@ -22,7 +25,7 @@ HAVE_SYBIL = importlib.util.find_spec('sybil') is not None
 OF_NOTEBOOKS = ('ipykernel', 'nbclient', 'nbformat')
 
 # Assertions of helpers explain themselves and are counted as those of a test are.
-SUPPORT = Path(__file__).parent / 'test' / 'support'
+SUPPORT = ROOT / 'test' / 'support'
 pytest.register_assert_rewrite(*(f'support.{path.stem}' for path in SUPPORT.glob('*.py')))
 pytest.register_assert_rewrite('truth')
 pytest_plugins = ['support.assertions']
@@ -61,6 +64,12 @@ def working_folder(page_files, tmp_path_factory):
         yield folder
 
 
+def pytest_make_parametrize_id(val, argname):
+    """Return a short id for a long value: ids are names in reports, and may be typed."""
+    is_long = isinstance(val, str | bytes) and len(repr(val)) > LONGEST_ID
+    return f'{argname} of {len(val)} characters' if is_long else None
+
+
 if HAVE_SYBIL:
     from sybil import Sybil
     from sybil.integration.pytest import SybilItem
@@ -81,6 +90,11 @@ if HAVE_SYBIL:
         setup=lambda names: names.update(__name__='page'),
         fixtures=['working_folder'],
     ).pytest()
+
+    def pytest_configure(config):
+        """Collect the pages, too, unless files are given."""
+        if config.args_source is config.ArgsSource.TESTPATHS:
+            config.args += [str(ROOT / name) for name in PAGE_ROOTS]
 
     def pytest_itemcollected(item):
         """Give examples the marks of tests that simulate for seconds."""

@@ -8,6 +8,7 @@ declares those arguments that it uses.
 
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
+from itertools import pairwise
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -20,6 +21,7 @@ from pam_ros.settings.rig import KINDS
 from pam_ros.settings.sim import SimSettings
 from pam_ros.settings.tables import Table, joint_table, override, refuse_mistyped, table_of
 
+PACKAGE = 'pam_ros'
 MUSCLE = 'dmsp_20_400n'
 SIM, CONTROL = table_of(SimSettings), table_of(ControlSettings)
 OWN_TIME = ('scaled', 'lockstep')
@@ -81,11 +83,11 @@ def refuse_unknown(file: str, known: Iterable[str], words: Iterable[str]) -> Non
     """Raise ParameterError for an argument that the launch file *file* does not have.
 
     *words* are those of the command line. If they start another launch file, which includes this
-    one, they may be arguments of that file and are not checked.
+    one, they may be arguments of that file and are not checked. It may have the same name.
     """
     words, known = list(words), list(known)
     name = Path(file).name
-    if name not in (Path(word).name for word in words):
+    if not any(_is_started(Path(file), before, word) for before, word in pairwise(['', *words])):
         return
     given = [word.partition(':=')[0] for word in words if ':=' in word]
     for unknown in refuse_mistyped(given, known):
@@ -93,6 +95,13 @@ def refuse_unknown(file: str, known: Iterable[str], words: Iterable[str]) -> Non
             f'{unknown} is not an argument of {name}: give one of {", ".join(known)}, or a '
             'parameter file as params'
         )
+
+
+def _is_started(file: Path, before: str, word: str) -> bool:
+    """Return whether a *word* after the word *before* starts this launch file: by path or name."""
+    if Path(word).is_file():
+        return Path(word).resolve() == file.resolve()
+    return (before, word) == (PACKAGE, file.name)
 
 
 def simulator(given: Mapping[str, str]) -> list[Any]:

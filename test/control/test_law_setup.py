@@ -21,7 +21,7 @@ from pam_ros.rig.standard_joints import antagonistic_joint, single_muscle_joint
 from support.paper import spring
 
 
-def setup(**given):
+def setup_of(**given):
     common = {
         'controller': 'sliding_mode',
         'joint': single_muscle_joint(),
@@ -42,11 +42,11 @@ def of_pair(**given):
         'pid': PidGains.revolute(),
         'shape': Shape.revolute(),
     }
-    return setup(**{**revolute, **given})
+    return setup_of(**{**revolute, **given})
 
 
 def test_the_reach_is_where_the_muscle_holds_the_load():
-    now, weight = setup(), 20.0 * 9.80665
+    now, weight = setup_of(), 20.0 * 9.80665
     low, high = now.reach
     assert low < high <= 0.25 * 0.4
     for position in (low, high):
@@ -57,7 +57,7 @@ def test_the_reach_is_where_the_muscle_holds_the_load():
     assert (of_pair().unit, of_pair().can_stiffen) == ('rad', True)
 
 
-@pytest.mark.parametrize('make', [setup, of_pair])
+@pytest.mark.parametrize('make', [setup_of, of_pair])
 def test_each_law_gives_pressures_for_the_middle_of_its_reach(make):
     for controller, kind in (('sliding_mode', SlidingMode), ('pid', Pid)):
         now = make(controller=controller)
@@ -71,9 +71,9 @@ def test_each_law_gives_pressures_for_the_middle_of_its_reach(make):
 
 def test_the_commands_at_which_chambers_stay_are_those_of_the_pressure_path():
     effects = [PressureOffset(offset=-5e3), PressureLag(fill=0.1, vent=0.1)]
-    now = setup(joint=single_muscle_joint(effects=effects))
+    now = setup_of(joint=single_muscle_joint(effects=effects))
     assert now.command_at([200e3]) == pytest.approx((205e3,))
-    banded = setup(joint=single_muscle_joint(effects=[DeadBand(band=50e3)]))
+    banded = setup_of(joint=single_muscle_joint(effects=[DeadBand(band=50e3)]))
     assert banded.command_at([200e3]) == pytest.approx((250e3,))
     assert of_pair().command_at([100e3, 300e3]) == pytest.approx((100e3, 300e3))
 
@@ -91,7 +91,7 @@ def test_the_commands_at_which_chambers_stay_are_those_of_the_pressure_path():
     ],
 )
 def test_only_another_joint_law_or_other_limits_need_a_new_law(change, needs):
-    assert replace(setup(), **change).needs_new_law(setup()) is needs
+    assert replace(setup_of(), **change).needs_new_law(setup_of()) is needs
 
 
 def test_a_running_law_takes_over_gains_and_stiffness():
@@ -110,4 +110,4 @@ def test_a_running_law_takes_over_gains_and_stiffness():
 
 def test_a_law_without_a_finite_command_is_refused():
     with pytest.raises(ParameterError, match='gives no finite pressure with these parameters'):
-        setup(joint=single_muscle_joint(load=Mass(mass=5e-324)))
+        setup_of(joint=single_muscle_joint(load=Mass(mass=5e-324)))

@@ -29,15 +29,15 @@ def setup_of(**given):
     return build(checked(table, given))
 
 
-def loop_of(setup):
-    law = setup.law.make_law()
+def loop_of(made):
+    law = made.law.make_law()
     return Loop(
-        law, setup.law.make_reference_source(), 0.002, Plausibility(bounds_of(law.allocation))
+        law, made.law.make_reference_source(), 0.002, Plausibility(bounds_of(law.allocation))
     )
 
 
 @pytest.fixture(scope='module')
-def setup():
+def made():
     return setup_of()
 
 
@@ -82,10 +82,10 @@ def setup():
         ),
     ],
 )
-def test_the_worst_of_the_control_is_reported(setup, state, received, fault, level, message):
-    loop = loop_of(setup)
+def test_the_worst_of_the_control_is_reported(made, state, received, fault, level, message):
+    loop = loop_of(made)
     loop.state = state
-    health = control(loop, setup, WELL._replace(**received), fault)
+    health = control(loop, made, WELL._replace(**received), fault)
     assert (health.level, health.message) == (level, message)
     assert (health.values['error (m)'] is None) == (state != RUNNING)
     assert health.values['last reason'] == received.get('refusal', '')
@@ -178,11 +178,11 @@ def test_pid_has_neither():
 
 
 @pytest.mark.parametrize(('share', 'level'), [(0.7, Level.OK), (0.34, Level.WARN)])
-def test_a_loop_that_oscillated_is_a_warning_while_its_gains_are_low(setup, share, level):
-    loop = loop_of(setup)
+def test_a_loop_that_oscillated_is_a_warning_while_its_gains_are_low(made, share, level):
+    loop = loop_of(made)
     loop.state = RUNNING
     loop.law.terms.feedback = share
-    shown = control(loop, setup, WELL, '')
+    shown = control(loop, made, WELL, '')
     assert shown.level == level
     assert shown.values['share of the feedback gains'] == share
     if level == Level.WARN:

@@ -154,6 +154,21 @@ def test_arguments_of_a_file_that_includes_ours_are_its_own():
         refuse_unknown('sim.launch.py', ['mass'], ['ros2', 'launch', 'mine.launch.py', 'mas:=1'])
 
 
+def test_a_file_of_the_same_name_that_includes_ours_has_its_own_arguments(tmp_path, monkeypatch):
+    ours, theirs = ROOT / 'launch' / 'sim.launch.py', tmp_path / 'sim.launch.py'
+    theirs.touch()
+    monkeypatch.chdir(tmp_path)
+    linked = tmp_path / 'linked.launch.py'  # as colcon build --symlink-install does
+    linked.symlink_to(ours)
+    for words in (('my_robot', 'sim.launch.py'), ('sim.launch.py',), (str(theirs),)):
+        with no_error():
+            refuse_unknown(str(ours), ['mass'], ['ros2', 'launch', *words, 'world:=lab'])
+    theirs.unlink()
+    for words in (('pam_ros', 'sim.launch.py'), (str(ours),), (str(linked),)):
+        with pytest.raises(ParameterError, match=r'world is not an argument of sim\.launch\.py'):
+            refuse_unknown(str(ours), ['mass'], ['ros2', 'launch', *words, 'world:=lab'])
+
+
 def test_the_settings_that_come_with_the_package_are_the_defaults():
     """So that launch files need not pass them on."""
     for file, program in (

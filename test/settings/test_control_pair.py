@@ -24,7 +24,7 @@ MUSCLES = sorted(path.stem for path in (CONFIG / 'muscles').glob('*.yaml'))
 FOUR = {'muscles': ('a', 'b', 'c', 'd'), 'joint_names': ('shoulder', 'elbow')}
 
 
-def setup(**given):
+def setup_of(**given):
     given = {'joint': 'antagonistic'} | {
         name.replace('__', '.'): value for name, value in given.items()
     }
@@ -48,7 +48,7 @@ def test_the_file_lists_joint_and_settings_with_their_defaults():
 
 @pytest.mark.parametrize('muscle', MUSCLES)
 def test_a_pair_of_every_muscle_can_be_controlled(muscle):
-    now = setup(muscle=muscle, gains__disturbance_bound=2.0)
+    now = setup_of(muscle=muscle, gains__disturbance_bound=2.0)
     low, high = now.law.reach
     assert low < 0.0 < high
     assert isinstance(now.law.make_law(), SlidingMode)
@@ -81,7 +81,7 @@ def test_both_programs_make_the_same_joint_of_the_same_values():
 
 
 def test_of_several_joints_one_is_controlled():
-    now = setup(**FOUR, joint_name='elbow', muscle_topics=True, d__l0=0.5)
+    now = setup_of(**FOUR, joint_name='elbow', muscle_topics=True, d__l0=0.5)
     assert now.topics.muscles == ('c', 'd')
     assert now.settings.joint_name == 'elbow'
     assert [m.l0 for m in now.law.joint.muscles] == [0.4, 0.5]
@@ -99,11 +99,11 @@ def test_of_several_joints_one_is_controlled():
     ],
 )
 def test_only_another_joint_or_other_limits_need_a_new_law(change, needs):
-    assert setup(**change).law.needs_new_law(setup().law) == needs
+    assert setup_of(**change).law.needs_new_law(setup_of().law) == needs
 
 
 def test_gains_and_stiffness_are_taken_over():
-    before, now = setup(), setup(gains__bandwidth=20.0, co_contraction=33.0)
+    before, now = setup_of(), setup_of(gains__bandwidth=20.0, co_contraction=33.0)
     law = before.law.make_law()
     now.law.take_over(law, before.law)
     assert law.gains.bandwidth == 20.0
@@ -123,29 +123,29 @@ def test_gains_and_stiffness_are_taken_over():
 )
 def test_what_does_not_go_together_is_refused(given, sentence):
     with pytest.raises(ParameterError, match=sentence):
-        setup(**given)
+        setup_of(**given)
 
 
 def test_a_stiffness_that_cannot_be_had_is_refused_with_the_range():
     with pytest.raises(RangeError, match=r'co-contraction 90 N m/rad .* 11.68 to 46.12 N m/rad'):
-        setup(co_contraction=90.0)
+        setup_of(co_contraction=90.0)
 
 
 # PID, and joints of other kinds ------------------------------------------------------------------
 
 
 def test_the_baseline_is_for_a_pair_too():
-    now = setup(controller='pid', co_contraction=30.0)
+    now = setup_of(controller='pid', co_contraction=30.0)
     law = now.law.make_law()
     assert isinstance(law, Pid)
     assert law.gains == PidGains.revolute()
     law.start(0.1)
     assert law.model.stiffness(law.terms.pressures, 0.1) == pytest.approx(30.0)
     # It takes another stiffness as a new law, as it takes the place of another one.
-    assert now.law.needs_new_law(setup(co_contraction=30.0).law)
-    assert setup(controller='pid', co_contraction=33.0).law.needs_new_law(now.law)
+    assert now.law.needs_new_law(setup_of(co_contraction=30.0).law)
+    assert setup_of(controller='pid', co_contraction=33.0).law.needs_new_law(now.law)
     with pytest.raises(RangeError, match='co-contraction 90 N m/rad'):
-        setup(controller='pid', co_contraction=90.0)
+        setup_of(controller='pid', co_contraction=90.0)
 
 
 @pytest.mark.parametrize(
@@ -159,20 +159,20 @@ def test_the_baseline_is_for_a_pair_too():
     ],
 )
 def test_each_kind_of_joint_can_be_controlled(kind, muscles, unit, can_stiffen, has_arrays):
-    now = setup(joint=kind)
+    now = setup_of(joint=kind)
     assert (len(now.topics.muscles), now.law.unit) == (muscles, unit)
     assert (now.law.can_stiffen, now.topics.is_array) == (can_stiffen, has_arrays)
     assert now.law.reach[0] < now.law.reach[1]
     assert isinstance(now.law.make_law(), SlidingMode)
     table, _ = settings_of({'joint': kind})
     assert ('co_contraction' in table) is can_stiffen
-    topics = setup(joint=kind, muscle_topics=True).topics.commands
+    topics = setup_of(joint=kind, muscle_topics=True).topics.commands
     assert topics == tuple(f'{name}/pressure_command' for name in now.topics.muscles)
 
 
 def test_of_several_loads_one_is_controlled_by_its_own_topic():
     names = {'joint': 'load', 'muscles': ('left', 'right'), 'muscle_topics': True}
-    now = setup(**names, joint_name='right', right__mass=12.0)
+    now = setup_of(**names, joint_name='right', right__mass=12.0)
     assert (now.topics.muscles, now.settings.joint_name) == (('right',), 'right')
     assert now.law.joint.load.mass == 12.0
     assert now.topics.commands == ('right/pressure_command',)
@@ -180,7 +180,7 @@ def test_of_several_loads_one_is_controlled_by_its_own_topic():
     with pytest.raises(
         ParameterError, match='joint_name = pam is not one of the joints left, right'
     ):
-        setup(**names)
+        setup_of(**names)
 
 
 # Units, ranges and defaults of a joint that turns ------------------------------------------------

@@ -22,7 +22,7 @@ def table(given):
     return settings_of(given)[0]
 
 
-def setup(given, muscle=''):
+def setup_of(given, muscle=''):
     names, build = settings_of({'muscle': muscle})
     return build(checked(names, given))
 
@@ -42,24 +42,24 @@ def test_control_yaml_lists_all_but_the_rig_and_the_gains_with_its_defaults():
 @pytest.mark.parametrize('muscle', MUSCLES)
 def test_every_muscle_of_the_package_can_be_controlled(muscle):
     mass = 5.0 if muscle == 'dmsp_10' else 20.0
-    now = setup({'mass': mass}, muscle)
+    now = setup_of({'mass': mass}, muscle)
     low, high = now.law.reach
     l0 = now.law.joint.muscle.l0
     assert now.law.joint.muscle.kappa_min * l0 <= low < high <= now.law.joint.muscle.kappa_max * l0
 
 
 def test_the_source_of_the_velocity_is_a_gain():
-    assert setup({'velocity_source': 'measured'}).law.gains.use_measured_velocity
-    assert not setup({}).law.gains.use_measured_velocity
+    assert setup_of({'velocity_source': 'measured'}).law.gains.use_measured_velocity
+    assert not setup_of({}).law.gains.use_measured_velocity
     assert 'gains.use_measured_velocity' not in table({})
 
 
 def test_the_law_is_the_sliding_mode_unless_another_is_chosen():
-    assert isinstance(setup({}).law.make_law(), SlidingMode)
+    assert isinstance(setup_of({}).law.make_law(), SlidingMode)
 
 
 def test_the_baseline_is_chosen():
-    assert isinstance(setup({'controller': 'pid'}).law.make_law(), Pid)
+    assert isinstance(setup_of({'controller': 'pid'}).law.make_law(), Pid)
 
 
 @pytest.mark.parametrize(
@@ -74,7 +74,7 @@ def test_the_baseline_is_chosen():
     ],
 )
 def test_only_another_rig_or_other_limits_need_a_new_law(change, needs):
-    assert setup(change).law.needs_new_law(setup({}).law) == needs
+    assert setup_of(change).law.needs_new_law(setup_of({}).law) == needs
 
 
 @pytest.mark.parametrize(
@@ -89,7 +89,7 @@ def test_only_another_rig_or_other_limits_need_a_new_law(change, needs):
 )
 def test_what_does_not_go_together_is_refused(given, sentence):
     with pytest.raises(ParameterError, match=sentence):
-        setup(given)
+        setup_of(given)
 
 
 @pytest.mark.parametrize(
@@ -100,6 +100,6 @@ def test_what_does_not_go_together_is_refused(given, sentence):
     ],
 )
 def test_the_longest_interruption_has_a_text(timeout, seconds, words):
-    settings = setup({'command_timeout': timeout}).settings
+    settings = setup_of({'command_timeout': timeout}).settings
     assert settings.longest_interruption == seconds
     assert settings.interruption_limit == words
