@@ -16,8 +16,8 @@ from pam_ros.rig.joint import Joint
 class JointLaw:
     """A law for one joint; ``terms`` holds the results of its last step.
 
-    ``joint`` is the nominal joint, ``gains`` are those of the law, ``model`` and ``allocation``
-    compute the pressures of an effort and a stiffness.
+    ``joint`` is the nominal joint; ``model`` and ``allocation`` compute the pressures of an effort
+    and a stiffness.
     """
 
     def __init__(
@@ -37,7 +37,7 @@ class JointLaw:
         self.joint = joint = instance('joint', joint, Joint, 'a Joint').at_start
         limits = instance('limits', Limits() if limits is None else limits, Limits, 'Limits')
         wanted = CoContraction() if co_contraction is None else co_contraction
-        self._wanted: CoContraction = instance(
+        self._co_contraction: CoContraction = instance(
             'co_contraction', wanted, CoContraction, 'a CoContraction'
         )
         gains.require(revolute=joint.is_revolute)

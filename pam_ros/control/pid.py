@@ -112,7 +112,7 @@ class Pid(JointLaw):
         gains = PidGains.for_joint(joint) if gains is None else gains
         self.gains = instance('gains', gains, PidGains, 'PidGains')
         super().__init__(joint, gains, limits, co_contraction, 1.0)
-        self._stiffness = self._wanted.wanted(self.allocation)
+        self._stiffness = self._co_contraction.wanted(self.allocation)
         self._schedule = (
             Schedule(
                 self.allocation,
@@ -173,8 +173,8 @@ class Pid(JointLaw):
         """Return the gauge pressures in Pa to command from now on, (muscles,).
 
         *dt* is the time since the last call in s. *reference* and *position* are in m, or rad for
-        a revolute joint; the position is None without a new measurement. Neither
-        *velocity* nor the *age* of the measurement is used.
+        a revolute joint; the position is None without a new measurement. Neither *velocity* nor
+        the *age* of the measurement is used.
 
         Without a new measurement the static part follows the reference, and the output of the PID
         is kept: the reference minus an old position is not an error. For numbers that are not
@@ -182,10 +182,8 @@ class Pid(JointLaw):
         """
         position, _ = step_arguments(self.joint, dt, reference, position, velocity, age)
         self._waited += dt
-        static, gains = (
-            self._at_rest(reference.position, self._stiffness),
-            self.allocation.gains(reference.position),
-        )
+        static = self._at_rest(reference.position, self._stiffness)
+        gains = self.allocation.gains(reference.position)
         signs = self._signs(reference.position)
         if position is not None:
             room = self._room(reference.position, static, signs)
@@ -239,8 +237,10 @@ class Pid(JointLaw):
 
     def _note(self, commands: Pressures) -> None:
         """Set the terms of the *commands*, and of the stiffness when the pressures follow."""
-        pairs = zip(self._paths, commands, strict=True)
-        chambers = tuple(path.reached(command) for path, command in pairs)
+        chambers: Pressures = ()
+        if self.allocation.can_stiffen:
+            pairs = zip(self._paths, commands, strict=True)
+            chambers = tuple(path.reached(command) for path, command in pairs)
         self._note_pressures(commands, chambers, self._stiffness)
 
     def _room(

@@ -104,7 +104,7 @@ class SlidingMode(JointLaw):
         self._stiction = Stiction(gains.rest_tolerance, scaled(StictionTuning(), length, force))
         self._surface = Surface()
         self._stiffness = StiffnessReference(
-            self._wanted.wanted(self.allocation), self._wanted.co_contraction_rate
+            self._co_contraction.wanted(self.allocation), self._co_contraction.co_contraction_rate
         )
         low, high = self.allocation.reach
         self.start(0.5 * (low + high) if high < float('inf') else 0.0)

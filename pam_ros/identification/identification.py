@@ -22,6 +22,9 @@ from pam_ros.identification.wording import scale_for
 from pam_ros.recording.recording import Recording
 from pam_ros.rig.joint import Joint
 from pam_ros.rig.run import Trajectory, simulate, simulate_held
+from pam_ros.rig.step_limit import longest_step
+
+STEP = 1e-3  # s, longest step of a simulation; a light load needs a shorter one
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -80,6 +83,7 @@ class Identification(Conclusion):
         require_joint([recording], joint)
         if not any(_are_same(recording, one) for one in self.recordings):
             joint = _from_start(joint)
+        step = min(STEP, *(longest_step(stage) for _, stage in joint.stages))
         runs = []
         for part in segments_of([checked(recording, joint)]):
             if isinstance(part, HeldSegment):
@@ -88,7 +92,8 @@ class Identification(Conclusion):
             else:
                 assert isinstance(part, FreeSegment)
                 inputs = part.t, part.drive, part.drive_t
-                runs.append(simulate(joint, *inputs, position=part.y0, velocity=part.v0))
+                start = {'position': part.y0, 'velocity': part.v0, 'step': step}
+                runs.append(simulate(joint, *inputs, **start, hidden=None))
         return Trajectory(
             *(
                 np.concatenate([getattr(run, column.name) for run in runs])

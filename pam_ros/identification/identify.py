@@ -18,6 +18,7 @@ from pam_ros.identification.data.checked import checked
 from pam_ros.identification.data.noise import Noise, noise_of, step_of
 from pam_ros.identification.data.parts import Part, parts_of
 from pam_ros.identification.data.segment import (
+    Segment,
     require_joint,
     require_one_kind,
     segments_of,
@@ -91,6 +92,7 @@ def identify(
     uncertain = {} if uncertain is None else uncertain
     spread_unknowns(model, recordings[0].muscles, uncertain)  # raises errors before the long fit
     refuse_idle(recordings)
+    tests = segments_of(test)  # raises errors before the long fit, too
     notify: Progress = progress or (lambda share, text: None)
     # With test recordings, no part of the others is needed to judge.
     shares = (CRITERIA.fit / CRITERIA.choose, 1.0) if test else (CRITERIA.fit, CRITERIA.choose)
@@ -116,9 +118,9 @@ def identify(
             search = find_effects(setting, notify)
         notify(0.9, 'fitting the chosen models in full')
         ends = fit_finally(search)
-        three = stages(ends, search, segments_of(test))
+        three = stages(ends, search, tests)
         decision = _decision(search, three, lacking, since)
-        conclusion = _conclusion(decision, search, ends, three, recordings, test)
+        conclusion = _conclusion(decision, search, ends, three, tests, recordings, test)
     notify(1.0, 'done')
     warnings = (
         *(text for recording in (*recordings, *test) for text in recording.warnings),
@@ -196,6 +198,7 @@ def _conclusion(
     search: Search,
     ends: FinalFits,
     three: tuple[Stage, Stage, Stage],
+    tests: Sequence[Segment],
     recordings: Sequence[Recording],
     test: Sequence[Recording],
 ) -> Conclusion:
@@ -213,7 +216,7 @@ def _conclusion(
         candidates=candidates(search),
         structure=_structure(ends, search, noise.sigma),
         segments=tuple(replace(part.segment, fit=part.known) for part in ends.parts),
-        test=tuple(segments_of(test)),
+        test=tuple(tests),
         recordings=tuple(recordings),
         test_recordings=tuple(test),
         since=_since(decision, search, ends),

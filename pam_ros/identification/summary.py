@@ -41,8 +41,8 @@ def summary(
     """
     parts = [
         textwrap.fill(sentence, WIDTH),
-        _table('Parameters', _parameters(result)),
-        _table('Errors (RMSE)', _errors(result)),
+        _table(_parameters(result)),
+        _table(_errors(result)),
     ]
     if warnings:
         lines = [
@@ -56,16 +56,16 @@ def summary(
 
 def details(result: Conclusion) -> str:
     """Return how the last fits ended, and the effects that were tried, as two tables."""
-    fits = [['', 'status', 'iterations', 'simulations', '']]
+    fits = [['Fits', 'status', 'iterations', 'simulations', '']]
     for name, stage in zip(_labels(result), result.stages, strict=False):
         log = stage.log
         fits.append([name, str(log.status), str(log.iterations), str(log.simulations), ''])
-    tried = [['', 'score falls by', 'error falls by', '']]
+    tried = [['Effects that were tried', 'score falls by', 'error falls by', '']]
     for one in result.candidates:
         parents = ' with ' + listed([spelled(name) for name in one.parents]) if one.parents else ''
         cells = [number(one.score_fall), percent(one.gain), f'{one.decision}: {one.reason}']
         tried.append([spelled(one.effect) + parents, *cells])
-    return '\n\n'.join([_table('Fits', fits), _table('Effects that were tried', tried)])
+    return '\n\n'.join([_table(fits), _table(tried)])
 
 
 def _labels(result: Conclusion) -> list[str]:
@@ -77,7 +77,7 @@ def _labels(result: Conclusion) -> list[str]:
 def _parameters(result: Conclusion) -> list[list[str]]:
     """Return a row for each parameter of the last model: name, nominal, value, interval, unit."""
     nominal, last = result.stages[0].parameters, result.stages[-1].parameters
-    rows = [['', 'nominal', 'identified', '95 % interval', '']]
+    rows = [['Parameters', 'nominal', 'identified', '95 % interval', '']]
     for name, found in last.items():
         before = number(nominal[name].value) if name in nominal else ABSENT
         rows.append([name, before, number(found.value), _interval(found), found.unit])
@@ -92,21 +92,26 @@ def _interval(estimate: Estimate) -> str:
 def _errors(result: Conclusion) -> list[list[str]]:
     """Return a row for each model that differs, and one for the noise."""
     scale = scale_for(result.unit, result.stages[-1].fit_error)
-    rows = [['', 'fitted', 'held out', '']]
+    rows = [['Errors (RMSE)', 'fitted', 'held out', '']]
     for name, stage in zip(_labels(result), result.stages, strict=False):
         rows.append([name, scale.text(stage.fit_error), scale.text(stage.held_error), scale.unit])
     return [*rows, ['noise', scale.text(result.noise.sigma), '', scale.unit]]
 
 
-def _table(title: str, rows: Sequence[Sequence[str]]) -> str:
-    """Return *rows* as lines with aligned columns, below their *title*."""
+def _table(rows: Sequence[Sequence[str]]) -> str:
+    """Return *rows* as lines with aligned columns; the first row has the title and the headings.
+
+    The first and the last column begin at the left, the others end at the right.
+    """
+    first, *others = rows
+    rows = [first, *(['  ' + row[0], *row[1:]] for row in others)]
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    lines = []
-    for row in rows:
-        first, *others = (
-            cell.ljust(width) if k == 0 or k == len(row) - 1 else cell.rjust(width)
+    ends = (0, len(widths) - 1)
+    lines = [
+        '  '.join(
+            cell.ljust(width) if k in ends else cell.rjust(width)
             for k, (cell, width) in enumerate(zip(row, widths, strict=True))
         )
-        lines.append('  '.join(['  ' + first, *others]).rstrip())
-    lines[0] = title + lines[0][len(title) :] if not lines[0][: len(title)].strip() else title
-    return '\n'.join(lines)
+        for row in rows
+    ]
+    return '\n'.join(line.rstrip() for line in lines)

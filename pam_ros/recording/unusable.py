@@ -33,12 +33,20 @@ def refuse_unusable(
     *inputs* are those of the recording, ``l0`` (m) is the length of its muscle, and ``reach`` (m
     or rad) the least and the greatest position of its joint. The last two are None if unknown.
     """
+    _refuse_missing(recording)
     _refuse_few(recording)
     _refuse_units(recording)
     _refuse_low(recording, inputs)
     _refuse_position(recording, l0)
     _refuse_beyond(recording, reach)
     _refuse_constant(recording, inputs)
+
+
+def _refuse_missing(recording: Recording) -> None:
+    """Refuse a recording that is made of arrays, and lacks one that a model must predict."""
+    for name in ('position', 'force') if recording.kind == 'held' else ('position',):
+        if getattr(recording, name) is None:
+            raise RecordingError(f'{recording.name}: no {name} was recorded')
 
 
 def _refuse_few(recording: Recording) -> None:

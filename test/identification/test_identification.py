@@ -13,6 +13,7 @@ from pam_ros.errors import ParameterError, RecordingError
 from pam_ros.identification.result import Verdict
 from pam_ros.rig.run import simulate
 from pam_ros.rig.standard_joints import antagonistic_joint
+from pam_ros.rig.step_limit import longest_step
 from support import results
 
 
@@ -43,6 +44,13 @@ def test_it_simulates_another_recording_from_where_that_begins(friction):
     run = friction.simulate(other)
     np.testing.assert_array_equal(run.t, other.t)
     assert np.sqrt(np.mean((run.position - other.position) ** 2)) < 3.0 * results.NOISE
+
+
+def test_a_light_load_is_simulated_with_the_steps_that_it_needs(friction):
+    light = replace(friction.stages[-1], model=friction.joint.with_load(mass=0.1))
+    found = replace(friction, stages=(*friction.stages[:2], light))
+    assert longest_step(light.model) < 1e-3
+    assert np.all(np.isfinite(found.simulate(friction.recordings[0]).position))
 
 
 def test_effects_that_began_in_a_fitted_recording_act_in_others_from_the_start(friction):

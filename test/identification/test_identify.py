@@ -123,6 +123,19 @@ def test_a_recording_without_enough_samples_for_a_fit_is_refused():
         identify(bench_truth.nominal(), [gaps])
 
 
+def test_a_test_recording_without_an_output_is_refused_before_the_fits():
+    steps = []
+    test = replace(bench_truth.free(duration=6.0), name='test.csv', position=None)
+    with pytest.raises(RecordingError, match=r'test\.csv: no position was recorded'):
+        identify(
+            bench_truth.nominal(),
+            bench_truth.free(),
+            test,
+            progress=lambda share, text: steps.append(text),
+        )
+    assert steps == []
+
+
 def test_what_begins_in_the_middle_is_named_with_its_moment():
     """From then on, up to the end of the recording: there the rig is as it is now."""
     recording = bench_truth.late(effect('payload', payload_kg=-4.0), 15.0, duration=36.0)

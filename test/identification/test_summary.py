@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """An identification as text: in one line, and in tables."""
 
+import re
 from dataclasses import replace
 
 import pytest
@@ -103,6 +104,11 @@ def test_the_summary_has_the_error_of_each_model_and_what_follows(friction, clea
     assert text.endswith(friction.next_experiment)
     assert max(map(len, text.splitlines())) < 100
     assert '  with ' not in clean.summary()
+    for shown in (text, clean.summary()):  # the headings stand above short and long names
+        assert re.search(r'^Errors \(RMSE\) +fitted  +held out$', shown, re.MULTILINE)
+        assert re.search(
+            r'^Parameters +nominal  +identified  +95 % interval$', shown, re.MULTILINE
+        )
 
 
 def test_a_notebook_shows_the_summary_and_a_console_one_line(friction):

@@ -64,8 +64,8 @@ class FitStatus(str, Enum):
 class FitLog:
     """How a fit ended, after how many iterations, and how many simulations of all runs.
 
-    A column of the Jacobian counts as one simulation. Iterations and simulations are those of all
-    fits since the first start.
+    A column of the Jacobian counts as one simulation. A fit that continues another one counts its
+    iterations and simulations, too.
     """
 
     status: FitStatus = FitStatus.NOT_FITTED
