@@ -21,9 +21,11 @@ from typing import NoReturn
 from pam_ros.cli.help_text import help_text
 from pam_ros.errors import PamError, printable, shown
 from pam_ros.processes.outputs import guard_outputs
+from pam_ros.processes.prompt_end import end_promptly
 from pam_ros.version import VERSION_HELP, VERSION_LINE
 
 BAD_INPUT, INTERRUPTED, TERMINATED = 2, 130, 143
+STOPPED = 'pam_identify: interrupted, nothing was written'
 
 
 class _Parser(argparse.ArgumentParser):
@@ -178,9 +180,10 @@ def run(given: argparse.Namespace, command: str) -> str:
     source = provenance(nominal, given.params, given.set, recordings, test, command)
     progress = ProgressBar()
     try:
-        answer = identify(
-            model, recordings, test, progress, uncertain=uncertain, warn=progress.say
-        )
+        with end_promptly(sentence=STOPPED):  # kernels are compiled here
+            answer = identify(
+                model, recordings, test, progress, uncertain=uncertain, warn=progress.say
+            )
         progress(1.0, 'writing the report')
         write_report(given.out, answer, source)
     finally:
@@ -212,7 +215,7 @@ def main() -> None:
         print(f'pam_identify: {error}', file=sys.stderr)
         sys.exit(BAD_INPUT)
     except KeyboardInterrupt:
-        print('pam_identify: interrupted, nothing was written', file=sys.stderr)
+        print(STOPPED, file=sys.stderr)
         sys.exit(INTERRUPTED)
 
 

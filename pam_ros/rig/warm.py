@@ -2,7 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Compile the kernels and keep them on disk, so that nodes start quickly; run during set-up."""
 
+import argparse
 import logging
+import multiprocessing
+import signal
+import sys
 import time
 from concurrent.futures import ProcessPoolExecutor
 
@@ -10,6 +14,7 @@ import numpy as np
 
 from pam_ros import code_cache
 from pam_ros.compiled import HAVE_NUMBA
+from pam_ros.processes.prompt_end import end_promptly
 from pam_ros.rig.arrangements import ARRANGEMENTS, Arrangement
 from pam_ros.rig.bind import bind
 from pam_ros.rig.joint import Actuator, Joint
@@ -17,6 +22,7 @@ from pam_ros.rig.simulation import Simulation
 from pam_ros.rig.standard_joints import single_muscle_joint
 from pam_ros.rig.start import start_state
 
+INTERRUPTED = 130  # exit code
 WORKERS = 2  # processes: each compiles all effects itself, and needs half a gigabyte
 
 
@@ -27,11 +33,23 @@ def warm() -> None:
     over recordings for one muscle on a mass only; each without effects, and with all effects.
     Others, such as those of a custom joint, are compiled and kept at their first use.
     """
-    # Each worker would log the same warnings; they are logged here once.
-    with ProcessPoolExecutor(WORKERS, initializer=logging.disable) as pool:
-        for done in [*(pool.submit(_step, kind) for kind in ARRANGEMENTS), pool.submit(_run)]:
-            code_cache.warn(done.result())
+    with ProcessPoolExecutor(WORKERS, initializer=_prepare_worker) as pool:
+        try:
+            for done in [*(pool.submit(_step, kind) for kind in ARRANGEMENTS), pool.submit(_run)]:
+                code_cache.warn(done.result())
+        except BaseException:
+            # Else the end of the pool waits for what is compiled at present.
+            for worker in multiprocessing.active_children():
+                worker.kill()
+            raise
     _run()  # from disk: an identification in this process then finds them loaded
+
+
+def _prepare_worker() -> None:
+    # Each worker would log the same warnings; they are logged in the main process once.
+    logging.disable()
+    # A handler in Python would not be called before the compiler returns.
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
 def _step(kind: Arrangement) -> str:
@@ -54,8 +72,18 @@ def _run() -> str:
     return code_cache.warned()
 
 
-if __name__ == '__main__':
+def main() -> None:
+    """Compile the kernels as a command: ``python3 -m pam_ros.rig.warm``."""
+    argparse.ArgumentParser(prog='python3 -m pam_ros.rig.warm', description=__doc__).parse_args()
     began = time.perf_counter()
-    warm()
+    try:
+        with end_promptly():
+            warm()
+    except KeyboardInterrupt:
+        sys.exit(INTERRUPTED)
     how = 'compiled or found on disk' if HAVE_NUMBA else 'run as plain Python (no numba)'
     print(f'kernels {how} in {time.perf_counter() - began:.1f} s')
+
+
+if __name__ == '__main__':
+    main()

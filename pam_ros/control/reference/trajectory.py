@@ -12,6 +12,9 @@ from pam_ros.control.signals import Reference
 
 CHECKS = 32  # parts of a piece; the reach is checked where they meet
 BLOCK = 1024  # pieces that are checked at once: their numbers stay in the cache
+# Share of the reach by which a motion that starts out of reach may be farther outside than the
+# present reference: a planner starts at a measured position, which has noise.
+START_TOLERANCE = 0.01
 
 
 class ReferenceTrajectory:
@@ -21,6 +24,9 @@ class ReferenceTrajectory:
     velocities alone of third order. With positions alone it is the cubic spline with a
     continuous acceleration that is at rest at both ends. Raises RangeError for points that are
     not valid, or a motion that leaves the *reach* (lowest, highest position in *unit*).
+
+    A *start* out of reach, as that of a load that rests there without pressure, is allowed: until
+    its first point within reach, the motion may be as far outside as it starts.
     """
 
     def __init__(
@@ -42,7 +48,7 @@ class ReferenceTrajectory:
         self._times: list[float] = points.times.tolist()
         self._pieces = _pieces(points)
         self.duration = self._times[-1]
-        _refuse_out_of_reach(given, points, self._pieces, reach, unit)
+        _refuse_out_of_reach(given, points, self._pieces, start.position, reach, unit)
 
     def at(self, t: float) -> Reference:
         """Return the reference *t* s after the start; at rest outside of the points."""
@@ -95,15 +101,20 @@ def _pieces(points: Points) -> Floats:
 
 
 def _refuse_out_of_reach(
-    given: Points, points: Points, pieces: Floats, reach: tuple[float, float], unit: str
+    given: Points,
+    points: Points,
+    pieces: Floats,
+    start: float,
+    reach: tuple[float, float],
+    unit: str,
 ) -> None:
-    """Raise RangeError if a point, or a place between two points, is out of reach.
+    """Raise RangeError if a point, or a place between two points, is not allowed.
 
     *points* are those of the motion: the *given* ones, and the start before them or an end after
-    them. The message counts the *given* ones.
+    them. The message counts the *given* ones. *start* is the present reference.
     """
-    low, high = reach
     before = int(points.times[0] < given.times[0])
+    low, high = _bounds(points.positions, start, reach)
     # The given points are checked as they are: rounding must not reject one at the end of the
     # reach.
     is_out = ~((low <= points.positions) & (points.positions <= high))
@@ -117,11 +128,13 @@ def _refuse_out_of_reach(
         raise unreachable(what, reach, unit)
     steps = np.diff(points.times)[:, None] * (np.arange(1, CHECKS) / CHECKS)
     for first in range(0, len(pieces), BLOCK):
-        x = steps[first : first + BLOCK]
+        block = slice(first, min(first + BLOCK, len(pieces)))
+        x = steps[block]
         y = np.zeros_like(x)
-        for coefficient in pieces[first : first + BLOCK].T:
+        for coefficient in pieces[block].T:
             y = y * x + coefficient[:, None]
-        is_out = ~((low <= y) & (y <= high))
+        # A piece that begins at a point out of reach leads into the reach, or towards it.
+        is_out = ~((low[block, None] <= y) & (y <= high[block, None]))
         if is_out.any():
             # Nobody has sent this position: the message says where the motion has it.
             k, step = (int(i) for i in np.argwhere(is_out)[0])
@@ -132,6 +145,24 @@ def _refuse_out_of_reach(
                 reach,
                 unit,
             )
+
+
+def _bounds(positions: Floats, start: float, reach: tuple[float, float]) -> tuple[Floats, Floats]:
+    """Return the lowest and the highest position that are allowed at and after each point.
+
+    These are the ends of the *reach*, and before the first of the *positions* within it also the
+    *start*, if it is out of reach, with a tolerance.
+    """
+    low, high = reach
+    lows, highs = np.full(len(positions), low), np.full(len(positions), high)
+    is_within = (low <= positions) & (positions <= high)
+    if not low <= start <= high and is_within.any():
+        entry, tolerance = int(np.argmax(is_within)), START_TOLERANCE * (high - low)
+        if start < low:
+            lows[:entry] = start - tolerance
+        else:
+            highs[:entry] = start + tolerance
+    return lows, highs
 
 
 def _between(n: int, count: int) -> str:

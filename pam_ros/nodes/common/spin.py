@@ -32,6 +32,7 @@ from pam_ros.nodes.common.parameter_list import parameter_list
 from pam_ros.nodes.common.rclpy_internals import EventsExecutor
 from pam_ros.processes.ends import end_within
 from pam_ros.processes.priority import NORMAL, prefer_real_time
+from pam_ros.processes.prompt_end import end_promptly
 from pam_ros.processes.stop import StopRequest
 from pam_ros.settings.files import lacking
 from pam_ros.timing.ticker import Ticker
@@ -158,7 +159,8 @@ def run(kind: type[TickingNode], stop: StopRequest, about: str) -> int:
                 # Running programs must not take this node for another simulator or controller.
                 os.environ['ROS_AUTOMATIC_DISCOVERY_RANGE'] = 'OFF'
             rclpy.init(args=sys.argv, signal_handler_options=SignalHandlerOptions.NO)
-            node = kind.of_arguments(arguments)
+            with end_promptly(0):  # kernels are compiled here, and nothing is commanded yet
+                node = kind.of_arguments(arguments)
             node.stop = stop
             if part is not None:
                 print(parameter_list(node, part))

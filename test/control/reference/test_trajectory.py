@@ -113,9 +113,35 @@ def test_a_place_far_into_a_long_trajectory_is_counted_from_its_first_point():
         ReferenceTrajectory(Reference(0.05), Points.of(points), REACH)
 
 
-def test_a_start_out_of_reach_is_named():
-    with pytest.raises(RangeError) as refused:
-        ReferenceTrajectory(Reference(-0.02), Points.of([Point(1.0, 0.05)]), REACH)
-    assert str(refused.value).startswith(
-        'position -0.02 m, the present reference, at which the trajectory starts, is out of reach'
-    )
+@pytest.mark.parametrize(
+    ('start', 'points'),
+    [
+        (-0.02, [Point(1.0, 0.05)]),
+        (-0.02, [Point(1.0, -0.015, 0.01), Point(2.0, 0.05, 0.0)]),
+        # A planner repeats the measured position, which has noise, at time 0.
+        (-0.02, [Point(0.0, -0.0205, 0.0), Point(1.0, 0.05, 0.0)]),
+        (0.12, [Point(0.0, 0.1205), Point(1.0, 0.05)]),
+    ],
+)
+def test_a_start_out_of_reach_may_lead_into_it(start, points):
+    trajectory = ReferenceTrajectory(Reference(start), Points.of(points), REACH)
+    first = points[0].position if points[0].time == 0.0 else start
+    assert trajectory.at(0.0).position == pytest.approx(first, abs=1e-12)
+    assert trajectory.at(trajectory.duration).position == pytest.approx(0.05)
+
+
+@pytest.mark.parametrize(
+    ('start', 'points', 'named'),
+    [
+        (-0.02, [Point(1.0, -0.015)], 'position -0.02 m, the present reference, at which the'),
+        (-0.02, [Point(0.0, -0.03), Point(1.0, 0.05)], 'position -0.03 m of point 0'),
+        (-0.02, [Point(1.0, 0.05), Point(2.0, -0.015)], 'position -0.015 m of point 1'),
+        (-0.02, [Point(1.0, -0.015), Point(1.5, 0.05), Point(2.0, 0.11)], '0.11 m of point 2'),
+        (-0.02, [Point(0.0, -0.02, -0.2), Point(1.0, 0.05, 0.0)], 'between its points 0 and 1'),
+        (-0.02, [Point(1.0, 0.12), Point(2.0, 0.05)], 'position 0.12 m of point 0'),
+        (0.02, [Point(0.0, -0.0105), Point(1.0, 0.05)], 'position -0.0105 m of point 0'),
+    ],
+)
+def test_a_motion_from_a_start_out_of_reach_must_enter_it_and_stay(start, points, named):
+    with pytest.raises(RangeError, match=named.replace('.', r'\.')):
+        ReferenceTrajectory(Reference(start), Points.of(points), REACH)

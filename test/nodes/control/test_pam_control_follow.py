@@ -100,6 +100,20 @@ def test_a_goal_is_reached_with_feedback(watch):
         assert np.abs(error[:, 2]).max() < 5e-3
 
 
+def test_the_first_command_may_be_a_goal(watch):
+    # Without pressure the load rests below the lowest position at which it can be held.
+    vented = {**LOCKSTEP, 'initial.pressure': 0.0}
+    with Program('pam_sim', parameters=vented), Program('pam_control', parameters=FOLLOWING):
+        begin = watch.begin()
+        assert begin < -5e-3
+        goal = {'points': [[0.0, begin, 0.0], [2.0, 0.07, 0.0]], 'end': [1e-4]}
+        (found,) = ended(client({**goal, 'goal_time_tolerance': 5.0}))
+        assert (found['code'], found['text'][:7]) == (SUCCESSFUL, 'reached'), found['text']
+        actual = np.array(found['feedback'])[:, 1]
+        assert actual[0, 1] < 0.0
+        assert actual[-1, 1] == pytest.approx(0.07, abs=1e-3)
+
+
 @pytest.mark.parametrize(
     ('tolerances', 'code', 'words'),
     [

@@ -56,6 +56,16 @@ def test_a_signal_during_the_start_ends_it_cleanly():
         assert 'Traceback' not in sim.output
 
 
+@pytest.mark.needs_numba
+def test_a_signal_while_kernels_are_compiled_ends_it_before_they_are(tmp_path, monkeypatch):
+    monkeypatch.setenv('NUMBA_CACHE_DIR', str(tmp_path))
+    with FreshProgram('pam_sim') as sim:
+        while 'this start takes longer' not in sim.output:
+            assert sim.is_running
+        assert sim.stop() == 0
+        assert 'simulates' not in sim.output
+
+
 REFUSED = [
     (['-p', 'mass:=-3.0'], ['mass = -3.0', 'above 0']),
     (['-p', 'mass:=heavy'], ['mass', 'heavy', 'above 0']),
