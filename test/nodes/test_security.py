@@ -15,6 +15,11 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64
 
 from pam_ros.errors import PamError
+from pam_ros.nodes.control.topics import watched_topics as watched_by_controller
+from pam_ros.nodes.sim.topics import watched_topics as watched_by_simulator
+from pam_ros.settings.control import settings_of
+from pam_ros.settings.scene import Scene
+from pam_ros.settings.tables import checked
 from support.bags import contents
 from support.harness import FreshProgram
 from support.interfaces import built
@@ -28,6 +33,7 @@ RIGS = {
     'one': {'pam_sim': {}, 'pam_control': {}, 'pam_record': {}},
     'pair': {'pam_sim': PAIR, 'pam_control': {**PAIR, **FOLLOWS}, 'pam_record': FOLLOWS},
     'separate': {'pam_sim': SEPARATE, 'pam_control': {**PAIR, 'muscle_topics': True}},
+    'followed': {'pam_sim': FOLLOWS},
     'excited': {'pam_excite': FOLLOWS},
     'excited_pair': {'pam_excite': {**PAIR, **FOLLOWS}},
     'excited_separately': {'pam_excite': {**PAIR, 'muscle_topics': True}},
@@ -62,42 +68,82 @@ def permitted(path):
 
 
 def used(peer, program, namespace):
-    """Return what a running program publishes, subscribes and answers, without its namespace."""
-    node, name = peer.node, NODES.get(program, program)
-    if (name, f'/{namespace}') not in node.get_node_names_and_namespaces():
-        return {}
+    """Return what a running program publishes, subscribes and answers, without its namespace.
+
+    That of its hidden node, which samples topics with several publishers, is included.
+    """
+    node = peer.node
     getters = {
         ('topics', 'publish'): node.get_publisher_names_and_types_by_node,
         ('topics', 'subscribe'): node.get_subscriber_names_and_types_by_node,
         ('services', 'reply'): node.get_service_names_and_types_by_node,
     }
+    found = defaultdict(set)
+    for one in nodes_of(program) & names_in(peer, namespace):
+        for rule, get in getters.items():
+            with suppress(RuntimeError):  # the hidden node has ended meanwhile
+                found[rule] |= {
+                    of.removeprefix(f'/{namespace}') for of, _ in get(one, f'/{namespace}')
+                }
+    return found
+
+
+def nodes_of(program):
+    """Return the names of the node of a program, and of the hidden one that samples topics."""
+    name = NODES.get(program, program)
+    return {name, f'_{name}_sampler'}
+
+
+def names_in(peer, namespace):
+    """Return the names of the nodes in a namespace."""
     return {
-        rule: {one.removeprefix(f'/{namespace}') for one, _ in get(name, f'/{namespace}')}
-        for rule, get in getters.items()
+        name for name, of in peer.node.get_node_names_and_namespaces() if of == f'/{namespace}'
     }
+
+
+def watched(program, parameters):
+    """Return the topics that a program samples where there is more than one publisher."""
+    if program == 'pam_sim':
+        scene = Scene(parameters)
+        return watched_by_simulator(scene.build(checked(scene.table(), parameters)))
+    if program == 'pam_control':
+        table, build = settings_of(parameters)
+        return watched_by_controller(build(checked(table, parameters)))
+    return []
 
 
 @pytest.mark.at_any_pace
 def test_programs_use_what_the_policy_permits_and_all_of_it(peer, tmp_path):
     unused = {program: permitted(f'/{program}') for program in PROGRAMS}
     del unused['pam_control']['actions', 'execute']  # the next test
-    denied = set()
+    denied, sampled = set(), set()
+
+    def note(program, rule, name):
+        through = {one for one in permitted(f'/{program}')[rule] if fnmatchcase(name, one)}
+        unused[program][rule] -= through
+        # The action exists where its messages are installed.
+        if not through and '/_action/' not in name:
+            denied.add((program, *rule, name))
 
     def look():
         for namespace, programs in RIGS.items():
             for program in programs:
                 for rule, names in used(peer, program, namespace).items():
-                    able = permitted(f'/{program}')[rule]
                     for name in names:
-                        through = {one for one in able if fnmatchcase(name, one)}
-                        unused[program][rule] -= through
-                        if not through:
-                            denied.add((program, *rule, name))
-        return not any(rules for of in unused.values() for rules in of.values())
+                        note(program, rule, name)
+                if f'_{program}_sampler' in names_in(peer, namespace):
+                    sampled.add(program)
+        has_all = not any(rules for of in unused.values() for rules in of.values())
+        return has_all and sampled == {'pam_sim', 'pam_control'}
 
     with ExitStack() as running:
         for namespace, programs in RIGS.items():
             for program, parameters in programs.items():
+                for kind, topic, *_ in watched(program, parameters):
+                    name = topic if topic.startswith('/') else f'/{topic}'
+                    note(program, ('topics', 'subscribe'), name)
+                    if name == f'/{topic}':  # not /clock, which all programs share
+                        peer.node.create_publisher(kind, f'/{namespace}{name}', 1)
                 bag = ('--', '-o', str(tmp_path / namespace)) if program == 'pam_record' else ()
                 words = (*bag, '--ros-args', '-r', f'__ns:=/{namespace}')
                 running.enter_context(FreshProgram(program, *words, parameters=parameters))
@@ -105,13 +151,18 @@ def test_programs_use_what_the_policy_permits_and_all_of_it(peer, tmp_path):
         with suppress(PamError):
             peer.until(look, 'the use of all that is permitted')
         look()
+        others = {
+            name: names_in(peer, name) - {part for one in programs for part in nodes_of(one)}
+            for name, programs in RIGS.items()
+        }
     left = {
         (program, *rule, name)
         for program, rules in unused.items()
         for rule, names in rules.items()
         for name in names
     }
-    assert (denied, left) == (set(), set())
+    assert (denied, left, sampled) == (set(), set(), {'pam_sim', 'pam_control'})
+    assert not any(others.values()), others
 
 
 @pytest.mark.at_any_pace
@@ -144,6 +195,9 @@ def test_the_operator_may_call_what_the_programs_answer():
         assert answered
         for name in answered:
             assert any(fnmatchcase(name, one) for one in rules['services', 'request']), name
+    # What each command ros2 offers itself.
+    (own,) = rules['services', 'reply']
+    assert fnmatchcase('/_ros2cli_12345/get_type_description', own)
     assert rules['actions', 'call'] == permitted('/pam_control')['actions', 'execute']
     # A person gives references to the controller, and no pressures past it.
     assert not any(name.endswith('command') for name in rules['topics', 'publish'])

@@ -44,7 +44,8 @@ class TopicWatch:
     ) -> None:
         """Check the topics of *node*; *is_commanding* returns whether it publishes commands."""
         self._node, self._is_commanding = node, is_commanding
-        self._each = [_Topic(node, one) for one in watched]
+        self._sampler = Sampler(node)
+        self._each = [_Topic(node, one, self._sampler) for one in watched]
 
     def health(self) -> Health:
         """Check now; return the health of all topics. Faults are logged when they begin."""
@@ -60,18 +61,17 @@ class TopicWatch:
         )
 
     def close(self) -> None:
-        """Release the samplers of the topics: must be called before the node is destroyed."""
-        for topic in self._each:
-            topic.stop_sampling()
+        """Release the sampler of the topics: must be called before the node is destroyed."""
+        self._sampler.close()
 
 
 class _Topic:
-    def __init__(self, node: Node, watched: Watched) -> None:
-        self._node, self._watched = node, watched
+    def __init__(self, node: Node, watched: Watched, sampler: Sampler) -> None:
+        self._node, self._watched, self._sampler = node, watched, sampler
         self.health = TopicHealth(node.resolve_topic_name(watched.name), watched.joints)
         self.publishers = 0
         self._senders = Senders()
-        self._sampler: Sampler | None = None
+        self._is_sampled = False
 
     def count(self) -> None:
         """Count the publishers."""
@@ -85,12 +85,6 @@ class _Topic:
             self._watched.is_command and is_commanding and not self._has_subscriber()
         )
         return self.health.look(nodes, lacks_subscriber, has_several)
-
-    def stop_sampling(self) -> None:
-        """Release the subscription that takes samples, if there is one."""
-        if self._sampler:
-            self._sampler.close()
-            self._sampler = None
 
     def _publishing_nodes(self) -> list[str]:
         infos = self._node.get_publishers_info_by_topic(self.health.topic)
@@ -106,13 +100,13 @@ class _Topic:
 
     def _has_several_senders(self, *, is_sampled: bool) -> bool:
         """Return whether more than one publisher sends, from a sample of the newest messages."""
+        was_sampled, self._is_sampled = self._is_sampled, is_sampled
         if not is_sampled:
-            self.stop_sampling()
+            self._sampler.leave(self.health.topic)
             return False
-        if self._sampler is None:
+        if not was_sampled:
             self._senders = Senders()
-            self._sampler = Sampler(self._node, self._watched.kind, self.health.topic)
-        for message, number in self._sampler.take():
+        for message, number in self._sampler.take(self._watched.kind, self.health.topic):
             if not self._watched.joints or names_one_of(self._watched.joints, message):
                 self._senders.take(number)
         return self._senders.are_several()
