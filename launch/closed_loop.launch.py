@@ -8,11 +8,18 @@ With ``joint:=antagonistic`` two antagonistic muscles turn a pulley.
 import sys
 
 from launch import LaunchContext, LaunchDescription
-from launch.actions import DeclareLaunchArgument, OpaqueFunction
+from launch.actions import DeclareLaunchArgument, OpaqueFunction, Shutdown
 from launch.substitutions import LaunchConfiguration
 from launch_ros.actions import Node
 
-from pam_ros.settings.launch import ARGUMENTS, controller, refuse_unknown, simulator
+from pam_ros.settings.launch import (
+    ARGUMENTS,
+    JointEnd,
+    controller,
+    is_started,
+    refuse_unknown,
+    simulator,
+)
 
 NAMES = (
     *('muscle', 'joint', 'mass', 'params'),
@@ -24,6 +31,9 @@ def start(context: LaunchContext) -> list[Node]:
     """Return both nodes; values of the command line override the files."""
     refuse_unknown(__file__, NAMES, sys.argv)
     given = {name: LaunchConfiguration(name).perform(context) for name in NAMES}
+    # A launch file that includes this one decides itself what happens when a program dies.
+    is_own = is_started(__file__, sys.argv)
+    on_exit = JointEnd(2, lambda reason: Shutdown(reason=reason)) if is_own else None
     return [
         Node(
             package='pam_ros',
@@ -32,6 +42,7 @@ def start(context: LaunchContext) -> list[Node]:
             parameters=simulator(given),
             output='screen',
             emulate_tty=True,
+            on_exit=on_exit,
         ),
         Node(
             package='pam_ros',
@@ -40,6 +51,7 @@ def start(context: LaunchContext) -> list[Node]:
             parameters=controller(given),
             output='screen',
             emulate_tty=True,
+            on_exit=on_exit,
         ),
     ]
 

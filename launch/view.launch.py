@@ -13,7 +13,7 @@ from launch_ros.actions import Node
 from launch_ros.parameter_descriptions import ParameterValue
 
 from pam_ros.errors import PamError
-from pam_ros.settings.launch import ARGUMENTS, refuse_unknown
+from pam_ros.settings.launch import ARGUMENTS, TRUE, VIEW_TIME, refuse_unknown
 
 # When this file is installed, the others are next to it, as they are in the sources.
 SHARE = Path(__file__).parents[1]
@@ -42,7 +42,7 @@ def start(context: LaunchContext) -> list[Node]:
         models = ', '.join(sorted(file.stem for file in known.parent.glob('*.urdf')))
         raise PamError(f'model = {model} is not allowed: give {models}, or the path of a URDF')
     description = ParameterValue(path.read_text(encoding='utf-8'), value_type=str)
-    use_sim_time = {'use_sim_time': given['use_sim_time'] == 'true'}
+    use_sim_time = {'use_sim_time': given['use_sim_time'] in TRUE}
     refuse_missing('robot_state_publisher')
     nodes = [
         Node(
@@ -53,7 +53,7 @@ def start(context: LaunchContext) -> list[Node]:
             output='screen',
         )
     ]
-    if given['rviz'] == 'true':
+    if given['rviz'] in TRUE:
         refuse_missing('rviz2', ', or rviz:=false')
         nodes.append(
             Node(
@@ -70,5 +70,6 @@ def start(context: LaunchContext) -> list[Node]:
 
 def generate_launch_description() -> LaunchDescription:
     """Return the arguments and the nodes."""
-    arguments = [DeclareLaunchArgument(name, **ARGUMENTS[name].declared) for name in NAMES]
+    table = {**ARGUMENTS, 'use_sim_time': VIEW_TIME}
+    arguments = [DeclareLaunchArgument(name, **table[name].declared) for name in NAMES]
     return LaunchDescription([*arguments, OpaqueFunction(function=start)])

@@ -29,6 +29,10 @@ class Absence:
         self._since: float | None = None  # time in s since which the log is out of date
         self._times = 0
 
+    def forget(self) -> None:
+        """Begin again, without a line: nobody waits for it any more."""
+        self._is_missing, self._since = False, None
+
     def look(self, missing: str, now: float, lasting: float = 0.0, times: int = 0) -> None:
         """Note the state at *now* s: *missing* is a sentence on what is missing, '' if nothing is.
 

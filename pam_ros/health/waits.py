@@ -26,10 +26,16 @@ class Waits:
         self._first = Absence(logger, f'commands are received on {topic}')
         self._next = Absence(logger, 'commands are received again', 0.0, Level.WARN)
 
-    def look(self, no_clock: str, no_turn: str) -> None:
-        """Check the clock and, in lockstep, the commands: a sentence if missing, else ''."""
+    def look(self, no_clock: str | None, no_turn: str) -> None:
+        """Check the clock and, in lockstep, the commands: a sentence if missing, else ''.
+
+        *no_clock* is None if the simulator does not follow a clock.
+        """
         now = steady_ns() / SECOND
-        self._clock.look(no_clock, now)
+        if no_clock is None:
+            self._clock.forget()
+        else:
+            self._clock.look(no_clock, now)
         # A controller that is sometimes slow is back only if the next check finds it, too.
         self._turn.look(no_turn, now, 0.5)
 

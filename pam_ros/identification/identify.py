@@ -3,8 +3,10 @@
 """The error of the nominal model, the effects that it lacks, and the error with these effects."""
 
 import os
-from collections.abc import Callable, Mapping, Sequence
+import warnings
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor, ThreadPoolExecutor
+from contextlib import contextmanager
 from dataclasses import fields, replace
 from typing import NamedTuple
 
@@ -62,6 +64,18 @@ Array = NDArray[np.float64]
 THREADS = 4
 
 
+@contextmanager
+def _quiet() -> Iterator[None]:
+    """Ignore a warning of scipy before 1.12: SLSQP leaves its bounds by rounding, and clips.
+
+    Filters of warnings hold for all threads: they are set before the fits, and not by each fit.
+    """
+    with warnings.catch_warnings():
+        warnings.filterwarnings('ignore', 'Values in x were outside bounds', RuntimeWarning)
+        yield
+
+
+@_quiet()
 def identify(
     model: Joint,
     recordings: Recording | Sequence[Recording],
@@ -122,7 +136,7 @@ def identify(
         decision = _decision(search, three, lacking, since)
         conclusion = _conclusion(decision, search, ends, three, tests, recordings, test)
     notify(1.0, 'done')
-    warnings = (
+    texts = (
         *(text for recording in (*recordings, *test) for text in recording.warnings),
         *apart(ends.augmented, conclusion.noise.sigma),
         *undetermined_after(ends.augmented),
@@ -135,7 +149,7 @@ def identify(
         sentence=sentence(conclusion, lacking, decision.explaining),
         next_experiment=following.text,
         next_command=following.command,
-        warnings=warnings,
+        warnings=texts,
     )
 
 

@@ -6,7 +6,7 @@ An argument has the same meaning in each launch file. Nothing here needs ROS: a 
 declares those arguments that it uses.
 """
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
@@ -19,13 +19,14 @@ from pam_ros.settings.control import ControlSettings
 from pam_ros.settings.files import find
 from pam_ros.settings.rig import KINDS
 from pam_ros.settings.sim import SimSettings
-from pam_ros.settings.tables import Table, joint_table, override, refuse_mistyped, table_of
+from pam_ros.settings.tables import Table, joint_table, override, similar, table_of
 
 PACKAGE = 'pam_ros'
 MUSCLE = 'dmsp_20_400n'
 SIM, CONTROL = table_of(SimSettings), table_of(ControlSettings)
 OWN_TIME = ('scaled', 'lockstep')
-TRUE_OR_FALSE = ('true', 'false')
+TRUE = ('true', 'True')  # the latter as Python has it
+TRUE_OR_FALSE = (*TRUE, 'false', 'False')
 
 
 class Argument(NamedTuple):
@@ -79,29 +80,70 @@ ARGUMENTS = {
 }
 
 
+# What the argument means where no controller is started.
+VIEW_TIME = Argument(
+    'true: the programs follow /clock; if not given: the time of the system',
+    '',
+    ('', *TRUE_OR_FALSE),
+)
+
+
 def refuse_unknown(file: str, known: Iterable[str], words: Iterable[str]) -> None:
     """Raise ParameterError for an argument that the launch file *file* does not have.
 
     *words* are those of the command line. If they start another launch file, which includes this
-    one, they may be arguments of that file and are not checked. It may have the same name.
+    one, they may be arguments of that file and are not checked.
     """
     words, known = list(words), list(known)
-    name = Path(file).name
-    if not any(_is_started(Path(file), before, word) for before, word in pairwise(['', *words])):
+    if not is_started(file, words):
         return
-    given = [word.partition(':=')[0] for word in words if ':=' in word]
-    for unknown in refuse_mistyped(given, known):
-        raise ParameterError(
-            f'{unknown} is not an argument of {name}: give one of {", ".join(known)}, or a '
-            'parameter file as params'
-        )
+    for name in (word.partition(':=')[0] for word in words if ':=' in word):
+        if name not in known:
+            alike = similar(name, known)
+            hint = f'was {alike} meant?' if alike else f'give one of {", ".join(known)}, or a '
+            hint += '' if alike else 'parameter file as params'
+            raise ParameterError(f'{name} is not an argument of {Path(file).name}: {hint}')
 
 
-def _is_started(file: Path, before: str, word: str) -> bool:
+def is_started(file: str, words: Iterable[str]) -> bool:
+    """Return whether the command line of *words* starts the launch file *file* itself.
+
+    Otherwise it starts another one, perhaps of the same name, which includes this one.
+    """
+    return any(_starts(Path(file), before, word) for before, word in pairwise(['', *words]))
+
+
+def _starts(file: Path, before: str, word: str) -> bool:
     """Return whether a *word* after the word *before* starts this launch file: by path or name."""
     if Path(word).is_file():
         return Path(word).resolve() == file.resolve()
     return (before, word) == (PACKAGE, file.name)
+
+
+class JointEnd:
+    """Ends a launch, with the exit code of the program, when one of its programs dies.
+
+    An instance is the ``on_exit`` of all programs. A program that ends with code 0 was stopped on
+    purpose, and the others continue. launch itself has no exit code but 0 and 1: when all programs
+    have ended, this raises SystemExit with that of the program, or with 128 and the number of the
+    signal that killed it, as a shell has it.
+    """
+
+    def __init__(self, programs: int, shutdown: Callable[[str], Any]) -> None:
+        """End *programs* programs together; *shutdown* returns launch's action for a reason."""
+        self._running, self._shutdown, self._code = programs, shutdown, 0
+
+    def __call__(self, event: Any, context: Any) -> list[Any]:
+        """Handle the end of a program, an event of launch; return the actions that follow."""
+        self._running -= 1
+        actions = []
+        if event.returncode and not context.is_shutdown and not self._code:
+            code = event.returncode
+            self._code = code if code > 0 else 128 - code
+            actions = [self._shutdown(f'{event.process_name} ended with exit code {code}')]
+        if self._code and not self._running:
+            raise SystemExit(self._code)
+        return actions
 
 
 def simulator(given: Mapping[str, str]) -> list[Any]:
@@ -109,7 +151,7 @@ def simulator(given: Mapping[str, str]) -> list[Any]:
     values = _common(given)
     values |= _of(given, SIM, 'publish_rate', 'time_mode')
     if given['use_sim_time'] and given['time_mode'] not in OWN_TIME:
-        values['use_sim_time'] = given['use_sim_time'] == 'true'
+        values['use_sim_time'] = given['use_sim_time'] in TRUE
     return [*_files(given), *([values] if values else [])]
 
 
@@ -118,7 +160,7 @@ def controller(given: Mapping[str, str]) -> list[Any]:
     values = {**_common(given), **_of(given, CONTROL, 'rate')}
     follows = given['use_sim_time'] or ('true' if given['time_mode'] in OWN_TIME else '')
     if follows:
-        values['use_sim_time'] = follows == 'true'
+        values['use_sim_time'] = follows in TRUE
     return [*_files(given), *([values] if values else [])]
 
 

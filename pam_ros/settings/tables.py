@@ -133,10 +133,14 @@ def refuse_mistyped(names: Iterable[str], known: Iterable[str]) -> list[str]:
     known = set(known)
     unknown = [name for name in names if name not in known]
     for name in unknown:
-        alike = get_close_matches(name, known, n=1, cutoff=ALIKE)
-        if alike:
-            raise ParameterError(f'{name} is not a parameter: was {alike[0]} meant?')
+        if alike := similar(name, known):
+            raise ParameterError(f'{name} is not a parameter: was {alike} meant?')
     return unknown
+
+
+def similar(name: str, known: Iterable[str]) -> str:
+    """Return the name among *known* that *name* probably stands for, '' if there is none."""
+    return next(iter(get_close_matches(name, known, n=1, cutoff=ALIKE)), '')
 
 
 def refuse_unknown_effects(values: Values) -> None:

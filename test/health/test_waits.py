@@ -101,3 +101,17 @@ def test_in_lockstep_a_controller_that_is_missed_and_back(rig, monkeypatch):
         'waits for a controller, 1.2 s so far',
         'commands are received: simulated time passes',
     ]
+
+
+def test_a_simulator_that_no_longer_follows_a_clock_does_not_say_that_one_is_received(monkeypatch):
+    now = [0]
+    monkeypatch.setattr(waits, 'steady_ns', lambda: now[0] * 10**9)
+    rig = Rig()
+    for clock in ('waits for /clock', 'waits for /clock', None, None, 'waits for /clock'):
+        rig.waits.look(clock, '')
+        now[0] += 2
+    assert rig.log.infos == ['waits for /clock']
+    rig.waits.look('waits for /clock', '')
+    rig.waits.look('', '')
+    received = '/clock is received: simulated time passes'
+    assert rig.log.infos == ['waits for /clock', 'waits for /clock', received]

@@ -6,6 +6,7 @@ import ast
 import importlib.util
 import runpy
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 import setuptools
@@ -13,7 +14,7 @@ import setuptools
 from pam_ros.errors import ParameterError
 from pam_ros.settings.control import settings_of
 from pam_ros.settings.files import read
-from pam_ros.settings.launch import ARGUMENTS, refuse_unknown
+from pam_ros.settings.launch import ARGUMENTS, VIEW_TIME, refuse_unknown
 from pam_ros.settings.scene import Scene
 from support.assertions import no_error
 from support.launch_stand_in import Loaded
@@ -83,7 +84,8 @@ def test_arguments_are_those_of_the_one_table(path, monkeypatch):
     arguments = Loaded(monkeypatch, path).arguments
     assert arguments
     for name, argument in arguments.items():
-        about = ARGUMENTS[name]
+        is_view = (path.name, name) == ('view.launch.py', 'use_sim_time')  # it has no controller
+        about = VIEW_TIME if is_view else ARGUMENTS[name]
         assert argument.text == about.text
         assert argument.default == about.default
         assert tuple(argument.choices or ()) == about.choices
@@ -130,7 +132,7 @@ def test_a_parameter_file_is_given_to_every_program_and_not_overruled(programs_o
         ('mass:=0', 'mass = 0.0 is not allowed: give above 0'),
         ('mass:=heavy', 'mass = .heavy. is not allowed'),
         ('publish_rate:=0', 'publish_rate = 0.0 is not allowed'),
-        ('mas:=10.0', 'mas is not a parameter: was mass meant'),
+        ('mas:=10.0', r'mas is not an argument of .*launch.py: was mass meant\?'),
         (
             'zeta:=0.2',
             r'zeta is not an argument of .*launch.py: give one of muscle, .*, or a',
@@ -141,6 +143,50 @@ def test_a_parameter_file_is_given_to_every_program_and_not_overruled(programs_o
 def test_what_is_not_allowed_is_one_sentence(programs_of, word, sentence):
     with pytest.raises(ParameterError, match=sentence):
         programs_of(word)
+
+
+@pytest.mark.parametrize(('given', 'is_set'), [('true', True), ('True', True), ('False', False)])
+def test_true_and_false_may_be_capitalised(programs_of, given, is_set):
+    for (values,) in programs_of(f'use_sim_time:={given}').values():
+        assert values['use_sim_time'] is is_set
+
+
+@pytest.mark.parametrize(
+    ('ends', 'exit_code', 'reasons'),
+    [
+        ([('pam_sim-1', 2), ('pam_control-2', 0)], 2, ['pam_sim-1 ended with exit code 2']),
+        (
+            [('pam_control-2', -9), ('pam_sim-1', 1)],
+            137,
+            ['pam_control-2 ended with exit code -9'],
+        ),
+        ([('pam_control-2', 0), ('pam_sim-1', 3)], 3, ['pam_sim-1 ended with exit code 3']),
+        ([('pam_control-2', 0), ('pam_sim-1', 0)], None, []),
+    ],
+)
+def test_a_program_that_dies_ends_the_closed_loop_with_its_exit_code(
+    monkeypatch, ends, exit_code, reasons
+):
+    nodes = Loaded(monkeypatch, ROOT / 'launch' / 'closed_loop.launch.py').nodes()
+    on_exit = nodes['pam_sim'].on_exit
+    assert nodes['pam_control'].on_exit is on_exit
+    shut_down = []
+    found = None
+    try:
+        for name, code in ends:
+            event = SimpleNamespace(process_name=name, returncode=code)
+            context = SimpleNamespace(is_shutdown=bool(shut_down))
+            shut_down += [action.reason for action in on_exit(event, context)]
+    except SystemExit as end:
+        found = end.code
+    assert found == exit_code
+    assert shut_down == (reasons if len(ends) > 1 and ends[0][1] else [])
+
+
+def test_a_launch_file_that_includes_the_closed_loop_decides_when_it_ends(monkeypatch):
+    file = Loaded(monkeypatch, ROOT / 'launch' / 'closed_loop.launch.py')
+    nodes = file.nodes(started='mine.launch.py')
+    assert [node.on_exit for node in nodes.values()] == [None, None]
 
 
 @pytest.mark.parametrize('word', ['joint:=knee', 'time_mode:=fast', 'use_sim_time:=yes'])

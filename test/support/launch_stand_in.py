@@ -46,6 +46,7 @@ class Loaded:
         stand_ins = {
             'LaunchConfiguration': Configuration,
             'Node': SimpleNamespace,
+            'Shutdown': SimpleNamespace,
             'ParameterValue': lambda value, value_type: (value, value_type),
             'DeclareLaunchArgument': Argument,
             'OpaqueFunction': lambda function: function,
@@ -61,9 +62,12 @@ class Loaded:
         *arguments, self._start = runpy.run_path(str(path))['generate_launch_description']()
         self.arguments = {argument.name: argument for argument in arguments}
 
-    def nodes(self, *words):
-        """Return what ``ros2 launch pam_ros <file> words`` starts, by the names of programs."""
-        argv = ['ros2', 'launch', 'pam_ros', self._path.name, *words]
+    def nodes(self, *words, started=''):
+        """Return what ``ros2 launch pam_ros <file> words`` starts, by the names of programs.
+
+        *started* is another launch file, which includes this one.
+        """
+        argv = ['ros2', 'launch', 'pam_ros', started or self._path.name, *words]
         self._monkeypatch.setattr(sys, 'argv', argv)
         context = {name: argument.default for name, argument in self.arguments.items()}
         context |= dict(word.split(':=') for word in words)

@@ -44,6 +44,8 @@ BAD_INPUT = 2
 LAST_ANSWER = 4.0
 # s in which the middleware must shut down. It usually takes 0.1 s, but it may hang.
 LEAVING = 20.0
+# Options that ROS has after --ros-args.
+FOR_ROS = {'-p', '--param', '-r', '--remap', '--params-file', '-e', '--enclave', '--log-level'}
 LONGEST_WAIT = 0.1  # s in the executor, so that the node stops soon even if its ticks are slow
 
 # What rclpy raises for an invalid command line. RuntimeError is raised for errors of rcl and for
@@ -153,7 +155,7 @@ def run(kind: type[TickingNode], stop: StopRequest, about: str) -> int:
                     help='print the parameters with TEXT in their names, or all, and end',
                 )
             kind.add_arguments(parser)
-            arguments = parser.parse_args(remove_ros_args(sys.argv)[1:])
+            arguments = _parsed(parser)
             part = arguments.parameters if kind.has_parameters else None
             if part is not None:
                 # Running programs must not take this node for another simulator or controller.
@@ -191,6 +193,16 @@ def run(kind: type[TickingNode], stop: StopRequest, about: str) -> int:
                 node.destroy_node()
             rclpy.try_shutdown()
     return node.exit_code or 0
+
+
+def _parsed(parser: argparse.ArgumentParser) -> argparse.Namespace:
+    """Parse the arguments that are not for ROS; an error has a hint at those that are."""
+    arguments, unknown = parser.parse_known_args(remove_ros_args(sys.argv)[1:])
+    if unknown:
+        is_for_ros = not FOR_ROS.isdisjoint(unknown) or any(':=' in word for word in unknown)
+        hint = ': parameters and remappings follow --ros-args' if is_for_ros else ''
+        parser.error(f'unrecognized arguments: {" ".join(unknown)}{hint}')
+    return arguments
 
 
 def _warn_of_unused_files(node: TickingNode) -> None:

@@ -152,7 +152,8 @@ class PamSim(TickingNode):
         )
         self._onsets.look()
         if not simulator.is_paused:
-            self._waits.look('' if done.has_clock else sim_health.NO_CLOCK, done.waits)
+            missing = '' if done.has_clock else sim_health.NO_CLOCK
+            self._waits.look(missing if mode.follows_clock else None, done.waits)
         return sim_health.timing(self._plant.setup.settings, kept, done, self.scheduling)
 
     def _commands(self) -> Health:

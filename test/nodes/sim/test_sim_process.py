@@ -88,6 +88,7 @@ REFUSED = [
     (['-p', 'qos_overrides./joint_states.publisher.depth:=deep'], ['depth']),
     (['-p', 'mass'], ['mass']),
     (['--nonsense'], ['nonsense']),
+    (['--', '-p', 'mass:=3'], ['-p mass:=3: parameters and remappings follow --ros-args']),
     (['-r', '__node:=1st'], ['1st']),
     (['--params-file', 'nowhere.yaml'], ['nowhere.yaml']),
 ]
