@@ -15,6 +15,7 @@ from rclpy.node import Node
 from rclpy.parameter import Parameter as RosParameter
 
 from pam_ros.errors import PamError, shown
+from pam_ros.health.partial_change import PartialChange
 from pam_ros.nodes.common.rclpy_internals import declare_texts, overrides_of
 from pam_ros.parameters import Parameter
 from pam_ros.plain_yaml import EXPONENTIAL
@@ -49,6 +50,7 @@ class NodeParameters(Generic[T]):
         self.values = checked(table, overrides_of(node))
         self.built = build(self.values)
         self._last = self.values, self.built  # the last ones that were checked
+        self._partial = PartialChange()
         for name, (kind, _, about) in table.items():
             descriptor, value = describe(about, kind), self.values[name]
             if kind is tuple:
@@ -91,13 +93,21 @@ class NodeParameters(Generic[T]):
             try:
                 self._make(parameters)
             except PamError as error:
-                return SetParametersResult(successful=False, reason=str(error))
+                mixture = self._partial.refuse(p.name for p in parameters)
+                self._warn(mixture)
+                reason = f'{error}; {mixture}' if mixture else str(error)
+                return SetParametersResult(successful=False, reason=reason)
         return SetParametersResult(successful=True)
 
     def _take(self, parameters: list[RosParameter]) -> None:
         if self._are_ours(parameters):
             self.values, self.built = self._make(parameters)
             self._apply(self.built)
+            self._warn(self._partial.accept(p.name for p in parameters))
+
+    def _warn(self, mixture: str) -> None:
+        if mixture:
+            self._node.get_logger().warning(mixture)
 
     def _make(self, parameters: list[RosParameter]) -> tuple[dict[str, Any], T]:
         """Return the values after a change and their object, built once to check and to apply."""

@@ -62,3 +62,14 @@ def test_a_change_is_built_once_and_a_refused_one_is_not_taken(node):
     assert parameters.values == {'mass': 30.0, 'l0': 0.2}
     assert recorder.applied == [10.4, 30.2]
     assert len(recorder.built) == 4
+
+
+def test_parameters_that_are_set_one_by_one_and_fit_only_together_are_noticed(node):
+    recorder = Recorder()
+    NodeParameters(node, TABLE, recorder.build, recorder.applied.append)
+    given = [RosParameter('l0', value=0.2), RosParameter('mass', value=60.0)]
+    taken, refused = node.set_parameters(given)  # as ros2 param load does
+    assert (taken.successful, refused.successful) == (True, False)
+    assert refused.reason.startswith(
+        'too heavy for this rig; of one request l0 took effect and mass did not: '
+    )
