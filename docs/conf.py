@@ -56,6 +56,7 @@ NAVIGATION = {
         'docs/glossary',
         'ARCHITECTURE',
         'CONTRIBUTING',
+        'QUALITY_DECLARATION',
         'Change log <CHANGELOG>',
     ),
 }

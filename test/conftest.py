@@ -60,9 +60,11 @@ def pytest_report_header():
 @pytest.hookimpl(tryfirst=True)  # before markers select
 def pytest_collection_modifyitems(items):
     for item in items:
-        if NOT_PURE.isdisjoint(item.fixturenames):
+        # A launch test has no fixtures, and is run in its own way.
+        fixtures = getattr(item, 'fixturenames', NOT_PURE)
+        if NOT_PURE.isdisjoint(fixtures):
             item.add_marker(pytest.mark.pure)
-        starts_nodes = not DOMAINS.isdisjoint(item.fixturenames)
+        starts_nodes = not DOMAINS.isdisjoint(fixtures)
         if starts_nodes and not item.get_closest_marker('at_any_pace'):
             item.add_marker(pytest.mark.keeps_rate)
     if not HAVE_NUMBA:

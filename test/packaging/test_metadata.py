@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 import setuptools
+import yaml
 
 import pam_ros
 from support.imports import imported
@@ -21,12 +22,13 @@ IMPORTED_AS = {
     'python3-matplotlib': 'matplotlib',
     'python3-numba': 'numba',
     'python3-numpy': 'numpy',
+    'python3-rosbags-pip': 'rosbags',
     'python3-scipy': 'scipy',
     'python3-tqdm': 'tqdm',
     'python3-yaml': 'yaml',
 }
 # Used where they are, done without where they are not: no rosdep key says that.
-OPTIONAL = {'mcap', 'rosbags'}
+OPTIONAL = {'mcap', 'rviz2'}
 COMMANDS = {'ros2launch'}  # with which users start the launch files
 
 
@@ -123,3 +125,20 @@ def test_all_data_files_are_installed_in_their_places(metadata):
                 expected.add((f'share/pam_ros/{place}', path.name))
     assert installed == expected
     assert ('share/pam_ros/config/muscles', 'dmsp_20_400n.yaml') in installed
+
+
+def test_the_workflow_uses_commands_and_versions_that_exist():
+    workflow = yaml.safe_load((ROOT / '.github/workflows/ci.yml').read_text(encoding='utf-8'))
+    wheels, colcon = workflow['jobs']['wheels'], workflow['jobs']['colcon']
+    commands = [step.get('run', '') for step in wheels['steps']]
+    targets = set(re.findall(r'^make ([a-z-]+)', '\n'.join(commands), re.MULTILINE))
+    known = re.findall(
+        r'^([a-z-]+):', (ROOT / 'Makefile').read_text(encoding='utf-8'), re.MULTILINE
+    )
+    assert {'demo', 'lint', 'test'} <= targets <= set(known)
+    tried = re.search(r'(?s)PYTHONS = (.*?)\n', (ROOT / 'noxfile.py').read_text(encoding='utf-8'))
+    assert wheels['strategy']['matrix']['python'] == re.findall(r'3\.\d+', tried.group(1))
+    distributions = {
+        path.stem.removeprefix('ros-') for path in ROOT.glob('requirements/ros-*.txt')
+    }
+    assert set(colcon['strategy']['matrix']['ros']) == distributions

@@ -46,6 +46,7 @@ OF_OTHERS = (
     'python3 examples/own_controller.py',
     'ros2 bag',
     'ros2 run plotjuggler plotjuggler',
+    'ros2 param load',
     'ros2 run topic_tools transform',
     'ros2 security generate_artifacts',
     'ros2 topic echo',

@@ -14,7 +14,10 @@ ROOT = Path(__file__).parents[2]
 README = ROOT / 'README.md'
 DOCS = ROOT / 'docs'
 SIMULATOR, CONTROLLER = DOCS / 'simulator.md', DOCS / 'controller.md'
-AT_THE_TOP = [README, ROOT / 'ARCHITECTURE.md', ROOT / 'CONTRIBUTING.md']
+AT_THE_TOP = [
+    README,
+    *(ROOT / f'{name}.md' for name in ('ARCHITECTURE', 'CONTRIBUTING', 'QUALITY_DECLARATION')),
+]
 NOTEBOOKS = sorted((DOCS / 'notebooks').glob('*.ipynb'))
 PAGES = [*AT_THE_TOP, *sorted(DOCS.rglob('*.md')), *NOTEBOOKS]
 SHELL_WORDS = ('make ', 'ros2 ', 'pam_', '.venv/bin/')
