@@ -21,7 +21,7 @@ from diagnostic_msgs.msg import DiagnosticArray
 
 from pam_ros.nodes.demo.client import Client
 from pam_ros.processes.children import Program
-from pam_ros.recording.bag_source import open_bag
+from pam_ros.recording.bag.source import open_bag
 
 RATE = 1000.0  # Hz
 TOPICS = ('joint_states', 'pressure', 'force', 'stiffness', 'damping', 'pressure_command')

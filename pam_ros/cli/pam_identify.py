@@ -68,6 +68,20 @@ def parser() -> argparse.ArgumentParser:
         help='standard deviation of a nominal value: inertia=50%%, or in its unit, mass=0.2; the '
         'value is then fitted as well; may be repeated',
     )
+    _add_recording_options(made)
+    made.add_argument(
+        '--verbose',
+        action='store_true',
+        help='also print how the fits ended and every effect that was tried',
+    )
+    made.add_argument(
+        '--out', type=Path, required=True, metavar='DIR', help='folder for the report'
+    )
+    return made
+
+
+def _add_recording_options(made: argparse.ArgumentParser) -> None:
+    """Add the options for which recordings are read, and how."""
     made.add_argument(
         '--test',
         nargs='+',
@@ -92,15 +106,6 @@ def parser() -> argparse.ArgumentParser:
         help='free: the load moves; held: the length is prescribed (default: from the data)',
     )
     made.add_argument('--namespace', help='namespace of the rig, if bags contain several')
-    made.add_argument(
-        '--verbose',
-        action='store_true',
-        help='also print how the fits ended and every effect that was tried',
-    )
-    made.add_argument(
-        '--out', type=Path, required=True, metavar='DIR', help='folder for the report'
-    )
-    return made
 
 
 class ProgressBar:

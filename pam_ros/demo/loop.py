@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from pam_ros.errors import PamError
 from pam_ros.identification.wording import Scale, interval, number
-from pam_ros.recording.bag import read_bag
+from pam_ros.recording.bag.read import read_bag
 from pam_ros.recording.mapping import ColumnMapping
 from pam_ros.report import style, time_plots
 from pam_ros.report.diagnostics import Size, size_of

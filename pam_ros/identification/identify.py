@@ -110,12 +110,7 @@ def identify(
     notify: Progress = progress or (lambda share, text: None)
     # With test recordings, no part of the others is needed to judge.
     shares = (CRITERIA.fit / CRITERIA.choose, 1.0) if test else (CRITERIA.fit, CRITERIA.choose)
-    parts = parts_of(recordings, *shares)
-    if not any(part.is_fitted for part in parts):
-        raise RecordingError(
-            f'recording {recordings[0].name} is too short for a fit: its stretches between gaps '
-            'have too few samples'
-        )
+    parts = _parts(recordings, shares)
     with ThreadPoolExecutor(min(os.cpu_count() or 1, THREADS)) as pool:
         muscles = recordings[0].muscles
         setting = Setting(model, parts, CRITERIA, BUDGET, pool, muscles, uncertain)
@@ -124,32 +119,60 @@ def identify(
                 warn(text)
         lacking = too_little([part.segment for part in parts], setting.noise, CRITERIA)
         since = None if lacking else estimate_onset(setting)
-        later = since and shares_after(since, parts, shares, CRITERIA.duration)
-        if since and later:
-            late = replace(setting, parts=parts_of(recordings, *later), onset=since.time)
-            search = find_late_effects(setting, late, notify)
-        else:
-            search = find_effects(setting, notify)
+        search = _search(setting, since, recordings, shares, notify)
         notify(0.9, 'fitting the chosen models in full')
         ends = fit_finally(search)
         three = stages(ends, search, tests)
         decision = _decision(search, three, lacking, since)
         conclusion = _conclusion(decision, search, ends, three, tests, recordings, test)
     notify(1.0, 'done')
-    texts = (
-        *(text for recording in (*recordings, *test) for text in recording.warnings),
-        *apart(ends.augmented, conclusion.noise.sigma),
-        *undetermined_after(ends.augmented),
-        *of_absolute_pressures(three[2].parameters, driving(recordings[0])[0].quantity),
-        *of_command_times(conclusion),
-    )
     following = next_experiment(conclusion, model)
     return Identification(
         **{field.name: getattr(conclusion, field.name) for field in fields(Conclusion)},
         sentence=sentence(conclusion, lacking, decision.explaining),
         next_experiment=following.text,
         next_command=following.command,
-        warnings=texts,
+        warnings=_warnings([*recordings, *test], conclusion, ends.augmented),
+    )
+
+
+def _parts(recordings: Sequence[Recording], shares: tuple[float, float]) -> list[Part]:
+    """Return the parts of the recordings; raises RecordingError if none can be fitted."""
+    parts = parts_of(recordings, *shares)
+    if not any(part.is_fitted for part in parts):
+        raise RecordingError(
+            f'recording {recordings[0].name} is too short for a fit: its stretches between gaps '
+            'have too few samples'
+        )
+    return parts
+
+
+def _search(
+    setting: Setting,
+    since: OnsetEstimate | None,
+    recordings: Sequence[Recording],
+    shares: tuple[float, float],
+    notify: Progress,
+) -> Search:
+    """Search for effects; for those that begin *since* then, in the parts after that time."""
+    later = since and shares_after(since, setting.parts, shares, CRITERIA.duration)
+    if not (since and later):
+        return find_effects(setting, notify)
+    late = replace(setting, parts=parts_of(recordings, *later), onset=since.time)
+    return find_late_effects(setting, late, notify)
+
+
+def _warnings(
+    recordings: Sequence[Recording], conclusion: Conclusion, augmented: Solution
+) -> tuple[str, ...]:
+    """Return the warnings about all recordings and about the result."""
+    final = conclusion.stages[2].parameters
+    return (
+        *(text for recording in recordings for text in recording.warnings),
+        *apart(augmented, conclusion.noise.sigma),
+        *undetermined_after(augmented),
+        *of_absolute_pressures(final, driving(recordings[0])[0].quantity),
+        *of_command_times(conclusion),
     )
 
 

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from pam_ros.errors import RecordingError
 from pam_ros.plot.panels import Curves
 from pam_ros.plot.topics import TOPICS, Key, muscles_of, numbers
-from pam_ros.recording.bag_decode import Topic
-from pam_ros.recording.bag_source import BagSource, Message, open_bag
+from pam_ros.recording.bag.decode import Topic
+from pam_ros.recording.bag.source import BagSource, Message, open_bag
 from pam_ros.recording.csv_file import read_csv
 from pam_ros.recording.mapping import ColumnMapping
 from pam_ros.recording.read import BAG_SUFFIXES

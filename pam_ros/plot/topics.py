@@ -8,7 +8,7 @@ Messages may come from ROS or from a library that reads bags: their fields have 
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
-from pam_ros.recording.bag import (
+from pam_ros.recording.bag.topics import (
     FLOAT64,
     FLOAT64_ARRAY,
     FLUID_PRESSURE,

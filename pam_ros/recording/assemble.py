@@ -65,15 +65,7 @@ def assemble(
         needed.add('pressure')
     series = _ascending(name, series, needed, notes)
     main, command = series[predicted], series.get('pressure_command')
-    t = _common(name, main, [series[quantity] for quantity in needed], command, notes)
-    for quantity in OUTPUTS:
-        if quantity in series and quantity not in needed:
-            _leave_out_short(quantity, series, t, notes)
-    for one in (series[q] for q in OUTPUTS if q in series):
-        for start, end in one.holes():
-            t = t[(t <= start) | (t >= end)]
-    if t.size < 2:
-        raise RecordingError(f'{name}: its signals do not overlap in time')
+    t = _sample_times(name, series, main, needed, notes)
     origin = float(t[0])
     recording = Recording(
         name=name,
@@ -90,16 +82,44 @@ def assemble(
         origin=origin,
     )
     if command is not None:
-        first = max(int(np.searchsorted(command.t, origin, side='right')) - 1, 0)
-        recording = replace(
-            recording,
-            command_t=command.t[first:] - origin,
-            command=command.value[first:],
-            command_spread=RECEIPT if command.is_received or main.is_received else 0.0,
-        )
+        recording = _with_commands(recording, command, is_received=main.is_received)
         _note_stream(recording, notes)
     gaps = tuple(_gaps(recording.t))
     return replace(recording, gaps=gaps, warnings=tuple(notes))
+
+
+def _sample_times(
+    name: str, series: dict[str, Series], main: Series, needed: set[str], notes: list[str]
+) -> Array:
+    """Return the stamps of *main* at which all signals have values.
+
+    Signals that are not *needed* and cover too little are removed from *series*, with a note.
+    """
+    command = series.get('pressure_command')
+    t = _common(name, main, [series[quantity] for quantity in needed], command, notes)
+    for quantity in OUTPUTS:
+        if quantity in series and quantity not in needed:
+            _leave_out_short(quantity, series, t, notes)
+    for one in (series[q] for q in OUTPUTS if q in series):
+        for start, end in one.holes():
+            t = t[(t <= start) | (t >= end)]
+    if t.size < 2:
+        raise RecordingError(f'{name}: its signals do not overlap in time')
+    return t
+
+
+def _with_commands(recording: Recording, command: Series, *, is_received: bool) -> Recording:
+    """Return the recording with the commands from the one that is in force at its start on.
+
+    *is_received* is whether its output has the times of receipt instead of stamps.
+    """
+    first = max(int(np.searchsorted(command.t, recording.origin, side='right')) - 1, 0)
+    return replace(
+        recording,
+        command_t=command.t[first:] - recording.origin,
+        command=command.value[first:],
+        command_spread=RECEIPT if command.is_received or is_received else 0.0,
+    )
 
 
 def _ascending(

@@ -11,7 +11,7 @@ from typing import Any
 from pam_ros.arguments import as_path, instance, sequence
 from pam_ros.errors import RecordingError, printable, shown
 from pam_ros.recording.assemble import MissingSignalError, assemble
-from pam_ros.recording.bag import bag_files, read_bag
+from pam_ros.recording.bag.read import bag_files, read_bag
 from pam_ros.recording.bounds import Bounded, Bounds, bounds_of
 from pam_ros.recording.csv_file import read_csv
 from pam_ros.recording.dataframe import series_of_frame

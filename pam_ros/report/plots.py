@@ -152,6 +152,42 @@ def _input(joint: Joint) -> str:
     return 'pressure difference' if np.min(drive_of(joint)) < 0.0 else 'mean pressure'
 
 
+def _axes(
+    joint: Joint, pressure: Scale, input_label: str
+) -> list[tuple[str, str, str, residual_plots.Pick]]:
+    """Return (name, title, label, values) of what residuals are drawn against."""
+    unit, speed = ('mrad', 'rad') if joint.is_revolute else ('mm', 'mm')
+    fast = 1.0 if joint.is_revolute else 1e3
+    place: tuple[str, str, str, residual_plots.Pick] = (
+        *('position', 'Against position', f'position, {unit}'),
+        lambda run: 1e3 * run.position,
+    )
+    if statics.is_direct(joint) and not joint.is_driven:
+        l0 = joint.muscle.l0
+        place = (
+            *('contraction', 'Against contraction', 'contraction, %'),
+            lambda run: 100.0 * run.position / l0,
+        )
+    axes: list[tuple[str, str, str, residual_plots.Pick]] = [
+        ('velocity', 'Against velocity', f'velocity, {speed}/s', lambda run: fast * run.velocity),
+        (
+            'pressure',
+            'Against the input' if joint.is_driven else f'Against {_input(joint)}',
+            input_label,
+            lambda run: pressure.factor * run.drive,
+        ),
+        place,
+        ('time', 'Against time', 'time, s', lambda run: run.t),
+    ]
+    if len(joint.muscles) > 1:
+        level: tuple[str, str, str, residual_plots.Pick] = (
+            *('level', 'Against mean pressure', f'mean pressure, {pressure.unit}'),
+            lambda run: pressure.factor * run.pressures.mean(axis=1),
+        )
+        axes.insert(2, level)
+    return axes
+
+
 def _against(
     result: Identification, runs: list[Run], curves: list[Curve], scale: Scale
 ) -> list[Picture]:
@@ -161,37 +197,6 @@ def _against(
     input_label = f'{_input(joint)}, {pressure.unit}'
     if joint.is_driven:
         pressure, input_label = Scale(1.0, ''), 'input'
-    unit, speed = ('mrad', 'rad') if joint.is_revolute else ('mm', 'mm')
-    fast = 1.0 if joint.is_revolute else 1e3
-    wanted: list[tuple[str, str, str, residual_plots.Pick]] = [
-        ('velocity', 'Against velocity', f'velocity, {speed}/s', lambda run: fast * run.velocity),
-        (
-            'pressure',
-            'Against the input' if joint.is_driven else f'Against {_input(joint)}',
-            input_label,
-            lambda run: pressure.factor * run.drive,
-        ),
-        ('position', 'Against position', f'position, {unit}', lambda run: 1e3 * run.position),
-        ('time', 'Against time', 'time, s', lambda run: run.t),
-    ]
-    if statics.is_direct(joint) and not joint.is_driven:
-        l0 = joint.muscle.l0
-        wanted[2] = (
-            'contraction',
-            'Against contraction',
-            'contraction, %',
-            lambda run: 100.0 * run.position / l0,
-        )
-    if len(joint.muscles) > 1:
-        wanted.insert(
-            2,
-            (
-                'level',
-                'Against mean pressure',
-                f'mean pressure, {pressure.unit}',
-                lambda run: pressure.factor * run.pressures.mean(axis=1),
-            ),
-        )
     found = [
         _narrow(
             f'over-{name}',
@@ -199,7 +204,7 @@ def _against(
             '',
             residual_plots.against(runs, curves, scale, pick, label),
         )
-        for name, title, label, pick in wanted
+        for name, title, label, pick in _axes(joint, pressure, input_label)
         if np.ptp(np.concatenate([pick(run) for run in runs])) > 0.0
     ]
     found.append(

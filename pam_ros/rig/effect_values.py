@@ -1,11 +1,11 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The given effects of a joint: their check, where each one acts, and when it begins."""
+"""The given effects of a joint and its library: their check, where each acts, when it begins."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from pam_ros.arguments import sequence
+from pam_ros.arguments import refuse, sequence
 from pam_ros.effects import EFFECTS
 from pam_ros.effects.base import ONSET, Effect
 from pam_ros.effects.names import EffectName
@@ -18,6 +18,16 @@ def checked_effects(effects: Sequence[Effect]) -> tuple[Effect, ...]:
     for i, effect in enumerate(found):
         if any(type(effect) is type(other) for other in found[:i]):
             raise ParameterError(f'effects[{i}] is a second {effect.name}: give one of each')
+    return found
+
+
+def library_of(library: Sequence[type[Effect]]) -> tuple[type[Effect], ...]:
+    """Return *library* as a tuple; raises ParameterError if an entry is not a valid Effect."""
+    found = sequence('library', library, type, 'an Effect, such as those of EFFECTS')
+    for i, effect in enumerate(found):
+        if not issubclass(effect, Effect):
+            refuse(f'library[{i}]', effect, 'an Effect, such as those of EFFECTS')
+        effect.parameters()  # raises ParameterError for an incomplete one
     return found
 
 

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from pam_ros.arguments import instance, refuse, sequence
+from pam_ros.arguments import instance, sequence
 from pam_ros.cached_property import cached_property
 from pam_ros.effects import EFFECTS
 from pam_ros.effects.base import Effect
@@ -20,8 +20,14 @@ from pam_ros.parameters import Parameter
 from pam_ros.recording.bounds import Bounds
 from pam_ros.rig import layout as at
 from pam_ros.rig import statics
-from pam_ros.rig.effect_values import begun, checked_effects, onsets, split_effects
-from pam_ros.rig.layout import Layout, layout_of
+from pam_ros.rig.effect_values import (
+    begun,
+    checked_effects,
+    library_of,
+    onsets,
+    split_effects,
+)
+from pam_ros.rig.layout import Layout, fill_load, layout_of
 from pam_ros.rig.loads import Load, LoadEquations, Mass
 from pam_ros.rig.transmissions import Straight, Transmission, TransmissionEquations
 
@@ -342,22 +348,3 @@ class Joint:
                 j = self.layout.parameter_at[effect.name]
                 absent = tuple(p.default for p in effect.parameters())
                 row[j : j + len(absent)] = given.get(effect, absent)
-
-
-def fill_load(row: Array, layout: Layout, load: Load, transmission: Transmission) -> None:
-    """Write the numbers of *load* and *transmission* into the joint's own row of q."""
-    row[at.INERTIA] = load.equations.inertia(load.mass, load.numbers, 0)
-    row[at.MASS] = load.mass
-    row[layout.load_at : layout.load_at + len(load.numbers)] = load.numbers
-    numbers = transmission.numbers
-    row[layout.transmission_at : layout.transmission_at + len(numbers)] = numbers
-
-
-def library_of(library: Sequence[type[Effect]]) -> tuple[type[Effect], ...]:
-    """Return *library* as a tuple; raises ParameterError if an entry is not a valid Effect."""
-    found = sequence('library', library, type, 'an Effect, such as those of EFFECTS')
-    for i, effect in enumerate(found):
-        if not issubclass(effect, Effect):
-            refuse(f'library[{i}]', effect, 'an Effect, such as those of EFFECTS')
-        effect.parameters()  # raises ParameterError for an incomplete one
-    return found

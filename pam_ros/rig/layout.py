@@ -23,8 +23,8 @@ from numpy.typing import NDArray
 
 from pam_ros.effects.base import Effect
 from pam_ros.effects.rows import A1, A2, A3, A4, A5, A6, INERTIA, L0, LENGTH, ZETA
-from pam_ros.rig.loads import LoadEquations
-from pam_ros.rig.transmissions import TransmissionEquations
+from pam_ros.rig.loads import Load, LoadEquations
+from pam_ros.rig.transmissions import Transmission, TransmissionEquations
 
 __all__ = ['A1', 'A2', 'A3', 'A4', 'A5', 'A6', 'INERTIA', 'L0', 'LENGTH', 'ZETA', 'Layout']
 
@@ -168,3 +168,12 @@ def delays_of(layout: Layout, q: Array) -> tuple[float, ...]:
         if effect.equations.delay is not None
     ]
     return tuple(float(sum(delay(row, j) for delay, j in delays)) for row in q[MUSCLE:])
+
+
+def fill_load(row: Array, layout: Layout, load: Load, transmission: Transmission) -> None:
+    """Write the numbers of *load* and *transmission* into the joint's own row of q."""
+    row[INERTIA] = load.equations.inertia(load.mass, load.numbers, 0)
+    row[MASS] = load.mass
+    row[layout.load_at : layout.load_at + len(load.numbers)] = load.numbers
+    numbers = transmission.numbers
+    row[layout.transmission_at : layout.transmission_at + len(numbers)] = numbers

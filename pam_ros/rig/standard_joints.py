@@ -10,8 +10,8 @@ from pam_ros.arguments import one_each
 from pam_ros.effects import EFFECTS
 from pam_ros.effects.base import Effect
 from pam_ros.muscle.muscle import Muscle
-from pam_ros.rig.effect_values import split_effects
-from pam_ros.rig.joint import Actuator, Joint, library_of
+from pam_ros.rig.effect_values import library_of, split_effects
+from pam_ros.rig.joint import Actuator, Joint
 from pam_ros.rig.loads import Arm, Mass
 from pam_ros.rig.transmissions import Pulley, Straight
 

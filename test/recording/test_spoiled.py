@@ -15,8 +15,8 @@ from mcap.reader import make_reader
 from mcap.writer import CompressionType, Writer
 
 from pam_ros.errors import PamError
-from pam_ros.recording.bag import read_bag
-from pam_ros.recording.bag_decode import RosbagsDecoder, Topic
+from pam_ros.recording.bag.decode import RosbagsDecoder, Topic
+from pam_ros.recording.bag.read import read_bag
 from pam_ros.recording.csv_file import read_csv
 from pam_ros.recording.mapping import ColumnMapping, read_mapping
 from pam_ros.settings.nominal import nominal_joint

@@ -34,11 +34,12 @@ from pam_ros.control.learning.features import (
     FeatureTuning,
 )
 from pam_ros.control.learning.growth import Growth
+from pam_ros.control.learning.lagged_chambers import LaggedChambers
 from pam_ros.control.learning.learning_tuning import LearningTuning
 from pam_ros.control.learning.regression import Regression, dot
+from pam_ros.control.learning.variance import RunningVariance
 from pam_ros.control.model import ControlModel, Pressures
 from pam_ros.control.observer import Observer
-from pam_ros.control.pressure_path import Chamber
 from pam_ros.control.signals import Reference
 
 # Columns of the filter: the features; the sensitivity of the missing force to both time constants;
@@ -49,37 +50,6 @@ _N = COUNT
 _FILL, _VENT, _FROM_LAW, _FROM_NO_LAG, _PLAIN, _LAGGED, _CONFIGURED, _COLUMNS = range(_N, _N + 8)
 _LAGS = slice(_FILL, _VENT + 1)  # of a column or of a parameter
 _UNKNOWNS = _VENT + 1
-
-
-class _Sensitivity:
-    """Sensitivity of the pressure of a chamber to its two time constants, Pa/s."""
-
-    def __init__(self) -> None:
-        self.fill = self.vent = 0.0
-
-    def follow(self, rate: float, fills: bool, tau: float, dt: float) -> None:
-        """Advance by *dt* s in which the pressure changed at *rate* Pa/s."""
-        share = 1.0 - exp(-dt / (tau if tau > dt else dt))
-        self.fill += share * ((-rate if fills else 0.0) - self.fill)
-        self.vent += share * ((0.0 if fills else -rate) - self.vent)
-
-
-class _Variance:
-    """Variance of a force about its running mean, N^2."""
-
-    def __init__(self) -> None:
-        self.value = 1.0
-        self.start()
-
-    def start(self) -> None:
-        """Begin to average at the next force: an offset is no evidence of another effect."""
-        self._centre: float | None = None
-
-    def see(self, force: float, centring: float, share: float) -> None:
-        """Take in a *force*, with its shares in the mean and in the variance."""
-        centre = force if self._centre is None else self._centre
-        self._centre = centre = centre + centring * (force - centre)
-        self.value += share * ((force - centre) ** 2 - self.value)
 
 
 class Learner:
@@ -147,7 +117,7 @@ class Learner:
         self._dropped_lag: tuple[float, float] | None = None
         self._share = self._explained = self._understood = self._known = 0.0
         # Of the force that is neither learned nor configured, and of that with what is configured.
-        self._missing, self._total = _Variance(), _Variance()
+        self._missing, self._total = RunningVariance(), RunningVariance()
 
     def set_gains(self, gains: Gains) -> None:
         """Continue with other gains, which bound the bandwidth."""
@@ -162,12 +132,8 @@ class Learner:
         self._observer.start(position, disturbance)
         self._wanted.start(position)
         self._actual.start(position)
-        self._chambers = [Chamber(zone=zone) for zone in self._zones]
-        for chamber, pressure in zip(self._chambers, pressures, strict=True):
-            chamber.pressure = pressure
-        self._at_once = [*pressures]  # of chambers without a lag
+        self._chambers = LaggedChambers(self._zones, pressures)
         self._nominal = pressures
-        self._sensitivities = [_Sensitivity() for _ in pressures]
         for one in (self._plain, self._lagged):
             one.forget(CONSTANT, -disturbance)
         # Three equal poles, like the observer's, for the features and for the difference in force
@@ -308,27 +274,10 @@ class Learner:
             return
         places = [muscle.at(observer.position) for muscle in self._model.muscles]
         fill, vent = self._lagged.theta[_LAGS]
-        pressures = []
-        by_fill = by_vent = less = late = 0.0
-        for i, place in enumerate(places):
-            chamber, sensitivity = self._chambers[i], self._sensitivities[i]
-            gain, inflow, before = place.arm * place.gain, inflows[i], chamber.pressure
-            zone = chamber.zone
-            chamber.fill, chamber.vent = fill, vent
-            fills = inflow > before
-            pressure = chamber.follow(inflow, dt)
-            if abs(inflow - before) >= zone:  # while the valve is closed, nothing changes
-                rate = (chamber.pressure - before) / dt
-                sensitivity.follow(rate, fills, fill if fills else vent, dt)
-            self._at_once[i] = at_once = min(max(self._at_once[i], inflow - zone), inflow + zone)
-            by_fill += -gain * sensitivity.fill
-            by_vent += -gain * sensitivity.vent
-            less += gain * (pressure - means[i])
-            late += gain * (pressure - at_once)
-            pressures.append(pressure)
-        self._input[_FILL], self._input[_VENT] = by_fill, by_vent
-        self._input[_FROM_LAW], self._input[_FROM_NO_LAG] = less, late
-        observer.predict(dt, pressures, -losses)
+        found = self._chambers.follow(dt, inflows, (fill, vent), places, means)
+        self._input[_FILL], self._input[_VENT] = found.by_fill, found.by_vent
+        self._input[_FROM_LAW], self._input[_FROM_NO_LAG] = found.less, found.late
+        observer.predict(dt, found.pressures, -losses)
 
     def _learn(self, span: float) -> None:
         """Update both hypotheses with the missing force, *span* s after the last update."""
@@ -383,7 +332,7 @@ class Learner:
         excess = max(self._lagged_error / tuning.noise, 1.0)
         self._known = max(1.0 - excess * self._lagged.uncertainty(_LAGS), 0.0) * practice
 
-    def _share_explained(self, error: float, force: _Variance) -> float:
+    def _share_explained(self, error: float, force: RunningVariance) -> float:
         """Return the share of a *force* that is explained with a mean square *error*."""
         return max(1.0 - (error + self._tuning.floor) / (force.value + 1e-9), 0.0)
 
@@ -398,6 +347,4 @@ class Learner:
         one, two, three = (from_no_lag - from_law for from_no_lag, from_law in pairs)
         stages[_FROM_NO_LAG], stages[_FROM_LAW] = (one, two, three), (0.0, 0.0, 0.0)
         self._input[_N:] = [0.0] * (_COLUMNS - _N)
-        for chamber, pressure in zip(self._chambers, self._nominal, strict=True):
-            chamber.pressure = pressure
-        self._sensitivities = [_Sensitivity() for _ in self._nominal]
+        self._chambers.restart(self._nominal)

@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 from pam_ros.parameters import Parameter, described
 from pam_ros.rig import layout as at
 from pam_ros.rig import statics
-from pam_ros.rig.joint import CONTRACTION, Joint, fill_load
+from pam_ros.rig.joint import CONTRACTION, Joint
+from pam_ros.rig.layout import fill_load
 
 Array = NDArray[np.float64]
 LOAD, TRANSMISSION, MOUNTING = 'load', 'transmission', 'mounting'

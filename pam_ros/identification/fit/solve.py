@@ -19,6 +19,7 @@ from collections.abc import Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from enum import Enum
+from functools import partial
 from math import log
 
 import numpy as np
@@ -216,6 +217,12 @@ def with_fresh_jacobian(solution: Solution, pool: Executor | None = None) -> Sol
     return replace(solution, jacobian=jacobian, is_fresh=True, log=log)
 
 
+def _cost(prior: Array, u: Array, white: Array) -> float:
+    """Return the cost of unknowns *u* with the whitened residuals *white* (n,)."""
+    z, n = u / prior, white.size
+    return n * log(float(white @ white) / n + 1e-300) + float(z @ z)
+
+
 def levenberg_marquardt(
     solution: Solution,
     iterations: int = 20,
@@ -232,12 +239,7 @@ def levenberg_marquardt(
     stale = not solution.is_fresh
     low, high = problem.bounds
     prior, maps = problem.prior, solution.whitenings
-    n = r.size
-
-    def cost_of(at: Array, white: Array) -> float:
-        z = at / prior
-        return n * log(float(white @ white) / n + 1e-300) + float(z @ z)
-
+    n, cost_of = r.size, partial(_cost, prior)
     white = problem.whitened(r, maps)
     cost, damping = cost_of(u, white), LEAST_DAMPING
     status, done, simulations = FitStatus.ITERATION_LIMIT, 0, 0

@@ -137,24 +137,7 @@ def run(kind: type[TickingNode], stop: StopRequest, about: str) -> int:
     node = None
     try:
         try:
-            parser = argparse.ArgumentParser(
-                prog=Path(sys.argv[0]).stem,
-                description=about,
-                formatter_class=argparse.RawDescriptionHelpFormatter,
-                epilog='Parameters and remappings follow --ros-args: see the manual of ROS 2.',
-            )
-            parser.add_argument(
-                '--version', action='version', version=VERSION_LINE, help=VERSION_HELP
-            )
-            if kind.has_parameters:
-                parser.add_argument(
-                    '--parameters',
-                    nargs='?',
-                    const='',
-                    metavar='TEXT',
-                    help='print the parameters with TEXT in their names, or all, and end',
-                )
-            kind.add_arguments(parser)
+            parser = _parser(kind, about)
             arguments = _parsed(parser)
             part = arguments.parameters if kind.has_parameters else None
             if part is not None:
@@ -193,6 +176,27 @@ def run(kind: type[TickingNode], stop: StopRequest, about: str) -> int:
                 node.destroy_node()
             rclpy.try_shutdown()
     return node.exit_code or 0
+
+
+def _parser(kind: type[TickingNode], about: str) -> argparse.ArgumentParser:
+    """Return the parser of the arguments that are not for ROS; *about* is the text of the help."""
+    parser = argparse.ArgumentParser(
+        prog=Path(sys.argv[0]).stem,
+        description=about,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+        epilog='Parameters and remappings follow --ros-args: see the manual of ROS 2.',
+    )
+    parser.add_argument('--version', action='version', version=VERSION_LINE, help=VERSION_HELP)
+    if kind.has_parameters:
+        parser.add_argument(
+            '--parameters',
+            nargs='?',
+            const='',
+            metavar='TEXT',
+            help='print the parameters with TEXT in their names, or all, and end',
+        )
+    kind.add_arguments(parser)
+    return parser
 
 
 def _parsed(parser: argparse.ArgumentParser) -> argparse.Namespace:

@@ -21,7 +21,7 @@ from pam_ros.plot.options import Options, add_arguments, checked
 from pam_ros.plot.panels import panels
 from pam_ros.plot.server import PageServer, content
 from pam_ros.plot.topics import TOPICS, muscles_of, numbers
-from pam_ros.recording.bag import FLOAT64, FLOAT64_ARRAY, FLUID_PRESSURE, JOINT_STATE
+from pam_ros.recording.bag.topics import FLOAT64, FLOAT64_ARRAY, FLUID_PRESSURE, JOINT_STATE
 from pam_ros.timing.pace import SECOND
 from pam_ros.timing.ticker import Ticker
 

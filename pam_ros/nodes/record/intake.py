@@ -11,8 +11,8 @@ from rosgraph_msgs.msg import Clock
 
 from pam_ros.nodes.common.rclpy_internals import messages_of
 from pam_ros.nodes.record.taking import RecordedTopic
-from pam_ros.recording.bag_metadata import BagTopic
-from pam_ros.recording.bag_writer import BagWriter
+from pam_ros.recording.bag.metadata import BagTopic
+from pam_ros.recording.bag.writer import BagWriter
 from pam_ros.recording.sending_time import LIMIT
 from pam_ros.recording.simulated_time import SimulatedTime
 from pam_ros.timing.pace import SECOND

@@ -24,8 +24,8 @@ from pam_ros.nodes.record.intake import TAKE, MessageIntake
 from pam_ros.nodes.record.message_text import message_text
 from pam_ros.nodes.record.qos import matching, metadata
 from pam_ros.nodes.record.taking import Taken, never
-from pam_ros.recording.bag_metadata import BagTopic
-from pam_ros.recording.bag_writer import BagWriter
+from pam_ros.recording.bag.metadata import BagTopic
+from pam_ros.recording.bag.writer import BagWriter
 from pam_ros.timing.pace import SECOND
 from pam_ros.timing.ticker import Ticker
 

@@ -20,9 +20,9 @@ from rosbags.interfaces import (
 )
 
 from pam_ros.errors import RecordingError
-from pam_ros.recording.bag_metadata import BagTopic
-from pam_ros.recording.bag_source import open_bag
-from pam_ros.recording.bag_writer import BagWriter
+from pam_ros.recording.bag.metadata import BagTopic
+from pam_ros.recording.bag.source import open_bag
+from pam_ros.recording.bag.writer import BagWriter
 from support import bags
 
 FOREVER = {'sec': 9223372036, 'nsec': 854775807}

@@ -4,7 +4,7 @@
 
 import yaml
 
-from pam_ros.recording.bag_metadata import BagTopic, ListedFile, metadata_text, whole
+from pam_ros.recording.bag.metadata import BagTopic, ListedFile, metadata_text, whole
 
 TOPICS = [BagTopic('/a', 'std_msgs/msg/Float64', ''), BagTopic('/b', 'std_msgs/msg/String', '')]
 

@@ -14,8 +14,8 @@ import shutil
 from pathlib import Path
 
 from pam_ros.errors import RecordingError
-from pam_ros.recording.bag_metadata import BagTopic, ListedFile, Span, metadata_text, whole
-from pam_ros.recording.mcap_file import McapFile
+from pam_ros.recording.bag.mcap_file import McapFile
+from pam_ros.recording.bag.metadata import BagTopic, ListedFile, Span, metadata_text, whole
 
 CHUNKS = 256  # in a file, then a new file begins; each chunk takes about 3 kB of memory
 

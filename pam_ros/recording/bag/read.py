@@ -2,19 +2,20 @@
 # SPDX-License-Identifier: Apache-2.0
 """The topics of a rig in a rosbag2: their names, the meaning of their fields, and their clock."""
 
-import re
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pam_ros.errors import RecordingError
-from pam_ros.recording.bag_decode import Topic
-from pam_ros.recording.bag_source import BagSource, Message, bag_files, open_bag
+from pam_ros.recording.bag.decode import Topic
+from pam_ros.recording.bag.source import BagSource, Message, bag_files, open_bag
+from pam_ros.recording.bag.topics import OwnTopics, own_topics
+from pam_ros.recording.bag.values import getter
 from pam_ros.recording.mapping import ColumnMapping, Meaning
-from pam_ros.recording.quantities import ATMOSPHERE, Target
+from pam_ros.recording.quantities import Target
 from pam_ros.recording.series import Series
 
 __all__ = ['bag_files', 'read_bag']
@@ -24,56 +25,8 @@ _SIMULATED = 10**18  # ns: no real clock is before 2001
 _LATEST = 2**63 - 1  # ns: the largest time in ROS; an MCAP file can hold twice as much
 _TICK = 0.1  # s by which a simulated clock, published in ticks, may be behind a header
 
-JOINT_STATE = 'sensor_msgs/msg/JointState'
-FLUID_PRESSURE = 'sensor_msgs/msg/FluidPressure'
-FLOAT64_ARRAY = 'std_msgs/msg/Float64MultiArray'
-FLOAT64 = 'std_msgs/msg/Float64'
-_FLOAT = (FLOAT64, 'std_msgs/msg/Float32')
 _OUTPUTS = ('position', 'angle', 'contraction', 'force')
 _UNFILLED = ('velocity', 'angular_velocity', 'force')  # 0 in messages that do not fill them
-_PA, _M = Target('pressure_command', 'Pa'), Target('position', 'm')
-# topic -> type -> field -> meaning: the package's own topics.
-Ours = dict[str, dict[str, dict[str, Meaning]]]
-_OURS: Ours = {
-    'pressure_command': {kind: {'data': Meaning(_PA)} for kind in _FLOAT},
-    'joint_states': {
-        JOINT_STATE: {
-            'position': Meaning(_M),
-            'velocity': Meaning(Target('velocity', 'm_s')),
-            'effort': Meaning(Target('force', 'N')),
-        }
-    },
-    'force': {kind: {'data': Meaning(Target('force', 'N'))} for kind in _FLOAT},
-    'pressure': {
-        FLUID_PRESSURE: {'fluid_pressure': Meaning(Target('pressure', 'Pa'), 1.0, -ATMOSPHERE)}
-    },
-}
-
-
-def _ours(muscles: Sequence[str], unit: str | None) -> Ours:
-    """Return the package's topics of one muscle on a mass, or of a joint with *muscles*, *unit*.
-
-    The pressures of a joint are arrays with a number for each muscle.
-    """
-    if not muscles:
-        return _OURS
-    linear = {'position': Target('position', 'm'), 'velocity': Target('velocity', 'm_s')}
-    angular = {'position': Target('angle', 'rad'), 'velocity': Target('angular_velocity', 'rad_s')}
-    motion = angular if unit == 'rad' else linear
-    names = muscles if len(muscles) > 1 else ('',)
-    commands = {
-        f'data[{i}]': Meaning(Target('pressure_command', 'Pa', name))
-        for i, name in enumerate(names)
-    }
-    pressures = {
-        f'data[{i}]': Meaning(Target('pressure', 'Pa', name), 1.0, -ATMOSPHERE)
-        for i, name in enumerate(names)
-    }
-    return {
-        'pressure_commands': {FLOAT64_ARRAY: commands},
-        'joint_states': {JOINT_STATE: {field: Meaning(to) for field, to in motion.items()}},
-        'pressures': {FLOAT64_ARRAY: pressures},
-    }
 
 
 class _Field(NamedTuple):
@@ -116,7 +69,7 @@ def read_bag(
     Raises RecordingError for topics that are missing, ambiguous, or of an unknown type.
     """
     source = open_bag(path)
-    ours = _ours(muscles, unit)
+    ours = own_topics(muscles, unit)
     fields = _fields(path, source, mapping, namespace, ours)
     samples = _read(path, source, fields)
     notes = list(source.notes)
@@ -138,7 +91,7 @@ def _fields(
     source: BagSource,
     mapping: ColumnMapping,
     namespace: str | None,
-    ours: Ours,
+    ours: OwnTopics,
 ) -> list[_Field]:
     """Return the fields to read, those of the user first: they replace those of the package."""
     fields = []
@@ -234,7 +187,7 @@ def _samples(
         )
     received = np.array([message.stamp for message in messages], dtype=np.int64)
     topic: Topic = source.topics[fields[0].topic]
-    getters = [_getter(path, field) for field in fields]
+    getters = [getter(path.name, field.topic, field.path) for field in fields]
     stamped = np.zeros_like(received)
     columns = [np.empty(received.size) for _ in fields]
     for k, message in enumerate(messages):
@@ -249,61 +202,6 @@ def _samples(
         for column, get in zip(columns, getters, strict=True):
             column[k] = get(content)
     return _Samples(received, stamped, columns)
-
-
-def _getter(path: Path, field: _Field) -> Callable[[Any], float]:
-    """Return the function that reads the field's number from a message, NaN if it is unfilled."""
-    steps = [
-        (match['name'], match['index'])
-        for match in re.finditer(r'(?P<name>[A-Za-z_]\w*)(?:\[(?P<index>[^\]]+)\])?', field.path)
-    ]
-    where = f'{path.name}: {field.topic}.{field.path}'
-
-    def get(message: Any) -> float:
-        value = message
-        for name, index in steps:
-            if not hasattr(value, name):
-                raise RecordingError(f'{where} is not there: the message has no {name!r}')
-            value = getattr(value, name)
-            if index is not None:
-                value = _element(where, message, value, index)
-        if isinstance(value, (int, float)):
-            return float(value)
-        return _only(where, message, value)
-
-    return get
-
-
-def _element(where: str, message: Any, value: Any, index: str) -> Any:
-    if not hasattr(value, '__len__'):
-        raise RecordingError(f'{where} is not there: the message has one value, without an index')
-    names = list(getattr(message, 'name', ()))
-    if index in names:
-        at = names.index(index)
-    elif index.isdecimal():
-        at = int(index)
-    else:
-        raise RecordingError(f'{where} is not there: the message names {", ".join(names)}')
-    if at >= len(value):
-        raise RecordingError(f'{where} is not there: the message has {len(value)} values')
-    return value[at]
-
-
-def _only(where: str, message: Any, value: Any) -> float:
-    """Return the one number of an array, NaN if it is empty."""
-    try:
-        count = len(value)
-        if count == 1:
-            return float(value[0])
-    except (TypeError, ValueError) as error:
-        raise RecordingError(f'{where} is not a number') from error
-    if count == 0:
-        return float('nan')
-    names = ', '.join(getattr(message, 'name', ())) or f'0 to {count - 1}'
-    raise RecordingError(
-        f'{where} has {count} values ({names}): say which with --column '
-        f"'{where.split(': ', 1)[1]}[NAME]=QUANTITY_UNIT'"
-    )
 
 
 def _headers_agree(samples: dict[str, _Samples], notes: list[str]) -> bool:

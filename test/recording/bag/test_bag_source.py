@@ -9,8 +9,8 @@ import pytest
 from rosbags.rosbag2 import CompressionMode, StoragePlugin
 
 from pam_ros.errors import RecordingError
-from pam_ros.recording.bag_decode import RosbagsDecoder, Topic
-from pam_ros.recording.bag_source import bag_files, open_bag
+from pam_ros.recording.bag.decode import RosbagsDecoder, Topic
+from pam_ros.recording.bag.source import bag_files, open_bag
 from support import bags
 
 PLUGINS = list(StoragePlugin)

@@ -18,10 +18,10 @@ from mcap.reader import make_reader
 from rosbags.rosbag2 import Reader
 
 from pam_ros.errors import RecordingError
-from pam_ros.recording import bag_writer
-from pam_ros.recording.bag_metadata import BagTopic
-from pam_ros.recording.bag_source import bag_files, open_bag
-from pam_ros.recording.bag_writer import CHUNKS, BagWriter
+from pam_ros.recording.bag import writer
+from pam_ros.recording.bag.metadata import BagTopic
+from pam_ros.recording.bag.source import bag_files, open_bag
+from pam_ros.recording.bag.writer import CHUNKS, BagWriter
 from support import bags
 
 TEXT, _ = bags.STORE.generate_msgdef(bags.FLOAT)
@@ -32,7 +32,7 @@ PER_SEAL = 3  # messages of each topic
 @pytest.fixture
 def short_files(monkeypatch):
     """Begin a new file after every four chunks, the seal of the empty bag among them."""
-    monkeypatch.setattr(bag_writer, 'CHUNKS', 4)
+    monkeypatch.setattr(writer, 'CHUNKS', 4)
 
 
 class Recorder:
@@ -122,7 +122,7 @@ def test_memory_does_not_grow_from_file_to_file(tmp_path, monkeypatch):
 
     The median, since Python itself fills tables of its own in the first files and now and then.
     """
-    monkeypatch.setattr(bag_writer, 'CHUNKS', 32)
+    monkeypatch.setattr(writer, 'CHUNKS', 32)
     recorder = Recorder(tmp_path / 'bag')
     recorder.seal(40)
     taken = []
@@ -190,8 +190,8 @@ ENDLESS = """
 import struct
 import sys
 from pathlib import Path
-from pam_ros.recording import bag_writer
-from pam_ros.recording.bag_metadata import BagTopic
+from pam_ros.recording.bag import writer as bag_writer
+from pam_ros.recording.bag.metadata import BagTopic
 bag_writer.CHUNKS = 4
 writer = bag_writer.BagWriter(Path(sys.argv[1]))
 channels = [writer.add_topic(BagTopic(name, 'std_msgs/msg/Float64', 'float64 data'))

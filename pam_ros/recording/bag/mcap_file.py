@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from pam_ros.errors import RecordingError
-from pam_ros.recording.bag_metadata import BagTopic, Span
+from pam_ros.recording.bag.metadata import BagTopic, Span
 
 _CHUNK = 1 << 20  # bytes of records, after which the library begins a new chunk
 _RECORD = 31  # bytes of a message record without its data

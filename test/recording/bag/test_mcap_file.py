@@ -7,8 +7,8 @@ import random
 import pytest
 from mcap.reader import make_reader
 
-from pam_ros.recording.bag_metadata import BagTopic
-from pam_ros.recording.mcap_file import McapFile
+from pam_ros.recording.bag.mcap_file import McapFile
+from pam_ros.recording.bag.metadata import BagTopic
 
 TOPIC = BagTopic('/log', 'std_msgs/msg/String', 'string data')
 

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 
 from pam_ros.errors import ParameterError, RecordingError
 from pam_ros.plain_yaml import read_yaml
-from pam_ros.recording.bag_decode import RosbagsDecoder, Topic
+from pam_ros.recording.bag.decode import RosbagsDecoder, Topic
 
 METADATA = 'metadata.yaml'
 _MAGIC = b'\x89MCAP0\r\n'

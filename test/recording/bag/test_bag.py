@@ -7,7 +7,7 @@ import pytest
 from rosbags.rosbag2 import StoragePlugin
 
 from pam_ros.errors import RecordingError
-from pam_ros.recording.bag import read_bag
+from pam_ros.recording.bag.read import read_bag
 from pam_ros.recording.mapping import ColumnMapping, read_mapping
 from support import bags
 
