@@ -13,8 +13,10 @@ from pam_ros.control.allocation import Allocation, allocation_of
 from pam_ros.control.co_contraction import CoContraction
 from pam_ros.control.gains import Gains
 from pam_ros.control.limits import Limits
+from pam_ros.control.loop import Loop, warm_up
 from pam_ros.control.model import ControlModel
 from pam_ros.control.pid import Pid, PidGains
+from pam_ros.control.plausibility import Plausibility, bounds_of
 from pam_ros.control.pressure_path import PressurePath
 from pam_ros.control.reference.shaping import Shape
 from pam_ros.control.reference.source import ReferenceSource
@@ -80,6 +82,20 @@ class LawSetup:
         """Return a new reference generator, which must be started before use."""
         return ReferenceSource(self.shape, self.reach, self.unit)
 
+    def make_loop(self) -> Loop:
+        """Return a new loop of this law, which waits for a first measurement.
+
+        All that it needs is compiled, so that its first steps are as short as the later ones.
+        """
+        law = self._make_warm_law()
+        plausibility = Plausibility(bounds_of(law.allocation))
+        return Loop(law, self.make_reference_source(), self.period, plausibility)
+
+    def _make_warm_law(self) -> PositionLaw:
+        law = self.make_law()
+        warm_up(law, self.reach, self.period)
+        return law
+
     def _check_law(self) -> None:
         """Raise ParameterError if the law cannot be created, or if its command is not finite.
 
@@ -111,6 +127,21 @@ class LawSetup:
     @cached_property
     def _paths(self) -> tuple[PressurePath, ...]:
         return tuple(PressurePath(self.joint, i, 1.0) for i in range(len(self.joint.muscles)))
+
+    def change_loop(self, loop: Loop, before: 'LawSetup') -> str:
+        """Let *loop*, created by *before*, continue with this setup.
+
+        Return a sentence if the present reference is out of the new reach, else ''.
+        """
+        loop.period = self.period
+        if not self.needs_new_law(before):
+            self.take_over(loop.law, before)
+            loop.source.set_shape(self.shape)
+            return ''
+        law = self._make_warm_law()
+        sentence = loop.change(law, self.make_reference_source())
+        loop.plausibility.bounds = bounds_of(law.allocation)
+        return sentence
 
     def take_over(self, law: PositionLaw, before: 'LawSetup') -> None:
         """Let *law*, created by *before*, continue with the gains and stiffness of this setup."""

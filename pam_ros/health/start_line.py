@@ -61,9 +61,7 @@ def of_controller(
     names = setup.topics.muscles
     others = (settings.joint_name,) if len(names) == 1 else names
     muscles = _muscles(values, joint.muscles, names, others)
-    pace = f'at {settings.rate:g} Hz'
-    if has_sim_time:
-        pace = 'one for each joint state (use_sim_time is set)'
+    pace = command_pace(settings.rate, has_sim_time=has_sim_time)
     references = [resolve('position_reference'), resolve('joint_trajectory')]
     if setup.law.can_stiffen:
         references.append(resolve('co_contraction_reference'))
@@ -76,6 +74,14 @@ def of_controller(
     if not settings.start_enabled:
         line += '; disabled until the service ~/enable is called'
     return shown(line)
+
+
+def command_pace(rate: float, *, has_sim_time: bool) -> str:
+    """Return when commands are sent, as text; *has_sim_time* is whether joint states set it.
+
+    Otherwise *rate* in Hz does.
+    """
+    return 'one for each joint state (use_sim_time is set)' if has_sim_time else f'at {rate:g} Hz'
 
 
 def listed(names: Iterable[str]) -> str:

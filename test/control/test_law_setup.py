@@ -9,6 +9,7 @@ import pytest
 from pam_ros.control.co_contraction import CoContraction
 from pam_ros.control.gains import Gains
 from pam_ros.control.limits import Limits
+from pam_ros.control.loop import WAITING, Measurement
 from pam_ros.control.pid import Pid, PidGains
 from pam_ros.control.reference.shaping import Shape
 from pam_ros.control.setup import LawSetup
@@ -16,7 +17,7 @@ from pam_ros.control.signals import Reference
 from pam_ros.control.sliding_mode import SlidingMode
 from pam_ros.effects import DeadBand, PressureLag, PressureOffset
 from pam_ros.errors import ParameterError
-from pam_ros.rig.loads import Mass
+from pam_ros.rig.loads import Arm, Mass
 from pam_ros.rig.standard_joints import antagonistic_joint, single_muscle_joint
 from support.paper import spring
 
@@ -111,3 +112,43 @@ def test_a_running_law_takes_over_gains_and_stiffness():
 def test_a_law_without_a_finite_command_is_refused():
     with pytest.raises(ParameterError, match='gives no finite pressure with these parameters'):
         setup_of(joint=single_muscle_joint(load=Mass(mass=5e-324)))
+
+
+def test_a_loop_takes_a_change_over_and_gets_a_new_law_only_if_one_is_needed():
+    before = of_pair()
+    loop = before.make_loop()
+    assert (loop.state, loop.period) == (WAITING, before.period)
+    law, bounds = loop.law, loop.plausibility.bounds
+    softer = replace(
+        before,
+        gains=replace(before.gains, bandwidth=10.0),
+        shape=replace(before.shape, max_velocity=0.01),
+        period=0.004,
+    )
+    assert softer.change_loop(loop, before) == ''
+    assert loop.law is law
+    assert law.gains.bandwidth == 10.0
+    begin = 0.5 * sum(before.reach)
+    loop.source.start(begin)
+    loop.source.follow(1.0)
+    loop.source.set_target(begin + 0.1)
+    for _ in range(100):
+        reference = loop.source.follow(0.01)
+    assert begin < reference.position < begin + 0.011  # in 1 s at no more than max_velocity
+    assert loop.period == 0.004
+    heavier = replace(softer, joint=replace(before.joint, load=Arm(mass=2.0)))
+    assert heavier.change_loop(loop, softer) == ''
+    assert loop.law is not law
+    assert loop.plausibility.bounds != bounds
+
+
+def test_a_loop_says_that_its_reference_is_out_of_the_new_reach():
+    before = setup_of()
+    loop = before.make_loop()
+    high = before.reach[1]
+    loop.see(Measurement(0.0, high))
+    loop.tick(0.0)
+    loop.source.set_target(high)
+    heavier = replace(before, joint=single_muscle_joint(load=Mass(mass=60.0)))
+    assert 'is out of reach with the changed parameters' in heavier.change_loop(loop, before)
+    assert loop.law.allocation.reach == heavier.reach

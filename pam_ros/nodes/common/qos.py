@@ -5,6 +5,7 @@
 from math import ceil
 
 from rclpy.node import Node
+from rclpy.qos import ReliabilityPolicy
 from rclpy.qos_overriding_options import QoSOverridingOptions
 
 DEPTH = 10
@@ -29,6 +30,16 @@ def states_depth(rate: float, *, is_simulated: bool) -> int:
 def answers_depth(node: Node) -> int:
     """Return how many messages *node* keeps that it publishes in answer to states."""
     return KEPT_SIMULATED if node.get_parameter('use_sim_time').value else DEPTH
+
+
+def states_reliability(*, are_answered: bool) -> ReliabilityPolicy:
+    """Return how to subscribe to the states of a rig.
+
+    *are_answered* means that time follows the states, each of which is answered.
+    """
+    # If time follows the states, it would stop at a lost state. A rig in real time publishes the
+    # next one soon, reliably or not: best effort receives from both kinds of publishers.
+    return ReliabilityPolicy.RELIABLE if are_answered else ReliabilityPolicy.BEST_EFFORT
 
 
 def open_qos() -> QoSOverridingOptions:

@@ -9,42 +9,26 @@ from typing import Any
 from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
 
-from pam_ros.nodes.common.qos import DEPTH, open_qos
+from pam_ros.nodes.common.qos import DEPTH, open_qos, states_reliability
 from pam_ros.nodes.common.stamps import stamp_of
-from pam_ros.timing.interruption import Interruptions, steady_ns
-from pam_ros.timing.pace import SECOND
-
-# ns of interruption after which only the newest state is answered, if time follows the states: a
-# scaled simulation has continued meanwhile; one in lockstep has waited, and no state is lost.
-LONG = SECOND // 2
+from pam_ros.timing.loop_pacing import LoopPacing, Use
 
 
 class StateIntake:
     """Subscribes to topics, and checks for interruptions of this process before each message."""
 
-    def __init__(
-        self,
-        node: Node,
-        is_followed: bool,
-        longest: Callable[[], float],
-        on_pause: Callable[[int], None],
-    ) -> None:
-        """Subscribe with *node*; *is_followed* means that time follows the states.
+    def __init__(self, node: Node, pacing: LoopPacing, on_pause: Callable[[int], None]) -> None:
+        """Subscribe with *node*; *pacing* finds interruptions.
 
-        If it does not, *on_pause*(ns) is called after an interruption of more than *longest*() s.
+        *on_pause*(ns) is called after an interruption after which control starts again.
         """
-        self._node, self._is_followed = node, is_followed
-        self._longest, self._on_pause = longest, on_pause
-        self._interruptions = Interruptions(steady_ns())
+        self._node, self._pacing, self._on_pause = node, pacing, on_pause
         self.pause = 0  # length of the last interruption, ns
         self._newest: dict[str, Callable[[], None]] = {}
 
     def look(self) -> bool:
-        """Return whether an interruption was longer than the rig keeps the last command."""
-        longest = LONG if self._is_followed else round(self._longest() * SECOND)
-        pause = self._interruptions.find(steady_ns(), longest)
-        if self._is_followed:
-            return False  # the simulated time between two states shows an interruption
+        """Return whether an interruption was so long that control starts again."""
+        pause = self._pacing.interruption()
         if pause:
             self.pause = pause
             self._on_pause(pause)
@@ -55,8 +39,8 @@ class StateIntake:
 
         When all queued messages have arrived, pass on those that were kept until then.
         """
-        self._interruptions.mark(now)
-        if self._newest and not self._interruptions.is_settling:
+        self._pacing.mark(now)
+        if self._newest and not self._pacing.is_settling:
             newest, self._newest = self._newest, {}
             for take in newest.values():
                 take()
@@ -90,12 +74,11 @@ class StateIntake:
 
         def receive(message: Any) -> None:
             stamp = stamp_of(message) if hasattr(message, 'header') else 0
-            if self._is_followed and self._interruptions.is_settling:
-                self._newest[topic] = partial(callback, message)
-            elif self._is_followed or not self._interruptions.is_old(topic, stamp, steady_ns()):
+            use = self._pacing.use_of(topic, stamp)
+            if use is Use.NOW:
                 callback(message)
+            elif use is Use.LATER:
+                self._newest[topic] = partial(callback, message)
 
-        # If time follows the states, it would stop at a lost state. A rig in real time publishes
-        # the next one soon, reliably or not: best effort receives from both kinds of publishers.
-        reliable, best_effort = ReliabilityPolicy.RELIABLE, ReliabilityPolicy.BEST_EFFORT
-        self.subscribe(kind, topic, receive, reliable if self._is_followed else best_effort)
+        reliability = states_reliability(are_answered=self._pacing.answers_states)
+        self.subscribe(kind, topic, receive, reliability)

@@ -20,6 +20,7 @@ class StateTopic:
     def __init__(self, node: Node, names: tuple[str, ...]) -> None:
         """Create the publisher of the terms of these *names* on *node*."""
         self._names = names
+        self._published = 0  # ROS time of the last message, ns
         self._message = JointState(name=names, position=[0.0] * len(names))
         self._publisher = node.create_publisher(
             JointState,
@@ -28,8 +29,12 @@ class StateTopic:
             qos_overriding_options=open_qos(),
         )
 
-    def publish(self, stamp: int, terms: Terms) -> None:
-        """Publish the terms of the ROS time *stamp* in ns."""
+    def publish(self, stamp: int, terms: Terms, rate: float) -> None:
+        """Publish the terms of the ROS time *stamp* in ns, at most *rate* times a second."""
+        # Slightly early counts as due, since the stamps of samples are rounded.
+        if not rate or 0 <= stamp - self._published < 0.99 * SECOND / rate:
+            return
+        self._published = stamp
         message = self._message
         message.header.stamp.sec, message.header.stamp.nanosec = divmod(stamp, SECOND)
         message.position = [terms.value(name) for name in self._names]

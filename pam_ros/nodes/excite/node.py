@@ -11,22 +11,23 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 from rclpy.duration import Duration
-from rclpy.qos import QoSProfile, ReliabilityPolicy
+from rclpy.qos import QoSProfile
 from sensor_msgs.msg import JointState
 from tqdm import tqdm
 
 from pam_ros.excitation.guard import Guard
 from pam_ros.excitation.programme import write_csv
+from pam_ros.excitation.programme_pacing import Received, programme_pacing
 from pam_ros.health.absence import Absence
-from pam_ros.health.start_line import listed
+from pam_ros.health.start_line import command_pace, listed
 from pam_ros.nodes.common.commands import commands_of
 from pam_ros.nodes.common.node_parameters import NodeParameters
-from pam_ros.nodes.common.qos import DEPTH, open_qos
+from pam_ros.nodes.common.qos import DEPTH, open_qos, states_reliability
 from pam_ros.nodes.common.rclpy_internals import overrides_of
 from pam_ros.nodes.common.spin import TickingNode
 from pam_ros.nodes.common.stamps import stamp_of
 from pam_ros.settings.excite import Experiment, settings_of
-from pam_ros.timing.pace import SECOND
+from pam_ros.timing.pacing import Reply
 from pam_ros.timing.ticker import Ticker
 
 Array = NDArray[np.float64]
@@ -36,7 +37,6 @@ UNNAMED = '_NODE_NAME_UNKNOWN_'  # name of a node until it is completely discove
 LONGEST_PAUSE = 0.1  # s: longest pause between commands that counts for the pressure rate
 LAST_READ = 5.0  # s in which a delayed recorder reads the last commands
 LAST = 0.2  # s for which 0 Pa is commanded after an emergency stop
-REPEAT = 0.05  # s after a command, after which it is sent again for a repeated state
 
 
 class PamExcite(TickingNode):
@@ -58,10 +58,11 @@ class PamExcite(TickingNode):
         self._commands: Any = None  # after the start
         self._pressure = np.zeros(len(self._now.topics.muscles))  # last command
         self._remaining = round(LAST * self._now.settings.rate)  # remaining commands of 0 Pa
-        self._is_followed = bool(self.get_parameter('use_sim_time').value)
-        self.keeps_wall_time = not self._is_followed
-        self._stamp = 0.0  # ROS time of the newest joint state, s
-        self._answered = 0.0  # steady time of the last command, s
+        self._pacing = programme_pacing(
+            lambda: self.get_clock().now().nanoseconds,
+            is_simulated=bool(self.get_parameter('use_sim_time').value),
+        )
+        self.keeps_wall_time = self._pacing.keeps_wall_time
         self._segment = ''
         self._absence = Absence(self.get_logger(), 'the rig is found')
         self._bar = tqdm(disable=True)
@@ -96,28 +97,24 @@ class PamExcite(TickingNode):
             return
         self._log_plan()
         self._begun = time.monotonic()
-        self._received = self._begun  # steady time of the newest joint state, s
-        self._seen = self._ros_time()  # its time by the clock of the programme, s
         silence, unit = self._now.settings.silence, self._now.unit
-        self._guard = Guard(*self._now.window, unit, silence, self._seen)
+        self._guard = Guard(*self._now.window, unit, silence, self._pacing.now())
         self._misread = ''
         self._commands = commands_of(self, self._now.topics)
-        # If time follows the states, it would stop at a lost state: they are received reliably.
-        followed, free = ReliabilityPolicy.RELIABLE, ReliabilityPolicy.BEST_EFFORT
+        reliability = states_reliability(are_answered=self._pacing.answers_states)
         self.create_subscription(
             JointState,
             'joint_states',
             self._see,
-            QoSProfile(depth=DEPTH, reliability=followed if self._is_followed else free),
+            QoSProfile(depth=DEPTH, reliability=reliability),
             qos_overriding_options=open_qos(),
         )
 
     def _log_plan(self) -> None:
         commands = listed(map(self.resolve_topic_name, self._now.topics.commands))
         states = self.resolve_topic_name('joint_states')
-        settings, pace = self._now.settings, 'one for each joint state (use_sim_time is set)'
-        if not self._is_followed:
-            pace = f'at {settings.rate:g} Hz'
+        settings = self._now.settings
+        pace = command_pace(settings.rate, has_sim_time=self._pacing.answers_states)
         self.get_logger().info(
             f'plays a programme of {self._now.programme.duration:.1f} s; commands: {commands}, '
             f'{pace}; states: {states}; begins {settings.countdown:g} s after the rig is found'
@@ -139,18 +136,16 @@ class PamExcite(TickingNode):
             self._misread = 'joint_states has no positions'
         else:
             at = names.index(wanted) if wanted else 0
-            before, self._received = self._stamp, time.monotonic()
-            self._stamp = stamp_of(message) / SECOND if self._is_followed else 0.0
-            self._seen = now = self._stamp or self._ros_time()
-            self._guard.record(message.position[at], now)
-            if self._is_followed and self._do == self._play:
-                self._answer(now, is_again=bool(before) and self._stamp == before)
+            received = self._pacing.receive(stamp_of(message))
+            self._guard.record(message.position[at], received.time)
+            if self._do == self._play:
+                self._reply(received)
 
-    def _answer(self, now: float, *, is_again: bool) -> None:
-        """Send the command of *now* s; answer a repeated state with the last command."""
-        if not is_again:
-            self._play_at(now)
-        elif time.monotonic() - self._answered > REPEAT:
+    def _reply(self, received: Received) -> None:
+        """Send the command that a state requires while the programme is played."""
+        if received.reply is Reply.COMMAND:
+            self._play_at(received.time)
+        elif received.reply is Reply.LAST_COMMAND:
             self._command(self._pressure)
 
     # Before --------------------------------------------------------------------------------
@@ -167,7 +162,7 @@ class PamExcite(TickingNode):
         missing = {
             **self._lacking_subscribers(),
             'joint_states is not published': self._guard.position is None,
-            'use_sim_time is set and /clock is not published': self._ros_time() == 0.0,
+            'use_sim_time is set and /clock is not published': self._pacing.now() == 0.0,
             'another node commands pressures': bool(others),
         }
         problems = ', '.join(text for text, is_so in missing.items() if is_so)
@@ -208,7 +203,7 @@ class PamExcite(TickingNode):
         if problem:
             self._refuse(problem)
         elif time.monotonic() >= self._play_from:
-            self._origin = self._last = self._stamp or self._ros_time()
+            self._origin = self._last = self._pacing.start
             self._bar = tqdm(
                 total=round(self._now.programme.duration, 1),
                 unit='s',
@@ -220,14 +215,11 @@ class PamExcite(TickingNode):
 
     def _problem(self) -> str:
         """Return the reason to stop, or ''."""
-        now = self._ros_time()
-        if self._is_followed:
-            age = time.monotonic() - self._received
-            if age > self._now.settings.patience:
-                return f'no joint_states for {age:.1f} s of wall time'
-            # The smaller of two times: time may stop, and /clock may arrive before its states.
-            now = min(now, self._seen + age)
-        return self._misread or self._guard.problem(now)
+        return (
+            self._pacing.silence(self._now.settings.patience)
+            or self._misread
+            or self._guard.problem(self._pacing.silent_until)
+        )
 
     def _refuse(self, why: str) -> None:
         print(f'pam_excite: {why}', file=sys.stderr, flush=True)
@@ -235,15 +227,10 @@ class PamExcite(TickingNode):
 
     # While it plays ------------------------------------------------------------------------
 
-    def _ros_time(self) -> float:
-        if self._is_followed:
-            return float(self.get_clock().now().nanoseconds) / SECOND
-        return time.monotonic()
-
     def _play(self) -> None:
         """Continue to play; if time follows the states, only check whether the states stop."""
-        if not self._is_followed or self._problem():
-            self._play_at(self._ros_time())
+        if self._pacing.keeps_wall_time or self._problem():
+            self._play_at(self._pacing.now())
 
     def _play_at(self, now: float) -> None:
         elapsed, since = now - self._origin, now - self._last
@@ -278,7 +265,7 @@ class PamExcite(TickingNode):
 
     def _command(self, pressure: Array) -> None:
         self._pressure = pressure
-        self._answered = time.monotonic()
+        self._pacing.note_command()
         self._commands.publish(pressure.tolist())
 
     def _show(self, elapsed: float) -> None:
