@@ -21,8 +21,8 @@ export PYTHON
 PARALLEL := -n auto --dist loadfile --no-loadscope-reorder
 
 .DEFAULT_GOAL := help
-.PHONY: help environment warm demo test test-fast test-all platforms faults lint docs pages
-.PHONY: notebook bench clean
+.PHONY: help environment warm demo test test-fast test-all platforms faults mutation lint docs
+.PHONY: pages notebook bench clean
 
 help:
 	@echo 'make demo       the experiment of the paper, controllers and the closed loop, over ROS topics: see demo/'
@@ -31,6 +31,7 @@ help:
 	@echo 'make test-all   before a release: the tests, the demonstration, trials that are drawn'
 	@echo 'make platforms  each Python and ROS that this machine can run, and the oldest libraries'
 	@echo 'make faults     each fault of a node 20 times, and 1500 examples of generated input'
+	@echo 'make mutation   which small changes of the sources the tests notice (ARGS=pam_ros/muscle)'
 	@echo 'make lint       style and types'
 	@echo 'make docs       the pages and the public names as a site: build/docs/index.html'
 	@echo 'make pages      write the pages of the effects again: their tables, texts and pictures'
@@ -42,7 +43,7 @@ help:
 
 environment:
 	@tools/environment --package $(VENV) requirements/ros-$(DISTRO).txt requirements/colcon.txt \
-	  requirements/lint.txt requirements/bench.txt
+	  requirements/lint.txt requirements/bench.txt requirements/mutation.txt
 
 # Compile the stepping kernels into their cache, so that nodes start at once.
 warm: environment
@@ -74,6 +75,10 @@ platforms:
 faults: warm
 	$(PY) -m pytest --full -rP test/faults test/settings/test_bad_values.py \
 	  test/cli/test_command_lines.py test/recording/test_spoiled.py $(ARGS)
+
+# In a copy of the checkout; the results are kept in build/mutation/.
+mutation: environment
+	$(PY) -u tools/mutation.py $(ARGS)
 
 lint: environment
 	$(PY) -m ruff check .
