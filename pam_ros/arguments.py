@@ -80,6 +80,10 @@ def array(name: str, value: Any) -> Array:
         refuse(name, value, 'rows of one length')
     if given.dtype.kind not in 'fiu':
         refuse(name, value, 'numbers')
+    if np.ma.is_masked(value):
+        masked = np.argwhere(np.ma.getmaskarray(value))
+        place = ', '.join(str(i) for i in masked[0])
+        raise ParameterError(f'{name}[{place}] is masked: give a number, or leave it out')
     found = np.asarray(given, dtype=np.float64, order='C')
     is_finite = np.isfinite(found)
     if not is_finite.all():

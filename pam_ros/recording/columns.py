@@ -22,6 +22,8 @@ def chosen(name: str, header: list[str], mapping: ColumnMapping) -> tuple[Column
     columns: Columns = {}
     unused = []
     for index, column in enumerate(header):
+        if not column:
+            continue
         try:
             meaning = mapping.meaning(column)
         except RecordingError as error:

@@ -53,8 +53,14 @@ def series_of_frame(
 
 
 def _values(column: Any) -> Any:
-    """Return a column as an array (n,); dates with a time zone are those of UTC."""
-    has_zone = getattr(getattr(column, 'dtype', None), 'tz', None) is not None
+    """Return a column as an array (n,); dates with a time zone are those of UTC.
+
+    A missing value, which some types of columns store as a mask, is NaN.
+    """
+    kind = getattr(column, 'dtype', None)
+    has_zone = getattr(kind, 'tz', None) is not None
+    if hasattr(kind, 'na_value') and getattr(kind, 'kind', '') in ('i', 'u', 'f', 'b'):
+        return column.to_numpy(dtype=np.float64, na_value=np.nan)
     return np.asarray(column, dtype='datetime64[ns]' if has_zone else None)
 
 

@@ -117,6 +117,7 @@ def _linear(key: str) -> str:
 
 def _rule(name: str, target: Target) -> str:
     """Return the right side of the option; an absolute pressure is converted to gauge."""
-    if target.quantity in ('pressure', 'pressure_command') and _words(name) & _ABSOLUTE:
+    is_pressure = target.quantity in ('pressure', 'pressure_command')
+    if is_pressure and not target.offset and _words(name) & _ABSOLUTE:
         return f'{target}-{ATMOSPHERE / QUANTITIES[target.quantity].units[target.unit]:g}'
     return str(target)

@@ -22,7 +22,7 @@ from pam_ros.recording.quantities import QUANTITIES, Target, target_of
 IGNORE = 'ignore'
 _NUMBER = r'[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?'
 _RULE = re.compile(
-    rf'(?P<target>(?:[A-Za-z]\w*\.)?[A-Za-z_/]+)\s*(?:\*\s*(?P<scale>{_NUMBER}))?\s*'
+    rf'(?P<target>(?:[A-Za-z]\w*\.)?[^\W\d][\w/°]*)\s*(?:\*\s*(?P<scale>{_NUMBER}))?\s*'
     rf'(?P<offset>[+-]\s*(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)?'
 )
 
@@ -38,7 +38,8 @@ class Meaning:
     @property
     def to_si(self) -> tuple[float, float]:
         """Return (factor, offset) that convert the source's number to SI."""
-        return self.scale * self.target.factor, self.offset * self.target.factor
+        factor = self.target.factor
+        return self.scale * factor, self.offset * factor + self.target.offset
 
 
 @dataclass(frozen=True)

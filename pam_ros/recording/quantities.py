@@ -10,21 +10,24 @@ from pam_ros.errors import RecordingError
 
 ATMOSPHERE = 101325.0  # Pa: messages have absolute pressures, a recording's are gauge
 _TIME = {'s': 1.0, 'sec': 1.0, 'seconds': 1.0, 'ms': 1e-3, 'us': 1e-6, 'ns': 1e-9}
-_PRESSURE = {
-    'Pa': 1.0,
-    'hPa': 1e2,
-    'mbar': 1e2,
-    'kPa': 1e3,
-    'bar': 1e5,
-    'MPa': 1e6,
-    'psi': 6894.757293168,
-}
-_LENGTH = {'m': 1.0, 'cm': 1e-2, 'mm': 1e-3, 'um': 1e-6}
-_FORCE = {'N': 1.0, 'kN': 1e3}
-_SPEED = {'m_s': 1.0, 'mm_s': 1e-3}
+_TIME |= {'min': 60.0, 'h': 3600.0, 'days': 86400.0}
+_PSI, _INCH, _KGF, _LBF = 6894.757293168, 0.0254, 9.80665, 4.4482216152605
+_GAUGE = {'Pa': 1.0, 'hPa': 1e2, 'mbar': 1e2, 'kPa': 1e3, 'bar': 1e5, 'MPa': 1e6, 'psi': _PSI}
+_GAUGE |= {'torr': ATMOSPHERE / 760.0, 'mmHg': 133.322387415, 'inHg': 3386.388640341}
+_GAUGE |= {'atm': ATMOSPHERE, 'kgf_cm2': _KGF * 1e4, 'mmH2O': _KGF}
+_GAUGE |= {f'{unit}g': _GAUGE[unit] for unit in ('kPa', 'bar', 'MPa', 'psi')}
+_ABSOLUTE = {f'{unit}a': _GAUGE[unit] for unit in ('kPa', 'bar', 'MPa', 'psi')}
+_PRESSURE = _GAUGE | _ABSOLUTE
+_LENGTH = {'m': 1.0, 'cm': 1e-2, 'mm': 1e-3, 'um': 1e-6, 'in': _INCH, 'inch': _INCH}
+_LENGTH |= {'inches': _INCH, '\N{MICRO SIGN}m': 1e-6, '\N{GREEK SMALL LETTER MU}m': 1e-6}
+_FORCE = {'N': 1.0, 'kN': 1e3, 'kgf': _KGF, 'gf': 1e-3 * _KGF, 'lbf': _LBF}
+_SPEED = {'m_s': 1.0, 'cm_s': 1e-2, 'mm_s': 1e-3, 'in_s': _INCH}
 _CONTRACTION = {'fraction': 1.0, 'percent': 1e-2}
-_ANGLE = {'rad': 1.0, 'deg': pi / 180.0}
-_TURN = {'rad_s': 1.0, 'deg_s': pi / 180.0}
+_ANGLE = {'rad': 1.0, 'mrad': 1e-3, 'deg': pi / 180.0, '°': pi / 180.0}
+_TURN = {'rad_s': 1.0, 'deg_s': pi / 180.0, 'rpm': pi / 30.0}
+SHOWN_UNITS = 7  # of a quantity in a message, those that are most common
+# Units of a mass, which stand for the weight of this mass.
+_WEIGHTS = {'kg': 'kgf', 'g': 'gf', 'lb': 'lbf', 'lbs': 'lbf'}
 
 
 @dataclass(frozen=True)
@@ -89,6 +92,11 @@ class Target:
         """Return the SI value of one unit."""
         return QUANTITIES[self.quantity].units[self.unit]
 
+    @property
+    def offset(self) -> float:
+        """Return what is added to a value in SI: it makes an absolute pressure a gauge one."""
+        return -ATMOSPHERE if self.unit in _ABSOLUTE else 0.0
+
     def __str__(self) -> str:
         """Return the column name that has this meaning."""
         return f'{"t" if self.quantity == "time" else self.key}_{self.unit}'
@@ -118,7 +126,7 @@ def _target(name: str, rest: str) -> Target | None:
     for quantity in sorted(QUANTITIES, key=len, reverse=True):
         for spelling in _TIME_NAMES if quantity == 'time' else (quantity,):
             if words.lower() == spelling:
-                raise RecordingError(_unit_sentence(name, quantity, 'has no unit'))
+                raise RecordingError(_unit_sentence(name, quantity, ''))
             if not words.lower().startswith(spelling + '_'):
                 continue
             word = words[len(spelling) + 1 :]
@@ -134,9 +142,7 @@ def _target(name: str, rest: str) -> Target | None:
                 return Target(angular, unit)
             # One further word is meant as a unit; several words are the name of another signal.
             if '_' not in word:
-                raise RecordingError(
-                    _unit_sentence(name, quantity, f'has the unit {word!r}, which is not known')
-                )
+                raise RecordingError(_unit_sentence(name, quantity, word))
     return None
 
 
@@ -153,11 +159,19 @@ def _unit(word: str, units: dict[str, float]) -> str | None:
     return same[0] if len(same) == 1 and word != 'mPa' else None
 
 
-def _unit_sentence(name: str, quantity: str, what: str) -> str:
+def _unit_sentence(name: str, quantity: str, unit: str) -> str:
+    """Return the sentence on a column whose *unit* is missing ('') or not known."""
     angular = QUANTITIES[ANGULAR[quantity]].units if quantity in ANGULAR else {}
-    units = ', '.join((*QUANTITIES[quantity].units, *angular))
-    example = Target(quantity, next(iter(QUANTITIES[quantity].units)))
+    every = [*QUANTITIES[quantity].units, *angular]
+    units = ', '.join(every[:SHOWN_UNITS]) + (' and others' if len(every) > SHOWN_UNITS else '')
+    target = Target(quantity, next(iter(QUANTITIES[quantity].units)))
+    what, option = 'has no unit', f"'{name}={target}', if it is in {target.unit}"
+    if unit:
+        what = f'has the unit {unit!r}, which is not known'
+        meant = _WEIGHTS.get(unit, '') if quantity == 'force' else ''
+        option = f"'{name}={target}*FACTOR' and how many {target.unit} one {unit} is"
+        option = f"'{name}={replace(target, unit=meant)}'" if meant else option
     return (
         f'{name!r} {what}: {quantity} is given in {units}; say what it is with '
-        f"--column '{name}={example}', or leave it out with --column '{name}=ignore'"
+        f"--column {option}, or leave it out with --column '{name}=ignore'"
     )

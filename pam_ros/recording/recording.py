@@ -23,6 +23,7 @@ from pam_ros.arguments import (
 from pam_ros.errors import ParameterError, RecordingError
 from pam_ros.recording.bounds import Bounded
 from pam_ros.recording.mapping import ColumnMapping
+from pam_ros.recording.series import Series
 
 Array = NDArray[np.float64]
 KINDS = ('free', 'held')
@@ -36,8 +37,10 @@ class Recording:
     """The commands and the measured outputs of an experiment, with their stamps.
 
     Contraction is positive (the load moves up), pressures are gauge. Arrays contain no NaN. A
-    signal that was not recorded is None, which is the default. Raises RecordingError for arrays
-    that do not match each other or contain values that are not finite numbers.
+    signal that was not recorded is None, which is the default. A sample that a masked array of
+    numpy masks is left out of all outputs, and a masked command out of the commands; a long
+    stretch of them becomes a gap. Raises RecordingError for arrays that do not match each other
+    or contain values that are not finite numbers.
 
     ``name``
         File or bag, for reports.
@@ -101,6 +104,7 @@ class Recording:
         if self.unit not in UNITS:
             refuse('unit', self.unit, f'one of {", ".join(UNITS)}')
         self._check_muscles()
+        self._leave_out_masked()
         t = stamps('t', self.t, strict=True)
         checked: dict[str, Any] = {'t': t}
         for name in OUTPUTS:
@@ -123,6 +127,23 @@ class Recording:
             refuse('command_spread', self.command_spread, 'at least 0 s')
         for name, value in checked.items():
             object.__setattr__(self, name, value)
+
+    def _leave_out_masked(self) -> None:
+        """Leave out the samples and the commands that masked arrays mask."""
+        for names in (('t', *OUTPUTS), ('command_t', 'command')):
+            given = {name: getattr(self, name) for name in names}
+            masks = [np.ma.getmaskarray(one) for one in given.values() if np.ma.is_masked(one)]
+            # Arrays that do not match each other are refused below.
+            lengths = {np.shape(one)[:1] for one in given.values() if one is not None}
+            if not masks or len(lengths) > 1:
+                continue
+            is_masked = np.any([m.reshape(m.shape[0], -1).any(axis=1) for m in masks], axis=0)
+            for name, one in given.items():
+                if one is not None:
+                    kept = np.ma.getdata(one)[~is_masked]
+                    object.__setattr__(self, name, kept)
+            if 't' in names and not self.gaps:
+                object.__setattr__(self, 'gaps', tuple(Series('', self.t, self.t).holes()))
 
     def _check_gaps(self) -> None:
         gaps = array('gaps', self.gaps)

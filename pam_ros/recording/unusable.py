@@ -19,6 +19,7 @@ FEWEST = 100  # samples
 PERIODS = (5e-5, 0.25)
 HELD_PERIOD = 2.0  # s: at a prescribed length there is no oscillation that samples must resolve
 CONTRACTIONS = (-0.2, 1.0)  # of a muscle of length l0; outside, the zero or the sign must be wrong
+EXCEL_DAYS = (3e4, 6e4)  # of the years 1982 to 2064
 TOO_LOW = 1e-3  # an input that stays below this share of p_max is in another unit
 
 
@@ -59,8 +60,17 @@ def _refuse_few(recording: Recording) -> None:
     if not low <= recording.period <= high:
         raise RecordingError(
             f'{recording.name}: samples are {recording.period:.4g} s apart, outside {low:g} to '
-            f'{high:g} s: is the time in another unit (t_ms, t_us, t_ns)?'
+            f'{high:g} s: is the time in another unit ({_likely_units(recording, low)})?'
         )
+
+
+def _likely_units(recording: Recording, low: float) -> str:
+    """Return the units in which stamps are that are too far apart as s, or too near."""
+    if recording.period > low:
+        return 't_ms, t_us, t_ns'
+    if EXCEL_DAYS[0] < recording.origin < EXCEL_DAYS[1]:
+        return f't_days: Excel counts days, and has {recording.origin:.0f} for a day of our time'
+    return 't_min, t_h, t_days'
 
 
 def _refuse_units(recording: Recording) -> None:

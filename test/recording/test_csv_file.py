@@ -40,6 +40,14 @@ def check_plain(series):
         PLAIN.replace(',', ';').replace('.', ','),
         PLAIN.replace(',', '\t').replace('.', ','),
         PLAIN.replace('\n', ',\n'),
+        PLAIN.replace('\n', ',,,\n'),
+        PLAIN.replace('\n', ',,,\n', 1),
+        PLAIN.replace('5\n', '5,,\n'),
+        PLAIN.replace(',', ',,'),
+        ''.join(
+            ','.join(f'"{cell}"' for cell in line.split(';')) + '\n'
+            for line in PLAIN.replace(',', ';').replace('.', ',').splitlines()
+        ),
         '# rig 3, 12 May\n\n# second run\n' + PLAIN.replace('0.01', '# a note\n0.01'),
         '% from a script\n' + PLAIN,
         PLAIN.replace('t_s', '"t_s"').replace('position_mm', '"position [mm]"'),
@@ -55,6 +63,23 @@ def test_ways_to_write_the_same(tmp_path, content):
     series, notes = read(tmp_path, content)
     check_plain(series)
     assert notes == []
+
+
+def test_columns_with_values_but_no_name_are_noted(tmp_path):
+    content = PLAIN.replace('_mm', '_mm,,').replace('.5\n', '.5,,7\n')
+    series, notes = read(tmp_path, content)
+    check_plain(series)
+    assert notes == ['columns without a name are not used: 5 of 5']
+
+
+def test_the_empty_end_of_a_block_is_left_out(tmp_path):
+    series, notes = read(tmp_path, PLAIN.encode() + b'\0' * 400)
+    check_plain(series)
+    assert notes == ['the file ends with 400 NUL bytes, which are left out']
+    # The last line that was written may be cut off.
+    series, notes = read(tmp_path, PLAIN.encode() + b'0.03,200,4' + b'\0' * 400)
+    check_plain(series)
+    assert len(notes) == 2
 
 
 def test_columns_that_are_not_used_are_named(tmp_path):
@@ -114,13 +139,17 @@ def test_a_stretch_of_missing_commands_in_a_full_column_is_refused(tmp_path):
         ('', ['empty']),
         ('# nothing\n', ['empty']),
         ('0,1,2\n1,2,3\n', ['column names', '0, 1, 2']),
+        ('0,0,,,0\n1,0,,,3\n', ['no line with column names']),
+        (',,\n1,2,3\n', ['no line with column names']),
+        (PLAIN.replace('1.5', '1.5,,9'), ['line 2', '5 cells for 3 columns']),
+        (b'0\0' * 9, ['not a text file']),
         (PLAIN.replace('t_s', 'x'), ['no time axis', "'t_s'", 'pressure_command_kPa']),
         (PLAIN.replace('t_s', 'timestamp'), ['timestamp', 'no unit', 't_s']),
         (PLAIN.replace('_kPa', ''), ['pressure_command', 'no unit']),
         (PLAIN.splitlines()[0] + '\n', ['the names of columns, and no row']),
         (PLAIN.replace(',', ' '), ['has one column', 'separate them by commas']),
         ('Rig: bench 1\n' + PLAIN, ["one column, 'Rig: bench 1'", 'the first line that is not a']),
-        (PLAIN.replace('_kPa', '_inHg'), ['inHg', 'bar']),
+        (PLAIN.replace('_kPa', '_inAq'), ['inAq', 'bar', 'pressure_command_Pa*FACTOR']),
         (PLAIN.replace('2.5', 'bad'), ['line 3', 'position_mm', "'bad'", 'not a number']),
         (PLAIN.replace('2.5', '1.2.3'), ['line 3', "'1.2.3'"]),
         (PLAIN.replace('2.5', 'inf'), ['position_mm', 'infinite', '0.01 s']),

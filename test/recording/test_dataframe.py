@@ -117,3 +117,14 @@ def test_what_cannot_be_used_is_refused(given, sentence):
 def test_what_is_no_dataframe_is_refused(value):
     with pytest.raises(ParameterError, match=r'frame = .* is not allowed: give a DataFrame'):
         Recording.from_dataframe(value)
+
+
+@pytest.mark.parametrize('kind', ['Float64', 'Int64'])
+def test_a_missing_value_of_a_type_with_a_mask_is_an_empty_cell(kind):
+    whole = np.round(1e3 * COLUMNS['position_mm']).astype(int)
+    cells = pd.array([None if k == 700 else int(one) for k, one in enumerate(whole)], dtype=kind)
+    given = frame(position_um=cells).drop(columns='position_mm')
+    found = Recording.from_dataframe(given, JOINT)
+    kept = np.delete(np.arange(T.size), 700)
+    np.testing.assert_allclose(found.t, T[kept])
+    np.testing.assert_allclose(found.position, 1e-6 * whole[kept])

@@ -5,6 +5,7 @@
 import pytest
 
 from pam_ros.errors import RecordingError
+from pam_ros.recording.mapping import ColumnMapping, read_mapping
 from pam_ros.recording.quantities import target_of
 
 
@@ -36,12 +37,31 @@ from pam_ros.recording.quantities import target_of
         ('velocity [mm/s]', 'velocity', 1e-3),
         ('force_N', 'force', 1.0),
         ('force_kN', 'force', 1e3),
+        ('force_kgf', 'force', 9.80665),
+        ('Force (lbf)', 'force', 0.45359237 * 9.80665),
+        ('pressure_torr', 'pressure', 101325.0 / 760.0),
+        ('pressure [kgf/cm2]', 'pressure', 98066.5),
+        ('pressure_barg', 'pressure', 1e5),
+        ('position_inch', 'position', 0.0254),
+        ('Position [in]', 'position', 0.0254),
+        ('position [µm]', 'position', 1e-6),
+        ('position_μm', 'position', 1e-6),
+        ('angle_mrad', 'angle', 1e-3),
     ],
 )
 def test_what_a_column_means(name, quantity, factor):
     target = target_of(name)
     assert target.quantity == quantity
-    assert target.factor == factor
+    assert target.factor == pytest.approx(factor, rel=1e-12)
+    assert target.offset == 0.0
+
+
+@pytest.mark.parametrize(('name', 'value'), [('bara', 3.5), ('psia', 50.763), ('kPaa', 350.0)])
+def test_an_absolute_pressure_is_converted_to_gauge(name, value):
+    factor, offset = ColumnMapping().meaning(f'pressure_{name}').to_si
+    assert value * factor + offset == pytest.approx(350e3 - 101325.0, abs=20.0)
+    factor, offset = read_mapping([f'x=pressure_{name}*2.0-{value}']).meaning('x').to_si
+    assert value * factor + offset == pytest.approx(350e3 - 101325.0, abs=20.0)
 
 
 def test_a_pound_on_a_square_inch():
@@ -65,10 +85,10 @@ def test_other_columns_are_not_ours(name):
     [
         ('pressure', ['pressure', 'no unit', 'kPa', 'pressure_Pa', 'ignore']),
         ('timestamp', ['timestamp', 'no unit', 'ms']),
-        ('pressure_inHg', ['pressure_inHg', "'inHg'", 'bar']),
+        ('pressure_inAq', ['pressure_inAq', "'inAq'", 'bar', 'pressure_Pa*FACTOR', 'one inAq is']),
         ('pressure_mPa', ['mPa', 'not known']),
-        ('position_inch', ['position_inch', 'mm']),
-        ('force_kg', ['force_kg', "'kg'", 'kN']),
+        ('position_feet', ['position_feet', 'mm', 'position_m*FACTOR']),
+        ('force_kg', ['force_kg', "'kg'", 'kN', "--column 'force_kg=force_kgf'"]),
         ('contraction', ['contraction', 'percent', 'fraction']),
     ],
 )

@@ -4,6 +4,7 @@
 
 import hashlib
 import os
+import re
 
 import numpy as np
 import pytest
@@ -145,6 +146,36 @@ def test_values_that_cannot_be_right(tmp_path, row, words):
         read_recording(file)
     for word in words:
         assert word in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ('time', 'words'),
+    [
+        # Days since 1900, as a spreadsheet stores dates.
+        ('{days:.10f}', r't_days: Excel counts days, and has 45292 for a day of our time'),
+        ('{minutes:.10f}', 't_min, t_h, t_days'),
+        ('{milliseconds:.1f}', 't_ms, t_us, t_ns'),
+    ],
+)
+def test_a_likely_unit_of_the_time_is_named(tmp_path, time, words):
+    file = tmp_path / 'log.csv'
+    rows = ['t,pressure_command_kPa,position_m']
+    for k in range(2000):
+        t = k / 1000
+        stamp = time.format(days=45292 + t / 86400, minutes=t / 60, milliseconds=1000 * t)
+        rows.append(f'{stamp},{100 + k % 300},{0.001 * (k % 50):.3f}')
+    file.write_text('\n'.join([*rows, '']))
+    with pytest.raises(RecordingError, match=re.escape(f'is the time in another unit ({words})?')):
+        read_recording(file)
+
+
+def test_days_of_a_spreadsheet_are_read(tmp_path):
+    rows = [
+        f'{45292 + k / 8640000:.10f},{100 + k % 300},{0.001 * (k % 50):.3f}' for k in range(2000)
+    ]
+    (tmp_path / 'log.csv').write_text('\n'.join(['t_days,pressure_command_kPa,position_m', *rows]))
+    found = read_recording(tmp_path / 'log.csv')
+    np.testing.assert_allclose(found.t, 0.01 * np.arange(1999), atol=1e-5)
 
 
 def test_names_of_columns_are_harmless_in_warnings(tmp_path):

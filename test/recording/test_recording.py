@@ -118,3 +118,30 @@ def test_a_part_without_samples_and_a_step_of_nothing():
         one.part(5, 5)
     with pytest.raises(ParameterError, match=r'step = 0\.0 is not allowed'):
         one.drive(0.0)
+
+
+def test_masked_samples_are_left_out_and_a_long_stretch_is_a_gap():
+    t = np.arange(200) * 0.01
+    position, pressure = np.cos(t), np.full((200, 2), 1e5)
+    position[50], pressure[60, 1] = -99.0, -1.0
+    one = Recording(
+        'made',
+        t,
+        np.ma.array(t, mask=t == t[1]),
+        np.ma.array(pressure, mask=pressure < 0.0),
+        position=np.ma.array(position, mask=(position < -9.0) | ((t > 1.0) & (t < 1.4))),
+        pressure=np.ma.array(pressure, mask=pressure < 0.0),
+        muscles=('flexor', 'extensor'),
+    )
+    kept = (t <= 1.0) | (t >= 1.4)
+    kept[[50, 60]] = False
+    np.testing.assert_array_equal(one.t, t[kept])
+    np.testing.assert_array_equal(one.position, np.cos(t)[kept])
+    assert one.pressure.shape == (kept.sum(), 2)
+    assert one.command.shape == (198, 2)
+    assert one.gaps == (pytest.approx((1.0, 1.4)),)
+
+
+def test_masked_arrays_of_another_length_are_refused():
+    with pytest.raises(RecordingError, match=r'position\[1\] is masked: give a number'):
+        Recording('made', [0.0, 0.1], position=np.ma.array([0.0, 0.1, 0.2], mask=[0, 1, 0]))

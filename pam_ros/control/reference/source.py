@@ -2,7 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """The reference of the load: rest, set positions or a trajectory, always without a jump."""
 
+from copy import deepcopy
 from math import isfinite
+from typing import NamedTuple
 
 from pam_ros.control.limits import clamp, range_text, refuse_unreachable
 from pam_ros.control.reference.points import Points
@@ -14,6 +16,16 @@ from pam_ros.errors import RangeError
 # s between a start and a target: without it, the target would count as a sample of a motion, with
 # a velocity.
 INSTANT = 1e-6
+
+
+MOST_WAITING = 1000  # trajectories that can wait for their start
+
+
+class _Waiting(NamedTuple):
+    """A trajectory that begins after *wait* s."""
+
+    trajectory: ReferenceTrajectory
+    wait: float
 
 
 class ReferenceSource:
@@ -28,7 +40,8 @@ class ReferenceSource:
         self.reach, self.unit = reach, unit
         self._shaper = Shaper(shape)
         self._trajectory: ReferenceTrajectory | None = None
-        self._since = 0.0
+        self._since = 0.0  # s since the start of this trajectory
+        self._next: list[_Waiting] = []  # trajectories that begin later, in this order
         self.targets = 0  # how many have been set: whoever set one knows whether it still counts
         self._start = 0.5 * (reach[0] + reach[1]) if isfinite(reach[0]) else 0.0
 
@@ -45,11 +58,11 @@ class ReferenceSource:
     @property
     def is_on_trajectory(self) -> bool:
         """Whether a trajectory is followed, or waits for its start."""
-        return self._trajectory is not None
+        return self._trajectory is not None or bool(self._next)
 
     def start(self, position: float) -> None:
         """Hold the load at *position* m; the target before does not matter."""
-        self._trajectory = None
+        self._trajectory, self._next = None, []
         self._start = position
         self._shaper.start(position)
         self.targets += 1
@@ -103,6 +116,7 @@ class ReferenceSource:
                 f'{range_text(self.reach, self.unit)}'
             )
         refuse_unreachable(position, self.reach, self.unit)
+        self._next = []
         if self._trajectory is not None:
             self._leave()
         self._shaper.take(position, ago)
@@ -116,18 +130,50 @@ class ReferenceSource:
     def play(self, points: Points, wait: float = 0.0) -> ReferenceTrajectory:
         """Follow *points* after *wait* s, or from a place between them if *wait* is negative.
 
-        Returns the trajectory through them. Raises RangeError for points that give no motion
-        within reach; then nothing changes.
+        Until then the present motion continues, also through trajectories that begin before. Those
+        that would begin later are replaced. Returns the trajectory through the points. Raises
+        RangeError for points that give no motion within reach, and if too many trajectories wait;
+        then nothing changes.
         """
-        trajectory = ReferenceTrajectory(self.reference, points, self.reach, self.unit)
-        self._trajectory, self._since = trajectory, -wait
-        self._shaper.join(trajectory.at(self._since))
+        before = [one for one in self._next if one.wait < wait]
+        if len(before) == MOST_WAITING:
+            raise RangeError(
+                f'{MOST_WAITING} trajectories wait for their start: give no more before one begins'
+            )
+        trajectory = ReferenceTrajectory(self._ahead(wait, before), points, self.reach, self.unit)
+        if wait > 0.0:
+            self._next = [*before, _Waiting(trajectory, wait)]
+        else:
+            self._next = []
+            self._begin(trajectory, -wait)
         self.targets += 1
         return trajectory
 
+    def _ahead(self, wait: float, before: list['_Waiting']) -> Reference:
+        """Return the reference after *wait* s; trajectories *before* that time begin meanwhile."""
+        if wait <= 0.0:
+            return self.reference
+        if before:
+            return before[-1].trajectory.at(wait - before[-1].wait)
+        if self._trajectory is not None:
+            return self._trajectory.at(self._since + wait)
+        return deepcopy(self._shaper).follow(wait)
+
+    def _begin(self, trajectory: ReferenceTrajectory, since: float) -> None:
+        """Follow *trajectory*, which began *since* s ago."""
+        self._trajectory, self._since = trajectory, since
+        self._shaper.join(trajectory.at(since))
+
+    def _begin_due(self, dt: float) -> None:
+        """Let *dt* s pass for the trajectories that wait, and begin those that are due."""
+        self._next = [one._replace(wait=one.wait - dt) for one in self._next]
+        while self._next and self._next[0].wait <= 0.0:
+            due = self._next.pop(0)
+            self._begin(due.trajectory, -due.wait)
+
     def _leave(self) -> None:
         """Come to rest as soon as the bounds allow."""
-        self._trajectory = None
+        self._trajectory, self._next = None, []
         self._shaper.stop()
 
     def follow(self, dt: float, late: float = 0.0, pace: float = 1.0) -> Reference:
@@ -140,17 +186,21 @@ class ReferenceSource:
         is set again and again as one that moves, have times of their own and are not slower: the
         reference would have to catch up, and would be faster than was wanted.
         """
+        self._follow_present(dt, late, pace)
+        if self._next:
+            self._begin_due(dt + late)
+        return self.reference
+
+    def _follow_present(self, dt: float, late: float, pace: float) -> None:
+        """Advance by *dt* s along the trajectory or the approach that is followed at present."""
         if self._trajectory is None:
             self._shaper.follow(dt, pace)
-            return self.reference
-        before = self._since
+            return
         self._since += dt + late
         now = self._trajectory.at(self._since)
-        if late > 0.0 or before < 0.0 <= self._since:
-            # The trajectory may begin in motion.
+        if late > 0.0:
             self._shaper.join(now)
         self._shaper.along(dt, now, pace)
         if self._since >= self._trajectory.duration:
             self._shaper.rest_at(now.position)
             self._trajectory = None
-        return self.reference

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The topics of a rig in a rosbag2: their names, the meaning of their fields, and their clock."""
 
+import re
 from collections.abc import Sequence
 from pathlib import Path
 from typing import NamedTuple
@@ -13,10 +14,10 @@ from pam_ros.errors import RecordingError
 from pam_ros.recording.bag.decode import Topic
 from pam_ros.recording.bag.source import BagSource, Message, bag_files, open_bag
 from pam_ros.recording.bag.topics import OwnTopics, own_topics
-from pam_ros.recording.bag.values import getter
+from pam_ros.recording.bag.values import FieldReader
 from pam_ros.recording.mapping import ColumnMapping, Meaning
 from pam_ros.recording.quantities import Target
-from pam_ros.recording.series import Series
+from pam_ros.recording.series import GAP_SECONDS, Series
 
 __all__ = ['bag_files', 'read_bag']
 
@@ -25,6 +26,8 @@ _SIMULATED = 10**18  # ns: no real clock is before 2001
 _LATEST = 2**63 - 1  # ns: the largest time in ROS; an MCAP file can hold twice as much
 _TICK = 0.1  # s by which a simulated clock, published in ticks, may be behind a header
 
+_JOINT = re.compile(r'\[[^\]]+\]$')
+SWAPPED = 0.01  # share of the messages of a topic that may be out of order
 _OUTPUTS = ('position', 'angle', 'contraction', 'force')
 _UNFILLED = ('velocity', 'angular_velocity', 'force')  # 0 in messages that do not fill them
 
@@ -39,11 +42,15 @@ class _Field(NamedTuple):
 
 
 class _Samples(NamedTuple):
-    """The samples of one topic: receive times and header stamps in ns, columns of numbers."""
+    """The samples of one topic: receive times and header stamps in ns, columns of numbers.
+
+    For each field, ``present`` is false where a message is not of its joint.
+    """
 
     received: NDArray[np.int64]
     stamped: NDArray[np.int64]
     columns: list[NDArray[np.float64]]
+    present: list[NDArray[np.bool_]]
 
 
 def read_bag(
@@ -60,7 +67,8 @@ def read_bag(
     ``pressure_commands``, ``joint_states`` in *unit* (m or rad) and ``pressures``; the arrays have
     a number for each of its *muscles*. The sources of *mapping* are read in addition. They are
     topics with the field: ``/valve/state.pressure`` (``.data`` if no field is given), with an
-    index or the name of a joint for arrays: ``/joint_states.position[elbow]``.
+    index or the name of a joint for arrays: ``/joint_states.position[elbow]``. Messages without
+    this joint are not used, and the velocity and effort of that topic are those of this joint.
 
     The stamp of a message is that of its header if it has one, else the time of its receipt. If
     the two clocks differ, all messages get the time of their receipt. Pressures in FluidPressure
@@ -81,8 +89,8 @@ def read_bag(
         stamps = one.received if is_received else one.stamped
         t = 1e-9 * (stamps - origin).astype(float)
         own = [field for field in fields if field.topic == topic]
-        for field, value in zip(own, one.columns, strict=True):
-            _add(series, path, field, t, value, is_received, notes)
+        for field, value, is_of in zip(own, one.columns, one.present, strict=True):
+            _add(series, path, field, t[is_of], value[is_of], is_received, notes)
     return series, notes
 
 
@@ -107,6 +115,8 @@ def _fields(
             raise RecordingError(f'{name}: the time in a bag is that of its messages')
         if meaning is not None:
             fields.append(_Field(topic, field or 'data', meaning, is_required=True))
+    # The joint that the user has chosen in a topic is that of the other fields, too.
+    joints = {field.topic: match[0] for field in fields if (match := _JOINT.search(field.path))}
     given = {field.meaning.target.key for field in fields}
     given |= {'position'} if 'contraction' in given else set()
     found = {
@@ -129,7 +139,8 @@ def _fields(
             if field == 'effort' and 'force' in found:
                 continue
             if meaning.target.key not in given and f'{topic}.{field}' not in mapping:
-                fields.append(_Field(topic, field, meaning, is_required=False))
+                chosen = f'{field}{joints.get(topic, "")}'
+                fields.append(_Field(topic, chosen, meaning, is_required=False))
     if not any(f.meaning.target.quantity in _OUTPUTS for f in fields):
         states, force = (_full_name(name, namespace) for name in ('joint_states', 'force'))
         lacks = f'neither {states} nor {force}' if 'force' in ours else f'no {states}'
@@ -187,9 +198,10 @@ def _samples(
         )
     received = np.array([message.stamp for message in messages], dtype=np.int64)
     topic: Topic = source.topics[fields[0].topic]
-    getters = [getter(path.name, field.topic, field.path) for field in fields]
+    readers = [FieldReader(path.name, field.topic, field.path) for field in fields]
     stamped = np.zeros_like(received)
     columns = [np.empty(received.size) for _ in fields]
+    present = [np.ones(received.size, dtype=bool) for _ in fields]
     for k, message in enumerate(messages):
         try:
             content = source.decode(topic, message.data)
@@ -199,9 +211,15 @@ def _samples(
         stamp = getattr(getattr(content, 'header', None), 'stamp', None)
         if stamp is not None:
             stamped[k] = stamp.sec * 10**9 + stamp.nanosec
-        for column, get in zip(columns, getters, strict=True):
-            column[k] = get(content)
-    return _Samples(received, stamped, columns)
+        for column, is_of, reader in zip(columns, present, readers, strict=True):
+            found = reader.read(content)
+            is_of[k] = found is not None
+            column[k] = np.nan if found is None else found
+    for reader in readers:
+        reader.check()
+    used = np.any(present, axis=0)
+    columns, present = [one[used] for one in columns], [one[used] for one in present]
+    return _Samples(received[used], stamped[used], columns, present)
 
 
 def _headers_agree(samples: dict[str, _Samples], notes: list[str]) -> bool:
@@ -242,7 +260,28 @@ def _add(
         return
     factor, offset = field.meaning.to_si
     value = value * factor + offset
+    t, value = _in_order(source, t, value, notes)
     series[key] = Series.taken(path.name, source, t, value, is_received)
+
+
+def _in_order(
+    source: str, t: NDArray[np.float64], value: NDArray[np.float64], notes: list[str]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return samples sorted by their stamps, if few are out of order, and by little.
+
+    Two threads of a driver can exchange two messages. A clock that was set, or a simulation that
+    was reset, goes back farther: those are left as they are, and refused later.
+    """
+    back = np.flatnonzero(np.diff(t) < 0.0)
+    most = max(SWAPPED * t.size, 2)
+    if not 0 < back.size <= most or (t[back] - t[back + 1]).max() > GAP_SECONDS:
+        return t, value
+    notes.append(
+        f'{back.size} of {t.size} messages of {source} are out of order by at most '
+        f'{(t[back] - t[back + 1]).max():.3g} s: they are sorted by their stamps'
+    )
+    order = np.argsort(t, kind='stable')
+    return t[order], value[order]
 
 
 def _example(topic: dict[str, dict[str, Meaning]]) -> Target:

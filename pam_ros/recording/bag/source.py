@@ -17,6 +17,7 @@ from pam_ros.plain_yaml import read_yaml
 from pam_ros.recording.bag.decode import RosbagsDecoder, Topic
 
 METADATA = 'metadata.yaml'
+CDR = 'cdr'  # how ROS 2 encodes messages
 _MAGIC = b'\x89MCAP0\r\n'
 
 
@@ -74,8 +75,17 @@ def open_bag(path: Path) -> BagSource:
     decode = RosbagsDecoder()
     if any(_is_unfinished(file) for file in files):
         notes = ['the bag was not closed by its recorder: read up to where it ends']
-        topics, messages = _read_unfinished(files)
+        topics, messages = _read_with_mcap(files)
+        if not topics:
+            raise RecordingError(
+                f'{path} was not closed by its recorder, and ends before its first complete '
+                'chunk: there is nothing in it that can be read'
+            )
         return BagSource(topics, messages, decode, notes)
+    others = sorted(set().union(*map(_of_other_encodings, files)))
+    if others:
+        notes = [f'topics that are not of ROS 2 are not read: {", ".join(others)}']
+        return BagSource(*_read_with_mcap(files), decode, notes)
     # A directory without metadata (a recorder that was killed) is read file by file.
     parts = [path] if path.is_file() or (path / METADATA).exists() else files
     topics, messages = _read_with_rosbags(path, parts)
@@ -113,6 +123,24 @@ def _is_unfinished(file: Path) -> bool:
         size = stream.seek(0, 2)
         stream.seek(size - len(_MAGIC))
         return stream.read() != _MAGIC or size == len(_MAGIC)
+
+
+def _of_other_encodings(file: Path) -> set[str]:
+    """Return the topics of an MCAP that programs without ROS have added, in their own encoding.
+
+    It is empty if the Python package mcap is not installed, or if the file has no summary.
+    """
+    if file.suffix != '.mcap' or importlib.util.find_spec('mcap') is None:
+        return set()
+    from mcap.reader import make_reader
+
+    try:
+        with file.open('rb') as stream:
+            summary = make_reader(stream).get_summary()
+    except Exception:  # the reader of the messages says what is wrong
+        return set()
+    channels = summary.channels.values() if summary else ()
+    return {channel.topic for channel in channels if channel.message_encoding != CDR}
 
 
 def _unreadable(path: Path, error: Exception) -> RecordingError:
@@ -171,7 +199,8 @@ class _Whole(io.BufferedReader):
         return super().read(size)
 
 
-def _read_unfinished(files: list[Path]) -> Read:
+def _read_with_mcap(files: list[Path]) -> Read:
+    """Read the topics of ROS 2 in the order of the files, up to the last complete record."""
     try:
         from mcap.records import Channel, Schema
         from mcap.records import Message as Record
@@ -191,15 +220,16 @@ def _read_unfinished(files: list[Path]) -> Read:
                     for record in StreamReader(stream, validate_crcs=True).records:
                         if isinstance(record, Schema):
                             schemas[record.id] = record
-                        elif isinstance(record, Channel):
+                        elif isinstance(record, Channel) and record.message_encoding == CDR:
                             channels[record.id] = record
                             schema = schemas[record.schema_id]
                             topic = Topic(schema.name, schema.data.decode())
                             yield record.topic, topic, None
                         elif isinstance(record, Record) and wanted is not None:
-                            name = channels[record.channel_id].topic
-                            if name in wanted:
-                                yield name, topic, Message(name, record.log_time, record.data)
+                            channel = channels.get(record.channel_id)
+                            if channel is not None and channel.topic in wanted:
+                                one = Message(channel.topic, record.log_time, record.data)
+                                yield channel.topic, topic, one
                 except Exception:  # the libraries raise whatever parsing and decompression meet
                     continue  # the complete records end here
 

@@ -9,7 +9,7 @@ import pytest
 
 from pam_ros.control.reference.points import Point, Points
 from pam_ros.control.reference.shaping import Shape
-from pam_ros.control.reference.source import ReferenceSource
+from pam_ros.control.reference.source import MOST_WAITING, ReferenceSource
 from pam_ros.control.signals import Reference
 from pam_ros.errors import RangeError
 
@@ -71,6 +71,56 @@ def test_it_waits_for_a_start_in_the_future_and_joins_one_in_the_past():
     assert path[0, 0] == pytest.approx(0.02, abs=1e-3)
     assert path[-1, 0] == pytest.approx(0.05)
     assert is_smooth(path)
+
+
+def test_the_present_motion_continues_until_the_next_trajectory_begins():
+    source, other = a_source(), a_source()
+    for one in (source, other):
+        one.play(Points.of([Point(2.0, 0.08, 0.0, 0.0)]))
+        follow(one, 0.5)
+    source.play(Points.of([Point(1.0, 0.05, 0.0, 0.0)]), wait=0.4)
+    before = follow(source, 0.4)
+    np.testing.assert_array_equal(before, follow(other, 0.4))
+    path = follow(source, 1.0)
+    assert is_smooth(np.vstack([before, path]))
+    assert path[-1, 0] == pytest.approx(0.05, abs=1e-6)
+    assert not source.is_on_trajectory
+
+
+def test_a_receding_horizon_of_trajectories_that_begin_later_moves_the_joint():
+    # A planner that sends each 100 ms the motion from 200 ms later on.
+    source = a_source()
+    planned = a_source()
+    planned.play(Points.of([Point(3.0, 0.08, 0.0, 0.0)]))
+    motion = [planned.reference, *follow(planned, 4.0)[49::50]]
+    paths = []
+    for k in range(35):
+        ahead = [Point(0.1 * n, *motion[min(k + 2 + n, 40)][:3]) for n in range(11)]
+        source.play(Points.of(ahead), wait=0.2)
+        paths.append(follow(source, 0.1))
+    path = np.vstack(paths)
+    assert is_smooth(path)
+    assert np.all(path[:100, 0] == 0.02)  # nothing has begun yet
+    np.testing.assert_allclose(path[299::50, :2], np.array(motion)[6:36, :2], atol=1e-4)
+
+
+def test_what_begins_later_is_replaced_and_a_target_replaces_all():
+    source = a_source()
+    source.play(Points.of([Point(1.0, 0.08)]), wait=1.0)
+    source.play(Points.of([Point(1.0, 0.05)]), wait=0.5)
+    assert source.is_on_trajectory
+    assert follow(source, 3.0)[-1, 0] == pytest.approx(0.05)
+    source.play(Points.of([Point(1.0, 0.08)]), wait=1.0)
+    source.set_target(0.04)
+    assert not source.is_on_trajectory
+    assert follow(source, 4.0)[-1, 0] == pytest.approx(0.04)
+    source.play(Points.of([Point(1.0, 0.08)]), wait=1.0)
+    source.stop()
+    assert follow(source, 3.0)[-1, 0] == pytest.approx(0.04)
+    for k in range(MOST_WAITING):
+        source.play(Points.of([Point(1.0, 0.05)]), wait=1.0 + k)
+    with pytest.raises(RangeError, match='1000 trajectories wait for their start'):
+        source.play(Points.of([Point(1.0, 0.05)]), wait=2000.0)
 
 
 def test_a_trajectory_goes_on_while_nobody_looks():

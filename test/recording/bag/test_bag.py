@@ -190,6 +190,59 @@ def two_joints():
     return {**topics, '/joint_states': (bags.JOINT, arm)}
 
 
+def of_two_publishers(namespace=''):
+    """Return the topics of a rig whose joint states another node publishes as well."""
+    topics, truth = bags.rig_topics()
+    kind, states = topics['/joint_states']
+    other = [(s + 1, bags.joint(s + 1, [9.0], [8.0], [7.0], ['base'])) for s, _ in states[::2]]
+    topics['/joint_states'] = (kind, sorted([*states, *other], key=lambda one: one[0]))
+    return topics, truth
+
+
+def test_of_two_publishers_the_joint_is_chosen_by_its_name(tmp_path):
+    topics, truth = of_two_publishers()
+    with pytest.raises(RecordingError, match=r'is of several joints \(pam, base\): say which'):
+        read(tmp_path, topics)
+    bag = tmp_path / 'bag'
+    chosen = read_mapping(['/joint_states.position[pam]=position_m'])
+    series, notes = read_bag(bag, chosen)
+    assert notes == []
+    check_rig(series, truth)  # also the velocity is that of this joint
+    other, _ = read_bag(bag, read_mapping(['/joint_states.position[base]=position_m']))
+    assert {*other['position'].value} == {9.0}
+    assert {*other['velocity'].value} == {8.0}
+    with pytest.raises(RecordingError, match=r'position\[knee\] is not there: .* name pam, base'):
+        read_bag(bag, read_mapping(['/joint_states.position[knee]=position_m']))
+
+
+def test_joints_whose_order_changes_are_chosen_by_their_names(tmp_path):
+    topics, truth = bags.rig_topics()
+    kind, states = topics['/joint_states']
+    for k, (_, message) in enumerate(states):
+        message.name = ['pam', 'base'] if k % 2 else ['base', 'pam']
+        for values in (message.position, message.velocity):
+            values.resize(2, refcheck=False)
+            values[:] = [values[0], 9.0] if k % 2 else [9.0, values[0]]
+    topics['/joint_states'] = (kind, states)
+    bag = bags.write_bag(tmp_path / 'bag', topics)
+    series, _ = read_bag(bag, read_mapping(['/joint_states.position[pam]=position_m']))
+    check_rig(series, truth)
+    with pytest.raises(RecordingError, match=r'position\[0\] is of several joints \(base, pam\)'):
+        read_bag(bag, read_mapping(['/joint_states.position[0]=position_m']))
+
+
+def test_a_few_exchanged_messages_are_sorted(tmp_path):
+    topics, truth = bags.rig_topics()
+    _, states = topics['/joint_states']
+    for k in (100, 300):
+        (a, first), (b, second) = states[k], states[k + 1]
+        states[k], states[k + 1] = (a, second), (b, first)
+    series, notes = read(tmp_path, topics)
+    check_rig(series, truth)
+    assert len(notes) == 2  # of the position and of the velocity
+    assert notes[0].startswith('2 of 800 messages of /joint_states.position are out of order by')
+
+
 def forces_as_wrenches():
     topics, _ = bags.rig_topics()
     _, forces = topics['/force']

@@ -182,7 +182,38 @@ def test_a_length_beyond_the_end_of_an_unfinished_file_is_not_read(tmp_path):
     """Reading it would take all memory."""
     magic = b'\x89MCAP0\r\n'
     (tmp_path / 'cut.mcap').write_bytes(magic + b'\1' + b'\xff' * 7 + b'\0' * 9)
-    assert open_bag(tmp_path / 'cut.mcap').topics == {}
+    with pytest.raises(RecordingError, match='ends before its first complete chunk'):
+        open_bag(tmp_path / 'cut.mcap')
+
+
+def test_a_file_that_ends_within_its_first_chunk_is_said_to_be_empty(bag):
+    file = bag / 'bag.mcap'
+    file.write_bytes(file.read_bytes()[:2000])
+    with pytest.raises(RecordingError, match=r'not closed .*, and ends before its first complete'):
+        open_bag(file)
+
+
+def test_topics_of_programs_without_ros_are_left_out(tmp_path):
+    from mcap.writer import Writer
+
+    topics, _ = bags.rig_topics()
+    expected = write_unchunked(tmp_path / 'ros.mcap', topics)
+    with (tmp_path / 'mixed.mcap').open('wb') as stream:
+        writer = Writer(stream)
+        writer.start()
+        schema = writer.register_schema('example.Pose', 'protobuf', b'descriptor')
+        other = writer.register_channel('/pose', 'protobuf', schema)
+        schema = writer.register_schema(bags.FLOAT, 'ros2msg', b'float64 data')
+        channel = writer.register_channel('/force', 'cdr', schema)
+        expected = [one for one in expected if one[0] == '/force']
+        for _, stamp, value in expected:
+            writer.add_message(other, stamp, b'anything', stamp)
+            data = bags.STORE.serialize_cdr(bags.number(value), bags.FLOAT)
+            writer.add_message(channel, stamp, bytes(data), stamp)
+        writer.finish()
+    source = open_bag(tmp_path / 'mixed.mcap')
+    assert source.notes == ['topics that are not of ROS 2 are not read: /pose']
+    assert contents(source) == expected
 
 
 def test_without_the_library_it_is_named(bag, monkeypatch):
