@@ -14,6 +14,7 @@ from hypothesis import settings
 from pam_ros.compiled import HAVE_NUMBA
 from support.distribution import PROFILE
 from support.domain import DISCOVERY, NOT_CLAIMED, claimed
+from support.identified import check_identified
 
 # Fixtures of tests that start nodes, and of those that need still more: a browser, a shell without
 # our environment to set up another one, a copy of the sources to build from.
@@ -72,6 +73,17 @@ def pytest_collection_modifyitems(items):
         for item in items:
             if item.get_closest_marker('needs_numba'):
                 item.add_marker(skip)
+
+
+@pytest.fixture(autouse=True)
+def identified_files_are_compared(request):
+    """After a test, compare each parameter file that it has left beside a report."""
+    has_folder = 'tmp_path' in request.fixturenames
+    folder = request.getfixturevalue('tmp_path') if has_folder else None
+    yield
+    for file in folder.rglob('identified.yaml') if folder else ():
+        if (file.parent / 'report.json').is_file():
+            check_identified(file)
 
 
 @pytest.fixture(scope='module')

@@ -141,7 +141,7 @@ class Leak(Effect):
     signature: ClassVar = (
         'pressure that falls while the command is constant, and is restored by its next change'
     )
-    experiment: ClassVar = 'long holds at a high pressure with the pressure measured'
+    experiment: ClassVar = 'long holds at a high pressure'
     excitation: ClassVar = {'segments': ('steps',), 'duration': 600.0}
     compensation: ClassVar = Compensation.FEEDBACK
     states: ClassVar = (HiddenState('pressure', 'Pa', 2e4), HiddenState('upstream pressure', 'Pa'))

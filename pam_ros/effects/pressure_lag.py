@@ -170,7 +170,7 @@ class PressureLag(Effect):
         'phase that rolls off with frequency; rounded step responses; with a dead zone, loops '
         'over the command that do not depend on the speed'
     )
-    experiment: ClassVar = 'steps up and down with the pressure measured, or a chirp'
+    experiment: ClassVar = 'steps up and down, or a chirp'
     excitation: ClassVar = {'segments': ('steps', 'chirps')}
     compensation: ClassVar = Compensation.PATH
     states: ClassVar = (HiddenState('pressure', 'Pa', 2e4),)

@@ -30,9 +30,7 @@ class PressureOffset(Effect):
     source: ClassVar = 'Affine sensor model'
     equation: ClassVar = 'p = (1 + gain) p_in + offset'
     signature: ClassVar = 'residual proportional to dF/dp, to p dF/dp for the gain'
-    experiment: ClassVar = (
-        'a second pressure sensor at the muscle, or its force over pressure at two lengths'
-    )
+    experiment: ClassVar = 'the force over the pressure at two constant lengths'
     compensation: ClassVar = Compensation.PATH
     rivals: ClassVar = ('payload', 'length_offset', 'leak', 'dead_band')
     equations: ClassVar = EffectEquations(pressure=pressure)

@@ -85,7 +85,7 @@ class Supply(Effect):
         'high pressures are not reached at first, least of all while several muscles fill, and '
         'are then approached slowly'
     )
-    experiment: ClassVar = 'steps of all muscles to their highest pressure, the pressures measured'
+    experiment: ClassVar = 'steps of all muscles to their highest pressure'
     excitation: ClassVar = {'segments': ('steps',)}
     compensation: ClassVar = Compensation.FEEDBACK
     states: ClassVar = (HiddenState('pressure', 'Pa', 2e4),)

@@ -48,6 +48,8 @@ from pam_ros.identification.structure import Structure, structure_of
 from pam_ros.identification.verdict import (
     next_experiment,
     of_absolute_pressures,
+    of_problem,
+    of_unused,
     sentence,
     too_little,
     verdict,
@@ -173,6 +175,8 @@ def _warnings(
         *undetermined_after(augmented),
         *of_absolute_pressures(final, driving(recordings[0])[0].quantity),
         *of_command_times(conclusion),
+        *of_unused(recordings),
+        *of_problem(conclusion.stages[2].problem),
     )
 
 

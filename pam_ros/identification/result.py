@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pam_ros.effects.base import Effect
+from pam_ros.errors import ParameterError
 from pam_ros.identification.data.noise import Noise
 from pam_ros.identification.data.segment import Segment
 from pam_ros.identification.fit.places import effect_of, muscle_of, place_of
@@ -62,10 +63,14 @@ class Stage:
     held out or the test recordings. ``simulated`` and ``tested`` are its free runs over
     ``segments`` and ``test`` of the identification, in their order. ``log`` is how its last fit
     ended, to all samples that may be fitted.
+
+    ``model`` has these ``parameters``. If they describe no joint that can be simulated,
+    ``problem`` is the reason, and ``model`` is one between them and the nominal ones; else ''.
     """
 
     name: str
     model: Joint
+    problem: str
     parameters: dict[str, Estimate]
     fit_error: float
     held_error: float
@@ -148,12 +153,23 @@ class Conclusion:
 
     @property
     def joint(self) -> Joint:
-        """The identified joint: the re-tuned one with the effects that were found."""
+        """The identified joint: the re-tuned one with the effects that were found.
+
+        Raises ParameterError if the identified parameters describe no valid joint.
+        """
+        self.refuse_invalid()
 
         def present(effects: Sequence[Effect]) -> list[Effect]:
             return [effect for effect in effects if effect.is_present]
 
         return self.stages[-1].model.map_effects(present)
+
+    def refuse_invalid(self) -> None:
+        """Raise ParameterError if the identified parameters describe no valid joint."""
+        if problem := self.stages[-1].problem:
+            raise ParameterError(
+                f'the identified parameters describe no joint that can be simulated: {problem}'
+            )
 
     @property
     def added(self) -> tuple[str, ...]:

@@ -77,14 +77,17 @@ def with_row(
     segments: Sequence[Segment],
     added: Sequence[Place],
     numbers: Mapping[OfRig, float],
-) -> Joint:
-    """Return *model* with the parameter row q: constants in the units in which it gives them.
+) -> tuple[Joint, str]:
+    """Return *model* with the parameter row q, and why it is not valid, '' if it is.
 
-    *added* are the places of the effects that a fit to *segments* added to the configured ones,
-    and *numbers* are its results for load, transmission and mounting.
+    Constants are in the units in which *model* gives them. *added* are the places of the effects
+    that a fit to *segments* added to the configured ones, and *numbers* are its results for load,
+    transmission and mounting.
+
     Constants that were fitted in the recorded range may not give a valid muscle outside it. Then
-    the contractions of the model are limited to the recorded range. If that is not enough, the
-    constants and numbers are moved back towards the nominal ones until the joint is valid.
+    the contractions of the model are limited to the recorded range. Constants that are not valid
+    there either, such as those of a force with the wrong sign, give the reason, and for drawings a
+    valid joint between them and the nominal ones.
     """
     kinds = [{type(e): e for e in actuator.effects} for actuator in model.actuators]
     kinds_on_joint = {type(e): e for e in model.effects}
@@ -95,39 +98,36 @@ def with_row(
             target[place.effect] = place.effect(
                 **{p.name: float(q[row[n]]) for p, row in zip(place.parameters, rows, strict=True)}
             )
-    in_muscles = [tuple(effects.values()) for effects in kinds]
     on_joint = tuple(kinds_on_joint.values())
-    positions = np.concatenate(
-        [s.position if isinstance(s, HeldSegment) else s.target for s in segments]
-    )
+    effects = [tuple(of_muscle.values()) for of_muscle in kinds]
     configured, nominal = model.parameters().ravel(), numbers_of(model)
-    for back, is_limited in ((0.0, False), *((a, True) for a in np.linspace(0.0, 1.0, 11))):
+    lengths = [_contractions(model, i, segments) for i in range(len(kinds))]
+    nowhere: list[dict[str, float]] = [{} for _ in kinds]
+    attempts = [(0.0, nowhere), *((back, lengths) for back in np.linspace(0.0, 1.0, 11).tolist())]
+    problem = ''
+    for back, limits in attempts:
         row = q + back * (configured - q)
         try:
             actuators = tuple(
-                replace(
-                    actuator,
-                    muscle=_muscle(
-                        model, row, i, _limits(model, i, positions) if is_limited else {}
-                    ),
-                    effects=in_muscles[i],
-                )
+                replace(actuator, muscle=_muscle(model, row, i, limits[i]), effects=effects[i])
                 for i, actuator in enumerate(model.actuators)
             )
             there = {of: x + back * (nominal[of][0] - x) for of, x in numbers.items()}
-            return changed(replace(model, actuators=actuators, effects=on_joint), there)
-        except ParameterError:
+            moved = changed(replace(model, actuators=actuators, effects=on_joint), there)
+        except ParameterError as error:
+            problem = problem or str(error)
             continue
-    plain = zip(model.actuators, in_muscles, strict=True)
-    return replace(
-        model,
-        actuators=tuple(replace(actuator, effects=own) for actuator, own in plain),
-        effects=on_joint,
+        return moved, problem if back else ''
+    plain = zip(model.actuators, effects, strict=True)
+    actuators = tuple(replace(actuator, effects=own) for actuator, own in plain)
+    return replace(model, actuators=actuators, effects=on_joint), problem
+
+
+def _contractions(model: Joint, i: int, segments: Sequence[Segment]) -> dict[str, float]:
+    """Return the limits of the contraction of muscle i at the recorded positions."""
+    positions = np.concatenate(
+        [s.position if isinstance(s, HeldSegment) else s.target for s in segments]
     )
-
-
-def _limits(model: Joint, i: int, positions: Array) -> dict[str, float]:
-    """Return the limits of the contraction of muscle i at the recorded *positions*."""
     contraction = statics.contraction(model, i, positions)
     return {
         'kappa_min': min(0.0, float(contraction.min())),

@@ -16,6 +16,7 @@ from pam_ros.identification.search.criteria import Criteria
 from pam_ros.identification.search.search import Search
 from pam_ros.identification.search.setting import Setting
 from pam_ros.recording.quantities import ATMOSPHERE
+from pam_ros.recording.recording import Recording
 from pam_ros.rig.arrangements import LOAD, arrangement_of
 from pam_ros.rig.joint import Joint
 
@@ -156,6 +157,33 @@ def sentence(answer: Conclusion, lacking: str, explaining: Sequence[str] = ()) -
     )
 
 
+def of_unused(recordings: Sequence[Recording]) -> list[str]:
+    """Return the warning on measured signals that have no influence on the result."""
+    unused = [
+        name
+        for name in ('pressure', 'force')
+        for one in recordings
+        if one.kind == 'free' and one.command is not None and getattr(one, name) is not None
+    ]
+    if not unused:
+        return []
+    what = ' and '.join(f'the measured {name}' for name in dict.fromkeys(unused))
+    return [
+        f'{what} of a load that moves freely is not used: the commands are the input, and the '
+        'position is what is compared'
+    ]
+
+
+def of_problem(problem: str) -> list[str]:
+    """Return the warning on identified parameters that describe no joint, with the reason."""
+    if not problem:
+        return []
+    return [
+        'the identified parameters describe no joint that can be simulated, so that there is no '
+        f'identified.yaml: {problem}; are the signs and units of all signals right?'
+    ]
+
+
 def of_absolute_pressures(parameters: Mapping[str, Estimate], signal: str) -> list[str]:
     """Return a warning for each pressure offset that is minus the pressure of the air.
 
@@ -204,13 +232,13 @@ def next_experiment(answer: Conclusion, model: Joint) -> NextExperiment:
         ]
         if not tried:
             return NextExperiment(
-                'Record force and pressure together with the position, slowly and fast.'
+                'Record slow and fast motion over the whole range of pressure, in both directions.'
             )
         best = max(tried, key=lambda c: c.gain).effect
         chosen = known[effect_of(best)]
         text = (
             f'{spelled(best)} lowers the error most, but not enough; to see what remains with '
-            f'it, record: {chosen.experiment}, with force and pressure measured.'
+            f'it, record: {chosen.experiment}.'
         )
     else:
         return NextExperiment(

@@ -1,6 +1,6 @@
 # Copyright 2026 The pam_ros authors
 # SPDX-License-Identifier: Apache-2.0
-"""The sign of the position of an actuator that a testing machine moves back and forth."""
+"""The signs of force and position of an actuator that a testing machine holds or moves."""
 
 from dataclasses import replace
 from itertools import pairwise
@@ -9,14 +9,54 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pam_ros.recording.assemble import spread
+from pam_ros.recording.inputs import driving
 from pam_ros.recording.recording import Recording
 
 Array = NDArray[np.float64]
 LEAST = 0.1  # share of its range by which a position must change to count as a reversal
 ENOUGH = 2  # cycles that must agree
+SMALL = 0.01  # share of an input that must change at the same position
+FALLS = -0.8  # correlation of pressure and force below which the force clearly falls
 # Least area of a loop, as a share of the range of the force times that of the position. The lag of
 # a force cell makes a loop of 1 or 2 % even with a spring.
 LOOP = 0.1
+
+
+def with_tension_positive(recording: Recording) -> Recording:
+    """Return *recording* with a force that is positive where the actuator pulls.
+
+    A muscle pulls more at a higher pressure. If the force is negative and falls as the pressure
+    rises, tension was counted negative: the sign is changed, and a warning is added. A positive
+    force that falls is not changed, since its zero may be wrong as well: the warning asks.
+    Recordings without a clear dependence, and those of other kinds, are returned unchanged.
+    """
+    f = recording.force
+    if recording.kind != 'held' or f is None or recording.position is None:
+        return recording
+    (drive,) = driving(recording)
+    if correlation(drive.values, f, recording.position) > FALLS:
+        return recording
+    if float(np.median(f)) < 0.0:
+        note = (
+            'the force is negative and falls as the pressure rises: tension is counted negative, '
+            'and the sign of the force is changed'
+        )
+        return replace(recording, force=-f, warnings=(*recording.warnings, note))
+    note = (
+        'the force falls as the pressure rises, and a muscle pulls more: is the sign of the force '
+        'or of the pressure wrong, or are both of different muscles?'
+    )
+    return replace(recording, warnings=(*recording.warnings, note))
+
+
+def correlation(x: Array, f: Array, y: Array) -> float:
+    """Return the correlation of x and f, all (n,), at the same y; 0 if x is constant there."""
+    basis = np.vander(y - np.mean(y), 4) if np.ptp(y) > 0.0 else np.ones((y.size, 1))
+    left = [one - basis @ np.linalg.lstsq(basis, one, rcond=None)[0] for one in (x, f)]
+    sizes = [float(np.linalg.norm(one)) for one in left]
+    if sizes[0] <= SMALL * float(np.linalg.norm(x)) or sizes[1] == 0.0:
+        return 0.0
+    return float(left[0] @ left[1]) / (sizes[0] * sizes[1])
 
 
 def with_contraction_positive(recording: Recording) -> Recording:

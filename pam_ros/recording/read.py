@@ -15,7 +15,7 @@ from pam_ros.recording.bag.read import bag_files, read_bag
 from pam_ros.recording.bounds import Bounded, Bounds, bounds_of
 from pam_ros.recording.csv_file import read_csv
 from pam_ros.recording.dataframe import series_of_frame
-from pam_ros.recording.direction import with_contraction_positive
+from pam_ros.recording.direction import with_contraction_positive, with_tension_positive
 from pam_ros.recording.likely import found_columns
 from pam_ros.recording.mapping import ColumnMapping
 from pam_ros.recording.quality import check
@@ -118,7 +118,7 @@ def _assembled(
         found = found_columns(header, mapping, series)
         raise RecordingError(f'{error}; {found}') from error
     bounds.require(recording.name, len(recording.muscles) or 1, recording.unit)
-    recording = with_contraction_positive(recording)
+    recording = with_contraction_positive(with_tension_positive(recording))
     warnings = check(recording, bounds)
     # The notes name columns and topics as they stand in the file.
     sentences = tuple(map(shown, (*recording.warnings, *warnings)))

@@ -41,12 +41,13 @@ def write_identified(path: Path, result: Identification, source: Provenance) -> 
     Constants are in the units of the nominal model. The file gives the same rig bit for bit when
     it is read. Raises ParameterError if no parameter file can describe the joint.
     """
-    refuse_custom(result, source)
+    refuse_indescribable(result, source)
     write(path, source.nominal.flat(identified(result, source)), about(result, source))
 
 
-def refuse_custom(result: Identification, source: Provenance) -> None:
+def refuse_indescribable(result: Identification, source: Provenance) -> None:
     """Raise ParameterError if no parameter file can describe the identified joint."""
+    result.refuse_invalid()
     nominal = source.nominal
     joint = nominal.joint
     if nominal.kind not in ARRANGEMENTS:

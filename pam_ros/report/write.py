@@ -16,7 +16,7 @@ from pathlib import Path
 from pam_ros.errors import PamError, ParameterError
 from pam_ros.identification.identification import Identification
 from pam_ros.report.numbers import numbers, to_json
-from pam_ros.report.parameters import refuse_custom, write_identified
+from pam_ros.report.parameters import refuse_indescribable, write_identified
 from pam_ros.report.provenance import Provenance
 from pam_ros.report.runs import runs_of
 from pam_ros.report.tables import residual_csv
@@ -96,7 +96,7 @@ def write_report(folder: Path, result: Identification, source: Provenance) -> No
     check_folder(folder)
     no_file = ''
     try:
-        refuse_custom(result, source)
+        refuse_indescribable(result, source)
     except ParameterError as error:
         no_file = str(error)
     runs = runs_of(result)

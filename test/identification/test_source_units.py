@@ -52,7 +52,9 @@ def problem_of(model):
 
 def model_at(model, problem, u, effects=()):
     places = [places_of(model)[name] for name in effects]
-    return with_row(model, problem.row_at(u), problem.segments, places, {})
+    back, problem = with_row(model, problem.row_at(u), problem.segments, places, {})
+    assert problem == ''
+    return back
 
 
 def test_the_configured_model_comes_back():
@@ -89,13 +91,32 @@ def test_effects_of_the_model_hold_what_was_fitted():
     np.testing.assert_allclose(back.parameters().ravel(), row)
 
 
-def test_constants_that_make_no_muscle_beyond_still_give_a_model():
-    problem = problem_of(BAR)
+def row_with(problem, **constants):
+    """Return the parameter row of a fit that changed these constants, in units of their prior."""
     names = [unknown.name for unknown in problem.unknowns]
     u = np.zeros(len(names))
-    u[names.index('a4')] = 1.5 / SPECIMEN  # the stiffness turns negative
-    assert problem.row_at(u)[BAR.layout.constant(at.A4)] > 0.0
-    back = model_at(BAR, problem, u)
+    for name, value in constants.items():
+        u[names.index(name)] = value
+    return problem.row_at(u)
+
+
+def test_constants_that_make_no_muscle_beyond_keep_their_values_in_the_recorded_range():
+    problem = problem_of(BAR)
+    row = row_with(problem, a4=-0.5 / SPECIMEN)  # no pressure gain beyond it
+    back, reason = with_row(BAR, row, problem.segments, [], {})
+    assert reason == ''
+    np.testing.assert_allclose(back.parameters().ravel(), row, rtol=1e-12)
+    assert back.muscle.kappa_max == pytest.approx(0.18)
+    assert BAR.muscle.kappa_max > 0.2
+
+
+def test_constants_that_make_no_muscle_anywhere_are_said_to_be_invalid():
+    problem = problem_of(BAR)
+    row = row_with(problem, a4=1.5 / SPECIMEN)  # the stiffness turns negative
+    assert row[BAR.layout.constant(at.A4)] > 0.0
+    back, reason = with_row(BAR, row, problem.segments, [], {})
+    assert 'stiffness' in reason
+    # What drawings need is valid.
     assert np.all(np.isfinite(back.parameters().ravel()))
     assert back.muscle.stiffness(3e5, 0.1) > 0.0
 

@@ -16,12 +16,14 @@ from pam_ros.identification.verdict import (
     explains,
     next_experiment,
     of_absolute_pressures,
+    of_unused,
     sentence,
     time_of,
     too_little,
     verdict,
 )
 from pam_ros.muscle.muscle import Muscle
+from pam_ros.recording.recording import Recording
 from pam_ros.rig.joint import Actuator, Joint
 from pam_ros.rig.loads import Mass
 from pam_ros.rig.standard_joints import antagonistic_joint, single_muscle_joint
@@ -217,7 +219,7 @@ def test_no_experiment_is_proposed_for_an_effect_that_raises_the_score():
     worse = [replace(c, gain=0.5, score_fall=-1.0) for c in answer.candidates]
     answer = replace(answer, candidates=tuple(worse))
     text = next_experiment(answer, answer.stages[0].model).text
-    assert text.startswith('Record force and pressure together with the position')
+    assert text.startswith('Record slow and fast motion over the whole range')
 
 
 def test_rivals_are_distinguished_by_the_experiment_of_the_effect():
@@ -235,7 +237,7 @@ def test_without_a_named_effect_the_nearest_one_decides_what_to_record():
     best = max(answer.candidates, key=lambda c: c.gain)
     assert next_experiment(answer, model).text.startswith(f'{best.effect} lowers the error most')
     none = replace(answer, candidates=())
-    assert next_experiment(none, model).text.startswith('Record force and pressure')
+    assert next_experiment(none, model).text.startswith('Record slow and fast motion')
 
 
 def test_an_experiment_that_no_segment_plays_has_no_command():
@@ -278,3 +280,13 @@ def test_an_offset_of_the_ambient_pressure_is_reported(offset, is_reported):
         assert sentences[0].startswith(
             f'{name} = {offset:.6g} Pa is minus the pressure of the air'
         )
+
+
+def test_signals_that_are_not_used_are_named():
+    t = np.arange(3.0)
+    free = Recording('free', t, t, 1e5 * t, t, pressure=1e5 * t, force=t)
+    held = Recording('held', t, position=t, pressure=1e5 * t, force=t, kind='held')
+    driven = Recording('driven', t, position=t, pressure=1e5 * t)
+    assert of_unused([held, driven]) == []
+    (warning,) = of_unused([held, free])
+    assert warning.startswith('the measured pressure and the measured force of a load that moves')

@@ -7,7 +7,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pam_ros.recording.direction import with_contraction_positive, work_of_cycles
+from pam_ros.recording.direction import (
+    with_contraction_positive,
+    with_tension_positive,
+    work_of_cycles,
+)
 from pam_ros.recording.recording import Recording
 
 T = np.arange(4000) / 100.0
@@ -69,3 +73,41 @@ def test_the_cycles_of_each_gapless_stretch_count():
 )
 def test_others_are_as_they_were_recorded(recording):
     assert with_contraction_positive(recording) is recording
+
+
+PRESSURE = 3e5 + 2e5 * np.sin(1.3 * T)
+PULL = 2e-3 * PRESSURE - 4e3 * Y - 5.0 * UP + NOISE[0]  # N; more at a higher pressure
+
+
+def test_tension_that_counts_negative_is_reversed_with_a_note():
+    recording = held(-PULL, pressure=PRESSURE)
+    turned = with_tension_positive(recording)
+    np.testing.assert_array_equal(turned.force, PULL)
+    np.testing.assert_array_equal(turned.position, recording.position)
+    (warning,) = turned.warnings
+    assert 'tension is counted negative, and the sign of the force is changed' in warning
+    assert with_tension_positive(turned) is turned
+
+
+def test_a_positive_force_that_falls_with_the_pressure_is_asked_about():
+    recording = held(2000.0 - PULL, pressure=PRESSURE)
+    asked = with_tension_positive(recording)
+    assert asked.force is recording.force
+    (warning,) = asked.warnings
+    assert warning.endswith(
+        'is the sign of the force or of the pressure wrong, or are both of different muscles?'
+    )
+
+
+@pytest.mark.parametrize(
+    'recording',
+    [
+        held(PULL, pressure=PRESSURE),
+        held(PULL - 3000.0, pressure=PRESSURE),  # another zero
+        held(-PULL),  # of a constant pressure: nothing shows its sign
+        held(-PULL, pressure=PRESSURE, kind='free'),
+        held(-5.0 * UP + 20.0 * NOISE[0], pressure=PRESSURE),
+    ],
+)
+def test_other_forces_keep_their_signs(recording):
+    assert with_tension_positive(recording) is recording

@@ -101,6 +101,7 @@ def stage(name, model, segments, test, parameters):
     return Stage(
         name,
         model,
+        '',
         parameters,
         float(np.sqrt(np.mean(e[fit] ** 2))),
         held_error,
@@ -163,11 +164,14 @@ def result_of(recordings, test, nominal, retuned, augmented, verdict, findings=(
         'a5': estimate(muscle.a5, 0.0, 'N/bar'),
         'zeta': estimate(muscle.zeta, 0.0, ''),
     }
-    moved = {
-        'a1': estimate(retuned.muscle.a1, 0.04, 'N/bar'),
-        'a5': estimate(retuned.muscle.a5, 0.003, 'N/bar'),
-        'zeta': estimate(retuned.muscle.zeta, 0.2, '', at_bound=True),
-    }
+    moved, final = (
+        {
+            'a1': estimate(one.muscle.a1, 0.04, 'N/bar'),
+            'a5': estimate(one.muscle.a5, 0.003, 'N/bar'),
+            'zeta': estimate(one.muscle.zeta, 0.2, '', at_bound=True),
+        }
+        for one in (retuned, augmented)
+    )
     added = {
         f'effects.{finding.name}.{name}': value
         for finding in findings
@@ -183,7 +187,7 @@ def result_of(recordings, test, nominal, retuned, augmented, verdict, findings=(
         stages=(
             stage('declared', nominal, segments, test_segments, known),
             stage('retuned', retuned, segments, test_segments, moved),
-            stage('augmented', augmented, segments, test_segments, {**moved, **added}),
+            stage('augmented', augmented, segments, test_segments, {**final, **added}),
         ),
         effects=tuple(findings),
         candidates=candidates(

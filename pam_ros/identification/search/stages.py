@@ -53,8 +53,10 @@ def stages(ends: FinalFits, search: Search, test: Sequence[Segment]) -> tuple[St
         row, segments = fit.problem.row_at(fit.u), fit.problem.segments
         places = [search.setting.places[effect] for effect in added]
         numbers = fit.problem.numbers_at(fit.u)
-        model = with_row(joint, row, segments, places, numbers)
-        return Stage(name, model, parameters, error, held, tuple(runs), tuple(tested), fit.log)
+        model, problem = with_row(joint, row, segments, places, numbers)
+        return Stage(
+            name, model, problem, parameters, error, held, tuple(runs), tuple(tested), fit.log
+        )
 
     return (
         stage('declared', ends.nominal, nominal, ()),

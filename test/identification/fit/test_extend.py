@@ -169,7 +169,7 @@ def test_what_a_fit_ends_with_is_a_joint(problem, effect, start, end):
     own = len(problem.unknowns)
     u[own:] = np.clip(np.full(u.size, end), *now.bounds)[own:]
     row = now.row_at(u)
-    found = with_row(MODEL, row, SEGMENTS, [place], {})
+    found, _ = with_row(MODEL, row, SEGMENTS, [place], {})
     np.testing.assert_allclose(found.parameters().ravel(), row, rtol=1e-12)
     assert (now.unknowns != new.unknowns) is (effect != 'creep')
 

@@ -48,7 +48,7 @@ def test_an_effect_acts_where_its_place_is(problem, name):
     place = PLACES[name]
     new, added = with_effect(problem, ELBOW, place, LAG)
     u = at_start(problem, added)
-    model = with_row(ELBOW, new.row_at(u), problem.segments, [place], {})
+    model, _ = with_row(ELBOW, new.row_at(u), problem.segments, [place], {})
     has = [bool(actuator.effects) for actuator in model.actuators]
     assert has == [at.MUSCLE + i in place.rows for i in (0, 1)]
     u[[k.name for k in problem.unknowns].index('y0[0]')] = 0.0
@@ -74,7 +74,7 @@ def test_each_muscle_has_constants_of_its_own(problem):
     names = [k.name for k in problem.unknowns]
     u = np.zeros(len(names))
     u[names.index('extensor.a5')] = 1.0
-    model = with_row(ELBOW, problem.row_at(u), problem.segments, [], {})
+    model, _ = with_row(ELBOW, problem.row_at(u), problem.segments, [], {})
     first, second = model.muscles
     assert first.a5 == pytest.approx(ELBOW.muscles[0].a5, rel=1e-12)
     assert second.a5 == pytest.approx(1.03 * ELBOW.muscles[1].a5, rel=1e-6)
