@@ -12,6 +12,7 @@ from pam_ros.errors import RecordingError
 from pam_ros.recording.of_joint import of_joint
 from pam_ros.recording.quantities import ANGULAR
 from pam_ros.recording.recording import KINDS, OUTPUTS, Recording, interpolated
+from pam_ros.recording.repeats import without_repeats
 from pam_ros.recording.series import GAP_SECONDS, Series, refuse_backwards
 
 Array = NDArray[np.float64]
@@ -50,7 +51,11 @@ def assemble(
     Raises RecordingError if a signal is missing that the kind needs.
     """
     notes = list(notes)
-    series = {quantity: one for quantity, one in series.items() if one.t.size}
+    series = {
+        quantity: one if quantity.endswith('pressure_command') else without_repeats(one, notes)
+        for quantity, one in series.items()
+        if one.t.size
+    }
     series, names = of_joint(name, series, muscles, notes)
     unit = 'rad' if 'angle' in series else 'm'
     _make_position(name, series, l0, notes)
