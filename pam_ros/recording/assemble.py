@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from pam_ros.errors import RecordingError
 from pam_ros.recording.of_joint import of_joint
+from pam_ros.recording.outliers import without_outliers
 from pam_ros.recording.quantities import ANGULAR
 from pam_ros.recording.recording import KINDS, OUTPUTS, Recording, interpolated
 from pam_ros.recording.repeats import without_repeats
@@ -52,7 +53,9 @@ def assemble(
     """
     notes = list(notes)
     series = {
-        quantity: one if quantity.endswith('pressure_command') else without_repeats(one, notes)
+        quantity: one
+        if quantity.endswith('pressure_command')
+        else without_outliers(name, without_repeats(one, notes), notes)
         for quantity, one in series.items()
         if one.t.size
     }
